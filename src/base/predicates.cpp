@@ -1,0 +1,29 @@
+#include "base/predicates.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+namespace vcarve {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 to_cgal(const Eigen::Vector3d& p)
+{
+    return {p.x(), p.y(), p.z()};
+}
+
+} // namespace
+
+int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+                const Eigen::Vector3d& d)
+{
+    return static_cast<int>(CGAL::orientation(to_cgal(a), to_cgal(b), to_cgal(c), to_cgal(d)));
+}
+
+bool collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+{
+    return CGAL::collinear(to_cgal(a), to_cgal(b), to_cgal(c));
+}
+
+} // namespace vcarve

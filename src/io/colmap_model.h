@@ -1,0 +1,19 @@
+#pragma once
+
+#include "model/scene.h"
+
+#include <filesystem>
+
+namespace vcarve {
+
+enum class ModelFormat { binary, text };
+
+/// Reads cameras, images and points3D (.bin or .txt) of a COLMAP model, of any version since 2016.
+/// Points keep the order of the file and all of them are kept; a view that occurs twice in a track
+/// counts once. The 2D points of the images are skipped. Scene::offset is zero.
+/// Throws InputError naming file and place where a file is missing, broken or contradicts another.
+/// Cost: linear in the size of the files, which are mapped; allocations never exceed a small multiple
+/// of the bytes that are there.
+Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format);
+
+} // namespace vcarve

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "base/options.h"
+#include "model/tri_mesh.h"
+
+namespace vcarve {
+
+/// What is mended, and what is thrown away. Switched off value by value.
+struct CleanupOptions {
+    int min_component_faces = 10;
+    int max_hole_edges = 12;
+
+    void visit(OptionVisitor& options)
+    {
+        options.count(min_component_faces,
+                      {.name = "min-component",
+                       .unit = "faces",
+                       .help = "Remove pieces of the surface with fewer faces; 0 keeps all."});
+        options.count(max_hole_edges,
+                      {.name = "max-hole",
+                       .unit = "edges",
+                       .help = "Fill holes with at most this many boundary edges; 0 fills none."});
+    }
+};
+
+struct CleanupCounts {
+    std::int64_t split_edges = 0;
+    std::int64_t split_vertices = 0;
+    std::int64_t removed_components = 0;
+    std::int64_t removed_vertices = 0; ///< unreferenced ones
+    std::int64_t filled_holes = 0;
+};
+
+struct CleanSurface {
+    TriMesh mesh;
+    CleanupCounts counts;
+};
+
+/// A manifold, consistently oriented surface without unreferenced vertices from any consistently
+/// oriented triangle soup with shared vertices. See cleanup.cpp for the steps.
+CleanSurface clean_surface(const TriMesh& mesh, const CleanupOptions& options);
+
+} // namespace vcarve

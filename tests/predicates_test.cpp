@@ -1,0 +1,34 @@
+#include "base/predicates.h"
+
+#include <gtest/gtest.h>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(Orientation, IsPositiveWhereTheFirstThreeRunCounterClockwiseSeenFromTheFourth)
+{
+    const Vector3d a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
+    EXPECT_EQ(orientation(a, b, c, Vector3d(0, 0, 1)), 1);
+    EXPECT_EQ(orientation(a, b, c, Vector3d(0, 0, -1)), -1);
+    EXPECT_EQ(orientation(a, b, c, Vector3d(5, 7, 0)), 0);
+}
+
+TEST(Orientation, IsExactBelowTheRoundingOfADeterminant)
+{
+    const Vector3d a(0.1, 0.1, 0.1), b(0.2, 0.2, 0.2), c(0.3, 0.7, 0.1);
+    const Vector3d on_plane = b; // a repeated point spans no volume
+    const Vector3d above(0.2, 0.2, std::nextafter(0.2, 1.0));
+    EXPECT_EQ(orientation(a, b, c, on_plane), 0);
+    EXPECT_NE(orientation(a, b, c, above), 0);
+}
+
+TEST(Collinear, HoldsOnlyForPointsOnOneLine)
+{
+    EXPECT_TRUE(collinear(Vector3d(0, 0, 0), Vector3d(1, 2, 3), Vector3d(2, 4, 6)));
+    EXPECT_FALSE(collinear(Vector3d(0, 0, 0), Vector3d(1, 2, 3), Vector3d(2, 4, 6.0000000001)));
+}
+
+} // namespace
+} // namespace vcarve
