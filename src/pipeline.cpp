@@ -1,0 +1,109 @@
+#include "pipeline.h"
+
+#include "base/error.h"
+#include "label/carve.h"
+#include "points/arrange.h"
+#include "surface/extract.h"
+#include "surface/orient.h"
+#include "tetra/triangulate.h"
+
+namespace vcarve {
+
+namespace {
+
+std::int64_t size_of(std::size_t count)
+{
+    return static_cast<std::int64_t>(count);
+}
+
+Scene filter(const Scene& scene, const Options& options, Log& log)
+{
+    Stage stage(log, "filter");
+    FilteredPoints filtered = filter_points(scene, options.filter);
+    Scene arranged = arrange_points(std::move(filtered.scene));
+    const FilterReport& dropped = filtered.report;
+    stage.end({{"points", size_of(arranged.num_points())},
+               {"of", size_of(scene.num_points())},
+               {"non-finite", dropped.non_finite},
+               {"duplicate", dropped.duplicate},
+               {"few views", dropped.few_views},
+               {"high error", dropped.high_error},
+               {"low angle", dropped.low_angle}});
+    return arranged;
+}
+
+TetMesh triangulate(const Scene& scene, Log& log)
+{
+    Stage stage(log, "triangulate");
+    TetMesh cells = triangulate(scene);
+    stage.end({{"cells", size_of(cells.cells.size())}});
+    return cells;
+}
+
+Labels carve(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
+{
+    Stage trace(log, "sights");
+    const Crossings crossings = count_crossings(cells, scene, trace);
+    trace.end({{"sights", size_of(scene.num_sights())}});
+    Stage label(log, "carve");
+    Labels labels = carve(cells, crossings, options.min_crossings);
+    label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)}});
+    return labels;
+}
+
+Labels cut(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
+{
+    Stage trace(log, "sights");
+    Votes votes = trace_sights(cells, scene, options.trace, trace);
+    trace.end({{"sights", size_of(scene.num_sights())}});
+    Stage label(log, "cut");
+    Labels labels = cut(cells, std::move(votes), options.cut);
+    label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)}});
+    return labels;
+}
+
+TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
+                const Options& options, Log& log)
+{
+    Stage stage(log, "surface");
+    const TriMesh boundary = extract_surface(cells, labels, scene);
+    TriMesh supported =
+        options.closed ? boundary : keep_supported(boundary, scene, options.support);
+    stage.end({{"faces", size_of(supported.faces.size())},
+               {"without support", size_of(boundary.faces.size() - supported.faces.size())}});
+    if (supported.faces.empty()) {
+        throw InputError("the sights leave no surface: no part of the space behind the points is "
+                         "seen well enough");
+    }
+    return supported;
+}
+
+TriMesh clean(const TriMesh& mesh, const Scene& scene, const Options& options, Log& log)
+{
+    Stage stage(log, "clean");
+    CleanSurface cleaned = clean_surface(mesh, options.cleanup);
+    const ViewAgreement agreement = view_agreement(cleaned.mesh, scene);
+    stage.end({{"vertices", size_of(cleaned.mesh.positions.size())},
+               {"faces", size_of(cleaned.mesh.faces.size())},
+               {"split edges", cleaned.counts.split_edges},
+               {"split vertices", cleaned.counts.split_vertices},
+               {"components dropped", cleaned.counts.removed_components},
+               {"holes filled", cleaned.counts.filled_holes},
+               {"sights", agreement.sights},
+               {"facing", agreement.facing}});
+    return cleaned.mesh;
+}
+
+} // namespace
+
+TriMesh reconstruct(const Scene& input, const Options& options, Log& log)
+{
+    const Scene scene = filter(input, options, log);
+    const TetMesh cells = triangulate(scene, log);
+    const Labels labels = options.method == Method::strict ? carve(cells, scene, options, log)
+                                                           : cut(cells, scene, options, log);
+    const TriMesh surface = extract(cells, labels, scene, options, log);
+    return clean(surface, scene, options, log);
+}
+
+} // namespace vcarve

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "base/log.h"
+#include "base/options.h"
+#include "label/cut.h"
+#include "model/scene.h"
+#include "model/tri_mesh.h"
+#include "points/filter.h"
+#include "sight/trace.h"
+#include "surface/cleanup.h"
+#include "surface/support.h"
+
+#include <array>
+
+namespace vcarve {
+
+/// How cells are told outside from inside.
+enum class Method { cut, strict };
+
+/// Everything a run can be told, stage by stage.
+struct Options {
+    Method method = Method::cut;
+    int min_crossings = 1;
+    bool closed = false;
+    FilterOptions filter;
+    TraceOptions trace;
+    CutOptions cut;
+    SupportOptions support;
+    CleanupOptions cleanup;
+
+    void visit(OptionVisitor& options)
+    {
+        static constexpr std::array<const char*, 2> kMethods = {"cut", "strict"};
+        options.stage("Method");
+        options.choice(
+            method, kMethods,
+            {.name = "method",
+             .help = "cut: the labelling that contradicts the sights least. strict: every cell "
+                     "a sight crosses is outside (for points without noise)."});
+        options.count(min_crossings,
+                      {.name = "min-crossings",
+                       .unit = "sights",
+                       .help = "With --method strict: how many sights must cross a facet "
+                               "to carve the cells beside it.",
+                       .min = 1});
+        filter.visit(options);
+        trace.visit(options);
+        cut.visit(options);
+        options.stage("Surface");
+        options.flag(closed,
+                     {.name = "closed",
+                      .help = "Keep faces that no view supports, so that the surface is closed."});
+        support.visit(options);
+        cleanup.visit(options);
+    }
+};
+
+/// From a scene to its surface: the passes in order. Uses the threads of the surrounding tbb arena;
+/// the result does not depend on how many. Throws InputError where the scene holds too little for a
+/// surface.
+TriMesh reconstruct(const Scene& scene, const Options& options, Log& log);
+
+} // namespace vcarve

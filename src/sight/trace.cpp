@@ -1,0 +1,186 @@
+#include "sight/trace.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "sight/edge_lengths.h"
+#include "sight/walk.h"
+
+#include <fmt/core.h>
+
+#include <atomic>
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int32_t kUnit = 256;
+constexpr std::int32_t kMaxSum = 1 << 30;
+
+template <typename T>
+void add(T& sum, T value)
+{
+    std::atomic_ref<T>(sum).fetch_add(value, std::memory_order_relaxed);
+}
+
+/// Calls body(vertex) for every vertex in parallel and tells the stage how far it is.
+template <typename Body>
+void for_each_vertex(const TetMesh& cells, Stage& stage, const Body& body)
+{
+    constexpr std::size_t kBlock = 512;
+    const std::size_t count = cells.positions.size();
+    std::atomic<std::size_t> done = 0;
+    parallel_for((count + kBlock - 1) / kBlock,
+                 [&](std::size_t block) {
+                     const std::size_t end = std::min(count, (block + 1) * kBlock);
+                     for (std::size_t vertex = block * kBlock; vertex < end; ++vertex) {
+                         body(static_cast<Index>(vertex));
+                     }
+                     done += kBlock;
+                     stage.progress(
+                         std::min(1.0, static_cast<double>(done) / static_cast<double>(count)));
+                 },
+                 1);
+}
+
+/// Distance from a point to where the line through it in a direction meets a facet's plane.
+double distance_to_facet(const TetMesh& mesh, CrossedFacet facet, const Vector3d& point,
+                         const Vector3d& direction)
+{
+    const Cell& cell = mesh.cells[facet.cell];
+    const auto& corners = kFacetCorners[facet.slot];
+    const Vector3d& a = mesh.positions[cell.vertices[corners[0]]];
+    const Vector3d& b = mesh.positions[cell.vertices[corners[1]]];
+    const Vector3d& c = mesh.positions[cell.vertices[corners[2]]];
+    const Vector3d normal = (b - a).cross(c - a);
+    const double along = normal.dot(direction);
+    return along == 0.0 ? 0.0 : std::abs(normal.dot(a - point) / along);
+}
+
+/// The votes of one point's sights.
+class Voter {
+  public:
+    Voter(const TetMesh& mesh, Votes& votes, double weight, double sigma)
+        : mesh_(mesh), network_(votes.network), full_(std::lround(kUnit * weight)), sigma_(sigma)
+    {
+    }
+
+    /// Outside, from the point to the view. Returns the cell of the view.
+    Index vote_outside(SightWalk& walk, const Vector3d& point, const Vector3d& center) const
+    {
+        const Vector3d direction = (center - point).normalized();
+        std::int32_t before = 0;
+        const WalkEnds ends = walk.to(center, [&](Index cell, int slot) {
+            const std::int32_t vote =
+                before == full_ ? full_ : soft_vote({cell, slot}, point, direction);
+            // The sight's flow comes from the view and falls towards the point: it fills the arc
+            // inwards, opens the one outwards, and what the next facet will not take stays here.
+            add(network_.residuals[cell][slot], vote);
+            if (vote != before) {
+                add(network_.excesses[cell], vote - before);
+            }
+            before = vote;
+        });
+        return ends.last;
+    }
+
+    /// Inside, from the point away from the view, down to a depth of `sink_depth` sigmas.
+    void vote_inside(SightWalk& walk, const Vector3d& point, const Vector3d& center,
+                     double sink_depth) const
+    {
+        const Vector3d direction = (point - center).normalized();
+        const double depth = sink_depth * sigma_;
+        if (depth == 0.0) {
+            const Index behind = walk.first_cell(2.0 * point - center);
+            if (behind != kInfinite) {
+                add(network_.excesses[behind], -full_);
+            }
+            return;
+        }
+        std::int32_t before = 0;
+        const WalkEnds ends = walk.to(point + depth * direction, [&](Index cell, int slot) {
+            const std::int32_t vote = soft_vote({cell, slot}, point, direction);
+            const Index beyond = mesh_.cells[cell].neighbors[slot];
+            add(network_.residuals[beyond][mesh_.mirror(cell, slot)], vote);
+            add(network_.excesses[cell], before - vote);
+            before = vote;
+        });
+        if (ends.last != kInfinite) {
+            add(network_.excesses[ends.last], before - full_);
+        }
+    }
+
+  private:
+    std::int32_t soft_vote(CrossedFacet facet, const Vector3d& point,
+                           const Vector3d& direction) const
+    {
+        if (sigma_ == 0.0) {
+            return full_;
+        }
+        const double distance = distance_to_facet(mesh_, facet, point, direction) / sigma_;
+        const double soft = 1.0 - std::exp(-0.5 * distance * distance);
+        return static_cast<std::int32_t>(std::lround(full_ * soft));
+    }
+
+    const TetMesh& mesh_;
+    FlowNetwork& network_;
+    std::int32_t full_;
+    double sigma_;
+};
+
+double sight_weight(std::size_t views, double views_sigma)
+{
+    if (views_sigma == 0.0) {
+        return 1.0;
+    }
+    const double ratio = static_cast<double>(views) / views_sigma;
+    return 1.0 - std::exp(-0.5 * ratio * ratio);
+}
+
+} // namespace
+
+Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage)
+{
+    Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
+    for_each_vertex(cells, stage, [&](Index vertex) {
+        SightWalk walk(cells, vertex);
+        for (const std::uint32_t view : scene.tracks[vertex]) {
+            walk.to(scene.views[view].center, [&](Index cell, int slot) {
+                const Index beyond = cells.cells[cell].neighbors[slot];
+                add(crossings[cell][slot], 1U);
+                add(crossings[beyond][cells.mirror(cell, slot)], 1U);
+            });
+        }
+    });
+    return crossings;
+}
+
+Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
+                   Stage& stage)
+{
+    Votes votes;
+    votes.unit = kUnit;
+    votes.network.residuals.assign(cells.cells.size(), {0, 0, 0, 0});
+    votes.network.excesses.assign(cells.cells.size(), 0);
+    votes.cell_of_view.assign(scene.views.size(), kInfinite);
+    const double sigma = options.softness * short_edge_length(cells);
+
+    for_each_vertex(cells, stage, [&](Index vertex) {
+        const auto track = scene.tracks[vertex];
+        const Voter voter(cells, votes, sight_weight(track.size(), options.views_sigma), sigma);
+        SightWalk outward(cells, vertex);
+        SightWalk inward(cells, vertex);
+        for (const std::uint32_t view : track) {
+            const Vector3d& center = scene.views[view].center;
+            const Vector3d& point = cells.positions[vertex];
+            const Index last = voter.vote_outside(outward, point, center);
+            voter.vote_inside(inward, point, center, options.sink_depth);
+            std::atomic_ref<Index>(votes.cell_of_view[view]).store(last, std::memory_order_relaxed);
+        }
+    });
+    return votes;
+}
+
+} // namespace vcarve

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "base/log.h"
+#include "base/options.h"
+#include "model/scene.h"
+#include "model/tet_mesh.h"
+#include "model/votes.h"
+
+namespace vcarve {
+
+/// How much a sight says, and how far behind its point.
+struct TraceOptions {
+    double views_sigma = 3.0;
+    double softness = 0.5;
+    double sink_depth = 0.0;
+
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Sights");
+        options.number(
+            views_sigma,
+            {.name = "views-sigma",
+             .unit = "views",
+             .help = "A sight weighs 1 - exp(-n^2 / 2 s^2) for a point of n views; 0 gives every "
+                     "sight full weight."});
+        options.number(softness,
+                       {.name = "softness",
+                        .unit = "x short edge",
+                        .help = "Uncertainty of a point along its sights, as a multiple of the "
+                                "25th percentile of edge lengths; 0 trusts every point fully."});
+        options.number(sink_depth,
+                       {.name = "sink-depth",
+                        .unit = "x softness",
+                        .help = "How far behind a point its sights call the space inside; "
+                                "0 means the cell that begins at the point."});
+    }
+};
+
+/// How many sights cross each facet (Akgunduz, Zetu, Banerjee 2000, section 4.2).
+/// Cost: one walk a sight, in parallel; 16 bytes a cell.
+Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage);
+
+/// Each sight votes for the cells before its point to be outside and the cell behind it to be
+/// inside (Labatut, Pons, Keriven 2009), softly near the point. The votes are integers, so their
+/// sums do not depend on the number of threads. Each sight's own flow is pushed along its walk at
+/// once, which leaves the minimum cut as it is (algorithm: docs/algorithm.md). Throws InputError if
+/// a sum leaves 32 bits. Cost: one walk a sight, in parallel; 20 bytes a cell.
+Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
+                   Stage& stage);
+
+} // namespace vcarve

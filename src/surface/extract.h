@@ -1,0 +1,16 @@
+#pragma once
+
+#include "model/labels.h"
+#include "model/scene.h"
+#include "model/tet_mesh.h"
+#include "model/tri_mesh.h"
+
+namespace vcarve {
+
+/// The boundary of the inside (Akgunduz, Zetu, Banerjee 2000, section 4.4): every facet between an
+/// inside and an outside cell, counter-clockwise seen from outside, with the colours of the scene's
+/// points. Closed, consistently oriented, possibly non-manifold where cells touch in an edge or a
+/// vertex. Vertices and faces follow the order of the cells. Cost: O(cells).
+TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene& scene);
+
+} // namespace vcarve

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "base/options.h"
+#include "model/scene.h"
+#include "model/tri_mesh.h"
+
+namespace vcarve {
+
+struct SupportOptions {
+    double max_edge = 4.0;
+
+    void visit(OptionVisitor& options)
+    {
+        options.number(max_edge,
+                       {.name = "max-edge",
+                        .unit = "x local edge",
+                        .help = "Drop faces with an edge this many times longer than the median "
+                                "around them; 0 drops none for their size."});
+    }
+};
+
+/// The faces that evidence supports: each corner was seen from the front of the face by some view
+/// of its point's track, and no edge is much longer than those around. The rest (the shell behind
+/// walls and under floors, webs across free space) is dropped; vertices are kept. Needs
+/// TriMesh::points. Cost: O(faces + sights), in parallel.
+TriMesh keep_supported(const TriMesh& mesh, const Scene& scene, const SupportOptions& options);
+
+} // namespace vcarve
