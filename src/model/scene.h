@@ -13,7 +13,8 @@ namespace vcarve {
 
 using Color = std::array<std::uint8_t, 3>; ///< red, green, blue
 
-/// A calibrated lens, as COLMAP stores it. `model` is COLMAP's number (0 SIMPLE_PINHOLE, 1 PINHOLE, ...).
+/// A calibrated lens, as COLMAP stores it. `model` is COLMAP's number (0 SIMPLE_PINHOLE, 1 PINHOLE,
+/// ...), or -1 where a text file names a model that is not known.
 struct Camera {
     std::uint32_t id = 0;
     int model = 0;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <boost/interprocess/mapped_region.hpp>
+
+#include <filesystem>
+#include <span>
+
+namespace vcarve {
+
+/// The bytes of a file, read-only and mapped into memory for as long as the object lives; an empty
+/// file gives an empty span. The file must not be shortened by somebody else in the meantime.
+class MappedFile {
+  public:
+    /// Throws InputError where `path` is not a file that can be read.
+    explicit MappedFile(const std::filesystem::path& path);
+
+    std::span<const char> bytes() const;
+
+  private:
+    boost::interprocess::mapped_region region_;
+};
+
+} // namespace vcarve
