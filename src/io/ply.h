@@ -14,13 +14,25 @@ struct PlyFormat {
     std::vector<std::string> comments; ///< header lines: program version, options, offset
 };
 
-/// Writes a surface as PLY through OpenMesh: per vertex x y z (double, `offset` added), nx ny nz (float)
-/// and red green blue (uchar) where the mesh has them; per face vertex_indices. The file appears
-/// whole or not at all. Throws UsageError where it cannot be written.
+/// Writes a surface as PLY through OpenMesh's IO: per vertex x y z (double, `offset` added), nx ny
+/// nz (float) and red green blue (uchar) where the mesh has them; per face vertex_indices (uchar,
+/// int). Binary little endian, or ascii with the fewest digits that read back as the same number.
+/// Faces are written as they stand, manifold or not. The bytes depend on the arguments alone. The
+/// file appears whole or not at all. Throws UsageError where it cannot be written.
+///
+/// Why so: MeshLab, CloudCompare, Open3D, trimesh and COLMAP's mesh_simplifier and mesh_texturer
+/// take double coordinates (some round them to float themselves, which is then their loss and not
+/// the file's), and all of them know `vertex_indices`; COLMAP writes `vertex_index` but takes any
+/// list of a face.
 void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const PlyFormat& format);
 
-/// Reads a triangle surface; polygons are fanned into triangles, faces are kept as they stand in the file
-/// however non-manifold they are. Colours and normals are kept where present. Throws InputError.
+/// Reads a triangle surface from ascii, little endian or big endian PLY, numbers of any type.
+/// Polygons are fanned into triangles, faces are kept as they stand in the file however
+/// non-manifold they are; colours and normals are kept where present, other properties and elements
+/// are skipped. Throws InputError: no such file, not PLY, cut off, no faces element, a coordinate
+/// that is no finite number, a vertex index out of range, a face of fewer than three corners. Cost:
+/// linear in the size of the file; allocations never exceed a small multiple of it. OpenMesh's own
+/// reader is not used because it rounds coordinates to float and trusts the header's counts.
 TriMesh read_ply(const std::filesystem::path& path);
 
 } // namespace vcarve

@@ -1,0 +1,222 @@
+#include "surface/check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Positions do not matter to most checks; these span no face twice the same.
+TriMesh mesh_of(std::size_t num_vertices, std::vector<Face> faces)
+{
+    TriMesh mesh;
+    for (std::size_t v = 0; v < num_vertices; ++v) {
+        const auto t = static_cast<double>(v);
+        mesh.positions.emplace_back(t, t * t, t * t * t);
+    }
+    mesh.faces = std::move(faces);
+    return mesh;
+}
+
+const std::vector<Face> kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+TEST(CheckMesh, FindsNothingInAnEmptyMesh)
+{
+    const MeshCheck check = check_mesh({});
+    EXPECT_EQ(check.vertices, 0);
+    EXPECT_EQ(check.faces, 0);
+    EXPECT_EQ(check.components, 0);
+    EXPECT_EQ(check.euler_characteristic, 0);
+    EXPECT_FALSE(check.is_closed());
+    EXPECT_TRUE(check.is_manifold());
+}
+
+TEST(CheckMesh, FindsATetrahedronClosedAndSound)
+{
+    TriMesh mesh = mesh_of(4, kTetrahedron);
+    mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    const MeshCheck check = check_mesh(mesh);
+    EXPECT_EQ(check.vertices, 4);
+    EXPECT_EQ(check.faces, 4);
+    EXPECT_EQ(check.degenerate_faces, 0);
+    EXPECT_EQ(check.components, 1);
+    EXPECT_EQ(check.boundary_edges, 0);
+    EXPECT_EQ(check.nonmanifold_edges, 0);
+    EXPECT_EQ(check.nonmanifold_vertices, 0);
+    EXPECT_EQ(check.orientation_faults, 0);
+    EXPECT_EQ(check.unreferenced_vertices, 0);
+    EXPECT_EQ(check.euler_characteristic, 2);
+    EXPECT_DOUBLE_EQ(check.area, 6.0 + 2.0 * std::sqrt(3.0));
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_TRUE(check.is_manifold());
+}
+
+TEST(CheckMesh, CountsBoundaryEdges)
+{
+    const MeshCheck check = check_mesh(mesh_of(4, {{0, 1, 2}, {2, 1, 3}}));
+    EXPECT_EQ(check.boundary_edges, 4);
+    EXPECT_EQ(check.euler_characteristic, 1);
+    EXPECT_TRUE(check.is_manifold());
+    EXPECT_FALSE(check.is_closed());
+}
+
+TEST(CheckMesh, CountsEdgesOfThreeFacesAndTheirEnds)
+{
+    const MeshCheck check = check_mesh(mesh_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
+    EXPECT_EQ(check.nonmanifold_edges, 1);
+    EXPECT_EQ(check.nonmanifold_vertices, 2);
+    EXPECT_EQ(check.boundary_edges, 6);
+    EXPECT_EQ(check.components, 1);
+    EXPECT_EQ(check.orientation_faults, 0);
+    EXPECT_FALSE(check.is_manifold());
+}
+
+TEST(CheckMesh, CountsAVertexWhereTwoFansTouch)
+{
+    const MeshCheck check = check_mesh(mesh_of(5, {{0, 1, 2}, {0, 3, 4}}));
+    EXPECT_EQ(check.nonmanifold_vertices, 1);
+    EXPECT_EQ(check.nonmanifold_edges, 0);
+    EXPECT_EQ(check.components, 2);
+}
+
+TEST(CheckMesh, CountsAVertexWhereTwoDisksTouch)
+{
+    std::vector<Face> faces = kTetrahedron;
+    for (const Face& face : kTetrahedron) {
+        faces.push_back({face[0] + 3, face[1] + 3, face[2] + 3});
+    }
+    const MeshCheck check = check_mesh(mesh_of(7, faces));
+    EXPECT_EQ(check.nonmanifold_vertices, 1);
+    EXPECT_EQ(check.components, 2);
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_FALSE(check.is_manifold());
+}
+
+TEST(CheckMesh, CountsEdgesWhoseFacesRunTheSameWay)
+{
+    std::vector<Face> faces = kTetrahedron;
+    std::swap(faces[2][0], faces[2][1]);
+    EXPECT_EQ(check_mesh(mesh_of(4, faces)).orientation_faults, 3);
+}
+
+TEST(CheckMesh, CountsVerticesOfNoFace)
+{
+    EXPECT_EQ(check_mesh(mesh_of(9, kTetrahedron)).unreferenced_vertices, 5);
+    EXPECT_EQ(check_mesh(mesh_of(9, kTetrahedron)).euler_characteristic, 2);
+}
+
+TEST(CheckMesh, CountsDegenerateFacesApart)
+{
+    std::vector<Face> faces = kTetrahedron;
+    faces.push_back({0, 0, 1});
+    faces.push_back({4, 5, 4});
+    const MeshCheck check = check_mesh(mesh_of(6, faces));
+    EXPECT_EQ(check.faces, 6);
+    EXPECT_EQ(check.degenerate_faces, 2);
+    EXPECT_EQ(check.components, 1);
+    EXPECT_EQ(check.unreferenced_vertices, 2);
+    EXPECT_EQ(check.euler_characteristic, 2);
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_TRUE(check.is_manifold());
+}
+
+/// The definitions of MeshCheck, word by word and without any table.
+MeshCheck check_by_definition(const TriMesh& mesh)
+{
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::size_t, bool>>>
+        edges;
+    std::set<std::uint32_t> used;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = mesh.faces[f][i];
+            const std::uint32_t b = mesh.faces[f][(i + 1) % 3];
+            edges[std::minmax(a, b)].emplace_back(f, a < b);
+            used.insert(a);
+        }
+    }
+    MeshCheck check;
+    for (const auto& [edge, faces] : edges) {
+        check.boundary_edges += faces.size() == 1;
+        check.nonmanifold_edges += faces.size() > 2;
+        check.orientation_faults += faces.size() == 2 && faces[0].second == faces[1].second;
+    }
+    check.unreferenced_vertices = static_cast<std::int64_t>(mesh.positions.size() - used.size());
+    check.euler_characteristic = static_cast<std::int64_t>(used.size()) -
+                                 static_cast<std::int64_t>(edges.size()) +
+                                 static_cast<std::int64_t>(mesh.faces.size());
+    // Number of pieces that flooding `members` over `edges_to_cross` finds.
+    const auto pieces = [&](std::set<std::size_t> members, auto crosses) {
+        std::int64_t count = 0;
+        while (!members.empty()) {
+            std::vector<std::size_t> stack{*members.begin()};
+            members.erase(members.begin());
+            ++count;
+            while (!stack.empty()) {
+                const std::size_t here = stack.back();
+                stack.pop_back();
+                for (const auto& [edge, faces] : edges) {
+                    const auto is_here = [&](const auto& entry) { return entry.first == here; };
+                    if (!crosses(edge) || std::ranges::none_of(faces, is_here)) continue;
+                    for (const auto& [face, forward] : faces) {
+                        if (members.erase(face) > 0) stack.push_back(face);
+                    }
+                }
+            }
+        }
+        return count;
+    };
+    std::set<std::size_t> all;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        all.insert(f);
+    }
+    check.components = pieces(all, [](const auto&) { return true; });
+    for (const std::uint32_t v : used) {
+        std::set<std::size_t> around;
+        bool crowded = false;
+        const auto touches = [&](const auto& edge) { return edge.first == v || edge.second == v; };
+        for (const auto& [edge, faces] : edges) {
+            if (!touches(edge)) continue;
+            crowded |= faces.size() > 2;
+            for (const auto& [face, forward] : faces) {
+                around.insert(face);
+            }
+        }
+        check.nonmanifold_vertices += crowded || pieces(around, touches) > 1;
+    }
+    return check;
+}
+
+TEST(CheckMesh, AgreesWithTheDefinitionsOnRandomSoups)
+{
+    std::mt19937 random(1);
+    for (int round = 0; round < 200; ++round) {
+        const std::uint32_t num_vertices = 4 + random() % 12;
+        TriMesh mesh = mesh_of(num_vertices, {});
+        const std::size_t num_faces = 1 + random() % 16;
+        while (mesh.faces.size() < num_faces) {
+            const Face face{static_cast<std::uint32_t>(random() % num_vertices),
+                            static_cast<std::uint32_t>(random() % num_vertices),
+                            static_cast<std::uint32_t>(random() % num_vertices)};
+            const bool degenerate = face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
+            if (!degenerate) mesh.faces.push_back(face);
+        }
+        const MeshCheck check = check_mesh(mesh);
+        const MeshCheck expected = check_by_definition(mesh);
+        ASSERT_EQ(check.components, expected.components) << "round " << round;
+        ASSERT_EQ(check.boundary_edges, expected.boundary_edges) << "round " << round;
+        ASSERT_EQ(check.nonmanifold_edges, expected.nonmanifold_edges) << "round " << round;
+        ASSERT_EQ(check.nonmanifold_vertices, expected.nonmanifold_vertices) << "round " << round;
+        ASSERT_EQ(check.orientation_faults, expected.orientation_faults) << "round " << round;
+        ASSERT_EQ(check.unreferenced_vertices, expected.unreferenced_vertices);
+        ASSERT_EQ(check.euler_characteristic, expected.euler_characteristic) << "round " << round;
+    }
+}
+
+} // namespace
+} // namespace vcarve

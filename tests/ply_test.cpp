@@ -1,0 +1,464 @@
+#include "base/error.h"
+#include "io/ply.h"
+#include "support/temporary_folder.h"
+
+#include <cstring>
+#include <map>
+#include <random>
+#include <sstream>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using testing::bytes_of;
+using testing::refusal;
+using testing::TemporaryFolder;
+
+TriMesh two_triangles()
+{
+    TriMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.1, 1.0 / 3.0, 0}, {-2.5, 1e-7, 12}};
+    mesh.faces = {{0, 1, 2}, {2, 1, 3}};
+    return mesh;
+}
+
+TriMesh random_mesh(int num_vertices, int num_faces)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+    TriMesh mesh;
+    for (int v = 0; v < num_vertices; ++v) {
+        mesh.positions.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+        mesh.normals.push_back(mesh.positions.back().cast<float>().normalized());
+        mesh.colors.push_back({static_cast<std::uint8_t>(random()),
+                               static_cast<std::uint8_t>(random()),
+                               static_cast<std::uint8_t>(random())});
+    }
+    for (int f = 0; f < num_faces; ++f) {
+        const auto vertex = [&] {
+            return static_cast<std::uint32_t>(random() % mesh.positions.size());
+        };
+        mesh.faces.push_back({vertex(), vertex(), vertex()});
+    }
+    return mesh;
+}
+
+/// A PLY reader of the test's own, written from the format's description: every scalar property of
+/// a vertex by name, and the one list of a face. Little endian or ascii.
+struct PlainPly {
+    std::vector<std::string> comments;
+    std::vector<std::pair<std::string, std::string>> properties; ///< type and name, in order
+    std::map<std::string, std::vector<double>> vertices;
+    std::vector<std::vector<int>> faces;
+};
+
+PlainPly read_plainly(const std::string& bytes)
+{
+    PlainPly ply;
+    std::istringstream in(bytes);
+    std::string line;
+    bool binary = false;
+    std::size_t num_vertices = 0;
+    std::size_t num_faces = 0;
+    while (std::getline(in, line) && line != "end_header") {
+        std::istringstream words(line);
+        std::string first, second, third;
+        words >> first >> second >> third;
+        if (first == "comment") ply.comments.push_back(line.substr(8));
+        if (first == "format") binary = second == "binary_little_endian";
+        if (first == "element" && second == "vertex") num_vertices = std::stoul(third);
+        if (first == "element" && second == "face") num_faces = std::stoul(third);
+        if (first == "property" && second != "list") ply.properties.emplace_back(second, third);
+        if (second == "list") {
+            EXPECT_EQ(line, "property list uchar int vertex_indices");
+        }
+    }
+    const auto number = [&](const std::string& type) {
+        double value = 0.0;
+        if (!binary) {
+            in >> value;
+        } else if (type == "double") {
+            in.read(reinterpret_cast<char*>(&value), 8);
+        } else if (type == "float") {
+            float single = 0.0F;
+            in.read(reinterpret_cast<char*>(&single), 4);
+            value = single;
+        } else if (type == "int") {
+            std::int32_t whole = 0;
+            in.read(reinterpret_cast<char*>(&whole), 4);
+            value = whole;
+        } else {
+            value = in.get();
+        }
+        return value;
+    };
+    for (std::size_t v = 0; v < num_vertices; ++v) {
+        for (const auto& [type, name] : ply.properties) {
+            ply.vertices[name].push_back(number(type));
+        }
+    }
+    for (std::size_t f = 0; f < num_faces; ++f) {
+        std::vector<int> face(static_cast<std::size_t>(number("uchar")));
+        for (int& corner : face) {
+            corner = static_cast<int>(number("int"));
+        }
+        ply.faces.push_back(face);
+    }
+    EXPECT_TRUE(in.good());
+    EXPECT_EQ(static_cast<std::size_t>(in.tellg()) + (binary ? 0 : 1), bytes.size());
+    return ply;
+}
+
+void expect_same(const PlainPly& ply, const TriMesh& mesh)
+{
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const Vector3d position = mesh.positions[v] + mesh.offset;
+        ASSERT_EQ(
+            Vector3d(ply.vertices.at("x")[v], ply.vertices.at("y")[v], ply.vertices.at("z")[v]),
+            position);
+        ASSERT_EQ(
+            Vector3d(ply.vertices.at("nx")[v], ply.vertices.at("ny")[v], ply.vertices.at("nz")[v])
+                .cast<float>(),
+            mesh.normals[v]);
+        const Color color{static_cast<std::uint8_t>(ply.vertices.at("red")[v]),
+                          static_cast<std::uint8_t>(ply.vertices.at("green")[v]),
+                          static_cast<std::uint8_t>(ply.vertices.at("blue")[v])};
+        ASSERT_EQ(color, mesh.colors[v]);
+    }
+    ASSERT_EQ(ply.faces.size(), mesh.faces.size());
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        ASSERT_EQ(std::vector<std::uint32_t>(ply.faces[f].begin(), ply.faces[f].end()),
+                  std::vector<std::uint32_t>(mesh.faces[f].begin(), mesh.faces[f].end()));
+    }
+}
+
+TEST(WritePly, WritesExactlyThisText)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh = two_triangles();
+    mesh.normals = {{0, 0, 1}, {0, 0, 1}, {0, 0.6F, 0.8F}, {1, 0, 0}};
+    mesh.colors = {{0, 1, 2}, {255, 254, 253}, {9, 8, 7}, {128, 0, 128}};
+    write_ply(folder / "out.ply", mesh, {.ascii = true, .comments = {"one", "two\nlines"}});
+    EXPECT_EQ(bytes_of(folder / "out.ply"), "ply\n"
+                                            "format ascii 1.0\n"
+                                            "comment one\n"
+                                            "comment two lines\n"
+                                            "element vertex 4\n"
+                                            "property double x\n"
+                                            "property double y\n"
+                                            "property double z\n"
+                                            "property float nx\n"
+                                            "property float ny\n"
+                                            "property float nz\n"
+                                            "property uchar red\n"
+                                            "property uchar green\n"
+                                            "property uchar blue\n"
+                                            "element face 2\n"
+                                            "property list uchar int vertex_indices\n"
+                                            "end_header\n"
+                                            "0 0 0 0 0 1 0 1 2\n"
+                                            "1 0 0 0 0 1 255 254 253\n"
+                                            "0.1 0.3333333333333333 0 0 0.6 0.8 9 8 7\n"
+                                            "-2.5 1e-07 12 1 0 0 128 0 128\n"
+                                            "3 0 1 2\n"
+                                            "3 2 1 3\n");
+}
+
+TEST(WritePly, WritesExactlyTheseBytes)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh;
+    mesh.positions = {{1, 0, 0}};
+    mesh.colors = {{1, 2, 3}};
+    mesh.faces = {{0, 0, 0}};
+    write_ply(folder / "out.ply", mesh, {});
+    using namespace std::string_literals;
+    EXPECT_EQ(bytes_of(folder / "out.ply"),
+              "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\n"
+              "property double y\nproperty double z\nproperty uchar red\nproperty uchar green\n"
+              "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "end_header\n"s +
+                  "\0\0\0\0\0\0\xf0\x3f"s + std::string(16, '\0') + "\1\2\3"s + "\3"s +
+                  std::string(12, '\0'));
+}
+
+TEST(WritePly, AgreesWithAnIndependentReader)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh = random_mesh(50000, 90000); // several blocks of output, non-manifold everywhere
+    mesh.offset = {5e5, 4.6e6, -30.0};
+    for (const bool ascii : {false, true}) {
+        write_ply(folder / "out.ply", mesh, {.ascii = ascii, .comments = {"made by a test"}});
+        const PlainPly ply = read_plainly(bytes_of(folder / "out.ply"));
+        EXPECT_EQ(ply.comments, std::vector<std::string>{"made by a test"});
+        expect_same(ply, mesh);
+    }
+}
+
+TEST(WritePly, LeavesOutWhatTheMeshDoesNotHave)
+{
+    const TemporaryFolder folder;
+    write_ply(folder / "out.ply", two_triangles(), {});
+    const PlainPly ply = read_plainly(bytes_of(folder / "out.ply"));
+    const std::vector<std::pair<std::string, std::string>> expected{
+        {"double", "x"}, {"double", "y"}, {"double", "z"}};
+    EXPECT_EQ(ply.properties, expected);
+}
+
+TEST(WritePly, LeavesNothingWhereItFails)
+{
+    EXPECT_EQ(refusal<UsageError>([] { write_ply("/dev/full", two_triangles(), {}); }),
+              "cannot write /dev/full: No space left on device");
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal<UsageError>([&] { write_ply(folder / "no/out.ply", two_triangles(), {}); }),
+              "cannot write " + (folder / "no/out.ply").string() + ": the folder " +
+                  (folder / "no").string() + " does not exist");
+    EXPECT_EQ(folder.num_entries(), 0U);
+}
+
+TEST(ReadPly, ReadsBackWhatWasWritten)
+{
+    const TemporaryFolder folder;
+    const TriMesh mesh = random_mesh(300, 500);
+    for (const bool ascii : {false, true}) {
+        write_ply(folder / "out.ply", mesh, {.ascii = ascii, .comments = {}});
+        const TriMesh back = read_ply(folder / "out.ply");
+        EXPECT_EQ(back.positions, mesh.positions);
+        EXPECT_EQ(back.normals, mesh.normals);
+        EXPECT_EQ(back.colors, mesh.colors);
+        EXPECT_EQ(back.faces, mesh.faces);
+        EXPECT_EQ(back.offset, Vector3d::Zero());
+    }
+}
+
+TEST(ReadPly, ReadsAnEmptySurface)
+{
+    const TemporaryFolder folder;
+    write_ply(folder / "out.ply", {}, {});
+    const TriMesh back = read_ply(folder / "out.ply");
+    EXPECT_TRUE(back.positions.empty());
+    EXPECT_TRUE(back.faces.empty());
+}
+
+const std::string kTextHeader = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                "property float y\nproperty float z\nelement face 1\n"
+                                "property list uchar int vertex_index\nend_header\n";
+const std::string kFourVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+TEST(ReadPly, FansPolygons)
+{
+    const TemporaryFolder folder;
+    const TriMesh mesh =
+        read_ply(folder.file("a.ply", kTextHeader + kFourVertices + "4 3 0 1 2\n"));
+    EXPECT_EQ(mesh.faces, (std::vector<Face>{{3, 0, 1}, {3, 1, 2}}));
+}
+
+TEST(ReadPly, TakesAnyLayoutOfText)
+{
+    const TemporaryFolder folder;
+    const std::string text =
+        "ply\r\nformat ascii 1.0\r\ncomment element vertex 99\r\nobj_info hi\r\n"
+        "element camera 2\r\nproperty float x\r\nproperty list int int y\r\n"
+        "element nothing 5\r\n"
+        "element vertex 3\r\nproperty int z\r\nproperty list uchar float tags\r\n"
+        "property double x\r\nproperty float confidence\r\nproperty float y\r\n"
+        "property float diffuse_red\r\nproperty ushort green\r\n"
+        "property int blue\r\n"
+        "element face 2\r\nproperty uchar flag\r\n"
+        "property list uint8 uint16 vertex_index\r\n"
+        "property list uchar float texcoord\r\nend_header\r\n"
+        "1.5 0\r\n2 3 4 5 6\r\n"
+        "30 2 7 8 10 0.5 +20 0 65535 300\r\n"
+        "31 0 11 0.5 21 1 257 -4\r\n"
+        "32 1 5 12 0.5\t22 0.5 514\n 7\r\n\r\n"
+        "1 3 0 1 2 6 0 0 1 0 1 1\r\n"
+        "0 3 2 1 0 0";
+    const TriMesh mesh = read_ply(folder.file("a.ply", text));
+    EXPECT_EQ(mesh.positions, (std::vector<Vector3d>{{10, 20, 30}, {11, 21, 31}, {12, 22, 32}}));
+    EXPECT_EQ(mesh.colors, (std::vector<Color>{{0, 255, 255}, {255, 1, 0}, {128, 2, 7}}));
+    EXPECT_TRUE(mesh.normals.empty());
+    EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {2, 1, 0}}));
+}
+
+/// `value` in the byte order asked for, on a little endian machine.
+template <typename Number>
+std::string raw(Number value, bool big)
+{
+    std::string bytes(sizeof(Number), '\0');
+    std::memcpy(bytes.data(), &value, sizeof(Number));
+    return big ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
+}
+
+TEST(ReadPly, ReadsEveryNumberTypeInBothByteOrders)
+{
+    const TemporaryFolder folder;
+    for (const bool big : {false, true}) {
+        std::string text = "ply\nformat binary_";
+        text += big ? "big" : "little";
+        text += "_endian 1.0\nelement vertex 3\nproperty float32 x\nproperty float64 y\n"
+                "property int16 z\nproperty char nx\nproperty short ny\nproperty int32 nz\n"
+                "property uint8 red\nproperty uint16 green\nproperty uint32 blue\n"
+                "element face 1\nproperty list uint32 uint16 vertex_indices\nend_header\n";
+        for (int v = 0; v < 3; ++v) {
+            text += raw(0.5F + static_cast<float>(v), big) + raw(1e-300, big) +
+                    raw(static_cast<std::int16_t>(-300), big) +
+                    raw(static_cast<std::int8_t>(-1), big) +
+                    raw(static_cast<std::int16_t>(-2), big) + raw(-3, big) +
+                    raw(static_cast<std::uint8_t>(200), big) +
+                    raw(static_cast<std::uint16_t>(257), big) + raw(7U, big);
+        }
+        text += raw(3U, big);
+        for (const std::uint16_t corner : {2, 0, 1}) {
+            text += raw(corner, big);
+        }
+        const TriMesh mesh = read_ply(folder.file("a.ply", text));
+        EXPECT_EQ(
+            mesh.positions,
+            (std::vector<Vector3d>{{0.5, 1e-300, -300}, {1.5, 1e-300, -300}, {2.5, 1e-300, -300}}));
+        EXPECT_EQ(mesh.normals, std::vector<Vector3f>(3, Vector3f(-1, -2, -3)));
+        EXPECT_EQ(mesh.colors, std::vector<Color>(3, Color{200, 1, 7}));
+        EXPECT_EQ(mesh.faces, (std::vector<Face>{{2, 0, 1}}));
+    }
+}
+
+std::string refusal_of(const TemporaryFolder& folder, const std::string& bytes)
+{
+    const fs::path path = folder.file("a.ply", bytes);
+    const std::string message = refusal<InputError>([&] { read_ply(path); });
+    return message.starts_with(path.string()) ? message.substr(folder.path().string().size() + 1)
+                                              : message;
+}
+
+TEST(ReadPly, RefusesWhatIsNoFile)
+{
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal<InputError>([&] { read_ply(folder / "no.ply"); }),
+              (folder / "no.ply").string() + ": cannot be opened");
+    EXPECT_EQ(refusal<InputError>([&] { read_ply(folder.path()); }),
+              folder.path().string() + ": is a folder, expected a PLY file");
+    EXPECT_EQ(refusal<InputError>([&] { read_ply("/dev/zero"); }),
+              "/dev/zero: is not a regular file");
+}
+
+TEST(ReadPly, RefusesABrokenHeader)
+{
+    const TemporaryFolder folder;
+    const std::string begin = "ply\nformat ascii 1.0\n";
+    EXPECT_EQ(refusal_of(folder, ""),
+              "a.ply: does not begin with the line \"ply\", so it is no PLY file");
+    EXPECT_EQ(refusal_of(folder, "solid x\n"),
+              "a.ply: does not begin with the line \"ply\", so it is no PLY file");
+    EXPECT_EQ(refusal_of(folder, begin + "element vertex 3\n"),
+              "a.ply: the PLY header has no line end_header");
+    EXPECT_EQ(
+        refusal_of(folder, "ply\nformat binary 1.0\nend_header\n"),
+        "a.ply: line 2 of the PLY header is \"format binary 1.0\", expected \"format ascii 1.0\" "
+        "or one of the two binary formats");
+    EXPECT_EQ(refusal_of(folder, begin + "element vertex -1\nend_header\n"),
+              "a.ply: line 3 of the PLY header is \"element vertex -1\", expected \"element NAME "
+              "COUNT\"");
+    EXPECT_EQ(
+        refusal_of(folder, begin + "element vertex 1\nproperty half x\nend_header\n"),
+        "a.ply: line 4 of the PLY header is \"property half x\", expected a number type of PLY");
+    EXPECT_EQ(
+        refusal_of(folder, begin + "property float x\nend_header\n"),
+        "a.ply: line 3 of the PLY header is \"property float x\", expected element, property, "
+        "comment or end_header");
+    EXPECT_EQ(
+        refusal_of(folder, begin + "element face 1\nproperty list float int v\nend_header\n"),
+        "a.ply: line 4 of the PLY header is \"property list float int v\", expected a length of "
+        "integer type");
+    EXPECT_EQ(
+        refusal_of(folder, begin + "element face 1\nproperty float\nend_header\n"),
+        "a.ply: line 4 of the PLY header is \"property float\", expected \"property TYPE NAME\"");
+    EXPECT_EQ(refusal_of(folder, begin + "end_header\n"), "a.ply: has no element \"vertex\"");
+    EXPECT_EQ(refusal_of(folder, begin + "element vertex 0\nend_header\n"),
+              "a.ply: has points but no element \"face\", expected a surface");
+    EXPECT_EQ(refusal_of(folder, begin + "element vertex 0\nproperty float x\nproperty float y\n"
+                                         "element face 0\nend_header\n"),
+              "a.ply: the vertices lack one of the properties x, y and z");
+    EXPECT_EQ(refusal_of(folder, begin + "element vertex 0\nproperty float x\nproperty float y\n"
+                                         "property float z\nelement face 0\nproperty int "
+                                         "vertex_indices\nend_header\n"),
+              "a.ply: the faces have no list \"vertex_indices\" of integers");
+}
+
+TEST(ReadPly, RefusesBrokenText)
+{
+    const TemporaryFolder folder;
+    const std::string good = kTextHeader + kFourVertices;
+    EXPECT_EQ(
+        refusal_of(folder, kTextHeader + "0 0 0 1 0 0 1"),
+        "a.ply: the header promises 4 entries \"vertex\" of at least 6 bytes, but only 13 bytes "
+        "follow");
+    EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 0 0 1 1" + std::string(20, ' ')),
+              "a.ply: vertex 2 of 4: the file ends there");
+    EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 zero 0 1 1 0 0 1 0 3 0 1 2"),
+              "a.ply: vertex 1 of 4: found \"zero\", expected a number");
+    EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 0 0 1 nan 0 0 1 0 3 0 1 2"),
+              "a.ply: vertex 2 of 4: its position is (1, nan, 0), expected finite numbers");
+    EXPECT_EQ(refusal_of(folder, good + "2 0 1"),
+              "a.ply: face 0 of 1: it has 2 corners, expected 3 or more");
+    EXPECT_EQ(refusal_of(folder, good + "3 0 1 4"),
+              "a.ply: face 0 of 1: it uses vertex 4, but there are 4 vertices");
+    EXPECT_EQ(refusal_of(folder, good + "3 0 1 -1"),
+              "a.ply: face 0 of 1: it uses vertex -1, but there are 4 vertices");
+    EXPECT_EQ(refusal_of(folder, good + "3 0 1 1.5"),
+              "a.ply: face 0 of 1: it uses vertex 1.5, but there are 4 vertices");
+    EXPECT_EQ(
+        refusal_of(folder, good + "3 0 1"),
+        "a.ply: face 0 of 1: the list \"vertex_index\" has length 3, but only 4 bytes follow");
+}
+
+TEST(ReadPly, NeverBelievesACountTheFileCannotHold)
+{
+    const TemporaryFolder folder;
+    const std::string vertices = "property double x\nproperty double y\nproperty double z\n";
+    const std::string begin = "ply\nformat binary_little_endian 1.0\nelement vertex ";
+    const std::string faces = "\nproperty list uint uint vertex_indices\nend_header\n";
+    EXPECT_EQ(
+        refusal_of(folder, begin + "18446744073709551615\n" + vertices + "element face 0" + faces),
+        "a.ply: the header promises 18446744073709551615 entries \"vertex\" of at least 24 bytes, "
+        "but only 0 bytes follow");
+    EXPECT_EQ(
+        refusal_of(folder, begin + "0\n" + vertices + "element face 4000000000" + faces + "...."),
+        "a.ply: the header promises 4000000000 entries \"face\" of at least 4 bytes, but only 4 "
+        "bytes follow");
+    EXPECT_EQ(
+        refusal_of(folder,
+                   begin + "0\n" + vertices + "element face 1" + faces + "\xff\xff\xff\xff"),
+        "a.ply: face 0 of 1: the list \"vertex_indices\" has length 4294967295, but only 0 bytes "
+        "follow");
+}
+
+TEST(ReadPly, SurvivesEveryCutAndManyDents)
+{
+    const TemporaryFolder folder;
+    std::mt19937 random(3);
+    for (const bool ascii : {false, true}) {
+        write_ply(folder / "whole.ply", random_mesh(5, 4), {.ascii = ascii, .comments = {}});
+        const std::string whole = bytes_of(folder / "whole.ply");
+        // Without its last byte a text may still be whole: it ends with a line break.
+        for (std::size_t size = 0; size + 2 < whole.size(); size += 3) {
+            const fs::path path = folder.file("cut.ply", whole.substr(0, size));
+            ASSERT_THROW(read_ply(path), InputError) << "cut to " << size << " bytes";
+        }
+        for (int round = 0; round < 200; ++round) {
+            std::string dented = whole;
+            dented[random() % dented.size()] = static_cast<char>(random());
+            try {
+                const TriMesh mesh = read_ply(folder.file("dented.ply", dented));
+                for (const Face& face : mesh.faces) {
+                    ASSERT_LT(*std::ranges::max_element(face), mesh.positions.size());
+                }
+            } catch (const InputError&) {
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace vcarve
