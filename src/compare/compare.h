@@ -1,0 +1,32 @@
+#pragma once
+
+#include "compare/evidence.h"
+#include "compare/truth.h"
+#include "compare/yardstick.h"
+#include "surface/check.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace vcarve {
+
+/// Everything measured of one mesh.
+struct Comparison {
+    std::string name;
+    MeshCheck size;
+    std::optional<std::int64_t> genus; ///< of a closed, manifold, consistently oriented surface
+    EvidenceFigures evidence;
+    std::optional<TruthFigures> truth; ///< where the yardstick has one
+};
+
+/// The number of handles, summed over the pieces; nothing where the surface is not closed, manifold
+/// and consistently oriented, or has degenerate faces.
+std::optional<std::int64_t> genus(const MeshCheck& check);
+
+/// Measures a mesh. The same mesh, yardstick and options give the same figures for any number of
+/// threads. Throws InputError where the mesh has no surface or lies in another frame (see
+/// place_mesh).
+Comparison compare_mesh(const NamedMesh& named, const Yardstick& yardstick);
+
+} // namespace vcarve

@@ -1,0 +1,137 @@
+#include "compare/evidence.h"
+
+#include "base/parallel.h"
+#include "compare/image_field.h"
+#include "compare/sample.h"
+#include "compare/spacing.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+constexpr double kLeastFrontCos = 0.05;
+constexpr double kTouchSpacings = 1e-3; ///< nearer hits are the sample's own face
+constexpr int kSamplesPerAreaSample = 8;
+constexpr std::uint64_t kSightStream = 5;
+constexpr std::uint64_t kAreaStream = 6;
+
+std::uint64_t stream_seed(const Yardstick& yardstick, std::uint64_t stream)
+{
+    return (static_cast<std::uint64_t>(yardstick.options.seed) << 8U) + stream;
+}
+
+double share_of_ones(const std::vector<char>& flags)
+{
+    if (flags.empty()) return 0.0;
+    return static_cast<double>(std::ranges::count(flags, 1)) / static_cast<double>(flags.size());
+}
+
+/// Whether the mesh stands between a view and a point it saw, or the point's place does not decide
+/// it.
+bool hides(const SurfaceTree& tree, const Yardstick& yardstick, std::uint64_t sight)
+{
+    const std::vector<std::uint64_t>& begins = yardstick.scene.tracks.begins;
+    const auto row = std::upper_bound(begins.begin(), begins.end(), sight) - 1;
+    const auto point = static_cast<std::size_t>(row - begins.begin());
+    const Eigen::Vector3d& position = yardstick.scene.positions[point];
+    const Eigen::Vector3d& center =
+        yardstick.scene.views[yardstick.scene.tracks.views[sight]].center;
+    const Eigen::Vector3d line = center - position;
+    const double length = line.norm();
+    const double skip = yardstick.options.spacings * yardstick.spacings[point];
+    return length > skip && tree.blocks(position + line * (skip / length), center);
+}
+
+double hidden_share(const SurfaceTree& tree, const Yardstick& yardstick)
+{
+    const std::uint64_t sights = yardstick.scene.num_sights();
+    const std::uint64_t most = static_cast<std::uint64_t>(yardstick.options.samples);
+    std::vector<char> hidden(std::min(sights, most));
+    const double step = static_cast<double>(sights) / static_cast<double>(hidden.size());
+    const std::uint64_t seed = stream_seed(yardstick, kSightStream);
+    parallel_for(
+        hidden.size(),
+        [&](std::size_t i) {
+            const double within = sights > most ? random_number(seed, i) : 0.5;
+            const double place = (static_cast<double>(i) + within) * step;
+            const auto sight = std::min(static_cast<std::uint64_t>(place), sights - 1);
+            hidden[i] = hides(tree, yardstick, sight) ? 1 : 0;
+        },
+        64);
+    return share_of_ones(hidden);
+}
+
+/// Per point: its distance to the mesh in its own spacings.
+std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Yardstick& yardstick)
+{
+    std::vector<double> result(yardstick.scene.num_points());
+    parallel_for(
+        result.size(),
+        [&](std::size_t i) {
+            const double spacing = yardstick.spacings[i];
+            const double distance = tree.distance(yardstick.scene.positions[i]);
+            result[i] = distance > 0.0 ? distance / spacing : 0.0;
+        },
+        64);
+    return result;
+}
+
+Eigen::Vector3d face_normal(const TriMesh& mesh, const Face& face)
+{
+    const Eigen::Vector3d& a = mesh.positions[face[0]];
+    return (mesh.positions[face[1]] - a).cross(mesh.positions[face[2]] - a).normalized();
+}
+
+/// Whether some view sees a sample of the mesh from its front.
+bool supported(const MeasuredMesh& mesh, const Yardstick& yardstick,
+               const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
+{
+    const Scene& scene = yardstick.scene;
+    const double touch = kTouchSpacings * yardstick.median_spacing;
+    return std::ranges::any_of(scene.views, [&](const View& view) {
+        const Eigen::Vector3d line = view.center - position;
+        const double length = line.norm();
+        if (length <= touch || normal.dot(line) <= kLeastFrontCos * length) return false;
+        if (!view_shows(view, scene.cameras[view.camera], position)) return false;
+        return !mesh.tree.blocks(position + line * (touch / length), view.center);
+    });
+}
+
+double unsupported_share(const MeasuredMesh& mesh, const Yardstick& yardstick)
+{
+    const auto count = static_cast<std::size_t>(yardstick.options.samples / kSamplesPerAreaSample);
+    const SurfaceSamples samples =
+        sample_surface(mesh.mesh, count, stream_seed(yardstick, kAreaStream));
+    std::vector<char> unsupported(samples.positions.size());
+    parallel_for(
+        unsupported.size(),
+        [&](std::size_t i) {
+            const Eigen::Vector3d normal =
+                face_normal(mesh.mesh, mesh.mesh.faces[samples.faces[i]]);
+            unsupported[i] = supported(mesh, yardstick, samples.positions[i], normal) ? 0 : 1;
+        },
+        16);
+    return share_of_ones(unsupported);
+}
+
+} // namespace
+
+EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Yardstick& yardstick)
+{
+    std::vector<double> distances = distances_in_spacings(mesh.tree, yardstick);
+    const auto missed = std::ranges::count_if(
+        distances, [&](double distance) { return distance > yardstick.options.spacings; });
+
+    EvidenceFigures figures;
+    figures.hidden_sights = hidden_share(mesh.tree, yardstick);
+    figures.missed_points = static_cast<double>(missed) / static_cast<double>(distances.size());
+    figures.unsupported_area = unsupported_share(mesh, yardstick);
+    figures.median_distance = median(std::move(distances));
+    return figures;
+}
+
+} // namespace vcarve

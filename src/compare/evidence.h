@@ -1,0 +1,29 @@
+#pragma once
+
+#include "compare/yardstick.h"
+
+namespace vcarve {
+
+/// A mesh against what the views saw; needs no truth and no unit of length. "k spacings" is
+/// options.spacings times the point's own spacing (see point_spacings), and only points with at
+/// least two views take part.
+struct EvidenceFigures {
+    /// Share of the sights (point to view) that meet the mesh farther than k spacings from the
+    /// point: the mesh hides the point from a view that saw it.
+    double hidden_sights = 0.0;
+    /// Share of the points farther than k spacings from the mesh.
+    double missed_points = 0.0;
+    /// Share of the mesh's area that no view sees from its front: where for every view the normal
+    /// looks away from it (cosine at most 0.05), its image ends before (see image_shows), or the
+    /// mesh itself lies between.
+    double unsupported_area = 0.0;
+    /// Median of the points' distances to the mesh, each divided by the point's spacing.
+    double median_distance = 0.0;
+};
+
+/// Every sight counts where there are at most options.samples of them, else that many spread evenly
+/// over them; the area is judged by an eighth of options.samples. Cost: a segment query a sight, a
+/// nearest-point query a point, and up to views segment queries for each sample of area; parallel.
+EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Yardstick& yardstick);
+
+} // namespace vcarve

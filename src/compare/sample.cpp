@@ -1,0 +1,79 @@
+#include "compare/sample.h"
+
+#include "base/parallel.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+namespace {
+
+constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15U; ///< 2^64 / golden ratio
+
+/// The mixing step of SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t mix(std::uint64_t z)
+{
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31U);
+}
+
+/// ends[i] is the area of the faces up to and including i. A face that is not finite has none.
+std::vector<double> cumulated_areas(const TriMesh& mesh)
+{
+    std::vector<double> ends;
+    ends.reserve(mesh.faces.size());
+    double sum = 0.0;
+    for (const Face& face : mesh.faces) {
+        const Eigen::Vector3d& a = mesh.positions[face[0]];
+        const Eigen::Vector3d& b = mesh.positions[face[1]];
+        const Eigen::Vector3d& c = mesh.positions[face[2]];
+        const double area = 0.5 * (b - a).cross(c - a).norm();
+        sum += std::isfinite(area) ? area : 0.0;
+        ends.push_back(sum);
+    }
+    return ends;
+}
+
+/// Uniform in the triangle (Osada et al. 2002).
+Eigen::Vector3d point_in_face(const TriMesh& mesh, const Face& face, double u, double v)
+{
+    const double root = std::sqrt(u);
+    return (1.0 - root) * mesh.positions[face[0]] + root * (1.0 - v) * mesh.positions[face[1]] +
+           root * v * mesh.positions[face[2]];
+}
+
+} // namespace
+
+double random_number(std::uint64_t seed, std::uint64_t index)
+{
+    const std::uint64_t bits = mix(mix(seed + kGolden) + (index + 1) * kGolden);
+    return static_cast<double>(bits >> 11U) * 0x1p-53;
+}
+
+SurfaceSamples sample_surface(const TriMesh& mesh, std::size_t count, std::uint64_t seed)
+{
+    const std::vector<double> ends = cumulated_areas(mesh);
+    SurfaceSamples samples;
+    if (ends.empty() || ends.back() <= 0.0) return samples;
+    samples.positions.resize(count);
+    samples.faces.resize(count);
+    const double step = ends.back() / static_cast<double>(count);
+    parallel_for(count, [&](std::size_t i) {
+        // The face that holds this sample's part of the area.
+        const double area = (static_cast<double>(i) + random_number(seed, 3 * i)) * step;
+        auto end = std::upper_bound(ends.begin(), ends.end(), area);
+        if (end == ends.end()) end = std::lower_bound(ends.begin(), ends.end(), ends.back());
+        const auto face = static_cast<std::size_t>(end - ends.begin());
+        // A random place on it.
+        const double u = random_number(seed, 3 * i + 1);
+        const double v = random_number(seed, 3 * i + 2);
+        samples.positions[i] = point_in_face(mesh, mesh.faces[face], u, v);
+        samples.faces[i] = static_cast<std::uint32_t>(face);
+    });
+    return samples;
+}
+
+} // namespace vcarve

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "model/tri_mesh.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vcarve {
+
+/// A number in [0, 1) that depends on nothing but its arguments: number `index` of the sequence
+/// that `seed` begins. So sampling does not depend on the number of threads.
+double random_number(std::uint64_t seed, std::uint64_t index);
+
+/// Points spread over a surface, and the faces they lie on. The arrays run parallel.
+struct SurfaceSamples {
+    std::vector<Eigen::Vector3d> positions; ///< in the frame of the mesh's positions
+    std::vector<std::uint32_t> faces;       ///< ascending
+};
+
+/// `count` samples by area: the area is cut into `count` equal parts, one random sample in each, so
+/// a face of a share s of the area gets s x count samples, give or take one. Empty where no face
+/// has area. Cost: O(faces + count).
+SurfaceSamples sample_surface(const TriMesh& mesh, std::size_t count, std::uint64_t seed);
+
+} // namespace vcarve

@@ -1,0 +1,214 @@
+#include "compare/truth.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "compare/sample.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace vcarve {
+namespace {
+
+constexpr std::uint32_t kUnseen = 0xffffffffU;
+constexpr int kLeastViews = 3;
+constexpr double kMaxIncidenceDeg = 80.0;
+constexpr double kTouchShare = 1e-6; ///< of the truth's size: nearer hits are the sample's own face
+constexpr double kBlockedShare = 0.01; ///< of the diagonal
+constexpr std::size_t kPilotSamples = 20000;
+constexpr double kLeastSeenShare = 0.001;
+
+/// Streams of random numbers, told apart by what they are for.
+enum Stream : std::uint64_t {
+    pilot_stream = 1,
+    truth_stream = 2,
+    mesh_stream = 3,
+    view_stream = 4
+};
+
+std::uint64_t stream_seed(const Yardstick& yardstick, Stream stream)
+{
+    return (static_cast<std::uint64_t>(yardstick.options.seed) << 8U) + stream;
+}
+
+double length_of_box(const std::vector<Eigen::Vector3d>& positions)
+{
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : positions) {
+        box.extend(position);
+    }
+    return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+/// Decides which views see points of the true surface.
+class TruthSight {
+  public:
+    TruthSight(const MeasuredMesh& surface, const Yardstick& yardstick)
+        : surface_(surface),
+          yardstick_(yardstick),
+          touch_(kTouchShare * length_of_box(surface.mesh.positions))
+    {
+    }
+
+    /// Asks the views in random order until enough see the sample; the first that did, or kUnseen.
+    std::uint32_t seeing_view(const SurfaceSamples& samples, std::size_t index) const
+    {
+        const std::vector<View>& views = yardstick_.scene.views;
+        const Eigen::Vector3d normal = face_normal(samples.faces[index]);
+        std::vector<std::uint32_t> order(views.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::uint32_t first = kUnseen;
+        int found = 0;
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            // The next of a random order (Fisher and Yates).
+            const auto left = static_cast<double>(order.size() - k);
+            const double random =
+                random_number(stream_seed(yardstick_, view_stream), index * order.size() + k);
+            std::swap(order[k], order[k + static_cast<std::size_t>(random * left)]);
+            if (!sees(views[order[k]].center, samples.positions[index], normal)) continue;
+            if (first == kUnseen) first = order[k];
+            if (++found == kLeastViews) return first;
+        }
+        return kUnseen;
+    }
+
+  private:
+    Eigen::Vector3d face_normal(std::uint32_t index) const
+    {
+        const Face& face = surface_.mesh.faces[index];
+        const Eigen::Vector3d& a = surface_.mesh.positions[face[0]];
+        const Eigen::Vector3d& b = surface_.mesh.positions[face[1]];
+        const Eigen::Vector3d& c = surface_.mesh.positions[face[2]];
+        return (b - a).cross(c - a).normalized();
+    }
+
+    bool sees(const Eigen::Vector3d& center, const Eigen::Vector3d& point,
+              const Eigen::Vector3d& normal) const
+    {
+        static const double least_cos = std::cos(kMaxIncidenceDeg * std::numbers::pi / 180.0);
+        const Eigen::Vector3d line = center - point;
+        const double length = line.norm();
+        if (length <= touch_ || std::abs(normal.dot(line)) <= least_cos * length) return false;
+        return !surface_.tree.blocks(point + line * (touch_ / length), center);
+    }
+
+    const MeasuredMesh& surface_;
+    const Yardstick& yardstick_;
+    double touch_;
+};
+
+/// Replaces truth.samples by those of `count` samples of the whole surface that count.
+void sample_truth(Truth& truth, const Yardstick& yardstick, std::size_t count, Stream stream)
+{
+    const SurfaceSamples all =
+        sample_surface(truth.surface.mesh, count, stream_seed(yardstick, stream));
+    const TruthSight sight(truth.surface, yardstick);
+    std::vector<std::uint32_t> views(count);
+    parallel_for(
+        count, [&](std::size_t i) { views[i] = sight.seeing_view(all, i); }, 64);
+    truth.samples.clear();
+    truth.views.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (views[i] == kUnseen) continue;
+        truth.samples.push_back(all.positions[i]);
+        truth.views.push_back(views[i]);
+    }
+    truth.seen_share = static_cast<double>(truth.samples.size()) / static_cast<double>(count);
+}
+
+std::vector<double> distances(const SurfaceTree& tree, std::span<const Eigen::Vector3d> points)
+{
+    std::vector<double> result(points.size());
+    parallel_for(
+        points.size(), [&](std::size_t i) { result[i] = tree.distance(points[i]); }, 64);
+    return result;
+}
+
+double share_within(const std::vector<double>& values, double limit)
+{
+    const auto count = std::ranges::count_if(values, [&](double value) { return value <= limit; });
+    return static_cast<double>(count) / static_cast<double>(values.size());
+}
+
+double mean(const std::vector<double>& values)
+{
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double blocked_share(const MeasuredMesh& mesh, const Truth& truth, const std::vector<View>& views)
+{
+    std::vector<char> blocked(truth.samples.size());
+    const double skip = kBlockedShare * truth.diagonal;
+    parallel_for(
+        blocked.size(),
+        [&](std::size_t i) {
+            const Eigen::Vector3d& center = views[truth.views[i]].center;
+            const Eigen::Vector3d line = center - truth.samples[i];
+            const double length = line.norm();
+            if (length <= skip) return;
+            blocked[i] =
+                mesh.tree.blocks(truth.samples[i] + line * (skip / length), center) ? 1 : 0;
+        },
+        64);
+    return static_cast<double>(std::ranges::count(blocked, 1)) /
+           static_cast<double>(blocked.size());
+}
+
+} // namespace
+
+Truth seen_truth(const NamedMesh& named, const Yardstick& yardstick)
+{
+    Truth truth{.surface = place_mesh(named, yardstick), .samples = {}, .views = {}};
+    const auto wanted = static_cast<std::size_t>(yardstick.options.samples);
+    sample_truth(truth, yardstick, kPilotSamples, pilot_stream);
+    // Only a share of the area is seen: draw as many as leaves the wanted number, more if it did
+    // not.
+    double surplus = 1.0;
+    do {
+        surplus *= 1.02;
+        if (truth.seen_share < kLeastSeenShare) {
+            throw InputError(
+                fmt::format("{}: less than a thousandth of its area is seen by at least "
+                            "{} of the model's {} views, so it cannot tell how good a "
+                            "mesh is",
+                            named.name, kLeastViews, yardstick.scene.views.size()));
+        }
+        const double draws = surplus * static_cast<double>(wanted) / truth.seen_share;
+        sample_truth(truth, yardstick, static_cast<std::size_t>(draws), truth_stream);
+    } while (truth.samples.size() < wanted);
+    truth.diagonal = length_of_box(truth.samples);
+    return truth;
+}
+
+TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Yardstick& yardstick)
+{
+    const Truth& truth = *yardstick.truth;
+    const auto count = static_cast<std::size_t>(yardstick.options.samples);
+    const SurfaceSamples samples =
+        sample_surface(mesh.mesh, count, stream_seed(yardstick, mesh_stream));
+    const std::vector<double> to_truth = distances(truth.surface.tree, samples.positions);
+    const std::vector<double> to_mesh = distances(mesh.tree, truth.samples);
+
+    TruthFigures figures;
+    for (std::size_t i = 0; i < kTolerances.size(); ++i) {
+        const double limit = kTolerances[i] * truth.diagonal;
+        const double precision = share_within(to_truth, limit);
+        const double recall = share_within(to_mesh, limit);
+        const double sum = precision + recall;
+        const double f_score = sum > 0.0 ? 2.0 * precision * recall / sum : 0.0;
+        figures.agreements[i] = {kTolerances[i], precision, recall, f_score};
+    }
+    figures.mean_accuracy = mean(to_truth) / truth.diagonal;
+    figures.mean_completeness = mean(to_mesh) / truth.diagonal;
+    figures.blocked = blocked_share(mesh, truth, yardstick.scene.views);
+    return figures;
+}
+
+} // namespace vcarve

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "compare/yardstick.h"
+
+#include <array>
+
+namespace vcarve {
+
+/// The tolerances of precision and recall, as shares of the truth's diagonal.
+inline constexpr std::array<double, 3> kTolerances = {0.0025, 0.005, 0.01};
+
+/// Precision and recall within one tolerance.
+struct Agreement {
+    double tolerance = 0.0; ///< share of the truth's diagonal
+    double precision =
+        0.0;              ///< share of the mesh's samples (of its whole area) so near to the truth
+    double recall = 0.0;  ///< share of the truth's samples so near to the mesh
+    double f_score = 0.0; ///< harmonic mean of the two, 0 where both are 0
+};
+
+/// A mesh against the truth.
+struct TruthFigures {
+    std::array<Agreement, kTolerances.size()> agreements;
+    double mean_accuracy = 0.0; ///< mean distance of the mesh's samples to the truth, in diagonals
+    double mean_completeness =
+        0.0; ///< mean distance of the truth's samples to the mesh, in diagonals
+    /// Share of the truth's samples whose line to a view that sees them (one a sample, picked at
+    /// random) meets the mesh farther than 1 % of the diagonal from the sample.
+    double blocked = 0.0;
+};
+
+/// Samples the truth until at least options.samples of its samples count. Throws like
+/// make_yardstick, which is what to call: the yardstick must be complete but for its truth.
+Truth seen_truth(const NamedMesh& named, const Yardstick& yardstick);
+
+/// Precondition: the yardstick has a truth.
+/// Cost: two nearest-point queries and one segment query a sample, parallel.
+TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Yardstick& yardstick);
+
+} // namespace vcarve

@@ -1,0 +1,177 @@
+#include "compare/yardstick.h"
+
+#include "base/error.h"
+#include "compare/spacing.h"
+#include "compare/truth.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace vcarve {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+constexpr std::size_t kLeastViews = 2; ///< of a point that counts
+constexpr double kTail = 0.05;         ///< of the coordinates, left out at either end of a box
+constexpr double kMaxScaleRatio = 50.0;
+
+/// The box of the middle nine tenths along each axis.
+Box middle_box(const std::vector<Eigen::Vector3d>& positions)
+{
+    Box box;
+    std::vector<double> values(positions.size());
+    const auto low = static_cast<std::ptrdiff_t>(kTail * static_cast<double>(values.size() - 1));
+    const auto high = static_cast<std::ptrdiff_t>(values.size()) - 1 - low;
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::transform(positions, values.begin(), [&](const auto& p) { return p[axis]; });
+        std::nth_element(values.begin(), values.begin() + low, values.end());
+        box.min()[axis] = values[static_cast<std::size_t>(low)];
+        std::nth_element(values.begin(), values.begin() + high, values.end());
+        box.max()[axis] = values[static_cast<std::size_t>(high)];
+    }
+    return box;
+}
+
+/// The corners of the faces, once per face; none of faces with a corner that is not finite.
+std::vector<Eigen::Vector3d> face_corners(const TriMesh& mesh)
+{
+    std::vector<Eigen::Vector3d> corners;
+    corners.reserve(3 * mesh.faces.size());
+    for (const Face& face : mesh.faces) {
+        const bool finite = std::ranges::all_of(
+            face, [&](std::uint32_t vertex) { return mesh.positions[vertex].allFinite(); });
+        if (!finite) continue;
+        for (const std::uint32_t vertex : face) {
+            corners.push_back(mesh.positions[vertex]);
+        }
+    }
+    return corners;
+}
+
+bool has_area(const TriMesh& mesh)
+{
+    return std::ranges::any_of(mesh.faces, [&](const Face& face) {
+        const Eigen::Vector3d& a = mesh.positions[face[0]];
+        const double area_sq =
+            (mesh.positions[face[1]] - a).cross(mesh.positions[face[2]] - a).squaredNorm();
+        return area_sq > 0.0 && area_sq < kUnlimited;
+    });
+}
+
+/// Both boxes are said in the frame of the files, where the user can compare them.
+std::string box_text(const Box& box, const Eigen::Vector3d& origin)
+{
+    const Eigen::Vector3d low = box.min() + origin;
+    const Eigen::Vector3d high = box.max() + origin;
+    return fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", low.x(), low.y(),
+                       low.z(), high.x(), high.y(), high.z());
+}
+
+void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Yardstick& yardstick)
+{
+    const std::vector<Eigen::Vector3d> corners = face_corners(placed);
+    Box whole;
+    for (const Eigen::Vector3d& corner : corners) {
+        whole.extend(corner);
+    }
+    const Box points = middle_box(yardstick.scene.positions);
+    const double mesh_size = middle_box(corners).diagonal().norm();
+    const double model_size = points.diagonal().norm();
+    const bool same_scale =
+        mesh_size <= kMaxScaleRatio * model_size && model_size <= kMaxScaleRatio * mesh_size;
+    if (whole.intersects(points) && same_scale) return;
+    throw InputError(fmt::format(
+        "{}: the mesh lies in another frame than the model: it spans {}, but "
+        "most points of the model lie in {}",
+        named.name, box_text(whole, yardstick.origin), box_text(points, yardstick.origin)));
+}
+
+/// The points that count and all views, shifted by `shift`.
+Scene countable_part(const Scene& model)
+{
+    Scene scene;
+    scene.cameras = model.cameras;
+    scene.views = model.views;
+    scene.offset = model.offset;
+    for (std::size_t point = 0; point < model.num_points(); ++point) {
+        const auto track = model.tracks[point];
+        if (track.size() < kLeastViews || !model.positions[point].allFinite()) continue;
+        scene.positions.push_back(model.positions[point]);
+        scene.tracks.push_back(track);
+    }
+    return scene;
+}
+
+/// Moves the frame to the middle of the points.
+void center(Scene& scene)
+{
+    Eigen::Vector3d middle;
+    std::vector<double> values(scene.num_points());
+    for (int axis = 0; axis < 3; ++axis) {
+        std::ranges::transform(scene.positions, values.begin(),
+                               [&](const auto& p) { return p[axis]; });
+        middle[axis] = median(values);
+    }
+    for (Eigen::Vector3d& position : scene.positions) {
+        position -= middle;
+    }
+    for (View& view : scene.views) {
+        view.center -= middle;
+    }
+    scene.offset += middle;
+}
+
+} // namespace
+
+MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick)
+{
+    if (named.mesh.faces.empty()) {
+        throw InputError(fmt::format("{}: the file has {} vertices but no faces, so there is no "
+                                     "surface to measure",
+                                     named.name, named.mesh.positions.size()));
+    }
+    TriMesh placed;
+    placed.faces = named.mesh.faces;
+    placed.positions = named.mesh.positions;
+    const Eigen::Vector3d shift = named.mesh.offset - yardstick.origin;
+    for (Eigen::Vector3d& position : placed.positions) {
+        position += shift;
+    }
+    placed.offset = yardstick.origin;
+    if (!has_area(placed)) {
+        throw InputError(fmt::format("{}: none of the {} faces has an area, so there is no surface "
+                                     "to measure",
+                                     named.name, placed.faces.size()));
+    }
+    refuse_other_frame(named, placed, yardstick);
+    SurfaceTree tree(placed);
+    return {std::move(placed), std::move(tree)};
+}
+
+Yardstick make_yardstick(const Scene& model, const NamedMesh* truth, const CompareOptions& options)
+{
+    Yardstick yardstick;
+    yardstick.options = options;
+    yardstick.scene = countable_part(model);
+    const std::size_t points = yardstick.scene.num_points();
+    if (points < 2) {
+        throw InputError(fmt::format("the model has {} points that at least two views saw, but "
+                                     "meshes can be measured only against two or more",
+                                     points));
+    }
+    center(yardstick.scene);
+    yardstick.origin = yardstick.scene.offset;
+    yardstick.spacings = point_spacings(yardstick.scene.positions);
+    yardstick.median_spacing = median(yardstick.spacings);
+    if (truth != nullptr) {
+        yardstick.truth = seen_truth(*truth, yardstick);
+    }
+    return yardstick;
+}
+
+} // namespace vcarve

@@ -1,0 +1,88 @@
+#pragma once
+
+#include "base/options.h"
+#include "compare/surface_tree.h"
+#include "model/scene.h"
+#include "model/tri_mesh.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+
+/// How meshes are measured. No length is in scene units.
+struct CompareOptions {
+    int samples = 400000;
+    int seed = 1;
+    double spacings = 3.0;
+
+    void visit(OptionVisitor& options)
+    {
+        options.count(samples,
+                      {.name = "samples",
+                       .help = "Points sampled on each mesh and on the seen part of the truth.",
+                       .min = 1000,
+                       .max = 100000000});
+        options.count(seed, {.name = "seed", .help = "Where the sampling starts; any number."});
+        options.number(spacings,
+                       {.name = "spacings",
+                        .unit = "x spacing",
+                        .help =
+                            "How far from a point, in spacings of the points around it, a mesh may "
+                            "pass and still count as passing through it."});
+    }
+};
+
+/// A mesh and what to call it: the file's name in tables and messages.
+struct NamedMesh {
+    std::string name;
+    TriMesh mesh;
+};
+
+/// A mesh in the frame of a yardstick, ready to be measured.
+struct MeasuredMesh {
+    TriMesh mesh; ///< offset is the yardstick's origin
+    SurfaceTree tree;
+};
+
+/// The part of the true surface that counts: where at least 3 views see it.
+struct Truth {
+    MeasuredMesh surface;
+    /// Samples by area of what at least 3 views see. A view sees a point of the truth where nothing
+    /// of the truth lies between them and the line meets the surface at under 80 degrees from its
+    /// normal, from either side; where the view's image ends plays no part.
+    std::vector<Eigen::Vector3d> samples;
+    std::vector<std::uint32_t>
+        views;               ///< per sample: one of the views that see it, picked at random
+    double diagonal = 0.0;   ///< of the box of the samples
+    double seen_share = 0.0; ///< of the truth's area
+};
+
+/// What meshes are measured against: the points and views of a model, and the truth where it is
+/// known. Everything is in one frame, world minus `origin`, so no precision is lost far from zero.
+struct Yardstick {
+    CompareOptions options;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Scene scene;                  ///< its finite points with at least two views; offset is `origin`
+    std::vector<double> spacings; ///< per point, see point_spacings()
+    double median_spacing = 0.0;
+    std::optional<Truth> truth;
+};
+
+/// Prepares a model, and the truth unless it is null. Throws InputError where the model has fewer
+/// than two points that two views saw, or the truth has no faces, lies in another frame than the
+/// model, or is nowhere seen by three views. Cost: with a truth, about samples / seen share x
+/// (lines until 3 views are found, all where unseen).
+Yardstick make_yardstick(const Scene& model, const NamedMesh* truth, const CompareOptions& options);
+
+/// A mesh in the yardstick's frame. Throws InputError where it has no face with area, or where it
+/// evidently lies in another frame than the model: where its box and the box of the middle nine
+/// tenths of the points do not meet, or differ more than 50 times in size.
+MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick);
+
+} // namespace vcarve
