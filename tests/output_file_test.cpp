@@ -13,9 +13,6 @@ namespace vcarve {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::bytes_of;
-using testing::refusal;
-using testing::TemporaryFolder;
 
 std::string refusal_to_write(const fs::path& path)
 {
@@ -71,7 +68,7 @@ TEST(OutputFile, LeavesNothingWithoutACommit)
 TEST(OutputFile, KeepsTheOldFileWithoutACommit)
 {
     const TemporaryFolder folder;
-    const fs::path path = folder.file("out.ply", "old");
+    const fs::path path = folder.write("out.ply", "old");
     {
         OutputFile file(path);
         file.stream() << "half";
@@ -83,7 +80,7 @@ TEST(OutputFile, KeepsTheOldFileWithoutACommit)
 TEST(OutputFile, ReplacesTheOldFile)
 {
     const TemporaryFolder folder;
-    const fs::path path = folder.file("out.ply", "a longer old file");
+    const fs::path path = folder.write("out.ply", "a longer old file");
     OutputFile file(path);
     file.stream() << "new";
     file.commit();
@@ -109,7 +106,7 @@ TEST(OutputFile, ReplacesWhatASymbolicLinkPointsTo)
 {
     const TemporaryFolder folder;
     fs::create_directory(folder / "real");
-    const fs::path real = folder.file("real/mesh.ply", "old");
+    const fs::path real = folder.write("real/mesh.ply", "old");
     fs::create_symlink(real, folder / "link.ply");
     OutputFile file(folder / "link.ply");
     file.stream() << "new";
@@ -140,7 +137,7 @@ TEST(OutputFile, SaysThatTheDeviceIsFull)
 TEST(OutputFile, LeavesNothingWhereTheDiskFillsUp)
 {
     const TemporaryFolder folder;
-    const fs::path path = folder.file("out.ply", "old");
+    const fs::path path = folder.write("out.ply", "old");
     std::string message;
     {
         const FullDisk disk(100000);
@@ -184,7 +181,7 @@ TEST(RequireWritable, RefusesInOneSentence)
 {
     const TemporaryFolder folder;
     const std::string name = folder.path().string();
-    folder.file("plain", "");
+    folder.write("plain", "");
     ::mkfifo((folder / "pipe").c_str(), 0600);
     EXPECT_EQ(refusal_to_write(""), "cannot write the output: its path is empty");
     EXPECT_EQ(refusal_to_write(folder.path()), "cannot write " + name + ": it is a folder");

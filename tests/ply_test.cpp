@@ -13,9 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using testing::bytes_of;
-using testing::refusal;
-using testing::TemporaryFolder;
 
 TriMesh two_triangles()
 {
@@ -252,7 +249,7 @@ TEST(ReadPly, FansPolygons)
 {
     const TemporaryFolder folder;
     const TriMesh mesh =
-        read_ply(folder.file("a.ply", kTextHeader + kFourVertices + "4 3 0 1 2\n"));
+        read_ply(folder.write("a.ply", kTextHeader + kFourVertices + "4 3 0 1 2\n"));
     EXPECT_EQ(mesh.faces, (std::vector<Face>{{3, 0, 1}, {3, 1, 2}}));
 }
 
@@ -276,7 +273,7 @@ TEST(ReadPly, TakesAnyLayoutOfText)
         "32 1 5 12 0.5\t22 0.5 514\n 7\r\n\r\n"
         "1 3 0 1 2 6 0 0 1 0 1 1\r\n"
         "0 3 2 1 0 0";
-    const TriMesh mesh = read_ply(folder.file("a.ply", text));
+    const TriMesh mesh = read_ply(folder.write("a.ply", text));
     EXPECT_EQ(mesh.positions, (std::vector<Vector3d>{{10, 20, 30}, {11, 21, 31}, {12, 22, 32}}));
     EXPECT_EQ(mesh.colors, (std::vector<Color>{{0, 255, 255}, {255, 1, 0}, {128, 2, 7}}));
     EXPECT_TRUE(mesh.normals.empty());
@@ -314,7 +311,7 @@ TEST(ReadPly, ReadsEveryNumberTypeInBothByteOrders)
         for (const std::uint16_t corner : {2, 0, 1}) {
             text += raw(corner, big);
         }
-        const TriMesh mesh = read_ply(folder.file("a.ply", text));
+        const TriMesh mesh = read_ply(folder.write("a.ply", text));
         EXPECT_EQ(
             mesh.positions,
             (std::vector<Vector3d>{{0.5, 1e-300, -300}, {1.5, 1e-300, -300}, {2.5, 1e-300, -300}}));
@@ -326,7 +323,7 @@ TEST(ReadPly, ReadsEveryNumberTypeInBothByteOrders)
 
 std::string refusal_of(const TemporaryFolder& folder, const std::string& bytes)
 {
-    const fs::path path = folder.file("a.ply", bytes);
+    const fs::path path = folder.write("a.ply", bytes);
     const std::string message = refusal<InputError>([&] { read_ply(path); });
     return message.starts_with(path.string()) ? message.substr(folder.path().string().size() + 1)
                                               : message;
@@ -443,14 +440,14 @@ TEST(ReadPly, SurvivesEveryCutAndManyDents)
         const std::string whole = bytes_of(folder / "whole.ply");
         // Without its last byte a text may still be whole: it ends with a line break.
         for (std::size_t size = 0; size + 2 < whole.size(); size += 3) {
-            const fs::path path = folder.file("cut.ply", whole.substr(0, size));
+            const fs::path path = folder.write("cut.ply", whole.substr(0, size));
             ASSERT_THROW(read_ply(path), InputError) << "cut to " << size << " bytes";
         }
         for (int round = 0; round < 200; ++round) {
             std::string dented = whole;
             dented[random() % dented.size()] = static_cast<char>(random());
             try {
-                const TriMesh mesh = read_ply(folder.file("dented.ply", dented));
+                const TriMesh mesh = read_ply(folder.write("dented.ply", dented));
                 for (const Face& face : mesh.faces) {
                     ASSERT_LT(*std::ranges::max_element(face), mesh.positions.size());
                 }

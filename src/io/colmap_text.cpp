@@ -73,6 +73,8 @@ ImageRecord read_image(TextReader& reader)
         component = reader.read_double("the translation of the image");
     }
     image.camera_id = reader.read_uint32("the camera of the image");
+    // A name may hold blanks, but a line without one has lost a field
+    if (reader.at_line_end()) reader.read_word("the name of the image");
     image.name = reader.rest();
     if (reader.next_line()) check_points2d(reader);
     return image;

@@ -181,14 +181,17 @@ std::string incomplete_model(const fs::path& folder)
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Files that tell what else a folder may be.
+/// Files that tell what else a folder may be: COLMAP's own, and clouds or meshes.
 std::vector<std::string> telling_files(const fs::path& folder)
 {
     std::vector<std::string> telling;
+    std::vector<std::string> plys;
     for (const std::string& name : names_in(folder)) {
-        const bool is_colmaps = name == "database.db" || name == "project.ini";
-        if (is_colmaps || fs::path(name).extension() == ".ply") telling.push_back(name);
+        if (name == "database.db" || name == "project.ini") telling.push_back(name);
+        if (fs::path(name).extension() == ".ply") plys.push_back(name);
     }
+    if (plys.size() == 1) telling.push_back(plys.front());
+    if (plys.size() > 1) telling.push_back(fmt::format("{} .ply files", plys.size()));
     return telling;
 }
 

@@ -1,37 +1,49 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
-namespace vcarve::testing {
+namespace vcarve {
 
-/// A new empty folder that goes with everything in it when the test ends.
+/// A folder of a test's own, gone with all that is in it when the test ends.
 class TemporaryFolder {
   public:
     TemporaryFolder()
     {
-        std::string name = (std::filesystem::temp_directory_path() / "vcarve-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        path_ = name;
+        std::string pattern = (std::filesystem::temp_directory_path() / "vcarve-XXXXXX").string();
+        if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+        path_ = pattern;
     }
+    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
 
     const std::filesystem::path& path() const { return path_; }
+
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    /// Writes a file into the folder and returns its path.
-    std::filesystem::path file(const std::string& name, std::string_view bytes) const
+    /// Writes a file, with the folders on its way; returns its path.
+    std::filesystem::path write(const std::string& name, std::string_view bytes) const
     {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return path_ / name;
+        const std::filesystem::path path = path_ / name;
+        std::filesystem::create_directories(path.parent_path());
+        // Not written over: file systems wait for the disk where a file is cut and written anew
+        std::filesystem::remove(path);
+        std::ofstream file(path, std::ios::binary);
+        file << bytes;
+        return path;
+    }
+
+    /// Copies a folder and what is in it.
+    void copy(const std::filesystem::path& from, const std::string& name) const
+    {
+        std::filesystem::create_directories((path_ / name).parent_path());
+        std::filesystem::copy(from, path_ / name, std::filesystem::copy_options::recursive);
     }
 
     std::size_t num_entries() const
@@ -64,4 +76,4 @@ std::string refusal(const Action& action)
     return "no exception";
 }
 
-} // namespace vcarve::testing
+} // namespace vcarve

@@ -1,0 +1,47 @@
+#include "io/mapped_file.h"
+#include "support/error_message.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace vcarve {
+namespace {
+
+std::string_view text_of(const MappedFile& file)
+{
+    return {file.bytes().data(), file.bytes().size()};
+}
+
+TEST(MappedFile, HoldsTheBytesOfTheFile)
+{
+    using namespace std::string_view_literals;
+    const TemporaryFolder folder;
+    MappedFile file(folder.write("a file", "one\0two\r\n"sv));
+    EXPECT_EQ(text_of(file), "one\0two\r\n"sv);
+    const MappedFile moved(std::move(file));
+    EXPECT_EQ(text_of(moved), "one\0two\r\n"sv);
+}
+
+TEST(MappedFile, TakesAnEmptyFile)
+{
+    const TemporaryFolder folder;
+    const MappedFile file(folder.write("empty", ""));
+    EXPECT_EQ(file.bytes().size(), 0U);
+}
+
+TEST(MappedFile, RefusesWhatIsNotAFile)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path().string();
+    EXPECT_EQ(input_error([&] { MappedFile{folder.path() / "no.bin"}; }),
+              path + "/no.bin: the file does not exist");
+    EXPECT_EQ(input_error([&] { MappedFile{folder.path()}; }),
+              path + ": found something that is not a file");
+}
+
+} // namespace
+} // namespace vcarve

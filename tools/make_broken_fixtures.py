@@ -1,0 +1,381 @@
+#!/usr/bin/python3
+"""Writes fixtures/broken, fixtures/degenerate and fixtures/formats: small COLMAP models by name.
+
+Usage: tools/make_broken_fixtures.py [FIXTURES]
+
+What each of them is for stands beside it below, and in fixtures/README.md.
+"""
+
+import math
+import pathlib
+import struct
+import sys
+
+# Name and number of parameters of COLMAP's camera models; the place in the list is the number.
+CAMERA_MODELS = [
+    ("SIMPLE_PINHOLE", 3), ("PINHOLE", 4), ("SIMPLE_RADIAL", 4), ("RADIAL", 5), ("OPENCV", 8),
+    ("OPENCV_FISHEYE", 8), ("FULL_OPENCV", 12), ("FOV", 5), ("SIMPLE_RADIAL_FISHEYE", 4),
+    ("RADIAL_FISHEYE", 5), ("THIN_PRISM_FISHEYE", 12), ("RAD_TAN_THIN_PRISM_FISHEYE", 16),
+    ("SIMPLE_DIVISION", 4), ("DIVISION", 5), ("SIMPLE_FISHEYE", 3), ("FISHEYE", 4), ("EUCM", 6),
+    ("EQUIRECTANGULAR", 2),
+]
+
+
+# ---- a model as plain lists ----------------------------------------------------------------------
+
+def camera(camera_id, model=1, params=(800.0, 800.0, 320.0, 240.0)):
+    return {"id": camera_id, "model": model, "size": (640, 480), "params": list(params)}
+
+
+def image(image_id, name, camera_id=1, rotation=(1.0, 0.0, 0.0, 0.0), translation=(0.0, 0.0, 0.0),
+          points2d=()):
+    return {"id": image_id, "name": name, "camera": camera_id, "rotation": rotation,
+            "translation": translation, "points2d": list(points2d)}
+
+
+def point(point_id, position, track, color=(200, 150, 100), error=0.5):
+    return {"id": point_id, "position": position, "track": list(track), "color": color,
+            "error": error}
+
+
+def small_model():
+    """One camera, two images, two points: what most broken models are made from."""
+    cameras = [camera(1)]
+    images = [image(1, "a.jpg", points2d=[(320.0, 240.0, 1), (300.0, 240.0, 2)]),
+              image(2, "b.jpg", translation=(-1.0, 0.0, 0.0), points2d=[(160.0, 240.0, 1)])]
+    points = [point(1, (0.0, 0.0, 5.0), [(1, 0), (2, 0)]), point(2, (-0.125, 0.0, 5.0), [(1, 1)])]
+    return cameras, images, points
+
+
+# ---- writing -------------------------------------------------------------------------------------
+
+def cameras_bin(cameras):
+    data = struct.pack("<Q", len(cameras))
+    for c in cameras:
+        data += struct.pack("<IiQQ", c["id"], c["model"], *c["size"])
+        data += struct.pack("<%dd" % len(c["params"]), *c["params"])
+    return data
+
+
+def images_bin(images):
+    data = struct.pack("<Q", len(images))
+    for i in images:
+        data += struct.pack("<I7dI", i["id"], *i["rotation"], *i["translation"], i["camera"])
+        data += i["name"].encode() + b"\0" + struct.pack("<Q", len(i["points2d"]))
+        for x, y, point_id in i["points2d"]:
+            data += struct.pack("<2dq", x, y, point_id)
+    return data
+
+
+def points_bin(points):
+    data = struct.pack("<Q", len(points))
+    for p in points:
+        data += struct.pack("<Q3d3Bd", p["id"], *p["position"], *p["color"], p["error"])
+        data += struct.pack("<Q", len(p["track"]))
+        for element in p["track"]:
+            data += struct.pack("<2I", *element)
+    return data
+
+
+def words(*values):
+    return " ".join(repr(v) if isinstance(v, float) else str(v) for v in values)
+
+
+def cameras_txt(cameras):
+    lines = ["# Camera list with one line of data per camera:"]
+    for c in cameras:
+        lines.append(words(c["id"], CAMERA_MODELS[c["model"]][0], *c["size"], *c["params"]))
+    return "\n".join(lines) + "\n"
+
+
+def images_txt(images):
+    lines = ["# Image list with two lines of data per image:"]
+    for i in images:
+        lines.append(words(i["id"], *i["rotation"], *i["translation"], i["camera"], i["name"]))
+        lines.append(" ".join(words(*p) for p in i["points2d"]))
+    return "\n".join(lines) + "\n"
+
+
+def points_txt(points):
+    lines = ["# 3D point list with one line of data per point:"]
+    for p in points:
+        track = [number for element in p["track"] for number in element]
+        lines.append(words(p["id"], *p["position"], *p["color"], p["error"], *track))
+    return "\n".join(lines) + "\n"
+
+
+def binary_files(model):
+    cameras, images, points = model
+    return {"cameras.bin": cameras_bin(cameras), "images.bin": images_bin(images),
+            "points3D.bin": points_bin(points)}
+
+
+def text_files(model):
+    cameras, images, points = model
+    return {"cameras.txt": cameras_txt(cameras), "images.txt": images_txt(images),
+            "points3D.txt": points_txt(points)}
+
+
+def write_model(folder, files):
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, data in files.items():
+        (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
+
+
+# ---- broken --------------------------------------------------------------------------------------
+
+def patched(data, offset, replacement):
+    return data[:offset] + replacement + data[offset + len(replacement):]
+
+
+def broken_binary():
+    """Name -> files; every one must be refused with a sentence of its own."""
+    good = binary_files(small_model())
+    huge = struct.pack("<Q", 2 ** 60)
+    nan = struct.pack("<d", math.nan)
+    cameras, images, points = (good[f] for f in ("cameras.bin", "images.bin", "points3D.bin"))
+    quaternion = 8 + 4
+    name = 8 + 4 + 7 * 8 + 4
+    track_length = 8 + 8 + 3 * 8 + 3 + 8
+    changes = {
+        "bin_camera_count_huge": {"cameras.bin": patched(cameras, 0, huge)},
+        "bin_camera_model_99": {"cameras.bin": patched(cameras, 12, struct.pack("<i", 99))},
+        "bin_camera_twice": {"cameras.bin": cameras_bin([camera(1), camera(1)])},
+        "bin_cameras_truncated": {"cameras.bin": cameras[:-5]},
+        "bin_cameras_trailing": {"cameras.bin": cameras + b"abc"},
+        "bin_image_count_huge": {"images.bin": patched(images, 0, huge)},
+        "bin_image_twice": {"images.bin": images_bin([image(1, "a.jpg"), image(1, "b.jpg")])},
+        "bin_image_name_open": {"images.bin": images_bin([image(1, "a" * 9)])[:name + 9]},
+        "bin_image_camera_unknown": {"images.bin": images_bin([image(1, "a.jpg", camera_id=7)])},
+        "bin_image_rotation_zero": {"images.bin": patched(images, quaternion, bytes(32))},
+        "bin_image_rotation_nan": {"images.bin": patched(images, quaternion, nan)},
+        "bin_image_translation_nan": {"images.bin": patched(images, quaternion + 32, nan)},
+        "bin_images_points2d_huge": {"images.bin": patched(images, name + 6, huge)},
+        "bin_images_truncated": {"images.bin": images[:-1]},
+        "bin_images_trailing": {"images.bin": images + b"a"},
+        "bin_point_count_huge": {"points3D.bin": patched(points, 0, huge)},
+        "bin_point_image_unknown": {"points3D.bin": points_bin([point(5, (0.0, 0.0, 5.0),
+                                                                      [(1, 0), (9, 0)])])},
+        "bin_point_twice": {"points3D.bin": points_bin([point(5, (0.0, 0.0, 5.0), [(1, 0)])] * 2)},
+        "bin_points_empty_file": {"points3D.bin": b""},
+        "bin_points_track_huge": {"points3D.bin": patched(points, track_length, huge)},
+        "bin_points_trailing": {"points3D.bin": points + bytes(4)},
+        "bin_points_truncated": {"points3D.bin": points[:-3]},
+    }
+    models = {broken: {**good, **change} for broken, change in changes.items()}
+    models["bin_points_missing"] = {f: good[f] for f in ("cameras.bin", "images.bin")}
+    return models
+
+
+def broken_text():
+    good = text_files(small_model())
+    first_image = "1 1.0 0.0 0.0 0.0 0.0 0.0 0.0 1 a.jpg\n"
+    changes = {
+        "txt_camera_params_few": ("cameras.txt", " 240.0\n", "\n"),
+        "txt_camera_size_missing": ("cameras.txt", " 480 800.0 800.0 320.0 240.0", ""),
+        "txt_camera_width_word": ("cameras.txt", "640", "wide"),
+        "txt_image_camera_unknown": ("images.txt", "1 a.jpg", "7 a.jpg"),
+        "txt_image_rotation_zero": ("images.txt", "1 1.0 0.0", "1 0.0 0.0"),
+        "txt_image_name_missing": ("images.txt", " a.jpg", ""),
+        "txt_image_rotation_nan": ("images.txt", "1 1.0 0.0", "1 nan 0.0"),
+        "txt_image_id_negative": ("images.txt", "2 1.0", "-2 1.0"),
+        "txt_image_twice": ("images.txt", "2 1.0", "1 1.0"),
+        "txt_images_points2d_left_out": ("images.txt", "320.0 240.0 1 300.0 240.0 2\n", ""),
+        "txt_images_pose_cut": ("images.txt", first_image, "1 1.0 0.0 0.0 0.0 0.0\n"),
+        "txt_point_color_300": ("points3D.txt", "200", "300"),
+        "txt_point_coordinate_word": ("points3D.txt", "5.0", "5,0"),
+        "txt_point_coordinate_1e999": ("points3D.txt", "5.0", "1e999"),
+        "txt_point_error_missing": ("points3D.txt", " 0.5 1 0 2 0", ""),
+        "txt_point_image_unknown": ("points3D.txt", "0.5 1 0 2 0", "0.5 1 0 9 0"),
+        "txt_point_track_odd": ("points3D.txt", "0.5 1 0 2 0", "0.5 1 0 2"),
+        "txt_point_twice": ("points3D.txt", "\n2 ", "\n1 "),
+    }
+    models = {}
+    for broken, (file, old, new) in changes.items():
+        assert old in good[file], broken
+        models[broken] = {**good, file: good[file].replace(old, new, 1)}
+    return models
+
+
+# ---- degenerate ----------------------------------------------------------------------------------
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def unit(a):
+    length = math.sqrt(dot(a, a))
+    return tuple(x / length for x in a)
+
+
+def quaternion_of(rows):
+    """w, x, y, z of the rotation with these rows, by the largest of the four."""
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    squares = (a + e + i, a - e - i, e - a - i, i - a - e)
+    largest = max(range(4), key=lambda k: squares[k])
+    if largest == 0:
+        q = (1 + squares[0], h - f, c - g, d - b)
+    elif largest == 1:
+        q = (h - f, 1 + squares[1], b + d, c + g)
+    elif largest == 2:
+        q = (c - g, b + d, 1 + squares[2], f + h)
+    else:
+        q = (d - b, c + g, f + h, 1 + squares[3])
+    length = math.sqrt(dot(q, q))
+    return tuple(x / length for x in q)
+
+
+def looking(image_id, center, target):
+    """An image at `center` that looks at `target`: z ahead, y down."""
+    ahead = unit(tuple(t - c for t, c in zip(target, center)))
+    up = (0.0, 0.0, 1.0) if abs(ahead[2]) < 0.9 else (0.0, 1.0, 0.0)
+    right = unit(cross(ahead, up))
+    rows = (right, cross(ahead, right), ahead)
+    translation = tuple(-dot(row, center) for row in rows)
+    return image(image_id, "view%d.png" % image_id, rotation=quaternion_of(rows),
+                 translation=translation)
+
+
+def ring(count=4, radius=6.0, height=3.0, target=(0.0, 0.0, 0.0)):
+    angles = [2 * math.pi * (k + 0.3) / count for k in range(count)]
+    return [looking(k + 1, (target[0] + radius * math.cos(a), target[1] + radius * math.sin(a),
+                            target[2] + height), target) for k, a in enumerate(angles)]
+
+
+def seen_by_all(positions, images):
+    return [point(k + 1, p, [(i["id"], k) for i in images]) for k, p in enumerate(positions)]
+
+
+def cube(half=1.0):
+    return [(x * half, y * half, z * half) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+
+
+def model_of(positions, images):
+    return [camera(1)], images, seen_by_all(positions, images)
+
+
+def view_on_point():
+    """Image 5 stands exactly on point 1 and sees the other points."""
+    corners = cube()
+    images = ring() + [image(5, "view5.png", translation=tuple(-x for x in corners[0]))]
+    points = seen_by_all(corners, images)
+    points[0]["track"] = points[0]["track"][:-1]
+    return [camera(1)], images, points
+
+
+def point_seen_from_where_it_is():
+    """As view_on_point, and the point claims to be seen by the image that stands on it."""
+    return [camera(1)], *view_on_point()[1:2], seen_by_all(cube(), view_on_point()[1])
+
+
+def behind_camera():
+    """Point 9 is said to be seen by image 1 but lies behind it."""
+    images = ring()
+    points = seen_by_all(cube(), images)
+    angle = 2 * math.pi * 0.3 / 4
+    points.append(point(9, (12 * math.cos(angle), 12 * math.sin(angle), 6.0), [(1, 8), (2, 8)]))
+    return [camera(1)], images, points
+
+
+def duplicated_positions():
+    """Every corner of a cube twice, each half of the copies with half of the views."""
+    images = ring()
+    points = seen_by_all(cube() + cube(), images)
+    for p in points:
+        p["track"] = p["track"][:2] if p["id"] <= 8 else p["track"][1:]
+    return [camera(1)], images, points
+
+
+def degenerate():
+    """Name -> model; all can be read, what can be made of them is for the passes to say."""
+    views = ring()
+    grid = range(4)
+    lattice = [(float(x), float(y), float(z)) for x in grid for y in grid for z in grid]
+    plane = [(x + 0.25 * (y % 2), float(y), 0.0) for x in grid for y in grid]
+    return {
+        "no_points": model_of([], views),
+        "no_views": ([camera(1)], [], []),
+        "one_view": model_of(cube(), views[:1]),
+        "three_points": model_of(cube()[:3], views),
+        "four_points": model_of([cube()[k] for k in (0, 3, 5, 6)], views),
+        "identical_points": model_of([(0.5, 0.5, 0.5)] * 8, views),
+        "collinear_points": model_of([(k / 4, k / 2, float(k)) for k in range(8)], views),
+        "coplanar_points": model_of(plane, views),
+        "duplicated_positions": duplicated_positions(),
+        "lattice": model_of(lattice, ring(target=(1.5, 1.5, 1.5), radius=9.0, height=5.0)),
+        "nan_position": model_of(cube() + [(math.nan, 0.0, 0.0)], views),
+        "infinite_position": model_of(cube() + [(0.0, math.inf, 0.0)], views),
+        "huge_position": model_of(cube() + [(1e300, 0.0, 0.0)], views),
+        "no_tracks": ([camera(1)], views, [point(k + 1, p, []) for k, p in enumerate(cube())]),
+        "view_on_point": view_on_point(),
+        "point_seen_from_where_it_is": point_seen_from_where_it_is(),
+        "point_behind_camera": behind_camera(),
+    }
+
+
+# ---- formats -------------------------------------------------------------------------------------
+
+def rich_model():
+    """Ids with gaps and out of order, odd names, shared cameras, a view twice in a track."""
+    cameras = [camera(12, 2, (700.0, 320.5, 240.25, -0.0125)), camera(3)]
+    images = [image(40, "left room/IMG 0001.jpg", 12, (0.5, 0.5, -0.5, 0.5), (0.1, -2.5, 3.0),
+                    [(1.5, 2.5, 900), (3.25, 4.0, -1)]),
+              image(7, "K\u00f6ln \u5bfa 7.png", 3, (2.0, 0.0, 0.0, 0.0), (1.0, 2.0, 3.0)),
+              image(100000, "c.jpg", 12, (0.6, 0.0, 0.8, 0.0), (1e-17, 0.0, 5e6),
+                    [(10.0, 20.0, 18446744073709551614 - 2 ** 64)])]
+    points = [point(900, (0.1, 1 / 3, -2e-7), [(100000, 0), (7, 3), (40, 0), (7, 4)], (0, 128, 255)),
+              point(2, (1e6 + 0.1, 5e-324, 4.6e6), [(40, 1)], (255, 255, 255), -1.0),
+              point(18446744073709551614, (1.0, 2.0, 3.0), [], (1, 2, 3), 0.0)]
+    return cameras, images, points
+
+
+def every_camera_model():
+    cameras = [camera(k + 1, k, [100.0 * k + j + 0.5 for j in range(n)])
+               for k, (_, n) in enumerate(CAMERA_MODELS)]
+    images = [image(k + 1, "%02d.jpg" % k, k + 1, translation=(float(k), 0.0, 0.0))
+              for k in range(len(cameras))]
+    return cameras, images, [point(1, (0.0, 0.0, 9.0), [(i["id"], 0) for i in images])]
+
+
+def text_by_hand(files):
+    """As an editor on Windows leaves it: byte order mark, CRLF, tabs, plus signs, blank lines and
+    comments between, blanks at ends of lines, no line feed at the end of the file."""
+    files = dict(files)
+    files["cameras.txt"] = "\ufeff" + files["cameras.txt"].replace("640 480", "640\t+480 ")
+    files["points3D.txt"] = "\n  # a comment\n" + files["points3D.txt"].replace("\n2 ", "\n\n#\n2  ")
+    return {name: text.rstrip("\n").replace("\n", "\r\n") for name, text in files.items()}
+
+
+def formats():
+    """Name -> files; rich_* hold one model, cameras_* another."""
+    rich = text_files(rich_model())
+    strangers = {"rigs.bin": b"not read", "frames.bin": b"not read"}
+    unknown = text_files(([camera(1)], [image(1, "a.jpg")], []))
+    unknown["cameras.txt"] = "1 MODEL_OF_TOMORROW 640 480 1 2 3 4 5 6 7\n"
+    return {
+        "rich_bin": {**binary_files(rich_model()), **strangers},
+        "rich_txt": rich,
+        "rich_txt_by_hand": text_by_hand(rich),
+        "cameras_bin": binary_files(every_camera_model()),
+        "cameras_txt": text_files(every_camera_model()),
+        "camera_unknown_txt": unknown,
+    }
+
+
+def main():
+    default = pathlib.Path(__file__).resolve().parent.parent / "fixtures"
+    fixtures = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
+    for name, files in {**broken_binary(), **broken_text()}.items():
+        write_model(fixtures / "broken" / name, files)
+    for name, model in degenerate().items():
+        write_model(fixtures / "degenerate" / name, text_files(model))
+    for name, files in formats().items():
+        write_model(fixtures / "formats" / name, files)
+
+
+if __name__ == "__main__":
+    main()
