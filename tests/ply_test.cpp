@@ -2,6 +2,8 @@
 #include "io/ply.h"
 #include "support/temporary_folder.h"
 
+#include <gtest/gtest.h>
+
 #include <cstring>
 #include <map>
 #include <random>
