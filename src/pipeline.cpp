@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "label/carve.h"
 #include "points/arrange.h"
+#include "points/center.h"
 #include "surface/extract.h"
 #include "surface/orient.h"
 #include "tetra/triangulate.h"
@@ -96,9 +97,9 @@ TriMesh clean(const TriMesh& mesh, const Scene& scene, const Options& options, L
 
 } // namespace
 
-TriMesh reconstruct(const Scene& input, const Options& options, Log& log)
+TriMesh reconstruct(Scene input, const Options& options, Log& log)
 {
-    const Scene scene = filter(input, options, log);
+    const Scene scene = filter(center_points(std::move(input)), options, log);
     const TetMesh cells = triangulate(scene, log);
     const Labels labels = options.method == Method::strict ? carve(cells, scene, options, log)
                                                            : cut(cells, scene, options, log);

@@ -58,6 +58,6 @@ struct Options {
 /// From a scene to its surface: the passes in order. Uses the threads of the surrounding tbb arena;
 /// the result does not depend on how many. Throws InputError where the scene holds too little for a
 /// surface.
-TriMesh reconstruct(const Scene& scene, const Options& options, Log& log);
+TriMesh reconstruct(Scene input, const Options& options, Log& log);
 
 } // namespace vcarve

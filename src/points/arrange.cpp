@@ -8,7 +8,6 @@
 #include <CGAL/property_map.h>
 #include <tbb/parallel_sort.h>
 
-#include <algorithm>
 #include <numeric>
 #include <tuple>
 
@@ -20,21 +19,6 @@ using Eigen::Vector3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using PointMap = CGAL::Pointer_property_map<Kernel::Point_3>::type;
 using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, PointMap>;
-
-/// The middle coordinate on every axis: robust against far points, and the same for any order.
-Vector3d median_of(const std::vector<Vector3d>& positions)
-{
-    Vector3d median = Vector3d::Zero();
-    std::vector<double> values(positions.size());
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    for (int axis = 0; axis < 3 && !values.empty(); ++axis) {
-        std::transform(positions.begin(), positions.end(), values.begin(),
-                       [&](const Vector3d& p) { return p[axis]; });
-        std::nth_element(values.begin(), middle, values.end());
-        median[axis] = *middle;
-    }
-    return median;
-}
 
 /// Point indices along a Hilbert curve. Sorted by coordinates first, so that the sort, which is
 /// deterministic but not stable, starts from the same sequence whatever the order of the input.
@@ -80,15 +64,6 @@ Tracks reordered(const Tracks& tracks, const std::vector<std::size_t>& order)
 
 Scene arrange_points(Scene scene)
 {
-    const Vector3d median = median_of(scene.positions);
-    for (Vector3d& position : scene.positions) {
-        position -= median;
-    }
-    for (View& view : scene.views) {
-        view.center -= median;
-    }
-    scene.offset += median;
-
     const std::vector<std::size_t> order = hilbert_order(scene.positions);
     scene.positions = reordered(scene.positions, order);
     scene.colors = reordered(scene.colors, order);

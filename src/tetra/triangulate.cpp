@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 
 namespace vcarve {
 
@@ -178,6 +179,9 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene)
     copy_cells(triangulation, mesh);
     mesh.positions = scene.positions;
     find_cells_of_vertices(mesh);
+    if (triangulation.number_of_vertices() != scene.num_points()) {
+        throw std::logic_error("two points to triangulate lie at one place");
+    }
     return mesh;
 }
 

@@ -1,0 +1,48 @@
+#include "points/center.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// The middle coordinate on every axis: robust against far points, and the same for any order.
+Vector3d median_of(const std::vector<Vector3d>& positions)
+{
+    Vector3d median = Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> values;
+        values.reserve(positions.size());
+        for (const Vector3d& position : positions) {
+            if (std::isfinite(position[axis])) {
+                values.push_back(position[axis]);
+            }
+        }
+        if (!values.empty()) {
+            const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+            std::nth_element(values.begin(), middle, values.end());
+            median[axis] = *middle;
+        }
+    }
+    return median;
+}
+
+} // namespace
+
+Scene center_points(Scene scene)
+{
+    const Vector3d median = median_of(scene.positions);
+    for (Vector3d& position : scene.positions) {
+        position -= median;
+    }
+    for (View& view : scene.views) {
+        view.center -= median;
+    }
+    scene.offset += median;
+    return scene;
+}
+
+} // namespace vcarve
