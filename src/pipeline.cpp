@@ -8,6 +8,10 @@
 #include "surface/orient.h"
 #include "tetra/triangulate.h"
 
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
 namespace vcarve {
 
 namespace {
@@ -92,19 +96,26 @@ TriMesh clean(const TriMesh& mesh, const Scene& scene, const Options& options, L
                {"holes filled", cleaned.counts.filled_holes},
                {"sights", agreement.sights},
                {"facing", agreement.facing}});
-    return cleaned.mesh;
+    return std::move(cleaned.mesh);
 }
 
-} // namespace
-
-TriMesh reconstruct(Scene input, const Options& options, Log& log)
+Reconstruction run_passes(Scene input, const Options& options, Log& log)
 {
-    const Scene scene = filter(center_points(std::move(input)), options, log);
+    Scene scene = filter(center_points(std::move(input)), options, log);
     const TetMesh cells = triangulate(scene, log);
     const Labels labels = options.method == Method::strict ? carve(cells, scene, options, log)
                                                            : cut(cells, scene, options, log);
     const TriMesh surface = extract(cells, labels, scene, options, log);
-    return clean(surface, scene, options, log);
+    TriMesh mesh = clean(surface, scene, options, log);
+    return {std::move(scene), std::move(mesh)};
+}
+
+} // namespace
+
+Reconstruction reconstruct(Scene input, const Options& options, Log& log)
+{
+    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
+    return arena.execute([&] { return run_passes(std::move(input), options, log); });
 }
 
 } // namespace vcarve

@@ -22,6 +22,7 @@ struct Options {
     Method method = Method::cut;
     int min_crossings = 1;
     bool closed = false;
+    int threads = 0;
     FilterOptions filter;
     TraceOptions trace;
     CutOptions cut;
@@ -52,12 +53,22 @@ struct Options {
                       .help = "Keep faces that no view supports, so that the surface is closed."});
         support.visit(options);
         cleanup.visit(options);
+        options.stage("Run");
+        options.count(
+            threads,
+            {.name = "threads", .unit = "threads", .help = "How many to use; 0 uses all."});
     }
 };
 
-/// From a scene to its surface: the passes in order. Uses the threads of the surrounding tbb arena;
-/// the result does not depend on how many. Throws InputError where the scene holds too little for a
-/// surface.
-TriMesh reconstruct(Scene input, const Options& options, Log& log);
+/// A surface and the scene it was made from: the points that passed the filter, in the order
+/// TriMesh::points counts them, centred.
+struct Reconstruction {
+    Scene scene;
+    TriMesh mesh;
+};
+
+/// From a scene to its surface: the passes in order, on `options.threads` threads; the result does
+/// not depend on how many. Throws InputError where the scene holds too little for a surface.
+Reconstruction reconstruct(Scene input, const Options& options, Log& log);
 
 } // namespace vcarve

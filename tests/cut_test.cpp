@@ -1,0 +1,107 @@
+#include "label/cut.h"
+#include "points/arrange.h"
+#include "sight/trace.h"
+#include "support/scenes.h"
+#include "tetra/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Votes that say nothing, with no view's cell known.
+Votes silence(const TetMesh& mesh)
+{
+    Votes votes;
+    votes.unit = 256;
+    votes.network.residuals.assign(mesh.cells.size(), {0, 0, 0, 0});
+    votes.network.excesses.assign(mesh.cells.size(), 0);
+    return votes;
+}
+
+/// Two tetrahedra on one triangle: the apexes of a bipyramid at +-height.
+TetMesh bipyramid(double height)
+{
+    return triangulate(make_scene({{9, 9, 9}}, {{{1, 0, 0}, {0}},
+                                                {{-0.5, 0.8, 0}, {0}},
+                                                {{-0.5, -0.8, 0}, {0}},
+                                                {{0, 0, height}, {0}},
+                                                {{0, 0, -height}, {0}}}));
+}
+
+std::vector<Index> finite_cells(const TetMesh& mesh)
+{
+    std::vector<Index> finite;
+    for (Index i = 0; i < mesh.cells.size(); ++i) {
+        if (!mesh.cells[i].is_infinite()) {
+            finite.push_back(i);
+        }
+    }
+    return finite;
+}
+
+TEST(Cut, LeavesEverythingOutsideWithoutVotes)
+{
+    const TetMesh mesh = triangulate(arrange_points(bumpy_sphere(300, 31)));
+    const Labels labels = cut(mesh, silence(mesh), {});
+    EXPECT_EQ(labels, Labels(mesh.cells.size(), Label::outside));
+}
+
+TEST(Cut, PutsACellInsideWhenItsVoteOutweighsItsFacets)
+{
+    const TetMesh mesh = bipyramid(2.0);
+    ASSERT_EQ(finite_cells(mesh).size(), 2U);
+    const Index chosen = finite_cells(mesh)[0];
+    Votes votes = silence(mesh);
+    votes.network.excesses[chosen] = -100 * votes.unit;
+    const Labels labels = cut(mesh, votes, {});
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), Label::inside),
+              labels[finite_cells(mesh)[1]] == Label::inside ? 2 : 1);
+    EXPECT_EQ(labels[chosen], Label::inside);
+
+    // Facets that cost more than the vote make it not worth while.
+    EXPECT_EQ(cut(mesh, votes, {.quality = 1000.0}), Labels(mesh.cells.size(), Label::outside));
+}
+
+TEST(Cut, NeverPutsAViewsCellInside)
+{
+    const TetMesh mesh = bipyramid(2.0);
+    const Index chosen = finite_cells(mesh)[0];
+    Votes votes = silence(mesh);
+    votes.network.excesses[chosen] = -100 * votes.unit;
+    votes.cell_of_view = {chosen};
+    EXPECT_EQ(cut(mesh, votes, {})[chosen], Label::outside);
+}
+
+TEST(Cut, LetsOnlyTheVotesDecideWithoutQuality)
+{
+    const TetMesh mesh = bipyramid(0.3);
+    const auto finite = finite_cells(mesh);
+    Votes votes = silence(mesh);
+    votes.network.excesses[finite[1]] = -1; // the smallest vote there is
+    const Labels labels = cut(mesh, votes, {.quality = 0.0});
+    EXPECT_EQ(labels[finite[0]], Label::outside);
+    EXPECT_EQ(labels[finite[1]], Label::inside);
+}
+
+TEST(Cut, NeverPutsAnInfiniteCellInside)
+{
+    const Scene scene = arrange_points(bumpy_sphere(1000, 32));
+    const TetMesh mesh = triangulate(scene);
+    Log silent;
+    Stage stage(silent, "");
+    const Labels labels = cut(mesh, trace_sights(mesh, scene, {}, stage), {});
+    std::int64_t inside = 0;
+    for (Index i = 0; i < mesh.cells.size(); ++i) {
+        inside += labels[i] == Label::inside;
+        ASSERT_FALSE(mesh.cells[i].is_infinite() && labels[i] == Label::inside);
+    }
+    EXPECT_GT(inside, static_cast<std::int64_t>(mesh.cells.size() / 4));
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,44 @@
+#include "points/arrange.h"
+#include "sight/edge_lengths.h"
+#include "support/scenes.h"
+#include "tetra/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace vcarve {
+namespace {
+
+TEST(ShortEdgeLength, IsTheFirstQuartileOfAllFiniteEdges)
+{
+    const TetMesh mesh = triangulate(arrange_points(bumpy_sphere(800, 21)));
+    std::set<std::pair<Index, Index>> edges;
+    for (const Cell& cell : mesh.cells) {
+        for (const Index a : cell.vertices) {
+            for (const Index b : cell.vertices) {
+                if (a < b && b != kInfinite) {
+                    edges.emplace(a, b);
+                }
+            }
+        }
+    }
+    std::vector<double> lengths;
+    for (const auto& [a, b] : edges) {
+        lengths.push_back((mesh.positions[a] - mesh.positions[b]).norm());
+    }
+    std::sort(lengths.begin(), lengths.end());
+    EXPECT_EQ(short_edge_length(mesh), lengths[lengths.size() / 4]);
+}
+
+TEST(ShortEdgeLength, IsTheEdgeOfARegularTetrahedron)
+{
+    const Scene scene =
+        make_scene({{9, 9, 9}},
+                   {{{1, 1, 1}, {0}}, {{1, -1, -1}, {0}}, {{-1, 1, -1}, {0}}, {{-1, -1, 1}, {0}}});
+    EXPECT_DOUBLE_EQ(short_edge_length(triangulate(scene)), std::sqrt(8.0));
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,164 @@
+#include "support/scenes.h"
+#include "surface/check.h"
+#include "surface/extract.h"
+#include "surface/orient.h"
+#include "surface/support.h"
+#include "tetra/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+double volume(const TriMesh& mesh)
+{
+    double volume_6 = 0.0;
+    for (const Face& face : mesh.faces) {
+        volume_6 +=
+            mesh.positions[face[0]].dot(mesh.positions[face[1]].cross(mesh.positions[face[2]]));
+    }
+    return volume_6 / 6.0;
+}
+
+TEST(ExtractSurface, OfOneCellIsItsFourFacetsSeenFromOutside)
+{
+    const Scene scene = make_scene(
+        {{9, 9, 9}}, {{{0, 0, 0}, {0}}, {{1, 0, 0}, {0}}, {{0, 1, 0}, {0}}, {{0, 0, 1}, {0}}});
+    const TetMesh cells = triangulate(scene);
+    Labels labels(cells.cells.size(), Label::outside);
+    labels[cells.cell_of_vertex[0]] = Label::inside;
+    const TriMesh mesh = extract_surface(cells, labels, scene);
+    EXPECT_EQ(mesh.positions, scene.positions);
+    EXPECT_EQ(mesh.points, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(mesh.colors, scene.colors);
+    ASSERT_EQ(mesh.faces.size(), 4U);
+    EXPECT_NEAR(volume(mesh), 1.0 / 6.0, 1e-15);
+}
+
+TEST(ExtractSurface, EnclosesExactlyTheInsideForAnyLabels)
+{
+    const Scene scene = bumpy_sphere(300, 41);
+    const TetMesh cells = triangulate(scene);
+    std::mt19937 random(41);
+    for (int round = 0; round < 20; ++round) {
+        Labels labels(cells.cells.size(), Label::outside);
+        double expected = 0.0;
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            const Cell& cell = cells.cells[i];
+            if (cell.is_infinite() || random() % 3 != 0) {
+                continue;
+            }
+            labels[i] = Label::inside;
+            const Vector3d& a = cells.positions[cell.vertices[0]];
+            expected += (cells.positions[cell.vertices[1]] - a)
+                            .cross(cells.positions[cell.vertices[2]] - a)
+                            .dot(cells.positions[cell.vertices[3]] - a) /
+                        6.0;
+        }
+        const TriMesh mesh = extract_surface(cells, labels, scene);
+        EXPECT_NEAR(volume(mesh), expected, 1e-12);
+        EXPECT_EQ(check_mesh(mesh).boundary_edges, 0);
+        EXPECT_EQ(check_mesh(mesh).unreferenced_vertices, 0);
+    }
+}
+
+TEST(ExtractSurface, OfNothingInsideIsEmpty)
+{
+    const Scene scene = bumpy_sphere(50, 42);
+    const TetMesh cells = triangulate(scene);
+    const TriMesh mesh = extract_surface(cells, Labels(cells.cells.size(), Label::outside), scene);
+    EXPECT_TRUE(mesh.faces.empty());
+    EXPECT_TRUE(mesh.positions.empty());
+}
+
+/// A unit triangle in the plane z = 0, facing +z, seen by the views at `centers`.
+struct SeenTriangle {
+    Scene scene;
+    TriMesh mesh;
+
+    explicit SeenTriangle(const std::vector<Vector3d>& centers)
+    {
+        std::vector<std::uint32_t> all(centers.size());
+        std::iota(all.begin(), all.end(), 0U);
+        scene = make_scene(centers, {{{0, 0, 0}, all}, {{1, 0, 0}, all}, {{0, 1, 0}, all}});
+        mesh.positions = scene.positions;
+        mesh.colors = scene.colors;
+        mesh.points = {0, 1, 2};
+        mesh.faces = {{0, 1, 2}};
+    }
+};
+
+TEST(KeepSupported, KeepsAFaceWhoseCornersWereSeenFromItsFront)
+{
+    const SeenTriangle seen({{0, 0, 5}});
+    EXPECT_EQ(keep_supported(seen.mesh, seen.scene, {}).faces, seen.mesh.faces);
+}
+
+TEST(KeepSupported, DropsAFaceSeenOnlyFromItsBackOrItsEdge)
+{
+    const SeenTriangle back({{0, 0, -5}});
+    EXPECT_TRUE(keep_supported(back.mesh, back.scene, {}).faces.empty());
+    const SeenTriangle edge({{50, 0, 1}});
+    EXPECT_TRUE(keep_supported(edge.mesh, edge.scene, {}).faces.empty());
+}
+
+TEST(KeepSupported, NeedsOnlyOneViewACornerButEveryCorner)
+{
+    SeenTriangle seen({{0, 0, 5}, {0, 0, -5}});
+    EXPECT_EQ(keep_supported(seen.mesh, seen.scene, {}).faces.size(), 1U);
+    Tracks tracks;
+    tracks.push_back(std::vector<std::uint32_t>{0, 1});
+    tracks.push_back(std::vector<std::uint32_t>{0});
+    tracks.push_back(std::vector<std::uint32_t>{1}); // the third corner only from the back
+    seen.scene.tracks = tracks;
+    EXPECT_TRUE(keep_supported(seen.mesh, seen.scene, {}).faces.empty());
+}
+
+TEST(KeepSupported, DropsFacesMuchLongerThanTheirNeighbours)
+{
+    // A strip of small triangles and one long web from its end.
+    std::vector<MadePoint> points;
+    for (int i = 0; i < 10; ++i) {
+        points.push_back({{i * 1.0, 0, 0}, {0}});
+        points.push_back({{i * 1.0, 1, 0}, {0}});
+    }
+    points.push_back({{60, 0.5, 0}, {0}});
+    const Scene scene = make_scene({{20, 0, 500}}, points);
+    TriMesh mesh;
+    mesh.positions = scene.positions;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        mesh.points.push_back(i);
+    }
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        mesh.faces.push_back({2 * i, 2 * i + 2, 2 * i + 1});
+        mesh.faces.push_back({2 * i + 1, 2 * i + 2, 2 * i + 3});
+    }
+    const Face web = {18, 20, 19};
+    mesh.faces.push_back(web);
+    const TriMesh kept = keep_supported(mesh, scene, {.max_edge = 4.0});
+    EXPECT_EQ(kept.faces, std::vector<Face>(mesh.faces.begin(), mesh.faces.end() - 1));
+    EXPECT_EQ(keep_supported(mesh, scene, {.max_edge = 0.0}).faces, mesh.faces);
+}
+
+TEST(ViewAgreement, CountsSightsOnTheFrontOfTheirFaces)
+{
+    const SeenTriangle seen({{0, 0, 5}, {0, 0, -5}, {3, 3, 1}});
+    const ViewAgreement agreement = view_agreement(seen.mesh, seen.scene);
+    EXPECT_EQ(agreement.sights, 9);
+    EXPECT_EQ(agreement.facing, 6);
+}
+
+TEST(ViewAgreement, PassesOverCornersWithoutAPoint)
+{
+    SeenTriangle seen({{0, 0, 5}});
+    seen.mesh.points[1] = kNoPoint;
+    EXPECT_EQ(view_agreement(seen.mesh, seen.scene).sights, 2);
+}
+
+} // namespace
+} // namespace vcarve
