@@ -1,5 +1,6 @@
+#include "base/error.h"
 #include "io/byte_reader.h"
-#include "support/error_message.h"
+#include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -30,7 +31,7 @@ TEST(ByteReader, NeverReadsPastTheEnd)
 {
     ByteReader reader = reader_over("abcde");
     reader.read<std::uint8_t>("a letter");
-    EXPECT_EQ(input_error([&] { reader.read<double>("the width"); }),
+    EXPECT_EQ(refusal<InputError>([&] { reader.read<double>("the width"); }),
               "f.bin: byte 1: the file ends inside the width (bytes expected: 8, found: 4)");
     EXPECT_EQ(reader.offset(), 1U);
 }
@@ -47,11 +48,11 @@ TEST(ByteReader, RefusesACountTheRestOfTheFileCannotHold)
 {
     ByteReader reader = reader_over("\x03\0\0\0\0\0\0\0aabb"sv);
     EXPECT_EQ(
-        input_error([&] { reader.read_count(2, "pairs"); }),
+        refusal<InputError>([&] { reader.read_count(2, "pairs"); }),
         "f.bin: byte 0: found a count of 3 pairs, but the rest of the file can hold 2 at most");
     ByteReader short_reader = reader_over("\x03\0\0"sv);
     EXPECT_EQ(
-        input_error([&] { short_reader.read_count(2, "pairs"); }),
+        refusal<InputError>([&] { short_reader.read_count(2, "pairs"); }),
         "f.bin: byte 0: the file ends inside the number of pairs (bytes expected: 8, found: 3)");
 }
 
@@ -60,10 +61,10 @@ TEST(ByteReader, ReadsTextUpToItsZeroByte)
     ByteReader reader = reader_over("a b\0\0c"sv);
     EXPECT_EQ(reader.read_zero_terminated("a name"), "a b");
     EXPECT_EQ(reader.read_zero_terminated("a name"), "");
-    EXPECT_EQ(input_error([&] { reader.read_zero_terminated("a name"); }),
+    EXPECT_EQ(refusal<InputError>([&] { reader.read_zero_terminated("a name"); }),
               "f.bin: byte 5: the file ends inside a name (no zero byte closes it)");
     ByteReader empty = reader_over("");
-    EXPECT_EQ(input_error([&] { empty.read_zero_terminated("a name"); }),
+    EXPECT_EQ(refusal<InputError>([&] { empty.read_zero_terminated("a name"); }),
               "f.bin: byte 0: the file ends inside a name (no zero byte closes it)");
 }
 
@@ -71,7 +72,7 @@ TEST(ByteReader, RefusesBytesAfterTheEnd)
 {
     const ByteReader reader = reader_over("ab");
     EXPECT_EQ(
-        input_error([&] { reader.expect_end("the last point"); }),
+        refusal<InputError>([&] { reader.expect_end("the last point"); }),
         "f.bin: byte 0: expected the end of the file after the last point, found more bytes: 2");
 }
 

@@ -1,5 +1,5 @@
+#include "base/error.h"
 #include "io/find_model.h"
-#include "support/error_message.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -115,17 +115,17 @@ TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
     const std::string looked_for =
         ": no COLMAP model, looked for cameras, images and points3D, all .bin or all .txt, in this "
         "folder, in sparse and in the folders they hold, found ";
-    EXPECT_EQ(input_error([&] { find_model(folder.path()); }),
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
               path + looked_for + "nothing of the kind");
 
     folder.write("database.db", "");
     folder.write("a.ply", "");
-    EXPECT_EQ(input_error([&] { find_model(folder.path()); }),
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
               path + looked_for + "database.db, a.ply");
 
     folder.write("b.ply", "");
     folder.copy(kFixtures / "broken/bin_points_missing", "sparse/0");
-    EXPECT_EQ(input_error([&] { find_model(folder.path()); }),
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
               path + looked_for + "a model in " + path +
                   "/sparse/0 without points3D.bin, database.db, 2 .ply files");
 }
@@ -136,8 +136,9 @@ TEST(FindModel, RefusesAPathThatIsNoFolder)
     const fs::path file = folder.write("points3D.bin", "");
     const std::string what =
         "; a COLMAP model is a folder with cameras, images and points3D as .bin or .txt";
-    EXPECT_EQ(input_error([&] { find_model(file); }), file.string() + ": is not a folder" + what);
-    EXPECT_EQ(input_error([&] { find_model(folder.path() / "none"); }),
+    EXPECT_EQ(refusal<InputError>([&] { find_model(file); }),
+              file.string() + ": is not a folder" + what);
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path() / "none"); }),
               folder.path().string() + "/none: does not exist" + what);
 }
 

@@ -1,5 +1,5 @@
+#include "base/error.h"
 #include "io/mapped_file.h"
-#include "support/error_message.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -37,9 +37,9 @@ TEST(MappedFile, RefusesWhatIsNotAFile)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path().string();
-    EXPECT_EQ(input_error([&] { MappedFile{folder.path() / "no.bin"}; }),
+    EXPECT_EQ(refusal<InputError>([&] { MappedFile{folder.path() / "no.bin"}; }),
               path + "/no.bin: the file does not exist");
-    EXPECT_EQ(input_error([&] { MappedFile{folder.path()}; }),
+    EXPECT_EQ(refusal<InputError>([&] { MappedFile{folder.path()}; }),
               path + ": found something that is not a file");
 }
 

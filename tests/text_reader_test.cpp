@@ -1,5 +1,6 @@
+#include "base/error.h"
 #include "io/text_reader.h"
-#include "support/error_message.h"
+#include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +82,7 @@ TEST(TextReader, RefusesWhatIsNotTheNumberWanted)
 {
     const auto refusal = [](std::string_view text, auto member) {
         TextReader reader = reader_at(text);
-        return input_error([&] { (reader.*member)("the id"); });
+        return refusal<InputError>([&] { (reader.*member)("the id"); });
     };
     const auto of_32_bits = [](const std::string& word) {
         return "f.txt: line 1: found '" + word +
@@ -107,7 +108,7 @@ TEST(TextReader, CountsCommentsAmongTheLines)
 {
     TextReader reader = reader_over("# a\n\n# b\r\nx\n");
     ASSERT_TRUE(reader.next_record());
-    EXPECT_EQ(input_error([&] { reader.fail("sentence"); }), "f.txt: line 4: sentence");
+    EXPECT_EQ(refusal<InputError>([&] { reader.fail("sentence"); }), "f.txt: line 4: sentence");
 }
 
 TEST(Printable, CutsBetweenCharactersAndReplacesControls)

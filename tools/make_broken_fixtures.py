@@ -326,8 +326,9 @@ def rich_model():
                     [(1.5, 2.5, 900), (3.25, 4.0, -1)]),
               image(7, "K\u00f6ln \u5bfa 7.png", 3, (2.0, 0.0, 0.0, 0.0), (1.0, 2.0, 3.0)),
               image(100000, "c.jpg", 12, (0.6, 0.0, 0.8, 0.0), (1e-17, 0.0, 5e6),
-                    [(10.0, 20.0, 18446744073709551614 - 2 ** 64)])]
-    points = [point(900, (0.1, 1 / 3, -2e-7), [(100000, 0), (7, 3), (40, 0), (7, 4)], (0, 128, 255)),
+                    [(10.0, 20.0, -2)])]
+    seen_twice_by_7 = [(100000, 0), (7, 3), (40, 0), (7, 4)]
+    points = [point(900, (0.1, 1 / 3, -2e-7), seen_twice_by_7, (0, 128, 255)),
               point(2, (1e6 + 0.1, 5e-324, 4.6e6), [(40, 1)], (255, 255, 255), -1.0),
               point(18446744073709551614, (1.0, 2.0, 3.0), [], (1, 2, 3), 0.0)]
     return cameras, images, points
@@ -346,7 +347,8 @@ def text_by_hand(files):
     comments between, blanks at ends of lines, no line feed at the end of the file."""
     files = dict(files)
     files["cameras.txt"] = "\ufeff" + files["cameras.txt"].replace("640 480", "640\t+480 ")
-    files["points3D.txt"] = "\n  # a comment\n" + files["points3D.txt"].replace("\n2 ", "\n\n#\n2  ")
+    points = files["points3D.txt"].replace("\n2 ", "\n\n#\n2  ")
+    files["points3D.txt"] = "\n  # a comment\n" + points
     return {name: text.rstrip("\n").replace("\n", "\r\n") for name, text in files.items()}
 
 
