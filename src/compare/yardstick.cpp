@@ -84,7 +84,10 @@ void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Yar
     const double model_size = points.diagonal().norm();
     const bool same_scale =
         mesh_size <= kMaxScaleRatio * model_size && model_size <= kMaxScaleRatio * mesh_size;
-    if (whole.intersects(points) && same_scale) return;
+    // Points of a flat scene span no box: what lies a diagonal beside them still belongs to them.
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(model_size);
+    const bool same_place = whole.intersects(Box(points.min() - margin, points.max() + margin));
+    if (same_place && same_scale) return;
     throw InputError(fmt::format(
         "{}: the mesh lies in another frame than the model: it spans {}, but "
         "most points of the model lie in {}",

@@ -1,0 +1,84 @@
+#include "compare/compare.h"
+#include "support/measured_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace vcarve {
+namespace {
+
+using testing::cube;
+using testing::torus;
+
+Comparison comparison_of(const TriMesh& mesh)
+{
+    const Scene scene = testing::scene_above_square(11, testing::high_centers());
+    const Yardstick yardstick = make_yardstick(scene, nullptr, testing::few_samples());
+    return compare_mesh({"a.ply", mesh}, yardstick);
+}
+
+TEST(Comparison, CountsWhatTheMeshIsMadeOf)
+{
+    const Comparison comparison = comparison_of(cube());
+    EXPECT_EQ(comparison.name, "a.ply");
+    EXPECT_EQ(comparison.size.vertices, 8);
+    EXPECT_EQ(comparison.size.faces, 12);
+    EXPECT_DOUBLE_EQ(comparison.size.area, 6.0);
+    EXPECT_EQ(comparison.size.components, 1);
+    EXPECT_EQ(comparison.size.boundary_edges, 0);
+    EXPECT_EQ(comparison.genus, 0);
+    EXPECT_FALSE(comparison.truth.has_value());
+}
+
+TEST(Comparison, ReportsAFlippedFace)
+{
+    TriMesh mesh = cube();
+    std::swap(mesh.faces[0][1], mesh.faces[0][2]);
+    const Comparison comparison = comparison_of(mesh);
+    EXPECT_EQ(comparison.size.orientation_faults, 3);
+    EXPECT_FALSE(comparison.genus.has_value());
+}
+
+TEST(Comparison, ReportsAMeshTurnedInsideOut)
+{
+    // Nothing is wrong with the edges, but no view sees the upper side from its front any more.
+    TriMesh open = cube();
+    open.faces.erase(open.faces.begin(), open.faces.begin() + 2);
+    const Comparison right = comparison_of(testing::moved(open, {0.0, 0.0, -1.0}));
+    const Comparison wrong =
+        comparison_of(testing::flipped(testing::moved(cube(), {0.0, 0.0, -1.0})));
+    EXPECT_EQ(wrong.size.orientation_faults, 0);
+    // The views within the square's outline see its top and no side.
+    EXPECT_NEAR(right.evidence.unsupported_area, 0.8, 1e-3);
+    EXPECT_EQ(wrong.evidence.unsupported_area, 1.0);
+}
+
+TEST(Genus, OfATorusIsOne)
+{
+    EXPECT_EQ(genus(check_mesh(torus(8))), 1);
+}
+
+TEST(Genus, AddsUpOverPieces)
+{
+    const TriMesh far_torus = testing::moved(torus(8), {9.0, 0.0, 0.0});
+    EXPECT_EQ(genus(check_mesh(testing::together(torus(8), far_torus))), 2);
+    EXPECT_EQ(genus(check_mesh(testing::together(far_torus, cube()))), 1);
+}
+
+TEST(Genus, IsNoneWhereTheSurfaceIsOpen)
+{
+    EXPECT_FALSE(genus(check_mesh(testing::square())).has_value());
+}
+
+TEST(Genus, IsNoneWhereTwoCubesShareAVertex)
+{
+    TriMesh mesh = testing::together(cube(), testing::moved(cube(), {1.0, 1.0, 1.0}));
+    for (Face& face : mesh.faces) {
+        for (std::uint32_t& vertex : face) {
+            if (vertex == 8) vertex = 7;
+        }
+    }
+    EXPECT_FALSE(genus(check_mesh(mesh)).has_value());
+}
+
+} // namespace
+} // namespace vcarve

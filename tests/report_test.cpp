@@ -1,0 +1,135 @@
+#include "compare/report.h"
+#include "support/measured_scenes.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+namespace vcarve {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+/// A square seen by all views, measured against itself.
+Yardstick square_yardstick()
+{
+    const NamedMesh truth{"gt.ply", testing::square()};
+    const Scene scene = testing::scene_above_square(11, testing::high_centers());
+    return make_yardstick(scene, &truth, testing::few_samples());
+}
+
+Yardstick without_truth()
+{
+    const Scene scene = testing::scene_above_square(11, testing::high_centers());
+    return make_yardstick(scene, nullptr, testing::few_samples());
+}
+
+std::vector<Comparison> two_meshes()
+{
+    Comparison a;
+    a.name = "a.ply";
+    a.size = {.vertices = 12, .faces = 20, .components = 2, .boundary_edges = 3, .area = 1.5};
+    a.evidence = {.hidden_sights = 0.25,
+                  .missed_points = 0.5,
+                  .unsupported_area = 0.125,
+                  .median_distance = 2.0};
+    Comparison b = a;
+    b.name = "longer_name.ply";
+    b.genus = 3;
+    return {a, b};
+}
+
+TEST(ComparisonTable, HasAColumnAMesh)
+{
+    const std::string table = comparison_table(two_meshes(), without_truth());
+    EXPECT_THAT(table, StartsWith("|                            |  a.ply | longer_name.ply |\n"
+                                  "|----------------------------|-------:|----------------:|\n"
+                                  "| vertices                   |     12 |              12 |\n"
+                                  "| faces                      |     20 |              20 |\n"
+                                  "| area                       |    1.5 |             1.5 |\n"
+                                  "| components                 |      2 |               2 |\n"
+                                  "| boundary edges             |      3 |               3 |\n"
+                                  "| non-manifold edges         |      0 |               0 |\n"
+                                  "| non-manifold vertices      |      0 |               0 |\n"
+                                  "| orientation faults         |      0 |               0 |\n"
+                                  "| degenerate faces           |      0 |               0 |\n"
+                                  "| unreferenced vertices      |      0 |               0 |\n"
+                                  "| genus                      |   open |               3 |\n"
+                                  "| hidden sights              | 0.2500 |          0.2500 |\n"
+                                  "| missed points              | 0.5000 |          0.5000 |\n"
+                                  "| unsupported area           | 0.1250 |          0.1250 |\n"
+                                  "| median distance [spacings] | 2.0000 |          2.0000 |\n"
+                                  "\n"));
+}
+
+TEST(ComparisonTable, SaysWhatTheFiguresMean)
+{
+    const std::string plain = comparison_table(two_meshes(), without_truth());
+    EXPECT_THAT(plain, HasSubstr("\nMeasured against 121 points with at least 2 views and 4 views; "
+                                 "spacing of a point = distance to its 6th nearest point.\n"));
+    EXPECT_THAT(plain,
+                HasSubstr("\nmissed points: share of points farther than 3 spacings from the "
+                          "mesh.\n"));
+    EXPECT_THAT(plain, Not(HasSubstr("truth")));
+    const std::string full = comparison_table(two_meshes(), square_yardstick());
+    EXPECT_THAT(full, HasSubstr("\ntruth: 20400 samples by area of what at least 3 views see "));
+    EXPECT_THAT(full, HasSubstr("\nblocked: share of the truth's samples whose line "));
+}
+
+TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
+{
+    const Yardstick yardstick = square_yardstick();
+    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, yardstick)};
+    const std::string table = comparison_table(one, yardstick);
+    for (const char* row : {"| F 0.25 %                   |   1.0000 |\n",
+                            "| precision 0.5 %            |   1.0000 |\n",
+                            "| recall 1 %                 |   1.0000 |\n",
+                            "| mean accuracy [%]          |   0.0000 |\n",
+                            "| mean completeness [%]      |   0.0000 |\n",
+                            "| blocked                    |   0.0000 |\n"}) {
+        EXPECT_THAT(table, HasSubstr(row));
+    }
+}
+
+TEST(ComparisonJson, HoldsTheFiguresOfEveryMesh)
+{
+    const auto report = nlohmann::json::parse(comparison_json(two_meshes(), without_truth()));
+    EXPECT_EQ(report["options"],
+              nlohmann::json::parse(R"({"samples": 20000, "seed": 1, "spacings": 3.0})"));
+    EXPECT_EQ(report["model"]["points"], 121);
+    EXPECT_EQ(report["model"]["views"], 4);
+    EXPECT_EQ(report["model"]["sights"], 484);
+    EXPECT_TRUE(report["truth"].is_null());
+    ASSERT_EQ(report["meshes"].size(), 2U);
+    EXPECT_EQ(report["meshes"][1], nlohmann::json::parse(R"({
+        "name": "longer_name.ply",
+        "size": {"vertices": 12, "faces": 20, "area": 1.5, "components": 2, "boundary_edges": 3,
+                 "nonmanifold_edges": 0, "nonmanifold_vertices": 0, "orientation_faults": 0,
+                 "degenerate_faces": 0, "unreferenced_vertices": 0, "genus": 3},
+        "views": {"hidden_sights": 0.25, "missed_points": 0.5, "unsupported_area": 0.125,
+                  "median_distance": 2.0}})"));
+    EXPECT_TRUE(report["meshes"][0]["size"]["genus"].is_null());
+}
+
+TEST(ComparisonJson, HoldsTheTruth)
+{
+    const Yardstick yardstick = square_yardstick();
+    std::vector<Comparison> meshes = two_meshes();
+    meshes[0].truth = TruthFigures{.agreements = {{{0.0025, 0.5, 1.0, 0.75}, {}, {}}},
+                                   .mean_accuracy = 0.1,
+                                   .mean_completeness = 0.2,
+                                   .blocked = 0.3};
+    const auto report = nlohmann::json::parse(comparison_json(meshes, yardstick));
+    EXPECT_EQ(report["truth"]["samples"], 20400);
+    EXPECT_EQ(report["truth"]["seen_share"], 1.0);
+    const auto& truth = report["meshes"][0]["truth"];
+    EXPECT_EQ(truth["agreement"][0], nlohmann::json::parse(R"(
+        {"tolerance": 0.0025, "f": 0.75, "precision": 0.5, "recall": 1.0})"));
+    EXPECT_EQ(truth["mean_accuracy"], 0.1);
+    EXPECT_EQ(truth["mean_completeness"], 0.2);
+    EXPECT_EQ(truth["blocked"], 0.3);
+}
+
+} // namespace
+} // namespace vcarve
