@@ -80,7 +80,7 @@ TEST(TextReader, ReadsNumbersThatAreNotFinite)
 
 TEST(TextReader, RefusesWhatIsNotTheNumberWanted)
 {
-    const auto refusal = [](std::string_view text, auto member) {
+    const auto said_of = [](std::string_view text, auto member) {
         TextReader reader = reader_at(text);
         return refusal<InputError>([&] { (reader.*member)("the id"); });
     };
@@ -89,18 +89,18 @@ TEST(TextReader, RefusesWhatIsNotTheNumberWanted)
                "' where the id, a whole number of 32 bits, should stand";
     };
     for (const char* word : {"-1", "4294967296", "1.0", "1x", "+", "++1", "+-1", "x"}) {
-        EXPECT_EQ(refusal(word, &TextReader::read_uint32), of_32_bits(word));
+        EXPECT_EQ(said_of(word, &TextReader::read_uint32), of_32_bits(word));
     }
     for (const char* word : {"1,5", "1e999", "1e-999", "+-1", "1.2.3", "--1", "0x1p3"}) {
-        EXPECT_EQ(refusal(word, &TextReader::read_double), std::string("f.txt: line 1: found '") +
+        EXPECT_EQ(said_of(word, &TextReader::read_double), std::string("f.txt: line 1: found '") +
                                                                word +
                                                                "' where the id, a number, should "
                                                                "stand");
     }
     EXPECT_EQ(
-        refusal("256", &TextReader::read_uint8),
+        said_of("256", &TextReader::read_uint8),
         "f.txt: line 1: found '256' where the id, a whole number from 0 to 255, should stand");
-    EXPECT_EQ(refusal(" ", &TextReader::read_double),
+    EXPECT_EQ(said_of(" ", &TextReader::read_double),
               "f.txt: line 1: the line ends where the id should stand");
 }
 
