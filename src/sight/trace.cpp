@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -139,6 +140,24 @@ double sight_weight(std::size_t views, double views_sigma)
     return 1.0 - std::exp(-0.5 * ratio * ratio);
 }
 
+/// The weight of a sight by the views of its point, for every number of views that occurs. Full
+/// weight is what the median point gets, so that a model of two-view points is not all doubt.
+std::vector<double> sight_weights(const Tracks& tracks, double views_sigma)
+{
+    std::vector<std::size_t> views;
+    for (std::size_t point = 0; point < tracks.size(); ++point) {
+        views.push_back(tracks[point].size());
+    }
+    const auto middle = views.begin() + static_cast<std::ptrdiff_t>(views.size() / 2);
+    std::nth_element(views.begin(), middle, views.end());
+    const double full = sight_weight(*middle, views_sigma);
+    std::vector<double> weights(*std::max_element(views.begin(), views.end()) + 1);
+    for (std::size_t n = 0; n < weights.size(); ++n) {
+        weights[n] = sight_weight(n, views_sigma) / full;
+    }
+    return weights;
+}
+
 } // namespace
 
 Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage)
@@ -166,10 +185,11 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
     votes.network.excesses.assign(cells.cells.size(), 0);
     votes.cell_of_view.assign(scene.views.size(), kInfinite);
     const double sigma = options.softness * short_edge_length(cells);
+    const std::vector<double> weights = sight_weights(scene.tracks, options.views_sigma);
 
     for_each_vertex(cells, stage, [&](Index vertex) {
         const auto track = scene.tracks[vertex];
-        const Voter voter(cells, votes, sight_weight(track.size(), options.views_sigma), sigma);
+        const Voter voter(cells, votes, weights[track.size()], sigma);
         SightWalk outward(cells, vertex);
         SightWalk inward(cells, vertex);
         for (const std::uint32_t view : track) {

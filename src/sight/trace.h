@@ -10,7 +10,7 @@ namespace vcarve {
 
 /// How much a sight says, and how far behind its point.
 struct TraceOptions {
-    double views_sigma = 3.0;
+    double views_sigma = 1.5;
     double softness = 0.5;
     double sink_depth = 0.0;
 
@@ -21,8 +21,8 @@ struct TraceOptions {
             views_sigma,
             {.name = "views-sigma",
              .unit = "views",
-             .help = "A sight weighs 1 - exp(-n^2 / 2 s^2) for a point of n views; 0 gives every "
-                     "sight full weight."});
+             .help = "A sight weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
+                     "median point; 0 gives every sight the same weight."});
         options.number(softness,
                        {.name = "softness",
                         .unit = "x short edge",
