@@ -27,7 +27,7 @@ struct CleanupCounts {
     std::int64_t split_edges = 0;
     std::int64_t split_vertices = 0;
     std::int64_t removed_components = 0;
-    std::int64_t removed_vertices = 0; ///< unreferenced ones
+    std::int64_t removed_vertices = 0; ///< of no face that is left
     std::int64_t filled_holes = 0;
 };
 
@@ -37,7 +37,13 @@ struct CleanSurface {
 };
 
 /// A manifold, consistently oriented surface without unreferenced vertices from any consistently
-/// oriented triangle soup with shared vertices. See cleanup.cpp for the steps.
+/// oriented triangle soup with shared vertices. In this order: edges and vertices that are not
+/// manifold are taken apart (split_nonmanifold.h), small pieces removed, the largest never, small
+/// holes of the rest filled (fill_holes.h; the outer rim of an open piece is no hole), unreferenced
+/// vertices dropped. Vertices and faces that stay keep their order, colours and points travel
+/// along, and every vertex gets the area-weighted mean of its faces' normals (zero where none of
+/// them has an area). What this does not do: move a vertex, turn a face round, join pieces, or
+/// remove self-intersections.
 CleanSurface clean_surface(const TriMesh& mesh, const CleanupOptions& options);
 
 } // namespace vcarve
