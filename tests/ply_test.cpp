@@ -2,6 +2,8 @@
 #include "io/ply.h"
 #include "support/temporary_folder.h"
 
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -197,6 +199,24 @@ TEST(WritePly, AgreesWithAnIndependentReader)
     }
 }
 
+TEST(WritePly, IsReadByOpenMesh)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh = two_triangles();
+    mesh.colors = {{0, 1, 2}, {255, 254, 253}, {9, 8, 7}, {128, 0, 128}};
+    for (const bool ascii : {false, true}) {
+        write_ply(folder / "out.ply", mesh, {.ascii = ascii, .comments = {"made by a test"}});
+        OpenMesh::TriMesh_ArrayKernelT<> back;
+        back.request_vertex_colors();
+        OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexColor);
+        ASSERT_TRUE(OpenMesh::IO::read_mesh(back, (folder / "out.ply").string(), options));
+        ASSERT_EQ(back.n_vertices(), 4U);
+        EXPECT_EQ(back.n_faces(), 2U);
+        EXPECT_EQ(back.point(OpenMesh::VertexHandle(3)), OpenMesh::Vec3f(-2.5F, 1e-7F, 12.0F));
+        EXPECT_EQ(back.color(OpenMesh::VertexHandle(1)), OpenMesh::Vec3uc(255, 254, 253));
+    }
+}
+
 TEST(WritePly, LeavesOutWhatTheMeshDoesNotHave)
 {
     const TemporaryFolder folder;
@@ -335,11 +355,11 @@ TEST(ReadPly, RefusesWhatIsNoFile)
 {
     const TemporaryFolder folder;
     EXPECT_EQ(refusal<InputError>([&] { read_ply(folder / "no.ply"); }),
-              (folder / "no.ply").string() + ": cannot be opened");
+              (folder / "no.ply").string() + ": the file does not exist");
     EXPECT_EQ(refusal<InputError>([&] { read_ply(folder.path()); }),
-              folder.path().string() + ": is a folder, expected a PLY file");
+              folder.path().string() + ": found something that is not a file");
     EXPECT_EQ(refusal<InputError>([&] { read_ply("/dev/zero"); }),
-              "/dev/zero: is not a regular file");
+              "/dev/zero: found something that is not a file");
 }
 
 TEST(ReadPly, RefusesABrokenHeader)

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "io/mapped_file.h"
 #include "io/ply.h"
 #include "io/ply_header.h"
 
@@ -9,7 +10,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
 namespace vcarve {
 namespace {
@@ -315,29 +315,14 @@ class SurfaceReader {
     TriMesh mesh_;
 };
 
-std::string load(const std::filesystem::path& path)
-{
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) {
-        throw InputError(fmt::format("{}: is a folder, expected a PLY file", path.string()));
-    }
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw InputError(fmt::format("{}: cannot be opened", path.string()));
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) throw InputError(fmt::format("{}: is not a regular file", path.string()));
-    std::string bytes(size, '\0');
-    in.read(bytes.data(), static_cast<std::streamsize>(size));
-    if (!in) throw InputError(fmt::format("{}: cannot be read to its end", path.string()));
-    return bytes;
-}
-
 } // namespace
 
 TriMesh read_ply(const std::filesystem::path& path)
 {
-    const std::string bytes = load(path);
+    const MappedFile file(path);
+    const std::string_view bytes(file.bytes().data(), file.bytes().size());
     const PlyHeader header = parse_ply_header(bytes, path);
-    const std::string_view body = std::string_view(bytes).substr(header.size_bytes);
+    const std::string_view body = bytes.substr(header.size_bytes);
     if (header.encoding == PlyEncoding::ascii) {
         return SurfaceReader(header, TextBody(body), path).read();
     }
