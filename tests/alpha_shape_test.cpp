@@ -1,0 +1,100 @@
+#include "label/alpha_shape.h"
+#include "label/circumsphere.h"
+#include "support/random_cells.h"
+#include "tetra/triangulate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+/// Whether every point is a corner of an inside cell and one flood fill reaches all inside cells.
+bool is_whole(const TetMesh& cells, const Labels& labels)
+{
+    std::set<Index> corners;
+    std::vector<Index> open;
+    std::set<Index> reached;
+    for (Index cell = 0; cell < labels.size(); ++cell) {
+        if (labels[cell] == Label::outside) continue;
+        corners.insert(cells.cells[cell].vertices.begin(), cells.cells[cell].vertices.end());
+        if (open.empty()) open.push_back(cell);
+    }
+    while (!open.empty()) {
+        const Index cell = open.back();
+        open.pop_back();
+        if (!reached.insert(cell).second) continue;
+        for (const Index neighbor : cells.cells[cell].neighbors) {
+            if (labels[neighbor] == Label::inside) open.push_back(neighbor);
+        }
+    }
+    const auto inside = static_cast<std::size_t>(std::ranges::count(labels, Label::inside));
+    return corners.size() == cells.positions.size() && reached.size() == inside;
+}
+
+TEST(AlphaShape, TakesCellsWithSmallCircumspheres)
+{
+    const TetMesh cells = triangulate(testing::random_points(40, 2));
+    const Labels labels = alpha_shape(cells, 0.3);
+    for (Index cell = 0; cell < labels.size(); ++cell) {
+        EXPECT_EQ(labels[cell] == Label::inside, circumsphere(cells, cell).radius <= 0.3);
+    }
+    EXPECT_GT(std::ranges::count(labels, Label::inside), 0);
+}
+
+TEST(AlphaShape, OfInfinityIsTheConvexHull)
+{
+    const TetMesh cells = triangulate(testing::random_points(40, 2));
+    const Labels labels = alpha_shape(cells, std::numeric_limits<double>::infinity());
+    for (Index cell = 0; cell < labels.size(); ++cell) {
+        EXPECT_EQ(labels[cell] == Label::outside, cells.cells[cell].is_infinite());
+    }
+}
+
+TEST(SmallestWholeAlpha, IsTheFirstOfAllRadiiThatMakesAWholeShape)
+{
+    for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
+        const TetMesh cells = triangulate(testing::random_points(30, seed));
+        std::set<double> radii;
+        for (Index cell = 0; cell < cells.cells.size(); ++cell) {
+            if (!cells.cells[cell].is_infinite()) radii.insert(circumsphere(cells, cell).radius);
+        }
+        const auto first = std::ranges::find_if(
+            radii, [&](double radius) { return is_whole(cells, alpha_shape(cells, radius)); });
+        ASSERT_NE(first, radii.end());
+        EXPECT_EQ(smallest_whole_alpha(cells), *first);
+    }
+}
+
+TEST(SmallestWholeAlpha, ReachesAcrossTheGapBetweenTwoPieces)
+{
+    // Two clouds of the size 1, 9 apart: a cell across the gap has a sphere wider than half of it.
+    Scene scene = testing::random_points(30, 7);
+    const Scene other = testing::random_points(30, 8);
+    EXPECT_LT(smallest_whole_alpha(triangulate(scene)), 4.5);
+    for (std::size_t i = 0; i < 30; ++i) {
+        scene.positions.push_back(other.positions[i] + Eigen::Vector3d(10, 0, 0));
+        scene.colors.push_back({});
+        scene.errors_px.push_back(0.0);
+        scene.point_ids.push_back(31 + i);
+        scene.tracks.push_back(std::vector<std::uint32_t>{});
+    }
+    EXPECT_GT(smallest_whole_alpha(triangulate(scene)), 4.5);
+}
+
+TEST(SmallestWholeAlpha, GrowsWithTheScene)
+{
+    Scene scene = testing::random_points(30, 3);
+    const double alpha = smallest_whole_alpha(triangulate(scene));
+    for (Eigen::Vector3d& position : scene.positions) {
+        position *= 1024.0;
+    }
+    EXPECT_DOUBLE_EQ(smallest_whole_alpha(triangulate(scene)), 1024.0 * alpha);
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "model/scene.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace vcarve::testing {
+
+/// Random points in the unit cube, without views.
+Scene random_points(std::size_t count, std::uint64_t seed);
+
+} // namespace vcarve::testing
