@@ -1,16 +1,28 @@
 #include "surface/support.h"
 
 #include "base/parallel.h"
+#include "surface/edge_table.h"
+#include "surface/union_find.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <numeric>
 
 namespace vcarve {
 
 namespace {
 
 using Eigen::Vector3d;
+using Flags = std::vector<std::uint8_t>; ///< one a face
+
+template <typename Claim>
+Flags flags_where(const std::vector<Face>& faces, const Claim& claim)
+{
+    Flags flags(faces.size());
+    parallel_for(flags.size(), [&](std::size_t i) { flags[i] = claim(i) ? 1 : 0; });
+    return flags;
+}
 
 /// Whether some view of a point's track sees it from the side the unit normal points to.
 bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Vector3d& normal)
@@ -44,24 +56,22 @@ double longest_edge(const TriMesh& mesh, const Face& face)
         {edge_length(mesh, face, 0), edge_length(mesh, face, 1), edge_length(mesh, face, 2)});
 }
 
-/// Per vertex the median length of the edges of its faces.
-std::vector<double> local_edge_lengths(const TriMesh& mesh, const std::vector<Face>& faces)
+/// Per vertex the median length of the edges of the measured faces around it; 0 where there are
+/// none.
+std::vector<double> local_edge_lengths(const TriMesh& mesh, const Flags& measured)
 {
     std::vector<std::size_t> begins(mesh.positions.size() + 1, 0);
-    for (const Face& face : faces) {
-        for (const std::uint32_t vertex : face) {
-            begins[vertex] += 3;
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+        for (const std::uint32_t vertex : mesh.faces[i]) {
+            begins[vertex] += measured[i] != 0 ? 3 : 0;
         }
     }
-    for (std::size_t sum = 0; std::size_t & begin : begins) {
-        sum += begin;
-        begin = sum;
-    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
     std::vector<double> lengths(begins.back());
-    for (const Face& face : faces) {
-        for (const std::uint32_t vertex : face) {
-            for (int corner = 0; corner < 3; ++corner) {
-                lengths[--begins[vertex]] = edge_length(mesh, face, corner);
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+        for (const std::uint32_t vertex : mesh.faces[i]) {
+            for (int corner = 0; corner < 3 && measured[i] != 0; ++corner) {
+                lengths[--begins[vertex]] = edge_length(mesh, mesh.faces[i], corner);
             }
         }
     }
@@ -78,33 +88,71 @@ std::vector<double> local_edge_lengths(const TriMesh& mesh, const std::vector<Fa
     return medians;
 }
 
-template <typename IsKept>
-std::vector<Face> faces_where(const std::vector<Face>& faces, const IsKept& is_kept)
+/// Which faces are no longer than their surroundings allow. What is around is measured on the faces
+/// in `measured`.
+Flags fitting_faces(const TriMesh& mesh, const Flags& measured, double max_edge)
 {
-    std::vector<std::uint8_t> kept(faces.size());
-    parallel_for(faces.size(), [&](std::size_t i) { kept[i] = is_kept(faces[i]) ? 1 : 0; });
-    std::vector<Face> result;
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-        if (kept[i] != 0) {
-            result.push_back(faces[i]);
+    const std::vector<double> local = local_edge_lengths(mesh, measured);
+    return flags_where(mesh.faces, [&](std::size_t i) {
+        const Face& face = mesh.faces[i];
+        const double scale = std::max({local[face[0]], local[face[1]], local[face[2]]});
+        return max_edge == 0.0 || longest_edge(mesh, face) <= max_edge * scale;
+    });
+}
+
+/// Per face, the patch of unseen faces it belongs to, as the least of their numbers.
+UnionFind unseen_patches(const TriMesh& mesh, const Flags& seen)
+{
+    UnionFind patches(mesh.faces.size());
+    const EdgeTable edges = gather_edges(mesh.faces, mesh.positions.size());
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        std::uint32_t first = kNoPoint;
+        for (const Side side : edges[edge]) {
+            const std::uint32_t face = side / 3;
+            if (seen[face] != 0) {
+                continue;
+            }
+            if (first != kNoPoint) {
+                patches.join(first, face);
+            }
+            first = face;
         }
     }
-    return result;
+    return patches;
+}
+
+/// Which unseen faces lie in patches of few faces, all of which fit: gaps in a surface that was
+/// seen around them.
+Flags small_patches(const TriMesh& mesh, const Flags& seen, const Flags& fitting,
+                    int max_patch_faces)
+{
+    UnionFind patches = unseen_patches(mesh, seen);
+    std::vector<std::int64_t> sizes(mesh.faces.size(), 0);
+    for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+        constexpr std::int64_t kTooMany = std::int64_t{1} << 40;
+        sizes[patches.root(face)] += fitting[face] != 0 ? 1 : kTooMany;
+    }
+    Flags small(mesh.faces.size(), 0);
+    for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+        small[face] = seen[face] == 0 && sizes[patches.root(face)] <= max_patch_faces ? 1 : 0;
+    }
+    return small;
 }
 
 } // namespace
 
 TriMesh keep_supported(const TriMesh& mesh, const Scene& scene, const SupportOptions& options)
 {
+    const Flags seen = flags_where(
+        mesh.faces, [&](std::size_t i) { return is_face_seen(mesh, scene, mesh.faces[i]); });
+    const Flags fitting = fitting_faces(mesh, seen, options.max_edge);
+    const Flags patched = small_patches(mesh, seen, fitting, options.max_patch_faces);
     TriMesh result = mesh;
-    result.faces =
-        faces_where(mesh.faces, [&](const Face& face) { return is_face_seen(mesh, scene, face); });
-    if (options.max_edge > 0.0) {
-        const std::vector<double> local = local_edge_lengths(mesh, result.faces);
-        result.faces = faces_where(result.faces, [&](const Face& face) {
-            const double scale = std::max({local[face[0]], local[face[1]], local[face[2]]});
-            return longest_edge(mesh, face) <= options.max_edge * scale;
-        });
+    result.faces.clear();
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+        if ((seen[i] != 0 && fitting[i] != 0) || patched[i] != 0) {
+            result.faces.push_back(mesh.faces[i]);
+        }
     }
     return result;
 }
