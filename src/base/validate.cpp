@@ -1,0 +1,61 @@
+#include "base/validate.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+namespace vcarve {
+
+namespace {
+
+std::string accepted(const char* kind, const OptionInfo& info)
+{
+    std::string text = kind;
+    if (info.min > -kUnlimited && info.max < kUnlimited) {
+        text += fmt::format(" from {} to {}", info.min, info.max);
+    } else if (info.min > -kUnlimited) {
+        text += fmt::format(", {} or more", info.min);
+    } else if (info.max < kUnlimited) {
+        text += fmt::format(", {} or less", info.max);
+    }
+    return info.unit[0] == '\0' ? text : fmt::format("{} ({})", text, info.unit);
+}
+
+} // namespace
+
+std::string accepted_numbers(const OptionInfo& info)
+{
+    return accepted("a number", info);
+}
+
+std::string accepted_counts(const OptionInfo& info)
+{
+    return accepted("a whole number", info);
+}
+
+void RangeCheck::number(double& value, const OptionInfo& info)
+{
+    // Not a number fails both comparisons.
+    if (!(value >= info.min && value <= info.max)) {
+        throw UsageError(
+            fmt::format("--{} takes {}, not {}", info.name, accepted_numbers(info), value));
+    }
+}
+
+void RangeCheck::count(int& value, const OptionInfo& info)
+{
+    if (value < info.min || value > info.max) {
+        throw UsageError(
+            fmt::format("--{} takes {}, not {}", info.name, accepted_counts(info), value));
+    }
+}
+
+void RangeCheck::choice(int& value, std::span<const char* const> names, const OptionInfo& info)
+{
+    if (value < 0 || static_cast<std::size_t>(value) >= names.size()) {
+        throw UsageError(fmt::format("--{} has {} choices, and {} is none of them", info.name,
+                                     names.size(), value));
+    }
+}
+
+} // namespace vcarve

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "base/options.h"
+
+#include <string>
+
+namespace vcarve {
+
+/// What an option accepts, to be read after "takes": "a whole number, 2 or more (views)", "a number
+/// from 0 to 180 (deg)".
+std::string accepted_numbers(const OptionInfo& info);
+std::string accepted_counts(const OptionInfo& info);
+
+/// Throws UsageError where a value of an option lies outside its range, or is not a number.
+class RangeCheck final : public OptionVisitor {
+  public:
+    void stage(const char*) override {}
+    void number(double& value, const OptionInfo& info) override;
+    void count(int& value, const OptionInfo& info) override;
+    void flag(bool&, const OptionInfo&) override {}
+    void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
+};
+
+/// Throws UsageError naming the first option of `options` whose value is not accepted. For those
+/// who fill an options struct themselves; the command line has been checked when it was parsed.
+template <typename Options>
+void validate(Options options)
+{
+    RangeCheck check;
+    options.visit(check);
+}
+
+} // namespace vcarve

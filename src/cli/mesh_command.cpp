@@ -1,0 +1,265 @@
+#include "cli/mesh_command.h"
+
+#include "base/error.h"
+#include "base/threads.h"
+#include "base/version.h"
+#include "cli/console_log.h"
+#include "cli/interruption.h"
+#include "cli/run_record.h"
+#include "io/find_model.h"
+#include "io/output_file.h"
+#include "io/ply.h"
+#include "pipeline.h"
+#include "surface/check.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the program writes, whatever it computes.
+struct OutputOptions {
+    bool ascii = false;
+    bool quiet = false;
+
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Output");
+        options.flag(ascii, {.name = "ascii", .help = "Write numbers as text instead of binary."});
+        options.flag(quiet, {.name = "quiet", .help = "Print nothing but errors."});
+    }
+};
+
+/// Everything the command line says.
+struct MeshArguments {
+    fs::path model;
+    fs::path out;
+    fs::path stats; ///< empty: none
+    OutputOptions output;
+    Options options;
+};
+
+std::vector<OptionRow> mesh_options()
+{
+    Options options;
+    OutputOptions output;
+    bool off = false;
+    OptionTable table;
+    options.visit(table);
+    output.visit(table);
+    table.path({.name = "stats",
+                .help =
+                    "Write options, counts, seconds and peak memory of every stage, and a check "
+                    "of the mesh, as JSON."});
+    table.stage("Help");
+    table.flag(off, {.name = "help", .help = "Print this and exit."});
+    table.flag(off,
+               {.name = "version", .help = "Print versions of the program and its libraries."});
+    return table.rows();
+}
+
+std::string lower_extension(const fs::path& path)
+{
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char letter) { return std::tolower(letter); });
+    return extension;
+}
+
+void check_operands(const std::vector<std::string>& operands)
+{
+    if (operands.size() != 2) {
+        std::string got = operands.empty() ? "nothing" : operands[0];
+        for (std::size_t i = 1; i < operands.size(); ++i) {
+            got += " " + operands[i];
+        }
+        throw UsageError(fmt::format("expected a model and an output, MODEL OUT.ply, but got {}{}",
+                                     got, kSeeHelp));
+    }
+    const fs::path model = operands[0];
+    const fs::path out = operands[1];
+    if (lower_extension(model) == ".ply" && lower_extension(out) != ".ply") {
+        throw UsageError(fmt::format("the model comes first and the output second: colmap-vcarve "
+                                     "{} {}",
+                                     out.string(), model.string()));
+    }
+    // What is a folder is refused as such later.
+    const bool is_file_name = out.has_filename() && !fs::is_directory(out);
+    if (is_file_name && lower_extension(out) != ".ply") {
+        throw UsageError(fmt::format("cannot write {}: surfaces are written as PLY, so name it {}",
+                                     out.string(),
+                                     fs::path(out).replace_extension("ply").string()));
+    }
+}
+
+MeshArguments read_arguments(const ParsedArguments& given)
+{
+    MeshArguments arguments;
+    OptionReader reader(given);
+    arguments.options.visit(reader);
+    arguments.output.visit(reader);
+    check_operands(given.operands);
+    arguments.model = given.operands[0];
+    arguments.out = given.operands[1];
+    if (given.has("stats")) arguments.stats = given.options.at("stats");
+    if (given.has("stats") && arguments.stats == arguments.out) {
+        throw UsageError(fmt::format("--stats and the surface cannot both be written to {}",
+                                     arguments.out.string()));
+    }
+    return arguments;
+}
+
+/// What cannot be written is said before the work starts, and nothing half written stays behind.
+void prepare_outputs(const MeshArguments& arguments, bool with_stats)
+{
+    std::vector<fs::path> outputs = {arguments.out};
+    if (with_stats) outputs.push_back(arguments.stats);
+    std::vector<fs::path> parts;
+    for (const fs::path& output : outputs) {
+        parts.push_back(part_path(output));
+    }
+    end_cleanly_on_signals(parts);
+    for (const fs::path& output : outputs) {
+        require_writable(output);
+    }
+}
+
+struct Input {
+    Scene scene;
+    Json record;
+};
+
+Input read_input(const fs::path& model, Log& log)
+{
+    Stage stage(log, "read");
+    const FoundModel found = find_model(model);
+    for (const std::string& note : found.notes) {
+        log.note(note);
+    }
+    Input input;
+    input.scene = read_colmap_model(found.folder, found.format);
+    const Counts counts = {{"points", input.scene.num_points()},
+                           {"views", input.scene.views.size()},
+                           {"sights", input.scene.num_sights()}};
+    input.record = {{"model", model.string()},
+                    {"folder", found.folder.string()},
+                    {"format", found.format == ModelFormat::binary ? "binary" : "text"}};
+    for (const auto& [name, count] : counts) {
+        input.record[name] = count;
+    }
+    stage.end(counts);
+    return input;
+}
+
+void write_surface(const MeshArguments& arguments, const TriMesh& mesh, Log& log)
+{
+    Stage stage(log, "write");
+    const PlyFormat format = {.ascii = arguments.output.ascii,
+                              .comments = {"made by colmap-vcarve " + versions().program}};
+    write_ply(arguments.out, mesh, format);
+    stage.end({{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}});
+}
+
+Json check_json(const MeshCheck& check)
+{
+    return {{"vertices", check.vertices},
+            {"faces", check.faces},
+            {"degenerate_faces", check.degenerate_faces},
+            {"components", check.components},
+            {"boundary_edges", check.boundary_edges},
+            {"nonmanifold_edges", check.nonmanifold_edges},
+            {"nonmanifold_vertices", check.nonmanifold_vertices},
+            {"orientation_faults", check.orientation_faults},
+            {"unreferenced_vertices", check.unreferenced_vertices},
+            {"euler_characteristic", check.euler_characteristic},
+            {"area", check.area},
+            {"is_closed", check.is_closed()},
+            {"is_manifold", check.is_manifold()}};
+}
+
+Json program_json()
+{
+    const Versions build = versions();
+    return {{"name", "colmap-vcarve"},    {"version", build.program},   {"git", build.git},
+            {"build", build.build_type},  {"compiler", build.compiler}, {"CGAL", build.cgal},
+            {"OpenMesh", build.openmesh}, {"Eigen", build.eigen},       {"oneTBB", build.tbb}};
+}
+
+void write_stats(const fs::path& path, const Json& record)
+{
+    OutputFile file(path);
+    file.stream() << json_text(record);
+    file.commit();
+}
+
+/// From the model to the file; tells the record what went in and came out.
+void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& record)
+{
+    Input input = read_input(arguments.model, log);
+    record["input"] = input.record;
+    const TriMesh mesh = reconstruct(std::move(input.scene), arguments.options, log).mesh;
+    write_surface(arguments, mesh, log);
+    if (!arguments.stats.empty()) record["mesh"] = check_json(check_mesh(mesh));
+}
+
+} // namespace
+
+Manual mesh_manual()
+{
+    Manual manual;
+    manual.command = "colmap-vcarve";
+    manual.operands = "MODEL OUT.ply";
+    manual.summary = "Turns a COLMAP model into a surface.";
+    manual.examples = {
+        {"colmap-vcarve sparse/0 mesh.ply", "the default: a surface from any sparse model"},
+        {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
+    };
+    manual.operand_meanings = {
+        {"MODEL", "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
+                  "models, or a workspace that holds sparse/0 or sparse."},
+        {"OUT.ply", "The surface: triangles with colours and normals, in the model's frame."},
+    };
+    manual.footnotes = {
+        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
+    };
+    manual.options = mesh_options();
+    return manual;
+}
+
+void run_mesh(const ParsedArguments& given)
+{
+    const MeshArguments arguments = read_arguments(given);
+    const bool with_stats = given.has("stats");
+    prepare_outputs(arguments, with_stats);
+
+    // The passes ask for as many threads as they are told; no more than this limit ever run.
+    const int wanted = arguments.options.threads;
+    const int threads = wanted == 0 ? available_threads() : wanted;
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    const std::unique_ptr<Log> shown = arguments.output.quiet
+                                           ? std::make_unique<Log>()
+                                           : std::make_unique<ConsoleLog>(console_on_stderr());
+    StageRecorder log(*shown);
+    Json record = {{"program", program_json()},
+                   {"input", nullptr},
+                   {"output", arguments.out.string()},
+                   {"options", options_json(arguments.options)},
+                   {"threads_used", threads}};
+    record["options"].update(options_json(arguments.output));
+
+    make_surface(arguments, log, record);
+    if (with_stats) {
+        record.update(log.json());
+        write_stats(arguments.stats, record);
+    }
+}
+
+} // namespace vcarve::cli

@@ -1,0 +1,183 @@
+#include "cli/option_parser.h"
+
+#include "base/error.h"
+#include "base/validate.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <numeric>
+
+namespace vcarve::cli {
+
+namespace {
+
+/// Levenshtein's distance: letters inserted, removed or replaced to get from one word to the other.
+std::size_t edit_distance(std::string_view from, std::string_view to)
+{
+    std::vector<std::size_t> row(to.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < to.size(); ++j) {
+            const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
+        }
+    }
+    return row.back();
+}
+
+/// CLI11 splits the words; what the values mean is decided by OptionReader.
+void declare(CLI::App& app, const std::vector<OptionRow>& rows)
+{
+    app.set_help_flag();
+    app.allow_extras();
+    for (const OptionRow& row : rows) {
+        const std::string name = row.name == "help" ? "-h,--help" : "--" + row.name;
+        CLI::Option* option = row.kind == OptionKind::flag
+                                  ? app.add_flag(name)->disable_flag_override()
+                                  : app.add_option(name);
+        option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    }
+}
+
+[[noreturn]] void refuse_unknown(std::string_view word, const std::vector<OptionRow>& rows)
+{
+    const std::string_view name = word.substr(0, word.find('='));
+    std::vector<std::string> names;
+    for (const OptionRow& row : rows) {
+        names.push_back("--" + row.name);
+    }
+    const std::string near = nearest(name, names);
+    throw UsageError(near.empty() ? fmt::format("there is no option {}{}", name, kSeeHelp)
+                                  : fmt::format("there is no option {}; did you mean {}?{}", name,
+                                                near, kSeeHelp));
+}
+
+/// What CLI11 could not place are the operands: a positional of CLI11's would take a path "[a,b]"
+/// for a list. Before the first "--" nothing among them may look like an option.
+std::vector<std::string> operands_of(const std::vector<std::string>& words,
+                                     const std::vector<OptionRow>& rows)
+{
+    std::vector<std::string> operands;
+    bool after_dashes = false;
+    for (const std::string& word : words) {
+        const bool is_mark = word == "--" && !after_dashes;
+        const bool is_option = word.size() > 1 && word.front() == '-' && !after_dashes;
+        after_dashes = after_dashes || is_mark;
+        if (is_option && !is_mark) refuse_unknown(word, rows);
+        if (!is_mark) operands.push_back(word);
+    }
+    return operands;
+}
+
+/// CLI11 found a value missing or given to a flag; its message begins with the option's name.
+[[noreturn]] void refuse_mismatch(std::string_view message, const std::vector<OptionRow>& rows)
+{
+    std::string_view name = message.substr(0, message.find_first_of(": "));
+    name.remove_prefix(std::min(name.find_first_not_of('-'), name.size()));
+    const OptionRow* row = find_row(rows, name);
+    if (row == nullptr) throw UsageError(fmt::format("{}{}", message, kSeeHelp));
+    if (row->kind == OptionKind::flag) throw UsageError(fmt::format("--{} takes no value", name));
+    throw UsageError(fmt::format("--{} needs a value: {}", name, row->accepted));
+}
+
+template <typename Number>
+bool parse(std::string_view text, Number& number)
+{
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+[[noreturn]] void refuse_value(const char* name, std::string_view accepted, std::string_view text)
+{
+    throw UsageError(fmt::format("--{} takes {}, not \"{}\"", name, accepted, text));
+}
+
+} // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates)
+{
+    const std::string_view name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+    std::string best;
+    std::size_t fewest = word.size() / 3 + 1;
+    for (const std::string& candidate : candidates) {
+        if (name.size() >= 3 && candidate.find(name) != std::string::npos) return candidate;
+        const std::size_t changes = edit_distance(word, candidate);
+        if (changes < fewest) {
+            fewest = changes;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+void OptionReader::number(double& value, const OptionInfo& info)
+{
+    const auto given = given_.find(info.name);
+    if (given == given_.end()) return;
+    if (!parse(given->second, value)) {
+        refuse_value(info.name, accepted_numbers(info), given->second);
+    }
+    RangeCheck().number(value, info);
+}
+
+void OptionReader::count(int& value, const OptionInfo& info)
+{
+    const auto given = given_.find(info.name);
+    if (given == given_.end()) return;
+    if (!parse(given->second, value)) {
+        refuse_value(info.name, accepted_counts(info), given->second);
+    }
+    RangeCheck().count(value, info);
+}
+
+void OptionReader::flag(bool& value, const OptionInfo& info)
+{
+    const std::string switched = (value ? "no-" : "") + std::string(info.name);
+    if (given_.count(switched) != 0) value = !value;
+}
+
+void OptionReader::choice(int& value, std::span<const char* const> names, const OptionInfo& info)
+{
+    const auto given = given_.find(info.name);
+    if (given == given_.end()) return;
+    const auto name = std::ranges::find(names, given->second);
+    if (name == names.end()) {
+        refuse_value(info.name, fmt::format("{}", fmt::join(names, " or ")), given->second);
+    }
+    value = static_cast<int>(name - names.begin());
+}
+
+ParsedArguments parse_arguments(std::span<const std::string> arguments,
+                                const std::vector<OptionRow>& rows)
+{
+    CLI::App app;
+    declare(app, rows);
+    try {
+        // CLI11 takes the words last to first.
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    } catch (const CLI::ArgumentMismatch& error) {
+        refuse_mismatch(error.what(), rows);
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(fmt::format("{}{}", error.what(), kSeeHelp));
+    }
+    ParsedArguments parsed;
+    parsed.operands = operands_of(app.remaining(), rows);
+    for (const OptionRow& row : rows) {
+        const CLI::Option* option = app.get_option("--" + row.name);
+        if (option->count() == 0) continue;
+        const bool is_flag = row.kind == OptionKind::flag;
+        parsed.options[row.name] = is_flag ? "" : option->results().back();
+    }
+    return parsed;
+}
+
+} // namespace vcarve::cli

@@ -1,0 +1,89 @@
+#include "cli/run_record.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve::cli {
+
+namespace {
+
+Json counts_json(const Counts& counts)
+{
+    Json json = Json::object();
+    std::string before;
+    for (const auto& [name, count] : counts) {
+        json[name == "of" ? "of " + before : name] = count;
+        before = name;
+    }
+    return json;
+}
+
+/// To the microsecond, which is more than such a figure is good for.
+double rounded(double seconds)
+{
+    return std::round(seconds * 1e6) / 1e6;
+}
+
+Json usage_json(const ProcessUsage& began, std::int64_t peak)
+{
+    const ProcessUsage now = process_usage();
+    return {{"seconds", rounded(now.seconds - began.seconds)},
+            {"cpu_seconds", rounded(now.cpu_seconds - began.cpu_seconds)},
+            {"peak_memory_bytes", peak}};
+}
+
+} // namespace
+
+StageRecorder::StageRecorder(Log& shown) : shown_(shown), run_began_(process_usage()) {}
+
+void StageRecorder::stage_begins(std::string_view name)
+{
+    // What was held between two stages counts for the whole run, though for no stage.
+    largest_peak_ = std::max(largest_peak_, peak_memory_bytes());
+    peak_is_per_stage_ = reset_peak_memory() && peak_is_per_stage_;
+    stage_began_ = process_usage();
+    shown_.stage_begins(name);
+}
+
+void StageRecorder::stage_ends(std::string_view name, const Counts& counts)
+{
+    const std::int64_t peak = peak_memory_bytes();
+    largest_peak_ = std::max(largest_peak_, peak);
+    Json stage = {{"name", name}};
+    stage.update(usage_json(stage_began_, peak));
+    stage["counts"] = counts_json(counts);
+    stages_.push_back(stage);
+    shown_.stage_ends(name, counts);
+}
+
+void StageRecorder::note(std::string_view sentence)
+{
+    notes_.push_back(sentence);
+    shown_.note(sentence);
+}
+
+Json StageRecorder::json() const
+{
+    const std::int64_t peak = std::max(largest_peak_, peak_memory_bytes());
+    return {{"stages", stages_},
+            {"notes", notes_},
+            {"total", usage_json(run_began_, peak)},
+            {"peak_memory_is_per_stage", peak_is_per_stage_}};
+}
+
+void OptionRecorder::number(double& value, const OptionInfo& info)
+{
+    // JSON has no infinity.
+    if (std::isfinite(value)) {
+        json_[info.name] = value;
+    } else {
+        json_[info.name] = value > 0.0 ? "inf" : "-inf";
+    }
+}
+
+std::string json_text(const Json& json)
+{
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace vcarve::cli

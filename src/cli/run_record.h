@@ -1,0 +1,69 @@
+#pragma once
+
+#include "base/log.h"
+#include "base/options.h"
+#include "cli/process_usage.h"
+
+#include <nlohmann/json.hpp>
+
+namespace vcarve::cli {
+
+/// A record keeps its order, so that it can be read from top to bottom.
+using Json = nlohmann::ordered_json;
+
+/// Hands everything on to another log, and keeps seconds, CPU seconds, peak memory and counts of
+/// every stage. One stage runs at a time.
+class StageRecorder final : public Log {
+  public:
+    explicit StageRecorder(Log& shown);
+
+    void stage_begins(std::string_view name) override;
+    void stage_progresses(double share) override { shown_.stage_progresses(share); }
+    void stage_ends(std::string_view name, const Counts& counts) override;
+    void note(std::string_view sentence) override;
+
+    /// {"stages": [{"name", "seconds", "cpu_seconds", "peak_memory_bytes", "counts"}], "notes": [],
+    /// "total": {"seconds", "cpu_seconds", "peak_memory_bytes"}, "peak_memory_is_per_stage"}.
+    /// A count named "of" is recorded as "of NAME" of the one before it.
+    Json json() const;
+
+  private:
+    Log& shown_;
+    ProcessUsage run_began_;
+    ProcessUsage stage_began_;
+    bool peak_is_per_stage_ = true;
+    std::int64_t largest_peak_ = 0;
+    Json stages_ = Json::array();
+    Json notes_ = Json::array();
+};
+
+/// Records options by the names they have on the command line.
+class OptionRecorder final : public OptionVisitor {
+  public:
+    void stage(const char*) override {}
+    void number(double& value, const OptionInfo& info) override;
+    void count(int& value, const OptionInfo& info) override { json_[info.name] = value; }
+    void flag(bool& value, const OptionInfo& info) override { json_[info.name] = value; }
+    void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override
+    {
+        json_[info.name] = names[static_cast<std::size_t>(value)];
+    }
+    const Json& json() const { return json_; }
+
+  private:
+    Json json_ = Json::object();
+};
+
+/// Every option of an options struct with its value: {"max-hole": 12, "method": "cut"}.
+template <typename Options>
+Json options_json(Options options)
+{
+    OptionRecorder recorder;
+    options.visit(recorder);
+    return recorder.json();
+}
+
+/// As text to be written to a file; bytes that are not UTF-8 (in paths) are replaced.
+std::string json_text(const Json& json);
+
+} // namespace vcarve::cli

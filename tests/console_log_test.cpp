@@ -1,0 +1,122 @@
+#include "cli/console_log.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace vcarve::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::Not;
+
+/// A file that is gone with the test, in the place of a terminal.
+class Screen {
+  public:
+    std::FILE* stream() const { return file_.get(); }
+    std::string text() const
+    {
+        std::fflush(file_.get());
+        std::string text(static_cast<std::size_t>(std::ftell(file_.get())), '\0');
+        EXPECT_EQ(::pread(::fileno(file_.get()), text.data(), text.size(), 0),
+                  static_cast<ssize_t>(text.size()));
+        return text;
+    }
+
+  private:
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{std::tmpfile(), std::fclose};
+};
+
+TEST(CountsText, SaysTheResultThenWhatItWasTakenFromThenTheRest)
+{
+    EXPECT_EQ(
+        counts_text({{"points", 24310}, {"of", 25784}, {"few views", 1102}, {"high error", 372}}),
+        "24,310 of 25,784 points (1,102 few views, 372 high error)");
+    EXPECT_EQ(counts_text({{"cells", 1000000}, {"vertices", 999}}),
+              "1,000,000 cells (999 vertices)");
+    EXPECT_EQ(counts_text({{"faces", 0}}), "0 faces");
+    EXPECT_EQ(counts_text({}), "");
+}
+
+TEST(CountsText, LeavesOutWhatDidNotHappen)
+{
+    EXPECT_EQ(counts_text({{"points", 12}, {"of", 12}, {"few views", 0}}), "12 of 12 points");
+}
+
+TEST(CountsText, GroupsDigitsOfNegativeNumbers)
+{
+    EXPECT_EQ(counts_text({{"a", -123}, {"b", -1234}, {"c", -123456}}),
+              "-123 a (-1,234 b, -123,456 c)");
+}
+
+TEST(StageLine, KeepsNamesAndSecondsInColumns)
+{
+    EXPECT_EQ(
+        stage_line("filter", {{"points", 12}}, 0.034),
+        "filter       12 points                                                          0.03 s");
+}
+
+TEST(BarLine, FillsWithTheShareDone)
+{
+    EXPECT_EQ(bar_line("cut", 0.5, 12.3, 80),
+              "cut          [===============>              ]  50 %  12 s");
+    EXPECT_EQ(bar_line("cut", 1.0, 0.0, 80),
+              "cut          [==============================] 100 %  0 s");
+}
+
+TEST(BarLine, ShowsOnlySecondsWhileNothingIsKnownOfTheShare)
+{
+    EXPECT_EQ(bar_line("triangulate", 0.0, 3.0, 80), "triangulate  3 s");
+}
+
+TEST(BarLine, IsNarrowerThanTheTerminal)
+{
+    EXPECT_EQ(bar_line("cut", 0.5, 12.3, 20), "cut          [=====");
+}
+
+TEST(ConsoleLog, PrintsALineAStageAndANoteAtOnce)
+{
+    const Screen screen;
+    {
+        ConsoleLog log({.stream = screen.stream()});
+        Stage stage(log, "read");
+        log.note("images.txt is ignored.");
+        stage.end({{"points", 12}});
+    }
+    EXPECT_THAT(screen.text(),
+                MatchesRegex("note: images.txt is ignored.\nread +12 points +[0-9.]+ s\n"));
+}
+
+TEST(ConsoleLog, ShowsNoBarWhereTheStreamIsNoTerminal)
+{
+    const Screen screen;
+    {
+        ConsoleLog log({.stream = screen.stream(), .live = false, .bar_after_s = 0});
+        Stage stage(log, "cut");
+        stage.progress(0.5);
+        stage.end({{"cells", 1}});
+    }
+    EXPECT_THAT(screen.text(), Not(HasSubstr("\r")));
+}
+
+TEST(ConsoleLog, MovesABarWhileAStageRunsAndRemovesItForTheLine)
+{
+    const Screen screen;
+    ConsoleLog log({.stream = screen.stream(), .live = true, .bar_after_s = 0});
+    Stage stage(log, "cut");
+    stage.progress(0.5);
+    while (screen.text().find(" 50 %") == std::string::npos) {
+        std::this_thread::yield();
+    }
+    stage.end({{"cells", 1}});
+    EXPECT_THAT(screen.text(),
+                MatchesRegex("(.|\n)* 50 %  0 s\r\x1b\\[Kcut +1 cells +[0-9.]+ s\n"));
+}
+
+} // namespace
+} // namespace vcarve::cli

@@ -1,0 +1,89 @@
+#include "cli/manual.h"
+#include "support/sample_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vcarve::cli {
+namespace {
+
+Manual sample_manual()
+{
+    SampleOptions options;
+    OptionTable table;
+    options.visit(table);
+    Manual manual;
+    manual.command = "carve";
+    manual.operands = "IN OUT";
+    manual.summary = "Carves.";
+    manual.examples = {{"carve a b", "the default"}, {"carve --closed a b", "closed"}};
+    manual.operand_meanings = {{"IN", "What is read."}};
+    manual.footnotes = {{"Exit code", "0 done."}};
+    manual.options = table.rows();
+    return manual;
+}
+
+TEST(HelpText, GroupsOptionsByStageWithUnitDefaultAndRange)
+{
+    EXPECT_EQ(help_text(sample_manual()), R"(Carves.
+
+Usage: carve IN OUT [options]
+
+Examples:
+  carve a b           the default
+  carve --closed a b  closed
+
+  IN                          What is read.
+
+First:
+  --angle <deg>               Drop smaller angles; 0 keeps all. [default 10.5, 0 to 180]
+  --spacing <number>          A pure number. [default 2]
+
+Second:
+  --min-views <views>         Drop points. [default 3, 2 or more]
+  --closed                    Keep a|b.
+  --no-smooth                 Leave corners as they are.
+  --shape round|flat          What it is like. [default round]
+
+  Exit code                   0 done.
+)");
+}
+
+TEST(HelpText, BreaksLongTextsBetweenWordsAndLongTermsAfterThem)
+{
+    Manual manual = sample_manual();
+    manual.options.resize(1);
+    manual.options[0].name = "a-name-that-leaves-no-room-beside";
+    manual.options[0].help = "Words that go on and on, further than the hundredth column of a line "
+                             "that anybody wants to read.";
+    EXPECT_THAT(help_text(manual),
+                testing::HasSubstr(
+                    "  --a-name-that-leaves-no-room-beside <deg>\n"
+                    "                              Words that go on and on, further than the "
+                    "hundredth column of a line\n"
+                    "                              that anybody wants to read. "
+                    "[default 10.5, 0 to 180]\n"));
+}
+
+TEST(MarkdownOptions, IsATableAStage)
+{
+    EXPECT_EQ(markdown_options(sample_manual()), R"(**First**
+
+| option | default | range | meaning |
+|---|---|---|---|
+| `--angle <deg>` | 10.5 | 0 to 180 | Drop smaller angles; 0 keeps all. |
+| `--spacing <number>` | 2 |  | A pure number. |
+
+**Second**
+
+| option | default | range | meaning |
+|---|---|---|---|
+| `--min-views <views>` | 3 | 2 or more | Drop points. |
+| `--closed` | off |  | Keep a\|b. |
+| `--no-smooth` | on |  | Leave corners as they are. |
+| `--shape round\|flat` | round |  | What it is like. |
+)");
+}
+
+} // namespace
+} // namespace vcarve::cli

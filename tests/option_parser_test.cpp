@@ -1,0 +1,157 @@
+#include "base/error.h"
+#include "cli/option_parser.h"
+#include "support/sample_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vcarve::cli {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<OptionRow> sample_rows()
+{
+    SampleOptions options;
+    OptionTable table;
+    options.visit(table);
+    table.path({.name = "stats", .help = "A file."});
+    return table.rows();
+}
+
+ParsedArguments parsed(const std::vector<std::string>& words)
+{
+    return parse_arguments(words, sample_rows());
+}
+
+SampleOptions options_of(const std::vector<std::string>& words)
+{
+    const ParsedArguments given = parsed(words);
+    SampleOptions options;
+    OptionReader reader(given);
+    options.visit(reader);
+    return options;
+}
+
+std::string refusal_of(const std::vector<std::string>& words)
+{
+    try {
+        options_of(words);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(OptionParser, TellsOperandsFromOptionsInAnyOrder)
+{
+    const ParsedArguments given =
+        parsed({"in", "--angle", "7", "--closed", "out", "--stats=s.json"});
+    EXPECT_THAT(given.operands, ElementsAre("in", "out"));
+    EXPECT_EQ(given.options, (std::map<std::string, std::string>{
+                                 {"angle", "7"}, {"closed", ""}, {"stats", "s.json"}}));
+}
+
+TEST(OptionParser, TakesEverythingAfterTwoDashesForOperands)
+{
+    const ParsedArguments given = parsed({"--closed", "--", "--angle", "-x"});
+    EXPECT_THAT(given.operands, ElementsAre("--angle", "-x"));
+    EXPECT_EQ(given.options, (std::map<std::string, std::string>{{"closed", ""}}));
+}
+
+TEST(OptionParser, KeepsOperandsAsTheyAre)
+{
+    EXPECT_THAT(parsed({"{}", "", "a b,c", "[1,2]"}).operands,
+                ElementsAre("{}", "", "a b,c", "[1,2]"));
+}
+
+TEST(OptionReader, WritesWhatWasGivenAndLeavesTheRest)
+{
+    const SampleOptions options =
+        options_of({"--angle=12.25", "--min-views", "5", "--closed", "--shape", "flat"});
+    EXPECT_EQ(options.angle_deg, 12.25);
+    EXPECT_EQ(options.spacing, 2.0);
+    EXPECT_EQ(options.views, 5);
+    EXPECT_TRUE(options.closed);
+    EXPECT_TRUE(options.smooth);
+    EXPECT_EQ(options.shape, Shape::flat);
+}
+
+TEST(OptionReader, SwitchesOffAFlagThatIsOnByDefault)
+{
+    EXPECT_FALSE(options_of({"--no-smooth"}).smooth);
+    EXPECT_EQ(refusal_of({"--smooth"}), "there is no option --smooth; did you mean --no-smooth? "
+                                        "(see colmap-vcarve --help)");
+}
+
+TEST(OptionReader, LetsTheLastOfTwoValuesCount)
+{
+    EXPECT_EQ(options_of({"--min-views", "5", "--min-views=7"}).views, 7);
+}
+
+TEST(OptionReader, TakesInfinityWhereARangeIsOpen)
+{
+    EXPECT_EQ(options_of({"--spacing", "inf"}).spacing, kUnlimited);
+    EXPECT_EQ(refusal_of({"--angle", "inf"}),
+              "--angle takes a number from 0 to 180 (deg), not inf");
+}
+
+TEST(OptionReader, RefusesValuesOfTheWrongKind)
+{
+    EXPECT_EQ(refusal_of({"--angle", "wide"}),
+              "--angle takes a number from 0 to 180 (deg), not \"wide\"");
+    EXPECT_EQ(refusal_of({"--angle", "1,5"}),
+              "--angle takes a number from 0 to 180 (deg), not \"1,5\"");
+    EXPECT_EQ(refusal_of({"--min-views", "3.5"}),
+              "--min-views takes a whole number, 2 or more (views), not \"3.5\"");
+    EXPECT_EQ(refusal_of({"--min-views", "99999999999"}),
+              "--min-views takes a whole number, 2 or more (views), not \"99999999999\"");
+    EXPECT_EQ(refusal_of({"--spacing", "nan"}), "--spacing takes a number, 0 or more, not nan");
+    EXPECT_EQ(refusal_of({"--shape", "square"}), "--shape takes round or flat, not \"square\"");
+    EXPECT_EQ(refusal_of({"--angle="}), "--angle needs a value: a number from 0 to 180 (deg)");
+}
+
+TEST(OptionReader, RefusesValuesOutsideTheRange)
+{
+    EXPECT_EQ(refusal_of({"--angle", "-3"}), "--angle takes a number from 0 to 180 (deg), not -3");
+    EXPECT_EQ(refusal_of({"--min-views=1"}),
+              "--min-views takes a whole number, 2 or more (views), not 1");
+}
+
+TEST(OptionParser, RefusesAnOptionWithoutItsValue)
+{
+    EXPECT_EQ(refusal_of({"--min-views"}),
+              "--min-views needs a value: a whole number, 2 or more (views)");
+    EXPECT_EQ(refusal_of({"--shape"}), "--shape needs a value: round or flat");
+    EXPECT_EQ(refusal_of({"--stats"}), "--stats needs a value: a path");
+}
+
+TEST(OptionParser, RefusesAValueGivenToAFlag)
+{
+    EXPECT_EQ(refusal_of({"--closed=yes"}), "--closed takes no value");
+}
+
+TEST(OptionParser, NamesTheNearestOptionToOneItDoesNotKnow)
+{
+    EXPECT_EQ(refusal_of({"--min-vews=3"}), "there is no option --min-vews; did you mean "
+                                            "--min-views? (see colmap-vcarve --help)");
+    EXPECT_EQ(refusal_of({"in", "--frobnicate", "out"}),
+              "there is no option --frobnicate (see colmap-vcarve --help)");
+    EXPECT_EQ(refusal_of({"-x"}), "there is no option -x (see colmap-vcarve --help)");
+}
+
+TEST(Nearest, PrefersWhatTheWordIsAPartOf)
+{
+    EXPECT_EQ(nearest("--views", {"--view", "--min-views"}), "--min-views");
+    EXPECT_EQ(nearest("--min", {"--in", "--min-views"}), "--min-views");
+}
+
+TEST(Nearest, CountsInsertedRemovedAndReplacedLetters)
+{
+    EXPECT_EQ(nearest("--colsed", {"--closed", "--coloured"}), "--closed");
+    EXPECT_EQ(nearest("--quite", {"--quiet", "--ascii"}), "--quiet");
+    EXPECT_EQ(nearest("--ascii", {"--quiet", "--help"}), "");
+}
+
+} // namespace
+} // namespace vcarve::cli

@@ -1,0 +1,96 @@
+#include "cli/run_record.h"
+#include "support/sample_options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace vcarve::cli {
+namespace {
+
+TEST(OptionRecorder, RecordsEveryOptionUnderItsNameOnTheCommandLine)
+{
+    EXPECT_EQ(options_json(SampleOptions{.spacing = kUnlimited}).dump(),
+              R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,"smooth":true,)"
+              R"("shape":"round"})");
+}
+
+TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)
+{
+    Log nothing;
+    StageRecorder recorder(nothing);
+    Stage(recorder, "filter").end({{"points", 3}, {"of", 5}, {"few views", 2}});
+    recorder.note("a sentence");
+    Stage(recorder, "cut").end({{"cells", 7}});
+
+    const Json json = recorder.json();
+    ASSERT_EQ(json["stages"].size(), 2U);
+    EXPECT_EQ(json["stages"][0]["name"], "filter");
+    EXPECT_EQ(json["stages"][0]["counts"].dump(), R"({"points":3,"of points":5,"few views":2})");
+    EXPECT_EQ(json["stages"][1]["counts"].dump(), R"({"cells":7})");
+    EXPECT_EQ(json["notes"].dump(), R"(["a sentence"])");
+}
+
+TEST(StageRecorder, ChargesMemoryToTheStageThatHeldIt)
+{
+    if (!reset_peak_memory()) GTEST_SKIP() << "this system does not let the peak be reset";
+    constexpr std::int64_t kBytes = 64 << 20;
+    Log nothing;
+    StageRecorder recorder(nothing);
+    Stage large(recorder, "large");
+    {
+        const std::vector<char> memory(kBytes, '\1');
+        EXPECT_EQ(memory.back(), '\1');
+    }
+    large.end({});
+    Stage(recorder, "small").end({});
+
+    const Json json = recorder.json();
+    const std::int64_t at_large = json["stages"][0]["peak_memory_bytes"];
+    const std::int64_t at_small = json["stages"][1]["peak_memory_bytes"];
+    EXPECT_GT(at_large - at_small, kBytes / 2);
+    EXPECT_EQ(json["total"]["peak_memory_bytes"], at_large);
+    EXPECT_TRUE(json["peak_memory_is_per_stage"]);
+}
+
+TEST(StageRecorder, ChargesProcessorTimeToTheStageThatSpentIt)
+{
+    Log nothing;
+    StageRecorder recorder(nothing);
+    Stage busy(recorder, "busy");
+    const double began = process_usage().cpu_seconds;
+    while (process_usage().cpu_seconds < began + 0.02) {
+    }
+    busy.end({});
+    EXPECT_GE(recorder.json()["stages"][0]["cpu_seconds"], 0.02);
+}
+
+TEST(StageRecorder, HandsEverythingOn)
+{
+    struct Listener : Log {
+        std::string heard;
+        void stage_begins(std::string_view name) override { heard += "begin " + std::string(name); }
+        void stage_progresses(double share) override { heard += share == 0.5 ? ", half" : "?"; }
+        void stage_ends(std::string_view name, const Counts& counts) override
+        {
+            heard += ", end " + std::string(name) + " " + counts.at(0).first;
+        }
+        void note(std::string_view sentence) override { heard += ", " + std::string(sentence); }
+    } listener;
+    StageRecorder recorder(listener);
+    Stage stage(recorder, "cut");
+    stage.progress(0.5);
+    recorder.note("hm");
+    stage.end({{"cells", 1}});
+    EXPECT_EQ(listener.heard, "begin cut, half, hm, end cut cells");
+}
+
+TEST(JsonText, ReplacesBytesThatAreNotUtf8)
+{
+    EXPECT_EQ(json_text({{"path", "a\xff"}}), "{\n  \"path\": \"a\uFFFD\"\n}\n");
+}
+
+} // namespace
+} // namespace vcarve::cli
