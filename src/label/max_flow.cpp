@@ -36,7 +36,15 @@ constexpr std::uint8_t kNoParent = 4; ///< of roots and orphans
 constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
 constexpr std::int32_t kElsewhere = -1; ///< level of cells not in the run
 constexpr Index kRun = 16384;           ///< cells solved alone first: about 1 MB
-constexpr int kScansPerDrain = 256;     ///< enough to share drains, few enough to stay in the cache
+constexpr std::size_t kFetchAhead = 8;
+constexpr int kScansPerDrain = 256; ///< enough to share drains, few enough to stay in the cache
+
+void fetch([[maybe_unused]] const void* address)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#endif
+}
 
 /// What the solver keeps of a cell besides its residuals.
 struct Node {
@@ -172,6 +180,7 @@ class Forest {
 
     bool take_in(Index cell);
     void grow_from(Index cell);
+    void fetch_ahead(std::size_t at) const;
     void grow();
 
     Graph& graph_;
@@ -397,6 +406,20 @@ void Forest::grow_from(Index cell)
     }
 }
 
+/// Asks early for the memory that the next cells of growing_ need: half of the time of a large
+/// front is waiting for it.
+void Forest::fetch_ahead(std::size_t at) const
+{
+    if (at + 2 * kFetchAhead >= growing_.size()) return;
+    const Index far = growing_[at + 2 * kFetchAhead];
+    fetch(&graph_.cells[far].neighbors);
+    fetch(&nodes_[far]);
+    for (const Index beyond : graph_.cells[growing_[at + kFetchAhead]].neighbors) {
+        fetch(&nodes_[beyond]);
+        fetch(&graph_.residuals[beyond]);
+    }
+}
+
 /// Adds a level to the forest.
 void Forest::grow()
 {
@@ -406,7 +429,9 @@ void Forest::grow()
         nodes_[cell].waits = false;
     const std::int32_t level = depth_++;
     int scans = 0;
-    for (const Index cell : growing_) {
+    for (std::size_t k = 0; k < growing_.size(); ++k) {
+        fetch_ahead(k);
+        const Index cell = growing_[k];
         if (nodes_[cell].level == level) grow_from(cell);
         if (++scans % kScansPerDrain == 0) drain_all();
     }
