@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -63,8 +64,9 @@ std::vector<Row> evidence_rows()
 
 Row truth_row(std::string title, std::function<double(const TruthFigures&)> figure)
 {
-    return {std::move(title),
-            [figure](const Comparison& c) { return c.truth ? share(figure(*c.truth)) : "-"; }};
+    return {std::move(title), [figure = std::move(figure)](const Comparison& c) {
+                return c.truth ? share(figure(*c.truth)) : "-";
+            }};
 }
 
 std::vector<Row> truth_rows()
@@ -105,8 +107,8 @@ std::vector<std::string> definitions(const Yardstick& yardstick)
     };
     if (!yardstick.truth) return lines;
     lines.push_back(fmt::format("truth: {} samples by area of what at least 3 views see (nothing "
-                                "of the truth between, under "
-                                "80 degrees from the normal; {:.1f} % of its area), seed {}; "
+                                "of the truth between, under 80 degrees from the normal, wherever "
+                                "its image ends; {:.1f} % of its area), seed {}; "
                                 "diagonal = of their box = {:.6g}.",
                                 yardstick.truth->samples.size(),
                                 100.0 * yardstick.truth->seen_share, yardstick.options.seed,
@@ -115,10 +117,10 @@ std::vector<std::string> definitions(const Yardstick& yardstick)
         "precision: share of {} samples by area of the whole mesh within that part of the diagonal "
         "of the truth; recall: of the truth's samples, of the mesh; F: harmonic mean.",
         yardstick.options.samples));
-    lines.push_back(
+    lines.emplace_back(
         "accuracy, completeness: mean distance of the mesh's samples to the truth and back, "
         "in % of the diagonal.");
-    lines.push_back(
+    lines.emplace_back(
         "blocked: share of the truth's samples whose line to a view that sees them (one a "
         "sample, at random) meets the mesh farther than 1 % of the diagonal from the sample.");
     return lines;

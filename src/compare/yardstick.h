@@ -81,8 +81,8 @@ struct Yardstick {
 Yardstick make_yardstick(const Scene& model, const NamedMesh* truth, const CompareOptions& options);
 
 /// A mesh in the yardstick's frame. Throws InputError where it has no face with area, or where it
-/// evidently lies in another frame than the model: where its box lies more than a diagonal beside the
-/// box of the middle nine tenths of the points, or the two differ more than 50 times in size.
+/// evidently lies in another frame than the model: where its box lies more than a diagonal beside
+/// the box of the middle nine tenths of the points, or the two differ more than 50 times in size.
 MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick);
 
 } // namespace vcarve

@@ -9,7 +9,7 @@ namespace vcarve {
 
 Circumsphere circumsphere(const TetMesh& cells, Index cell)
 {
-    const Circumsphere none{Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()};
+    Circumsphere none{Eigen::Vector3d::Zero(), std::numeric_limits<double>::infinity()};
     if (cells.cells[cell].is_infinite()) return none;
     const std::array<Index, 4>& corners = cells.cells[cell].vertices;
     const Eigen::Vector3d& base = cells.positions[corners[0]];
