@@ -1,8 +1,11 @@
 #include "label/max_flow.h"
+#include "support/random_cells.h"
+#include "tetra/triangulate.h"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -96,6 +99,17 @@ Problem random_problem(const Kind& kind, std::mt19937& random)
     for (auto& residuals : problem.network.residuals)
         for (std::int32_t& value : residuals)
             value = is_arc(random) ? residual(random) : 0;
+    return problem;
+}
+
+/// Arcs and excesses at random on the cells of a Delaunay triangulation.
+Problem triangulated_problem(std::size_t points, const Kind& kind, std::mt19937& random)
+{
+    TetMesh cells = triangulate(testing::random_points(points, 11));
+    Kind counted = kind;
+    counted.cells = static_cast<Index>(cells.cells.size());
+    Problem problem = random_problem(counted, random);
+    problem.cells = std::move(cells);
     return problem;
 }
 
@@ -344,9 +358,35 @@ TEST(MinimumCut, AgreesWithBoykovKolmogorov)
     }
 }
 
+TEST(MinimumCut, AgreesWithBoykovKolmogorovOnATriangulation)
+{
+    std::mt19937 random(6);
+    const std::vector<Kind> kinds = {{0, 100, 300, 1.0, 0.9}, {0, 300, 900, 0.9, 0.05}};
+    for (const Kind& kind : kinds) {
+        const Problem problem = triangulated_problem(8000, kind, random);
+        ASSERT_GT(problem.cells.cells.size(), 3 * 16384U) << "several runs, to be merged";
+        const auto [flow, expected] = boost_cut(problem);
+        const Labels labels = cut(problem);
+        EXPECT_EQ(cut_value(problem, labels), flow);
+        EXPECT_TRUE(labels == expected);
+    }
+}
+
+TEST(MinimumCut, IsTheSameForOneAndForTwoThreads)
+{
+    std::mt19937 random(8);
+    const Problem problem = triangulated_problem(8000, {0, 100, 300, 1.0, 0.9}, random);
+    const auto cut_by = [&](int threads) {
+        return tbb::task_arena(threads).execute([&] { return cut(problem); });
+    };
+    const Labels labels = cut_by(1);
+    ASSERT_NE(std::count(labels.begin(), labels.end(), i), 0);
+    EXPECT_TRUE(cut_by(2) == labels);
+}
+
 TEST(MinimumCut, SolvesALongChain)
 {
-    constexpr std::size_t kCells = 20000;
+    constexpr std::size_t kCells = 200000;
     std::mt19937 random(3);
     std::uniform_int_distribution<std::int32_t> residual(5, 9);
     std::vector<std::int32_t> excesses(kCells, 0), forward(kCells - 1), backward(kCells - 1);
@@ -356,9 +396,9 @@ TEST(MinimumCut, SolvesALongChain)
         value = residual(random);
     excesses.front() = 100;
     excesses.back() = -100;
-    forward[12345] = 4;
+    forward[123456] = 4;
     Labels expected(kCells, i);
-    std::fill(expected.begin(), expected.begin() + 12346, o);
+    std::fill(expected.begin(), expected.begin() + 123457, o);
     EXPECT_EQ(cut(chain(std::move(excesses), forward, backward)), expected);
 }
 

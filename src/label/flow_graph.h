@@ -1,0 +1,125 @@
+#pragma once
+
+#include "model/tet_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+
+inline constexpr std::uint8_t kNoParent = 4; ///< of roots and orphans
+inline constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
+
+/// What the solver keeps of a cell besides its residuals.
+struct FlowNode {
+    std::int32_t level = 0; ///< 1 for roots, 0 for cells outside the forest
+    std::int32_t excess = 0;
+    Index next = kInfinite; ///< in a bucket
+    std::uint8_t mirrors = 0;
+    std::uint8_t parent = kNoParent; ///< slot towards the parent
+    bool waits = false;              ///< is in the front
+    bool drains = false;             ///< is in the bucket of cells to drain
+};
+static_assert(sizeof(FlowNode) == 16);
+
+/// A flow network while it is solved.
+struct FlowGraph {
+    const std::vector<Cell>& cells;
+    std::vector<std::array<std::int32_t, 4>> residuals;
+    std::vector<FlowNode> nodes;
+
+    Index neighbor(Index cell, int slot) const { return cells[cell].neighbors[slot]; }
+    int mirror(Index cell, int slot) const { return (nodes[cell].mirrors >> (2 * slot)) & 3; }
+
+    /// Of the arc that leaves `cell` by `slot`. Below 2^32: it and its reverse begin below 2^31.
+    std::uint32_t capacity_out(Index cell, int slot) const
+    {
+        return static_cast<std::uint32_t>(residuals[cell][slot]);
+    }
+
+    /// Of the arc that enters `cell` by `slot`.
+    std::uint32_t capacity_in(Index cell, int slot) const
+    {
+        return capacity_out(neighbor(cell, slot), mirror(cell, slot));
+    }
+
+    /// What a cell of the forest may take: a root its deficit, others as much as excess can count.
+    std::uint32_t room(Index cell) const
+    {
+        const auto excess = static_cast<std::uint32_t>(nodes[cell].excess);
+        return (nodes[cell].level == 1 ? 0U : static_cast<std::uint32_t>(kMost)) - excess;
+    }
+
+    /// Moves excess through the arc that leaves `cell` by `slot`.
+    void push(Index cell, int slot, std::uint32_t amount)
+    {
+        const Index beyond = neighbor(cell, slot);
+        std::int32_t& forward = residuals[cell][slot];
+        std::int32_t& reverse = residuals[beyond][mirror(cell, slot)];
+        forward = static_cast<std::int32_t>(static_cast<std::uint32_t>(forward) - amount);
+        reverse = static_cast<std::int32_t>(static_cast<std::uint32_t>(reverse) + amount);
+        nodes[cell].excess -= static_cast<std::int32_t>(amount);
+        nodes[beyond].excess += static_cast<std::int32_t>(amount);
+    }
+};
+
+/// Cells listed by level. A cell can be in one bucket at a time.
+class LevelBuckets {
+  public:
+    explicit LevelBuckets(std::vector<FlowNode>& nodes) : nodes_(nodes) {}
+
+    void add(Index cell, std::int32_t level)
+    {
+        const auto bucket = static_cast<std::size_t>(level);
+        if (firsts_.size() <= bucket) firsts_.resize(2 * bucket + 1, kInfinite);
+        nodes_[cell].next = std::exchange(firsts_[bucket], cell);
+        lowest_ = std::min(lowest_, level);
+        highest_ = std::max(highest_, level);
+    }
+
+    /// The lowest level with cells; kMost if there is none.
+    std::int32_t lowest()
+    {
+        while (lowest_ <= highest_ && first(lowest_) == kInfinite)
+            ++lowest_;
+        if (lowest_ > highest_) reset();
+        return lowest_;
+    }
+
+    /// The highest level with cells; 0 if there is none.
+    std::int32_t highest()
+    {
+        while (lowest_ <= highest_ && first(highest_) == kInfinite)
+            --highest_;
+        if (lowest_ > highest_) reset();
+        return highest_;
+    }
+
+    Index take(std::int32_t level)
+    {
+        const Index cell = first(level);
+        first(level) = nodes_[cell].next;
+        return cell;
+    }
+
+  private:
+    Index& first(std::int32_t level) { return firsts_[static_cast<std::size_t>(level)]; }
+
+    void reset()
+    {
+        lowest_ = kMost;
+        highest_ = 0;
+    }
+
+    std::vector<FlowNode>& nodes_;
+    std::vector<Index> firsts_;
+    std::int32_t lowest_ = kMost;
+    std::int32_t highest_ = 0;
+};
+
+} // namespace vcarve
