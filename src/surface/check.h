@@ -6,18 +6,18 @@
 
 namespace vcarve {
 
-/// What a mesh is made of and what is wrong with it. Counted on the faces as they are, so it works on any
-/// triangle soup with shared vertices. Degenerate faces (a vertex twice) are counted apart and take
-/// no part in the rest.
+/// What a mesh is made of and what is wrong with it. Counted on the faces as they are, so it works
+/// on any triangle soup with shared vertices. Degenerate faces (a vertex twice) are counted apart
+/// and take no part in the rest.
 struct MeshCheck {
     std::int64_t vertices = 0;
     std::int64_t faces = 0;
     std::int64_t degenerate_faces = 0;
-    std::int64_t components = 0;            ///< of faces connected through shared edges
-    std::int64_t boundary_edges = 0;        ///< edges of one face
-    std::int64_t nonmanifold_edges = 0;     ///< edges of three or more faces
-    std::int64_t nonmanifold_vertices = 0;  ///< vertices whose faces are not one fan or one disk
-    std::int64_t orientation_faults = 0;    ///< edges of two faces that both run along it the same way
+    std::int64_t components = 0;           ///< of faces connected through shared edges
+    std::int64_t boundary_edges = 0;       ///< edges of one face
+    std::int64_t nonmanifold_edges = 0;    ///< edges of three or more faces
+    std::int64_t nonmanifold_vertices = 0; ///< vertices whose faces are not one fan or one disk
+    std::int64_t orientation_faults = 0; ///< edges of two faces that both run along it the same way
     std::int64_t unreferenced_vertices = 0; ///< vertices of no face
     std::int64_t euler_characteristic = 0;  ///< referenced vertices - edges + faces
     double area = 0.0;                      ///< in squared scene units
