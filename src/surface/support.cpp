@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace vcarve {
@@ -88,16 +89,19 @@ std::vector<double> local_edge_lengths(const TriMesh& mesh, const Flags& measure
     return medians;
 }
 
-/// Which faces are no longer than their surroundings allow. What is around is measured on the faces
-/// in `measured`.
-Flags fitting_faces(const TriMesh& mesh, const Flags& measured, double max_edge)
+/// The longest edge of each face over the median edge around it, measured at its middle corner: not
+/// at the one that knows only the face itself, nor at the one in the densest place.
+std::vector<double> relative_sizes(const TriMesh& mesh, const Flags& measured)
 {
     const std::vector<double> local = local_edge_lengths(mesh, measured);
-    return flags_where(mesh.faces, [&](std::size_t i) {
+    std::vector<double> sizes(mesh.faces.size());
+    parallel_for(sizes.size(), [&](std::size_t i) {
         const Face& face = mesh.faces[i];
-        const double scale = std::max({local[face[0]], local[face[1]], local[face[2]]});
-        return max_edge == 0.0 || longest_edge(mesh, face) <= max_edge * scale;
+        std::array<double, 3> scales = {local[face[0]], local[face[1]], local[face[2]]};
+        std::sort(scales.begin(), scales.end());
+        sizes[i] = longest_edge(mesh, face) / scales[1];
     });
+    return sizes;
 }
 
 /// Per face, the patch of unseen faces it belongs to, as the least of their numbers.
@@ -121,22 +125,21 @@ UnionFind unseen_patches(const TriMesh& mesh, const Flags& seen)
     return patches;
 }
 
-/// Which unseen faces lie in patches of few faces, all of which fit: gaps in a surface that was
-/// seen around them.
-Flags small_patches(const TriMesh& mesh, const Flags& seen, const Flags& fitting,
-                    int max_patch_faces)
+/// Which unseen faces lie in patches of a few small faces: gaps in a surface seen around them.
+Flags gap_faces(const TriMesh& mesh, const Flags& seen, const std::vector<double>& sizes,
+                double max_edge)
 {
+    constexpr std::int64_t kMaxFaces = 20;
     UnionFind patches = unseen_patches(mesh, seen);
-    std::vector<std::int64_t> sizes(mesh.faces.size(), 0);
+    std::vector<std::int64_t> counts(mesh.faces.size(), 0);
     for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-        constexpr std::int64_t kTooMany = std::int64_t{1} << 40;
-        sizes[patches.root(face)] += fitting[face] != 0 ? 1 : kTooMany;
+        counts[patches.root(face)] += sizes[face] <= max_edge ? 1 : kMaxFaces + 1;
     }
-    Flags small(mesh.faces.size(), 0);
+    Flags gaps(mesh.faces.size(), 0);
     for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-        small[face] = seen[face] == 0 && sizes[patches.root(face)] <= max_patch_faces ? 1 : 0;
+        gaps[face] = seen[face] == 0 && counts[patches.root(face)] <= kMaxFaces ? 1 : 0;
     }
-    return small;
+    return gaps;
 }
 
 } // namespace
@@ -145,12 +148,13 @@ TriMesh keep_supported(const TriMesh& mesh, const Scene& scene, const SupportOpt
 {
     const Flags seen = flags_where(
         mesh.faces, [&](std::size_t i) { return is_face_seen(mesh, scene, mesh.faces[i]); });
-    const Flags fitting = fitting_faces(mesh, seen, options.max_edge);
-    const Flags patched = small_patches(mesh, seen, fitting, options.max_patch_faces);
+    const std::vector<double> sizes = relative_sizes(mesh, seen);
+    const Flags gaps = gap_faces(mesh, seen, sizes, options.max_gap_edge);
     TriMesh result = mesh;
     result.faces.clear();
     for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        if ((seen[i] != 0 && fitting[i] != 0) || patched[i] != 0) {
+        const bool fits = options.max_edge == 0.0 || sizes[i] <= options.max_edge;
+        if ((seen[i] != 0 && fits) || gaps[i] != 0) {
             result.faces.push_back(mesh.faces[i]);
         }
     }
