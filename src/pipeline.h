@@ -54,9 +54,11 @@ struct Options {
         support.visit(options);
         cleanup.visit(options);
         options.stage("Run");
-        options.count(
-            threads,
-            {.name = "threads", .unit = "threads", .help = "How many to use; 0 uses all."});
+        options.count(threads,
+                      {.name = "threads",
+                       .unit = "threads",
+                       .help = "How many to use; 0 uses all. The surface is the same for any.",
+                       .max = 1024});
     }
 };
 

@@ -171,9 +171,9 @@ TEST(Program, RefusesWrongOptionsInOneSentence)
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--min-vews", "3"}),
               "colmap-vcarve: there is no option --min-vews; did you mean --min-views?" + kSeeHelp);
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads"}),
-              "colmap-vcarve: --threads needs a value: a whole number, 0 or more (threads)\n");
+              "colmap-vcarve: --threads needs a value: a whole number from 0 to 1024 (threads)\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads", "many"}),
-              "colmap-vcarve: --threads takes a whole number, 0 or more (threads), not "
+              "colmap-vcarve: --threads takes a whole number from 0 to 1024 (threads), not "
               "\"many\"\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--method=ctu"}),
               "colmap-vcarve: --method takes cut or strict, not \"ctu\"\n");
