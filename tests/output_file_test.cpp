@@ -2,9 +2,8 @@
 #include "io/output_file.h"
 #include "support/temporary_folder.h"
 
-#include <gtest/gtest.h>
-
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -11,11 +11,11 @@ inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// What is said once about an option, beside its field, and used everywhere: by the parser, --help,
 /// the range check, the run's record and the README's table.
 struct OptionInfo {
-    const char* name;           ///< kebab-case, without dashes
-    const char* unit = "";      ///< "px", "deg", "views", "x spacing"; empty for a pure number
-    const char* help = "";      ///< what it means and how to switch it off, one or two sentences
-    double min = 0.0;           ///< smallest value accepted (numbers and counts)
-    double max = kUnlimited;    ///< largest value accepted (numbers and counts)
+    const char* name;        ///< kebab-case, without dashes
+    const char* unit = "";   ///< "px", "deg", "views", "x spacing"; empty for a pure number
+    const char* help = "";   ///< what it means and how to switch it off, one or two sentences
+    double min = 0.0;        ///< smallest value accepted (numbers and counts)
+    double max = kUnlimited; ///< largest value accepted (numbers and counts)
 };
 
 /// Shown every option of an options struct, in order. An options struct has a member
@@ -34,7 +34,7 @@ class OptionVisitor {
 
     /// A choice whose value is an enum numbered from 0 in the order of `names`.
     template <typename Enum>
-        requires std::is_enum_v<Enum>
+    requires std::is_enum_v<Enum>
     void choice(Enum& value, std::span<const char* const> names, const OptionInfo& info)
     {
         int index = static_cast<int>(value);

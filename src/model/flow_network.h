@@ -14,7 +14,8 @@ namespace vcarve {
 /// sum of residuals[u][slot] over facets that lead from the source side to the sink side, plus the
 /// excesses of the sink side, plus the deficits of the source side.
 struct FlowNetwork {
-    std::vector<std::array<std::int32_t, 4>> residuals; ///< of the arc leaving the cell by a slot, >= 0
+    std::vector<std::array<std::int32_t, 4>>
+        residuals; ///< of the arc leaving the cell by a slot, >= 0
     /// Per cell: > 0 flow that still has to find the sink (a source capacity),
     /// < 0 what the sink still takes (a sink capacity).
     std::vector<std::int32_t> excesses;

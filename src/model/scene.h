@@ -57,8 +57,8 @@ struct Scene {
     std::vector<View> views;
     std::vector<Eigen::Vector3d> positions; ///< in world minus `offset`
     std::vector<Color> colors;
-    std::vector<double> errors_px;          ///< mean reprojection error; negative where unknown
-    std::vector<std::uint64_t> point_ids;   ///< COLMAP's point3D ids
+    std::vector<double> errors_px;        ///< mean reprojection error; negative where unknown
+    std::vector<std::uint64_t> point_ids; ///< COLMAP's point3D ids
     Tracks tracks;
     Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the file's
 

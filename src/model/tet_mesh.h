@@ -33,17 +33,18 @@ static_assert(sizeof(Cell) == 32);
 inline constexpr std::array<std::array<int, 3>, 4> kFacetCorners = {
     {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
-/// The Delaunay triangulation of the points, flat. Vertex v is point v of the scene it was made from.
-/// Cells are numbered in a canonical order: ascending by their sorted vertices; within a cell the
-/// vertices ascend, but for the first two where positive orientation demands otherwise. So the same points
-/// give the same arrays, whatever the number of threads.
+/// The Delaunay triangulation of the points, flat. Vertex v is point v of the scene it was made
+/// from. Cells are numbered in a canonical order: ascending by their sorted vertices; within a cell
+/// the vertices ascend, but for the first two where positive orientation demands otherwise. So the
+/// same points give the same arrays, whatever the number of threads.
 struct TetMesh {
     std::vector<Eigen::Vector3d> positions;
     std::vector<Cell> cells;
-    std::vector<std::uint8_t> mirrors;      ///< 2 bits a facet, see mirror()
-    std::vector<Index> cell_of_vertex;      ///< one finite cell at each vertex
+    std::vector<std::uint8_t> mirrors; ///< 2 bits a facet, see mirror()
+    std::vector<Index> cell_of_vertex; ///< one finite cell at each vertex
 
-    /// The slot of `cell` in its neighbour across facet `slot`: neighbors[mirror] of that one is `cell`.
+    /// The slot of `cell` in its neighbour across facet `slot`: neighbors[mirror] of that one is
+    /// `cell`.
     int mirror(Index cell, int slot) const { return (mirrors[cell] >> (2 * slot)) & 3; }
 };
 

@@ -18,9 +18,9 @@ using Face = std::array<std::uint32_t, 3>; ///< vertex indices, counter-clockwis
 struct TriMesh {
     std::vector<Eigen::Vector3d> positions; ///< in world minus `offset`
     std::vector<Face> faces;
-    std::vector<Color> colors;              ///< optional
-    std::vector<Eigen::Vector3f> normals;   ///< optional, unit, pointing outside
-    std::vector<std::uint32_t> points;      ///< optional: the scene's point at a vertex, or kNoPoint
+    std::vector<Color> colors;            ///< optional
+    std::vector<Eigen::Vector3f> normals; ///< optional, unit, pointing outside
+    std::vector<std::uint32_t> points;    ///< optional: the scene's point at a vertex, or kNoPoint
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 
