@@ -174,14 +174,14 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene)
         throw InputError(fmt::format("the points make {} cells, and 32-bit indices allow {}",
                                      triangulation.number_of_cells(), kMaxCells));
     }
+    if (triangulation.number_of_vertices() != scene.num_points()) {
+        throw std::logic_error("two points to triangulate lie at one place");
+    }
     triangulation.infinite_vertex()->info() = kInfinite;
     TetMesh mesh;
     copy_cells(triangulation, mesh);
     mesh.positions = scene.positions;
     find_cells_of_vertices(mesh);
-    if (triangulation.number_of_vertices() != scene.num_points()) {
-        throw std::logic_error("two points to triangulate lie at one place");
-    }
     return mesh;
 }
 
