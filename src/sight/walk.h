@@ -26,7 +26,7 @@ class SightWalk {
     {
         const Eigen::Vector3d& point = mesh_.positions[vertex_];
         if (point == target) {
-            return {kInfinite, star_cell_};
+            return {kInfinite, mesh_.cell_of_vertex[vertex_]};
         }
         const SightFrame frame(point, target);
         Exit exit;
