@@ -14,8 +14,12 @@ using Crossings = std::vector<std::array<std::uint32_t, 4>>;
 
 /// What all sights say about the cells, in whole steps: `unit` steps are one sight of full weight.
 struct Votes {
-    FlowNetwork network;             ///< each sight's flow is already pushed along its walk
-    std::vector<Index> cell_of_view; ///< the cell that holds a view's centre; kInfinite if none
+    /// Each sight's flow is already pushed along its walk; what stays in an infinite cell is left
+    /// out, as those are outside anyway.
+    FlowNetwork network;
+    /// The finite cell that holds a view's centre, of several that touch it the first in which a
+    /// sight ended; kInfinite if the view lies out of the hull or no sight leads to it.
+    std::vector<Index> cell_of_view;
     std::int32_t unit = 0;
 };
 

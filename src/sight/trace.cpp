@@ -26,6 +26,15 @@ void add(T& sum, T value)
     std::atomic_ref<T>(sum).fetch_add(value, std::memory_order_relaxed);
 }
 
+/// A view on the border of cells is found in different ones; the smallest does not depend on order.
+void lower(Index& least, Index value)
+{
+    const std::atomic_ref<Index> shared(least);
+    Index seen = shared.load(std::memory_order_relaxed);
+    while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+    }
+}
+
 /// Calls body(vertex) for every vertex in parallel and tells the stage how far it is.
 template <typename Body>
 void for_each_vertex(const TetMesh& cells, Stage& stage, const Body& body)
@@ -60,6 +69,54 @@ double distance_to_facet(const TetMesh& mesh, CrossedFacet facet, const Vector3d
     return along == 0.0 ? 0.0 : std::abs(normal.dot(a - point) / along);
 }
 
+/// What each cell keeps of the flow of one sight, cell by cell from the point on. The next cell is
+/// not the one reached where the sight met an edge or a vertex: there one stretch ends, with a
+/// source (or sink) of its own, and another begins.
+class Push {
+  public:
+    enum class Sign : std::int32_t { source = 1, sink = -1 };
+
+    Push(const TetMesh& mesh, FlowNetwork& network, Sign sign)
+        : mesh_(mesh), network_(network), sign_(static_cast<std::int32_t>(sign))
+    {
+    }
+
+    std::int32_t carried() const { return carried_; }
+
+    void cross(Index near, Index far, std::int32_t vote)
+    {
+        arrive(near, vote);
+        reached_ = far;
+        carried_ = vote;
+    }
+
+    void end(Index last, std::int32_t full) { arrive(last, full); }
+
+  private:
+    void arrive(Index cell, std::int32_t vote)
+    {
+        if (reached_ != kInfinite && reached_ != cell) {
+            keep(reached_, vote - carried_);
+            carried_ = 0;
+        }
+        keep(cell, vote - carried_);
+    }
+
+    void keep(Index cell, std::int32_t flow)
+    {
+        // Infinite cells are outside whatever they keep.
+        if (flow != 0 && cell != kInfinite && !mesh_.cells[cell].is_infinite()) {
+            add(network_.excesses[cell], sign_ * flow);
+        }
+    }
+
+    const TetMesh& mesh_;
+    FlowNetwork& network_;
+    std::int32_t sign_;
+    std::int32_t carried_ = 0;
+    Index reached_ = kInfinite;
+};
+
 /// The votes of one point's sights.
 class Voter {
   public:
@@ -68,23 +125,23 @@ class Voter {
     {
     }
 
-    /// Outside, from the point to the view. Returns the cell of the view.
+    /// Outside, from the point to the view. Returns the cell of the view, kInfinite if that lies
+    /// out of the hull.
     Index vote_outside(SightWalk& walk, const Vector3d& point, const Vector3d& center) const
     {
         const Vector3d direction = (center - point).normalized();
-        std::int32_t before = 0;
+        Push push(mesh_, network_, Push::Sign::source);
         const WalkEnds ends = walk.to(center, [&](Index cell, int slot) {
             const std::int32_t vote =
-                before == full_ ? full_ : soft_vote({cell, slot}, point, direction);
+                push.carried() == full_ ? full_ : soft_vote({cell, slot}, point, direction);
             // The sight's flow comes from the view and falls towards the point: it fills the arc
             // inwards, opens the one outwards, and what the next facet will not take stays here.
             add(network_.residuals[cell][slot], vote);
-            if (vote != before) {
-                add(network_.excesses[cell], vote - before);
-            }
-            before = vote;
+            push.cross(cell, mesh_.cells[cell].neighbors[slot], vote);
         });
-        return ends.last;
+        push.end(ends.last, full_);
+        const bool in_hull = ends.last != kInfinite && !mesh_.cells[ends.last].is_infinite();
+        return in_hull ? ends.last : kInfinite;
     }
 
     /// Inside, from the point away from the view, down to a depth of `sink_depth` sigmas.
@@ -100,17 +157,14 @@ class Voter {
             }
             return;
         }
-        std::int32_t before = 0;
+        Push push(mesh_, network_, Push::Sign::sink);
         const WalkEnds ends = walk.to(point + depth * direction, [&](Index cell, int slot) {
             const std::int32_t vote = soft_vote({cell, slot}, point, direction);
             const Index beyond = mesh_.cells[cell].neighbors[slot];
             add(network_.residuals[beyond][mesh_.mirror(cell, slot)], vote);
-            add(network_.excesses[cell], before - vote);
-            before = vote;
+            push.cross(cell, beyond, vote);
         });
-        if (ends.last != kInfinite) {
-            add(network_.excesses[ends.last], before - full_);
-        }
+        push.end(ends.last, full_);
     }
 
   private:
@@ -141,12 +195,18 @@ double sight_weight(std::size_t views, double views_sigma)
 }
 
 /// The weight of a sight by the views of its point, for every number of views that occurs. Full
-/// weight is what the median point gets, so that a model of two-view points is not all doubt.
+/// weight is what the median of the points that are seen gets, so that a model of two-view points
+/// is not all doubt.
 std::vector<double> sight_weights(const Tracks& tracks, double views_sigma)
 {
     std::vector<std::size_t> views;
     for (std::size_t point = 0; point < tracks.size(); ++point) {
-        views.push_back(tracks[point].size());
+        if (!tracks[point].empty()) {
+            views.push_back(tracks[point].size());
+        }
+    }
+    if (views.empty()) {
+        return {0.0};
     }
     const auto middle = views.begin() + static_cast<std::ptrdiff_t>(views.size() / 2);
     std::nth_element(views.begin(), middle, views.end());
@@ -197,7 +257,7 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
             const Vector3d& point = cells.positions[vertex];
             const Index last = voter.vote_outside(outward, point, center);
             voter.vote_inside(inward, point, center, options.sink_depth);
-            std::atomic_ref<Index>(votes.cell_of_view[view]).store(last, std::memory_order_relaxed);
+            lower(votes.cell_of_view[view], last);
         }
     });
     return votes;

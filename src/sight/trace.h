@@ -43,8 +43,10 @@ Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage
 /// Each sight votes for the cells before its point to be outside and the cell behind it to be
 /// inside (Labatut, Pons, Keriven 2009), softly near the point. The votes are integers, so their
 /// sums do not depend on the number of threads. Each sight's own flow is pushed along its walk at
-/// once, which leaves the minimum cut as it is (algorithm: docs/algorithm.md). Throws InputError if
-/// a sum leaves 32 bits. Cost: one walk a sight, in parallel; 20 bytes a cell.
+/// once, which leaves the minimum cut as it is (algorithm: docs/algorithm.md). Where a sight meets
+/// an edge or a vertex no facet leads its flow on: each stretch between such places ends in a
+/// source (behind the point a sink) of its own, as strong as the sight's vote for what comes next.
+/// Throws InputError if a sum leaves 32 bits. Cost: one walk a sight, in parallel; 20 bytes a cell.
 Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
                    Stage& stage);
 
