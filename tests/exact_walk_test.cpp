@@ -1,0 +1,177 @@
+#include "sight/exact_walk.h"
+#include "support/exact_sight.h"
+#include "support/point_sets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Two tetrahedra on the triangle 0 1 2: cell 0 up to vertex 3, the cell below down to vertex 4.
+TetMesh bipyramid()
+{
+    return triangulation_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 3}, {1, 1, -3}});
+}
+
+Index cell_with(const TetMesh& mesh, const std::array<Index, 4>& vertices)
+{
+    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
+        auto sorted = mesh.cells[cell].vertices;
+        std::sort(sorted.begin(), sorted.end());
+        if (sorted == vertices) {
+            return cell;
+        }
+    }
+    ADD_FAILURE() << "there is no such cell";
+    return 0;
+}
+
+/// The cells a walk left, in order, and where it began and ended.
+struct Walked {
+    std::vector<Index> left;
+    Index first;
+    Index last;
+    bool operator==(const Walked&) const = default;
+};
+
+Walked walked(const TetMesh& mesh, Index vertex, const Vector3d& target)
+{
+    ExactWalk walk(mesh, mesh.positions[vertex], target);
+    const WalkEnds ends = walk.from_vertex(vertex);
+    Walked result{{}, ends.first, ends.last};
+    for (const CrossedFacet& facet : walk.crossed()) {
+        result.left.push_back(facet.cell);
+    }
+    return result;
+}
+
+std::ostream& operator<<(std::ostream& out, const Walked& walk)
+{
+    out << "from cell " << walk.first << " to " << walk.last << " leaving";
+    for (const Index cell : walk.left) {
+        out << ' ' << cell;
+    }
+    return out;
+}
+
+// ---- by hand ------------------------------------------------------------------------------------
+
+TEST(ExactWalk, CrossesTheFacetBetweenTwoCellsAndTheHull)
+{
+    const TetMesh mesh = bipyramid();
+    const Index upper = cell_with(mesh, {0, 1, 2, 3});
+    const Index lower = cell_with(mesh, {0, 1, 2, 4});
+    const Index past_hull = cell_with(mesh, {0, 1, 4, kInfinite});
+    EXPECT_EQ(walked(mesh, 3, {1, 1, 1}), (Walked{{}, upper, upper}));
+    EXPECT_EQ(walked(mesh, 3, {1, 1, -1}), (Walked{{upper}, upper, lower}));
+    EXPECT_EQ(walked(mesh, 3, {1.25, -0.75, -4}), (Walked{{upper, lower}, upper, past_hull}));
+}
+
+TEST(ExactWalk, StopsBeforeTheFacetTheTargetLiesIn)
+{
+    const TetMesh mesh = bipyramid();
+    const Index upper = cell_with(mesh, {0, 1, 2, 3});
+    EXPECT_EQ(walked(mesh, 3, {1, 1, 0}), (Walked{{}, upper, upper}));
+    EXPECT_EQ(walked(mesh, 4, {1, 1, 0}).left, std::vector<Index>{});
+}
+
+TEST(ExactWalk, CrossesNothingAlongAnEdgeOrInAFacet)
+{
+    const TetMesh mesh = bipyramid();
+    const Walked along_edge = walked(mesh, 0, {2, 0, 0});
+    EXPECT_EQ(along_edge.left, std::vector<Index>{});
+    EXPECT_EQ(along_edge.first, kInfinite);
+    EXPECT_TRUE(holds(mesh, along_edge.last, {2, 0, 0}));
+    const Walked in_facet = walked(mesh, 0, {1, 1, 0});
+    EXPECT_EQ(in_facet.left, std::vector<Index>{});
+    EXPECT_EQ(in_facet.first, kInfinite);
+    EXPECT_TRUE(holds(mesh, in_facet.last, {1, 1, 0}));
+}
+
+TEST(ExactWalk, LeavesTheHullThroughAnEdgeOrAVertexIntoNoCell)
+{
+    const TetMesh mesh = bipyramid();
+    const Index upper = cell_with(mesh, {0, 1, 2, 3});
+    EXPECT_EQ(walked(mesh, 3, {0, 0, -6}), (Walked{{upper}, upper, kInfinite})); // the edge 0 4
+    EXPECT_EQ(walked(mesh, 3, {1, -1, -3}), (Walked{{}, kInfinite, kInfinite})); // in a hull facet
+    EXPECT_EQ(walked(mesh, 0, {8, 0, 0}), (Walked{{}, kInfinite, kInfinite}));   // past vertex 1
+    EXPECT_EQ(walked(mesh, 3, {1, 1, 4}), (Walked{{}, kInfinite, kInfinite}));   // at once
+}
+
+TEST(ExactWalk, IsAlreadyThereWhereTheTargetIsTheVertex)
+{
+    const TetMesh mesh = bipyramid();
+    const Walked walk = walked(mesh, 1, {4, 0, 0});
+    EXPECT_EQ(walk.left, std::vector<Index>{});
+    EXPECT_EQ(walk.first, kInfinite);
+    EXPECT_TRUE(holds(mesh, walk.last, {4, 0, 0}));
+}
+
+TEST(ExactWalk, GoesOnFromInsideACell)
+{
+    const TetMesh mesh = bipyramid();
+    const Index upper = cell_with(mesh, {0, 1, 2, 3});
+    ExactWalk walk(mesh, {1, 1, 3}, {1, 1, -1});
+    EXPECT_EQ(walk.from_cell(upper), cell_with(mesh, {0, 1, 2, 4}));
+    ASSERT_EQ(walk.crossed().size(), 1U);
+    EXPECT_EQ(walk.crossed()[0].cell, upper);
+    EXPECT_EQ(mesh.cells[upper].vertices[walk.crossed()[0].slot], 3U);
+}
+
+TEST(CellsAroundVertex, AreAllThatHoldIt)
+{
+    for (const NamedMesh& named : meshes_to_walk()) {
+        const TetMesh& mesh = named.mesh;
+        for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+            std::vector<Index> expected;
+            for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
+                const auto& vertices = mesh.cells[cell].vertices;
+                if (std::count(vertices.begin(), vertices.end(), vertex) == 1) {
+                    expected.push_back(cell);
+                }
+            }
+            auto found = cells_around_vertex(mesh, vertex, mesh.cell_of_vertex[vertex]);
+            std::sort(found.begin(), found.end());
+            ASSERT_EQ(found, expected) << named.name << ", vertex " << vertex;
+        }
+    }
+}
+
+// ---- against brute force ------------------------------------------------------------------------
+
+TEST(ExactWalk, CrossesWhatBruteForceFinds)
+{
+    for (const NamedMesh& named : meshes_to_walk()) {
+        std::mt19937_64 random(11);
+        for (int sight = 0; sight < 700; ++sight) {
+            const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
+            const Vector3d target = any_target(named, vertex, random);
+            ExactWalk walk(named.mesh, named.mesh.positions[vertex], target);
+            const WalkEnds ends = walk.from_vertex(vertex);
+            ASSERT_EQ(fault_of_walk(named.mesh, vertex, target, walk.crossed(), ends), "")
+                << named.name << ", sight " << sight << " from vertex " << vertex << " to ("
+                << target.transpose() << ")";
+        }
+    }
+}
+
+TEST(ExactWalk, ConnectsAnyTwoPointsOfALattice)
+{
+    const TetMesh mesh = triangulation_of(lattice(4));
+    for (Index from = 0; from < mesh.positions.size(); ++from) {
+        for (Index to = 0; to < mesh.positions.size(); ++to) {
+            const Vector3d& target = mesh.positions[to];
+            ExactWalk walk(mesh, mesh.positions[from], target);
+            const WalkEnds ends = walk.from_vertex(from);
+            ASSERT_EQ(fault_of_walk(mesh, from, target, walk.crossed(), ends), "")
+                << "from vertex " << from << " to vertex " << to;
+        }
+    }
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,201 @@
+#include "sight/walk.h"
+#include "support/exact_sight.h"
+#include "support/point_sets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+using CellAndSlot = std::pair<Index, int>;
+
+/// What the fast walk says to cross.
+struct FastWalk {
+    std::vector<CellAndSlot> crossed;
+    WalkEnds ends;
+};
+
+std::vector<CellAndSlot> pairs(const std::vector<CrossedFacet>& facets)
+{
+    std::vector<CellAndSlot> result;
+    for (const CrossedFacet& facet : facets) {
+        result.emplace_back(facet.cell, facet.slot);
+    }
+    return result;
+}
+
+std::string fault_of_walk(const TetMesh& mesh, Index vertex, const Vector3d& target,
+                          const FastWalk& walk)
+{
+    std::vector<CrossedFacet> facets;
+    for (const auto& [cell, slot] : walk.crossed) {
+        facets.push_back({cell, slot});
+    }
+    return fault_of_walk(mesh, vertex, target, facets, walk.ends);
+}
+
+/// Infinite cells are all one: which of them a sight enters straight from a vertex is left open.
+Index finite_or_none(const TetMesh& mesh, Index cell)
+{
+    return cell == kInfinite || mesh.cells[cell].is_infinite() ? kInfinite : cell;
+}
+
+FastWalk fast_walk(SightWalk& walk, const Vector3d& target)
+{
+    FastWalk result;
+    result.ends =
+        walk.to(target, [&](Index cell, int slot) { result.crossed.emplace_back(cell, slot); });
+    return result;
+}
+
+std::string place(const NamedMesh& named, Index vertex, const Vector3d& target)
+{
+    return named.name + ", from vertex " + std::to_string(vertex) + " to (" +
+           std::to_string(target.x()) + " " + std::to_string(target.y()) + " " +
+           std::to_string(target.z()) + ")";
+}
+
+// ---- SightFrame ---------------------------------------------------------------------------------
+
+TEST(SightFrame, SeesTheTargetAtTheOriginAtDepthOne)
+{
+    const SightFrame frame({1, 2, 3}, {5, 1, 4});
+    const Sighted target = frame.project({5, 1, 4});
+    EXPECT_EQ(target.x, 0.0);
+    EXPECT_EQ(target.y, 0.0);
+    EXPECT_EQ(target.depth, 1.0);
+    EXPECT_EQ(target.size, 4.0);
+}
+
+TEST(SightFrame, TurnsPositiveWhereTheSightPassesLeftOfAnEdge)
+{
+    // Looking down from above: x to the right, y up, as on paper.
+    const SightFrame down({0, 0, 4}, {0, 0, 0});
+    const auto turn = [&](const Vector3d& a, const Vector3d& b) {
+        return down.turn(down.project(a), down.project(b), a, b);
+    };
+    EXPECT_EQ(turn({1, -1, 0}, {1, 1, 0}), 1);
+    EXPECT_EQ(turn({1, 1, 0}, {1, -1, 0}), -1);
+    EXPECT_EQ(turn({1, 1, 0}, {-1, -1, 2}), 0);
+}
+
+TEST(SightFrame, TurnsAsTheExactPredicateSays)
+{
+    std::mt19937_64 random(21);
+    for (const NamedMesh& named : meshes_to_walk()) {
+        const Positions& points = named.mesh.positions;
+        for (int round = 0; round < 2000; ++round) {
+            const auto vertex = static_cast<Index>(pick(random, points.size()));
+            const Vector3d target = any_target(named, vertex, random);
+            if (target == points[vertex]) {
+                continue;
+            }
+            const SightFrame frame(points[vertex], target);
+            const Vector3d& a = points[pick(random, points.size())];
+            const Vector3d& b = points[pick(random, points.size())];
+            ASSERT_EQ(frame.turn(frame.project(a), frame.project(b), a, b),
+                      -orientation(points[vertex], target, a, b))
+                << place(named, vertex, target);
+        }
+    }
+}
+
+// ---- SightWalk ----------------------------------------------------------------------------------
+
+TEST(SightWalk, CrossesWhatBruteForceFinds)
+{
+    for (const NamedMesh& named : meshes_to_walk()) {
+        std::mt19937_64 random(12);
+        for (int round = 0; round < 90; ++round) {
+            const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
+            SightWalk walk(named.mesh, vertex);
+            for (int sight = 0; sight < 10; ++sight) {
+                const Vector3d target = any_target(named, vertex, random);
+                const FastWalk found = fast_walk(walk, target);
+                ASSERT_EQ(fault_of_walk(named.mesh, vertex, target, found), "")
+                    << place(named, vertex, target);
+                ASSERT_EQ(walk.first_cell(target), found.ends.first)
+                    << place(named, vertex, target);
+            }
+        }
+    }
+}
+
+TEST(SightWalk, CrossesWhatTheExactWalkCrosses)
+{
+    for (const NamedMesh& named : meshes_to_walk()) {
+        std::mt19937_64 random(13);
+        for (int round = 0; round < 5000; ++round) {
+            const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
+            const Vector3d target = any_target(named, vertex, random);
+            SightWalk walk(named.mesh, vertex);
+            const auto [crossed, ends] = fast_walk(walk, target);
+            ExactWalk exact(named.mesh, named.mesh.positions[vertex], target);
+            const WalkEnds exact_ends = exact.from_vertex(vertex);
+            ASSERT_EQ(ends.first, exact_ends.first) << place(named, vertex, target);
+            ASSERT_EQ(finite_or_none(named.mesh, ends.last),
+                      finite_or_none(named.mesh, exact_ends.last))
+                << place(named, vertex, target);
+            ASSERT_EQ(crossed, pairs(exact.crossed())) << place(named, vertex, target);
+        }
+    }
+}
+
+TEST(SightWalk, IsTheSameWhateverTheWalkBefore)
+{
+    for (const NamedMesh& named : meshes_to_walk()) {
+        std::mt19937_64 random(14);
+        const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
+        SightWalk worn(named.mesh, vertex);
+        for (int sight = 0; sight < 500; ++sight) {
+            const Vector3d target = any_target(named, vertex, random);
+            SightWalk fresh(named.mesh, vertex);
+            const FastWalk a = fast_walk(worn, target);
+            const FastWalk b = fast_walk(fresh, target);
+            ASSERT_EQ(a.crossed, b.crossed) << place(named, vertex, target);
+            ASSERT_EQ(a.ends.first, b.ends.first) << place(named, vertex, target);
+            ASSERT_EQ(finite_or_none(named.mesh, a.ends.last),
+                      finite_or_none(named.mesh, b.ends.last))
+                << place(named, vertex, target);
+        }
+    }
+}
+
+TEST(SightWalk, EndsInACellAtTheVertexWhereTheTargetIsTheVertex)
+{
+    const TetMesh mesh = triangulation_of(random_points(50, 16));
+    for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+        SightWalk walk(mesh, vertex);
+        const auto [crossed, ends] = fast_walk(walk, mesh.positions[vertex]);
+        EXPECT_EQ(crossed.size(), 0U);
+        EXPECT_EQ(ends.first, kInfinite);
+        EXPECT_TRUE(holds(mesh, ends.last, mesh.positions[vertex]));
+    }
+}
+
+TEST(SightWalk, ReachesATargetNextToNothingAway)
+{
+    const Vector3d middle = Vector3d::Constant(-0.5);
+    Positions random = mapped(random_points(40, 17), 1.0, middle);
+    random.push_back(Vector3d::Zero());
+    for (const Positions& points : {random, mapped(lattice(3), 1.0, Vector3d::Constant(-1.0)),
+                                    mapped(lattice(7), 1.0, Vector3d::Constant(-3.0))}) {
+        const TetMesh mesh = triangulation_of(points);
+        const auto vertex = static_cast<Index>(
+            std::find(points.begin(), points.end(), Vector3d::Zero()) - points.begin());
+        for (const Vector3d& target :
+             {Vector3d(1e-310, 3e-311, 2e-311), Vector3d(-3e-311, 2e-311, -1e-310),
+              Vector3d(0, 5e-324, 0), Vector3d(-1e-300, 3e-301, 1e-301), Vector3d(1e-310, 0, 0)}) {
+            SightWalk walk(mesh, vertex);
+            EXPECT_EQ(fault_of_walk(mesh, vertex, target, fast_walk(walk, target)), "")
+                << target.transpose();
+        }
+    }
+}
+
+} // namespace
+} // namespace vcarve
