@@ -1,0 +1,350 @@
+#include "label/cut.h"
+#include "sight/trace.h"
+#include "sight/walk.h"
+#include "support/exact_sight.h"
+#include "support/paper_rule.h"
+#include "support/point_sets.h"
+#include "support/scenes.h"
+#include "support/unpushed_network.h"
+#include "tetra/triangulate.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using Four = std::array<std::int32_t, 4>;
+
+Votes traced(const TetMesh& mesh, const Scene& scene, const TraceOptions& options)
+{
+    Log log;
+    Stage stage(log, "sights");
+    return trace_sights(mesh, scene, options, stage);
+}
+
+Crossings counted(const TetMesh& mesh, const Scene& scene)
+{
+    Log log;
+    Stage stage(log, "sights");
+    return count_crossings(mesh, scene, stage);
+}
+
+template <typename Action>
+auto with_threads(int threads, const Action& action)
+{
+    tbb::task_arena arena(threads);
+    return arena.execute(action);
+}
+
+void expect_equal(const Votes& a, const Votes& b)
+{
+    EXPECT_EQ(a.network.residuals, b.network.residuals);
+    EXPECT_EQ(a.network.excesses, b.network.excesses);
+    EXPECT_EQ(a.cell_of_view, b.cell_of_view);
+    EXPECT_EQ(a.unit, b.unit);
+}
+
+/// A tetrahedron around the origin, which is point 4. Finite cells: 0 {0 1 2 4}, 2 {0 1 3 4},
+/// 4 {0 2 3 4}, 6 {1 2 3 4}; beyond each the infinite cell with the next number. Slot 3 of a finite
+/// cell is its facet on the hull, slot 3 of an infinite one the same facet. Only the origin is
+/// seen, by one view at each centre.
+Scene star(const Positions& centers)
+{
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t view = 0; view < centers.size(); ++view) {
+        all.push_back(view);
+    }
+    return make_scene(centers, {{{4, 4, 4}, {}},
+                                {{-4, -4, 4}, {}},
+                                {{-4, 4, -4}, {}},
+                                {{4, -4, -4}, {}},
+                                {{0, 0, 0}, all}});
+}
+
+const Vector3d kBeyondCell0(0, 8, 16); // the way there leaves the hull at a sixth
+const Vector3d kInCell0(0, 1, 2);
+
+constexpr TraceOptions kFullWeight = {.views_sigma = 0.0, .softness = 0.0, .sink_depth = 0.0};
+
+std::vector<Four> no_residuals()
+{
+    return {8, Four{0, 0, 0, 0}};
+}
+
+// ---- by hand ------------------------------------------------------------------------------------
+
+TEST(CountCrossings, CountsBothSidesOfAFacet)
+{
+    const Scene scene = star({kBeyondCell0, kInCell0, 2.0 * kBeyondCell0});
+    const Crossings crossings = counted(triangulate(scene), scene);
+    Crossings expected(8, {0, 0, 0, 0});
+    expected[0][3] = 2;
+    expected[1][3] = 2;
+    EXPECT_EQ(crossings, expected);
+}
+
+TEST(TraceSights, PushesASightFromBeyondTheHullToItsPoint)
+{
+    const Scene scene = star({kBeyondCell0});
+    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
+    std::vector<Four> residuals = no_residuals();
+    residuals[0][3] = 256; // back out; the way in is used up
+    EXPECT_EQ(votes.network.residuals, residuals);
+    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
+    EXPECT_EQ(votes.cell_of_view, std::vector<Index>{kInfinite});
+    EXPECT_EQ(votes.unit, 256);
+}
+
+TEST(TraceSights, LeavesTheWholeFlowInTheCellOfAViewThatNoFacetPartsFromItsPoint)
+{
+    const Scene scene = star({kInCell0});
+    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
+    EXPECT_EQ(votes.network.residuals, no_residuals());
+    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
+    EXPECT_EQ(votes.cell_of_view, std::vector<Index>{0});
+}
+
+TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
+{
+    // The origin has one view; point 0 has two, out of the hull, and cell 4 behind it.
+    Scene scene = star({kBeyondCell0});
+    scene = make_scene({kBeyondCell0, {8, 8, 9}, {12, 12, 14}}, {{scene.positions[0], {1, 2}},
+                                                                 {scene.positions[1], {}},
+                                                                 {scene.positions[2], {}},
+                                                                 {scene.positions[3], {}},
+                                                                 {scene.positions[4], {0}}});
+    const TraceOptions options = {.views_sigma = 3.0, .softness = 0.0, .sink_depth = 0.0};
+    const Votes votes = traced(triangulate(scene), scene, options);
+    // 256 (1 - exp(-1 / 18)) / (1 - exp(-4 / 18)) = 69.4 beside 256
+    std::vector<Four> residuals = no_residuals();
+    residuals[0][3] = 69;
+    EXPECT_EQ(votes.network.residuals, residuals);
+    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{69, 0, 0, 0, -512, 0, -69, 0}));
+}
+
+TEST(TraceSights, SaysNothingWithoutSights)
+{
+    const Scene scene = star({});
+    const Votes votes = traced(triangulate(scene), scene, {});
+    EXPECT_EQ(votes.network.residuals, no_residuals());
+    EXPECT_EQ(votes.network.excesses, std::vector<std::int32_t>(8, 0));
+}
+
+TEST(TraceSights, SoftensWhatIsNearThePoint)
+{
+    // The facet is |(0, 4/3, 8/3)| = 2.98142 away. Of the ten edges, four are sqrt(48) = 6.9282
+    // long and six sqrt(128), so a short edge is 6.9282.
+    const Scene scene = star({kBeyondCell0});
+    const TraceOptions options = {.views_sigma = 0.0, .softness = 0.5, .sink_depth = 0.0};
+    const Votes votes = traced(triangulate(scene), scene, options);
+    std::vector<Four> residuals = no_residuals();
+    residuals[0][3] = 79; // 256 (1 - exp(-(2.98142 / 3.4641)^2 / 2)) = 79.24
+    EXPECT_EQ(votes.network.residuals, residuals);
+    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{79, 0, 0, 0, 0, 0, -256, 0}));
+}
+
+TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
+{
+    Scene scene = make_scene(
+        {{1, 1, 1}},
+        {{{0, 0, 0}, {}}, {{4, 0, 0}, {}}, {{0, 4, 0}, {}}, {{1, 1, 3}, {0}}, {{1, 1, -3}, {0}}});
+    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
+    // Cell 0 {0 1 2 3} holds the view; point 4's sight crosses into it from cell 2 {0 1 2 4}.
+    std::vector<Four> residuals = no_residuals();
+    residuals[1][3] = 256;
+    EXPECT_EQ(votes.network.residuals, residuals);
+    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{256, 256, 0, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(votes.cell_of_view, std::vector<Index>{0});
+}
+
+// ---- against brute force ------------------------------------------------------------------------
+
+/// Views in the hull and out of it.
+Positions centers_around(std::uint64_t seed)
+{
+    std::mt19937_64 random(seed);
+    Positions centers;
+    for (int view = 0; view < 6; ++view) {
+        centers.push_back(
+            even_in_cube(random, view % 2 == 0 ? 0.1 : -1.5, view % 2 == 0 ? 0.9 : 2.5));
+    }
+    return centers;
+}
+
+Crossings crossings_of_all_sights(const TetMesh& mesh, const Scene& scene)
+{
+    Crossings crossings(mesh.cells.size(), {0, 0, 0, 0});
+    for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
+        for (const std::uint32_t view : scene.tracks[vertex]) {
+            const Vector3d& center = scene.views[view].center;
+            for (const auto& [facet, share] : crossings_by_brute_force(mesh, vertex, center)) {
+                ++crossings[facet.cell][facet.slot];
+                const Index beyond = mesh.cells[facet.cell].neighbors[facet.slot];
+                ++crossings[beyond][mesh.mirror(facet.cell, facet.slot)];
+            }
+        }
+    }
+    return crossings;
+}
+
+TEST(CountCrossings, IsTheSumOfBruteForceCrossings)
+{
+    for (const NamedMesh& named : meshes_to_walk()) {
+        std::mt19937_64 random(41);
+        Positions centers;
+        for (int view = 0; view < 6; ++view) {
+            centers.push_back(any_target(named, static_cast<Index>(view), random));
+        }
+        const Scene scene = scene_seen_from(centers, named.mesh.positions, 0.5, 42);
+        EXPECT_EQ(counted(named.mesh, scene), crossings_of_all_sights(named.mesh, scene))
+            << named.name;
+    }
+}
+
+TEST(CountCrossings, MarksWhatThePapersOwnTestMarks)
+{
+    const Scene scene = scene_seen_from(centers_around(43), random_points(90, 44), 0.4, 45);
+    const TetMesh mesh = triangulate(scene);
+    const auto marks = marks_by_paper_rule(mesh, scene);
+    const Crossings crossings = counted(mesh, scene);
+    std::array<int, 3> found = {0, 0, 0};
+    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
+        for (int slot = 0; slot < 4 && !mesh.cells[cell].is_infinite(); ++slot) {
+            const Mark mark = marks[cell][slot];
+            ++found[static_cast<std::size_t>(mark)];
+            if (mark != Mark::unclear) {
+                ASSERT_EQ(crossings[cell][slot] > 0, mark == Mark::redundant)
+                    << "cell " << cell << ", slot " << slot;
+            }
+        }
+    }
+    EXPECT_EQ(found, (std::array<int, 3>{694, 14, 1016})); // none, unclear, redundant
+}
+
+/// Compares the cut of the pushed network with Boost's of the unpushed one; returns how many cells
+/// are inside.
+std::ptrdiff_t compare_cuts(const Scene& scene, const TraceOptions& options)
+{
+    const TetMesh mesh = triangulate(scene);
+    const Votes votes = traced(mesh, scene, options);
+    UnpushedNetwork network = network_of_votes(mesh, scene, options);
+    pin_outside(mesh, votes.cell_of_view, network);
+    const Labels expected = boost_minimum_cut(mesh, network);
+    const Labels labels = cut(mesh, votes, {.quality = 0.0});
+    EXPECT_TRUE(labels == expected)
+        << "softness " << options.softness << ", sink depth " << options.sink_depth;
+    return std::count(expected.begin(), expected.end(), Label::inside);
+}
+
+const std::array<TraceOptions, 7> kTraceOptions = {{{0.0, 0.0, 0.0},
+                                                    {3.0, 0.0, 0.0},
+                                                    {3.0, 0.5, 0.0},
+                                                    {3.0, 2.0, 0.0},
+                                                    {3.0, 1.0, 1.0},
+                                                    {0.0, 0.5, 3.0},
+                                                    {3.0, 4.0, 0.5}}};
+
+TEST(TraceSights, LeavesTheMinimumCutAsItIs)
+{
+    std::ptrdiff_t inside = 0;
+    for (const TraceOptions& options : kTraceOptions) {
+        for (std::uint64_t seed = 50; seed < 56; ++seed) {
+            inside += compare_cuts(
+                scene_seen_from(centers_around(seed), random_points(70, seed), 0.35, seed),
+                options);
+        }
+    }
+    EXPECT_EQ(inside, 1938);
+}
+
+TEST(TraceSights, LeavesTheMinimumCutAsItIsForSightsThroughEdgesAndVertices)
+{
+    // Views on points, edges, facets, in cells and out of the hull.
+    const Positions centers = {{1, 1, 1},   {1.5, 1.5, 1.5},    {2, 1.5, 1}, {2, 2, 3},
+                               {1.5, 0, 4}, {0.5, 2.25, 1.375}, {6, 5, 4},   {1, 7, 2}};
+    std::ptrdiff_t inside = 0;
+    for (const TraceOptions& options : kTraceOptions) {
+        for (std::uint64_t seed = 60; seed < 64; ++seed) {
+            inside += compare_cuts(scene_seen_from(centers, lattice(5), 0.3, seed), options);
+        }
+    }
+    EXPECT_EQ(inside, 720);
+}
+
+TEST(TraceSights, NamesTheCellsOfViewsWhateverTheOrder)
+{
+    const Positions centers = {{1, 1, 1}, {1.5, 1.5, 1.5}, {2, 1.5, 1}, {5, 4, 1}, {1.5, 0, 4}};
+    const Scene scene = scene_seen_from(centers, lattice(4), 0.5, 62);
+    const TetMesh mesh = triangulate(scene);
+    std::vector<Index> expected(centers.size(), kInfinite); // as it stays for the last two
+    for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
+        for (const std::uint32_t view : scene.tracks[vertex]) {
+            SightWalk walk(mesh, vertex);
+            const Index last = walk.to(centers[view], [](Index, int) {}).last;
+            if (last != kInfinite && !mesh.cells[last].is_infinite()) {
+                expected[view] = std::min(expected[view], last);
+            }
+        }
+    }
+    EXPECT_EQ(traced(mesh, scene, kFullWeight).cell_of_view, expected);
+}
+
+TEST(TraceSights, IsTheSameForOneAndTwoThreads)
+{
+    const Positions views_on_points = {{1, 1, 1}, {2, 2, 2.5}, {3.5, 3.5, 3.5}, {9, 20, 30}};
+    for (const Scene& scene :
+         {bumpy_sphere(3000, 71), scene_seen_from(views_on_points, lattice(12), 0.7, 72)}) {
+        const TetMesh mesh = triangulate(scene);
+        const TraceOptions options = {.views_sigma = 3.0, .softness = 0.5, .sink_depth = 1.0};
+        for (int round = 0; round < 3; ++round) {
+            expect_equal(with_threads(2, [&] { return traced(mesh, scene, options); }),
+                         with_threads(1, [&] { return traced(mesh, scene, options); }));
+            EXPECT_EQ(with_threads(2, [&] { return counted(mesh, scene); }),
+                      with_threads(1, [&] { return counted(mesh, scene); }));
+        }
+    }
+}
+
+void expect_same_for_views_in_another_order(const Scene& scene)
+{
+    const std::vector<std::uint32_t> order = {3, 5, 0, 1, 4, 2};
+    Scene permuted = scene;
+    permuted.tracks = {};
+    for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
+        std::vector<std::uint32_t> track;
+        for (const std::uint32_t view : scene.tracks[vertex]) {
+            track.push_back(order[view]);
+        }
+        std::sort(track.begin(), track.end());
+        permuted.tracks.push_back(track);
+    }
+    for (std::size_t view = 0; view < order.size(); ++view) {
+        permuted.views[order[view]] = scene.views[view];
+    }
+    const TetMesh mesh = triangulate(scene);
+    const TraceOptions options = {.views_sigma = 3.0, .softness = 0.5, .sink_depth = 1.0};
+    const Votes votes = traced(mesh, scene, options);
+    const Votes again = traced(mesh, permuted, options);
+    EXPECT_EQ(again.network.residuals, votes.network.residuals);
+    EXPECT_EQ(again.network.excesses, votes.network.excesses);
+    for (std::size_t view = 0; view < order.size(); ++view) {
+        EXPECT_EQ(again.cell_of_view[order[view]], votes.cell_of_view[view]);
+    }
+    EXPECT_EQ(counted(mesh, permuted), counted(mesh, scene));
+}
+
+TEST(TraceSights, IsTheSameForViewsInAnyOrder)
+{
+    expect_same_for_views_in_another_order(
+        scene_seen_from(centers_around(73), random_points(200, 74), 0.5, 75));
+    const Positions on_lattice = {{1, 1, 1}, {1.5, 1.5, 1.5}, {2, 1.5, 1},
+                                  {2, 2, 3}, {1.5, 0, 4},     {0.5, 2.25, 1.25}};
+    expect_same_for_views_in_another_order(scene_seen_from(on_lattice, lattice(5), 0.7, 76));
+}
+
+} // namespace
+} // namespace vcarve
