@@ -7,7 +7,7 @@
 namespace vcarve {
 
 struct SupportOptions {
-    double max_edge = 6.0;
+    double max_edge = 8.0;
     double max_gap_edge = 2.5;
 
     void visit(OptionVisitor& options)
