@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/version.h"
+#include "cli/compare_command.h"
 #include "cli/manual.h"
 #include "cli/mesh_command.h"
 #include "cli/option_parser.h"
@@ -24,6 +25,7 @@ struct Command {
 /// All commands, the bare form first.
 constexpr Command kCommands[] = {
     {"", cli::mesh_manual, cli::run_mesh},
+    {"compare", cli::compare_manual, cli::run_compare},
 };
 
 void print(const std::string& text)

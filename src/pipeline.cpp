@@ -2,12 +2,14 @@
 
 #include "base/error.h"
 #include "label/carve.h"
+#include "label/sculpt.h"
 #include "points/arrange.h"
 #include "points/center.h"
 #include "surface/extract.h"
 #include "surface/orient.h"
 #include "tetra/triangulate.h"
 
+#include <fmt/format.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -67,13 +69,50 @@ Labels cut(const TetMesh& cells, const Scene& scene, const Options& options, Log
     return labels;
 }
 
+Labels alpha_shape(const TetMesh& cells, const Options& options, Log& log)
+{
+    Stage stage(log, "alpha shape");
+    Labels labels = alpha_shape(cells, options.alpha.alpha * smallest_whole_alpha(cells));
+    const auto inside = std::count(labels.begin(), labels.end(), Label::inside);
+    stage.end({{"inside", inside}});
+    if (inside == 0) {
+        throw InputError(fmt::format("no cell is as small as --alpha {} asks for: 1 is the "
+                                     "smallest that keeps all points",
+                                     options.alpha.alpha));
+    }
+    return labels;
+}
+
+Labels sculpt(const TetMesh& cells, Log& log)
+{
+    Stage stage(log, "sculpt");
+    Labels labels = sculpt(cells);
+    stage.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)}});
+    return labels;
+}
+
+Labels label_cells(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
+{
+    switch (options.method) {
+    case Method::strict:
+        return carve(cells, scene, options, log);
+    case Method::alpha:
+        return alpha_shape(cells, options, log);
+    case Method::sculpt:
+        return sculpt(cells, log);
+    case Method::cut:
+        break;
+    }
+    return cut(cells, scene, options, log);
+}
+
 TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
                 const Options& options, Log& log)
 {
     Stage stage(log, "surface");
     const TriMesh boundary = extract_surface(cells, labels, scene);
-    TriMesh supported =
-        options.closed ? boundary : keep_supported(boundary, scene, options.support);
+    const bool keeps_all = options.closed || ignores_views(options.method);
+    TriMesh supported = keeps_all ? boundary : keep_supported(boundary, scene, options.support);
     stage.end({{"faces", size_of(supported.faces.size())},
                {"without support", size_of(boundary.faces.size() - supported.faces.size())}});
     if (supported.faces.empty()) {
@@ -103,8 +142,7 @@ Reconstruction run_passes(Scene input, const Options& options, Log& log)
 {
     Scene scene = filter(center_points(std::move(input)), options, log);
     const TetMesh cells = triangulate(scene, log);
-    const Labels labels = options.method == Method::strict ? carve(cells, scene, options, log)
-                                                           : cut(cells, scene, options, log);
+    const Labels labels = label_cells(cells, scene, options, log);
     const TriMesh surface = extract(cells, labels, scene, options, log);
     TriMesh mesh = clean(surface, scene, options, log);
     return {std::move(scene), std::move(mesh)};

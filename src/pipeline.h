@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "base/options.h"
+#include "label/alpha_shape.h"
 #include "label/cut.h"
 #include "model/scene.h"
 #include "model/tri_mesh.h"
@@ -15,12 +16,19 @@
 namespace vcarve {
 
 /// How cells are told outside from inside.
-enum class Method { cut, strict };
+enum class Method { cut, strict, alpha, sculpt };
+
+/// Whether the method knows the points only: then no view says which faces to keep.
+constexpr bool ignores_views(Method method)
+{
+    return method == Method::alpha || method == Method::sculpt;
+}
 
 /// Everything a run can be told, stage by stage.
 struct Options {
     Method method = Method::cut;
     int min_crossings = 1;
+    AlphaOptions alpha;
     bool closed = false;
     int threads = 0;
     FilterOptions filter;
@@ -31,19 +39,22 @@ struct Options {
 
     void visit(OptionVisitor& options)
     {
-        static constexpr std::array<const char*, 2> kMethods = {"cut", "strict"};
+        static constexpr std::array<const char*, 4> kMethods = {"cut", "strict", "alpha", "sculpt"};
         options.stage("Method");
         options.choice(
             method, kMethods,
             {.name = "method",
              .help = "cut: the labelling that contradicts the sights least. strict: every cell "
-                     "a sight crosses is outside (for points without noise)."});
+                     "a sight crosses is outside (for points without noise). alpha, sculpt: alpha "
+                     "shape and Boissonnat's sculpture, to compare with; they know the points "
+                     "only, and all their faces are kept as with --closed."});
         options.count(min_crossings,
                       {.name = "min-crossings",
                        .unit = "sights",
                        .help = "With --method strict: how many sights must cross a facet "
                                "to carve the cells beside it.",
                        .min = 1});
+        alpha.visit(options);
         filter.visit(options);
         trace.visit(options);
         cut.visit(options);

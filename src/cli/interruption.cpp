@@ -17,11 +17,12 @@ constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 /// only while the signals are blocked.
 std::vector<std::string> files_to_remove;
 
-/// Like what follows, calls only functions that are safe in a handler: unlink, write, _exit.
+/// Like what follows, calls only functions that are safe in a handler: unlink, rmdir, write,
+/// _exit.
 void remove_files()
 {
     for (const std::string& file : files_to_remove) {
-        ::unlink(file.c_str());
+        if (::unlink(file.c_str()) != 0) ::rmdir(file.c_str());
     }
 }
 

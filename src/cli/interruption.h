@@ -6,8 +6,9 @@
 namespace vcarve::cli {
 
 /// From now on SIGINT, SIGTERM and SIGHUP end the program at once with exit code 128 + signal,
-/// after removing the files `unfinished`, whether they exist by then or not. A second call replaces
-/// the list. Also ignores SIGPIPE: a reader that leaves stderr does not end a run.
+/// after removing the files, and the folders that are empty by then, in `unfinished`, whether they
+/// exist or not, in that order. A second call replaces the list. Also ignores SIGPIPE: a reader
+/// that leaves stderr does not end a run.
 void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished);
 
 } // namespace vcarve::cli

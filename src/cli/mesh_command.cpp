@@ -3,10 +3,9 @@
 #include "base/error.h"
 #include "base/threads.h"
 #include "base/version.h"
-#include "cli/console_log.h"
 #include "cli/interruption.h"
+#include "cli/model_input.h"
 #include "cli/run_record.h"
-#include "io/find_model.h"
 #include "io/output_file.h"
 #include "io/ply.h"
 #include "pipeline.h"
@@ -131,33 +130,6 @@ void prepare_outputs(const MeshArguments& arguments, bool with_stats)
     }
 }
 
-struct Input {
-    Scene scene;
-    Json record;
-};
-
-Input read_input(const fs::path& model, Log& log)
-{
-    Stage stage(log, "read");
-    const FoundModel found = find_model(model);
-    for (const std::string& note : found.notes) {
-        log.note(note);
-    }
-    Input input;
-    input.scene = read_colmap_model(found.folder, found.format);
-    const Counts counts = {{"points", input.scene.num_points()},
-                           {"views", input.scene.views.size()},
-                           {"sights", input.scene.num_sights()}};
-    input.record = {{"model", model.string()},
-                    {"folder", found.folder.string()},
-                    {"format", found.format == ModelFormat::binary ? "binary" : "text"}};
-    for (const auto& [name, count] : counts) {
-        input.record[name] = count;
-    }
-    stage.end(counts);
-    return input;
-}
-
 void write_surface(const MeshArguments& arguments, const TriMesh& mesh, Log& log)
 {
     Stage stage(log, "write");
@@ -202,7 +174,7 @@ void write_stats(const fs::path& path, const Json& record)
 /// From the model to the file; tells the record what went in and came out.
 void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& record)
 {
-    Input input = read_input(arguments.model, log);
+    ModelInput input = read_model_input(arguments.model, log);
     record["input"] = input.record;
     const TriMesh mesh = reconstruct(std::move(input.scene), arguments.options, log).mesh;
     write_surface(arguments, mesh, log);
@@ -227,6 +199,9 @@ Manual mesh_manual()
         {"OUT.ply", "The surface: triangles with colours and normals, in the model's frame."},
     };
     manual.footnotes = {
+        {"colmap-vcarve compare",
+         "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
+         "--help."},
         {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
     };
     manual.options = mesh_options();
@@ -244,9 +219,7 @@ void run_mesh(const ParsedArguments& given)
     const int threads = wanted == 0 ? available_threads() : wanted;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<Log> shown = arguments.output.quiet
-                                           ? std::make_unique<Log>()
-                                           : std::make_unique<ConsoleLog>(console_on_stderr());
+    const std::unique_ptr<Log> shown = shown_log(arguments.output.quiet);
     StageRecorder log(*shown);
     Json record = {{"program", program_json()},
                    {"input", nullptr},

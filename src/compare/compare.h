@@ -11,9 +11,18 @@
 
 namespace vcarve {
 
+/// What a program took to make a mesh, from its start to its end.
+struct RunCost {
+    double seconds = 0.0;
+    double cpu_seconds = 0.0; ///< of all threads, user and system
+    std::int64_t peak_memory_bytes = 0;
+};
+
 /// Everything measured of one mesh.
 struct Comparison {
     std::string name;
+    std::string failure;         ///< why there is no mesh; then all that follows means nothing
+    std::optional<RunCost> cost; ///< where it was made for the comparison
     MeshCheck size;
     std::optional<std::int64_t> genus; ///< of a closed, manifold, consistently oriented surface
     EvidenceFigures evidence;

@@ -88,6 +88,44 @@ std::vector<Row> truth_rows()
     return rows;
 }
 
+Row cost_row(const char* title, std::function<std::string(const RunCost&)> figure)
+{
+    return {title, [figure = std::move(figure)](const Comparison& c) {
+                return c.cost ? figure(*c.cost) : "-";
+            }};
+}
+
+std::vector<Row> cost_rows()
+{
+    return {
+        cost_row("seconds", [](const auto& cost) { return fmt::format("{:.2f}", cost.seconds); }),
+        cost_row("CPU seconds",
+                 [](const auto& cost) { return fmt::format("{:.2f}", cost.cpu_seconds); }),
+        cost_row("peak memory [MB]",
+                 [](const auto& cost) {
+                     return fmt::format("{:.1f}",
+                                        static_cast<double>(cost.peak_memory_bytes) / 1e6);
+                 }),
+    };
+}
+
+bool has_costs(std::span<const Comparison> comparisons)
+{
+    return std::ranges::any_of(comparisons,
+                               [](const Comparison& c) { return c.cost || !c.failure.empty(); });
+}
+
+constexpr const char* kCostDefinition = "seconds, CPU seconds (all threads), peak memory: of the "
+                                        "whole program that made the mesh, from "
+                                        "its start to its end, on this machine.";
+
+/// A column without a mesh says why in its first row.
+std::string figure_of(const Row& row, const Comparison& comparison, bool is_first)
+{
+    if (comparison.failure.empty()) return row.figure(comparison);
+    return is_first ? comparison.failure : "-";
+}
+
 /// What the figures mean, a line each, written where the user reads them.
 std::vector<std::string> definitions(const Yardstick& yardstick)
 {
@@ -137,7 +175,7 @@ std::string table(std::span<const Comparison> comparisons, const std::vector<Row
     for (std::size_t row = 0; row < rows.size(); ++row) {
         cells[row + 1].push_back(rows[row].title);
         for (const Comparison& comparison : comparisons) {
-            cells[row + 1].push_back(rows[row].figure(comparison));
+            cells[row + 1].push_back(figure_of(rows[row], comparison, row == 0));
         }
     }
     std::vector<std::size_t> widths(cells[0].size(), 3);
@@ -197,6 +235,9 @@ Json truth_json(const TruthFigures& figures)
 
 Json mesh_json(const Comparison& comparison)
 {
+    if (!comparison.failure.empty()) {
+        return {{"name", comparison.name}, {"failure", comparison.failure}};
+    }
     const EvidenceFigures& evidence = comparison.evidence;
     Json mesh = {{"name", comparison.name},
                  {"size", size_json(comparison)},
@@ -206,6 +247,11 @@ Json mesh_json(const Comparison& comparison)
                    {"unsupported_area", evidence.unsupported_area},
                    {"median_distance", evidence.median_distance}}}};
     if (comparison.truth) mesh["truth"] = truth_json(*comparison.truth);
+    if (comparison.cost) {
+        mesh["cost"] = {{"seconds", comparison.cost->seconds},
+                        {"cpu_seconds", comparison.cost->cpu_seconds},
+                        {"peak_memory_bytes", comparison.cost->peak_memory_bytes}};
+    }
     return mesh;
 }
 
@@ -215,6 +261,7 @@ std::string comparison_json(std::span<const Comparison> comparisons, const Yards
 {
     Json report;
     report["definitions"] = definitions(yardstick);
+    if (has_costs(comparisons)) report["definitions"].push_back(kCostDefinition);
     report["options"] = {{"samples", yardstick.options.samples},
                          {"seed", yardstick.options.seed},
                          {"spacings", yardstick.options.spacings}};
@@ -247,11 +294,18 @@ std::string comparison_table(std::span<const Comparison> comparisons, const Yard
             rows.push_back(std::move(row));
         }
     }
+    const bool with_costs = has_costs(comparisons);
+    if (with_costs) {
+        for (Row& row : cost_rows()) {
+            rows.push_back(std::move(row));
+        }
+    }
     std::string text = table(comparisons, rows);
     text += '\n';
     for (const std::string& line : definitions(yardstick)) {
         text += line + '\n';
     }
+    if (with_costs) text += std::string(kCostDefinition) + '\n';
     return text;
 }
 

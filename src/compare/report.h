@@ -12,7 +12,8 @@ namespace vcarve {
 std::string comparison_table(std::span<const Comparison> comparisons, const Yardstick& yardstick);
 
 /// The same as JSON text: "definitions", "options", "model", "truth" (null where there is none) and
-/// "meshes", each with "name", "size", "views" and, with a truth, "truth".
+/// "meshes", each with "name", "size", "views" and, where known, "truth" and "cost"; where there is
+/// no mesh, "name" and "failure".
 std::string comparison_json(std::span<const Comparison> comparisons, const Yardstick& yardstick);
 
 } // namespace vcarve

@@ -1,0 +1,258 @@
+#include "cli/compare_command.h"
+
+#include "base/error.h"
+#include "base/threads.h"
+#include "cli/interruption.h"
+#include "cli/model_input.h"
+#include "cli/rival_runs.h"
+#include "compare/report.h"
+#include "io/mapped_file.h"
+#include "io/output_file.h"
+#include "io/ply.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSeeCompareHelp = " (see colmap-vcarve compare --help)";
+
+/// How the command runs, whatever it measures.
+struct CompareRunOptions {
+    bool quiet = false;
+    int threads = 0;
+
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Run");
+        options.flag(quiet, {.name = "quiet", .help = "Print nothing but the table and errors."});
+        options.count(threads,
+                      {.name = "threads",
+                       .unit = "threads",
+                       .help = "How many to use; 0 uses all. The figures are the same for any.",
+                       .max = 1024});
+    }
+};
+
+/// Everything the command line says.
+struct CompareArguments {
+    fs::path model;
+    std::vector<fs::path> meshes;
+    fs::path truth; ///< empty: none
+    fs::path json;  ///< empty: none
+    CompareOptions measure;
+    std::string colmap; ///< empty: not run
+    RivalOptions rivals;
+    CompareRunOptions run;
+};
+
+std::vector<OptionRow> compare_options()
+{
+    CompareOptions measure;
+    RivalOptions rivals;
+    CompareRunOptions run;
+    bool off = false;
+    OptionTable table;
+    table.stage("Measure");
+    table.path({.name = "truth",
+                .help = "The true surface as PLY, in the model's frame: adds precision, recall, "
+                        "F and blocked sights."});
+    measure.visit(table);
+    table.stage("COLMAP");
+    table.path({.name = "colmap",
+                .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and "
+                        "adds a column for each, with seconds and peak memory."});
+    rivals.visit(table);
+    table.stage("Output");
+    table.path({.name = "json", .help = "Also write all figures, unrounded, as JSON."});
+    run.visit(table);
+    table.stage("Help");
+    table.flag(off, {.name = "help", .help = "Print this and exit."});
+    table.flag(off,
+               {.name = "version", .help = "Print versions of the program and its libraries."});
+    return table.rows();
+}
+
+CompareArguments read_arguments(const ParsedArguments& given)
+{
+    CompareArguments arguments;
+    OptionReader reader(given);
+    arguments.measure.visit(reader);
+    arguments.rivals.visit(reader);
+    arguments.run.visit(reader);
+    if (given.has("colmap")) arguments.colmap = given.options.at("colmap");
+    if (given.operands.size() < (given.has("colmap") ? 1U : 2U)) {
+        throw UsageError(fmt::format("expected a model and meshes, MODEL A.ply ..., but got {}{}",
+                                     given.operands.empty() ? "nothing" : given.operands[0],
+                                     kSeeCompareHelp));
+    }
+    arguments.model = given.operands[0];
+    arguments.meshes.assign(given.operands.begin() + 1, given.operands.end());
+    if (given.has("truth")) arguments.truth = given.options.at("truth");
+    if (given.has("json")) arguments.json = given.options.at("json");
+    return arguments;
+}
+
+/// What cannot be read or written is said before the work starts.
+void check_files(const CompareArguments& arguments)
+{
+    std::vector<fs::path> inputs = arguments.meshes;
+    if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
+    for (const fs::path& input : inputs) {
+        if (input == arguments.json) {
+            throw UsageError(fmt::format("--json would replace the mesh {}", input.string()));
+        }
+        const MappedFile opens(input);
+    }
+    if (!arguments.json.empty()) require_writable(arguments.json);
+}
+
+/// Nothing half written stays behind, whenever the run ends.
+void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* scratch)
+{
+    std::vector<fs::path> unfinished;
+    if (scratch != nullptr) unfinished = scratch->contents();
+    if (!arguments.json.empty()) unfinished.push_back(part_path(arguments.json));
+    end_cleanly_on_signals(unfinished);
+}
+
+/// The meshes of COLMAP and of this program, where they are asked for.
+std::vector<RivalMesh> rivals_of(const CompareArguments& arguments, Log& log)
+{
+    if (arguments.colmap.empty()) return {};
+    const ScratchFolder scratch;
+    remove_on_signals(arguments, &scratch);
+    return run_rivals({.colmap = arguments.colmap,
+                       .model = arguments.model,
+                       .options = arguments.rivals,
+                       .threads = arguments.run.threads},
+                      scratch, log);
+}
+
+/// The columns' names: file names, or whole paths where file names would not tell them apart.
+std::vector<std::string> column_names(const std::vector<fs::path>& meshes)
+{
+    std::vector<std::string> names;
+    for (const fs::path& mesh : meshes) {
+        const auto same = std::ranges::count(meshes, mesh.filename(), &fs::path::filename);
+        names.push_back(same == 1 ? mesh.filename().string() : mesh.string());
+    }
+    return names;
+}
+
+Yardstick read_yardstick(const CompareArguments& arguments, Log& log)
+{
+    const ModelInput model = read_model_input(arguments.model, log);
+    NamedMesh truth;
+    if (!arguments.truth.empty()) truth = {arguments.truth.string(), read_ply(arguments.truth)};
+    Stage stage(log, "yardstick");
+    Yardstick yardstick =
+        make_yardstick(model.scene, arguments.truth.empty() ? nullptr : &truth, arguments.measure);
+    const std::size_t samples = yardstick.truth ? yardstick.truth->samples.size() : 0;
+    stage.end({{"points", yardstick.scene.num_points()},
+               {"samples of the truth", static_cast<std::int64_t>(samples)}});
+    return yardstick;
+}
+
+Comparison measure(const NamedMesh& mesh, const Yardstick& yardstick, Log& log)
+{
+    Stage stage(log, "measure");
+    Comparison comparison = compare_mesh(mesh, yardstick);
+    stage.end({{"faces of " + mesh.name, comparison.size.faces}});
+    return comparison;
+}
+
+/// A column for each rival and each file.
+std::vector<Comparison> measure_all(const CompareArguments& arguments,
+                                    std::vector<RivalMesh> rivals, const Yardstick& yardstick,
+                                    Log& log)
+{
+    std::vector<Comparison> columns;
+    for (RivalMesh& rival : rivals) {
+        Comparison column;
+        column.name = rival.name;
+        if (rival.failure.empty()) {
+            column = measure({rival.name, std::move(rival.mesh)}, yardstick, log);
+        }
+        column.failure = rival.failure;
+        column.cost = rival.cost;
+        columns.push_back(std::move(column));
+    }
+    const std::vector<std::string> names = column_names(arguments.meshes);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        columns.push_back(
+            measure({arguments.meshes[i].string(), read_ply(arguments.meshes[i])}, yardstick, log));
+        columns.back().name = names[i];
+    }
+    return columns;
+}
+
+void print_table(const std::string& table)
+{
+    std::fputs(table.c_str(), stdout);
+    if (std::fflush(stdout) != 0) throw UsageError("cannot write to the standard output");
+}
+
+} // namespace
+
+Manual compare_manual()
+{
+    Manual manual;
+    manual.command = "colmap-vcarve compare";
+    manual.operands = "MODEL A.ply [B.ply ...]";
+    manual.summary = "Measures surfaces against the model they were made from, and the truth.";
+    manual.examples = {
+        {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which one fits the views"},
+        {"colmap-vcarve compare sparse/0 mesh.ply --truth gt.ply", "how true it is"},
+        {"colmap-vcarve compare sparse/0 --colmap colmap", "this program beside COLMAP's mesher"},
+    };
+    manual.operand_meanings = {
+        {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},
+        {"A.ply ...",
+         "Surfaces in the model's frame, each a column of the table; may be left out with "
+         "--colmap."},
+    };
+    manual.footnotes = {
+        {"Figures", "What they mean is written under the table."},
+        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
+    };
+    manual.options = compare_options();
+    return manual;
+}
+
+void run_compare(const ParsedArguments& given)
+{
+    const CompareArguments arguments = read_arguments(given);
+    check_files(arguments);
+
+    const int wanted = arguments.run.threads;
+    const int threads = wanted == 0 ? available_threads() : wanted;
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    const std::unique_ptr<Log> log = shown_log(arguments.run.quiet);
+
+    std::vector<RivalMesh> rivals = rivals_of(arguments, *log);
+    remove_on_signals(arguments, nullptr);
+    if (rivals.empty() && arguments.meshes.empty()) {
+        throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
+                                     arguments.model.string()));
+    }
+    const Yardstick yardstick = read_yardstick(arguments, *log);
+    const std::vector<Comparison> comparisons =
+        measure_all(arguments, std::move(rivals), yardstick, *log);
+    print_table(comparison_table(comparisons, yardstick));
+    if (arguments.json.empty()) return;
+    OutputFile file(arguments.json);
+    file.stream() << comparison_json(comparisons, yardstick);
+    file.commit();
+}
+
+} // namespace vcarve::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "cli/manual.h"
+#include "cli/option_parser.h"
+
+namespace vcarve::cli {
+
+/// `colmap-vcarve compare MODEL A.ply ...`: a table of figures, a column a mesh, on stdout.
+Manual compare_manual();
+
+/// Throws UsageError and InputError; on success the table is printed, and the file of --json is
+/// written whole.
+void run_compare(const ParsedArguments& given);
+
+} // namespace vcarve::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "base/log.h"
+#include "cli/run_record.h"
+#include "io/find_model.h"
+#include "model/scene.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace vcarve::cli {
+
+/// A model that was read, and what a record says of it.
+struct ModelInput {
+    Scene scene;
+    Json record; ///< "model", "folder", "format", "points", "views", "sights"
+};
+
+/// Finds and reads the model the user means, as the stage "read". Throws InputError.
+ModelInput read_model_input(const std::filesystem::path& model, Log& log);
+
+/// What console a command shows its stages on: none where it is to be quiet.
+std::unique_ptr<Log> shown_log(bool quiet);
+
+} // namespace vcarve::cli

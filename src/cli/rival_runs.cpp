@@ -1,0 +1,151 @@
+#include "cli/rival_runs.h"
+
+#include "base/error.h"
+#include "cli/child_process.h"
+#include "io/find_model.h"
+#include "io/ply.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kColmap = "COLMAP";
+constexpr const char* kOurs = "colmap-vcarve";
+
+/// A program to be run, by its column's name; it writes NAME.ply and prints to NAME.txt.
+struct Rival {
+    std::string name;
+    std::string program; ///< for messages
+    std::vector<std::string> words;
+    double timeout_s = kUnlimited;
+};
+
+fs::path mesh_path(const fs::path& folder, const std::string& name)
+{
+    return folder / (name + ".ply");
+}
+
+fs::path printed_path(const fs::path& folder, const std::string& name)
+{
+    return folder / (name + ".txt");
+}
+
+Rival colmap_rival(const RivalRun& run, const fs::path& model, const fs::path& folder)
+{
+    Rival rival{.name = kColmap,
+                .program = run.colmap,
+                .words = {run.colmap, "delaunay_mesher", "--input_type", "sparse", "--input_path",
+                          model.string(), "--output_path", mesh_path(folder, kColmap).string()},
+                .timeout_s = static_cast<double>(run.options.timeout_s)};
+    if (run.threads > 0) {
+        rival.words.insert(rival.words.end(),
+                           {"--DelaunayMeshing.num_threads", std::to_string(run.threads)});
+    }
+    return rival;
+}
+
+Rival our_rival(const RivalRun& run, const fs::path& model, const fs::path& folder)
+{
+    return {.name = kOurs,
+            .program = kOurs,
+            .words = {"/proc/self/exe", "--quiet", "--threads", std::to_string(run.threads), "--",
+                      model.string(), mesh_path(folder, kOurs).string()}};
+}
+
+std::string bytes_of(const fs::path& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string last_line(const std::string& text)
+{
+    const std::size_t end = text.find_last_not_of(" \n\r\t");
+    if (end == std::string::npos) return "";
+    const std::size_t begin = text.find_last_of('\n', end) + 1; // npos + 1 is 0
+    return text.substr(begin, end + 1 - begin);
+}
+
+/// One sentence: why the program made no mesh.
+std::string why_no_mesh(const Rival& rival, const ChildOutcome& outcome, const std::string& printed)
+{
+    if (printed.find("requires CGAL") != std::string::npos) {
+        return fmt::format("{} is built without CGAL, so it has no Delaunay mesher; its column is "
+                           "left out",
+                           rival.program);
+    }
+    const std::string line = last_line(printed);
+    return fmt::format("{} {} and wrote no mesh{}; its column is left out", rival.program,
+                       outcome.description, line.empty() ? "" : ", its last line: " + line);
+}
+
+/// Nothing in `meshes` is read yet: this process has to stay small until all rivals have run.
+void run_rival(const Rival& rival, const fs::path& folder, std::vector<RivalMesh>& meshes, Log& log)
+{
+    Stage stage(log, rival.name);
+    const fs::path printed = printed_path(folder, rival.name);
+    const ChildOutcome outcome = run_child(rival.words, printed, rival.timeout_s);
+    stage.end({});
+    if (outcome.timed_out) {
+        meshes.push_back({.name = rival.name,
+                          .failure = fmt::format("timed out after {} s", rival.timeout_s),
+                          .mesh = {},
+                          .cost = outcome.cost});
+    } else if (outcome.succeeded && fs::exists(mesh_path(folder, rival.name))) {
+        meshes.push_back({.name = rival.name, .failure = "", .mesh = {}, .cost = outcome.cost});
+    } else {
+        log.note(why_no_mesh(rival, outcome, bytes_of(printed)));
+    }
+}
+
+} // namespace
+
+ScratchFolder::ScratchFolder()
+{
+    std::error_code error;
+    const fs::path parent = fs::temp_directory_path(error);
+    std::string pattern = (parent / "colmap-vcarve-XXXXXX").string();
+    if (error || ::mkdtemp(pattern.data()) == nullptr) {
+        throw UsageError(fmt::format("cannot make a temporary folder in {}", parent.string()));
+    }
+    path_ = pattern;
+}
+
+ScratchFolder::~ScratchFolder()
+{
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+std::vector<fs::path> ScratchFolder::contents() const
+{
+    std::vector<fs::path> paths;
+    for (const char* name : {kColmap, kOurs}) {
+        paths.push_back(mesh_path(path_, name));
+        paths.push_back(printed_path(path_, name));
+    }
+    paths.push_back(path_);
+    return paths;
+}
+
+std::vector<RivalMesh> run_rivals(const RivalRun& run, const ScratchFolder& scratch, Log& log)
+{
+    const fs::path model = find_model(run.model).folder;
+    std::vector<RivalMesh> meshes;
+    run_rival(colmap_rival(run, model, scratch.path()), scratch.path(), meshes, log);
+    run_rival(our_rival(run, model, scratch.path()), scratch.path(), meshes, log);
+    for (RivalMesh& rival : meshes) {
+        if (rival.failure.empty()) rival.mesh = read_ply(mesh_path(scratch.path(), rival.name));
+    }
+    return meshes;
+}
+
+} // namespace vcarve::cli

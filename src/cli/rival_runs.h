@@ -1,0 +1,66 @@
+#pragma once
+
+#include "base/log.h"
+#include "base/options.h"
+#include "compare/compare.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vcarve::cli {
+
+/// How COLMAP's mesher is run beside our own program.
+struct RivalOptions {
+    int timeout_s = 300;
+
+    void visit(OptionVisitor& options)
+    {
+        options.count(timeout_s, {.name = "colmap-timeout",
+                                  .unit = "s",
+                                  .help = "COLMAP's mesher is killed after that; some models never "
+                                          "end it.",
+                                  .min = 1});
+    }
+};
+
+/// A mesh that a program made, or why there is none, as a column of the table.
+struct RivalMesh {
+    std::string name;
+    std::string failure; ///< "timed out after 300 s"; empty where `mesh` was made
+    TriMesh mesh;
+    RunCost cost;
+};
+
+/// A new folder for what the rivals write, gone with all that is in it at the end.
+class ScratchFolder {
+  public:
+    /// Throws UsageError where there is no place for it.
+    ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    ~ScratchFolder();
+
+    const std::filesystem::path& path() const { return path_; }
+    /// The files that may be in it, and then itself: what is to be removed at an interruption.
+    std::vector<std::filesystem::path> contents() const;
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// Where COLMAP is, what it is run on, and how.
+struct RivalRun {
+    std::string colmap;
+    std::filesystem::path model;
+    RivalOptions options;
+    int threads = 0; ///< limits both programs; 0 leaves them free
+};
+
+/// Runs `colmap delaunay_mesher --input_type sparse` and this program itself with its defaults, one
+/// after the other, on the model, and measures both alike. A program that fails gives no column but
+/// a note of one sentence; one that runs out of time gives a column without a mesh. Call it before
+/// anything large is in memory (see run_child). Throws InputError where there is no model.
+std::vector<RivalMesh> run_rivals(const RivalRun& run, const ScratchFolder& scratch, Log& log);
+
+} // namespace vcarve::cli
