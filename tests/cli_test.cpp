@@ -176,7 +176,7 @@ TEST(Program, RefusesWrongOptionsInOneSentence)
               "colmap-vcarve: --threads takes a whole number from 0 to 1024 (threads), not "
               "\"many\"\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--method=ctu"}),
-              "colmap-vcarve: --method takes cut or strict, not \"ctu\"\n");
+              "colmap-vcarve: --method takes cut or strict or alpha or sculpt, not \"ctu\"\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--quiet=no"}),
               "colmap-vcarve: --quiet takes no value\n");
 }
@@ -276,7 +276,7 @@ TEST(Program, CompletesOptionsAndChoicesInBash)
     const std::string script = "source '" + (folder / "complete.bash").string() +
                                "'; COMP_WORDS=(colmap-vcarve a --meth); COMP_CWORD=2; "
                                "_colmap_vcarve; echo \"${COMPREPLY[@]}\"; "
-                               "COMP_WORDS=(colmap-vcarve --method s); COMP_CWORD=2; "
+                               "COMP_WORDS=(colmap-vcarve --method st); COMP_CWORD=2; "
                                "_colmap_vcarve; echo \"${COMPREPLY[@]}\"";
     const Outcome completed = Subprocess({"/bin/bash", "-c", script}).wait();
     EXPECT_EQ(completed.out, "--method\nstrict\n");

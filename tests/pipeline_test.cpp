@@ -1,6 +1,8 @@
 #include "base/error.h"
+#include "io/colmap_model.h"
 #include "pipeline.h"
 #include "support/scenes.h"
+#include "support/temporary_folder.h"
 #include "surface/check.h"
 #include "surface/orient.h"
 
@@ -117,6 +119,54 @@ TEST(Reconstruct, ClosedGivesASurfaceWithoutBoundary)
     const MeshCheck check = check_mesh(run(bumpy_sphere(kPoints, 6), options).mesh);
     EXPECT_TRUE(check.is_closed());
     EXPECT_TRUE(check.is_manifold());
+}
+
+/// The desk of the paper, of 178 points.
+Scene desk()
+{
+    return read_colmap_model(std::filesystem::path(VCARVE_FIXTURES) / "paper" / "desk",
+                             ModelFormat::text);
+}
+
+TEST(Reconstruct, KeepsEveryFaceOfASculpture)
+{
+    const MeshCheck check = check_mesh(run(desk(), {.method = Method::sculpt}).mesh);
+    // All points lie on a surface of genus 0, which has 2 V - 4 faces.
+    EXPECT_EQ(check.vertices, 178);
+    EXPECT_EQ(check.faces, 352);
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_EQ(check.euler_characteristic, 2);
+}
+
+TEST(Reconstruct, KeepsEveryFaceOfAnAlphaShape)
+{
+    const MeshCheck check = check_mesh(run(desk(), {.method = Method::alpha}).mesh);
+    EXPECT_EQ(check.boundary_edges, 0);
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_EQ(check.components, 1);
+}
+
+TEST(Reconstruct, GivesTheConvexHullForALargeAlpha)
+{
+    const TriMesh mesh = run(desk(), {.method = Method::alpha, .alpha = {.alpha = 1e6}}).mesh;
+    // No point of the mesh lies before any of its faces.
+    for (const Face& face : mesh.faces) {
+        const Vector3d& a = mesh.positions[face[0]];
+        const Vector3d normal =
+            (mesh.positions[face[1]] - a).cross(mesh.positions[face[2]] - a).normalized();
+        for (const Vector3d& position : mesh.positions) {
+            EXPECT_LE(normal.dot(position - a), 1e-9);
+        }
+    }
+    EXPECT_TRUE(check_mesh(mesh).is_closed());
+}
+
+TEST(Reconstruct, SaysThatAnAlphaIsTooSmall)
+{
+    EXPECT_EQ(refusal<InputError>(
+                  [] { run(desk(), {.method = Method::alpha, .alpha = {.alpha = 0.001}}); }),
+              "no cell is as small as --alpha 0.001 asks for: 1 is the smallest that keeps all "
+              "points");
 }
 
 TEST(Reconstruct, RefusesWhatHoldsTooLittle)
