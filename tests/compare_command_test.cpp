@@ -129,7 +129,8 @@ TEST_F(CompareOnBall, SaysWhatItExpectedWhereOperandsAreMissing)
 TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
 {
     const std::string nowhere = folder / "nowhere";
-    EXPECT_EQ(sentence_of(3, {mesh, nowhere}), "colmap-vcarve: " + nowhere + ": no such file\n");
+    EXPECT_EQ(sentence_of(3, {mesh, nowhere}),
+              "colmap-vcarve: " + nowhere + ": the file does not exist\n");
     EXPECT_EQ(sentence_of(2, {mesh, "--json", nowhere + "/a.json"}),
               "colmap-vcarve: cannot write " + nowhere + "/a.json: the folder " + nowhere +
                   " does not exist\n");

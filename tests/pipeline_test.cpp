@@ -121,6 +121,14 @@ TEST(Reconstruct, ClosedGivesASurfaceWithoutBoundary)
     EXPECT_TRUE(check.is_manifold());
 }
 
+Options with_method(Method method, double alpha = 1.0)
+{
+    Options options;
+    options.method = method;
+    options.alpha.alpha = alpha;
+    return options;
+}
+
 /// The desk of the paper, of 178 points.
 Scene desk()
 {
@@ -130,7 +138,7 @@ Scene desk()
 
 TEST(Reconstruct, KeepsEveryFaceOfASculpture)
 {
-    const MeshCheck check = check_mesh(run(desk(), {.method = Method::sculpt}).mesh);
+    const MeshCheck check = check_mesh(run(desk(), with_method(Method::sculpt)).mesh);
     // All points lie on a surface of genus 0, which has 2 V - 4 faces.
     EXPECT_EQ(check.vertices, 178);
     EXPECT_EQ(check.faces, 352);
@@ -140,7 +148,7 @@ TEST(Reconstruct, KeepsEveryFaceOfASculpture)
 
 TEST(Reconstruct, KeepsEveryFaceOfAnAlphaShape)
 {
-    const MeshCheck check = check_mesh(run(desk(), {.method = Method::alpha}).mesh);
+    const MeshCheck check = check_mesh(run(desk(), with_method(Method::alpha)).mesh);
     EXPECT_EQ(check.boundary_edges, 0);
     EXPECT_TRUE(check.is_closed());
     EXPECT_EQ(check.components, 1);
@@ -148,7 +156,7 @@ TEST(Reconstruct, KeepsEveryFaceOfAnAlphaShape)
 
 TEST(Reconstruct, GivesTheConvexHullForALargeAlpha)
 {
-    const TriMesh mesh = run(desk(), {.method = Method::alpha, .alpha = {.alpha = 1e6}}).mesh;
+    const TriMesh mesh = run(desk(), with_method(Method::alpha, 1e6)).mesh;
     // No point of the mesh lies before any of its faces.
     for (const Face& face : mesh.faces) {
         const Vector3d& a = mesh.positions[face[0]];
@@ -163,8 +171,7 @@ TEST(Reconstruct, GivesTheConvexHullForALargeAlpha)
 
 TEST(Reconstruct, SaysThatAnAlphaIsTooSmall)
 {
-    EXPECT_EQ(refusal<InputError>(
-                  [] { run(desk(), {.method = Method::alpha, .alpha = {.alpha = 0.001}}); }),
+    EXPECT_EQ(refusal<InputError>([] { run(desk(), with_method(Method::alpha, 0.001)); }),
               "no cell is as small as --alpha 0.001 asks for: 1 is the smallest that keeps all "
               "points");
 }
