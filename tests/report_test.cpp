@@ -92,6 +92,40 @@ TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
     }
 }
 
+/// a.ply was made for the comparison, the other one did not come to be.
+std::vector<Comparison> a_run_and_a_failure()
+{
+    std::vector<Comparison> meshes = two_meshes();
+    meshes[0].cost = {.seconds = 1.25, .cpu_seconds = 2.5, .peak_memory_bytes = 3'400'000};
+    meshes[1].failure = "timed out after 300 s";
+    return meshes;
+}
+
+TEST(ComparisonTable, HasWhatARunTookAndWhyThereIsNoMesh)
+{
+    const std::string table = comparison_table(a_run_and_a_failure(), without_truth());
+    EXPECT_THAT(table,
+                HasSubstr("| vertices                   |     12 | timed out after 300 s |\n"
+                          "| faces                      |     20 |                     - |\n"));
+    EXPECT_THAT(table,
+                HasSubstr("| seconds                    |   1.25 |                     - |\n"
+                          "| CPU seconds                |   2.50 |                     - |\n"
+                          "| peak memory [MB]           |    3.4 |                     - |\n"));
+    EXPECT_THAT(table, HasSubstr("\nseconds, CPU seconds (all threads), peak memory: "));
+    EXPECT_THAT(comparison_table(two_meshes(), without_truth()), Not(HasSubstr("seconds")));
+}
+
+TEST(ComparisonJson, HoldsWhatARunTookAndWhyThereIsNoMesh)
+{
+    const auto json =
+        nlohmann::json::parse(comparison_json(a_run_and_a_failure(), without_truth()));
+    EXPECT_EQ(json["meshes"][0]["cost"],
+              nlohmann::json(
+                  {{"seconds", 1.25}, {"cpu_seconds", 2.5}, {"peak_memory_bytes", 3'400'000}}));
+    EXPECT_EQ(json["meshes"][1],
+              nlohmann::json({{"name", "longer_name.ply"}, {"failure", "timed out after 300 s"}}));
+}
+
 TEST(ComparisonJson, HoldsTheFiguresOfEveryMesh)
 {
     const auto report = nlohmann::json::parse(comparison_json(two_meshes(), without_truth()));
