@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vcarve {
 
@@ -74,7 +75,11 @@ void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
 {
     for (int slot = 0; slot < 4; ++slot) {
         const Index neighbor = mesh.cells[cell].neighbors[slot];
-        network.excesses[neighbor] += network.residuals[cell][slot];
+        // Held below the end of 32 bits: so much excess is more than any cell can pass on.
+        const std::int64_t sum =
+            std::int64_t{network.excesses[neighbor]} + std::int64_t{network.residuals[cell][slot]};
+        constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+        network.excesses[neighbor] = static_cast<std::int32_t>(std::min(sum, kMost));
         network.residuals[cell][slot] = 0;
         network.residuals[neighbor][mesh.mirror(cell, slot)] = 0;
     }

@@ -17,7 +17,8 @@ struct CutOptions {
                        {.name = "quality",
                         .unit = "sights",
                         .help = "What a badly shaped facet costs in the cut, in sights of full "
-                                "weight; 0 lets only the sights decide."});
+                                "weight; 0 lets only the sights decide.",
+                        .max = 100'000.0});
     }
 };
 

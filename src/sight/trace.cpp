@@ -18,12 +18,38 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::int32_t kUnit = 256;
-constexpr std::int32_t kMaxSum = 1 << 30;
 
-template <typename T>
-void add(T& sum, T value)
+/// Adds to the network from many threads, and remembers whether a sum came near the end of 32 bits.
+class VoteSums {
+  public:
+    explicit VoteSums(FlowNetwork& network) : network_(network) {}
+
+    void add_residual(Index cell, int slot, std::int32_t vote)
+    {
+        add(network_.residuals[cell][slot], vote);
+    }
+    void add_excess(Index cell, std::int32_t flow) { add(network_.excesses[cell], flow); }
+    bool is_exceeded() const { return is_exceeded_; }
+
+  private:
+    void add(std::int32_t& sum, std::int32_t value)
+    {
+        // The cut adds a few sums and the costs of facets: a quarter of the range is theirs.
+        constexpr std::int32_t kMaxSum = 1 << 29;
+        const std::int32_t before =
+            std::atomic_ref<std::int32_t>(sum).fetch_add(value, std::memory_order_relaxed);
+        if (before > kMaxSum || before < -kMaxSum) {
+            is_exceeded_.store(true, std::memory_order_relaxed);
+        }
+    }
+
+    FlowNetwork& network_;
+    std::atomic<bool> is_exceeded_ = false;
+};
+
+void count_one(std::uint32_t& count)
 {
-    std::atomic_ref<T>(sum).fetch_add(value, std::memory_order_relaxed);
+    std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
 }
 
 /// A view on the border of cells is found in different ones; the smallest does not depend on order.
@@ -76,8 +102,8 @@ class Push {
   public:
     enum class Sign : std::int32_t { source = 1, sink = -1 };
 
-    Push(const TetMesh& mesh, FlowNetwork& network, Sign sign)
-        : mesh_(mesh), network_(network), sign_(static_cast<std::int32_t>(sign))
+    Push(const TetMesh& mesh, VoteSums& sums, Sign sign)
+        : mesh_(mesh), sums_(sums), sign_(static_cast<std::int32_t>(sign))
     {
     }
 
@@ -106,12 +132,12 @@ class Push {
     {
         // Infinite cells are outside whatever they keep.
         if (flow != 0 && cell != kInfinite && !mesh_.cells[cell].is_infinite()) {
-            add(network_.excesses[cell], sign_ * flow);
+            sums_.add_excess(cell, sign_ * flow);
         }
     }
 
     const TetMesh& mesh_;
-    FlowNetwork& network_;
+    VoteSums& sums_;
     std::int32_t sign_;
     std::int32_t carried_ = 0;
     Index reached_ = kInfinite;
@@ -120,8 +146,8 @@ class Push {
 /// The votes of one point's sights.
 class Voter {
   public:
-    Voter(const TetMesh& mesh, Votes& votes, double weight, double sigma)
-        : mesh_(mesh), network_(votes.network), full_(std::lround(kUnit * weight)), sigma_(sigma)
+    Voter(const TetMesh& mesh, VoteSums& sums, double weight, double sigma)
+        : mesh_(mesh), sums_(sums), full_(std::lround(kUnit * weight)), sigma_(sigma)
     {
     }
 
@@ -130,13 +156,13 @@ class Voter {
     Index vote_outside(SightWalk& walk, const Vector3d& point, const Vector3d& center) const
     {
         const Vector3d direction = (center - point).normalized();
-        Push push(mesh_, network_, Push::Sign::source);
+        Push push(mesh_, sums_, Push::Sign::source);
         const WalkEnds ends = walk.to(center, [&](Index cell, int slot) {
             const std::int32_t vote =
                 push.carried() == full_ ? full_ : soft_vote({cell, slot}, point, direction);
             // The sight's flow comes from the view and falls towards the point: it fills the arc
             // inwards, opens the one outwards, and what the next facet will not take stays here.
-            add(network_.residuals[cell][slot], vote);
+            sums_.add_residual(cell, slot, vote);
             push.cross(cell, mesh_.cells[cell].neighbors[slot], vote);
         });
         push.end(ends.last, full_);
@@ -153,15 +179,15 @@ class Voter {
         if (depth == 0.0) {
             const Index behind = walk.first_cell(2.0 * point - center);
             if (behind != kInfinite) {
-                add(network_.excesses[behind], -full_);
+                sums_.add_excess(behind, -full_);
             }
             return;
         }
-        Push push(mesh_, network_, Push::Sign::sink);
+        Push push(mesh_, sums_, Push::Sign::sink);
         const WalkEnds ends = walk.to(point + depth * direction, [&](Index cell, int slot) {
             const std::int32_t vote = soft_vote({cell, slot}, point, direction);
             const Index beyond = mesh_.cells[cell].neighbors[slot];
-            add(network_.residuals[beyond][mesh_.mirror(cell, slot)], vote);
+            sums_.add_residual(beyond, mesh_.mirror(cell, slot), vote);
             push.cross(cell, beyond, vote);
         });
         push.end(ends.last, full_);
@@ -180,7 +206,7 @@ class Voter {
     }
 
     const TetMesh& mesh_;
-    FlowNetwork& network_;
+    VoteSums& sums_;
     std::int32_t full_;
     double sigma_;
 };
@@ -228,8 +254,8 @@ Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage
         for (const std::uint32_t view : scene.tracks[vertex]) {
             walk.to(scene.views[view].center, [&](Index cell, int slot) {
                 const Index beyond = cells.cells[cell].neighbors[slot];
-                add(crossings[cell][slot], 1U);
-                add(crossings[beyond][cells.mirror(cell, slot)], 1U);
+                count_one(crossings[cell][slot]);
+                count_one(crossings[beyond][cells.mirror(cell, slot)]);
             });
         }
     });
@@ -244,12 +270,13 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
     votes.network.residuals.assign(cells.cells.size(), {0, 0, 0, 0});
     votes.network.excesses.assign(cells.cells.size(), 0);
     votes.cell_of_view.assign(scene.views.size(), kInfinite);
+    VoteSums sums(votes.network);
     const double sigma = options.softness * short_edge_length(cells);
     const std::vector<double> weights = sight_weights(scene.tracks, options.views_sigma);
 
     for_each_vertex(cells, stage, [&](Index vertex) {
         const auto track = scene.tracks[vertex];
-        const Voter voter(cells, votes, weights[track.size()], sigma);
+        const Voter voter(cells, sums, weights[track.size()], sigma);
         SightWalk outward(cells, vertex);
         SightWalk inward(cells, vertex);
         for (const std::uint32_t view : track) {
@@ -260,6 +287,11 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
             lower(votes.cell_of_view[view], last);
         }
     });
+    if (sums.is_exceeded()) {
+        throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
+                                     "at one facet; a surface needs fewer points or views",
+                                     scene.num_sights()));
+    }
     return votes;
 }
 

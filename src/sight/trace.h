@@ -22,17 +22,20 @@ struct TraceOptions {
             {.name = "views-sigma",
              .unit = "views",
              .help = "A sight weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
-                     "median point; 0 gives every sight the same weight."});
+                     "median point; 0 gives every sight the same weight.",
+             .max = 100.0});
         options.number(softness,
                        {.name = "softness",
                         .unit = "x short edge",
                         .help = "Uncertainty of a point along its sights, as a multiple of the "
-                                "25th percentile of edge lengths; 0 trusts every point fully."});
+                                "25th percentile of edge lengths; 0 trusts every point fully.",
+                        .max = 1000.0});
         options.number(sink_depth,
                        {.name = "sink-depth",
                         .unit = "x softness",
                         .help = "How far behind a point its sights call the space inside; "
-                                "0 means the cell that begins at the point."});
+                                "0 means the cell that begins at the point.",
+                        .max = 1000.0});
     }
 };
 
