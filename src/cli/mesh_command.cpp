@@ -171,12 +171,22 @@ void write_stats(const fs::path& path, const Json& record)
     file.commit();
 }
 
+/// The surface of a scene. What the scene lacks is said of the model it was read from.
+TriMesh surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
+{
+    try {
+        return reconstruct(std::move(input.scene), arguments.options, log).mesh;
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", arguments.model.string(), error.what()));
+    }
+}
+
 /// From the model to the file; tells the record what went in and came out.
 void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& record)
 {
     ModelInput input = read_model_input(arguments.model, log);
     record["input"] = input.record;
-    const TriMesh mesh = reconstruct(std::move(input.scene), arguments.options, log).mesh;
+    const TriMesh mesh = surface_of(std::move(input), arguments, log);
     write_surface(arguments, mesh, log);
     if (!arguments.stats.empty()) record["mesh"] = check_json(check_mesh(mesh));
 }
