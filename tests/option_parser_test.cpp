@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "cli/option_parser.h"
+#include "label/alpha_shape.h"
 #include "support/sample_options.h"
 
 #include <gmock/gmock.h>
@@ -94,6 +95,22 @@ TEST(OptionReader, TakesInfinityWhereARangeIsOpen)
     EXPECT_EQ(options_of({"--spacing", "inf"}).spacing, kUnlimited);
     EXPECT_EQ(refusal_of({"--angle", "inf"}),
               "--angle takes a number from 0 to 180 (deg), not inf");
+}
+
+TEST(OptionReader, TakesAWordWhereTheOptionHasOne)
+{
+    AlphaOptions options{.alpha = 7.0};
+    OptionTable table;
+    options.visit(table);
+    const auto read = [&](const std::string& text) {
+        const ParsedArguments given = parse_arguments(std::vector{"--alpha=" + text}, table.rows());
+        OptionReader reader(given);
+        options.visit(reader);
+        return options.alpha;
+    };
+    EXPECT_EQ(read("auto"), 1.0);
+    EXPECT_EQ(read("2.5"), 2.5);
+    EXPECT_THROW(read("automatic"), UsageError);
 }
 
 TEST(OptionReader, RefusesValuesOfTheWrongKind)

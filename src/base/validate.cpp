@@ -18,6 +18,7 @@ std::string accepted(const char* kind, const OptionInfo& info)
     } else if (info.max < kUnlimited) {
         text += fmt::format(", {} or less", info.max);
     }
+    if (info.word[0] != '\0') text = fmt::format("{} or {}", info.word, text);
     return info.unit[0] == '\0' ? text : fmt::format("{} ({})", text, info.unit);
 }
 

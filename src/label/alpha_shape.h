@@ -15,7 +15,10 @@ struct AlphaOptions {
         options.number(alpha, {.name = "alpha",
                                .unit = "x auto",
                                .help = "With --method alpha: the radius, as a multiple of the "
-                                       "smallest one that keeps all points and one piece."});
+                                       "smallest one that keeps all points and one piece; "
+                                       "auto is that one.",
+                               .word = "auto",
+                               .word_value = 1.0});
     }
 };
 
