@@ -75,6 +75,7 @@ ChildOutcome run_child(std::vector<std::string> words, const std::filesystem::pa
                        double timeout_s)
 {
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words) {
         pointers.push_back(word.data());
     }
