@@ -126,16 +126,20 @@ TriMesh clean(const TriMesh& mesh, const Scene& scene, const Options& options, L
 {
     Stage stage(log, "clean");
     CleanSurface cleaned = clean_surface(mesh, options.cleanup);
-    const ViewAgreement agreement = view_agreement(cleaned.mesh, scene);
     stage.end({{"vertices", size_of(cleaned.mesh.positions.size())},
                {"faces", size_of(cleaned.mesh.faces.size())},
                {"split edges", cleaned.counts.split_edges},
                {"split vertices", cleaned.counts.split_vertices},
                {"components dropped", cleaned.counts.removed_components},
-               {"holes filled", cleaned.counts.filled_holes},
-               {"sights", agreement.sights},
-               {"facing", agreement.facing}});
+               {"holes filled", cleaned.counts.filled_holes}});
     return std::move(cleaned.mesh);
+}
+
+void check_orientation(const TriMesh& mesh, const Scene& scene, Log& log)
+{
+    Stage stage(log, "orient");
+    const ViewAgreement agreement = view_agreement(mesh, scene);
+    stage.end({{"sights on the outside", agreement.facing}, {"of", agreement.sights}});
 }
 
 Reconstruction run_passes(Scene input, const Options& options, Log& log)
@@ -145,6 +149,7 @@ Reconstruction run_passes(Scene input, const Options& options, Log& log)
     const Labels labels = label_cells(cells, scene, options, log);
     const TriMesh surface = extract(cells, labels, scene, options, log);
     TriMesh mesh = clean(surface, scene, options, log);
+    check_orientation(mesh, scene, log);
     return {std::move(scene), std::move(mesh)};
 }
 
