@@ -122,7 +122,7 @@ TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
     return supported;
 }
 
-TriMesh clean(const TriMesh& mesh, const Scene& scene, const Options& options, Log& log)
+TriMesh clean(const TriMesh& mesh, const Options& options, Log& log)
 {
     Stage stage(log, "clean");
     CleanSurface cleaned = clean_surface(mesh, options.cleanup);
@@ -148,7 +148,7 @@ Reconstruction run_passes(Scene input, const Options& options, Log& log)
     const TetMesh cells = triangulate(scene, log);
     const Labels labels = label_cells(cells, scene, options, log);
     const TriMesh surface = extract(cells, labels, scene, options, log);
-    TriMesh mesh = clean(surface, scene, options, log);
+    TriMesh mesh = clean(surface, options, log);
     check_orientation(mesh, scene, log);
     return {std::move(scene), std::move(mesh)};
 }
