@@ -121,6 +121,7 @@ void prepare_outputs(const MeshArguments& arguments, bool with_stats)
     std::vector<fs::path> outputs = {arguments.out};
     if (with_stats) outputs.push_back(arguments.stats);
     std::vector<fs::path> parts;
+    parts.reserve(outputs.size());
     for (const fs::path& output : outputs) {
         parts.push_back(part_path(output));
     }

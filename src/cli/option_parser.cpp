@@ -52,6 +52,7 @@ void declare(CLI::App& app, const std::vector<OptionRow>& rows)
 {
     const std::string_view name = word.substr(0, word.find('='));
     std::vector<std::string> names;
+    names.reserve(rows.size());
     for (const OptionRow& row : rows) {
         names.push_back("--" + row.name);
     }
