@@ -15,6 +15,7 @@ constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
 /// What the handler may touch has to be global: it gets nothing but the signal's number. Written
 /// only while the signals are blocked.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
 std::vector<std::string> files_to_remove;
 
 /// Like what follows, calls only functions that are safe in a handler: unlink, rmdir, write,

@@ -192,9 +192,9 @@ class SurfaceReader {
     std::size_t list_length(const PlyProperty& property)
     {
         const double length = body_.number(*property.length_type);
-        const auto most =
-            static_cast<double>(body_.bytes_left() / Body::least_bytes(property.type));
-        if (!(length >= 0.0 && length <= most && length == std::floor(length))) {
+        const std::size_t most = body_.bytes_left() / Body::least_bytes(property.type);
+        if (!(length >= 0.0 && length <= static_cast<double>(most) &&
+              length == std::floor(length))) {
             throw BadEntry{fmt::format("the list \"{}\" has length {}, but only {} bytes follow",
                                        property.name, length, body_.bytes_left())};
         }
