@@ -3,6 +3,7 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace vcarve {
@@ -21,19 +22,20 @@ std::uint64_t scattered(Edge edge)
     return edge ^ (edge >> 32U);
 }
 
+constexpr std::array<std::array<int, 2>, 6> kCellEdges = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 std::vector<Edge> sampled_edges(const TetMesh& mesh)
 {
     constexpr std::size_t kCellsTakenWhole = 1'000'000;
     const std::uint64_t one_in = 1 + mesh.cells.size() / kCellsTakenWhole;
     std::vector<Edge> edges;
     for (const Cell& cell : mesh.cells) {
-        for (int i = 0; i < 4; ++i) {
-            for (int j = 0; j < i; ++j) {
-                const auto [low, high] = std::minmax(cell.vertices[i], cell.vertices[j]);
-                const Edge edge = (static_cast<Edge>(low) << 32U) | high;
-                if (high != kInfinite && scattered(edge) % one_in == 0) {
-                    edges.push_back(edge);
-                }
+        for (const auto& [i, j] : kCellEdges) {
+            const auto [low, high] = std::minmax(cell.vertices[i], cell.vertices[j]);
+            const Edge edge = (static_cast<Edge>(low) << 32U) | high;
+            if (high != kInfinite && scattered(edge) % one_in == 0) {
+                edges.push_back(edge);
             }
         }
     }

@@ -116,6 +116,7 @@ VertexHandle add_middle(HalfEdgeMesh& mesh, const std::vector<VertexHandle>& cor
         position += mesh.point(corner) / count;
         color += Vec3d(c[0], c[1], c[2]) / count;
     }
+    // NOLINTNEXTLINE(cppcoreguidelines-slicing): a handle is all that is wanted
     const VertexHandle middle = mesh.add_vertex(position);
     mesh.data(middle).color = {static_cast<std::uint8_t>(color[0]),
                                static_cast<std::uint8_t>(color[1]),

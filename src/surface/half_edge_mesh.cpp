@@ -9,6 +9,7 @@ void add_vertices(const TriMesh& mesh, HalfEdgeMesh& half_edges)
 {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const Eigen::Vector3d& p = mesh.positions[v];
+        // NOLINTNEXTLINE(cppcoreguidelines-slicing): a handle is all that is wanted
         const OpenMesh::VertexHandle vertex = half_edges.add_vertex({p.x(), p.y(), p.z()});
         if (!mesh.colors.empty()) half_edges.data(vertex).color = mesh.colors[v];
         if (!mesh.points.empty()) half_edges.data(vertex).point = mesh.points[v];
