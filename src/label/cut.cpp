@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace vcarve {
@@ -83,32 +84,30 @@ void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
         network.residuals[cell][slot] = 0;
         network.residuals[neighbor][mesh.mirror(cell, slot)] = 0;
     }
-    network.excesses[cell] = 0;
 }
 
-void pin_outside(const TetMesh& mesh, const std::vector<Index>& cells_of_views,
-                 FlowNetwork& network)
+/// The cells that are outside for certain: those that hold views, and the infinite ones.
+std::vector<Index> source_cells(const TetMesh& mesh, const std::vector<Index>& cells_of_views)
 {
-    for (const Index cell : cells_of_views) {
-        if (cell != kInfinite) {
-            give_to_source(mesh, cell, network);
+    std::vector<Index> sources;
+    std::copy_if(cells_of_views.begin(), cells_of_views.end(), std::back_inserter(sources),
+                 [](Index cell) { return cell != kInfinite; });
+    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
+        if (mesh.cells[cell].is_infinite()) {
+            sources.push_back(cell);
         }
     }
-    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-        if (mesh.cells[i].is_infinite()) {
-            give_to_source(mesh, static_cast<Index>(i), network);
-        }
+    return sources;
+}
+
+void pin_outside(const TetMesh& mesh, const std::vector<Index>& sources, FlowNetwork& network)
+{
+    for (const Index cell : sources) {
+        give_to_source(mesh, cell, network);
     }
     // A source cell may have got flow from the next one; it has no way on and no meaning.
-    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-        if (mesh.cells[i].is_infinite()) {
-            network.excesses[i] = 0;
-        }
-    }
-    for (const Index cell : cells_of_views) {
-        if (cell != kInfinite) {
-            network.excesses[cell] = 0;
-        }
+    for (const Index cell : sources) {
+        network.excesses[cell] = 0;
     }
 }
 
@@ -117,7 +116,7 @@ void pin_outside(const TetMesh& mesh, const std::vector<Index>& cells_of_views,
 Labels cut(const TetMesh& cells, Votes votes, const CutOptions& options)
 {
     add_facet_costs(cells, facet_costs(cells, options.quality * votes.unit), votes.network);
-    pin_outside(cells, votes.cell_of_view, votes.network);
+    pin_outside(cells, source_cells(cells, votes.cell_of_view), votes.network);
     return minimum_cut(cells, std::move(votes.network));
 }
 
