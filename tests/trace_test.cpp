@@ -126,6 +126,29 @@ TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
     EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{69, 0, 0, 0, -512, 0, -69, 0}));
 }
 
+TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
+{
+    Scene scene = star({kBeyondCell0});
+    scene.errors_px = {1.0, 1.0, 1.0, -1.0, 2.0}; // the origin's: twice the median
+    TraceOptions options = kFullWeight;
+    options.error_sigma = 3.0;
+    const std::int32_t weight = 217; // 256 exp(-(4 - 1) / 18)
+    EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses,
+              (std::vector<std::int32_t>{weight, 0, 0, 0, 0, 0, -weight, 0}));
+
+    const std::vector<std::int32_t> full = {256, 0, 0, 0, 0, 0, -256, 0};
+    for (const double harmless_px : {0.0, 1.0, -1.0}) {
+        scene.errors_px[4] = harmless_px;
+        EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses, full);
+    }
+    scene.errors_px[4] = 2.0;
+    options.error_sigma = 0.0;
+    EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses, full);
+    options.error_sigma = 3.0;
+    scene.errors_px.assign(5, -1.0);
+    EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses, full);
+}
+
 TEST(TraceSights, SaysNothingWithoutSights)
 {
     const Scene scene = star({});
@@ -234,7 +257,7 @@ std::ptrdiff_t compare_cuts(const Scene& scene, const TraceOptions& options)
     UnpushedNetwork network = network_of_votes(mesh, scene, options);
     pin_outside(mesh, votes.cell_of_view, network);
     const Labels expected = boost_minimum_cut(mesh, network);
-    const Labels labels = cut(mesh, votes, {.quality = 0.0});
+    const Labels labels = cut(mesh, votes, {.quality = 0.0}).labels();
     EXPECT_TRUE(labels == expected)
         << "softness " << options.softness << ", sink depth " << options.sink_depth;
     return std::count(expected.begin(), expected.end(), Label::inside);

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
+#include <optional>
 
 namespace vcarve {
 
@@ -211,7 +213,7 @@ class Voter {
     double sigma_;
 };
 
-double sight_weight(std::size_t views, double views_sigma)
+double views_weight(std::size_t views, double views_sigma)
 {
     if (views_sigma == 0.0) {
         return 1.0;
@@ -220,29 +222,73 @@ double sight_weight(std::size_t views, double views_sigma)
     return 1.0 - std::exp(-0.5 * ratio * ratio);
 }
 
-/// The weight of a sight by the views of its point, for every number of views that occurs. Full
-/// weight is what the median of the points that are seen gets, so that a model of two-view points
-/// is not all doubt.
-std::vector<double> sight_weights(const Tracks& tracks, double views_sigma)
+/// The middle one, the larger of two; nothing where there are none.
+template <typename Value>
+std::optional<Value> median(std::vector<Value> values)
 {
-    std::vector<std::size_t> views;
-    for (std::size_t point = 0; point < tracks.size(); ++point) {
-        if (!tracks[point].empty()) {
-            views.push_back(tracks[point].size());
-        }
+    if (values.empty()) {
+        return std::nullopt;
     }
-    if (views.empty()) {
-        return {0.0};
-    }
-    const auto middle = views.begin() + static_cast<std::ptrdiff_t>(views.size() / 2);
-    std::nth_element(views.begin(), middle, views.end());
-    const double full = sight_weight(*middle, views_sigma);
-    std::vector<double> weights(*std::max_element(views.begin(), views.end()) + 1);
-    for (std::size_t n = 0; n < weights.size(); ++n) {
-        weights[n] = sight_weight(n, views_sigma) / full;
-    }
-    return weights;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
+
+/// Says what a sight weighs by the point it leads to: more with more views, less with a larger
+/// reprojection error.
+class SightWeights {
+  public:
+    SightWeights(const Scene& scene, const TraceOptions& options)
+        : scene_(scene), options_(options), median_error_px_(median(known_errors_px(scene)))
+    {
+        // Full weight is what the median of the points that are seen gets, so that a model of
+        // two-view points is not all doubt.
+        full_ = views_weight(median(track_lengths(scene.tracks)).value_or(1), options.views_sigma);
+    }
+
+    double of(Index point) const
+    {
+        const double by_views = views_weight(scene_.tracks[point].size(), options_.views_sigma);
+        return by_views / full_ * by_error(scene_.errors_px[point]);
+    }
+
+  private:
+    static std::vector<std::size_t> track_lengths(const Tracks& tracks)
+    {
+        std::vector<std::size_t> lengths;
+        for (std::size_t point = 0; point < tracks.size(); ++point) {
+            if (!tracks[point].empty()) {
+                lengths.push_back(tracks[point].size());
+            }
+        }
+        return lengths;
+    }
+
+    static std::vector<double> known_errors_px(const Scene& scene)
+    {
+        std::vector<double> errors;
+        std::copy_if(scene.errors_px.begin(), scene.errors_px.end(), std::back_inserter(errors),
+                     [](double error) { return error >= 0.0; });
+        return errors;
+    }
+
+    /// Errors up to the median one, and unknown ones, take nothing away.
+    double by_error(double error_px) const
+    {
+        const double unit_px = median_error_px_.value_or(0.0);
+        if (options_.error_sigma == 0.0 || unit_px == 0.0) {
+            return 1.0;
+        }
+        const double ratio = error_px / unit_px;
+        const double beyond = std::max(0.0, ratio * ratio - 1.0);
+        return std::exp(-0.5 * beyond / (options_.error_sigma * options_.error_sigma));
+    }
+
+    const Scene& scene_;
+    const TraceOptions& options_;
+    std::optional<double> median_error_px_;
+    double full_ = 1.0;
+};
 
 } // namespace
 
@@ -272,11 +318,11 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
     votes.cell_of_view.assign(scene.views.size(), kInfinite);
     VoteSums sums(votes.network);
     const double sigma = options.softness * short_edge_length(cells);
-    const std::vector<double> weights = sight_weights(scene.tracks, options.views_sigma);
+    const SightWeights weights(scene, options);
 
     for_each_vertex(cells, stage, [&](Index vertex) {
         const auto track = scene.tracks[vertex];
-        const Voter voter(cells, sums, weights[track.size()], sigma);
+        const Voter voter(cells, sums, weights.of(vertex), sigma);
         SightWalk outward(cells, vertex);
         SightWalk inward(cells, vertex);
         for (const std::uint32_t view : track) {

@@ -13,6 +13,7 @@ struct TraceOptions {
     double views_sigma = 1.5;
     double softness = 0.5;
     double sink_depth = 0.0;
+    double error_sigma = 3.0;
 
     void visit(OptionVisitor& options)
     {
@@ -24,6 +25,14 @@ struct TraceOptions {
              .help = "A sight weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
                      "median point; 0 gives every sight the same weight.",
              .max = 100.0});
+        options.number(
+            error_sigma,
+            {.name = "error-sigma",
+             .unit = "x median error",
+             .help =
+                 "A sight weighs exp(-(e^2 - 1) / 2 s^2) of that for a point whose reprojection "
+                 "error is e > 1 medians; 0 takes no account of errors.",
+             .max = 1000.0});
         options.number(softness,
                        {.name = "softness",
                         .unit = "x short edge",
