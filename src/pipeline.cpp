@@ -64,8 +64,19 @@ Labels cut(const TetMesh& cells, const Scene& scene, const Options& options, Log
     Votes votes = trace_sights(cells, scene, options.trace, trace);
     trace.end({{"sights", size_of(scene.num_sights())}});
     Stage label(log, "cut");
-    Labels labels = cut(cells, std::move(votes), options.cut);
-    label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)}});
+    const std::int32_t one_sight = votes.unit;
+    MinimumCut minimum = cut(cells, std::move(votes), options.cut);
+    Labels labels = minimum.labels();
+    std::int64_t webs = 0;
+    constexpr int kRounds = 3; // behind a web there may be another
+    for (int round = 0; round < kRounds; ++round) {
+        const std::vector<Index> doubted = cells_behind_webs(cells, labels, scene, options.webs);
+        minimum.offer(doubted, one_sight);
+        labels = minimum.labels();
+        webs += size_of(doubted.size());
+    }
+    label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)},
+               {"webs doubted", webs}});
     return labels;
 }
 

@@ -10,6 +10,7 @@
 #include "sight/trace.h"
 #include "surface/cleanup.h"
 #include "surface/support.h"
+#include "surface/webs.h"
 
 #include <array>
 
@@ -34,6 +35,7 @@ struct Options {
     FilterOptions filter;
     TraceOptions trace;
     CutOptions cut;
+    WebOptions webs;
     SupportOptions support;
     CleanupOptions cleanup;
 
@@ -58,6 +60,7 @@ struct Options {
         filter.visit(options);
         trace.visit(options);
         cut.visit(options);
+        webs.visit(options);
         options.stage("Surface");
         options.flag(closed,
                      {.name = "closed",

@@ -47,7 +47,7 @@ std::vector<Index> finite_cells(const TetMesh& mesh)
 TEST(Cut, LeavesEverythingOutsideWithoutVotes)
 {
     const TetMesh mesh = triangulate(arrange_points(bumpy_sphere(300, 31)));
-    const Labels labels = cut(mesh, silence(mesh), {});
+    const Labels labels = cut(mesh, silence(mesh), {}).labels();
     EXPECT_EQ(labels, Labels(mesh.cells.size(), Label::outside));
 }
 
@@ -58,13 +58,14 @@ TEST(Cut, PutsACellInsideWhenItsVoteOutweighsItsFacets)
     const Index chosen = finite_cells(mesh)[0];
     Votes votes = silence(mesh);
     votes.network.excesses[chosen] = -100 * votes.unit;
-    const Labels labels = cut(mesh, votes, {});
+    const Labels labels = cut(mesh, votes, {}).labels();
     EXPECT_EQ(std::count(labels.begin(), labels.end(), Label::inside),
               labels[finite_cells(mesh)[1]] == Label::inside ? 2 : 1);
     EXPECT_EQ(labels[chosen], Label::inside);
 
     // Facets that cost more than the vote make it not worth while.
-    EXPECT_EQ(cut(mesh, votes, {.quality = 1000.0}), Labels(mesh.cells.size(), Label::outside));
+    EXPECT_EQ(cut(mesh, votes, {.quality = 1000.0}).labels(),
+              Labels(mesh.cells.size(), Label::outside));
 }
 
 TEST(Cut, NeverPutsAViewsCellInside)
@@ -74,7 +75,7 @@ TEST(Cut, NeverPutsAViewsCellInside)
     Votes votes = silence(mesh);
     votes.network.excesses[chosen] = -100 * votes.unit;
     votes.cell_of_view = {chosen};
-    EXPECT_EQ(cut(mesh, votes, {})[chosen], Label::outside);
+    EXPECT_EQ(cut(mesh, votes, {}).labels()[chosen], Label::outside);
 }
 
 TEST(Cut, LetsOnlyTheVotesDecideWithoutQuality)
@@ -83,7 +84,7 @@ TEST(Cut, LetsOnlyTheVotesDecideWithoutQuality)
     const auto finite = finite_cells(mesh);
     Votes votes = silence(mesh);
     votes.network.excesses[finite[1]] = -1; // the smallest vote there is
-    const Labels labels = cut(mesh, votes, {.quality = 0.0});
+    const Labels labels = cut(mesh, votes, {.quality = 0.0}).labels();
     EXPECT_EQ(labels[finite[0]], Label::outside);
     EXPECT_EQ(labels[finite[1]], Label::inside);
 }
@@ -94,7 +95,7 @@ TEST(Cut, NeverPutsAnInfiniteCellInside)
     const TetMesh mesh = triangulate(scene);
     Log silent;
     Stage stage(silent, "");
-    const Labels labels = cut(mesh, trace_sights(mesh, scene, {}, stage), {});
+    const Labels labels = cut(mesh, trace_sights(mesh, scene, {}, stage), {}).labels();
     std::int64_t inside = 0;
     for (Index i = 0; i < mesh.cells.size(); ++i) {
         inside += labels[i] == Label::inside;

@@ -372,6 +372,30 @@ TEST(MinimumCut, AgreesWithBoykovKolmogorovOnATriangulation)
     }
 }
 
+TEST(MinimumCut, IsFoundAgainAfterMoreWasOffered)
+{
+    std::mt19937 random(11);
+    const std::vector<Kind> kinds = {{300, 1, 1, 1.0, 0.1},
+                                     {300, 3, 40, 0.6, 0.1},
+                                     {1000, 100, 400, 1.0, 0.5},
+                                     {2000, 1000, 90, 0.95, 0.02}};
+    for (int round = 0; round < 80; ++round) {
+        const Kind& kind = kinds[static_cast<std::size_t>(round) % kinds.size()];
+        Problem problem =
+            round % 8 < 4 ? random_problem(kind, random) : random_ladder(kind, random);
+        MinimumCut minimum(problem.cells, problem.network);
+        for (int more = 0; more < 4; ++more) {
+            std::vector<Index> chosen(1 + random() % 30);
+            for (Index& cell : chosen) {
+                cell = static_cast<Index>(random() % problem.cells.cells.size());
+                problem.network.excesses[cell] += kind.max_excess;
+            }
+            minimum.offer(chosen, kind.max_excess);
+            ASSERT_EQ(minimum.labels(), cut(problem)) << "round " << round << '.' << more;
+        }
+    }
+}
+
 TEST(MinimumCut, IsTheSameForOneAndForTwoThreads)
 {
     std::mt19937 random(8);

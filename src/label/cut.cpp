@@ -1,7 +1,6 @@
 #include "label/cut.h"
 
 #include "base/parallel.h"
-#include "label/max_flow.h"
 
 #include <Eigen/Geometry>
 
@@ -113,11 +112,11 @@ void pin_outside(const TetMesh& mesh, const std::vector<Index>& sources, FlowNet
 
 } // namespace
 
-Labels cut(const TetMesh& cells, Votes votes, const CutOptions& options)
+MinimumCut cut(const TetMesh& cells, Votes votes, const CutOptions& options)
 {
     add_facet_costs(cells, facet_costs(cells, options.quality * votes.unit), votes.network);
     pin_outside(cells, source_cells(cells, votes.cell_of_view), votes.network);
-    return minimum_cut(cells, std::move(votes.network));
+    return MinimumCut(cells, std::move(votes.network));
 }
 
 } // namespace vcarve

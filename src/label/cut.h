@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/options.h"
-#include "model/labels.h"
+#include "label/max_flow.h"
 #include "model/tet_mesh.h"
 #include "model/votes.h"
 
@@ -26,6 +26,6 @@ struct CutOptions {
 /// facet costs by its shape, quality (1 - min(cos phi, cos psi)) with the angles between the facet
 /// and the spheres around its two cells (Labatut, Pons, Keriven 2009, figure 9). Infinite cells and
 /// the cells that hold views are outside.
-Labels cut(const TetMesh& cells, Votes votes, const CutOptions& options);
+MinimumCut cut(const TetMesh& cells, Votes votes, const CutOptions& options);
 
 } // namespace vcarve

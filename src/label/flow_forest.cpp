@@ -286,6 +286,29 @@ void FlowForest::fill()
         nodes_[cell].level = 0;
         if (nodes_[cell].excess < 0) join(cell, kNoParent, 1);
     }
+    settle();
+}
+
+void FlowForest::offer(Index cell, std::int32_t flow)
+{
+    FlowNode& node = nodes_[cell];
+    const bool was_root = node.excess < 0;
+    // Held below the end of 32 bits: so much is more than any cell can pass on.
+    node.excess =
+        static_cast<std::int32_t>(std::min(std::int64_t{node.excess} + flow, std::int64_t{kMost}));
+    offered_.push_back(cell);
+    // A root that is filled is one no more.
+    if (was_root && node.excess >= 0 && node.level == 1) orphans_.add(cell, 1);
+}
+
+void FlowForest::settle()
+{
+    repair();
+    for (const Index cell : offered_) {
+        if (nodes_[cell].level > 0) list_to_drain(cell);
+    }
+    offered_.clear();
+    drain_all();
     while (!front_.empty())
         grow();
 }

@@ -19,6 +19,10 @@ class FlowForest {
     /// Takes in all excess that can reach a deficit within the run.
     void fill();
 
+    /// Adds to the excess of a cell of a filled forest; settle() then takes in what can drain.
+    void offer(Index cell, std::int32_t flow);
+    void settle();
+
   private:
     std::int32_t level(Index cell) const;
     void join(Index cell, int parent, std::int32_t level);
@@ -50,7 +54,8 @@ class FlowForest {
     LevelBuckets drains_{nodes_};  ///< cells of the forest with excess
     std::vector<Index> late_;      ///< cells whose parent had no room left for all their excess
     std::vector<Index> detached_;
-    std::vector<Index> wave_; ///< cells reattached on one level, and on the next
+    std::vector<Index> offered_; ///< cells that got more excess, not yet settled
+    std::vector<Index> wave_;    ///< cells reattached on one level, and on the next
     std::vector<Index> next_wave_;
 };
 

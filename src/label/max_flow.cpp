@@ -35,24 +35,52 @@ FlowGraph make_graph(const TetMesh& cells, FlowNetwork network)
 
 } // namespace
 
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network)
-{
-    FlowGraph graph = make_graph(cells, std::move(network));
-    const auto count = static_cast<Index>(graph.nodes.size());
+struct MinimumCut::Solver {
+    explicit Solver(FlowGraph network)
+        : graph(std::move(network)), forest(graph, 0, static_cast<Index>(graph.nodes.size()))
+    {
+    }
 
+    FlowGraph graph;
+    FlowForest forest;
+};
+
+MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network)
+    : solver_(std::make_unique<Solver>(make_graph(cells, std::move(network))))
+{
+    FlowGraph& graph = solver_->graph;
+    const auto count = static_cast<Index>(graph.nodes.size());
     // Runs of cells alone, then what is left between them.
     const auto fill_run = [&](std::size_t run) {
         const auto first = static_cast<Index>(run * kRun);
         FlowForest(graph, first, first + std::min(kRun, count - first)).fill();
     };
     if (count > kRun) parallel_for((std::size_t(count) + kRun - 1) / kRun, fill_run, 1);
-    FlowForest(graph, 0, count).fill();
+    solver_->forest.fill();
+}
 
-    Labels labels(count);
-    std::transform(
-        graph.nodes.begin(), graph.nodes.end(), labels.begin(),
-        [](const FlowNode& node) { return node.level > 0 ? Label::inside : Label::outside; });
+MinimumCut::~MinimumCut() = default;
+
+void MinimumCut::offer(std::span<const Index> cells, std::int32_t flow)
+{
+    for (const Index cell : cells)
+        solver_->forest.offer(cell, flow);
+    solver_->forest.settle();
+}
+
+Labels MinimumCut::labels() const
+{
+    const std::vector<FlowNode>& nodes = solver_->graph.nodes;
+    Labels labels(nodes.size());
+    std::transform(nodes.begin(), nodes.end(), labels.begin(), [](const FlowNode& node) {
+        return node.level > 0 ? Label::inside : Label::outside;
+    });
     return labels;
+}
+
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network)
+{
+    return MinimumCut(cells, std::move(network)).labels();
 }
 
 } // namespace vcarve

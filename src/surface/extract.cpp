@@ -4,21 +4,30 @@ namespace vcarve {
 
 namespace {
 
-std::vector<Face> boundary_faces(const TetMesh& mesh, const Labels& labels)
+/// Calls visit(cell, slot) for every facet by which an inside cell meets an outside one.
+template <typename Visit>
+void for_each_boundary_facet(const TetMesh& mesh, const Labels& labels, const Visit& visit)
 {
-    std::vector<Face> faces;
-    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
-        if (labels[i] == Label::outside) {
+    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
+        if (labels[cell] == Label::outside) {
             continue;
         }
-        const Cell& cell = mesh.cells[i];
         for (int slot = 0; slot < 4; ++slot) {
-            if (labels[cell.neighbors[slot]] == Label::outside) {
-                const auto& [a, b, c] = kFacetCorners[slot]; // counter-clockwise from inside
-                faces.push_back({cell.vertices[a], cell.vertices[c], cell.vertices[b]});
+            if (labels[mesh.cells[cell].neighbors[slot]] == Label::outside) {
+                visit(cell, slot);
             }
         }
     }
+}
+
+std::vector<Face> boundary_faces(const TetMesh& mesh, const Labels& labels)
+{
+    std::vector<Face> faces;
+    for_each_boundary_facet(mesh, labels, [&](Index cell, int slot) {
+        const auto& corners = mesh.cells[cell].vertices;
+        const auto& [a, b, c] = kFacetCorners[slot]; // counter-clockwise from inside
+        faces.push_back({corners[a], corners[c], corners[b]});
+    });
     return faces;
 }
 
@@ -50,6 +59,13 @@ TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene&
         }
     }
     return mesh;
+}
+
+std::vector<Index> cells_behind(const TetMesh& cells, const Labels& labels)
+{
+    std::vector<Index> behind;
+    for_each_boundary_facet(cells, labels, [&](Index cell, int) { behind.push_back(cell); });
+    return behind;
 }
 
 } // namespace vcarve

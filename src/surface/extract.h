@@ -5,6 +5,8 @@
 #include "model/tet_mesh.h"
 #include "model/tri_mesh.h"
 
+#include <vector>
+
 namespace vcarve {
 
 /// The boundary of the inside (Akgunduz, Zetu, Banerjee 2000, section 4.4): every facet between an
@@ -12,5 +14,8 @@ namespace vcarve {
 /// points. Closed, consistently oriented, possibly non-manifold where cells touch in an edge or a
 /// vertex. Vertices and faces follow the order of the cells. Cost: O(cells).
 TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene& scene);
+
+/// The inside cell behind each face of extract_surface(), in the order of its faces.
+std::vector<Index> cells_behind(const TetMesh& cells, const Labels& labels);
 
 } // namespace vcarve
