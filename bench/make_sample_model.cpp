@@ -1,0 +1,39 @@
+#include "base/error.h"
+#include "sample_scene.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <exception>
+#include <string_view>
+
+namespace {
+
+std::size_t count_in(std::string_view text)
+{
+    std::size_t count = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+    if (error != std::errc() || end != text.data() + text.size() || count == 0) {
+        throw vcarve::UsageError(fmt::format("expected a number of points, not \"{}\"", text));
+    }
+    return count;
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+    try {
+        if (count != 4) throw vcarve::UsageError("make_sample_model surface|terrain POINTS FOLDER");
+        const std::size_t points = count_in(words[2]);
+        const auto shape = vcarve::bench::shape_named(words[1]);
+        const auto views = vcarve::bench::usual_views(points);
+        vcarve::bench::write_colmap_model(words[3],
+                                          vcarve::bench::make_sample_scene(shape, points, views));
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "make_sample_model: %s\n", error.what());
+        return 2;
+    }
+}

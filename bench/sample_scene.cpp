@@ -1,0 +1,231 @@
+#include "sample_scene.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "random.h"
+#include "sample_shapes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace vcarve::bench {
+
+namespace {
+
+using Eigen::Vector3d;
+using ViewIndices = std::vector<std::uint32_t>;
+
+constexpr std::size_t kBlockPoints = 16384; ///< made with a generator of their own
+constexpr double kOutliers = 0.02;
+constexpr double kNoise = 0.25; ///< of the spacing
+
+/// For each view those near it, the nearest (itself) first.
+std::vector<ViewIndices> nearby_views(const std::vector<View>& views)
+{
+    constexpr std::size_t kNearby = 12;
+    ViewIndices all(views.size());
+    std::iota(all.begin(), all.end(), 0U);
+    std::vector<ViewIndices> nearby;
+    for (const View& view : views) {
+        const auto distance = [&](std::uint32_t i) {
+            return (views[i].center - view.center).squaredNorm();
+        };
+        std::ranges::stable_sort(all, {}, distance);
+        nearby.emplace_back(
+            all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(kNearby, all.size())));
+    }
+    return nearby;
+}
+
+/// Photographs a shape: makes points and decides which views see them.
+class Photographer {
+  public:
+    Photographer(const SampleShape& shape, std::vector<View> views, double noise)
+        : shape_(shape), views_(std::move(views)), nearby_(nearby_views(views_)), noise_(noise)
+    {
+    }
+
+    const std::vector<View>& views() const { return views_; }
+
+    void add_points(std::size_t count, std::uint64_t seed, Scene& scene) const
+    {
+        Random random(seed);
+        for (std::size_t i = 0; i < count; ++i) {
+            random.uniform() < kOutliers ? add_outlier(random, scene) : add_inlier(random, scene);
+        }
+    }
+
+  private:
+    void add_inlier(Random& random, Scene& scene) const
+    {
+        const std::size_t wanted = track_length(random);
+        while (true) {
+            const Spot spot = shape_.spot(random);
+            const std::uint32_t anchor = nearest_view(shape_.vantage(spot, random));
+            const ViewIndices track =
+                some_of(nearby_[anchor], wanted, random,
+                        [&](std::uint32_t view) { return sees(views_[view], spot); });
+            // What fewer than two views see is in no model
+            if (track.size() < 2) continue;
+            return add(spot.position + noise_ * random.normal_3d(), track, random, scene);
+        }
+    }
+
+    void add_outlier(Random& random, Scene& scene) const
+    {
+        const Eigen::AlignedBox3d box = shape_.box();
+        const double x = random.uniform();
+        const double y = random.uniform();
+        const Vector3d share(x, y, random.uniform());
+        const ViewIndices track = some_of(nearby_[random.below(views_.size())],
+                                          track_length(random), random, [](auto) { return true; });
+        add(box.min() + share.cwiseProduct(box.sizes()), track, random, scene);
+    }
+
+    static void add(const Vector3d& position, ViewIndices track, Random& random, Scene& scene)
+    {
+        std::ranges::sort(track);
+        scene.positions.push_back(position);
+        const Vector3d share = (0.5 * (position + Vector3d::Ones())).cwiseMax(0.0).cwiseMin(1.0);
+        const Eigen::Array3i levels = (255.0 * share.array()).round().cast<int>();
+        scene.colors.push_back({static_cast<std::uint8_t>(levels[0]),
+                                static_cast<std::uint8_t>(levels[1]),
+                                static_cast<std::uint8_t>(levels[2])});
+        scene.errors_px.push_back(random.uniform(0.2, 1.4));
+        scene.tracks.push_back(track);
+    }
+
+    /// 2 to 8, 3.7 on average, each count less common than the one before.
+    static std::size_t track_length(Random& random)
+    {
+        constexpr double kOneMore = 0.7;
+        constexpr std::size_t kMost = 8;
+        while (true) {
+            std::size_t length = 2;
+            while (length <= kMost && random.uniform() < kOneMore) {
+                ++length;
+            }
+            if (length <= kMost) return length;
+        }
+    }
+
+    /// Up to `wanted` of the candidates that pass, in random order.
+    template <typename Passes>
+    static ViewIndices some_of(ViewIndices candidates, std::size_t wanted, Random& random,
+                               const Passes& passes)
+    {
+        ViewIndices taken;
+        for (std::size_t i = 0; i < candidates.size() && taken.size() < wanted; ++i) {
+            std::swap(candidates[i], candidates[i + random.below(candidates.size() - i)]);
+            if (passes(candidates[i])) taken.push_back(candidates[i]);
+        }
+        return taken;
+    }
+
+    std::uint32_t nearest_view(const Vector3d& place) const
+    {
+        const auto distance = [&](const View& view) { return (view.center - place).squaredNorm(); };
+        return static_cast<std::uint32_t>(std::ranges::min_element(views_, {}, distance) -
+                                          views_.begin());
+    }
+
+    bool sees(const View& view, const Spot& spot) const
+    {
+        constexpr double kGrazing = 0.25; // cosine, about 75 degrees off the normal
+        const Vector3d towards = (view.center - spot.position).normalized();
+        if (spot.normal.dot(towards) < kGrazing) return false;
+        const Vector3d place_in_camera = in_camera(view, spot.position);
+        if (place_in_camera.z() <= 0.0) return false;
+        const auto size_px = static_cast<double>(sample_camera_.width_px);
+        const Eigen::Array2d pixel_px = in_image(place_in_camera);
+        if ((pixel_px < 0.0).any() || (pixel_px > size_px).any()) return false;
+        return !is_hidden(spot.position, towards);
+    }
+
+    /// Whether the shape comes between a spot and what lies in a direction.
+    bool is_hidden(const Vector3d& spot, const Vector3d& towards) const
+    {
+        constexpr double kStep = 0.04; // a quarter of the narrowest hill
+        Vector3d place = spot + kStep * towards;
+        while (box_.contains(place)) {
+            if (shape_.height_above(place) < 0.0) return true;
+            place += kStep * towards;
+        }
+        return false;
+    }
+
+    const SampleShape& shape_;
+    std::vector<View> views_;
+    std::vector<ViewIndices> nearby_;
+    double noise_;
+    Eigen::AlignedBox3d box_ = shape_.box();
+    Camera sample_camera_ = sample_camera();
+};
+
+void append(const Scene& block, Scene& scene)
+{
+    const auto add = [](const auto& from, auto& to) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    add(block.positions, scene.positions);
+    add(block.colors, scene.colors);
+    add(block.errors_px, scene.errors_px);
+    for (std::size_t point = 0; point < block.num_points(); ++point) {
+        scene.tracks.push_back(block.tracks[point]);
+    }
+}
+
+} // namespace
+
+Shape shape_named(std::string_view name)
+{
+    for (const Shape shape : {Shape::surface, Shape::terrain}) {
+        if (name == name_of(shape)) return shape;
+    }
+    throw UsageError(fmt::format("a sample shows a surface or terrain, not \"{}\"", name));
+}
+
+const char* name_of(Shape shape)
+{
+    return shape == Shape::surface ? "surface" : "terrain";
+}
+
+std::size_t usual_views(std::size_t points)
+{
+    constexpr std::size_t kMany = 1'000'000;
+    return points >= kMany ? 300 : 100;
+}
+
+Scene make_sample_scene(Shape shape, std::size_t points, std::size_t views)
+{
+    const auto subject = shape == Shape::surface ? bumpy_ball() : terrain();
+    const double spacing = std::sqrt(subject->area() / static_cast<double>(points));
+    const Photographer photographer(*subject, subject->views(views), kNoise * spacing);
+
+    std::vector<Scene> blocks((points + kBlockPoints - 1) / kBlockPoints);
+    const auto fill = [&](std::size_t i) {
+        const std::size_t begin = i * kBlockPoints;
+        photographer.add_points(std::min(kBlockPoints, points - begin), i, blocks[i]);
+    };
+    parallel_for(blocks.size(), fill, 1);
+
+    Scene scene;
+    scene.cameras = {sample_camera()};
+    scene.views = photographer.views();
+    for (std::size_t i = 0; i < views; ++i) {
+        scene.views[i].id = static_cast<std::uint32_t>(i + 1);
+        scene.views[i].name = fmt::format("{:04}.jpg", i + 1);
+    }
+    for (Scene& block : blocks) {
+        append(block, scene);
+        block = {};
+    }
+    scene.point_ids.resize(points);
+    std::iota(scene.point_ids.begin(), scene.point_ids.end(), std::uint64_t{1});
+    return scene;
+}
+
+} // namespace vcarve::bench
