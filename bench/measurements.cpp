@@ -1,0 +1,152 @@
+#include "measurements.h"
+
+#include "bare_triangulation.h"
+#include "cli/model_input.h"
+#include "cli/process_usage.h"
+#include "cli/run_record.h"
+#include "io/colmap_model.h"
+#include "io/mapped_file.h"
+#include "io/ply.h"
+#include "pipeline.h"
+#include "points/arrange.h"
+#include "points/center.h"
+
+#include <tbb/global_control.h>
+
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace vcarve::bench {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Time, and memory above what there was, since it was made.
+class Meter {
+  public:
+    Meter() : base_bytes_(base_bytes()), began_(cli::process_usage()) {}
+
+    std::int64_t above_base(std::int64_t peak_bytes) const { return peak_bytes - base_bytes_; }
+
+    Json json() const
+    {
+        const cli::ProcessUsage now = cli::process_usage();
+        return {{"seconds", now.seconds - began_.seconds},
+                {"cpu_seconds", now.cpu_seconds - began_.cpu_seconds},
+                {"peak_bytes", above_base(cli::peak_memory_bytes())}};
+    }
+
+  private:
+    static std::int64_t base_bytes()
+    {
+        if (!cli::reset_peak_memory()) {
+            throw std::runtime_error("peaks of memory cannot be told apart here: "
+                                     "/proc/self/clear_refs takes no 5");
+        }
+        return cli::peak_memory_bytes();
+    }
+
+    std::int64_t base_bytes_;
+    cli::ProcessUsage began_;
+};
+
+std::vector<Vector3d> read_raw_points(const std::filesystem::path& path)
+{
+    const MappedFile file(path);
+    std::vector<Vector3d> points(file.bytes().size() / sizeof(Vector3d));
+    std::memcpy(points.data()->data(), file.bytes().data(), points.size() * sizeof(Vector3d));
+    return points;
+}
+
+void write_raw_points(const std::filesystem::path& path, const std::vector<Vector3d>& points)
+{
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(points.data()),
+               static_cast<std::streamsize>(points.size() * sizeof(Vector3d)));
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path.string());
+}
+
+tbb::global_control limit_of(int threads)
+{
+    return tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                               static_cast<std::size_t>(threads));
+}
+
+void make_surface(const Sample& sample, int threads, Log& log)
+{
+    Options options;
+    options.threads = threads;
+    cli::ModelInput input = cli::read_model_input(sample.folder, log);
+    const TriMesh mesh = reconstruct(std::move(input.scene), options, log).mesh;
+    Stage stage(log, "write");
+    write_ply(sample.folder / "surface.ply", mesh, {});
+    stage.end({{"faces", mesh.faces.size()}});
+}
+
+} // namespace
+
+Json prepare(const Sample& sample)
+{
+    if (!std::filesystem::exists(sample.folder)) {
+        write_colmap_model(sample.folder, make_sample_scene(sample.shape, sample.points,
+                                                            usual_views(sample.points)));
+    }
+    const Scene read = read_colmap_model(sample.folder, ModelFormat::binary);
+    const Json sizes = {
+        {"points", read.num_points()}, {"views", read.views.size()}, {"sights", read.num_sights()}};
+    const Scene scene = arrange_points(filter_points(center_points(read), FilterOptions()).scene);
+    write_raw_points(sample.triangulated(), scene.positions);
+    Json record = {{"shape", name_of(sample.shape)}};
+    record.update(sizes);
+    record["triangulated"] = scene.num_points();
+    return record;
+}
+
+Json measure_sequential_triangulation(const Sample& sample)
+{
+    const std::vector<Kernel::Point_3> points = cgal_points(read_raw_points(sample.triangulated()));
+    const auto limit = limit_of(1);
+    const Meter meter;
+    const BareDelaunay<CGAL::Sequential_tag> made(points.begin(), points.end());
+    return meter.json();
+}
+
+Json measure_parallel_triangulation(const Sample& sample, int threads)
+{
+    const std::vector<Kernel::Point_3> points = cgal_points(read_raw_points(sample.triangulated()));
+    CGAL::Bbox_3 box;
+    for (const Kernel::Point_3& point : points) {
+        box += point.bbox();
+    }
+    const auto limit = limit_of(threads);
+    const Meter meter;
+    constexpr int kLockCellsPerAxis = 50; // as in CGAL's manual
+    BareDelaunay<CGAL::Parallel_tag>::Lock_data_structure locks(box, kLockCellsPerAxis);
+    const BareDelaunay<CGAL::Parallel_tag> made(points.begin(), points.end(), &locks);
+    return meter.json();
+}
+
+Json measure_run(const Sample& sample, int threads)
+{
+    const auto limit = limit_of(threads);
+    Log silent;
+    const Meter meter;
+    cli::StageRecorder recorder(silent);
+    make_surface(sample, threads, recorder);
+    Json result = meter.json();
+    // Each stage began a new peak
+    const cli::Json recorded = recorder.json();
+    result["peak_bytes"] = meter.above_base(recorded["total"]["peak_memory_bytes"]);
+    for (const cli::Json& stage : recorded["stages"]) {
+        result["stages"].push_back({{"name", stage["name"]},
+                                    {"seconds", stage["seconds"]},
+                                    {"cpu_seconds", stage["cpu_seconds"]},
+                                    {"peak_bytes", meter.above_base(stage["peak_memory_bytes"])}});
+    }
+    return result;
+}
+
+} // namespace vcarve::bench

@@ -1,0 +1,116 @@
+// Measures whole runs, from files to files, against CGAL's triangulation of the same points:
+// seconds, CPU seconds and peaks of memory, stage by stage. See tools/bench.
+
+#include "measurements.h"
+#include "run_report.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <map>
+
+namespace vcarve::bench {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path folder; ///< for models and surfaces
+    std::string shape = "surface";
+    std::vector<std::uint64_t> points = {10'000, 100'000};
+    std::vector<int> threads = {1, 2};
+    std::size_t rounds = 3;
+    std::filesystem::path json; ///< empty: none
+};
+
+/// Rounds go over all measurements in turn, so that what disturbs the machine disturbs all alike.
+SampleResult measure(const Sample& sample, const Arguments& arguments)
+{
+    std::vector<Json> sequential;
+    std::map<int, std::vector<Json>> parallel;
+    std::map<int, std::vector<Json>> runs;
+    for (std::size_t round = 0; round < arguments.rounds; ++round) {
+        sequential.push_back(
+            in_own_process([&] { return measure_sequential_triangulation(sample); }));
+        for (const int threads : arguments.threads) {
+            if (threads > 1) {
+                parallel[threads].push_back(in_own_process(
+                    [&] { return measure_parallel_triangulation(sample, threads); }));
+            }
+            runs[threads].push_back(in_own_process([&] { return measure_run(sample, threads); }));
+        }
+    }
+    SampleResult result;
+    result.sequential = median_of(sequential);
+    for (const auto& [threads, measured] : parallel) {
+        result.parallel[threads] = median_of(measured);
+    }
+    for (const auto& [threads, measured] : runs) {
+        result.runs[threads] = median_of(measured);
+    }
+    return result;
+}
+
+std::string machine_line()
+{
+    std::array<double, 3> loads{};
+    const bool known = ::getloadavg(loads.data(), 3) == 3;
+    return fmt::format("Load of the machine when this began: {:.1f}. Peaks are above the program's "
+                       "own memory. x sequential and x parallel: times CGAL's triangulation alone, "
+                       "the latter on as many threads.",
+                       known ? loads[0] : -1.0);
+}
+
+void run(const Arguments& arguments)
+{
+    const Shape shape = shape_named(arguments.shape);
+    fmt::print("{}\n\n", machine_line());
+    Json record = Json::array();
+    for (const std::uint64_t points : arguments.points) {
+        const Sample sample = {.shape = shape,
+                               .points = points,
+                               .folder = arguments.folder /
+                                         fmt::format("{}_{}", arguments.shape, points)};
+        const Json sizes = in_own_process([&] { return prepare(sample); });
+        SampleResult result = measure(sample, arguments);
+        result.sizes = sizes;
+        fmt::print("{}\n", report(result));
+        std::fflush(stdout);
+        record.push_back(json_of(result));
+    }
+    if (!arguments.json.empty()) std::ofstream(arguments.json) << record.dump(2) << '\n';
+}
+
+} // namespace
+
+} // namespace vcarve::bench
+
+int main(int count, char** words)
+{
+    try {
+        vcarve::bench::Arguments arguments;
+        CLI::App app("Measures colmap-vcarve on sample models.");
+        app.add_option("--folder", arguments.folder, "where models are, or are made")->required();
+        app.add_option("--shape", arguments.shape, "surface or terrain");
+        app.add_option("--points", arguments.points, "sizes of models: 10k,1M")
+            ->delimiter(',')
+            ->transform(CLI::AsNumberWithUnit(
+                std::map<std::string, std::uint64_t>{{"k", 1'000}, {"M", 1'000'000}}));
+        app.add_option("--threads", arguments.threads, "1,2")->delimiter(',');
+        app.add_option("--rounds", arguments.rounds, "of which medians are printed")
+            ->check(CLI::PositiveNumber);
+        app.add_option("--json", arguments.json, "a file for all figures");
+        CLI11_PARSE(app, count, words);
+        vcarve::bench::run(arguments);
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "vcarve_run_bench: {}\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "forked.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace vcarve::bench {
+
+/// What was measured on one sample, medians over the rounds.
+struct SampleResult {
+    Json sizes;                   ///< as prepare() has it
+    Json sequential;              ///< CGAL's triangulation
+    std::map<int, Json> parallel; ///< by the number of threads, from two on
+    std::map<int, Json> runs;     ///< by the number of threads
+};
+
+/// The middle of each figure of some measurements of the same thing; of an even number the upper.
+Json median_of(const std::vector<Json>& measurements);
+
+/// A table in Markdown, with the ratios to CGAL's triangulation.
+std::string report(const SampleResult& result);
+
+/// All figures.
+Json json_of(const SampleResult& result);
+
+} // namespace vcarve::bench
