@@ -1,52 +1,34 @@
 #include "label/max_flow.h"
-#include "sample_network.h"
+#include "samples.h"
 
 #include <benchmark/benchmark.h>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 
 #include <algorithm>
-#include <cstdlib>
-#include <map>
 #include <utility>
 
-// Set VCARVE_NETWORK to the path of a raw file (see sample_network.h) to measure that network as
-// `0` points; a sample is written there as VCARVE_NETWORK_OUT says.
-
-namespace vcarve {
+namespace vcarve::bench {
 namespace {
 
-const SampleNetwork& sample(std::int64_t points)
+void report(benchmark::State& state, std::size_t cells, std::size_t inside)
 {
-    static std::map<std::int64_t, SampleNetwork> samples;
-    const auto found = samples.find(points);
-    if (found != samples.end()) return found->second;
-    const char* input = std::getenv("VCARVE_NETWORK");
-    SampleNetwork made = points == 0 && input != nullptr
-                             ? read_network(input)
-                             : make_sample_network(static_cast<std::size_t>(points));
-    if (const char* output = std::getenv("VCARVE_NETWORK_OUT")) write_network(output, made);
-    return samples.emplace(points, std::move(made)).first->second;
-}
-
-void report(benchmark::State& state, const SampleNetwork& measured, std::size_t inside)
-{
-    state.counters["cells"] = static_cast<double>(measured.cells.cells.size());
+    state.counters["cells"] = static_cast<double>(cells);
     state.counters["inside"] = static_cast<double>(inside);
 }
 
 void bench_minimum_cut(benchmark::State& state)
 {
-    const SampleNetwork& measured = sample(state.range(0));
+    const TetMesh& cells = sample_cells(state.range(0));
     std::size_t inside = 0;
     for (auto _ : state) {
         state.PauseTiming();
-        FlowNetwork network = measured.network;
+        FlowNetwork network = sample_network(state.range(0));
         state.ResumeTiming();
-        const Labels labels = minimum_cut(measured.cells, std::move(network));
+        const Labels labels = minimum_cut(cells, std::move(network));
         inside = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), Label::inside));
     }
-    report(state, measured, inside);
+    report(state, cells.cells.size(), inside);
 }
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
@@ -93,33 +75,27 @@ Graph to_boost(const TetMesh& cells, const FlowNetwork& network)
 
 void bench_boost(benchmark::State& state)
 {
-    const SampleNetwork& measured = sample(state.range(0));
+    const TetMesh& cells = sample_cells(state.range(0));
+    const FlowNetwork& network = sample_network(state.range(0));
+    const std::size_t count = cells.cells.size();
     std::size_t inside = 0;
     for (auto _ : state) {
-        Graph graph = to_boost(measured.cells, measured.network);
-        const std::size_t count = measured.cells.cells.size();
+        Graph graph = to_boost(cells, network);
         boost::boykov_kolmogorov_max_flow(
             graph, boost::get(&Edge::capacity, graph), boost::get(&Edge::residual, graph),
             boost::get(&Edge::reverse, graph), boost::get(&Vertex::predecessor, graph),
             boost::get(&Vertex::color, graph), boost::get(&Vertex::distance, graph),
             boost::get(boost::vertex_index, graph), count, count + 1);
         inside = 0;
-        for (std::size_t cell = 0; cell < count; ++cell)
+        for (std::size_t cell = 0; cell < count; ++cell) {
             inside += graph[cell].color == boost::white_color ? 1U : 0U;
+        }
     }
-    report(state, measured, inside);
+    report(state, count, inside);
 }
 
-// CPU time is that of all threads: on a busy machine it compares better than the time on the wall.
-void measure(benchmark::internal::Benchmark* bench)
-{
-    bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
-}
-
-BENCHMARK(bench_minimum_cut)->Arg(100000)->Arg(1000000)->Apply(measure);
-BENCHMARK(bench_boost)->Arg(100000)->Arg(1000000)->Apply(measure);
-BENCHMARK(bench_minimum_cut)->Name("bench_minimum_cut_of_file")->Arg(0)->Apply(measure);
-BENCHMARK(bench_boost)->Name("bench_boost_of_file")->Arg(0)->Apply(measure);
+BENCHMARK(bench_minimum_cut)->Apply(sample_sizes)->UseRealTime();
+BENCHMARK(bench_boost)->Apply(sample_sizes)->UseRealTime();
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::bench

@@ -112,11 +112,16 @@ void pin_outside(const TetMesh& mesh, const std::vector<Index>& sources, FlowNet
 
 } // namespace
 
-MinimumCut cut(const TetMesh& cells, Votes votes, const CutOptions& options)
+FlowNetwork cut_network(const TetMesh& cells, Votes votes, const CutOptions& options)
 {
     add_facet_costs(cells, facet_costs(cells, options.quality * votes.unit), votes.network);
     pin_outside(cells, source_cells(cells, votes.cell_of_view), votes.network);
-    return MinimumCut(cells, std::move(votes.network));
+    return std::move(votes.network);
+}
+
+MinimumCut cut(const TetMesh& cells, Votes votes, const CutOptions& options)
+{
+    return MinimumCut(cells, cut_network(cells, std::move(votes), options));
 }
 
 } // namespace vcarve

@@ -28,4 +28,7 @@ struct CutOptions {
 /// the cells that hold views are outside.
 MinimumCut cut(const TetMesh& cells, Votes votes, const CutOptions& options);
 
+/// The network that cut() finds the minimum cut of.
+FlowNetwork cut_network(const TetMesh& cells, Votes votes, const CutOptions& options);
+
 } // namespace vcarve

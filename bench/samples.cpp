@@ -1,0 +1,111 @@
+#include "samples.h"
+
+#include "io/colmap_model.h"
+#include "label/cut.h"
+#include "label/max_flow.h"
+#include "points/arrange.h"
+#include "points/center.h"
+#include "points/filter.h"
+#include "sample_scene.h"
+#include "sight/trace.h"
+#include "tetra/triangulate.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <map>
+
+namespace vcarve::bench {
+
+namespace {
+
+/// Models of this process, gone when it ends.
+class ModelFolder {
+  public:
+    ModelFolder() { std::filesystem::create_directories(path_); }
+    ~ModelFolder()
+    {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    ModelFolder(const ModelFolder&) = delete;
+    ModelFolder& operator=(const ModelFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_ =
+        std::filesystem::temp_directory_path() / fmt::format("vcarve_bench_{}", ::getpid());
+};
+
+std::filesystem::path make_folder(std::int64_t points)
+{
+    static const ModelFolder models;
+    if (points == 0) return std::getenv("VCARVE_MODEL");
+    const auto count = static_cast<std::size_t>(points);
+    const std::filesystem::path folder = models.path() / std::to_string(points);
+    write_colmap_model(folder, make_sample_scene(Shape::surface, count, usual_views(count)));
+    return folder;
+}
+
+Scene make_scene(std::int64_t points)
+{
+    Scene scene = read_colmap_model(sample_folder(points), ModelFormat::binary);
+    return arrange_points(filter_points(center_points(std::move(scene)), FilterOptions()).scene);
+}
+
+FlowNetwork make_network(std::int64_t points)
+{
+    const TetMesh& cells = sample_cells(points);
+    Log silent;
+    Stage stage(silent, "sights");
+    return cut_network(cells, trace_sights(cells, sample_scene(points), TraceOptions(), stage),
+                       CutOptions());
+}
+
+/// What `make` makes of so many points, made once.
+template <typename Make>
+const auto& made_once(std::int64_t points, const Make& make)
+{
+    static std::map<std::int64_t, decltype(make(points))> made;
+    const auto found = made.find(points);
+    return found != made.end() ? found->second : made.emplace(points, make(points)).first->second;
+}
+
+} // namespace
+
+const std::filesystem::path& sample_folder(std::int64_t points)
+{
+    return made_once(points, make_folder);
+}
+
+const Scene& sample_scene(std::int64_t points)
+{
+    return made_once(points, make_scene);
+}
+
+const TetMesh& sample_cells(std::int64_t points)
+{
+    return made_once(points, [](std::int64_t n) { return triangulate(sample_scene(n)); });
+}
+
+const FlowNetwork& sample_network(std::int64_t points)
+{
+    return made_once(points, make_network);
+}
+
+const Labels& sample_labels(std::int64_t points)
+{
+    return made_once(
+        points, [](std::int64_t n) { return minimum_cut(sample_cells(n), sample_network(n)); });
+}
+
+void sample_sizes(benchmark::internal::Benchmark* bench)
+{
+    bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+    bench->Arg(100'000)->Arg(1'000'000);
+    if (std::getenv("VCARVE_MODEL") != nullptr) bench->Arg(0);
+}
+
+} // namespace vcarve::bench
