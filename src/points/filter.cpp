@@ -1,5 +1,6 @@
 #include "points/filter.h"
 
+#include "base/index_limit.h"
 #include "base/parallel.h"
 
 #include <tbb/parallel_sort.h>
@@ -149,6 +150,7 @@ void count(Verdict verdict, FilterReport& report)
 
 FilteredPoints filter_points(const Scene& scene, const FilterOptions& options)
 {
+    require_indexable(scene.num_points(), kMostIndices, "points");
     const PointIndices finite = finite_points(scene);
     const Merged merged = merge_duplicates(scene, finite);
     std::vector<std::vector<std::uint32_t>> united(merged.members.size());

@@ -1,5 +1,7 @@
 #include "surface/extract.h"
 
+#include "base/index_limit.h"
+
 namespace vcarve {
 
 namespace {
@@ -38,6 +40,7 @@ TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene&
     TriMesh mesh;
     mesh.offset = scene.offset;
     mesh.faces = boundary_faces(cells, labels);
+    require_indexable(mesh.faces.size(), kMostFaces, "faces");
     std::vector<std::uint32_t> new_index(cells.positions.size(), kNoPoint);
     for (const Face& face : mesh.faces) {
         for (const std::uint32_t vertex : face) {

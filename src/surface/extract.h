@@ -12,7 +12,8 @@ namespace vcarve {
 /// The boundary of the inside (Akgunduz, Zetu, Banerjee 2000, section 4.4): every facet between an
 /// inside and an outside cell, counter-clockwise seen from outside, with the colours of the scene's
 /// points. Closed, consistently oriented, possibly non-manifold where cells touch in an edge or a
-/// vertex. Vertices and faces follow the order of the cells. Cost: O(cells).
+/// vertex. Vertices and faces follow the order of the cells. Throws InputError where
+/// there are more faces than can be numbered. Cost: O(cells).
 TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene& scene);
 
 /// The inside cell behind each face of extract_surface(), in the order of its faces.

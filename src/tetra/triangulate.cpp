@@ -1,6 +1,7 @@
 #include "tetra/triangulate.h"
 
 #include "base/error.h"
+#include "base/index_limit.h"
 #include "base/parallel.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -31,9 +32,6 @@ using Delaunay = CGAL::Delaunay_triangulation_3<
 
 /// Below this many points CGAL's parallel insertion loses against its sequential one (measured).
 constexpr std::size_t kParallelFromPoints = 50'000;
-
-/// A slot holds two bits of a facet number, so cell numbers must leave them room.
-constexpr std::size_t kMaxCells = (std::size_t{1} << 32) - 1;
 
 std::vector<std::pair<Kernel::Point_3, Index>> numbered_points(const Scene& scene)
 {
@@ -170,10 +168,7 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene)
                                      "surface needs at least four that do not",
                                      scene.num_points()));
     }
-    if (triangulation.number_of_cells() > kMaxCells) {
-        throw InputError(fmt::format("the points make {} cells, and 32-bit indices allow {}",
-                                     triangulation.number_of_cells(), kMaxCells));
-    }
+    require_indexable(triangulation.number_of_cells(), kMostIndices, "cells");
     if (triangulation.number_of_vertices() != scene.num_points()) {
         throw std::logic_error("two points to triangulate lie at one place");
     }
