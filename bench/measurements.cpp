@@ -8,6 +8,7 @@
 #include "io/mapped_file.h"
 #include "io/ply.h"
 #include "pipeline.h"
+#include "pipeline_memory.h"
 #include "points/arrange.h"
 #include "points/center.h"
 
@@ -26,8 +27,9 @@ using Eigen::Vector3d;
 /// Time, and memory above what there was, since it was made.
 class Meter {
   public:
-    Meter() : base_bytes_(base_bytes()), began_(cli::process_usage()) {}
+    Meter() : base_bytes_(begin_peak()), began_(cli::process_usage()) {}
 
+    std::int64_t base_bytes() const { return base_bytes_; }
     std::int64_t above_base(std::int64_t peak_bytes) const { return peak_bytes - base_bytes_; }
 
     Json json() const
@@ -39,7 +41,7 @@ class Meter {
     }
 
   private:
-    static std::int64_t base_bytes()
+    static std::int64_t begin_peak()
     {
         if (!cli::reset_peak_memory()) {
             throw std::runtime_error("peaks of memory cannot be told apart here: "
@@ -75,15 +77,18 @@ tbb::global_control limit_of(int threads)
                                static_cast<std::size_t>(threads));
 }
 
-void make_surface(const Sample& sample, int threads, Log& log)
+/// Returns the peak that the program would have foretold.
+std::int64_t make_surface(const Sample& sample, int threads, Log& log)
 {
     Options options;
     options.threads = threads;
     cli::ModelInput input = cli::read_model_input(sample.folder, log);
+    const std::int64_t predicted = predicted_peak(size_of(input.scene), threads);
     const TriMesh mesh = reconstruct(std::move(input.scene), options, log).mesh;
     Stage stage(log, "write");
     write_ply(sample.folder / "surface.ply", mesh, {});
     stage.end({{"faces", mesh.faces.size()}});
+    return predicted;
 }
 
 } // namespace
@@ -135,8 +140,10 @@ Json measure_run(const Sample& sample, int threads)
     Log silent;
     const Meter meter;
     cli::StageRecorder recorder(silent);
-    make_surface(sample, threads, recorder);
+    const std::int64_t predicted = make_surface(sample, threads, recorder);
     Json result = meter.json();
+    result["base_bytes"] = meter.base_bytes();
+    result["predicted_bytes"] = predicted;
     // Each stage began a new peak
     const cli::Json recorded = recorder.json();
     result["peak_bytes"] = meter.above_base(recorded["total"]["peak_memory_bytes"]);

@@ -31,7 +31,9 @@ Json prepare(const Sample& sample);
 Json measure_sequential_triangulation(const Sample& sample);
 Json measure_parallel_triangulation(const Sample& sample, int threads);
 
-/// From the files of the model to the file of the surface, as the program does it.
+/// From the files of the model to the file of the surface, as the program does it; with
+/// "base_bytes", what the process held before, and "predicted_bytes", the peak of the process
+/// foretold.
 Json measure_run(const Sample& sample, int threads);
 
 } // namespace vcarve::bench

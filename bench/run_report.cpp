@@ -53,6 +53,22 @@ std::string rows_of_runs(const SampleResult& result, double points)
     return text;
 }
 
+std::string summary_of_run(const SampleResult& result, int threads, const Json& run)
+{
+    const auto points = result.sizes["points"].get<double>();
+    const double first_s = seconds_of(result.runs.begin()->second);
+    const double base_cpu_s = result.sequential["cpu_seconds"].get<double>();
+    const double peak = run["base_bytes"].get<double>() + run["peak_bytes"].get<double>();
+    const auto predicted = run["predicted_bytes"].get<double>();
+    return fmt::format("- on {} thread{}: {:.2f} us a point; {:.2f} x as fast as on {}; {:.2f} x "
+                       "the CPU seconds of the sequential triangulation; predicted peak of the "
+                       "process {:.0f} MB, {:.2f} x what it was\n",
+                       threads, threads == 1 ? "" : "s", 1e6 * seconds_of(run) / points,
+                       first_s / seconds_of(run), result.runs.begin()->first,
+                       run["cpu_seconds"].get<double>() / base_cpu_s, 1e-6 * predicted,
+                       predicted / peak);
+}
+
 } // namespace
 
 Json median_of(const std::vector<Json>& measurements)
@@ -85,15 +101,8 @@ std::string report(const SampleResult& result)
         result.sizes["triangulated"].get<std::size_t>(), result.sizes["sights"].get<std::size_t>(),
         result.sizes["views"].get<std::size_t>());
     text += rows_of_runs(result, points) + '\n';
-    const double first_s = seconds_of(result.runs.begin()->second);
-    const auto sequential_cpu_s = result.sequential["cpu_seconds"].get<double>();
     for (const auto& [threads, run] : result.runs) {
-        text +=
-            fmt::format("- on {} thread{}: {:.2f} us a point, {:.2f} x as fast as on {}, {:.2f} "
-                        "x the CPU seconds of the sequential triangulation\n",
-                        threads, threads == 1 ? "" : "s", 1e6 * seconds_of(run) / points,
-                        first_s / seconds_of(run), result.runs.begin()->first,
-                        run["cpu_seconds"].get<double>() / sequential_cpu_s);
+        text += summary_of_run(result, threads, run);
     }
     return text;
 }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "label/carve.h"
 #include "label/sculpt.h"
+#include "pipeline_memory.h"
 #include "points/arrange.h"
 #include "points/center.h"
 #include "surface/extract.h"
@@ -21,6 +22,15 @@ namespace {
 std::int64_t size_of(std::size_t count)
 {
     return static_cast<std::int64_t>(count);
+}
+
+void foresee_memory(const Scene& scene, const Options& options, Log& log)
+{
+    Stage stage(log, "memory");
+    const int threads = tbb::this_task_arena::max_concurrency();
+    require_memory(size_of(scene), threads, options.max_memory);
+    const std::int64_t peak = predicted_peak(size_of(scene), threads);
+    stage.end({{"MiB expected", (peak >> 20) + 1}});
 }
 
 Scene filter(const Scene& scene, const Options& options, Log& log)
@@ -155,6 +165,7 @@ void check_orientation(const TriMesh& mesh, const Scene& scene, Log& log)
 
 Reconstruction run_passes(Scene input, const Options& options, Log& log)
 {
+    foresee_memory(input, options, log);
     Scene scene = filter(center_points(std::move(input)), options, log);
     const TetMesh cells = triangulate(scene, log);
     const Labels labels = label_cells(cells, scene, options, log);

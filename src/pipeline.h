@@ -13,6 +13,7 @@
 #include "surface/webs.h"
 
 #include <array>
+#include <cstdint>
 
 namespace vcarve {
 
@@ -32,6 +33,7 @@ struct Options {
     AlphaOptions alpha;
     bool closed = false;
     int threads = 0;
+    std::int64_t max_memory = 0; ///< bytes
     FilterOptions filter;
     TraceOptions trace;
     CutOptions cut;
@@ -73,6 +75,11 @@ struct Options {
                        .unit = "threads",
                        .help = "How many to use; 0 uses all. The surface is the same for any.",
                        .max = 1024});
+        options.bytes(max_memory,
+                      {.name = "max-memory",
+                       .help = "Refuse a model that is likely to need more memory, judging by its "
+                               "points and sights, before work starts: bytes, or with K, M or G; 0 "
+                               "refuses none."});
     }
 };
 
@@ -84,7 +91,8 @@ struct Reconstruction {
 };
 
 /// From a scene to its surface: the passes in order, on `options.threads` threads; the result does
-/// not depend on how many. Throws InputError where the scene holds too little for a surface.
+/// not depend on how many. Throws InputError where the scene holds too little for a surface, and
+/// before any work where it would need more than `options.max_memory`.
 Reconstruction reconstruct(Scene input, const Options& options, Log& log);
 
 } // namespace vcarve

@@ -62,6 +62,7 @@ TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
     EXPECT_THAT(outcome.out, IsEmpty());
     EXPECT_THAT(outcome.err,
                 MatchesRegex("read +400 points \\(6 views, [0-9]+ sights\\) +[0-9.]+ s\n"
+                             "memory +[0-9]+ MiB expected +[0-9.]+ s\n"
                              "filter +[0-9]+ of 400 points.* s\n"
                              "triangulate +[0-9,]+ cells +[0-9.]+ s\n"
                              "(.|\n)*"
@@ -119,6 +120,30 @@ TEST_F(ProgramOnBall, RecordsTheRun)
         EXPECT_LE(stage["seconds"], record["total"]["seconds"]);
         EXPECT_LE(stage["peak_memory_bytes"], record["total"]["peak_memory_bytes"]);
     }
+}
+
+TEST_F(ProgramOnBall, TakesAModelThatNeedsNoMoreMemoryThanAllowed)
+{
+    EXPECT_EQ(run({ball, out, "--quiet", "--max-memory", "1G"}).exit_code, 0);
+}
+
+TEST_F(ProgramOnBall, RefusesAModelThatNeedsTooMuchMemory)
+{
+    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M"}),
+                MatchesRegex("colmap-vcarve: .*ball: 400 points with [0-9]+ sights need about "
+                             "[0-9.]+M of memory, and --max-memory allows 1M\n"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ProgramOnBall, RefusesABinaryModelForItsMemoryBeforeReadingIt)
+{
+    // A file that reading would refuse: its one point lacks the last byte of its track.
+    const std::string count = std::string("\1\0\0\0\0\0\0\0", 8);
+    folder.write("cut/cameras.bin", count);
+    folder.write("cut/images.bin", count);
+    folder.write("cut/points3D.bin", count + std::string(51 + 7, '\0'));
+    EXPECT_THAT(sentence_of(3, {"--quiet", folder / "cut", out, "--max-memory", "1M"}),
+                HasSubstr("1 points with 0 sights need about"));
 }
 
 TEST_F(ProgramOnBall, RecordsEveryOption)

@@ -44,6 +44,7 @@ Second:
   --closed                    Keep a|b.
   --no-smooth                 Leave corners as they are.
   --shape round|flat          What it is like. [default round]
+  --memory <size>             Take no more. [default 3M]
 
   Exit code                   0 done.
 )");
@@ -82,6 +83,7 @@ TEST(MarkdownOptions, IsATableAStage)
 | `--closed` | off |  | Keep a\|b. |
 | `--no-smooth` | on |  | Leave corners as they are. |
 | `--shape round\|flat` | round |  | What it is like. |
+| `--memory <size>` | 3M |  | Take no more. |
 )");
 }
 

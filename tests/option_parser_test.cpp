@@ -76,6 +76,15 @@ TEST(OptionReader, WritesWhatWasGivenAndLeavesTheRest)
     EXPECT_TRUE(options.closed);
     EXPECT_TRUE(options.smooth);
     EXPECT_EQ(options.shape, Shape::flat);
+    EXPECT_EQ(options.memory, 3 << 20);
+}
+
+TEST(OptionReader, TakesSizesOfMemoryWithTheirSuffix)
+{
+    EXPECT_EQ(options_of({"--memory", "8G"}).memory, std::int64_t{8} << 30);
+    EXPECT_EQ(options_of({"--memory", "0"}).memory, 0);
+    EXPECT_EQ(refusal_of({"--memory", "8 apples"}),
+              "--memory takes a size in bytes, or with K, M or G as in 8G, not \"8 apples\"");
 }
 
 TEST(OptionReader, SwitchesOffAFlagThatIsOnByDefault)

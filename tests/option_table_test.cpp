@@ -23,8 +23,9 @@ TEST(OptionTable, ListsEveryOptionInTheOrderOfItsDeclaration)
     for (const OptionRow& row : sample_rows()) {
         names.push_back(row.stage + "/" + row.name);
     }
-    EXPECT_THAT(names, ElementsAre("First/angle", "First/spacing", "Second/min-views",
-                                   "Second/closed", "Second/no-smooth", "Second/shape"));
+    EXPECT_THAT(names,
+                ElementsAre("First/angle", "First/spacing", "Second/min-views", "Second/closed",
+                            "Second/no-smooth", "Second/shape", "Second/memory"));
 }
 
 TEST(OptionTable, TakesThePresentValuesForDefaults)
@@ -33,7 +34,7 @@ TEST(OptionTable, TakesThePresentValuesForDefaults)
     for (const OptionRow& row : sample_rows()) {
         defaults.push_back(row.initial);
     }
-    EXPECT_THAT(defaults, ElementsAre("10.5", "2", "3", "", "", "round"));
+    EXPECT_THAT(defaults, ElementsAre("10.5", "2", "3", "", "", "round", "3M"));
 }
 
 TEST(OptionTable, GivesARangeOnlyWhereMoreThanTheSignIsRestricted)
@@ -42,7 +43,7 @@ TEST(OptionTable, GivesARangeOnlyWhereMoreThanTheSignIsRestricted)
     for (const OptionRow& row : sample_rows()) {
         ranges.push_back(row.range);
     }
-    EXPECT_THAT(ranges, ElementsAre("0 to 180", "", "2 or more", "", "", ""));
+    EXPECT_THAT(ranges, ElementsAre("0 to 180", "", "2 or more", "", "", "", ""));
 }
 
 TEST(Placeholder, ShowsTheUnitOrTheChoices)
@@ -51,7 +52,8 @@ TEST(Placeholder, ShowsTheUnitOrTheChoices)
     for (const OptionRow& row : sample_rows()) {
         placeholders.push_back(placeholder(row));
     }
-    EXPECT_THAT(placeholders, ElementsAre("<deg>", "<number>", "<views>", "", "", "round|flat"));
+    EXPECT_THAT(placeholders,
+                ElementsAre("<deg>", "<number>", "<views>", "", "", "round|flat", "<size>"));
 }
 
 } // namespace

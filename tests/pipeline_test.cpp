@@ -199,8 +199,8 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     };
     Recorder log;
     reconstruct(bumpy_sphere(500, 8), {}, log);
-    const std::vector<std::string> expected = {"filter",  "triangulate", "sights", "cut",
-                                               "surface", "clean",       "orient"};
+    const std::vector<std::string> expected = {"memory", "filter",  "triangulate", "sights",
+                                               "cut",    "surface", "clean",       "orient"};
     EXPECT_EQ(log.begun, expected);
     EXPECT_EQ(log.ended, expected);
 }

@@ -16,7 +16,7 @@ TEST(OptionRecorder, RecordsEveryOptionUnderItsNameOnTheCommandLine)
 {
     EXPECT_EQ(options_json(SampleOptions{.spacing = kUnlimited}).dump(),
               R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,"smooth":true,)"
-              R"("shape":"round"})");
+              R"("shape":"round","memory":3145728})");
 }
 
 TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)

@@ -37,6 +37,8 @@ TEST(Validate, NamesTheOptionTheRangeAndTheValue)
     EXPECT_EQ(refusal_of({.spacing = -0.5}), "--spacing takes a number, 0 or more, not -0.5");
     EXPECT_EQ(refusal_of({.views = 1}),
               "--min-views takes a whole number, 2 or more (views), not 1");
+    EXPECT_EQ(refusal_of({.memory = -1}),
+              "--memory takes a size in bytes, or with K, M or G as in 8G, not -1");
     EXPECT_EQ(refusal_of({.shape = static_cast<Shape>(3)}),
               "--shape has 2 choices, and 3 is none of them");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -30,6 +31,8 @@ class OptionVisitor {
     virtual void stage(const char* title) = 0;
     virtual void number(double& value, const OptionInfo& info) = 0;
     virtual void count(int& value, const OptionInfo& info) = 0;
+    /// Bytes of memory, typed as parse_byte_size takes them.
+    virtual void bytes(std::int64_t& value, const OptionInfo& info) = 0;
     virtual void flag(bool& value, const OptionInfo& info) = 0;
     /// `value` is an index into `names`.
     virtual void choice(int& value, std::span<const char* const> names, const OptionInfo& info) = 0;

@@ -51,6 +51,13 @@ void RangeCheck::count(int& value, const OptionInfo& info)
     }
 }
 
+void RangeCheck::bytes(std::int64_t& value, const OptionInfo& info)
+{
+    if (value < 0) {
+        throw UsageError(fmt::format("--{} takes {}, not {}", info.name, kAcceptedBytes, value));
+    }
+}
+
 void RangeCheck::choice(int& value, std::span<const char* const> names, const OptionInfo& info)
 {
     if (value < 0 || static_cast<std::size_t>(value) >= names.size()) {

@@ -10,6 +10,7 @@ namespace vcarve {
 /// from 0 to 180 (deg)".
 std::string accepted_numbers(const OptionInfo& info);
 std::string accepted_counts(const OptionInfo& info);
+inline constexpr const char* kAcceptedBytes = "a size in bytes, or with K, M or G as in 8G";
 
 /// Throws UsageError where a value of an option lies outside its range, or is not a number.
 class RangeCheck final : public OptionVisitor {
@@ -17,6 +18,7 @@ class RangeCheck final : public OptionVisitor {
     void stage(const char*) override {}
     void number(double& value, const OptionInfo& info) override;
     void count(int& value, const OptionInfo& info) override;
+    void bytes(std::int64_t& value, const OptionInfo& info) override;
     void flag(bool&, const OptionInfo&) override {}
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
 };

@@ -9,6 +9,7 @@
 #include "io/output_file.h"
 #include "io/ply.h"
 #include "pipeline.h"
+#include "pipeline_memory.h"
 #include "surface/check.h"
 
 #include <fmt/format.h>
@@ -172,6 +173,19 @@ void write_stats(const fs::path& path, const Json& record)
     file.commit();
 }
 
+/// What a model needs is said of it. Where its size only shows when it is read, reconstruct() does
+/// the same then.
+void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
+{
+    const int wanted = arguments.options.threads;
+    try {
+        require_memory(size, wanted == 0 ? available_threads() : wanted,
+                       arguments.options.max_memory);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", arguments.model.string(), error.what()));
+    }
+}
+
 /// The surface of a scene. What the scene lacks is said of the model it was read from.
 TriMesh surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
 {
@@ -185,7 +199,8 @@ TriMesh surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
 /// From the model to the file; tells the record what went in and came out.
 void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& record)
 {
-    ModelInput input = read_model_input(arguments.model, log);
+    ModelInput input = read_model_input(
+        arguments.model, log, [&](const SceneSize& size) { require_memory_of(arguments, size); });
     record["input"] = input.record;
     const TriMesh mesh = surface_of(std::move(input), arguments, log);
     write_surface(arguments, mesh, log);

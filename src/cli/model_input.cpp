@@ -1,16 +1,19 @@
 #include "cli/model_input.h"
 
 #include "cli/console_log.h"
+#include "io/model_size.h"
 
 namespace vcarve::cli {
 
-ModelInput read_model_input(const std::filesystem::path& model, Log& log)
+ModelInput read_model_input(const std::filesystem::path& model, Log& log, const SizeCheck& check)
 {
     Stage stage(log, "read");
     const FoundModel found = find_model(model);
     for (const std::string& note : found.notes) {
         log.note(note);
     }
+    const auto size = size_before_reading(found.folder, found.format);
+    if (check && size) check(*size);
     ModelInput input;
     input.scene = read_colmap_model(found.folder, found.format);
     const Counts counts = {{"points", input.scene.num_points()},

@@ -3,9 +3,10 @@
 #include "base/log.h"
 #include "cli/run_record.h"
 #include "io/find_model.h"
-#include "model/scene.h"
+#include "model/scene_size.h"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 namespace vcarve::cli {
@@ -16,8 +17,13 @@ struct ModelInput {
     Json record; ///< "model", "folder", "format", "points", "views", "sights"
 };
 
-/// Finds and reads the model the user means, as the stage "read". Throws InputError.
-ModelInput read_model_input(const std::filesystem::path& model, Log& log);
+/// What is to be checked of a model before it is read; may throw.
+using SizeCheck = std::function<void(const SceneSize&)>;
+
+/// Finds and reads the model the user means, as the stage "read". Throws InputError. `check` is
+/// called before reading, where the size of the model shows before.
+ModelInput read_model_input(const std::filesystem::path& model, Log& log,
+                            const SizeCheck& check = {});
 
 /// What console a command shows its stages on: none where it is to be quiet.
 std::unique_ptr<Log> shown_log(bool quiet);

@@ -1,5 +1,6 @@
 #include "cli/option_parser.h"
 
+#include "base/byte_size.h"
 #include "base/error.h"
 #include "base/validate.h"
 
@@ -142,6 +143,15 @@ void OptionReader::count(int& value, const OptionInfo& info)
         refuse_value(info.name, accepted_counts(info), given->second);
     }
     RangeCheck().count(value, info);
+}
+
+void OptionReader::bytes(std::int64_t& value, const OptionInfo& info)
+{
+    const auto given = given_.find(info.name);
+    if (given == given_.end()) return;
+    const auto size = parse_byte_size(given->second);
+    if (!size) refuse_value(info.name, kAcceptedBytes, given->second);
+    value = *size;
 }
 
 void OptionReader::flag(bool& value, const OptionInfo& info)

@@ -36,6 +36,7 @@ class OptionReader final : public OptionVisitor {
     void stage(const char*) override {}
     void number(double& value, const OptionInfo& info) override;
     void count(int& value, const OptionInfo& info) override;
+    void bytes(std::int64_t& value, const OptionInfo& info) override;
     void flag(bool& value, const OptionInfo& info) override;
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
 

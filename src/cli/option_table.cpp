@@ -1,5 +1,6 @@
 #include "cli/option_table.h"
 
+#include "base/byte_size.h"
 #include "base/validate.h"
 
 #include <fmt/format.h>
@@ -47,6 +48,13 @@ void OptionTable::count(int& value, const OptionInfo& info)
     row.initial = fmt::format("{}", value);
 }
 
+void OptionTable::bytes(std::int64_t& value, const OptionInfo& info)
+{
+    OptionRow& row = add(OptionKind::bytes, info);
+    row.accepted = kAcceptedBytes;
+    row.initial = byte_size_text(value);
+}
+
 void OptionTable::flag(bool& value, const OptionInfo& info)
 {
     OptionRow& row = add(OptionKind::flag, info);
@@ -72,6 +80,8 @@ std::string placeholder(const OptionRow& row)
     case OptionKind::number:
     case OptionKind::count:
         return row.unit.empty() ? "<number>" : fmt::format("<{}>", row.unit);
+    case OptionKind::bytes:
+        return "<size>";
     case OptionKind::choice:
         return fmt::format("{}", fmt::join(row.choices, "|"));
     case OptionKind::path:

@@ -7,7 +7,7 @@
 
 namespace vcarve::cli {
 
-enum class OptionKind { number, count, flag, choice, path };
+enum class OptionKind { number, count, bytes, flag, choice, path };
 
 /// One option as the user meets it.
 struct OptionRow {
@@ -28,6 +28,7 @@ class OptionTable final : public OptionVisitor {
     void stage(const char* title) override { stage_ = title; }
     void number(double& value, const OptionInfo& info) override;
     void count(int& value, const OptionInfo& info) override;
+    void bytes(std::int64_t& value, const OptionInfo& info) override;
     void flag(bool& value, const OptionInfo& info) override;
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
 

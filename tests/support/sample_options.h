@@ -2,6 +2,8 @@
 
 #include "base/options.h"
 
+#include <cstdint>
+
 namespace vcarve {
 
 enum class Shape { round, flat };
@@ -15,6 +17,7 @@ struct SampleOptions {
     bool closed = false;
     bool smooth = true;
     Shape shape = Shape::round;
+    std::int64_t memory = 3 << 20;
 
     void visit(OptionVisitor& options)
     {
@@ -30,6 +33,7 @@ struct SampleOptions {
         options.flag(closed, {.name = "closed", .help = "Keep a|b."});
         options.flag(smooth, {.name = "smooth", .help = "Leave corners as they are."});
         options.choice(shape, kShapeNames, {.name = "shape", .help = "What it is like."});
+        options.bytes(memory, {.name = "memory", .help = "Take no more."});
     }
 };
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "model/scene.h"
+
+#include <cstdint>
+
+namespace vcarve {
+
+/// How much there is of a scene: what time and memory of a run depend on.
+struct SceneSize {
+    std::uint64_t points = 0;
+    std::uint64_t sights = 0;
+    std::uint64_t views = 0;
+};
+
+inline SceneSize size_of(const Scene& scene)
+{
+    return {
+        .points = scene.num_points(), .sights = scene.num_sights(), .views = scene.views.size()};
+}
+
+} // namespace vcarve
