@@ -9,6 +9,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -29,32 +30,39 @@ struct Arguments {
     std::filesystem::path json; ///< empty: none
 };
 
+using Rounds = std::map<int, std::vector<Json>>; ///< measurements, by the number of threads
+
+std::map<int, Json> medians_of(const Rounds& rounds)
+{
+    std::map<int, Json> medians;
+    for (const auto& [threads, measured] : rounds) {
+        medians[threads] = median_of(measured);
+    }
+    return medians;
+}
+
 /// Rounds go over all measurements in turn, so that what disturbs the machine disturbs all alike.
 SampleResult measure(const Sample& sample, const Arguments& arguments)
 {
     std::vector<Json> sequential;
-    std::map<int, std::vector<Json>> parallel;
-    std::map<int, std::vector<Json>> runs;
+    Rounds parallel;
+    Rounds runs;
+    const auto measure_all = [&](int threads) {
+        if (threads > 1) {
+            parallel[threads].push_back(
+                in_own_process([&] { return measure_parallel_triangulation(sample, threads); }));
+        }
+        runs[threads].push_back(in_own_process([&] { return measure_run(sample, threads); }));
+    };
     for (std::size_t round = 0; round < arguments.rounds; ++round) {
         sequential.push_back(
             in_own_process([&] { return measure_sequential_triangulation(sample); }));
-        for (const int threads : arguments.threads) {
-            if (threads > 1) {
-                parallel[threads].push_back(in_own_process(
-                    [&] { return measure_parallel_triangulation(sample, threads); }));
-            }
-            runs[threads].push_back(in_own_process([&] { return measure_run(sample, threads); }));
-        }
+        std::ranges::for_each(arguments.threads, measure_all);
     }
-    SampleResult result;
-    result.sequential = median_of(sequential);
-    for (const auto& [threads, measured] : parallel) {
-        result.parallel[threads] = median_of(measured);
-    }
-    for (const auto& [threads, measured] : runs) {
-        result.runs[threads] = median_of(measured);
-    }
-    return result;
+    return {.sizes = {},
+            .sequential = median_of(sequential),
+            .parallel = medians_of(parallel),
+            .runs = medians_of(runs)};
 }
 
 std::string machine_line()

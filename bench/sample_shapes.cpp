@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kImageSize_px = 4000;
-constexpr double kFocal_px = 4000.0;
+constexpr std::uint64_t kImageSizePx = 4000;
+constexpr double kFocalPx = 4000.0;
 
 /// A sum of waves a sin(k . x + phase).
 class Waves {
@@ -180,12 +180,12 @@ std::unique_ptr<SampleShape> terrain()
 
 Camera sample_camera()
 {
-    constexpr double kMiddle_px = 0.5 * static_cast<double>(kImageSize_px);
+    constexpr double kMiddlePx = 0.5 * static_cast<double>(kImageSizePx);
     return {.id = 1,
             .model = 1, // PINHOLE
-            .width_px = kImageSize_px,
-            .height_px = kImageSize_px,
-            .params = {kFocal_px, kFocal_px, kMiddle_px, kMiddle_px}};
+            .width_px = kImageSizePx,
+            .height_px = kImageSizePx,
+            .params = {kFocalPx, kFocalPx, kMiddlePx, kMiddlePx}};
 }
 
 Vector3d in_camera(const View& view, const Vector3d& place)
@@ -195,9 +195,9 @@ Vector3d in_camera(const View& view, const Vector3d& place)
 
 Eigen::Vector2d in_image(const Vector3d& place_in_camera)
 {
-    constexpr double kMiddle_px = 0.5 * static_cast<double>(kImageSize_px);
-    return kFocal_px * place_in_camera.head<2>() / place_in_camera.z() +
-           Eigen::Vector2d::Constant(kMiddle_px);
+    constexpr double kMiddlePx = 0.5 * static_cast<double>(kImageSizePx);
+    return kFocalPx * place_in_camera.head<2>() / place_in_camera.z() +
+           Eigen::Vector2d::Constant(kMiddlePx);
 }
 
 } // namespace vcarve::bench

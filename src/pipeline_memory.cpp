@@ -104,7 +104,7 @@ double cutting(const Sizes& n)
 /// The labels and the faces, with nine edge lengths each to find the usual one around a vertex.
 double extracting(const Sizes& n)
 {
-    constexpr double kFace = 2 * sizeof(Face) + 9 * 8 + 14;
+    constexpr double kFace = 2.0 * sizeof(Face) + 9.0 * 8.0 + 14.0;
     return n.after_triangulation() + n.cells + n.faces * kFace + 36 * n.points;
 }
 
