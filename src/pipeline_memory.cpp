@@ -35,8 +35,10 @@ constexpr double kFileSight = 8;
 /// its index; both with some room to grow.
 constexpr double kCgalCell = 76;
 constexpr double kCgalVertex = 48;
-/// What oneTBB's allocator keeps of CGAL's memory that was freed, after a parallel triangulation.
+/// What oneTBB's allocator keeps of CGAL's memory that was freed, after a parallel triangulation,
+/// which triangulate() makes of so many points or more.
 constexpr double kMostKept = 128e6;
+constexpr double kParallelFromPoints = 50e3;
 
 /// TetMesh.
 constexpr double kFlatCell = sizeof(Cell) + 1;
@@ -65,7 +67,8 @@ struct Sizes {
     /// The scene, the cells, and what was freed but not given back.
     double after_triangulation() const
     {
-        return scene() + flat() + (threads > 1 ? std::min(cgal(), kMostKept) : 0.0);
+        const bool keeps = threads > 1 && points >= kParallelFromPoints;
+        return scene() + flat() + (keeps ? std::min(cgal(), kMostKept) : 0.0);
     }
 };
 
