@@ -1,22 +1,22 @@
-// Renders the views that fixtures/scene is reconstructed from: the still life with a texture of
-// solid noise, seen from two rows of cameras. Usage: render_views FOLDER Writes
-// FOLDER/images/*.png, FOLDER/truth.ply, FOLDER/cams.txt (name and true centre of each view) and
-// FOLDER/camera.txt (COLMAP's PINHOLE parameters).
+// Renders the views that a scene is reconstructed from, with a texture of solid noise. Usage:
+// render_views FOLDER [SCENE], by default the still life behind fixtures/scene; render_views --list
+// prints the scenes' names. Writes FOLDER/images/*.png, FOLDER/truth.ply, FOLDER/cams.txt (name and
+// true centre of each view), FOLDER/camera.txt (COLMAP's PINHOLE parameters), FOLDER/features.txt
+// (how many to find in a view, at most), FOLDER/pairs.txt (names of views that look in similar
+// directions, a pair a line) and FOLDER/max_error.txt (how far from its true place, in the truth's
+// units, a reconstructed centre may lie).
 #include "io/ply.h"
+#include "render/photo_scene.h"
+#include "render/photograph.h"
 #include "render/picture.h"
-#include "render/raster.h"
-#include "render/solid_noise.h"
-#include "render/still_life.h"
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/os.h>
 
-#include <cmath>
 #include <exception>
 #include <filesystem>
-#include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -24,88 +24,69 @@ namespace {
 using namespace vcarve;
 using namespace vcarve::render;
 
-constexpr int kWidth_px = 800;
-constexpr int kHeight_px = 600;
-constexpr double kFocal_px = 760.0;
-constexpr int kSamplesASide = 2;
-constexpr int kViewsARow = 12;
+/// Of the frame the scenes are built in, where a view is some metres off.
+constexpr double kMaxError = 0.02;
+/// Cosine of 50 degrees: beyond it SIFT finds next to nothing again.
+constexpr double kLeastPairCosine = 0.64;
 
-Pinhole looking_at(const Eigen::Vector3d& center, const Eigen::Vector3d& target)
+std::string name_of(std::size_t view)
 {
-    Pinhole view;
-    view.center = center;
-    view.focal_px.setConstant(kFocal_px);
-    view.principal_px = {kWidth_px / 2.0, kHeight_px / 2.0};
-    view.width_px = kWidth_px;
-    view.height_px = kHeight_px;
-    const Eigen::Vector3d ahead = (target - center).normalized();
-    const Eigen::Vector3d right = ahead.cross(Eigen::Vector3d::UnitZ()).normalized();
-    view.cam_from_world << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
-    return view;
+    return fmt::format("view_{:02}.png", view);
 }
 
-/// Two rows of cameras on arcs before the scene, the upper one half a step aside.
-std::vector<Pinhole> cameras()
+void write_truth(const std::filesystem::path& folder, const PhotoScene& scene,
+                 const std::string& comment)
 {
-    const Eigen::Vector3d target(0.0, 0.35, 0.4);
-    std::vector<Pinhole> result;
-    for (int row = 0; row < 2; ++row) {
-        for (int i = 0; i < kViewsARow; ++i) {
-            const double turn_deg = -72.0 + 12.0 * (i + 0.5 * row);
-            const double turn_rad = turn_deg * std::numbers::pi / 180.0;
-            const double radius = row == 0 ? 2.9 : 2.6;
-            const Eigen::Vector3d center(radius * std::sin(turn_rad),
-                                         target.y() - radius * std::cos(turn_rad),
-                                         row == 0 ? 0.9 : 1.9);
-            result.push_back(looking_at(center, target));
+    TriMesh mesh = scene.parts.mesh;
+    for (Eigen::Vector3d& position : mesh.positions) {
+        position = scene.frame(position);
+    }
+    write_ply(folder / "truth.ply", mesh, {false, {comment}});
+    auto places = fmt::output_file((folder / "cams.txt").string());
+    for (std::size_t i = 0; i < scene.views.size(); ++i) {
+        const Eigen::Vector3d c = scene.frame(scene.views[i].center);
+        places.print("{} {} {} {}\n", name_of(i), c.x(), c.y(), c.z());
+    }
+}
+
+/// What COLMAP is told.
+void write_settings(const std::filesystem::path& folder, const PhotoScene& scene)
+{
+    const Pinhole& view = scene.views.front();
+    auto camera = fmt::output_file((folder / "camera.txt").string());
+    camera.print("{},{},{},{}\n", view.focal_px.x(), view.focal_px.y(), view.principal_px.x(),
+                 view.principal_px.y());
+    auto features = fmt::output_file((folder / "features.txt").string());
+    features.print("{}\n", scene.features);
+    auto max_error = fmt::output_file((folder / "max_error.txt").string());
+    max_error.print("{}\n", scene.frame.scale * kMaxError);
+}
+
+void write_pairs(const std::filesystem::path& path, const std::vector<Pinhole>& views)
+{
+    auto file = fmt::output_file(path.string());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        for (std::size_t k = i + 1; k < views.size(); ++k) {
+            const double cosine =
+                views[i].cam_from_world.row(2).dot(views[k].cam_from_world.row(2));
+            if (cosine >= kLeastPairCosine) file.print("{} {}\n", name_of(i), name_of(k));
         }
     }
-    return result;
 }
 
-/// Diffuse light from one side over an even one, so that corners show.
-float light(const Eigen::Vector3d& normal)
+void write_all(const std::filesystem::path& folder, const std::string& name)
 {
-    const Eigen::Vector3d sun = Eigen::Vector3d(-0.4, -0.7, 0.9).normalized();
-    return static_cast<float>(0.55 + 0.45 * std::max(0.0, normal.dot(sun)));
-}
-
-Picture photograph(const StillLife& scene, const Pinhole& view)
-{
-    const SolidNoise noise{0.5, 8, 2000};
-    const Pinhole fine = enlarged(view, kSamplesASide);
-    const std::vector<Hit> hits = rasterize(scene.mesh, fine);
-    Picture picture{fine.width_px, fine.height_px, {}};
-    picture.pixels.assign(hits.size(), Eigen::Array3f::Constant(128.0F));
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const Hit& hit = hits[i];
-        if (hit.face == Hit::kNoFace) continue;
-        const Eigen::Vector2d pixel(static_cast<double>(i % fine.width_px) + 0.5,
-                                    std::floor(static_cast<double>(i / fine.width_px)) + 0.5);
-        const Eigen::Vector3d place = fine.center + hit.depth * fine.ray(pixel);
-        const std::uint32_t part = scene.part_of_face[hit.face];
-        const Eigen::Vector3d apart = place + 10.0 * part * Eigen::Vector3d::Ones();
-        const auto pattern = static_cast<float>(0.15 + 0.85 * noise.at(apart));
-        const float brightness = 255.0F * light(face_normal(scene.mesh, hit.face)) * pattern;
-        picture.pixels[i] = brightness * scene.tint_of_part[part];
-    }
-    return shrunk(picture, kSamplesASide);
-}
-
-void write_all(const std::filesystem::path& folder)
-{
+    const PhotoScene scene = photo_scene(name);
     std::filesystem::create_directories(folder / "images");
-    const StillLife scene = still_life();
-    write_ply(folder / "truth.ply", scene.mesh, {false, {"the geometry behind fixtures/scene"}});
-    auto camera = fmt::output_file((folder / "camera.txt").string());
-    camera.print("{},{},{},{}\n", kFocal_px, kFocal_px, kWidth_px / 2, kHeight_px / 2);
-    auto places = fmt::output_file((folder / "cams.txt").string());
-    const std::vector<Pinhole> views = cameras();
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        const std::string name = fmt::format("view_{:02}.png", i);
-        const Eigen::Vector3d& c = views[i].center;
-        places.print("{} {} {} {}\n", name, c.x(), c.y(), c.z());
-        write_png(folder / "images" / name, photograph(scene, views[i]));
+    const bool is_fixture = name == photo_scene_names().front();
+    write_truth(folder, scene,
+                fmt::format("the geometry behind {}", is_fixture ? "fixtures/scene" : name));
+    write_settings(folder, scene);
+    write_pairs(folder / "pairs.txt", scene.views);
+    for (std::size_t i = 0; i < scene.views.size(); ++i) {
+        const Picture picture = photograph(scene.parts, scene.views[i]);
+        write_png(folder / "images" / name_of(i),
+                  grainy(picture, scene.grain, static_cast<std::uint32_t>(i)));
     }
 }
 
@@ -113,12 +94,17 @@ void write_all(const std::filesystem::path& folder)
 
 int main(int argc, char** argv)
 {
-    if (argc != 2) {
-        fmt::print(stderr, "usage: render_views FOLDER\n");
+    if (argc < 2 || argc > 3) {
+        fmt::print(stderr, "usage: render_views FOLDER [SCENE] | render_views --list\n");
         return 2;
     }
     try {
-        write_all(argv[1]);
+        const std::vector<std::string> names = photo_scene_names();
+        if (std::string_view(argv[1]) == "--list") {
+            fmt::print("{}\n", fmt::join(names, "\n"));
+        } else {
+            write_all(argv[1], argc == 3 ? argv[2] : names.front());
+        }
     } catch (const std::exception& error) {
         fmt::print(stderr, "render_views: {}\n", error.what());
         return 1;

@@ -1,0 +1,55 @@
+"""What the scripts that measure surfaces share: running the program, and reading its verdict."""
+import json
+import pathlib
+import subprocess
+import time
+
+PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build/colmap-vcarve"
+
+
+def last_line(text):
+    lines = text.strip().splitlines()
+    return lines[-1].removeprefix("colmap-vcarve: ") if lines else "no message"
+
+
+def run(words, timeout):
+    """Seconds, and why the run failed or None."""
+    start = time.monotonic()
+    try:
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True,
+                              errors="replace", timeout=timeout, check=False)
+    except subprocess.TimeoutExpired:
+        return timeout, f"timed out after {timeout:g} s"
+    seconds = time.monotonic() - start
+    return seconds, last_line(done.stderr) if done.returncode else None
+
+
+def figures_of(mesh):
+    """Name -> figure for one entry of compare's JSON; None where it needs a truth."""
+    size, views, truth = mesh["size"], mesh["views"], mesh.get("truth")
+    at = truth["agreement"] if truth else [{"f": None, "precision": None, "recall": None}] * 3
+    return {
+        "F 0.25 %": at[0]["f"], "F 0.5 %": at[1]["f"], "F 1 %": at[2]["f"],
+        "P 0.25 %": at[0]["precision"], "R 0.25 %": at[0]["recall"],
+        "blocked": truth["blocked"] if truth else None,
+        "hidden sights": views["hidden_sights"], "missed points": views["missed_points"],
+        "unsupported area": views["unsupported_area"],
+        "non-manifold edges": size["nonmanifold_edges"],
+        "orientation faults": size["orientation_faults"],
+        "vertices": size["vertices"], "faces": size["faces"],
+    }
+
+
+def measure(model, mesh, truth, json_path, program=PROGRAM, timeout=600):
+    """The figures of a mesh, truth None where there is none, and why there are none or None."""
+    words = [program, "compare", "--quiet", model, mesh, "--json", json_path]
+    failure = run(words + (["--truth", truth] if truth else []), timeout)[1]
+    if failure:
+        return None, failure
+    return figures_of(json.loads(json_path.read_text(encoding="utf-8"))["meshes"][0]), None
+
+
+def cell(figure):
+    if figure is None:
+        return "-"
+    return str(figure) if isinstance(figure, int) else f"{figure:.4f}"

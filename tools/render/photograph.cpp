@@ -1,0 +1,98 @@
+#include "render/photograph.h"
+
+#include "render/solid_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace vcarve::render {
+
+namespace {
+
+constexpr int kSamplesASide = 2;
+
+/// Diffuse light from one side over an even one, so that corners show.
+float light(const Eigen::Vector3d& normal)
+{
+    const Eigen::Vector3d sun = Eigen::Vector3d(-0.4, -0.7, 0.9).normalized();
+    return static_cast<float>(0.55 + 0.45 * std::max(0.0, normal.dot(sun)));
+}
+
+/// Blurs along one side of the picture; beyond its ends goes on what is there.
+Picture blurred_along(const Picture& picture, double sigma_px, int step_x, int step_y)
+{
+    const int reach = static_cast<int>(std::ceil(3.0 * sigma_px));
+    Picture result = picture;
+    for (int y = 0; y < picture.height_px; ++y) {
+        for (int x = 0; x < picture.width_px; ++x) {
+            Eigen::Array3f sum = Eigen::Array3f::Zero();
+            float total = 0.0F;
+            for (int i = -reach; i <= reach; ++i) {
+                const auto weight =
+                    static_cast<float>(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
+                const int from_x = std::clamp(x + i * step_x, 0, picture.width_px - 1);
+                const int from_y = std::clamp(y + i * step_y, 0, picture.height_px - 1);
+                sum += weight *
+                       picture.pixels[static_cast<std::size_t>(from_y) * picture.width_px + from_x];
+                total += weight;
+            }
+            result.pixels[static_cast<std::size_t>(y) * picture.width_px + x] = sum / total;
+        }
+    }
+    return result;
+}
+
+/// A number of the normal distribution (Box and Muller), the same with every library.
+double normal_number(std::mt19937& random)
+{
+    const double share = (static_cast<double>(random()) + 1.0) / 4294967297.0;
+    const double turn = 2.0 * std::numbers::pi * static_cast<double>(random()) / 4294967296.0;
+    return std::sqrt(-2.0 * std::log(share)) * std::cos(turn);
+}
+
+} // namespace
+
+Picture photograph(const Parts& parts, const Pinhole& view)
+{
+    const SolidNoise noise{0.5, 8, 2000};
+    const Pinhole fine = enlarged(view, kSamplesASide);
+    const std::vector<Hit> hits = rasterize(parts.mesh, fine);
+    Picture picture{fine.width_px, fine.height_px, {}};
+    picture.pixels.assign(hits.size(), Eigen::Array3f::Constant(128.0F));
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const Hit& hit = hits[i];
+        if (hit.face == Hit::kNoFace) continue;
+        const Eigen::Vector2d pixel(static_cast<double>(i % fine.width_px) + 0.5,
+                                    std::floor(static_cast<double>(i / fine.width_px)) + 0.5);
+        const Eigen::Vector3d place = fine.center + hit.depth * fine.ray(pixel);
+        const std::uint32_t part = parts.part_of_face[hit.face];
+        const Paint& paint = parts.paint_of_part[part];
+        const Eigen::Vector3d apart = place + 10.0 * part * Eigen::Vector3d::Ones();
+        const double share = 0.5 + paint.contrast * (noise.at(apart) - 0.5);
+        const auto pattern = static_cast<float>(0.15 + 0.85 * share);
+        const float brightness = 255.0F * light(face_normal(parts.mesh, hit.face)) * pattern;
+        picture.pixels[i] = brightness * paint.tint;
+    }
+    return shrunk(picture, kSamplesASide);
+}
+
+Picture grainy(const Picture& picture, const Grain& grain, std::uint32_t seed)
+{
+    Picture result = picture;
+    if (grain.blur_px > 0.0) {
+        result = blurred_along(blurred_along(result, grain.blur_px, 1, 0), grain.blur_px, 0, 1);
+    }
+    if (grain.noise > 0.0) {
+        std::mt19937 random(seed);
+        for (Eigen::Array3f& pixel : result.pixels) {
+            for (int k = 0; k < 3; ++k) {
+                pixel[k] += static_cast<float>(grain.noise * normal_number(random));
+            }
+        }
+    }
+    return result;
+}
+
+} // namespace vcarve::render

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "render/photo_scene.h"
+
+namespace vcarve::render {
+
+PhotoScene fixture_scene(); ///< fixtures/scene: the still life from two rows before it
+PhotoScene panels();        ///< thin boards that stand free, some with windows
+PhotoScene clutter();       ///< a heap on a table, seen all round
+PhotoScene facade();        ///< the front of a house, seen from the street
+PhotoScene organic();       ///< a bumpy ball and a knot, seen all round
+PhotoScene low_texture();   ///< half of the parts are nearly even in colour
+PhotoScene noisy();         ///< pictures with strong noise and some blur
+PhotoScene few_views();     ///< the still life from eight places
+PhotoScene room();          ///< an interior, seen from within
+
+} // namespace vcarve::render
