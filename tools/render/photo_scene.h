@@ -33,7 +33,7 @@ struct Frame {
 struct PhotoScene {
     Parts parts;
     std::vector<Pinhole> views; ///< all with the same lens and size
-    int features = 1500;        ///< to find in a view, at most
+    int features = 2200;        ///< to find in a view, at most
     Grain grain;
     Frame frame;
 };

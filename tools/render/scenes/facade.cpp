@@ -48,7 +48,7 @@ void add_porch(PartBuilder& builder)
 Parts house_front()
 {
     PartBuilder builder;
-    add_box(builder, {{0.0, -0.7, -0.08}, {4.8, 2.2, 0.08}}, {{0.62F, 0.62F, 0.64F}}); // street
+    add_box(builder, {{0.0, -0.2, -0.08}, {4.8, 1.2, 0.08}}, {{0.62F, 0.62F, 0.64F}}); // street
     add_board(builder, {kColumns, kRows, 0.4, recess}, {{0.86F, 0.70F, 0.52F}});
     for (std::size_t column = 0; column + 1 < kColumns.size(); ++column) {
         for (std::size_t row = 2; row + 1 < kRows.size(); ++row) {
@@ -73,12 +73,13 @@ PhotoScene facade()
 {
     PhotoScene scene;
     scene.parts = house_front();
+    const Lens lens{1000, 750, 700.0};
     for (int i = 0; i < 15; ++i) {
         const double x = -2.8 + 0.4 * i;
         const Eigen::Vector3d low(x, -3.0 + 0.08 * x * x, 0.55);
         const Eigen::Vector3d high(x + 0.2, -2.8 + 0.08 * x * x, 1.7);
-        scene.views.push_back(looking_at({}, low, {0.45 * x, 0.0, 1.35}));
-        scene.views.push_back(looking_at({}, high, {0.45 * x, 0.0, 1.25}));
+        scene.views.push_back(looking_at(lens, low, {0.45 * x, 0.0, 1.25}));
+        scene.views.push_back(looking_at(lens, high, {0.45 * x, 0.0, 1.15}));
     }
     scene.frame = {
         3.5,

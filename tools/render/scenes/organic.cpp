@@ -52,7 +52,6 @@ PhotoScene organic()
     builder.move_part(move);
     PhotoScene scene;
     scene.parts = builder.take();
-    scene.features = 2200;
     const Eigen::Vector3d target(0.1, 0.0, 0.5);
     add_arc(scene.views, {}, {target, 2.7, 0.7, 0.0, 20.0, 18});
     add_arc(scene.views, {}, {target, 2.3, 1.8, 10.0, 20.0, 18});

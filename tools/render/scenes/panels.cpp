@@ -68,7 +68,6 @@ PhotoScene panels()
     add_panel(builder, {0.45, 1.15, 50.0, 0.0, 0.5, 0.5, 0.025}, {{0.74F, 0.78F, 0.50F}});
     PhotoScene scene;
     scene.parts = builder.take();
-    scene.features = 2200;
     const Eigen::Vector3d target(0.0, 0.0, 0.3);
     add_arc(scene.views, {}, {target, 2.9, 1.0, 0.0, 20.0, 18});
     add_arc(scene.views, {}, {target, 2.5, 1.9, 10.0, 20.0, 18});

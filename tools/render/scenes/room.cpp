@@ -2,6 +2,9 @@
 #include "render/shapes.h"
 #include "render/stands.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace vcarve::render {
 
 namespace {
@@ -30,7 +33,7 @@ void add_shell(PartBuilder& builder)
     add_board(builder, {{-kHalfY, -0.3, 0.6, kHalfY}, {0.0, 2.0, kHeight}, kWall, door},
               {{0.86F, 0.82F, 0.70F}});
     Eigen::Isometry3d move(Eigen::Translation3d(kHalfX, 0.0, 0.0));
-    move.rotate(Eigen::AngleAxisd(-1.5707963267948966, Eigen::Vector3d::UnitZ()));
+    move.rotate(Eigen::AngleAxisd(-0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()));
     builder.move_part(move);
 }
 
@@ -98,10 +101,12 @@ PhotoScene room()
     PhotoScene scene;
     scene.parts = builder.take();
     const Lens wide{1000, 750, 640.0};
-    // Across the room over its middle, and outwards from around the middle.
-    add_arc(scene.views, wide, {{0.0, 0.0, 0.9}, 1.25, 1.4, 0.0, 18.0, 20});
-    for (int i = 0; i < 20; ++i) {
-        const double turn_rad = 0.31415926535897931 * (i + 0.5);
+    // Across the room over its middle, up to the ceiling, and outwards from around the middle.
+    add_arc(scene.views, wide, {{0.0, 0.0, 0.9}, 1.25, 1.4, 0.0, 20.0, 18});
+    add_arc(scene.views, wide, {{0.0, 0.0, 2.1}, 1.5, 0.7, 0.0, 36.0, 10});
+    constexpr int kOutwards = 16;
+    for (int i = 0; i < kOutwards; ++i) {
+        const double turn_rad = 2.0 * std::numbers::pi * (i + 0.5) / kOutwards;
         const Eigen::Vector3d out(std::cos(turn_rad), std::sin(turn_rad), 0.0);
         const double tilt = i % 2 == 0 ? -0.25 : 0.12;
         const Eigen::Vector3d center = 0.7 * out + 1.6 * Eigen::Vector3d::UnitZ();
