@@ -53,98 +53,109 @@ CGAL::Bbox_3 box_of(const Scene& scene)
     return box;
 }
 
-/// The vertices of a cell in canonical order, and where each came from in CGAL's cell.
-struct CanonicalCell {
-    std::array<Index, 4> vertices;
-    std::array<int, 4> sources;
+/// A cell as CGAL numbers it: vertices ascending, neighbours still by the numbers of pass 1.
+struct RawCell {
+    std::array<Index, 4> vertices; ///< ascending, kInfinite last
+    std::array<Index, 4> neighbors; ///< across the facet opposite each vertex
+    bool is_odd;                   ///< whether ascending order turns the cell inside out
 };
 
-template <typename CellHandle>
-CanonicalCell canonical(CellHandle cell)
+template <typename CellHandle> RawCell raw_cell(CellHandle cell)
 {
-    CanonicalCell result{{}, {0, 1, 2, 3}};
+    std::array<int, 4> sources = {0, 1, 2, 3};
     std::array<Index, 4> found{};
     for (int i = 0; i < 4; ++i) {
         found[i] = cell->vertex(i)->info();
     }
+    RawCell result{{}, {}, false};
     // Sort by exchanging; each exchange turns the cell inside out.
-    bool is_odd = false;
     for (int i = 1; i < 4; ++i) {
-        for (int j = i; j > 0 && found[result.sources[j]] < found[result.sources[j - 1]]; --j) {
-            std::swap(result.sources[j], result.sources[j - 1]);
-            is_odd = !is_odd;
+        for (int j = i; j > 0 && found[sources[j]] < found[sources[j - 1]]; --j) {
+            std::swap(sources[j], sources[j - 1]);
+            result.is_odd = !result.is_odd;
         }
     }
-    if (is_odd) {
-        std::swap(result.sources[0], result.sources[1]);
-    }
     for (int i = 0; i < 4; ++i) {
-        result.vertices[i] = found[result.sources[i]];
+        result.vertices[i] = found[sources[i]];
+        result.neighbors[i] = cell->neighbor(sources[i])->info();
     }
     return result;
 }
 
-Index smallest_vertex(const CanonicalCell& cell)
-{
-    return std::min(cell.vertices[0], cell.vertices[1]);
-}
-
-std::array<Index, 4> sorted_vertices(const CanonicalCell& cell)
-{
-    std::array<Index, 4> vertices = cell.vertices;
-    std::sort(vertices.begin(), vertices.end());
-    return vertices;
-}
-
-/// Cells of the triangulation in canonical order: binned by smallest vertex, each bin sorted.
-template <typename Triangulation>
-std::vector<typename Triangulation::Cell_handle> cells_in_order(const Triangulation& triangulation)
+/// All cells, in the order CGAL keeps them, which may differ from run to run.
+template <typename Triangulation> std::vector<RawCell> raw_cells(const Triangulation& triangulation)
 {
     using CellHandle = typename Triangulation::Cell_handle;
-    std::vector<std::size_t> begins(triangulation.number_of_vertices() + 2, 0);
-    std::vector<CellHandle> found;
-    for (auto cell = triangulation.all_cells_begin(); cell != triangulation.all_cells_end();
-         ++cell) {
-        found.push_back(cell);
-        ++begins[smallest_vertex(canonical(CellHandle(cell))) + 2];
+    std::vector<CellHandle> handles;
+    handles.reserve(triangulation.tds().cells().size());
+    for (CellHandle cell : triangulation.all_cell_handles()) {
+        cell->info() = static_cast<Index>(handles.size());
+        handles.push_back(cell);
     }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<CellHandle> order(found.size());
-    for (const CellHandle cell : found) {
-        order[begins[smallest_vertex(canonical(cell)) + 1]++] = cell;
+    std::vector<RawCell> cells(handles.size());
+    parallel_for(handles.size(), [&](std::size_t i) { cells[i] = raw_cell(handles[i]); });
+    return cells;
+}
+
+/// The raw cells in canonical order: binned by smallest vertex, each bin sorted.
+std::vector<Index> canonical_order(const std::vector<RawCell>& cells, std::size_t num_vertices)
+{
+    std::vector<Index> ends(num_vertices + 1, 0);
+    for (const RawCell& cell : cells) {
+        ++ends[cell.vertices[0] + 1];
     }
-    parallel_for(triangulation.number_of_vertices(), [&](std::size_t vertex) {
-        std::sort(order.begin() + static_cast<std::ptrdiff_t>(begins[vertex]),
-                  order.begin() + static_cast<std::ptrdiff_t>(begins[vertex + 1]),
-                  [](CellHandle a, CellHandle b) {
-                      return sorted_vertices(canonical(a)) < sorted_vertices(canonical(b));
-                  });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Index> order(cells.size());
+    for (Index i = 0; i < cells.size(); ++i) {
+        order[ends[cells[i].vertices[0]]++] = i;
+    }
+    parallel_for(num_vertices, [&](std::size_t vertex) {
+        const Index begin = vertex == 0 ? 0 : ends[vertex - 1];
+        std::sort(order.begin() + begin, order.begin() + ends[vertex],
+                  [&](Index a, Index b) { return cells[a].vertices < cells[b].vertices; });
     });
     return order;
 }
 
-/// Copies cells to flat arrays.
-template <typename Triangulation>
-void copy_cells(const Triangulation& triangulation, TetMesh& mesh)
+/// The slot that holds the rank-th smallest vertex of a cell, or the rank of a slot.
+int exchanged(int rank, bool is_odd)
 {
-    const auto order = cells_in_order(triangulation);
-    parallel_for(order.size(), [&](std::size_t i) { order[i]->info() = static_cast<Index>(i); });
+    return is_odd && rank < 2 ? 1 - rank : rank;
+}
+
+/// The rank of the vertex of a cell that its neighbour across the facet opposite it lacks.
+int rank_of_facet(const RawCell& cell, const RawCell& neighbor, Index self)
+{
+    for (int rank = 0; rank < 4; ++rank) {
+        if (cell.neighbors[rank] == self &&
+            std::find(neighbor.vertices.begin(), neighbor.vertices.end(), cell.vertices[rank]) ==
+                neighbor.vertices.end()) {
+            return rank;
+        }
+    }
+    throw std::logic_error("two cells of a triangulation have the same vertices");
+}
+
+void fill_cells(const std::vector<RawCell>& raw, TetMesh& mesh, std::size_t num_vertices)
+{
+    const std::vector<Index> order = canonical_order(raw, num_vertices);
+    std::vector<Index> numbers(order.size());
+    parallel_for(order.size(), [&](std::size_t i) { numbers[order[i]] = static_cast<Index>(i); });
     mesh.cells.resize(order.size());
     mesh.mirrors.resize(order.size());
     parallel_for(order.size(), [&](std::size_t i) {
-        const CanonicalCell cell = canonical(order[i]);
-        Cell& copy = mesh.cells[i];
-        copy.vertices = cell.vertices;
-        mesh.mirrors[i] = 0;
-        for (int slot = 0; slot < 4; ++slot) {
-            const auto neighbor = order[i]->neighbor(cell.sources[slot]);
-            copy.neighbors[slot] = neighbor->info();
-            const int mirror_source = neighbor->index(order[i]);
-            const auto sources = canonical(neighbor).sources;
-            const int mirror = static_cast<int>(
-                std::find(sources.begin(), sources.end(), mirror_source) - sources.begin());
-            mesh.mirrors[i] |= static_cast<std::uint8_t>(mirror << (2 * slot));
+        const RawCell& from = raw[order[i]];
+        std::uint8_t mirrors = 0;
+        for (int rank = 0; rank < 4; ++rank) {
+            const int slot = exchanged(rank, from.is_odd);
+            const RawCell& neighbor = raw[from.neighbors[rank]];
+            mesh.cells[i].vertices[slot] = from.vertices[rank];
+            mesh.cells[i].neighbors[slot] = numbers[from.neighbors[rank]];
+            const int mirror =
+                exchanged(rank_of_facet(neighbor, from, order[i]), neighbor.is_odd);
+            mirrors |= static_cast<std::uint8_t>(mirror << (2 * slot));
         }
+        mesh.mirrors[i] = mirrors;
     });
 }
 
@@ -160,6 +171,8 @@ void find_cells_of_vertices(TetMesh& mesh)
     }
 }
 
+/// Copies the cells of a triangulation to flat arrays and clears it on the way, so that only one
+/// copy of the cells lives beside it.
 template <typename Triangulation>
 TetMesh flatten(Triangulation& triangulation, const Scene& scene)
 {
@@ -173,8 +186,10 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene)
         throw std::logic_error("two points to triangulate lie at one place");
     }
     triangulation.infinite_vertex()->info() = kInfinite;
+    const std::vector<RawCell> raw = raw_cells(triangulation);
+    triangulation.clear();
     TetMesh mesh;
-    copy_cells(triangulation, mesh);
+    fill_cells(raw, mesh, scene.num_points());
     mesh.positions = scene.positions;
     find_cells_of_vertices(mesh);
     return mesh;
@@ -182,7 +197,7 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene)
 
 TetMesh triangulate_sequentially(const Scene& scene)
 {
-    const auto points = numbered_points(scene);
+    auto points = numbered_points(scene);
     Delaunay<CGAL::Sequential_tag> triangulation(points.begin(), points.end());
     return flatten(triangulation, scene);
 }
