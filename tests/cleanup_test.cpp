@@ -182,7 +182,7 @@ TEST(CleanSurface, GivesNoNormalThatIsNoNumber)
     EXPECT_EQ(clean.mesh.normals, std::vector<Vector3f>(6, Vector3f::Zero()));
 }
 
-TEST(CleanSurface, IsCleanWhateverTheLabelling)
+TEST(CleanSurface, IsCleanWhateverTheLabellingAndKeepsClosedWhatIsClosed)
 {
     const TetraGrid grid = tetra_grid(3);
     std::mt19937 random(21);
@@ -196,8 +196,12 @@ TEST(CleanSurface, IsCleanWhateverTheLabelling)
         }
         if (round % 2 == 1)
             std::erase_if(mesh.faces, [&](const Face&) { return random() % 16 == 0; });
+        const bool is_open = check_mesh(mesh).boundary_edges > 0;
         const CleanSurface clean = clean_surface(mesh, {});
         ASSERT_NO_FATAL_FAILURE(expect_clean(clean.mesh)) << "round " << round;
+        if (!is_open) {
+            ASSERT_EQ(check_mesh(clean.mesh).boundary_edges, 0) << "round " << round;
+        }
         for (std::size_t v = 0; v < clean.mesh.positions.size(); ++v) {
             const std::uint32_t point = clean.mesh.points[v];
             if (point == kNoPoint) continue;

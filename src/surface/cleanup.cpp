@@ -10,13 +10,6 @@ namespace vcarve {
 namespace {
 
 using OpenMesh::FaceHandle;
-using OpenMesh::VertexHandle;
-
-template <typename Handle>
-std::size_t index(Handle handle)
-{
-    return static_cast<std::size_t>(handle.idx());
-}
 
 /// The pieces of a surface: which one each face belongs to, and how many faces each has.
 struct Pieces {
@@ -75,73 +68,6 @@ std::int64_t fill_small_holes(HalfEdgeMesh& mesh, std::vector<char>& keep_faces,
     return num_filled;
 }
 
-/// The kept faces and their vertices as arrays, in the order they have in `mesh`.
-class KeptSurface {
-  public:
-    KeptSurface(const HalfEdgeMesh& mesh, const std::vector<char>& keep_faces)
-        : mesh_(mesh), keep_faces_(keep_faces)
-    {
-    }
-
-    TriMesh collect(const TriMesh& like)
-    {
-        number_vertices();
-        for (const auto vertex : mesh_.vertices()) {
-            if (numbers_[index(vertex)] != kDropped) add_vertex(vertex, like);
-        }
-        for (const auto face : mesh_.faces()) {
-            if (keep_faces_[index(face)] != 0) add_face(face);
-        }
-        result_.offset = like.offset;
-        return std::move(result_);
-    }
-
-  private:
-    static constexpr std::uint32_t kDropped = 0xffffffffU;
-
-    /// Vertices of kept faces are numbered in ascending order.
-    void number_vertices()
-    {
-        numbers_.assign(mesh_.n_vertices(), kDropped);
-        for (const auto face : mesh_.faces()) {
-            if (keep_faces_[index(face)] == 0) continue;
-            for (const auto vertex : mesh_.fv_range(face)) {
-                numbers_[index(vertex)] = 0;
-            }
-        }
-        std::uint32_t next = 0;
-        for (std::uint32_t& number : numbers_) {
-            if (number != kDropped) number = next++;
-        }
-    }
-
-    /// The optional arrays are there if `like` has them; normals always are.
-    void add_vertex(VertexHandle vertex, const TriMesh& like)
-    {
-        const OpenMesh::Vec3d& p = mesh_.point(vertex);
-        const OpenMesh::Vec3d n = vertex_normal(mesh_, vertex);
-        result_.positions.emplace_back(p[0], p[1], p[2]);
-        result_.normals.push_back(Eigen::Vector3d(n[0], n[1], n[2]).cast<float>());
-        if (!like.colors.empty()) result_.colors.push_back(mesh_.data(vertex).color);
-        if (!like.points.empty()) result_.points.push_back(mesh_.data(vertex).point);
-    }
-
-    void add_face(FaceHandle face)
-    {
-        Face corners{};
-        std::size_t i = 0;
-        for (const auto vertex : mesh_.fv_range(face)) {
-            corners[i++] = numbers_[index(vertex)];
-        }
-        result_.faces.push_back(corners);
-    }
-
-    const HalfEdgeMesh& mesh_;
-    const std::vector<char>& keep_faces_;
-    std::vector<std::uint32_t> numbers_;
-    TriMesh result_;
-};
-
 } // namespace
 
 CleanSurface clean_surface(const TriMesh& mesh, const CleanupOptions& options)
@@ -164,7 +90,7 @@ CleanSurface clean_surface(const TriMesh& mesh, const CleanupOptions& options)
     result.counts.filled_holes = fill_small_holes(half_edges, keep_faces, options.max_hole_edges);
 
     // Back to arrays, without the vertices of no face.
-    result.mesh = KeptSurface(half_edges, keep_faces).collect(mesh);
+    result.mesh = kept_surface(half_edges, keep_faces, mesh);
     result.counts.removed_vertices =
         static_cast<std::int64_t>(half_edges.n_vertices() - result.mesh.positions.size());
     return result;
