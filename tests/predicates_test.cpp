@@ -30,5 +30,22 @@ TEST(Collinear, HoldsOnlyForPointsOnOneLine)
     EXPECT_FALSE(collinear(Vector3d(0, 0, 0), Vector3d(1, 2, 3), Vector3d(2, 4, 6.0000000001)));
 }
 
+TEST(MeetsTriangle, CountsTheBorder)
+{
+    const std::array<Vector3d, 3> triangle = {Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}};
+    const auto meets_at = [&](double x, double y) {
+        return meets_triangle(Vector3d(x, y, -1), Vector3d(x, y, 1), triangle);
+    };
+    EXPECT_TRUE(meets_at(0.25, 0.25));
+    EXPECT_TRUE(meets_at(0.5, 0.5));
+    EXPECT_TRUE(meets_at(0, 0));
+    EXPECT_FALSE(meets_at(std::nextafter(0.5, 1.0), 0.5));
+    EXPECT_TRUE(meets_triangle(Vector3d(0.2, 0.2, 0), Vector3d(0.2, 0.2, 1), triangle));
+    EXPECT_FALSE(meets_triangle(Vector3d(0.2, 0.2, 1e-300), Vector3d(0.2, 0.2, 1), triangle));
+    EXPECT_TRUE(
+        meets_triangle(Vector3d(-1, 0.2, 0), Vector3d(1, 0.2, 0), triangle)); // in its plane
+    EXPECT_FALSE(meets_triangle(Vector3d(-1, 2, 0), Vector3d(1, 2, 0), triangle));
+}
+
 } // namespace
 } // namespace vcarve

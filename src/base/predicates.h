@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace vcarve {
 
 /// Sign of the volume of the tetrahedron a b c d, exact: +1 where a b c runs counter-clockwise seen
@@ -11,5 +13,10 @@ int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen:
 
 /// Whether a, b and c lie on one line, exact.
 bool collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+/// Whether the segment from `from` to `to` meets a triangle, its border included, exact.
+/// The triangle must have an area and the segment a length.
+bool meets_triangle(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                    const std::array<Eigen::Vector3d, 3>& triangle);
 
 } // namespace vcarve
