@@ -156,6 +156,49 @@ TriMesh clean(const TriMesh& mesh, const Options& options, Log& log)
     return std::move(cleaned.mesh);
 }
 
+SightGuard guard_sights(const TriMesh& mesh, const Scene& scene, Log& log)
+{
+    Stage stage(log, "guard");
+    SightGuard guard(scene, mesh);
+    stage.end({{"free sights", guard.num_free()}, {"of", guard.num_sights()}});
+    return guard;
+}
+
+TriMesh smooth(const TriMesh& mesh, const SightGuard& guard, const Options& options, Log& log)
+{
+    Stage stage(log, "smooth");
+    SmoothedSurface smoothed = smooth_surface(mesh, guard, options.smooth);
+    stage.end({{"vertices moved", smoothed.counts.moved},
+               {"of", size_of(mesh.positions.size())},
+               {"held by sights", smoothed.counts.held}});
+    return std::move(smoothed.mesh);
+}
+
+TriMesh simplify(const TriMesh& mesh, const SightGuard& guard, const Options& options, Log& log)
+{
+    Stage stage(log, "simplify");
+    TriMesh simple = simplify_surface(mesh, guard, options.simplify);
+    stage.end({{"faces", size_of(simple.faces.size())}, {"of", size_of(mesh.faces.size())}});
+    if (simple.faces.size() > static_cast<std::size_t>(options.simplify.faces)) {
+        log.note(fmt::format("{} faces are left, not {}: merging more vertices would hide what was "
+                             "seen, or fold or tear the surface",
+                             simple.faces.size(), options.simplify.faces));
+    }
+    return simple;
+}
+
+/// Moves and merges vertices where that is asked for.
+TriMesh refine(TriMesh mesh, const Scene& scene, const Options& options, Log& log)
+{
+    const bool smooths = options.smooth.iterations > 0;
+    const bool simplifies = options.simplify.faces > 0;
+    if (!smooths && !simplifies) return mesh;
+    const SightGuard guard = guard_sights(mesh, scene, log);
+    if (smooths) mesh = smooth(mesh, guard, options, log);
+    if (simplifies) mesh = simplify(mesh, guard, options, log);
+    return mesh;
+}
+
 void check_orientation(const TriMesh& mesh, const Scene& scene, Log& log)
 {
     Stage stage(log, "orient");
@@ -170,7 +213,8 @@ Reconstruction run_passes(Scene input, const Options& options, Log& log)
     const TetMesh cells = triangulate(scene, log);
     const Labels labels = label_cells(cells, scene, options, log);
     const TriMesh surface = extract(cells, labels, scene, options, log);
-    TriMesh mesh = clean(surface, options, log);
+    const TriMesh cleaned = clean(surface, options, log);
+    TriMesh mesh = refine(cleaned, scene, options, log);
     check_orientation(mesh, scene, log);
     return {std::move(scene), std::move(mesh)};
 }

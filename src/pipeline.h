@@ -9,6 +9,8 @@
 #include "points/filter.h"
 #include "sight/trace.h"
 #include "surface/cleanup.h"
+#include "surface/simplify.h"
+#include "surface/smooth.h"
 #include "surface/support.h"
 #include "surface/webs.h"
 
@@ -40,6 +42,8 @@ struct Options {
     WebOptions webs;
     SupportOptions support;
     CleanupOptions cleanup;
+    SmoothOptions smooth;
+    SimplifyOptions simplify;
 
     void visit(OptionVisitor& options)
     {
@@ -69,6 +73,8 @@ struct Options {
                       .help = "Keep faces that no view supports, so that the surface is closed."});
         support.visit(options);
         cleanup.visit(options);
+        smooth.visit(options);
+        simplify.visit(options);
         options.stage("Run");
         options.count(threads,
                       {.name = "threads",

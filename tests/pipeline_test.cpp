@@ -112,13 +112,49 @@ TEST(Reconstruct, KeepsItsFacesInOtherUnitsTurnedAndFarFromTheOrigin)
     EXPECT_EQ(faces_by_id(run(moved(scene, 1.0, none, utm))), faces);
 }
 
-TEST(Reconstruct, ClosedGivesASurfaceWithoutBoundary)
+void expect_watertight(const Scene& scene, const Options& options, const std::string& name)
 {
+    const MeshCheck check = check_mesh(run(scene, options).mesh);
+    EXPECT_TRUE(check.is_closed()) << name;
+    EXPECT_TRUE(check.is_manifold()) << name;
+    EXPECT_EQ(check.orientation_faults, 0) << name;
+    EXPECT_EQ(check.degenerate_faces, 0) << name;
+}
+
+TEST(Reconstruct, ClosedGivesAWatertightManifold)
+{
+    using std::filesystem::path;
+    const path fixtures(VCARVE_FIXTURES);
     Options options;
     options.closed = true;
-    const MeshCheck check = check_mesh(run(bumpy_sphere(kPoints, 6), options).mesh);
-    EXPECT_TRUE(check.is_closed());
-    EXPECT_TRUE(check.is_manifold());
+    for (const Method method : {Method::cut, Method::strict, Method::alpha, Method::sculpt}) {
+        options.method = method;
+        for (const char* object : {"boissonnat", "cube_with_cavity", "cubicles", "desk"}) {
+            const path model = fixtures / "paper" / object;
+            expect_watertight(read_colmap_model(model, ModelFormat::text), options, object);
+        }
+    }
+    options.method = Method::cut;
+    const path scene = fixtures / "scene" / "sparse_txt";
+    expect_watertight(read_colmap_model(scene, ModelFormat::text), options, "scene");
+    expect_watertight(bumpy_sphere(kPoints, 6), options, "sphere");
+    options.smooth.iterations = 2;
+    options.simplify.faces = 1000;
+    expect_watertight(bumpy_sphere(kPoints, 6), options, "smooth and simple sphere");
+}
+
+TEST(Reconstruct, SmoothsAndSimplifiesTheSameForAnyNumberOfThreads)
+{
+    const Scene scene = bumpy_sphere(kPoints, 2);
+    Options one;
+    one.smooth.iterations = 2;
+    one.simplify.faces = 3000;
+    one.threads = 1;
+    Options two = one;
+    two.threads = 2;
+    const TriMesh mesh = run(scene, one).mesh;
+    EXPECT_LE(mesh.faces.size(), 3000U);
+    expect_same_mesh(mesh, run(scene, two).mesh);
 }
 
 Options with_method(Method method, double alpha = 1.0)

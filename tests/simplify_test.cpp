@@ -1,0 +1,157 @@
+#include "pipeline.h"
+#include "support/blocked_sights.h"
+#include "support/measured_scenes.h"
+#include "support/scenes.h"
+#include "surface/check.h"
+#include "surface/simplify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using testing::blocked_sights;
+using testing::empty_scene;
+using testing::flat_grid;
+using testing::margins_in;
+
+std::size_t face_count(const TriMesh& mesh)
+{
+    return mesh.faces.size();
+}
+
+TEST(SimplifySurface, KeepsAFlatSquareASquare)
+{
+    const SightGuard guard(empty_scene(), {});
+    const TriMesh simple = simplify_surface(flat_grid(11), guard, {.faces = 20});
+    EXPECT_LE(face_count(simple), 20U);
+    EXPECT_GE(face_count(simple), 19U);
+    const MeshCheck check = check_mesh(simple);
+    EXPECT_TRUE(check.is_manifold());
+    EXPECT_EQ(check.orientation_faults, 0);
+    EXPECT_NEAR(check.area, 1.0, 1e-12);
+    for (const Vector3d& corner : {Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}) {
+        EXPECT_EQ(std::ranges::count(simple.positions, corner), 1);
+    }
+}
+
+TEST(SimplifySurface, LeavesAloneWhatIsSmallEnough)
+{
+    const SightGuard guard(empty_scene(), {});
+    const TriMesh mesh = testing::cube();
+    EXPECT_EQ(simplify_surface(mesh, guard, {.faces = 12}).faces, mesh.faces);
+}
+
+TEST(SimplifySurface, StopsWhereASolidWouldVanish)
+{
+    const SightGuard guard(empty_scene(), {});
+    const TriMesh two =
+        testing::together(testing::torus(12), testing::moved(testing::cube(), {9, 0, 0}));
+    const MeshCheck check = check_mesh(simplify_surface(two, guard, {.faces = 1}));
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_TRUE(check.is_manifold());
+    EXPECT_EQ(check.components, 2);
+    EXPECT_EQ(check.euler_characteristic, 2);
+    EXPECT_LT(check.faces, 100);
+}
+
+/// A corrugated sheet, and points that hover close above its vertices: their sights count to the
+/// end, so nothing may fill a trough.
+struct Sheet {
+    TriMesh mesh = flat_grid(25);
+    Scene scene;
+};
+
+Sheet corrugated_sheet()
+{
+    Sheet sheet;
+    std::vector<MadePoint> points;
+    for (Vector3d& position : sheet.mesh.positions) {
+        position.z() = 0.1 * std::cos(25.0 * position.x());
+        points.push_back({position + Vector3d(0, 0, 0.005), {0, 1, 2}});
+    }
+    sheet.mesh.points.assign(sheet.mesh.points.size(), kNoPoint);
+    sheet.scene = make_scene({{0.5, 0.5, 5}, {-2, 0.5, 5}, {3, 0.5, 5}}, points);
+    return sheet;
+}
+
+TEST(SimplifySurface, BlocksNoSightThatWasFree)
+{
+    const auto [mesh, scene] = corrugated_sheet();
+    const std::vector<double> margins = margins_in(mesh, scene);
+    const auto blocked_before = blocked_sights(scene, mesh, margins);
+    const auto newly_blocked = [&](const SightGuard& guard) {
+        const TriMesh simple = simplify_surface(mesh, guard, {.faces = 30});
+        auto blocked = blocked_sights(scene, simple, margins);
+        for (const auto& sight : blocked_before) {
+            blocked.erase(sight);
+        }
+        return blocked.size();
+    };
+    EXPECT_GT(newly_blocked(SightGuard(empty_scene(), {})), 0U);
+    EXPECT_EQ(newly_blocked(SightGuard(scene, mesh)), 0U);
+}
+
+/// What simplifying to a quarter does to a scene.
+struct Simplified {
+    Reconstruction before;
+    TriMesh after;
+    std::size_t newly_blocked = 0;
+};
+
+Simplified quarter(bool closed)
+{
+    Log silent;
+    Options options;
+    options.closed = closed;
+    Simplified result{reconstruct(bumpy_sphere(500, 4), options, silent), {}};
+    const auto& [scene, mesh] = result.before;
+    const SightGuard guard(scene, mesh);
+    result.after = simplify_surface(mesh, guard, {.faces = static_cast<int>(face_count(mesh) / 4)});
+    const std::vector<double> margins = margins_in(mesh, scene);
+    const auto blocked_before = blocked_sights(scene, mesh, margins);
+    for (const auto& sight : blocked_sights(scene, result.after, margins)) {
+        result.newly_blocked += blocked_before.contains(sight) ? 0 : 1;
+    }
+    return result;
+}
+
+TEST(SimplifySurface, BlocksNoSightOfAWholeScene)
+{
+    const Simplified simplified = quarter(false);
+    EXPECT_EQ(simplified.newly_blocked, 0U);
+    EXPECT_LT(face_count(simplified.after), 0.6 * face_count(simplified.before.mesh));
+}
+
+TEST(SimplifySurface, KeepsAClosedManifoldClosed)
+{
+    const Simplified simplified = quarter(true);
+    const MeshCheck check = check_mesh(simplified.after);
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_TRUE(check.is_manifold());
+    EXPECT_EQ(check.orientation_faults, 0);
+    EXPECT_EQ(check.unreferenced_vertices, 0);
+    EXPECT_EQ(check.euler_characteristic, check_mesh(simplified.before.mesh).euler_characteristic);
+}
+
+TEST(SimplifySurface, KeepsPlaceColourAndPointOfTheVerticesThatStay)
+{
+    const Simplified simplified = quarter(false);
+    const auto& [scene, before] = simplified.before;
+    const TriMesh& mesh = simplified.after;
+    ASSERT_EQ(mesh.points.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
+    ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (mesh.points[v] == kNoPoint) continue;
+        EXPECT_EQ(mesh.positions[v], scene.positions[mesh.points[v]]);
+        EXPECT_EQ(mesh.colors[v], scene.colors[mesh.points[v]]);
+    }
+}
+
+} // namespace
+} // namespace vcarve

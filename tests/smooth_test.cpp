@@ -1,0 +1,151 @@
+#include "support/blocked_sights.h"
+#include "support/measured_scenes.h"
+#include "support/scenes.h"
+#include "surface/smooth.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using testing::blocked_sights;
+using testing::empty_scene;
+using testing::flat_grid;
+using testing::margins_in;
+
+constexpr std::uint32_t kSide = 21;
+
+TriMesh noisy_grid()
+{
+    std::mt19937 random(1);
+    TriMesh mesh = flat_grid(kSide);
+    for (Vector3d& position : mesh.positions) {
+        position.z() = 0.005 * (random() / 2147483648.0 - 1.0);
+    }
+    return mesh;
+}
+
+bool is_on_rim(std::uint32_t vertex)
+{
+    const std::uint32_t x = vertex % kSide;
+    const std::uint32_t y = vertex / kSide;
+    return x == 0 || y == 0 || x == kSide - 1 || y == kSide - 1;
+}
+
+double mean_square_height(const TriMesh& mesh)
+{
+    double sum = 0.0;
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (!is_on_rim(v)) sum += mesh.positions[v].z() * mesh.positions[v].z();
+    }
+    return sum;
+}
+
+TEST(SmoothSurface, FlattensNoiseAndKeepsTheRest)
+{
+    const TriMesh mesh = noisy_grid();
+    const SightGuard guard(empty_scene(), {});
+    const SmoothedSurface smooth = smooth_surface(mesh, guard, {.iterations = 5});
+    EXPECT_LT(mean_square_height(smooth.mesh), 0.3 * mean_square_height(mesh));
+    EXPECT_EQ(smooth.mesh.faces, mesh.faces);
+    EXPECT_EQ(smooth.mesh.points, mesh.points);
+    EXPECT_EQ(smooth.counts.moved, 19 * 19);
+    EXPECT_EQ(smooth.counts.held, 0);
+    ASSERT_EQ(smooth.mesh.normals.size(), mesh.positions.size());
+    for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        if (is_on_rim(v)) {
+            EXPECT_EQ(smooth.mesh.positions[v], mesh.positions[v]);
+        }
+        EXPECT_GT(smooth.mesh.normals[v].z(), 0.9F);
+    }
+}
+
+TEST(SmoothSurface, KeepsSharpEdges)
+{
+    const TriMesh mesh = testing::cube();
+    const SightGuard guard(empty_scene(), {});
+    const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 10}).mesh;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        EXPECT_LT((smooth.positions[v] - mesh.positions[v]).norm(), 1e-6);
+    }
+}
+
+TEST(SmoothSurface, StaysWithinHalfASpacing)
+{
+    TriMesh mesh = flat_grid(kSide);
+    mesh.positions[kSide * 10 + 10].z() = 0.02; // the edges are 0.05 long
+    const SightGuard guard(empty_scene(), {});
+    const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 50}).mesh;
+    const std::vector<double> spacings = vertex_spacings(mesh);
+    double farthest = 0.0;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const double way = (smooth.positions[v] - mesh.positions[v]).norm();
+        EXPECT_LE(way, 0.5 * spacings[v] * (1 + 1e-12));
+        farthest = std::max(farthest, way);
+    }
+    EXPECT_GT(farthest, 0.01);
+}
+
+TEST(SmoothSurface, DoesNotRiseIntoASight)
+{
+    // A pit in the middle. A point hangs in it, seen along the plane of the grid: a lifted bottom
+    // would touch its sight.
+    TriMesh mesh = flat_grid(kSide);
+    const std::uint32_t middle = kSide * 10 + 10;
+    mesh.positions[middle].z() = -0.02;
+    const Vector3d above = mesh.positions[middle] + Vector3d(0, 0, 0.001);
+    const Scene scene = make_scene({above + Vector3d(0, 0, 9)}, {{above, {0}}});
+    mesh.points.assign(mesh.points.size(), kNoPoint);
+    const SmoothOptions options{.iterations = 20};
+    const SmoothedSurface held = smooth_surface(mesh, SightGuard(scene, mesh), options);
+    const SmoothedSurface loose = smooth_surface(mesh, SightGuard(empty_scene(), {}), options);
+    EXPECT_GT(loose.mesh.positions[middle].z(), above.z());
+    EXPECT_LT(held.mesh.positions[middle].z(), above.z());
+    EXPECT_GT(held.counts.held, 0);
+}
+
+TEST(SmoothSurface, BlocksNoSightThatWasFree)
+{
+    // Points hover close above the vertices: their sights count to the end.
+    TriMesh mesh = noisy_grid();
+    mesh.points.assign(mesh.points.size(), kNoPoint);
+    std::vector<MadePoint> points;
+    for (const Vector3d& position : mesh.positions) {
+        points.push_back({position + Vector3d(0, 0, 0.001), {0, 1, 2}});
+    }
+    const Scene scene = make_scene({{0.5, 0.5, 3}, {-1, 0.5, 2}, {0.5, 4, 2}}, points);
+    const std::vector<double> margins = margins_in(mesh, scene);
+    const auto blocked_before = blocked_sights(scene, mesh, margins);
+    const auto newly_blocked = [&](const SightGuard& guard) {
+        const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 4}).mesh;
+        auto blocked = blocked_sights(scene, smooth, margins);
+        for (const auto& sight : blocked_before) {
+            blocked.erase(sight);
+        }
+        return blocked.size();
+    };
+    EXPECT_GT(newly_blocked(SightGuard(empty_scene(), {})), 100U);
+    EXPECT_EQ(newly_blocked(SightGuard(scene, mesh)), 0U);
+}
+
+TEST(SmoothSurface, ScalesWithTheSurface)
+{
+    const TriMesh mesh = noisy_grid();
+    TriMesh large = mesh;
+    for (Vector3d& position : large.positions) {
+        position *= 1024.0;
+    }
+    const SightGuard guard(empty_scene(), {});
+    const TriMesh expected = smooth_surface(mesh, guard, {.iterations = 2}).mesh;
+    const TriMesh smooth = smooth_surface(large, guard, {.iterations = 2}).mesh;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        EXPECT_EQ(smooth.positions[v], expected.positions[v] * 1024.0);
+    }
+}
+
+} // namespace
+} // namespace vcarve
