@@ -153,5 +153,17 @@ TEST(SimplifySurface, KeepsPlaceColourAndPointOfTheVerticesThatStay)
     }
 }
 
+TEST(SimplifySurface, ScalesWithTheSurface)
+{
+    const TriMesh mesh = corrugated_sheet().mesh;
+    TriMesh large = mesh;
+    for (Vector3d& position : large.positions) {
+        position *= 1024.0;
+    }
+    const SightGuard guard(empty_scene(), {});
+    EXPECT_EQ(simplify_surface(large, guard, {.faces = 200}).faces,
+              simplify_surface(mesh, guard, {.faces = 200}).faces);
+}
+
 } // namespace
 } // namespace vcarve

@@ -20,7 +20,7 @@ struct TriMesh {
     std::vector<Face> faces;
     std::vector<Color> colors;            ///< optional
     std::vector<Eigen::Vector3f> normals; ///< optional, unit, pointing outside
-    std::vector<std::uint32_t> points;    ///< optional: the scene's point at a vertex, or kNoPoint
+    std::vector<std::uint32_t> points;    ///< optional: the scene's point a vertex was, or kNoPoint
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 

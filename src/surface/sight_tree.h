@@ -24,7 +24,7 @@ struct TrimmedSight {
 class SightTree {
   public:
     /// All sights of `scene` longer than the margin of their point, which is cut off them (lengths
-    /// in scene units, one a point). Cost: O(n log n) for n sights, in parallel; about 55 bytes a
+    /// in scene units, one a point). Cost: O(n log n) for n sights, in parallel; 60 to 80 bytes a
     /// sight.
     SightTree(const Scene& scene, const std::vector<double>& margins);
 
