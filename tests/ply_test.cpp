@@ -6,6 +6,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <map>
 #include <random>
@@ -186,6 +187,44 @@ TEST(WritePly, WritesExactlyTheseBytes)
                   std::string(12, '\0'));
 }
 
+Provenance provenance_of_two_triangles()
+{
+    return {.point_ids = {5, 9007199254740992, -1, 0},
+            .num_views = {3, 2, 0, 70000},
+            .errors_px = {0.5F, 0.1F, -1.0F, 12.25F},
+            .supports = {2, 0}};
+}
+
+TEST(WritePly, WritesAProvenanceBehindTheRest)
+{
+    const TemporaryFolder folder;
+    const Provenance provenance = provenance_of_two_triangles();
+    write_ply(folder / "out.ply", two_triangles(),
+              {.ascii = true, .comments = {}, .provenance = &provenance});
+    EXPECT_EQ(bytes_of(folder / "out.ply"), "ply\n"
+                                            "format ascii 1.0\n"
+                                            "element vertex 4\n"
+                                            "property double x\n"
+                                            "property double y\n"
+                                            "property double z\n"
+                                            "property double point3d_id\n"
+                                            "property int num_views\n"
+                                            "property float error_px\n"
+                                            "element face 2\n"
+                                            "property list uchar int vertex_indices\n"
+                                            "element face_support 2\n"
+                                            "property int support\n"
+                                            "end_header\n"
+                                            "0 0 0 5 3 0.5\n"
+                                            "1 0 0 9007199254740992 2 0.1\n"
+                                            "0.1 0.3333333333333333 0 -1 0 -1\n"
+                                            "-2.5 1e-07 12 0 70000 12.25\n"
+                                            "3 0 1 2\n"
+                                            "3 2 1 3\n"
+                                            "2\n"
+                                            "0\n");
+}
+
 TEST(WritePly, AgreesWithAnIndependentReader)
 {
     const TemporaryFolder folder;
@@ -204,8 +243,13 @@ TEST(WritePly, IsReadByOpenMesh)
     const TemporaryFolder folder;
     TriMesh mesh = two_triangles();
     mesh.colors = {{0, 1, 2}, {255, 254, 253}, {9, 8, 7}, {128, 0, 128}};
-    for (const bool ascii : {false, true}) {
-        write_ply(folder / "out.ply", mesh, {.ascii = ascii, .comments = {"made by a test"}});
+    const Provenance provenance = provenance_of_two_triangles();
+    const std::array<const Provenance*, 2> with_and_without = {&provenance, nullptr};
+    for (int i = 0; i < 4; ++i) {
+        write_ply(folder / "out.ply", mesh,
+                  {.ascii = i < 2,
+                   .comments = {"made by a test"},
+                   .provenance = with_and_without[static_cast<std::size_t>(i % 2)]});
         OpenMesh::TriMesh_ArrayKernelT<> back;
         back.request_vertex_colors();
         OpenMesh::IO::Options options(OpenMesh::IO::Options::VertexColor);
@@ -242,8 +286,17 @@ TEST(ReadPly, ReadsBackWhatWasWritten)
 {
     const TemporaryFolder folder;
     const TriMesh mesh = random_mesh(300, 500);
-    for (const bool ascii : {false, true}) {
-        write_ply(folder / "out.ply", mesh, {.ascii = ascii, .comments = {}});
+    Provenance provenance;
+    provenance.point_ids.assign(300, 17);
+    provenance.num_views.assign(300, 4);
+    provenance.errors_px.assign(300, 0.5F);
+    provenance.supports.assign(500, 3);
+    const std::array<const Provenance*, 2> with_and_without = {&provenance, nullptr};
+    for (int i = 0; i < 4; ++i) {
+        write_ply(folder / "out.ply", mesh,
+                  {.ascii = i < 2,
+                   .comments = {},
+                   .provenance = with_and_without[static_cast<std::size_t>(i % 2)]});
         const TriMesh back = read_ply(folder / "out.ply");
         EXPECT_EQ(back.positions, mesh.positions);
         EXPECT_EQ(back.normals, mesh.normals);

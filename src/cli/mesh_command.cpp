@@ -11,12 +11,14 @@
 #include "pipeline.h"
 #include "pipeline_memory.h"
 #include "surface/check.h"
+#include "surface/provenance.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace vcarve::cli {
 
@@ -27,12 +29,17 @@ namespace fs = std::filesystem;
 /// What the program writes, whatever it computes.
 struct OutputOptions {
     bool ascii = false;
+    bool attributes = false;
     bool quiet = false;
 
     void visit(OptionVisitor& options)
     {
         options.stage("Output");
         options.flag(ascii, {.name = "ascii", .help = "Write numbers as text instead of binary."});
+        options.flag(attributes,
+                     {.name = "attributes",
+                      .help = "Write what vertices and faces come from: point3d_id, num_views and "
+                              "error_px of each vertex, support of each face."});
         options.flag(quiet, {.name = "quiet", .help = "Print nothing but errors."});
     }
 };
@@ -132,13 +139,21 @@ void prepare_outputs(const MeshArguments& arguments, bool with_stats)
     }
 }
 
-void write_surface(const MeshArguments& arguments, const TriMesh& mesh, Log& log)
+/// What is written.
+struct Surface {
+    TriMesh mesh;
+    std::optional<Provenance> provenance;
+};
+
+void write_surface(const MeshArguments& arguments, const Surface& surface, Log& log)
 {
     Stage stage(log, "write");
     const PlyFormat format = {.ascii = arguments.output.ascii,
-                              .comments = {"made by colmap-vcarve " + versions().program}};
-    write_ply(arguments.out, mesh, format);
-    stage.end({{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}});
+                              .comments = {"made by colmap-vcarve " + versions().program},
+                              .provenance =
+                                  surface.provenance.has_value() ? &*surface.provenance : nullptr};
+    write_ply(arguments.out, surface.mesh, format);
+    stage.end({{"faces", surface.mesh.faces.size()}, {"vertices", surface.mesh.positions.size()}});
 }
 
 Json check_json(const MeshCheck& check)
@@ -187,10 +202,16 @@ void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
 }
 
 /// The surface of a scene. What the scene lacks is said of the model it was read from.
-TriMesh surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
+Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
 {
     try {
-        return reconstruct(std::move(input.scene), arguments.options, log).mesh;
+        Reconstruction made = reconstruct(std::move(input.scene), arguments.options, log);
+        Surface surface;
+        if (arguments.output.attributes) {
+            surface.provenance = find_provenance(made.mesh, made.scene);
+        }
+        surface.mesh = std::move(made.mesh);
+        return surface;
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", arguments.model.string(), error.what()));
     }
@@ -202,9 +223,9 @@ void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& reco
     ModelInput input = read_model_input(
         arguments.model, log, [&](const SceneSize& size) { require_memory_of(arguments, size); });
     record["input"] = input.record;
-    const TriMesh mesh = surface_of(std::move(input), arguments, log);
-    write_surface(arguments, mesh, log);
-    if (!arguments.stats.empty()) record["mesh"] = check_json(check_mesh(mesh));
+    const Surface surface = surface_of(std::move(input), arguments, log);
+    write_surface(arguments, surface, log);
+    if (!arguments.stats.empty()) record["mesh"] = check_json(check_mesh(surface.mesh));
 }
 
 } // namespace

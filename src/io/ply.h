@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/provenance.h"
 #include "model/tri_mesh.h"
 
 #include <filesystem>
@@ -11,7 +12,8 @@ namespace vcarve {
 /// How a mesh is written.
 struct PlyFormat {
     bool ascii = false;
-    std::vector<std::string> comments; ///< header lines: program version, options, offset
+    std::vector<std::string> comments;      ///< header lines: program version, options, offset
+    const Provenance* provenance = nullptr; ///< written as well where there is one
 };
 
 /// Writes a surface as PLY through OpenMesh's IO: per vertex x y z (double, `offset` added), nx ny
@@ -24,6 +26,11 @@ struct PlyFormat {
 /// take double coordinates (some round them to float themselves, which is then their loss and not
 /// the file's), and all of them know `vertex_indices`; COLMAP writes `vertex_index` but takes any
 /// list of a face.
+///
+/// A provenance adds point3d_id (double, since PLY has no whole number that holds all ids; exact),
+/// num_views (int) and error_px (float) to the vertices. The faces' support (int) is an element
+/// `face_support` of its own behind the faces, one entry a face: COLMAP's reader of binary meshes
+/// skips what it does not know of a vertex, but takes a face to be its list of corners only.
 void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const PlyFormat& format);
 
 /// Reads a triangle surface from ascii, little endian or big endian PLY, numbers of any type.

@@ -104,16 +104,23 @@ void put_little_endian(fmt::memory_buffer& block, Number number)
     block.append(bytes.data(), bytes.data() + bytes.size());
 }
 
+/// One number, by memory layout or as text.
+template <typename Number>
+void put_one(fmt::memory_buffer& block, Number number, bool binary)
+{
+    if (binary) {
+        put_little_endian(block, number);
+    } else {
+        fmt::format_to(fmt::appender(block), "{} ", number);
+    }
+}
+
 /// Three numbers of a vertex, by memory layout or as text.
 template <typename Vector>
 void put_triple(fmt::memory_buffer& block, const Vector& triple, bool binary)
 {
     for (int i = 0; i < 3; ++i) {
-        if (binary) {
-            put_little_endian(block, triple[i]);
-        } else {
-            fmt::format_to(fmt::appender(block), "{} ", triple[i]);
-        }
+        put_one(block, triple[i], binary);
     }
 }
 
@@ -129,7 +136,7 @@ void end_line(fmt::memory_buffer& block, bool binary)
 /// addresses.
 class PlyModule : public OpenMesh::IO::BaseWriter {
   public:
-    explicit PlyModule(const std::vector<std::string>& comments) : comments_(comments) {}
+    explicit PlyModule(const PlyFormat& format) : format_(format) {}
 
     std::string get_description() const override { return "PLY with double coordinates"; }
     std::string get_extensions() const override { return "ply"; }
@@ -147,16 +154,19 @@ class PlyModule : public OpenMesh::IO::BaseWriter {
         write_header(out, source, options);
         write_vertices(out, source, options);
         write_faces(out, source, options);
+        if (format_.provenance != nullptr) write_supports(out, *format_.provenance, options);
         return out.good();
     }
 
   private:
     void write_header(std::ostream& out, const BaseExporter& source, const Options& options) const;
-    static void write_vertices(std::ostream& out, const BaseExporter& source,
-                               const Options& options);
+    void write_vertices(std::ostream& out, const BaseExporter& source,
+                        const Options& options) const;
     static void write_faces(std::ostream& out, const BaseExporter& source, const Options& options);
+    static void write_supports(std::ostream& out, const Provenance& provenance,
+                               const Options& options);
 
-    const std::vector<std::string>& comments_;
+    const PlyFormat& format_;
 };
 
 /// A comment is one line: what would break it becomes a blank.
@@ -171,7 +181,7 @@ void PlyModule::write_header(std::ostream& out, const BaseExporter& source,
                              const Options& options) const
 {
     out << "ply\nformat " << (options.is_binary() ? "binary_little_endian" : "ascii") << " 1.0\n";
-    for (const std::string& comment : comments_) {
+    for (const std::string& comment : format_.comments) {
         out << "comment " << one_line(comment) << '\n';
     }
     out << "element vertex " << source.n_vertices() << '\n'
@@ -182,12 +192,27 @@ void PlyModule::write_header(std::ostream& out, const BaseExporter& source,
     if (options.vertex_has_color()) {
         out << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     }
+    if (format_.provenance != nullptr) {
+        out << "property double point3d_id\nproperty int num_views\nproperty float error_px\n";
+    }
     out << "element face " << source.n_faces() << '\n'
-        << "property list uchar int vertex_indices\nend_header\n";
+        << "property list uchar int vertex_indices\n";
+    if (format_.provenance != nullptr) {
+        out << "element face_support " << source.n_faces() << "\nproperty int support\n";
+    }
+    out << "end_header\n";
+}
+
+void put_provenance(fmt::memory_buffer& block, const Provenance& provenance, std::size_t vertex,
+                    bool binary)
+{
+    put_one(block, static_cast<double>(provenance.point_ids[vertex]), binary);
+    put_one(block, provenance.num_views[vertex], binary);
+    put_one(block, provenance.errors_px[vertex], binary);
 }
 
 void PlyModule::write_vertices(std::ostream& out, const BaseExporter& source,
-                               const Options& options)
+                               const Options& options) const
 {
     BlockWriter writer(out);
     for (std::size_t i = 0; i < source.n_vertices(); ++i) {
@@ -199,6 +224,9 @@ void PlyModule::write_vertices(std::ostream& out, const BaseExporter& source,
         }
         if (options.vertex_has_color()) {
             put_triple(block, source.color(vertex), options.is_binary());
+        }
+        if (format_.provenance != nullptr) {
+            put_provenance(block, *format_.provenance, i, options.is_binary());
         }
         end_line(block, options.is_binary());
     }
@@ -220,6 +248,17 @@ void PlyModule::write_faces(std::ostream& out, const BaseExporter& source, const
     }
 }
 
+void PlyModule::write_supports(std::ostream& out, const Provenance& provenance,
+                               const Options& options)
+{
+    BlockWriter writer(out);
+    for (const std::int32_t support : provenance.supports) {
+        fmt::memory_buffer& block = writer.block();
+        put_one(block, support, options.is_binary());
+        end_line(block, options.is_binary());
+    }
+}
+
 } // namespace
 
 void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const PlyFormat& format)
@@ -231,7 +270,7 @@ void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const Ply
     if (source.has_vertex_normals()) options += Options::VertexNormal;
     if (source.has_vertex_colors()) options += Options::VertexColor;
     // Errors of the stream are told by commit, which knows their cause.
-    PlyModule(format.comments).write(file.stream(), source, options, 0);
+    PlyModule(format).write(file.stream(), source, options, 0);
     file.commit();
 }
 

@@ -14,15 +14,38 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Whether a view at `center` sees a point from the side the unit normal points to.
+bool is_before(const Vector3d& center, const Vector3d& point, const Vector3d& normal)
+{
+    constexpr double kGrazing = 0.05; // cosine, about 87 degrees off the normal
+    const Vector3d to_view = center - point;
+    return normal.dot(to_view) > kGrazing * to_view.norm();
+}
+
 /// Whether some view of a point's track sees it from the side the unit normal points to.
 bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Vector3d& normal)
 {
-    constexpr double kGrazing = 0.05; // cosine, about 87 degrees off the normal
     const auto track = scene.tracks[point];
     return std::any_of(track.begin(), track.end(), [&](std::uint32_t view) {
-        const Vector3d to_view = scene.views[view].center - scene.positions[point];
-        return normal.dot(to_view) > kGrazing * to_view.norm();
+        return is_before(scene.views[view].center, scene.positions[point], normal);
     });
+}
+
+/// How many views saw the least seen corner from the front.
+std::int32_t face_support(const TriMesh& mesh, const Scene& scene, const Face& face)
+{
+    const Vector3d normal = face_normal(mesh, face);
+    const auto views_before = [&](std::uint32_t vertex) -> std::ptrdiff_t {
+        if (mesh.points[vertex] == kNoPoint) {
+            return 0;
+        }
+        const auto track = scene.tracks[mesh.points[vertex]];
+        return std::count_if(track.begin(), track.end(), [&](std::uint32_t view) {
+            return is_before(scene.views[view].center, mesh.positions[vertex], normal);
+        });
+    };
+    return static_cast<std::int32_t>(
+        std::min({views_before(face[0]), views_before(face[1]), views_before(face[2])}));
 }
 
 double edge_length(const TriMesh& mesh, const Face& face, int corner)
@@ -100,6 +123,15 @@ std::vector<double> relative_sizes(const TriMesh& mesh, const FaceFlags& measure
         sizes[i] = longest_edge(mesh, face) / scales[1];
     });
     return sizes;
+}
+
+std::vector<std::int32_t> face_supports(const TriMesh& mesh, const Scene& scene)
+{
+    std::vector<std::int32_t> supports(mesh.faces.size());
+    parallel_for(supports.size(), [&](std::size_t i) {
+        supports[i] = face_support(mesh, scene, mesh.faces[i]);
+    });
+    return supports;
 }
 
 } // namespace vcarve
