@@ -57,22 +57,42 @@ TetMesh triangulate(const Scene& scene, Log& log)
     return cells;
 }
 
-Labels carve(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
+VirtualSights look_around(const TetMesh& cells, const Scene& scene, const Labels& labels,
+                          const Options& options, Log& log)
 {
-    Stage trace(log, "sights");
-    const Crossings crossings = count_crossings(cells, scene, trace);
-    trace.end({{"sights", size_of(scene.num_sights())}});
-    Stage label(log, "carve");
+    Stage stage(log, "virtual");
+    VirtualSights sights = find_virtual_sights(cells, scene, labels, options.virtual_views, stage);
+    stage.end({{"views", size_of(sights.centers.size())},
+               {"sights", size_of(sights.tracks.views.size())}});
+    return sights;
+}
+
+Labels carve(const TetMesh& cells, const Crossings& crossings, const Options& options, Log& log)
+{
+    Stage stage(log, "carve");
     Labels labels = carve(cells, crossings, options.min_crossings);
-    label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)}});
+    stage.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)}});
     return labels;
 }
 
-Labels cut(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
+Labels carve(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
 {
     Stage trace(log, "sights");
-    Votes votes = trace_sights(cells, scene, options.trace, trace);
+    Crossings crossings = count_crossings(cells, scene, trace);
     trace.end({{"sights", size_of(scene.num_sights())}});
+    const Labels labels = carve(cells, crossings, options, log);
+    if (options.virtual_views.count == 0) {
+        return labels;
+    }
+    const VirtualSights more = look_around(cells, scene, labels, options, log);
+    Stage trace_more(log, "sights");
+    add_crossings(cells, more, options.virtual_views.weight, crossings, trace_more);
+    trace_more.end({{"sights", size_of(more.tracks.views.size())}});
+    return carve(cells, crossings, options, log);
+}
+
+Labels cut(const TetMesh& cells, const Scene& scene, Votes votes, const Options& options, Log& log)
+{
     Stage label(log, "cut");
     const std::int32_t one_sight = votes.unit;
     MinimumCut minimum = cut(cells, std::move(votes), options.cut);
@@ -88,6 +108,22 @@ Labels cut(const TetMesh& cells, const Scene& scene, const Options& options, Log
     label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)},
                {"webs doubted", webs}});
     return labels;
+}
+
+Labels cut(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
+{
+    Stage trace(log, "sights");
+    Votes votes = trace_sights(cells, scene, options.trace, trace);
+    trace.end({{"sights", size_of(scene.num_sights())}});
+    if (options.virtual_views.count == 0) {
+        return cut(cells, scene, std::move(votes), options, log);
+    }
+    const Labels first = cut(cells, scene, votes, options, log);
+    const VirtualSights more = look_around(cells, scene, first, options, log);
+    Stage trace_more(log, "sights");
+    add_votes(cells, scene, more, options.virtual_views.weight, options.trace, votes, trace_more);
+    trace_more.end({{"sights", size_of(more.tracks.views.size())}});
+    return cut(cells, scene, std::move(votes), options, log);
 }
 
 Labels alpha_shape(const TetMesh& cells, const Options& options, Log& log)

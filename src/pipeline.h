@@ -8,6 +8,7 @@
 #include "model/tri_mesh.h"
 #include "points/filter.h"
 #include "sight/trace.h"
+#include "sight/virtual_views.h"
 #include "surface/cleanup.h"
 #include "surface/simplify.h"
 #include "surface/smooth.h"
@@ -38,6 +39,7 @@ struct Options {
     std::int64_t max_memory = 0; ///< bytes
     FilterOptions filter;
     TraceOptions trace;
+    VirtualViewOptions virtual_views;
     CutOptions cut;
     WebOptions webs;
     SupportOptions support;
@@ -67,6 +69,7 @@ struct Options {
         trace.visit(options);
         cut.visit(options);
         webs.visit(options);
+        virtual_views.visit(options);
         options.stage("Surface");
         options.flag(closed,
                      {.name = "closed",

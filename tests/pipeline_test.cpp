@@ -78,6 +78,23 @@ TEST(Reconstruct, GivesTheSameMeshForAnyNumberOfThreads)
     }
 }
 
+TEST(Reconstruct, GivesTheSameMeshWithVirtualViewsToo)
+{
+    const Scene scene = bumpy_sphere(kPoints, 2);
+    for (const Method method : {Method::cut, Method::strict}) {
+        Options one;
+        one.method = method;
+        const TriMesh without = run(scene, one).mesh;
+        one.virtual_views.count = 40;
+        one.threads = 1;
+        Options two = one;
+        two.threads = 2;
+        const TriMesh mesh = run(scene, one).mesh;
+        expect_same_mesh(mesh, run(permuted(scene, 3), two).mesh);
+        EXPECT_NE(mesh.faces, without.faces);
+    }
+}
+
 TEST(Reconstruct, GivesTheSameMeshForAnyOrderOfPointsAndViews)
 {
     const Scene scene = bumpy_sphere(kPoints, 3);
@@ -239,6 +256,16 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
                                                "cut",    "surface", "clean",       "orient"};
     EXPECT_EQ(log.begun, expected);
     EXPECT_EQ(log.ended, expected);
+
+    Recorder twice;
+    Options with_virtual_views;
+    with_virtual_views.virtual_views.count = 10;
+    reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
+    const std::vector<std::string> labelled_twice = {"filter",  "triangulate", "sights", "cut",
+                                                     "virtual", "sights",      "cut",    "surface",
+                                                     "clean",   "orient"};
+    EXPECT_EQ(twice.begun, labelled_twice);
+    EXPECT_EQ(twice.ended, labelled_twice);
 }
 
 } // namespace

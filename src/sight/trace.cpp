@@ -1,7 +1,7 @@
 #include "sight/trace.h"
 
 #include "base/error.h"
-#include "base/parallel.h"
+#include "sight/each_vertex.h"
 #include "sight/edge_lengths.h"
 #include "sight/walk.h"
 
@@ -54,6 +54,17 @@ void count_one(std::uint32_t& count)
     std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
 }
 
+/// Counts the facets a sight crosses, on both sides.
+void count_facets(const TetMesh& cells, SightWalk& walk, const Vector3d& center,
+                  Crossings& crossings)
+{
+    walk.to(center, [&](Index cell, int slot) {
+        const Index beyond = cells.cells[cell].neighbors[slot];
+        count_one(crossings[cell][slot]);
+        count_one(crossings[beyond][cells.mirror(cell, slot)]);
+    });
+}
+
 /// A view on the border of cells is found in different ones; the smallest does not depend on order.
 void lower(Index& least, Index value)
 {
@@ -61,26 +72,6 @@ void lower(Index& least, Index value)
     Index seen = shared.load(std::memory_order_relaxed);
     while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
     }
-}
-
-/// Calls body(vertex) for every vertex in parallel and tells the stage how far it is.
-template <typename Body>
-void for_each_vertex(const TetMesh& cells, Stage& stage, const Body& body)
-{
-    constexpr std::size_t kBlock = 512;
-    const std::size_t count = cells.positions.size();
-    std::atomic<std::size_t> done = 0;
-    parallel_for((count + kBlock - 1) / kBlock,
-                 [&](std::size_t block) {
-                     const std::size_t end = std::min(count, (block + 1) * kBlock);
-                     for (std::size_t vertex = block * kBlock; vertex < end; ++vertex) {
-                         body(static_cast<Index>(vertex));
-                     }
-                     done += kBlock;
-                     stage.progress(
-                         std::min(1.0, static_cast<double>(done) / static_cast<double>(count)));
-                 },
-                 1);
 }
 
 /// Distance from a point to where the line through it in a direction meets a facet's plane.
@@ -290,6 +281,15 @@ class SightWeights {
     double full_ = 1.0;
 };
 
+void require_exact(const VoteSums& sums, const Scene& scene)
+{
+    if (sums.is_exceeded()) {
+        throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
+                                     "at one facet; a surface needs fewer points or views",
+                                     scene.num_sights()));
+    }
+}
+
 } // namespace
 
 Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage)
@@ -298,14 +298,27 @@ Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage
     for_each_vertex(cells, stage, [&](Index vertex) {
         SightWalk walk(cells, vertex);
         for (const std::uint32_t view : scene.tracks[vertex]) {
-            walk.to(scene.views[view].center, [&](Index cell, int slot) {
-                const Index beyond = cells.cells[cell].neighbors[slot];
-                count_one(crossings[cell][slot]);
-                count_one(crossings[beyond][cells.mirror(cell, slot)]);
-            });
+            count_facets(cells, walk, scene.views[view].center, crossings);
         }
     });
     return crossings;
+}
+
+void add_crossings(const TetMesh& cells, const VirtualSights& sights, double weight,
+                   Crossings& crossings, Stage& stage)
+{
+    Crossings more(cells.cells.size(), {0, 0, 0, 0});
+    for_each_vertex(cells, stage, [&](Index vertex) {
+        SightWalk walk(cells, vertex);
+        for (const std::uint32_t view : sights.tracks[vertex]) {
+            count_facets(cells, walk, sights.centers[view], more);
+        }
+    });
+    parallel_for(more.size(), [&](std::size_t cell) {
+        for (int slot = 0; slot < 4; ++slot) {
+            crossings[cell][slot] += static_cast<std::uint32_t>(weight * more[cell][slot]);
+        }
+    });
 }
 
 Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
@@ -333,12 +346,24 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
             lower(votes.cell_of_view[view], last);
         }
     });
-    if (sums.is_exceeded()) {
-        throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
-                                     "at one facet; a surface needs fewer points or views",
-                                     scene.num_sights()));
-    }
+    require_exact(sums, scene);
     return votes;
+}
+
+void add_votes(const TetMesh& cells, const Scene& scene, const VirtualSights& sights, double weight,
+               const TraceOptions& options, Votes& votes, Stage& stage)
+{
+    VoteSums sums(votes.network);
+    const double sigma = options.softness * short_edge_length(cells);
+    const SightWeights weights(scene, options);
+    for_each_vertex(cells, stage, [&](Index vertex) {
+        const Voter voter(cells, sums, weight * weights.of(vertex), sigma);
+        SightWalk walk(cells, vertex);
+        for (const std::uint32_t view : sights.tracks[vertex]) {
+            voter.vote_outside(walk, cells.positions[vertex], sights.centers[view]);
+        }
+    });
+    require_exact(sums, scene);
 }
 
 } // namespace vcarve

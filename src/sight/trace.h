@@ -4,6 +4,7 @@
 #include "base/options.h"
 #include "model/scene.h"
 #include "model/tet_mesh.h"
+#include "model/virtual_sights.h"
 #include "model/votes.h"
 
 namespace vcarve {
@@ -52,6 +53,10 @@ struct TraceOptions {
 /// Cost: one walk a sight, in parallel; 16 bytes a cell.
 Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage);
 
+/// Adds virtual sights, each `weight` of a real one, rounded down facet by facet.
+void add_crossings(const TetMesh& cells, const VirtualSights& sights, double weight,
+                   Crossings& crossings, Stage& stage);
+
 /// Each sight votes for the cells before its point to be outside and the cell behind it to be
 /// inside (Labatut, Pons, Keriven 2009), softly near the point. The votes are integers, so their
 /// sums do not depend on the number of threads. Each sight's own flow is pushed along its walk at
@@ -61,5 +66,10 @@ Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage
 /// Throws InputError if a sum leaves 32 bits. Cost: one walk a sight, in parallel; 20 bytes a cell.
 Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
                    Stage& stage);
+
+/// Adds the votes of virtual sights, each `weight` times that of a real sight of its point. They
+/// vote for outside only: of what lies behind a point the real sights know more.
+void add_votes(const TetMesh& cells, const Scene& scene, const VirtualSights& sights, double weight,
+               const TraceOptions& options, Votes& votes, Stage& stage);
 
 } // namespace vcarve

@@ -128,9 +128,8 @@ std::vector<double> relative_sizes(const TriMesh& mesh, const FaceFlags& measure
 std::vector<std::int32_t> face_supports(const TriMesh& mesh, const Scene& scene)
 {
     std::vector<std::int32_t> supports(mesh.faces.size());
-    parallel_for(supports.size(), [&](std::size_t i) {
-        supports[i] = face_support(mesh, scene, mesh.faces[i]);
-    });
+    parallel_for(supports.size(),
+                 [&](std::size_t i) { supports[i] = face_support(mesh, scene, mesh.faces[i]); });
     return supports;
 }
 

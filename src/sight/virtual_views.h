@@ -1,0 +1,45 @@
+#pragma once
+
+#include "base/log.h"
+#include "base/options.h"
+#include "model/labels.h"
+#include "model/scene.h"
+#include "model/tet_mesh.h"
+#include "model/virtual_sights.h"
+
+namespace vcarve {
+
+/// How many more viewpoints are tried, and how much they count.
+struct VirtualViewOptions {
+    int count = 0;
+    double weight = 0.5;
+
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Virtual views");
+        options.count(count, {.name = "virtual-views",
+                              .unit = "views",
+                              .help = "How many viewpoints to place in space that sights have "
+                                      "shown to be free, to look from there at the points around, "
+                                      "and to label the cells again; about one for every 40 "
+                                      "points does much, 0 places none."});
+        options.number(weight, {.name = "virtual-weight",
+                                .unit = "sights",
+                                .help = "What a sight of such a viewpoint counts, relative to a "
+                                        "real sight of the same point.",
+                                .max = 100.0});
+    }
+};
+
+/// More viewpoints (Akgunduz, Zetu, Banerjee 2000, who leave them to the future). They stand in
+/// cells that are labelled outside and crossed by a real sight, near the points but not at them,
+/// spread as far as they go. A viewpoint sees those of the 1000 points around it which some view
+/// saw, at which the surface as labelled looks towards it, and which nothing known to be solid
+/// hides: no cell that is labelled inside and lies just behind a point that a view saw. Cells
+/// labelled inside of which the sights say nothing hide nothing: they are what is to be found out.
+/// The result does not depend on the number of threads. Cost: two walks a real sight, up to 1000 a
+/// viewpoint, and O(cells x viewpoints) to spread them, all in parallel.
+VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, const Labels& labels,
+                                  const VirtualViewOptions& options, Stage& stage);
+
+} // namespace vcarve
