@@ -34,6 +34,7 @@ constexpr std::array kScenes{
 std::vector<std::string> photo_scene_names()
 {
     std::vector<std::string> names;
+    names.reserve(kScenes.size());
     for (const NamedScene& scene : kScenes) {
         names.emplace_back(scene.name);
     }

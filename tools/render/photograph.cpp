@@ -64,8 +64,10 @@ Picture photograph(const Parts& parts, const Pinhole& view)
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const Hit& hit = hits[i];
         if (hit.face == Hit::kNoFace) continue;
-        const Eigen::Vector2d pixel(static_cast<double>(i % fine.width_px) + 0.5,
-                                    std::floor(static_cast<double>(i / fine.width_px)) + 0.5);
+        const std::size_t row = i / fine.width_px;
+        const std::size_t column = i % fine.width_px;
+        const Eigen::Vector2d pixel(static_cast<double>(column) + 0.5,
+                                    static_cast<double>(row) + 0.5);
         const Eigen::Vector3d place = fine.center + hit.depth * fine.ray(pixel);
         const std::uint32_t part = parts.part_of_face[hit.face];
         const Paint& paint = parts.paint_of_part[part];
