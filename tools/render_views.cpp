@@ -19,10 +19,9 @@
 #include <string_view>
 #include <vector>
 
-namespace {
+namespace vcarve::render {
 
-using namespace vcarve;
-using namespace vcarve::render;
+namespace {
 
 /// Of the frame the scenes are built in, where a view is some metres off.
 constexpr double kMaxError = 0.02;
@@ -92,6 +91,8 @@ void write_all(const std::filesystem::path& folder, const std::string& name)
 
 } // namespace
 
+} // namespace vcarve::render
+
 int main(int argc, char** argv)
 {
     if (argc < 2 || argc > 3) {
@@ -99,11 +100,11 @@ int main(int argc, char** argv)
         return 2;
     }
     try {
-        const std::vector<std::string> names = photo_scene_names();
+        const std::vector<std::string> names = vcarve::render::photo_scene_names();
         if (std::string_view(argv[1]) == "--list") {
             fmt::print("{}\n", fmt::join(names, "\n"));
         } else {
-            write_all(argv[1], argc == 3 ? argv[2] : names.front());
+            vcarve::render::write_all(argv[1], argc == 3 ? argv[2] : names.front());
         }
     } catch (const std::exception& error) {
         fmt::print(stderr, "render_views: {}\n", error.what());
