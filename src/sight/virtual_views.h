@@ -20,9 +20,9 @@ struct VirtualViewOptions {
         options.count(count, {.name = "virtual-views",
                               .unit = "views",
                               .help = "How many viewpoints to place in space that sights have "
-                                      "shown to be free, to look from there at the points around, "
-                                      "and to label the cells again; about one for every 40 "
-                                      "points does much, 0 places none."});
+                                      "shown to be free, to look from there at the points around "
+                                      "and label the cells again; 100 suit some thousand points, 0 "
+                                      "places none."});
         options.number(weight, {.name = "virtual-weight",
                                 .unit = "sights",
                                 .help = "What a sight of such a viewpoint counts, relative to a "
