@@ -80,7 +80,7 @@ Labels carve(const TetMesh& cells, const Scene& scene, const Options& options, L
     Stage trace(log, "sights");
     Crossings crossings = count_crossings(cells, scene, trace);
     trace.end({{"sights", size_of(scene.num_sights())}});
-    const Labels labels = carve(cells, crossings, options, log);
+    Labels labels = carve(cells, crossings, options, log);
     if (options.virtual_views.count == 0) {
         return labels;
     }

@@ -55,12 +55,13 @@ CGAL::Bbox_3 box_of(const Scene& scene)
 
 /// A cell as CGAL numbers it: vertices ascending, neighbours still by the numbers of pass 1.
 struct RawCell {
-    std::array<Index, 4> vertices; ///< ascending, kInfinite last
+    std::array<Index, 4> vertices;  ///< ascending, kInfinite last
     std::array<Index, 4> neighbors; ///< across the facet opposite each vertex
-    bool is_odd;                   ///< whether ascending order turns the cell inside out
+    bool is_odd;                    ///< whether ascending order turns the cell inside out
 };
 
-template <typename CellHandle> RawCell raw_cell(CellHandle cell)
+template <typename CellHandle>
+RawCell raw_cell(CellHandle cell)
 {
     std::array<int, 4> sources = {0, 1, 2, 3};
     std::array<Index, 4> found{};
@@ -83,7 +84,8 @@ template <typename CellHandle> RawCell raw_cell(CellHandle cell)
 }
 
 /// All cells, in the order CGAL keeps them, which may differ from run to run.
-template <typename Triangulation> std::vector<RawCell> raw_cells(const Triangulation& triangulation)
+template <typename Triangulation>
+std::vector<RawCell> raw_cells(const Triangulation& triangulation)
 {
     using CellHandle = typename Triangulation::Cell_handle;
     std::vector<CellHandle> handles;
@@ -151,8 +153,7 @@ void fill_cells(const std::vector<RawCell>& raw, TetMesh& mesh, std::size_t num_
             const RawCell& neighbor = raw[from.neighbors[rank]];
             mesh.cells[i].vertices[slot] = from.vertices[rank];
             mesh.cells[i].neighbors[slot] = numbers[from.neighbors[rank]];
-            const int mirror =
-                exchanged(rank_of_facet(neighbor, from, order[i]), neighbor.is_odd);
+            const int mirror = exchanged(rank_of_facet(neighbor, from, order[i]), neighbor.is_odd);
             mirrors |= static_cast<std::uint8_t>(mirror << (2 * slot));
         }
         mesh.mirrors[i] = mirrors;
