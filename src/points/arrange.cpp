@@ -1,15 +1,15 @@
 #include "points/arrange.h"
 
 #include "base/parallel.h"
+#include "points/order.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/hilbert_sort.h>
 #include <CGAL/property_map.h>
-#include <tbb/parallel_sort.h>
 
-#include <numeric>
-#include <tuple>
+#include <algorithm>
+#include <cstdint>
 
 namespace vcarve {
 
@@ -20,17 +20,12 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using PointMap = CGAL::Pointer_property_map<Kernel::Point_3>::type;
 using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, PointMap>;
 
-/// Point indices along a Hilbert curve. Sorted by coordinates first, so that the sort, which is
+/// Point indices along a Hilbert curve. Sorted by place first, so that the sort, which is
 /// deterministic but not stable, starts from the same sequence whatever the order of the input.
 std::vector<std::size_t> hilbert_order(const std::vector<Vector3d>& positions)
 {
-    std::vector<std::size_t> order(positions.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    tbb::parallel_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        const Vector3d& p = positions[a];
-        const Vector3d& q = positions[b];
-        return std::tie(p.x(), p.y(), p.z()) < std::tie(q.x(), q.y(), q.z());
-    });
+    const std::vector<std::uint32_t> by_place = order_by_place(positions);
+    std::vector<std::size_t> order(by_place.begin(), by_place.end());
     std::vector<Kernel::Point_3> points;
     points.reserve(positions.size());
     for (const Vector3d& p : positions) {
@@ -53,10 +48,15 @@ Tracks reordered(const Tracks& tracks, const std::vector<std::size_t>& order)
 {
     Tracks result;
     result.begins.reserve(order.size() + 1);
-    result.views.reserve(tracks.views.size());
     for (const std::size_t point : order) {
-        result.push_back(tracks[point]);
+        result.begins.push_back(result.begins.back() + tracks[point].size());
     }
+    result.views.resize(result.begins.back());
+    parallel_for(order.size(), [&](std::size_t i) {
+        const auto track = tracks[order[i]];
+        std::copy(track.begin(), track.end(),
+                  result.views.begin() + static_cast<std::ptrdiff_t>(result.begins[i]));
+    });
     return result;
 }
 

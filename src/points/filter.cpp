@@ -2,13 +2,11 @@
 
 #include "base/index_limit.h"
 #include "base/parallel.h"
-
-#include <tbb/parallel_sort.h>
+#include "points/order.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 
 namespace vcarve {
@@ -17,38 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 using PointIndices = std::vector<std::uint32_t>;
-
-auto coordinates(const Vector3d& p)
-{
-    return std::tuple(p.x(), p.y(), p.z());
-}
-
-PointIndices finite_points(const Scene& scene)
-{
-    PointIndices kept;
-    kept.reserve(scene.num_points());
-    for (std::uint32_t i = 0; i < scene.num_points(); ++i) {
-        if (scene.positions[i].allFinite()) {
-            kept.push_back(i);
-        }
-    }
-    return kept;
-}
-
-/// Sorts points by place; those at one place by how much they are worth, the best first.
-void sort_by_place(const Scene& scene, PointIndices& points)
-{
-    const auto worth = [&](std::uint32_t i) {
-        const double error = scene.errors_px[i];
-        return std::tuple(-static_cast<std::int64_t>(scene.tracks[i].size()),
-                          error < 0.0 ? kUnlimited : error, scene.point_ids[i]);
-    };
-    tbb::parallel_sort(points.begin(), points.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const auto place_a = coordinates(scene.positions[a]);
-        const auto place_b = coordinates(scene.positions[b]);
-        return place_a != place_b ? place_a < place_b : worth(a) < worth(b);
-    });
-}
 
 /// Points at one place, by the index of the best of them.
 struct Merged {
@@ -59,29 +25,43 @@ struct Merged {
     static constexpr std::uint32_t kAlone = 0xffffffffU;
 };
 
-Merged merge_duplicates(const Scene& scene, PointIndices points)
+/// Which of the points at one place stands for them: most views, smallest error, smallest id.
+std::uint32_t best_of(const Scene& scene, const PointIndices& points)
 {
-    sort_by_place(scene, points);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> places;
-    places.reserve(points.size());
+    const auto worth = [&](std::uint32_t i) {
+        const double error = scene.errors_px[i];
+        return std::tuple(-static_cast<std::int64_t>(scene.tracks[i].size()),
+                          error < 0.0 ? kUnlimited : error, scene.point_ids[i]);
+    };
+    return *std::min_element(points.begin(), points.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return worth(a) < worth(b);
+    });
+}
+
+Merged merge_duplicates(const Scene& scene, const PointIndices& by_place)
+{
+    constexpr std::uint32_t kLeftOut = Merged::kAlone - 1;
+    std::vector<std::uint32_t> groups(scene.num_points(), kLeftOut);
     Merged merged;
-    for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
-        while (end < points.size() &&
-               scene.positions[points[end]] == scene.positions[points[begin]]) {
+    for (std::size_t begin = 0, end = 0; begin < by_place.size(); begin = end) {
+        const Vector3d& place = scene.positions[by_place[begin]];
+        while (end < by_place.size() && scene.positions[by_place[end]] == place) {
             ++end;
         }
-        std::uint32_t group = Merged::kAlone;
-        if (end - begin > 1) {
-            group = static_cast<std::uint32_t>(merged.members.size());
-            merged.members.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(begin),
-                                        points.begin() + static_cast<std::ptrdiff_t>(end));
+        if (end - begin == 1) {
+            groups[by_place[begin]] = Merged::kAlone;
+            continue;
         }
-        places.emplace_back(points[begin], group);
+        PointIndices members(by_place.begin() + static_cast<std::ptrdiff_t>(begin),
+                             by_place.begin() + static_cast<std::ptrdiff_t>(end));
+        groups[best_of(scene, members)] = static_cast<std::uint32_t>(merged.members.size());
+        merged.members.push_back(std::move(members));
     }
-    tbb::parallel_sort(places.begin(), places.end());
-    for (const auto& [best, group] : places) {
-        merged.best.push_back(best);
-        merged.group.push_back(group);
+    for (std::uint32_t point = 0; point < groups.size(); ++point) {
+        if (groups[point] != kLeftOut) {
+            merged.best.push_back(point);
+            merged.group.push_back(groups[point]);
+        }
     }
     return merged;
 }
@@ -151,7 +131,7 @@ void count(Verdict verdict, FilterReport& report)
 FilteredPoints filter_points(const Scene& scene, const FilterOptions& options)
 {
     require_indexable(scene.num_points(), kMostIndices, "points");
-    const PointIndices finite = finite_points(scene);
+    const PointIndices finite = order_by_place(scene.positions);
     const Merged merged = merge_duplicates(scene, finite);
     std::vector<std::vector<std::uint32_t>> united(merged.members.size());
     parallel_for(united.size(),

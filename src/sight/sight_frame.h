@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vcarve {
@@ -33,6 +34,7 @@ class SightFrame {
         if (along[axis_] > 0.0) {
             std::swap(axis_x_, axis_y_);
         }
+        near_ = {point[axis_x_], point[axis_y_], point[axis_]};
         inverse_ = 1.0 / along[axis_];
         shear_x_ = along[axis_x_] * inverse_;
         shear_y_ = along[axis_y_] * inverse_;
@@ -43,10 +45,11 @@ class SightFrame {
 
     Sighted project(const Eigen::Vector3d& p) const
     {
-        const Eigen::Vector3d from_point = p - point_;
-        const double along = from_point[axis_];
-        return {from_point[axis_x_] - shear_x_ * along, from_point[axis_y_] - shear_y_ * along,
-                along * inverse_, from_point.cwiseAbs().maxCoeff()};
+        const double x = p[axis_x_] - near_.x();
+        const double y = p[axis_y_] - near_.y();
+        const double along = p[axis_] - near_.z();
+        return {x - shear_x_ * along, y - shear_y_ * along, along * inverse_,
+                std::max({std::abs(x), std::abs(y), std::abs(along)})};
     }
 
     /// +1 where the sight's origin lies left of the way from a to b (seen from the sight's point),
@@ -56,18 +59,34 @@ class SightFrame {
              const Eigen::Vector3d& b) const
     {
         const double determinant = p.x * q.y - p.y * q.x;
-        // Each coordinate is off by at most 6 roundings of `size`, so the determinant by at
-        // most 64.
-        const double error_bound = 1e-14 * p.size * q.size;
-        if (std::abs(determinant) > error_bound) {
+        if (std::abs(determinant) > error_bound(p, q)) {
             return determinant > 0.0 ? 1 : -1;
         }
         return -orientation(point_, target_, a, b);
     }
 
+    /// turn() from each of three projections to one, where rounding leaves no sign open: bit k is
+    /// set where that of from[k] is +1. Otherwise negative. Without branches on the signs, which no
+    /// processor foresees.
+    int clear_turns(const std::array<Sighted, 3>& from, const Sighted& to) const
+    {
+        int left = 0;
+        bool is_clear = true;
+        for (int k = 0; k < 3; ++k) {
+            const double determinant = from[k].x * to.y - from[k].y * to.x;
+            is_clear &= std::abs(determinant) > error_bound(from[k], to);
+            left |= static_cast<int>(determinant > 0.0) << k;
+        }
+        return is_clear ? left : -1;
+    }
+
   private:
+    /// Each coordinate is off by at most 6 roundings of `size`, so a determinant by at most 64.
+    static double error_bound(const Sighted& p, const Sighted& q) { return 1e-14 * p.size * q.size; }
+
     Eigen::Vector3d point_;
     Eigen::Vector3d target_;
+    Eigen::Vector3d near_; ///< coordinates of the point, in the order x, y, along
     int axis_ = 0;
     int axis_x_ = 1;
     int axis_y_ = 2;

@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstdint>
+
 namespace vcarve {
 
 /// Walks along sights, from a vertex of the triangulation towards any target, exactly. Holds where
@@ -74,6 +77,8 @@ class SightWalk {
 
     Found find_first_cell(const SightFrame& frame, Exit& exit) const;
     bool passes_facet(const SightFrame& frame, const Exit& exit) const;
+    int corner_to_replace(const SightFrame& frame, const Exit& exit, const Sighted& tip_sighted,
+                          const Eigen::Vector3d& tip_position) const;
     bool enter_neighbor(const SightFrame& frame, Exit& exit) const;
 
     template <typename OnCrossing>
@@ -102,6 +107,14 @@ class SightWalk {
     Index star_cell_; ///< a finite cell at the vertex, near where the last sight went
 };
 
+/// Where a cell keeps one of its vertices. Without branches, which no processor foresees.
+inline int slot_of(const Cell& cell, Index vertex)
+{
+    return static_cast<int>(cell.vertices[1] == vertex) +
+           2 * static_cast<int>(cell.vertices[2] == vertex) +
+           3 * static_cast<int>(cell.vertices[3] == vertex);
+}
+
 /// Turns around the vertex towards the target: from a cell to its neighbour across a facet
 /// that has the target on its far side.
 inline SightWalk::Found SightWalk::find_first_cell(const SightFrame& frame, Exit& exit) const
@@ -114,10 +127,7 @@ inline SightWalk::Found SightWalk::find_first_cell(const SightFrame& frame, Exit
         if (here.is_infinite()) {
             return Found::outside_hull;
         }
-        exit.slot = 0;
-        while (here.vertices[exit.slot] != vertex_) {
-            ++exit.slot;
-        }
+        exit.slot = slot_of(here, vertex_);
         for (int i = 0; i < 3; ++i) {
             exit.corners[i] = here.vertices[kFacetCorners[exit.slot][i]];
             exit.sighted[i] = frame.project(mesh_.positions[exit.corners[i]]);
@@ -157,6 +167,34 @@ inline bool SightWalk::passes_facet(const SightFrame& frame, const Exit& exit) c
                        mesh_.positions[exit.corners[2]], frame.target()) < 0;
 }
 
+/// The corner of the facet ahead that is not on the facet by which the sight leaves the cell beyond,
+/// whose tip takes its place; -1 where the sight meets an edge or the tip.
+inline int SightWalk::corner_to_replace(const SightFrame& frame, const Exit& exit,
+                                        const Sighted& tip_sighted,
+                                        const Eigen::Vector3d& tip_position) const
+{
+    // By the corners that turn left to the tip, 0 in the lowest bit.
+    static constexpr std::array<std::int8_t, 8> kReplaced = {0, 1, 2, 1, 0, 0, 2, 0};
+    const int left = frame.clear_turns(exit.sighted, tip_sighted);
+    if (left >= 0) {
+        return kReplaced[left];
+    }
+    const auto turn_from = [&](int corner) {
+        return frame.turn(exit.sighted[corner], tip_sighted, mesh_.positions[exit.corners[corner]],
+                          tip_position);
+    };
+    const int first = turn_from(0);
+    const int other = first > 0 ? 2 : 1;
+    const int second = first == 0 ? 0 : turn_from(other);
+    if (first == 0 || second == 0) {
+        return -1;
+    }
+    if (first > 0) {
+        return second < 0 ? 1 : 0;
+    }
+    return second > 0 ? 2 : 0;
+}
+
 /// Steps through the facet ahead and finds the next one. Returns false, `exit` then being of no
 /// more use, where the sight meets an edge or the new vertex.
 inline bool SightWalk::enter_neighbor(const SightFrame& frame, Exit& exit) const
@@ -167,31 +205,14 @@ inline bool SightWalk::enter_neighbor(const SightFrame& frame, Exit& exit) const
     const Index tip = cell.vertices[entered_by];
     const Eigen::Vector3d& tip_position = mesh_.positions[tip];
     const Sighted tip_sighted = frame.project(tip_position);
-    const auto turn_from = [&](int corner) {
-        return frame.turn(exit.sighted[corner], tip_sighted, mesh_.positions[exit.corners[corner]],
-                          tip_position);
-    };
-
-    // The tip replaces the one corner that is not on the facet the sight leaves by.
-    const int first = turn_from(0);
-    const int other = first > 0 ? 2 : 1;
-    const int second = first == 0 ? 0 : turn_from(other);
-    if (first == 0 || second == 0) {
+    const int replaced = corner_to_replace(frame, exit, tip_sighted, tip_position);
+    if (replaced < 0) {
         return false;
-    }
-    int replaced = 0;
-    if (first > 0) {
-        replaced = second < 0 ? 1 : 0;
-    } else {
-        replaced = second > 0 ? 2 : 0;
     }
     const Index left_out = exit.corners[replaced];
     exit.corners[replaced] = tip;
     exit.sighted[replaced] = tip_sighted;
-    exit.slot = 0;
-    while (cell.vertices[exit.slot] != left_out) {
-        ++exit.slot;
-    }
+    exit.slot = slot_of(cell, left_out);
     return true;
 }
 
