@@ -261,9 +261,9 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     Options with_virtual_views;
     with_virtual_views.virtual_views.count = 10;
     reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
-    const std::vector<std::string> labelled_twice = {"filter",  "triangulate", "sights", "cut",
-                                                     "virtual", "sights",      "cut",    "surface",
-                                                     "clean",   "orient"};
+    const std::vector<std::string> labelled_twice = {"memory",  "filter",  "triangulate", "sights",
+                                                     "cut",     "virtual", "sights",      "cut",
+                                                     "surface", "clean",   "orient"};
     EXPECT_EQ(twice.begun, labelled_twice);
     EXPECT_EQ(twice.ended, labelled_twice);
 }
