@@ -33,9 +33,8 @@ std::uint32_t best_of(const Scene& scene, const PointIndices& points)
         return std::tuple(-static_cast<std::int64_t>(scene.tracks[i].size()),
                           error < 0.0 ? kUnlimited : error, scene.point_ids[i]);
     };
-    return *std::min_element(points.begin(), points.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return worth(a) < worth(b);
-    });
+    return *std::min_element(points.begin(), points.end(),
+                             [&](std::uint32_t a, std::uint32_t b) { return worth(a) < worth(b); });
 }
 
 Merged merge_duplicates(const Scene& scene, const PointIndices& by_place)

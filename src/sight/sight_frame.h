@@ -82,7 +82,10 @@ class SightFrame {
 
   private:
     /// Each coordinate is off by at most 6 roundings of `size`, so a determinant by at most 64.
-    static double error_bound(const Sighted& p, const Sighted& q) { return 1e-14 * p.size * q.size; }
+    static double error_bound(const Sighted& p, const Sighted& q)
+    {
+        return 1e-14 * p.size * q.size;
+    }
 
     Eigen::Vector3d point_;
     Eigen::Vector3d target_;

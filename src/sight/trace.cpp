@@ -12,6 +12,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <span>
 
 namespace vcarve {
 
@@ -54,15 +55,27 @@ void count_one(std::uint32_t& count)
     std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
 }
 
-/// Counts the facets a sight crosses, on both sides.
-void count_facets(const TetMesh& cells, SightWalk& walk, const Vector3d& center,
-                  Crossings& crossings)
+std::vector<Vector3d> centers_of(const std::vector<View>& views)
 {
-    walk.to(center, [&](Index cell, int slot) {
-        const Index beyond = cells.cells[cell].neighbors[slot];
-        count_one(crossings[cell][slot]);
-        count_one(crossings[beyond][cells.mirror(cell, slot)]);
-    });
+    std::vector<Vector3d> centers(views.size());
+    std::transform(views.begin(), views.end(), centers.begin(),
+                   [](const View& view) { return view.center; });
+    return centers;
+}
+
+/// Counts the facets that sights from a vertex cross, on both sides.
+void count_facets(const TetMesh& cells, Index vertex, std::span<const std::uint32_t> track,
+                  const std::vector<Vector3d>& centers, Crossings& crossings)
+{
+    SightWalk(cells, vertex)
+        .to_each(
+            track.size(), [&](std::size_t k) -> const Vector3d& { return centers[track[k]]; },
+            [&](std::size_t, Index cell, int slot) {
+                const Index beyond = cells.cells[cell].neighbors[slot];
+                count_one(crossings[cell][slot]);
+                count_one(crossings[beyond][cells.mirror(cell, slot)]);
+            },
+            [](std::size_t, const WalkEnds&) {});
 }
 
 /// A view on the border of cells is found in different ones; the smallest does not depend on order.
@@ -144,23 +157,40 @@ class Voter {
     {
     }
 
-    /// Outside, from the point to the view. Returns the cell of the view, kInfinite if that lies
-    /// out of the hull.
-    Index vote_outside(SightWalk& walk, const Vector3d& point, const Vector3d& center) const
+    /// Outside, from the point to each view of its track. Calls on_end(view, cell) with the cell of
+    /// the view, kInfinite if that lies out of the hull.
+    template <typename OnEnd>
+    void vote_outside(SightWalk& walk, const Vector3d& point, std::span<const std::uint32_t> track,
+                      const std::vector<Vector3d>& centers, const OnEnd& on_end) const
     {
-        const Vector3d direction = (center - point).normalized();
-        Push push(mesh_, sums_, Push::Sign::source);
-        const WalkEnds ends = walk.to(center, [&](Index cell, int slot) {
-            const std::int32_t vote =
-                push.carried() == full_ ? full_ : soft_vote({cell, slot}, point, direction);
-            // The sight's flow comes from the view and falls towards the point: it fills the arc
-            // inwards, opens the one outwards, and what the next facet will not take stays here.
-            sums_.add_residual(cell, slot, vote);
-            push.cross(cell, mesh_.cells[cell].neighbors[slot], vote);
-        });
-        push.end(ends.last, full_);
-        const bool in_hull = ends.last != kInfinite && !mesh_.cells[ends.last].is_infinite();
-        return in_hull ? ends.last : kInfinite;
+        struct Sight {
+            Vector3d direction;
+            Push push;
+        };
+        std::vector<Sight> sights;
+        sights.reserve(track.size());
+        for (const std::uint32_t view : track) {
+            sights.push_back(
+                {(centers[view] - point).normalized(), Push(mesh_, sums_, Push::Sign::source)});
+        }
+        walk.to_each(
+            track.size(), [&](std::size_t k) -> const Vector3d& { return centers[track[k]]; },
+            [&](std::size_t k, Index cell, int slot) {
+                auto& [direction, push] = sights[k];
+                const std::int32_t vote =
+                    push.carried() == full_ ? full_ : soft_vote({cell, slot}, point, direction);
+                // The sight's flow comes from the view and falls towards the point: it fills the
+                // arc inwards, opens the one outwards, and what the next facet will not take stays
+                // here.
+                sums_.add_residual(cell, slot, vote);
+                push.cross(cell, mesh_.cells[cell].neighbors[slot], vote);
+            },
+            [&](std::size_t k, const WalkEnds& ends) {
+                sights[k].push.end(ends.last, full_);
+                const bool in_hull =
+                    ends.last != kInfinite && !mesh_.cells[ends.last].is_infinite();
+                on_end(track[k], in_hull ? ends.last : kInfinite);
+            });
     }
 
     /// Inside, from the point away from the view, down to a depth of `sink_depth` sigmas.
@@ -295,11 +325,9 @@ void require_exact(const VoteSums& sums, const Scene& scene)
 Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage)
 {
     Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
+    const std::vector<Vector3d> centers = centers_of(scene.views);
     for_each_vertex(cells, stage, [&](Index vertex) {
-        SightWalk walk(cells, vertex);
-        for (const std::uint32_t view : scene.tracks[vertex]) {
-            count_facets(cells, walk, scene.views[view].center, crossings);
-        }
+        count_facets(cells, vertex, scene.tracks[vertex], centers, crossings);
     });
     return crossings;
 }
@@ -309,10 +337,7 @@ void add_crossings(const TetMesh& cells, const VirtualSights& sights, double wei
 {
     Crossings more(cells.cells.size(), {0, 0, 0, 0});
     for_each_vertex(cells, stage, [&](Index vertex) {
-        SightWalk walk(cells, vertex);
-        for (const std::uint32_t view : sights.tracks[vertex]) {
-            count_facets(cells, walk, sights.centers[view], more);
-        }
+        count_facets(cells, vertex, sights.tracks[vertex], sights.centers, more);
     });
     parallel_for(more.size(), [&](std::size_t cell) {
         for (int slot = 0; slot < 4; ++slot) {
@@ -332,19 +357,19 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
     VoteSums sums(votes.network);
     const double sigma = options.softness * short_edge_length(cells);
     const SightWeights weights(scene, options);
+    const std::vector<Vector3d> centers = centers_of(scene.views);
 
     for_each_vertex(cells, stage, [&](Index vertex) {
         const auto track = scene.tracks[vertex];
         const Voter voter(cells, sums, weights.of(vertex), sigma);
-        SightWalk outward(cells, vertex);
-        SightWalk inward(cells, vertex);
+        const Vector3d& point = cells.positions[vertex];
+        SightWalk walk(cells, vertex);
         for (const std::uint32_t view : track) {
-            const Vector3d& center = scene.views[view].center;
-            const Vector3d& point = cells.positions[vertex];
-            const Index last = voter.vote_outside(outward, point, center);
-            voter.vote_inside(inward, point, center, options.sink_depth);
-            lower(votes.cell_of_view[view], last);
+            voter.vote_inside(walk, point, centers[view], options.sink_depth);
         }
+        voter.vote_outside(walk, point, track, centers, [&](std::uint32_t view, Index last) {
+            lower(votes.cell_of_view[view], last);
+        });
     });
     require_exact(sums, scene);
     return votes;
@@ -359,9 +384,8 @@ void add_votes(const TetMesh& cells, const Scene& scene, const VirtualSights& si
     for_each_vertex(cells, stage, [&](Index vertex) {
         const Voter voter(cells, sums, weight * weights.of(vertex), sigma);
         SightWalk walk(cells, vertex);
-        for (const std::uint32_t view : sights.tracks[vertex]) {
-            voter.vote_outside(walk, cells.positions[vertex], sights.centers[view]);
-        }
+        voter.vote_outside(walk, cells.positions[vertex], sights.tracks[vertex], sights.centers,
+                           [](std::uint32_t, Index) {});
     });
     require_exact(sums, scene);
 }

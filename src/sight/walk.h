@@ -6,14 +6,17 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace vcarve {
 
-/// Walks along sights, from a vertex of the triangulation towards any target, exactly. Holds where
+/// Walks along sights, from a vertex of the triangulation towards any targets, exactly. Holds where
 /// it was, so that the sights of one vertex, walked one after another, find their first cell at
-/// once. A step costs one new vertex and two 2x2 determinants; where rounding leaves a sign open,
+/// once. A step costs one new vertex and three 2x2 determinants; where rounding leaves a sign open,
 /// exact predicates decide, and where that sign is zero, ExactWalk goes on to the end.
 class SightWalk {
   public:
@@ -27,26 +30,28 @@ class SightWalk {
     template <typename OnCrossing>
     WalkEnds to(const Eigen::Vector3d& target, const OnCrossing& on_crossing)
     {
-        const Eigen::Vector3d& point = mesh_.positions[vertex_];
-        if (point == target) {
-            return {kInfinite, mesh_.cell_of_vertex[vertex_]};
+        WalkEnds ends;
+        abreast(
+            1, [&](std::size_t) -> const Eigen::Vector3d& { return target; },
+            [&](std::size_t, Index cell, int slot) { on_crossing(cell, slot); },
+            [&](std::size_t, const WalkEnds& found) { ends = found; });
+        return ends;
+    }
+
+    /// Walks to target_of(k) for all k below `count`, several at a time, a step each in turn: a
+    /// walk mostly waits for memory, and so the others go on meanwhile. Calls on_crossing(k, cell,
+    /// slot) as to() does, for each k in order of its walk, and on_end(k, ends) at its end.
+    template <typename TargetOf, typename OnCrossing, typename OnEnd>
+    void to_each(std::size_t count, const TargetOf& target_of, const OnCrossing& on_crossing,
+                 const OnEnd& on_end)
+    {
+        for (std::size_t first = 0; first < count; first += kAbreast) {
+            abreast(
+                std::min(kAbreast, count - first),
+                [&](std::size_t k) -> const Eigen::Vector3d& { return target_of(first + k); },
+                [&](std::size_t k, Index cell, int slot) { on_crossing(first + k, cell, slot); },
+                [&](std::size_t k, const WalkEnds& ends) { on_end(first + k, ends); });
         }
-        const SightFrame frame(point, target);
-        Exit exit;
-        const Found found = find_first_cell(frame, exit);
-        if (found == Found::outside_hull) {
-            return {kInfinite, exit.cell};
-        }
-        if (found == Found::unclear) {
-            ExactWalk walk(mesh_, point, target);
-            const WalkEnds ends = walk.from_vertex(vertex_);
-            for (const auto [cell, slot] : walk.crossed()) {
-                on_crossing(cell, slot);
-            }
-            return ends;
-        }
-        star_cell_ = exit.cell;
-        return {exit.cell, follow(frame, exit, on_crossing)};
     }
 
     /// The cell whose interior the segment from the vertex to the target enters first; kInfinite
@@ -81,25 +86,125 @@ class SightWalk {
                           const Eigen::Vector3d& tip_position) const;
     bool enter_neighbor(const SightFrame& frame, Exit& exit) const;
 
-    template <typename OnCrossing>
-    Index follow(const SightFrame& frame, Exit exit, const OnCrossing& on_crossing) const
+    static constexpr std::size_t kAbreast = 8;
+
+    /// A walk on its way.
+    struct Walker {
+        SightFrame frame;
+        Exit exit;
+        Index first;   ///< cell
+        std::size_t k; ///< which walk it is
+    };
+
+    template <typename TargetOf, typename OnCrossing, typename OnEnd>
+    void abreast(std::size_t count, const TargetOf& target_of, const OnCrossing& on_crossing,
+                 const OnEnd& on_end)
     {
-        while (passes_facet(frame, exit)) {
-            on_crossing(exit.cell, exit.slot);
-            const Index next = mesh_.cells[exit.cell].neighbors[exit.slot];
-            if (mesh_.cells[next].is_infinite()) {
-                return next;
-            }
-            if (!enter_neighbor(frame, exit)) {
-                ExactWalk walk(mesh_, frame.point(), frame.target());
-                const Index last = walk.from_cell(next);
-                for (const auto [cell, slot] : walk.crossed()) {
-                    on_crossing(cell, slot);
-                }
-                return last;
+        std::array<std::optional<Walker>, kAbreast> walkers;
+        std::size_t active = 0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto cross = [&](Index cell, int slot) { on_crossing(k, cell, slot); };
+            if (start(target_of(k), k, walkers[active], cross, on_end)) {
+                fetch_next(walkers[active]->exit);
+                ++active;
             }
         }
-        return exit.cell;
+        while (active > 0) {
+            for (std::size_t i = 0; i < active; ++i) {
+                fetch_tip(walkers[i]->exit);
+            }
+            for (std::size_t i = active; i-- > 0;) {
+                Walker& walker = *walkers[i];
+                const auto cross = [&](Index cell, int slot) { on_crossing(walker.k, cell, slot); };
+                const std::optional<Index> last = step(walker, cross);
+                if (last) {
+                    on_end(walker.k, WalkEnds{walker.first, *last});
+                    walkers[i] = walkers[--active];
+                } else {
+                    fetch_next(walker.exit);
+                }
+            }
+        }
+    }
+
+    /// Finds the first cell. Returns false if that is the end already, or the exact walk went all
+    /// the way.
+    template <typename Cross, typename OnEnd>
+    bool start(const Eigen::Vector3d& target, std::size_t k, std::optional<Walker>& walker,
+               const Cross& cross, const OnEnd& on_end)
+    {
+        const Eigen::Vector3d& point = mesh_.positions[vertex_];
+        if (point == target) {
+            on_end(k, WalkEnds{kInfinite, mesh_.cell_of_vertex[vertex_]});
+            return false;
+        }
+        walker.emplace(Walker{SightFrame(point, target), {}, kInfinite, k});
+        const Found found = find_first_cell(walker->frame, walker->exit);
+        if (found == Found::outside_hull) {
+            on_end(k, WalkEnds{kInfinite, walker->exit.cell});
+            return false;
+        }
+        if (found == Found::unclear) {
+            ExactWalk walk(mesh_, point, target);
+            const WalkEnds ends = walk.from_vertex(vertex_);
+            report(walk, cross);
+            on_end(k, ends);
+            return false;
+        }
+        star_cell_ = walker->exit.cell;
+        walker->first = walker->exit.cell;
+        return true;
+    }
+
+    /// Crosses the facet ahead; the last cell if the walk ends with that or before.
+    template <typename Cross>
+    std::optional<Index> step(Walker& walker, const Cross& cross) const
+    {
+        Exit& exit = walker.exit;
+        if (!passes_facet(walker.frame, exit)) {
+            return exit.cell;
+        }
+        cross(exit.cell, exit.slot);
+        const Index next = mesh_.cells[exit.cell].neighbors[exit.slot];
+        if (mesh_.cells[next].is_infinite()) {
+            return next;
+        }
+        if (enter_neighbor(walker.frame, exit)) {
+            return std::nullopt;
+        }
+        ExactWalk walk(mesh_, walker.frame.point(), walker.frame.target());
+        const Index last = walk.from_cell(next);
+        report(walk, cross);
+        return last;
+    }
+
+    template <typename Cross>
+    static void report(const ExactWalk& walk, const Cross& cross)
+    {
+        for (const auto [cell, slot] : walk.crossed()) {
+            cross(cell, slot);
+        }
+    }
+
+    void fetch_next(const Exit& exit) const
+    {
+        fetch(&mesh_.cells[mesh_.cells[exit.cell].neighbors[exit.slot]]);
+    }
+
+    void fetch_tip(const Exit& exit) const
+    {
+        const Index next = mesh_.cells[exit.cell].neighbors[exit.slot];
+        const Index tip = mesh_.cells[next].vertices[mesh_.mirror(exit.cell, exit.slot)];
+        if (tip != kInfinite) {
+            fetch(&mesh_.positions[tip]);
+        }
+    }
+
+    static void fetch([[maybe_unused]] const void* address)
+    {
+#if defined(__GNUC__)
+        __builtin_prefetch(address);
+#endif
     }
 
     const TetMesh& mesh_;
@@ -167,8 +272,8 @@ inline bool SightWalk::passes_facet(const SightFrame& frame, const Exit& exit) c
                        mesh_.positions[exit.corners[2]], frame.target()) < 0;
 }
 
-/// The corner of the facet ahead that is not on the facet by which the sight leaves the cell beyond,
-/// whose tip takes its place; -1 where the sight meets an edge or the tip.
+/// The corner of the facet ahead that is not on the facet by which the sight leaves the cell
+/// beyond, whose tip takes its place; -1 where the sight meets an edge or the tip.
 inline int SightWalk::corner_to_replace(const SightFrame& frame, const Exit& exit,
                                         const Sighted& tip_sighted,
                                         const Eigen::Vector3d& tip_position) const
