@@ -210,7 +210,7 @@ TEST(CleanSurface, IsCleanWhateverTheLabellingAndKeepsClosedWhatIsClosed)
         }
         num_filled += clean.counts.filled_holes;
     }
-    EXPECT_GT(num_filled, 500);
+    EXPECT_GT(num_filled, 400);
 }
 
 TEST(CleanSurface, IsCleanWhateverTheSoup)

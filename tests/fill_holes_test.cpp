@@ -116,6 +116,18 @@ TEST(BoundaryLoops, RunAlongEveryBorderOnce)
     }
 }
 
+TEST(BoundaryLoop, TouchesItselfAtCopiesOfAVertex)
+{
+    const auto first_loop_touches_itself = [](const TriMesh& mesh) {
+        const HalfEdgeMesh half_edges = half_edge_mesh(mesh);
+        return touches_itself(half_edges, boundary_loops(half_edges)[0]);
+    };
+    TriMesh mesh = tube(6);
+    EXPECT_FALSE(first_loop_touches_itself(mesh));
+    mesh.positions[3] = mesh.positions[0];
+    EXPECT_TRUE(first_loop_touches_itself(mesh));
+}
+
 TEST(IsRim, TellsAPatchFromAHole)
 {
     const auto first_loop_is_rim = [](const TriMesh& mesh) {

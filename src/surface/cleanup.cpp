@@ -60,7 +60,9 @@ std::int64_t fill_small_holes(HalfEdgeMesh& mesh, std::vector<char>& keep_faces,
     for (const BoundaryLoop& loop : boundary_loops(mesh)) {
         if (loop.size() > static_cast<std::size_t>(std::max(max_edges, 0))) continue;
         const FaceHandle beside = mesh.face_handle(mesh.opposite_halfedge_handle(loop[0]));
-        if (keep_faces[index(beside)] == 0 || is_rim(mesh, loop)) continue;
+        if (keep_faces[index(beside)] == 0 || is_rim(mesh, loop) || touches_itself(mesh, loop)) {
+            continue;
+        }
         fill_hole(mesh, loop);
         keep_faces.resize(mesh.n_faces(), 1);
         ++num_filled;

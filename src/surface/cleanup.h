@@ -39,7 +39,8 @@ struct CleanSurface {
 /// A manifold, consistently oriented surface without unreferenced vertices from any consistently
 /// oriented triangle soup with shared vertices. In this order: edges and vertices that are not
 /// manifold are taken apart (split_nonmanifold.h), small pieces removed, the largest never, small
-/// holes of the rest filled (fill_holes.h; the outer rim of an open piece is no hole), unreferenced
+/// holes of the rest filled (fill_holes.h; the outer rim of an open piece is no hole, and one
+/// that comes twice to one place stays open), unreferenced
 /// vertices dropped. Vertices and faces that stay keep their order, colours and points travel
 /// along, and every vertex gets the area-weighted mean of its faces' normals (zero where none of
 /// them has an area). What this does not do: move a vertex, turn a face round, join pieces, or

@@ -159,6 +159,19 @@ bool is_rim(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
     return dot(within, along.sum) < kCosine * within.norm() * along.total;
 }
 
+bool touches_itself(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
+{
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (mesh.point(mesh.from_vertex_handle(loop[i])) ==
+                mesh.point(mesh.from_vertex_handle(loop[j]))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 {
     std::vector<VertexHandle> corners;

@@ -18,6 +18,11 @@ std::vector<BoundaryLoop> boundary_loops(const HalfEdgeMesh& mesh);
 /// patch. A box without a lid, a half sphere or a tetrahedron without a side still have holes.
 bool is_rim(const HalfEdgeMesh& mesh, const BoundaryLoop& loop);
 
+/// Whether a loop comes twice to one place, at copies of a vertex that was split: it closes several
+/// holes that touch there, and what would fill it as one has faces without area, or folds.
+/// Cost: O(n^2) for n edges.
+bool touches_itself(const HalfEdgeMesh& mesh, const BoundaryLoop& loop);
+
 /// Closes a loop with the triangles over its vertices whose total area is least (Barequet and
 /// Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 1995), never along an edge that is
 /// there already. Where that rules every triangulation out, with a fan around a new vertex in the
