@@ -112,6 +112,14 @@ FaceFlags seen_faces(const TriMesh& mesh, const Scene& scene)
     return seen;
 }
 
+std::vector<double> longest_edges(const TriMesh& mesh)
+{
+    std::vector<double> longest(mesh.faces.size());
+    parallel_for(longest.size(),
+                 [&](std::size_t i) { longest[i] = longest_edge(mesh, mesh.faces[i]); });
+    return longest;
+}
+
 std::vector<double> relative_sizes(const TriMesh& mesh, const FaceFlags& measured)
 {
     const std::vector<double> local = local_edge_lengths(mesh, measured);

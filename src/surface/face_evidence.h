@@ -24,6 +24,9 @@ FaceFlags seen_faces(const TriMesh& mesh, const Scene& scene);
 /// O(faces x views of their points), in parallel.
 std::vector<std::int32_t> face_supports(const TriMesh& mesh, const Scene& scene);
 
+/// The longest edge of each face.
+std::vector<double> longest_edges(const TriMesh& mesh);
+
 /// The longest edge of each face over the median edge around it, of the measured faces only, at its
 /// middle corner: not at the one that knows only the face itself, nor at the one in the densest
 /// place. Infinite or NaN where no face around is measured. Cost: O(faces), mostly in parallel.

@@ -4,6 +4,7 @@
 #include "surface/face_evidence.h"
 #include "surface/union_find.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -32,15 +33,36 @@ UnionFind unseen_patches(const TriMesh& mesh, const FaceFlags& seen)
     return patches;
 }
 
+/// Which faces are large beside all that were seen: unseen ones among them are guesses of a size
+/// nobody can overlook, however sparse the points around.
+FaceFlags vast_faces(const TriMesh& mesh, const FaceFlags& seen)
+{
+    constexpr double kVast = 8.0; ///< x the median longest edge of seen faces
+    const std::vector<double> longest = longest_edges(mesh);
+    std::vector<double> of_seen;
+    for (std::size_t face = 0; face < longest.size(); ++face) {
+        if (seen[face] != 0) of_seen.push_back(longest[face]);
+    }
+    FaceFlags vast(longest.size(), 0);
+    if (of_seen.empty()) return vast;
+    const auto middle = of_seen.begin() + static_cast<std::ptrdiff_t>(of_seen.size() / 2);
+    std::nth_element(of_seen.begin(), middle, of_seen.end());
+    std::transform(longest.begin(), longest.end(), vast.begin(),
+                   [&](double edge) { return edge > kVast * *middle ? 1 : 0; });
+    return vast;
+}
+
 /// Which unseen faces lie in patches of a few small faces: gaps in a surface seen around them.
 FaceFlags gap_faces(const TriMesh& mesh, const FaceFlags& seen, const std::vector<double>& sizes,
                     double max_edge)
 {
     constexpr std::int64_t kMaxFaces = 20;
+    const FaceFlags vast = vast_faces(mesh, seen);
     UnionFind patches = unseen_patches(mesh, seen);
     std::vector<std::int64_t> counts(mesh.faces.size(), 0);
     for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-        counts[patches.root(face)] += sizes[face] <= max_edge ? 1 : kMaxFaces + 1;
+        counts[patches.root(face)] +=
+            sizes[face] <= max_edge && vast[face] == 0 ? 1 : kMaxFaces + 1;
     }
     FaceFlags gaps(mesh.faces.size(), 0);
     for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {

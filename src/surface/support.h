@@ -8,7 +8,7 @@ namespace vcarve {
 
 struct SupportOptions {
     double max_edge = 8.0;
-    double max_gap_edge = 1.3;
+    double max_gap_edge = 1.6;
 
     void visit(OptionVisitor& options)
     {
