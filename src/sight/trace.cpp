@@ -375,6 +375,7 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
     return votes;
 }
 
+// NOLINTNEXTLINE(readability-function-size): the pass has that many inputs
 void add_votes(const TetMesh& cells, const Scene& scene, const VirtualSights& sights, double weight,
                const TraceOptions& options, Votes& votes, Stage& stage)
 {

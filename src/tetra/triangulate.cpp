@@ -125,13 +125,14 @@ int exchanged(int rank, bool is_odd)
     return is_odd && rank < 2 ? 1 - rank : rank;
 }
 
-/// The rank of the vertex of a cell that its neighbour across the facet opposite it lacks.
-int rank_of_facet(const RawCell& cell, const RawCell& neighbor, Index self)
+/// The rank of the vertex of a cell opposite the facet it shares with cell number `other`, whose
+/// vertices are given.
+int rank_opposite(const RawCell& cell, Index other, const std::array<Index, 4>& other_vertices)
 {
     for (int rank = 0; rank < 4; ++rank) {
-        if (cell.neighbors[rank] == self &&
-            std::find(neighbor.vertices.begin(), neighbor.vertices.end(), cell.vertices[rank]) ==
-                neighbor.vertices.end()) {
+        if (cell.neighbors[rank] == other &&
+            std::find(other_vertices.begin(), other_vertices.end(), cell.vertices[rank]) ==
+                other_vertices.end()) {
             return rank;
         }
     }
@@ -153,7 +154,8 @@ void fill_cells(const std::vector<RawCell>& raw, TetMesh& mesh, std::size_t num_
             const RawCell& neighbor = raw[from.neighbors[rank]];
             mesh.cells[i].vertices[slot] = from.vertices[rank];
             mesh.cells[i].neighbors[slot] = numbers[from.neighbors[rank]];
-            const int mirror = exchanged(rank_of_facet(neighbor, from, order[i]), neighbor.is_odd);
+            const int mirror =
+                exchanged(rank_opposite(neighbor, order[i], from.vertices), neighbor.is_odd);
             mirrors |= static_cast<std::uint8_t>(mirror << (2 * slot));
         }
         mesh.mirrors[i] = mirrors;
