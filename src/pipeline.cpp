@@ -101,6 +101,7 @@ Labels cut(const TetMesh& cells, const Scene& scene, Votes votes, const Options&
     constexpr int kRounds = 3; // behind a web there may be another
     for (int round = 0; round < kRounds; ++round) {
         const std::vector<Index> doubted = cells_behind_webs(cells, labels, scene, options.webs);
+        if (doubted.empty()) break;
         minimum.offer(doubted, one_sight);
         labels = minimum.labels();
         webs += size_of(doubted.size());

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "model/tet_mesh.h"
 #include "model/tri_mesh.h"
+#include "tetra/triangulate.h"
 
 #include <fmt/format.h>
 
@@ -36,9 +37,8 @@ constexpr double kFileSight = 8;
 constexpr double kCgalCell = 76;
 constexpr double kCgalVertex = 48;
 /// What oneTBB's allocator keeps of CGAL's memory that was freed, after a parallel triangulation,
-/// which triangulate() makes of so many points or more.
+/// which triangulate() makes of kParallelFromPoints points or more.
 constexpr double kMostKept = 128e6;
-constexpr double kParallelFromPoints = 50e3;
 
 /// TetMesh.
 constexpr double kFlatCell = sizeof(Cell) + 1;
@@ -67,7 +67,7 @@ struct Sizes {
     /// The scene, the cells, and what was freed but not given back.
     double after_triangulation() const
     {
-        const bool keeps = threads > 1 && points >= kParallelFromPoints;
+        const bool keeps = threads > 1 && points >= static_cast<double>(kParallelFromPoints);
         return scene() + flat() + (keeps ? std::min(cgal(), kMostKept) : 0.0);
     }
 };

@@ -31,7 +31,6 @@ double roundness(const std::array<Vec3d, 3>& t)
 
 /// What a collapse costs, and whether the new faces may be. The one module of the decimater: it can
 /// ask for the sights last, and only where the collapse is the cheapest of its vertex so far.
-
 class GuardedQuadric : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
   public:
     using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;

@@ -30,9 +30,6 @@ template <typename Concurrency>
 using Delaunay = CGAL::Delaunay_triangulation_3<
     Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase, Concurrency>>;
 
-/// Below this many points CGAL's parallel insertion loses against its sequential one (measured).
-constexpr std::size_t kParallelFromPoints = 50'000;
-
 std::vector<std::pair<Kernel::Point_3, Index>> numbered_points(const Scene& scene)
 {
     std::vector<std::pair<Kernel::Point_3, Index>> points;

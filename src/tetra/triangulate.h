@@ -3,7 +3,12 @@
 #include "model/scene.h"
 #include "model/tet_mesh.h"
 
+#include <cstddef>
+
 namespace vcarve {
+
+/// Below this many points CGAL's parallel insertion loses against its sequential one (measured).
+inline constexpr std::size_t kParallelFromPoints = 50'000;
 
 /// The Delaunay triangulation of the points of a scene. Points on one sphere are told apart by
 /// CGAL's symbolic perturbation, so the triangulation depends on the points alone, not on their
