@@ -6,19 +6,23 @@
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
+#include <vector>
 
 namespace vcarve::bench {
 
-/// How many facets all sights of a scene cross, walked one after another.
+/// How many facets all sights of a scene cross.
 inline std::size_t walk_all_sights(const TetMesh& cells, const Scene& scene)
 {
-    std::size_t crossings = 0;
+    std::vector<Sight> sights;
     for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
-        SightWalk walk(cells, vertex);
         for (const std::uint32_t view : scene.tracks[vertex]) {
-            walk.to(scene.views[view].center, [&](Index, int) { ++crossings; });
+            sights.push_back({vertex, scene.views[view].center});
         }
     }
+    std::size_t crossings = 0;
+    SightWalk(cells).along_each(
+        sights.size(), [&](std::size_t k) { return sights[k]; },
+        [&](std::size_t, Index, int) { ++crossings; }, [](std::size_t, const WalkEnds&) {});
     return crossings;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace vcarve {
 
@@ -24,6 +25,7 @@ struct Sighted {
 /// of a 2x2 determinant; where rounding could turn it, the exact predicate answers instead.
 class SightFrame {
   public:
+    SightFrame() = default;
     SightFrame(const Eigen::Vector3d& point, const Eigen::Vector3d& target)
         : point_(point), target_(target)
     {
@@ -71,25 +73,30 @@ class SightFrame {
     int clear_turns(const std::array<Sighted, 3>& from, const Sighted& to) const
     {
         int left = 0;
-        bool is_clear = true;
+        double least = std::numeric_limits<double>::infinity();
+        double size = 0.0;
         for (int k = 0; k < 3; ++k) {
             const double determinant = from[k].x * to.y - from[k].y * to.x;
-            is_clear &= std::abs(determinant) > error_bound(from[k], to);
             left |= static_cast<int>(determinant > 0.0) << k;
+            least = std::min(least, std::abs(determinant));
+            size = std::max(size, from[k].size);
         }
-        return is_clear ? left : -1;
+        return least > kRounding * size * to.size ? left : -1;
     }
 
   private:
     /// Each coordinate is off by at most 6 roundings of `size`, so a determinant by at most 64.
+    static constexpr double kRounding = 1e-14;
+
     static double error_bound(const Sighted& p, const Sighted& q)
     {
-        return 1e-14 * p.size * q.size;
+        return kRounding * p.size * q.size;
     }
 
-    Eigen::Vector3d point_;
-    Eigen::Vector3d target_;
-    Eigen::Vector3d near_; ///< coordinates of the point, in the order x, y, along
+    Eigen::Vector3d point_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d target_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d near_ =
+        Eigen::Vector3d::Zero(); ///< coordinates of the point, in the order x, y, along
     int axis_ = 0;
     int axis_x_ = 1;
     int axis_y_ = 2;

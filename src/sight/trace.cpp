@@ -1,8 +1,10 @@
 #include "sight/trace.h"
 
 #include "base/error.h"
+#include "base/prefetch.h"
 #include "sight/each_vertex.h"
 #include "sight/edge_lengths.h"
+#include "sight/sight_weights.h"
 #include "sight/walk.h"
 
 #include <fmt/core.h>
@@ -10,8 +12,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <iterator>
-#include <optional>
 #include <span>
 
 namespace vcarve {
@@ -19,8 +19,6 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr std::int32_t kUnit = 256;
 
 /// Adds to the network from many threads, and remembers whether a sum came near the end of 32 bits.
 class VoteSums {
@@ -33,6 +31,9 @@ class VoteSums {
     }
     void add_excess(Index cell, std::int32_t flow) { add(network_.excesses[cell], flow); }
     bool is_exceeded() const { return is_exceeded_; }
+
+    /// Asks early for the memory of a cell's votes.
+    void fetch(Index cell) const { prefetch(&network_.residuals[cell]); }
 
   private:
     void add(std::int32_t& sum, std::int32_t value)
@@ -63,19 +64,35 @@ std::vector<Vector3d> centers_of(const std::vector<View>& views)
     return centers;
 }
 
-/// Counts the facets that sights from a vertex cross, on both sides.
-void count_facets(const TetMesh& cells, Index vertex, std::span<const std::uint32_t> track,
-                  const std::vector<Vector3d>& centers, Crossings& crossings)
+/// The sights of a run of vertices.
+std::vector<Sight> sights_from(Index first, Index last, const Tracks& tracks,
+                               const std::vector<Vector3d>& centers)
 {
-    SightWalk(cells, vertex)
-        .to_each(
-            track.size(), [&](std::size_t k) -> const Vector3d& { return centers[track[k]]; },
+    std::vector<Sight> sights;
+    sights.reserve(tracks.begins[last] - tracks.begins[first]);
+    for (Index vertex = first; vertex < last; ++vertex) {
+        for (const std::uint32_t view : tracks[vertex]) {
+            sights.push_back({vertex, centers[view]});
+        }
+    }
+    return sights;
+}
+
+/// Counts the facets that sights cross, on both sides.
+void count_facets(const TetMesh& cells, const Tracks& tracks, const std::vector<Vector3d>& centers,
+                  Crossings& crossings, Stage& stage)
+{
+    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
+        const std::vector<Sight> sights = sights_from(first, last, tracks, centers);
+        SightWalk(cells).along_each(
+            sights.size(), [&](std::size_t k) { return sights[k]; },
             [&](std::size_t, Index cell, int slot) {
                 const Index beyond = cells.cells[cell].neighbors[slot];
                 count_one(crossings[cell][slot]);
                 count_one(crossings[beyond][cells.mirror(cell, slot)]);
             },
             [](std::size_t, const WalkEnds&) {});
+    });
 }
 
 /// A view on the border of cells is found in different ones; the smallest does not depend on order.
@@ -149,166 +166,102 @@ class Push {
     Index reached_ = kInfinite;
 };
 
-/// The votes of one point's sights.
+/// A sight from a point to a view, and how far its flow is pushed.
+struct OutwardSight {
+    Sight sight;
+    std::uint32_t view;
+    std::int32_t full; ///< its vote where softness has no say
+    Vector3d direction;
+    Push push;
+};
+
+/// Adds what sights vote to the network.
 class Voter {
   public:
-    Voter(const TetMesh& mesh, VoteSums& sums, double weight, double sigma)
-        : mesh_(mesh), sums_(sums), full_(std::lround(kUnit * weight)), sigma_(sigma)
+    Voter(const TetMesh& mesh, VoteSums& sums, double sigma)
+        : mesh_(mesh), sums_(sums), sigma_(sigma)
     {
     }
 
-    /// Outside, from the point to each view of its track. Calls on_end(view, cell) with the cell of
-    /// the view, kInfinite if that lies out of the hull.
-    template <typename OnEnd>
-    void vote_outside(SightWalk& walk, const Vector3d& point, std::span<const std::uint32_t> track,
-                      const std::vector<Vector3d>& centers, const OnEnd& on_end) const
+    /// The sight from the vertex where the walk stands to a view.
+    OutwardSight outward(Index vertex, std::uint32_t view, const Vector3d& center,
+                         std::int32_t full) const
     {
-        struct Sight {
-            Vector3d direction;
-            Push push;
-        };
-        std::vector<Sight> sights;
-        sights.reserve(track.size());
-        for (const std::uint32_t view : track) {
-            sights.push_back(
-                {(centers[view] - point).normalized(), Push(mesh_, sums_, Push::Sign::source)});
-        }
-        walk.to_each(
-            track.size(), [&](std::size_t k) -> const Vector3d& { return centers[track[k]]; },
+        return {{vertex, center},
+                view,
+                full,
+                (center - mesh_.positions[vertex]).normalized(),
+                Push(mesh_, sums_, Push::Sign::source)};
+    }
+
+    /// Outside, from the points to the views. Calls on_end(view, cell) with the cell of the view,
+    /// kInfinite if that lies out of the hull.
+    template <typename OnEnd>
+    void vote_outside(SightWalk& walk, std::vector<OutwardSight>& sights, const OnEnd& on_end) const
+    {
+        walk.along_each(
+            sights.size(), [&](std::size_t k) -> const Sight& { return sights[k].sight; },
             [&](std::size_t k, Index cell, int slot) {
-                auto& [direction, push] = sights[k];
-                const std::int32_t vote =
-                    push.carried() == full_ ? full_ : soft_vote({cell, slot}, point, direction);
+                const Index beyond = mesh_.cells[cell].neighbors[slot];
+                sums_.fetch(beyond);
                 // The sight's flow comes from the view and falls towards the point: it fills the
                 // arc inwards, opens the one outwards, and what the next facet will not take stays
                 // here.
+                auto& [sight, view, full, direction, push] = sights[k];
+                const std::int32_t vote =
+                    push.carried() == full
+                        ? full
+                        : soft_vote({cell, slot}, mesh_.positions[sight.vertex], direction, full);
                 sums_.add_residual(cell, slot, vote);
-                push.cross(cell, mesh_.cells[cell].neighbors[slot], vote);
+                push.cross(cell, beyond, vote);
             },
             [&](std::size_t k, const WalkEnds& ends) {
-                sights[k].push.end(ends.last, full_);
+                sights[k].push.end(ends.last, sights[k].full);
                 const bool in_hull =
                     ends.last != kInfinite && !mesh_.cells[ends.last].is_infinite();
-                on_end(track[k], in_hull ? ends.last : kInfinite);
+                on_end(sights[k].view, in_hull ? ends.last : kInfinite);
             });
     }
 
-    /// Inside, from the point away from the view, down to a depth of `sink_depth` sigmas.
+    /// Inside, from the point where the walk stands away from the view, down to a depth of
+    /// `sink_depth` sigmas.
     void vote_inside(SightWalk& walk, const Vector3d& point, const Vector3d& center,
-                     double sink_depth) const
+                     std::int32_t full, double sink_depth) const
     {
         const Vector3d direction = (point - center).normalized();
         const double depth = sink_depth * sigma_;
         if (depth == 0.0) {
             const Index behind = walk.first_cell(2.0 * point - center);
             if (behind != kInfinite) {
-                sums_.add_excess(behind, -full_);
+                sums_.add_excess(behind, -full);
             }
             return;
         }
         Push push(mesh_, sums_, Push::Sign::sink);
         const WalkEnds ends = walk.to(point + depth * direction, [&](Index cell, int slot) {
-            const std::int32_t vote = soft_vote({cell, slot}, point, direction);
+            const std::int32_t vote = soft_vote({cell, slot}, point, direction, full);
             const Index beyond = mesh_.cells[cell].neighbors[slot];
             sums_.add_residual(beyond, mesh_.mirror(cell, slot), vote);
             push.cross(cell, beyond, vote);
         });
-        push.end(ends.last, full_);
+        push.end(ends.last, full);
     }
 
   private:
-    std::int32_t soft_vote(CrossedFacet facet, const Vector3d& point,
-                           const Vector3d& direction) const
+    std::int32_t soft_vote(CrossedFacet facet, const Vector3d& point, const Vector3d& direction,
+                           std::int32_t full) const
     {
         if (sigma_ == 0.0) {
-            return full_;
+            return full;
         }
         const double distance = distance_to_facet(mesh_, facet, point, direction) / sigma_;
         const double soft = 1.0 - std::exp(-0.5 * distance * distance);
-        return static_cast<std::int32_t>(std::lround(full_ * soft));
+        return static_cast<std::int32_t>(std::lround(full * soft));
     }
 
     const TetMesh& mesh_;
     VoteSums& sums_;
-    std::int32_t full_;
     double sigma_;
-};
-
-double views_weight(std::size_t views, double views_sigma)
-{
-    if (views_sigma == 0.0) {
-        return 1.0;
-    }
-    const double ratio = static_cast<double>(views) / views_sigma;
-    return 1.0 - std::exp(-0.5 * ratio * ratio);
-}
-
-/// The middle one, the larger of two; nothing where there are none.
-template <typename Value>
-std::optional<Value> median(std::vector<Value> values)
-{
-    if (values.empty()) {
-        return std::nullopt;
-    }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-/// Says what a sight weighs by the point it leads to: more with more views, less with a larger
-/// reprojection error.
-class SightWeights {
-  public:
-    SightWeights(const Scene& scene, const TraceOptions& options)
-        : scene_(scene), options_(options), median_error_px_(median(known_errors_px(scene)))
-    {
-        // Full weight is what the median of the points that are seen gets, so that a model of
-        // two-view points is not all doubt.
-        full_ = views_weight(median(track_lengths(scene.tracks)).value_or(1), options.views_sigma);
-    }
-
-    double of(Index point) const
-    {
-        const double by_views = views_weight(scene_.tracks[point].size(), options_.views_sigma);
-        return by_views / full_ * by_error(scene_.errors_px[point]);
-    }
-
-  private:
-    static std::vector<std::size_t> track_lengths(const Tracks& tracks)
-    {
-        std::vector<std::size_t> lengths;
-        for (std::size_t point = 0; point < tracks.size(); ++point) {
-            if (!tracks[point].empty()) {
-                lengths.push_back(tracks[point].size());
-            }
-        }
-        return lengths;
-    }
-
-    static std::vector<double> known_errors_px(const Scene& scene)
-    {
-        std::vector<double> errors;
-        std::copy_if(scene.errors_px.begin(), scene.errors_px.end(), std::back_inserter(errors),
-                     [](double error) { return error >= 0.0; });
-        return errors;
-    }
-
-    /// Errors up to the median one, and unknown ones, take nothing away.
-    double by_error(double error_px) const
-    {
-        const double unit_px = median_error_px_.value_or(0.0);
-        if (options_.error_sigma == 0.0 || unit_px == 0.0) {
-            return 1.0;
-        }
-        const double ratio = error_px / unit_px;
-        const double beyond = std::max(0.0, ratio * ratio - 1.0);
-        return std::exp(-0.5 * beyond / (options_.error_sigma * options_.error_sigma));
-    }
-
-    const Scene& scene_;
-    const TraceOptions& options_;
-    std::optional<double> median_error_px_;
-    double full_ = 1.0;
 };
 
 void require_exact(const VoteSums& sums, const Scene& scene)
@@ -326,9 +279,7 @@ Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage
 {
     Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
     const std::vector<Vector3d> centers = centers_of(scene.views);
-    for_each_vertex(cells, stage, [&](Index vertex) {
-        count_facets(cells, vertex, scene.tracks[vertex], centers, crossings);
-    });
+    count_facets(cells, scene.tracks, centers, crossings, stage);
     return crossings;
 }
 
@@ -336,9 +287,7 @@ void add_crossings(const TetMesh& cells, const VirtualSights& sights, double wei
                    Crossings& crossings, Stage& stage)
 {
     Crossings more(cells.cells.size(), {0, 0, 0, 0});
-    for_each_vertex(cells, stage, [&](Index vertex) {
-        count_facets(cells, vertex, sights.tracks[vertex], sights.centers, more);
-    });
+    count_facets(cells, sights.tracks, sights.centers, more, stage);
     parallel_for(more.size(), [&](std::size_t cell) {
         for (int slot = 0; slot < 4; ++slot) {
             crossings[cell][slot] += static_cast<std::uint32_t>(weight * more[cell][slot]);
@@ -350,25 +299,30 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
                    Stage& stage)
 {
     Votes votes;
-    votes.unit = kUnit;
+    votes.unit = SightWeights::kUnit;
     votes.network.residuals.assign(cells.cells.size(), {0, 0, 0, 0});
     votes.network.excesses.assign(cells.cells.size(), 0);
     votes.cell_of_view.assign(scene.views.size(), kInfinite);
     VoteSums sums(votes.network);
     const double sigma = options.softness * short_edge_length(cells);
+    const Voter voter(cells, sums, sigma);
     const SightWeights weights(scene, options);
     const std::vector<Vector3d> centers = centers_of(scene.views);
 
-    for_each_vertex(cells, stage, [&](Index vertex) {
-        const auto track = scene.tracks[vertex];
-        const Voter voter(cells, sums, weights.of(vertex), sigma);
-        const Vector3d& point = cells.positions[vertex];
-        SightWalk walk(cells, vertex);
-        for (const std::uint32_t view : track) {
-            voter.vote_inside(walk, point, centers[view], options.sink_depth);
+    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
+        SightWalk walk(cells);
+        std::vector<OutwardSight> sights;
+        for (Index vertex = first; vertex < last; ++vertex) {
+            walk.stand_at(vertex);
+            const std::int32_t full = weights.full_vote(vertex);
+            for (const std::uint32_t view : scene.tracks[vertex]) {
+                voter.vote_inside(walk, cells.positions[vertex], centers[view], full,
+                                  options.sink_depth);
+                sights.push_back(voter.outward(vertex, view, centers[view], full));
+            }
         }
-        voter.vote_outside(walk, point, track, centers, [&](std::uint32_t view, Index last) {
-            lower(votes.cell_of_view[view], last);
+        voter.vote_outside(walk, sights, [&](std::uint32_t view, Index cell) {
+            lower(votes.cell_of_view[view], cell);
         });
     });
     require_exact(sums, scene);
@@ -382,11 +336,17 @@ void add_votes(const TetMesh& cells, const Scene& scene, const VirtualSights& si
     VoteSums sums(votes.network);
     const double sigma = options.softness * short_edge_length(cells);
     const SightWeights weights(scene, options);
-    for_each_vertex(cells, stage, [&](Index vertex) {
-        const Voter voter(cells, sums, weight * weights.of(vertex), sigma);
-        SightWalk walk(cells, vertex);
-        voter.vote_outside(walk, cells.positions[vertex], sights.tracks[vertex], sights.centers,
-                           [](std::uint32_t, Index) {});
+    const Voter voter(cells, sums, sigma);
+    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
+        SightWalk walk(cells);
+        std::vector<OutwardSight> outward;
+        for (Index vertex = first; vertex < last; ++vertex) {
+            const std::int32_t full = weights.full_vote(vertex, weight);
+            for (const std::uint32_t view : sights.tracks[vertex]) {
+                outward.push_back(voter.outward(vertex, view, sights.centers[view], full));
+            }
+        }
+        voter.vote_outside(walk, outward, [](std::uint32_t, Index) {});
     });
     require_exact(sums, scene);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/prefetch.h"
 #include "model/tet_mesh.h"
 #include "sight/exact_walk.h"
 #include "sight/sight_frame.h"
@@ -10,19 +11,29 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 namespace vcarve {
 
-/// Walks along sights, from a vertex of the triangulation towards any targets, exactly. Holds where
-/// it was, so that the sights of one vertex, walked one after another, find their first cell at
-/// once. A step costs one new vertex and three 2x2 determinants; where rounding leaves a sign open,
-/// exact predicates decide, and where that sign is zero, ExactWalk goes on to the end.
+/// From a vertex of a triangulation to any target.
+struct Sight {
+    Index vertex;
+    Eigen::Vector3d target;
+};
+
+/// Walks along sights, exactly. Holds where it was, so that the sights of one vertex, walked one
+/// after another, find their first cell at once. A step costs one new vertex and three 2x2
+/// determinants; where rounding leaves a sign open, exact predicates decide, and where that sign is
+/// zero, ExactWalk goes on to the end.
 class SightWalk {
   public:
-    SightWalk(const TetMesh& mesh, Index vertex)
-        : mesh_(mesh), vertex_(vertex), star_cell_(mesh.cell_of_vertex[vertex])
+    explicit SightWalk(const TetMesh& mesh) : mesh_(mesh) {}
+    SightWalk(const TetMesh& mesh, Index vertex) : mesh_(mesh) { stand_at(vertex); }
+
+    /// Where the next sights begin.
+    void stand_at(Index vertex)
     {
+        vertex_ = vertex;
+        star_cell_ = mesh_.cell_of_vertex[vertex];
     }
 
     /// Calls on_crossing(cell, slot) for every facet the segment from the vertex to the target
@@ -31,26 +42,49 @@ class SightWalk {
     WalkEnds to(const Eigen::Vector3d& target, const OnCrossing& on_crossing)
     {
         WalkEnds ends;
-        abreast(
-            1, [&](std::size_t) -> const Eigen::Vector3d& { return target; },
+        along_each(
+            1,
+            [&](std::size_t) {
+                return Sight{vertex_, target};
+            },
             [&](std::size_t, Index cell, int slot) { on_crossing(cell, slot); },
             [&](std::size_t, const WalkEnds& found) { ends = found; });
         return ends;
     }
 
-    /// Walks to target_of(k) for all k below `count`, several at a time, a step each in turn: a
-    /// walk mostly waits for memory, and so the others go on meanwhile. Calls on_crossing(k, cell,
-    /// slot) as to() does, for each k in order of its walk, and on_end(k, ends) at its end.
-    template <typename TargetOf, typename OnCrossing, typename OnEnd>
-    void to_each(std::size_t count, const TargetOf& target_of, const OnCrossing& on_crossing,
-                 const OnEnd& on_end)
+    /// Walks along sight_at(k) for all k below `count`, several at a time, a step each in turn: a
+    /// walk mostly waits for memory and for its own last step, and so the others go on meanwhile.
+    /// Calls on_crossing(k, cell, slot) as to() does, for each k in order of its walk, and
+    /// on_end(k, ends) at its end. Sights of one vertex should follow each other.
+    template <typename SightAt, typename OnCrossing, typename OnEnd>
+    void along_each(std::size_t count, const SightAt& sight_at, const OnCrossing& on_crossing,
+                    const OnEnd& on_end)
     {
-        for (std::size_t first = 0; first < count; first += kAbreast) {
-            abreast(
-                std::min(kAbreast, count - first),
-                [&](std::size_t k) -> const Eigen::Vector3d& { return target_of(first + k); },
-                [&](std::size_t k, Index cell, int slot) { on_crossing(first + k, cell, slot); },
-                [&](std::size_t k, const WalkEnds& ends) { on_end(first + k, ends); });
+        std::array<Walker, kAbreast> walkers;
+        std::size_t active = 0;
+        std::size_t next = 0;
+        while (active > 0 || next < count) {
+            for (; active < kAbreast && next < count; ++next) {
+                Walker& walker = walkers[active];
+                walker.k = next;
+                const auto cross = [&](Index cell, int slot) { on_crossing(next, cell, slot); };
+                if (start(sight_at(next), walker, cross)) {
+                    ++active;
+                } else {
+                    on_end(next, walker.ends);
+                }
+            }
+            for (std::size_t i = 0; i < active; ++i) {
+                fetch_tip(walkers[i]);
+            }
+            for (std::size_t i = active; i-- > 0;) {
+                Walker& walker = walkers[i];
+                const auto cross = [&](Index cell, int slot) { on_crossing(walker.k, cell, slot); };
+                if (!step(walker, cross)) {
+                    on_end(walker.k, walker.ends);
+                    walkers[i] = walkers[--active];
+                }
+            }
         }
     }
 
@@ -75,6 +109,9 @@ class SightWalk {
     struct Exit {
         Index cell = kInfinite;
         int slot = 0;
+        Index beyond = kInfinite; ///< the cell across the facet
+        int entered_by = 0;       ///< the facet's slot there
+        unsigned far = 0;         ///< bit k: corner k may lie as far as the target
         std::array<Index, 3> corners{};
         std::array<Sighted, 3> sighted{};
     };
@@ -84,98 +121,70 @@ class SightWalk {
     bool passes_facet(const SightFrame& frame, const Exit& exit) const;
     int corner_to_replace(const SightFrame& frame, const Exit& exit, const Sighted& tip_sighted,
                           const Eigen::Vector3d& tip_position) const;
-    bool enter_neighbor(const SightFrame& frame, Exit& exit) const;
+    bool enter_beyond(const SightFrame& frame, Index tip, Exit& exit) const;
 
     static constexpr std::size_t kAbreast = 8;
+    static constexpr double kMargin = 1e-12; ///< far above the rounding of a depth
 
     /// A walk on its way.
     struct Walker {
         SightFrame frame;
         Exit exit;
-        Index first;   ///< cell
-        std::size_t k; ///< which walk it is
+        Index tip = kInfinite; ///< the corner across the facet ahead
+        WalkEnds ends;
+        std::size_t k = 0; ///< which walk it is
     };
-
-    template <typename TargetOf, typename OnCrossing, typename OnEnd>
-    void abreast(std::size_t count, const TargetOf& target_of, const OnCrossing& on_crossing,
-                 const OnEnd& on_end)
-    {
-        std::array<std::optional<Walker>, kAbreast> walkers;
-        std::size_t active = 0;
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto cross = [&](Index cell, int slot) { on_crossing(k, cell, slot); };
-            if (start(target_of(k), k, walkers[active], cross, on_end)) {
-                fetch_next(walkers[active]->exit);
-                ++active;
-            }
-        }
-        while (active > 0) {
-            for (std::size_t i = 0; i < active; ++i) {
-                fetch_tip(walkers[i]->exit);
-            }
-            for (std::size_t i = active; i-- > 0;) {
-                Walker& walker = *walkers[i];
-                const auto cross = [&](Index cell, int slot) { on_crossing(walker.k, cell, slot); };
-                const std::optional<Index> last = step(walker, cross);
-                if (last) {
-                    on_end(walker.k, WalkEnds{walker.first, *last});
-                    walkers[i] = walkers[--active];
-                } else {
-                    fetch_next(walker.exit);
-                }
-            }
-        }
-    }
 
     /// Finds the first cell. Returns false if that is the end already, or the exact walk went all
     /// the way.
-    template <typename Cross, typename OnEnd>
-    bool start(const Eigen::Vector3d& target, std::size_t k, std::optional<Walker>& walker,
-               const Cross& cross, const OnEnd& on_end)
+    template <typename Cross>
+    bool start(const Sight& sight, Walker& walker, const Cross& cross)
     {
+        if (sight.vertex != vertex_) stand_at(sight.vertex);
         const Eigen::Vector3d& point = mesh_.positions[vertex_];
-        if (point == target) {
-            on_end(k, WalkEnds{kInfinite, mesh_.cell_of_vertex[vertex_]});
+        if (point == sight.target) {
+            walker.ends = {kInfinite, mesh_.cell_of_vertex[vertex_]};
             return false;
         }
-        walker.emplace(Walker{SightFrame(point, target), {}, kInfinite, k});
-        const Found found = find_first_cell(walker->frame, walker->exit);
+        walker.frame = SightFrame(point, sight.target);
+        const Found found = find_first_cell(walker.frame, walker.exit);
         if (found == Found::outside_hull) {
-            on_end(k, WalkEnds{kInfinite, walker->exit.cell});
+            walker.ends = {kInfinite, walker.exit.cell};
             return false;
         }
         if (found == Found::unclear) {
-            ExactWalk walk(mesh_, point, target);
-            const WalkEnds ends = walk.from_vertex(vertex_);
+            ExactWalk walk(mesh_, point, sight.target);
+            walker.ends = walk.from_vertex(vertex_);
             report(walk, cross);
-            on_end(k, ends);
             return false;
         }
-        star_cell_ = walker->exit.cell;
-        walker->first = walker->exit.cell;
+        star_cell_ = walker.exit.cell;
+        walker.ends = {walker.exit.cell, kInfinite};
+        look_ahead(walker.exit);
         return true;
     }
 
-    /// Crosses the facet ahead; the last cell if the walk ends with that or before.
+    /// Crosses the facet ahead. Returns false if the walk ends with that or before.
     template <typename Cross>
-    std::optional<Index> step(Walker& walker, const Cross& cross) const
+    bool step(Walker& walker, const Cross& cross) const
     {
         Exit& exit = walker.exit;
-        if (!passes_facet(walker.frame, exit)) {
-            return exit.cell;
+        if (exit.far != 0 && !passes_facet(walker.frame, exit)) {
+            walker.ends.last = exit.cell;
+            return false;
         }
         cross(exit.cell, exit.slot);
-        const Index next = mesh_.cells[exit.cell].neighbors[exit.slot];
-        if (mesh_.cells[next].is_infinite()) {
-            return next;
+        walker.ends.last = exit.beyond;
+        if (walker.tip == kInfinite) {
+            return false;
         }
-        if (enter_neighbor(walker.frame, exit)) {
-            return std::nullopt;
+        if (enter_beyond(walker.frame, walker.tip, exit)) {
+            return true;
         }
         ExactWalk walk(mesh_, walker.frame.point(), walker.frame.target());
-        const Index last = walk.from_cell(next);
+        walker.ends.last = walk.from_cell(walker.ends.last);
         report(walk, cross);
-        return last;
+        return false;
     }
 
     template <typename Cross>
@@ -186,38 +195,45 @@ class SightWalk {
         }
     }
 
-    void fetch_next(const Exit& exit) const
+    static unsigned may_reach_target(const Sighted& corner)
     {
-        fetch(&mesh_.cells[mesh_.cells[exit.cell].neighbors[exit.slot]]);
+        return static_cast<unsigned>(corner.depth >= 1.0 - kMargin);
     }
 
-    void fetch_tip(const Exit& exit) const
+    void look_ahead(Exit& exit) const
     {
-        const Index next = mesh_.cells[exit.cell].neighbors[exit.slot];
-        const Index tip = mesh_.cells[next].vertices[mesh_.mirror(exit.cell, exit.slot)];
-        if (tip != kInfinite) {
-            fetch(&mesh_.positions[tip]);
+        exit.far = 0;
+        for (int k = 0; k < 3; ++k) {
+            exit.far |= may_reach_target(exit.sighted[k]) << k;
         }
+        look_beyond(exit);
     }
 
-    static void fetch([[maybe_unused]] const void* address)
+    void look_beyond(Exit& exit) const
     {
-#if defined(__GNUC__)
-        __builtin_prefetch(address);
-#endif
+        exit.beyond = mesh_.cells[exit.cell].neighbors[exit.slot];
+        exit.entered_by = mesh_.mirror(exit.cell, exit.slot);
+        prefetch(&mesh_.cells[exit.beyond]);
+    }
+
+    void fetch_tip(Walker& walker) const
+    {
+        walker.tip = mesh_.cells[walker.exit.beyond].vertices[walker.exit.entered_by];
+        prefetch(&mesh_.positions[walker.tip == kInfinite ? 0 : walker.tip]);
     }
 
     const TetMesh& mesh_;
-    Index vertex_;
-    Index star_cell_; ///< a finite cell at the vertex, near where the last sight went
+    Index vertex_ = kInfinite;
+    Index star_cell_ = kInfinite; ///< a finite cell at the vertex, near where the last sight went
 };
 
 /// Where a cell keeps one of its vertices. Without branches, which no processor foresees.
 inline int slot_of(const Cell& cell, Index vertex)
 {
-    return static_cast<int>(cell.vertices[1] == vertex) +
-           2 * static_cast<int>(cell.vertices[2] == vertex) +
-           3 * static_cast<int>(cell.vertices[3] == vertex);
+    const bool is_third = cell.vertices[3] == vertex;
+    const auto odd = static_cast<int>((cell.vertices[1] == vertex) | is_third);
+    const auto high = static_cast<int>((cell.vertices[2] == vertex) | is_third);
+    return odd | high << 1;
 }
 
 /// Turns around the vertex towards the target: from a cell to its neighbour across a facet
@@ -259,7 +275,6 @@ inline SightWalk::Found SightWalk::find_first_cell(const SightFrame& frame, Exit
 /// Whether the target lies strictly beyond the facet ahead.
 inline bool SightWalk::passes_facet(const SightFrame& frame, const Exit& exit) const
 {
-    constexpr double kMargin = 1e-12; // far above the rounding of a depth
     const auto [near, far] =
         std::minmax({exit.sighted[0].depth, exit.sighted[1].depth, exit.sighted[2].depth});
     if (far < 1.0 - kMargin) {
@@ -302,12 +317,8 @@ inline int SightWalk::corner_to_replace(const SightFrame& frame, const Exit& exi
 
 /// Steps through the facet ahead and finds the next one. Returns false, `exit` then being of no
 /// more use, where the sight meets an edge or the new vertex.
-inline bool SightWalk::enter_neighbor(const SightFrame& frame, Exit& exit) const
+inline bool SightWalk::enter_beyond(const SightFrame& frame, Index tip, Exit& exit) const
 {
-    const int entered_by = mesh_.mirror(exit.cell, exit.slot);
-    exit.cell = mesh_.cells[exit.cell].neighbors[exit.slot];
-    const Cell& cell = mesh_.cells[exit.cell];
-    const Index tip = cell.vertices[entered_by];
     const Eigen::Vector3d& tip_position = mesh_.positions[tip];
     const Sighted tip_sighted = frame.project(tip_position);
     const int replaced = corner_to_replace(frame, exit, tip_sighted, tip_position);
@@ -317,7 +328,10 @@ inline bool SightWalk::enter_neighbor(const SightFrame& frame, Exit& exit) const
     const Index left_out = exit.corners[replaced];
     exit.corners[replaced] = tip;
     exit.sighted[replaced] = tip_sighted;
-    exit.slot = slot_of(cell, left_out);
+    exit.far = (exit.far & ~(1U << replaced)) | may_reach_target(tip_sighted) << replaced;
+    exit.cell = exit.beyond;
+    exit.slot = slot_of(mesh_.cells[exit.cell], left_out);
+    look_beyond(exit);
     return true;
 }
 
