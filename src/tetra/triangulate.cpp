@@ -50,29 +50,27 @@ CGAL::Bbox_3 box_of(const Scene& scene)
     return box;
 }
 
-/// A cell as CGAL numbers it: vertices ascending, neighbours still by the numbers of pass 1.
-struct RawCell {
-    std::array<Index, 4> vertices;  ///< ascending, kInfinite last
-    std::array<Index, 4> neighbors; ///< across the facet opposite each vertex
-    bool is_odd;                    ///< whether ascending order turns the cell inside out
-};
-
+/// A cell with its vertices as TetMesh has them, its neighbours still as CGAL keeps them.
 template <typename CellHandle>
-RawCell raw_cell(CellHandle cell)
+Cell unnumbered_cell(CellHandle cell)
 {
     std::array<int, 4> sources = {0, 1, 2, 3};
     std::array<Index, 4> found{};
     for (int i = 0; i < 4; ++i) {
         found[i] = cell->vertex(i)->info();
     }
-    RawCell result{{}, {}, false};
-    // Sort by exchanging; each exchange turns the cell inside out.
+    // Sort by exchanging; each exchange turns the cell inside out, and one more may turn it back.
+    bool is_odd = false;
     for (int i = 1; i < 4; ++i) {
         for (int j = i; j > 0 && found[sources[j]] < found[sources[j - 1]]; --j) {
             std::swap(sources[j], sources[j - 1]);
-            result.is_odd = !result.is_odd;
+            is_odd = !is_odd;
         }
     }
+    if (is_odd) {
+        std::swap(sources[0], sources[1]);
+    }
+    Cell result{};
     for (int i = 0; i < 4; ++i) {
         result.vertices[i] = found[sources[i]];
         result.neighbors[i] = cell->neighbor(sources[i])->info();
@@ -82,7 +80,7 @@ RawCell raw_cell(CellHandle cell)
 
 /// All cells, in the order CGAL keeps them, which may differ from run to run.
 template <typename Triangulation>
-std::vector<RawCell> raw_cells(const Triangulation& triangulation)
+std::vector<Cell> unnumbered_cells(const Triangulation& triangulation)
 {
     using CellHandle = typename Triangulation::Cell_handle;
     std::vector<CellHandle> handles;
@@ -91,71 +89,77 @@ std::vector<RawCell> raw_cells(const Triangulation& triangulation)
         cell->info() = static_cast<Index>(handles.size());
         handles.push_back(cell);
     }
-    std::vector<RawCell> cells(handles.size());
-    parallel_for(handles.size(), [&](std::size_t i) { cells[i] = raw_cell(handles[i]); });
+    std::vector<Cell> cells(handles.size());
+    parallel_for(handles.size(), [&](std::size_t i) { cells[i] = unnumbered_cell(handles[i]); });
     return cells;
 }
 
-/// The raw cells in canonical order: binned by smallest vertex, each bin sorted.
-std::vector<Index> canonical_order(const std::vector<RawCell>& cells, std::size_t num_vertices)
+Index smallest_vertex(const Cell& cell)
+{
+    return std::min(cell.vertices[0], cell.vertices[1]);
+}
+
+/// Whether the sorted vertices of a cell come first. Only the first two may stand exchanged.
+bool comes_before(const Cell& a, const Cell& b)
+{
+    const auto key = [](const Cell& cell) {
+        const auto [low, high] = std::minmax(cell.vertices[0], cell.vertices[1]);
+        return std::array<Index, 4>{low, high, cell.vertices[2], cell.vertices[3]};
+    };
+    return key(a) < key(b);
+}
+
+/// The cells in canonical order: binned by smallest vertex, each bin sorted.
+std::vector<Index> canonical_order(const std::vector<Cell>& cells, std::size_t num_vertices)
 {
     std::vector<Index> ends(num_vertices + 1, 0);
-    for (const RawCell& cell : cells) {
-        ++ends[cell.vertices[0] + 1];
+    for (const Cell& cell : cells) {
+        ++ends[smallest_vertex(cell) + 1];
     }
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     std::vector<Index> order(cells.size());
     for (Index i = 0; i < cells.size(); ++i) {
-        order[ends[cells[i].vertices[0]]++] = i;
+        order[ends[smallest_vertex(cells[i])]++] = i;
     }
     parallel_for(num_vertices, [&](std::size_t vertex) {
         const Index begin = vertex == 0 ? 0 : ends[vertex - 1];
         std::sort(order.begin() + begin, order.begin() + ends[vertex],
-                  [&](Index a, Index b) { return cells[a].vertices < cells[b].vertices; });
+                  [&](Index a, Index b) { return comes_before(cells[a], cells[b]); });
     });
     return order;
 }
 
-/// The slot that holds the rank-th smallest vertex of a cell, or the rank of a slot.
-int exchanged(int rank, bool is_odd)
+/// Where a cell has another one as neighbour, which is in one place only: cells that shared two
+/// facets would share all vertices.
+int slot_of_neighbor(const Cell& cell, Index neighbor)
 {
-    return is_odd && rank < 2 ? 1 - rank : rank;
+    const auto found = std::find(cell.neighbors.begin(), cell.neighbors.end(), neighbor);
+    return static_cast<int>(found - cell.neighbors.begin());
 }
 
-/// The rank of the vertex of a cell opposite the facet it shares with cell number `other`, whose
-/// vertices are given.
-int rank_opposite(const RawCell& cell, Index other, const std::array<Index, 4>& other_vertices)
+/// Puts the cells in canonical order.
+void fill_cells(const std::vector<Cell>& unnumbered, TetMesh& mesh, std::size_t num_vertices)
 {
-    for (int rank = 0; rank < 4; ++rank) {
-        if (cell.neighbors[rank] == other &&
-            std::find(other_vertices.begin(), other_vertices.end(), cell.vertices[rank]) ==
-                other_vertices.end()) {
-            return rank;
-        }
-    }
-    throw std::logic_error("two cells of a triangulation have the same vertices");
-}
-
-void fill_cells(const std::vector<RawCell>& raw, TetMesh& mesh, std::size_t num_vertices)
-{
-    const std::vector<Index> order = canonical_order(raw, num_vertices);
+    const std::vector<Index> order = canonical_order(unnumbered, num_vertices);
     std::vector<Index> numbers(order.size());
     parallel_for(order.size(), [&](std::size_t i) { numbers[order[i]] = static_cast<Index>(i); });
     mesh.cells.resize(order.size());
+    parallel_for(order.size(), [&](std::size_t i) {
+        Cell cell = unnumbered[order[i]];
+        for (Index& neighbor : cell.neighbors) {
+            neighbor = numbers[neighbor];
+        }
+        mesh.cells[i] = cell;
+    });
     mesh.mirrors.resize(order.size());
     parallel_for(order.size(), [&](std::size_t i) {
-        const RawCell& from = raw[order[i]];
-        std::uint8_t mirrors = 0;
-        for (int rank = 0; rank < 4; ++rank) {
-            const int slot = exchanged(rank, from.is_odd);
-            const RawCell& neighbor = raw[from.neighbors[rank]];
-            mesh.cells[i].vertices[slot] = from.vertices[rank];
-            mesh.cells[i].neighbors[slot] = numbers[from.neighbors[rank]];
-            const int mirror =
-                exchanged(rank_opposite(neighbor, order[i], from.vertices), neighbor.is_odd);
-            mirrors |= static_cast<std::uint8_t>(mirror << (2 * slot));
+        unsigned mirrors = 0;
+        for (int slot = 0; slot < 4; ++slot) {
+            const Cell& beyond = mesh.cells[mesh.cells[i].neighbors[slot]];
+            const int mirror = slot_of_neighbor(beyond, static_cast<Index>(i));
+            mirrors |= static_cast<unsigned>(mirror) << (2 * slot);
         }
-        mesh.mirrors[i] = mirrors;
+        mesh.mirrors[i] = static_cast<std::uint8_t>(mirrors);
     });
 }
 
@@ -186,10 +190,10 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene)
         throw std::logic_error("two points to triangulate lie at one place");
     }
     triangulation.infinite_vertex()->info() = kInfinite;
-    const std::vector<RawCell> raw = raw_cells(triangulation);
+    const std::vector<Cell> unnumbered = unnumbered_cells(triangulation);
     triangulation.clear();
     TetMesh mesh;
-    fill_cells(raw, mesh, scene.num_points());
+    fill_cells(unnumbered, mesh, scene.num_points());
     mesh.positions = scene.positions;
     find_cells_of_vertices(mesh);
     return mesh;
