@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,6 +101,11 @@ void SceneBuilder::reserve_points(std::size_t count)
 
 std::uint32_t SceneBuilder::view_index(std::uint32_t image_id, std::uint64_t point_id) const
 {
+    // Most often the ids have no gaps.
+    const std::size_t guess = image_ids_.empty() ? 0 : image_id - image_ids_.front();
+    if (guess < image_ids_.size() && image_ids_[guess] == image_id) {
+        return static_cast<std::uint32_t>(guess);
+    }
     const auto found = std::lower_bound(image_ids_.begin(), image_ids_.end(), image_id);
     if (found == image_ids_.end() || *found != image_id) {
         throw InputError(fmt::format("{}: point {} was seen in image {}, which {} does not have",
@@ -128,7 +134,7 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
 void SceneBuilder::refuse_point_ids_twice() const
 {
     std::vector<std::uint64_t> ids = scene_.point_ids;
-    std::sort(ids.begin(), ids.end());
+    tbb::parallel_sort(ids.begin(), ids.end());
     const auto twice = std::adjacent_find(ids.begin(), ids.end());
     if (twice == ids.end()) return;
     throw InputError(fmt::format("{}: point {} occurs twice",
