@@ -20,7 +20,9 @@ inline constexpr Index kInfinite = 0xffffffffU; ///< the vertex all infinite cel
 ///          \ | /            of the convex hull, and orientation(v0, v1, v2, x) is positive for x
 ///           \|/             strictly beyond that facet.
 ///            1
-struct Cell {
+///
+/// Aligned so that none lies across two cache lines.
+struct alignas(32) Cell {
     std::array<Index, 4> vertices;
     std::array<Index, 4> neighbors;
 
