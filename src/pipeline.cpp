@@ -168,16 +168,17 @@ TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
                 const Options& options, Log& log)
 {
     Stage stage(log, "surface");
-    const TriMesh boundary = extract_surface(cells, labels, scene);
+    TriMesh surface = extract_surface(cells, labels, scene);
+    const std::size_t num_faces = surface.faces.size();
     const bool keeps_all = options.closed || ignores_views(options.method);
-    TriMesh supported = keeps_all ? boundary : keep_supported(boundary, scene, options.support);
-    stage.end({{"faces", size_of(supported.faces.size())},
-               {"without support", size_of(boundary.faces.size() - supported.faces.size())}});
-    if (supported.faces.empty()) {
+    if (!keeps_all) surface = keep_supported(std::move(surface), scene, options.support);
+    stage.end({{"faces", size_of(surface.faces.size())},
+               {"without support", size_of(num_faces - surface.faces.size())}});
+    if (surface.faces.empty()) {
         throw InputError("the sights leave no surface: no part of the space behind the points is "
                          "seen well enough");
     }
-    return supported;
+    return surface;
 }
 
 TriMesh clean(const TriMesh& mesh, const Options& options, Log& log)

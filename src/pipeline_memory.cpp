@@ -104,11 +104,13 @@ double cutting(const Sizes& n)
     return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 1);
 }
 
-/// The labels and the faces, with nine edge lengths each to find the usual one around a vertex.
+/// The labels and the surface, with the faces around each vertex, the usual edge there, and the
+/// faces to keep.
 double extracting(const Sizes& n)
 {
-    constexpr double kFace = 2.0 * sizeof(Face) + 9.0 * 8.0 + 14.0;
-    return n.after_triangulation() + n.cells + n.faces * kFace + 36 * n.points;
+    constexpr double kFace = 4.0 * sizeof(Face) + 2;
+    constexpr double kVertex = 31 + 4 + 8;
+    return n.after_triangulation() + n.cells + n.faces * kFace + n.points * kVertex;
 }
 
 /// The surface before, without its faults, in OpenMesh's half-edges (three a face), and after.

@@ -1,5 +1,6 @@
 #include "support/blocked_sights.h"
 #include "support/scenes.h"
+#include "surface/local_edges.h"
 #include "surface/sight_guard.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "support/blocked_sights.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
+#include "surface/local_edges.h"
 #include "surface/smooth.h"
 
 #include <gtest/gtest.h>

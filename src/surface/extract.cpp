@@ -1,74 +1,77 @@
 #include "surface/extract.h"
 
 #include "base/index_limit.h"
+#include "base/parallel.h"
+
+#include <atomic>
 
 namespace vcarve {
 
 namespace {
 
-/// Calls visit(cell, slot) for every facet by which an inside cell meets an outside one.
-template <typename Visit>
-void for_each_boundary_facet(const TetMesh& mesh, const Labels& labels, const Visit& visit)
+/// The vertices that faces use, in ascending order.
+std::vector<std::uint32_t> used_vertices(const std::vector<Face>& faces, std::size_t num_vertices)
 {
-    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
-        if (labels[cell] == Label::outside) {
-            continue;
+    std::vector<char> used(num_vertices, 0);
+    parallel_for(faces.size(), [&](std::size_t i) {
+        for (const std::uint32_t vertex : faces[i]) {
+            std::atomic_ref(used[vertex]).store(1, std::memory_order_relaxed);
         }
-        for (int slot = 0; slot < 4; ++slot) {
-            if (labels[mesh.cells[cell].neighbors[slot]] == Label::outside) {
-                visit(cell, slot);
-            }
-        }
-    }
-}
-
-std::vector<Face> boundary_faces(const TetMesh& mesh, const Labels& labels)
-{
-    std::vector<Face> faces;
-    for_each_boundary_facet(mesh, labels, [&](Index cell, int slot) {
-        const auto& corners = mesh.cells[cell].vertices;
-        const auto& [a, b, c] = kFacetCorners[slot]; // counter-clockwise from inside
-        faces.push_back({corners[a], corners[c], corners[b]});
     });
-    return faces;
+    return parallel_collect<std::uint32_t>(num_vertices, [&](std::size_t vertex, auto& vertices) {
+        if (used[vertex] != 0) vertices.push_back(static_cast<std::uint32_t>(vertex));
+    });
 }
 
 } // namespace
+
+std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& labels)
+{
+    return parallel_collect<BoundaryFacet>(cells.cells.size(), [&](std::size_t cell, auto& facets) {
+        if (labels[cell] == Label::outside) {
+            return;
+        }
+        for (int slot = 0; slot < 4; ++slot) {
+            if (labels[cells.cells[cell].neighbors[slot]] == Label::outside) {
+                facets.push_back({static_cast<Index>(cell), slot});
+            }
+        }
+    });
+}
+
+std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<BoundaryFacet>& facets)
+{
+    std::vector<Face> faces(facets.size());
+    parallel_for(faces.size(), [&](std::size_t i) {
+        const auto& corners = cells.cells[facets[i].cell].vertices;
+        const auto& [a, b, c] = kFacetCorners[facets[i].slot]; // counter-clockwise from inside
+        faces[i] = {corners[a], corners[c], corners[b]};
+    });
+    return faces;
+}
 
 TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene& scene)
 {
     TriMesh mesh;
     mesh.offset = scene.offset;
-    mesh.faces = boundary_faces(cells, labels);
+    mesh.faces = boundary_faces(cells, boundary_facets(cells, labels));
     require_indexable(mesh.faces.size(), kMostFaces, "faces");
-    std::vector<std::uint32_t> new_index(cells.positions.size(), kNoPoint);
-    for (const Face& face : mesh.faces) {
-        for (const std::uint32_t vertex : face) {
-            new_index[vertex] = 0;
+    mesh.points = used_vertices(mesh.faces, cells.positions.size());
+    mesh.positions.resize(mesh.points.size());
+    mesh.colors.resize(mesh.points.size());
+    std::vector<std::uint32_t> numbers(cells.positions.size());
+    parallel_for(mesh.points.size(), [&](std::size_t vertex) {
+        const std::uint32_t point = mesh.points[vertex];
+        mesh.positions[vertex] = cells.positions[point];
+        mesh.colors[vertex] = scene.colors[point];
+        numbers[point] = static_cast<std::uint32_t>(vertex);
+    });
+    parallel_for(mesh.faces.size(), [&](std::size_t i) {
+        for (std::uint32_t& vertex : mesh.faces[i]) {
+            vertex = numbers[vertex];
         }
-    }
-    for (std::uint32_t point = 0; point < new_index.size(); ++point) {
-        if (new_index[point] == kNoPoint) {
-            continue;
-        }
-        new_index[point] = static_cast<std::uint32_t>(mesh.positions.size());
-        mesh.positions.push_back(cells.positions[point]);
-        mesh.colors.push_back(scene.colors[point]);
-        mesh.points.push_back(point);
-    }
-    for (Face& face : mesh.faces) {
-        for (std::uint32_t& vertex : face) {
-            vertex = new_index[vertex];
-        }
-    }
+    });
     return mesh;
-}
-
-std::vector<Index> cells_behind(const TetMesh& cells, const Labels& labels)
-{
-    std::vector<Index> behind;
-    for_each_boundary_facet(cells, labels, [&](Index cell, int) { behind.push_back(cell); });
-    return behind;
 }
 
 } // namespace vcarve

@@ -9,14 +9,23 @@
 
 namespace vcarve {
 
+/// A facet by which an inside cell meets an outside one.
+struct BoundaryFacet {
+    Index cell; ///< the inside one
+    int slot;
+};
+
+/// All of them, in the order of the cells. Cost: O(cells), in parallel.
+std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& labels);
+
+/// The facets as faces over the vertices of the cells, counter-clockwise seen from outside.
+std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<BoundaryFacet>& facets);
+
 /// The boundary of the inside (Akgunduz, Zetu, Banerjee 2000, section 4.4): every facet between an
 /// inside and an outside cell, counter-clockwise seen from outside, with the colours of the scene's
 /// points. Closed, consistently oriented, possibly non-manifold where cells touch in an edge or a
 /// vertex. Vertices and faces follow the order of the cells. Throws InputError where
-/// there are more faces than can be numbered. Cost: O(cells).
+/// there are more faces than can be numbered. Cost: O(cells), in parallel.
 TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene& scene);
-
-/// The inside cell behind each face of extract_surface(), in the order of its faces.
-std::vector<Index> cells_behind(const TetMesh& cells, const Labels& labels);
 
 } // namespace vcarve

@@ -1,11 +1,10 @@
 #include "surface/sight_guard.h"
 
 #include "base/parallel.h"
-#include "surface/edge_table.h"
+#include "surface/local_edges.h"
 
 #include <algorithm>
 #include <atomic>
-#include <numeric>
 
 namespace vcarve {
 namespace {
@@ -27,38 +26,6 @@ std::vector<double> margins_of_points(const Scene& scene, const TriMesh& surface
 }
 
 } // namespace
-
-std::vector<double> vertex_spacings(const TriMesh& mesh)
-{
-    // Two lengths a face and corner: an edge amid two faces counts twice, which leaves the median.
-    std::vector<std::size_t> begins(mesh.positions.size() + 1, 0);
-    for (const Face& face : mesh.faces) {
-        for (const std::uint32_t vertex : face) {
-            begins[vertex] += 2;
-        }
-    }
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<double> lengths(begins.back());
-    for (const Face& face : mesh.faces) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t tail = face[i];
-            const std::uint32_t head = face[(i + 1) % 3];
-            const double length = (mesh.positions[head] - mesh.positions[tail]).norm();
-            lengths[--begins[tail]] = length;
-            lengths[--begins[head]] = length;
-        }
-    }
-    std::vector<double> medians(mesh.positions.size(), 0.0);
-    parallel_for(medians.size(), [&](std::size_t vertex) {
-        const auto begin = lengths.begin() + static_cast<std::ptrdiff_t>(begins[vertex]);
-        const auto end = lengths.begin() + static_cast<std::ptrdiff_t>(begins[vertex + 1]);
-        if (begin == end) return;
-        const auto middle = begin + (end - begin) / 2;
-        std::nth_element(begin, middle, end);
-        medians[vertex] = *middle;
-    });
-    return medians;
-}
 
 SightGuard::SightGuard(const Scene& scene, const TriMesh& surface)
     : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)

@@ -31,8 +31,4 @@ class SightGuard {
     std::vector<std::uint8_t> blocked_; ///< one a sight of the tree
 };
 
-/// Per vertex the median length of the edges there, in scene units; 0 for a vertex of no face.
-/// Cost: O(faces), in parallel.
-std::vector<double> vertex_spacings(const TriMesh& mesh);
-
 } // namespace vcarve

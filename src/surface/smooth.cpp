@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "surface/half_edge_mesh.h"
+#include "surface/local_edges.h"
 
 #include <Eigen/Geometry>
 

@@ -1,92 +1,102 @@
 #include "surface/support.h"
 
+#include "base/parallel.h"
 #include "surface/edge_table.h"
 #include "surface/face_evidence.h"
+#include "surface/local_edges.h"
 #include "surface/union_find.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace vcarve {
 
 namespace {
 
-/// Per face, the patch of unseen faces it belongs to, as the least of their numbers.
-UnionFind unseen_patches(const TriMesh& mesh, const FaceFlags& seen)
+using FaceNumbers = std::vector<std::uint32_t>; ///< ascending
+
+/// Of some faces, those in patches of a few. Faces that share an edge are in one patch, and a face
+/// that is not small makes its patch too large.
+template <typename IsSmall>
+FaceNumbers small_patches(const TriMesh& mesh, const FaceNumbers& some, const IsSmall& is_small)
 {
-    UnionFind patches(mesh.faces.size());
-    const EdgeTable edges = gather_edges(mesh.faces, mesh.positions.size());
+    constexpr std::uint32_t kMaxFaces = 20;
+    std::vector<Face> faces(some.size());
+    std::ranges::transform(some, faces.begin(),
+                           [&](std::uint32_t face) { return mesh.faces[face]; });
+    const EdgeTable edges = gather_edges(faces, mesh.positions.size());
+    UnionFind patches(faces.size());
     for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-        std::uint32_t first = kNoPoint;
         for (const Side side : edges[edge]) {
-            const std::uint32_t face = side / 3;
-            if (seen[face] != 0) {
-                continue;
-            }
-            if (first != kNoPoint) {
-                patches.join(first, face);
-            }
-            first = face;
+            patches.join(edges[edge][0] / 3, side / 3);
         }
     }
-    return patches;
+
+    std::vector<std::uint32_t> counts(faces.size(), 0);
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+        ++counts[patches.root(i)];
+    }
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+        std::uint32_t& count = counts[patches.root(i)];
+        if (count <= kMaxFaces && !is_small(some[i])) count = kMaxFaces + 1;
+    }
+    FaceNumbers found;
+    for (std::uint32_t i = 0; i < faces.size(); ++i) {
+        if (counts[patches.root(i)] <= kMaxFaces) found.push_back(some[i]);
+    }
+    return found;
 }
 
-/// Which faces are large beside all that were seen: unseen ones among them are guesses of a size
-/// nobody can overlook, however sparse the points around.
-FaceFlags vast_faces(const TriMesh& mesh, const FaceFlags& seen)
+/// From which edge on a face is large beside all that were seen: unseen ones among them are guesses
+/// of a size nobody can overlook, however sparse the points around.
+double vast_edge(const LocalEdges& edges, const FaceFlags& seen)
 {
     constexpr double kVast = 8.0; ///< x the median longest edge of seen faces
-    const std::vector<double> longest = longest_edges(mesh);
-    std::vector<double> of_seen;
-    for (std::size_t face = 0; face < longest.size(); ++face) {
-        if (seen[face] != 0) of_seen.push_back(longest[face]);
-    }
-    FaceFlags vast(longest.size(), 0);
-    if (of_seen.empty()) return vast;
-    const auto middle = of_seen.begin() + static_cast<std::ptrdiff_t>(of_seen.size() / 2);
-    std::nth_element(of_seen.begin(), middle, of_seen.end());
-    std::transform(longest.begin(), longest.end(), vast.begin(),
-                   [&](double edge) { return edge > kVast * *middle ? 1 : 0; });
-    return vast;
+    auto of_seen = parallel_collect<double>(seen.size(), [&](std::size_t face, auto& lengths) {
+        if (seen[face] != 0) lengths.push_back(edges.longest_edge(face));
+    });
+    return of_seen.empty() ? std::numeric_limits<double>::infinity()
+                           : kVast * upper_median(of_seen);
 }
 
 /// Which unseen faces lie in patches of a few small faces: gaps in a surface seen around them.
-FaceFlags gap_faces(const TriMesh& mesh, const FaceFlags& seen, const std::vector<double>& sizes,
-                    double max_edge)
+FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdges& edges,
+                      double max_edge)
 {
-    constexpr std::int64_t kMaxFaces = 20;
-    const FaceFlags vast = vast_faces(mesh, seen);
-    UnionFind patches = unseen_patches(mesh, seen);
-    std::vector<std::int64_t> counts(mesh.faces.size(), 0);
-    for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-        counts[patches.root(face)] +=
-            sizes[face] <= max_edge && vast[face] == 0 ? 1 : kMaxFaces + 1;
-    }
-    FaceFlags gaps(mesh.faces.size(), 0);
-    for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
-        gaps[face] = seen[face] == 0 && counts[patches.root(face)] <= kMaxFaces ? 1 : 0;
-    }
-    return gaps;
+    const auto unseen =
+        parallel_collect<std::uint32_t>(seen.size(), [&](std::size_t face, auto& faces) {
+            if (seen[face] == 0) faces.push_back(static_cast<std::uint32_t>(face));
+        });
+    const FaceNumbers gaps = small_patches(
+        mesh, unseen, [&](std::uint32_t face) { return edges.relative_size(face) <= max_edge; });
+    if (gaps.empty()) return gaps;
+    const double vast = vast_edge(edges, seen);
+    return small_patches(mesh, gaps,
+                         [&](std::uint32_t face) { return edges.longest_edge(face) <= vast; });
 }
 
 } // namespace
 
-TriMesh keep_supported(const TriMesh& mesh, const Scene& scene, const SupportOptions& options)
+TriMesh keep_supported(TriMesh mesh, const Scene& scene, const SupportOptions& options)
 {
     const FaceFlags seen = seen_faces(mesh, scene);
-    const std::vector<double> sizes = relative_sizes(mesh, seen);
-    const FaceFlags gaps = gap_faces(mesh, seen, sizes, options.max_gap_edge);
-    TriMesh result = mesh;
-    result.faces.clear();
-    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        const bool fits = options.max_edge == 0.0 || sizes[i] <= options.max_edge;
-        if ((seen[i] != 0 && fits) || gaps[i] != 0) {
-            result.faces.push_back(mesh.faces[i]);
-        }
+    const LocalEdges edges(mesh.positions, mesh.faces, seen);
+    FaceFlags keep = seen;
+    if (options.max_edge != 0.0) {
+        const std::vector<std::uint32_t> large = edges.large_faces(options.max_edge);
+        parallel_for(large.size(), [&](std::size_t i) {
+            if (!(edges.relative_size(large[i]) <= options.max_edge)) keep[large[i]] = 0;
+        });
     }
-    return result;
+    for (const std::uint32_t face : gap_faces(mesh, seen, edges, options.max_gap_edge)) {
+        keep[face] = 1;
+    }
+    mesh.faces = parallel_collect<Face>(keep.size(), [&](std::size_t face, auto& faces) {
+        if (keep[face] != 0) faces.push_back(mesh.faces[face]);
+    });
+    return mesh;
 }
 
 } // namespace vcarve

@@ -30,6 +30,6 @@ struct SupportOptions {
 /// much longer than those around. The rest (the shell behind walls and under floors, webs across
 /// free space) is dropped; vertices are kept. Needs TriMesh::points. Cost: O(faces + sights),
 /// mostly in parallel.
-TriMesh keep_supported(const TriMesh& mesh, const Scene& scene, const SupportOptions& options);
+TriMesh keep_supported(TriMesh mesh, const Scene& scene, const SupportOptions& options);
 
 } // namespace vcarve

@@ -1,7 +1,9 @@
 #include "surface/webs.h"
 
+#include "base/parallel.h"
 #include "surface/extract.h"
 #include "surface/face_evidence.h"
+#include "surface/local_edges.h"
 
 #include <Eigen/Geometry>
 
@@ -18,34 +20,41 @@ constexpr double kSmall = 2.0;  ///< relative size up to which a face tells how 
 constexpr double kBent = 0.8;   ///< cosine, about 37 degrees: a face so far off stands across
 constexpr double kBefore = 0.2; ///< cosine, about 11 degrees above the surface: a cell is before it
 
-/// Per point of the scene the sum of the normals of the small faces around it; zero where there
-/// are none.
-std::vector<Vector3d> normals_of_small_faces(const TriMesh& mesh, const std::vector<double>& sizes,
-                                             std::size_t num_points)
-{
-    std::vector<Vector3d> normals(num_points, Vector3d::Zero());
-    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        const Vector3d normal = face_normal(mesh, mesh.faces[i]);
-        if (sizes[i] < kSmall && normal.allFinite()) {
-            for (const std::uint32_t vertex : mesh.faces[i]) {
-                normals[mesh.points[vertex]] += normal;
-            }
+/// How the surface runs at points of the scene.
+class SurfaceNormals {
+  public:
+    SurfaceNormals(const std::vector<Vector3d>& positions, const std::vector<Face>& faces,
+                   const LocalEdges& edges)
+        : positions_(positions), faces_(faces), edges_(edges)
+    {
+    }
+
+    /// The mean normal of the small faces around a point; zero where there are none.
+    Vector3d at(Index point) const
+    {
+        Vector3d sum = Vector3d::Zero();
+        for (const std::uint32_t face : edges_.faces_at()[point]) {
+            const Vector3d normal = of(face);
+            if (edges_.relative_size(face) < kSmall && normal.allFinite()) sum += normal;
         }
+        return sum.normalized(); // leaves zero as it is
     }
-    for (Vector3d& normal : normals) {
-        normal.normalize(); // leaves zero as it is
-    }
-    return normals;
-}
+
+    Vector3d of(std::size_t face) const { return face_normal(positions_, faces_[face]); }
+
+  private:
+    const std::vector<Vector3d>& positions_;
+    const std::vector<Face>& faces_;
+    const LocalEdges& edges_;
+};
 
 /// Whether a face stands across the surface at the corners that know how it runs: at the middle of
 /// three, the better of two; one alone tells nothing.
-bool stands_across(const TriMesh& mesh, const Face& face, const std::vector<Vector3d>& normals)
+bool stands_across(const Face& face, const Vector3d& normal, const SurfaceNormals& normals)
 {
-    const Vector3d normal = face_normal(mesh, face);
     std::array<double, 3> cosines{};
-    std::transform(face.begin(), face.end(), cosines.begin(), [&](std::uint32_t vertex) {
-        const Vector3d& around = normals[mesh.points[vertex]];
+    std::transform(face.begin(), face.end(), cosines.begin(), [&](std::uint32_t point) {
+        const Vector3d around = normals.at(point);
         return around.isZero() ? 1.0 : normal.dot(around);
     });
     std::sort(cosines.begin(), cosines.end());
@@ -53,7 +62,7 @@ bool stands_across(const TriMesh& mesh, const Face& face, const std::vector<Vect
 }
 
 /// Whether a cell lies before the surface at one of its corners.
-bool lies_before(const TetMesh& mesh, const Cell& cell, const std::vector<Vector3d>& normals)
+bool lies_before(const TetMesh& mesh, const Cell& cell, const SurfaceNormals& normals)
 {
     Vector3d middle = Vector3d::Zero();
     for (const Index vertex : cell.vertices) {
@@ -61,7 +70,7 @@ bool lies_before(const TetMesh& mesh, const Cell& cell, const std::vector<Vector
     }
     return std::any_of(cell.vertices.begin(), cell.vertices.end(), [&](Index vertex) {
         const Vector3d direction = (middle - mesh.positions[vertex]).normalized();
-        return direction.dot(normals[vertex]) >= kBefore;
+        return direction.dot(normals.at(vertex)) >= kBefore;
     });
 }
 
@@ -73,21 +82,23 @@ std::vector<Index> cells_behind_webs(const TetMesh& cells, const Labels& labels,
     if (options.web_edge == 0.0) {
         return {};
     }
-    const TriMesh mesh = extract_surface(cells, labels, scene);
-    const FaceFlags seen = seen_faces(mesh, scene);
-    const std::vector<double> sizes = relative_sizes(mesh, FaceFlags(mesh.faces.size(), 1));
-    const std::vector<Vector3d> normals =
-        normals_of_small_faces(mesh, sizes, cells.positions.size());
-    const std::vector<Index> behind = cells_behind(cells, labels);
-    std::vector<Index> doubted;
-    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        if (seen[i] != 0 && sizes[i] >= options.web_edge &&
-            stands_across(mesh, mesh.faces[i], normals) &&
-            lies_before(cells, cells.cells[behind[i]], normals)) {
-            doubted.push_back(behind[i]);
+    // Few faces are large, so that everything but their size is cheap.
+    const std::vector<BoundaryFacet> facets = boundary_facets(cells, labels);
+    const std::vector<Face> faces = boundary_faces(cells, facets);
+    const LocalEdges edges(cells.positions, faces);
+    const SurfaceNormals normals(cells.positions, faces, edges);
+    const std::vector<std::uint32_t> large = edges.large_faces(options.web_edge);
+    const auto doubt = [&](std::size_t i, std::vector<Index>& doubted) {
+        const std::uint32_t face = large[i];
+        const Index behind = facets[face].cell;
+        const Vector3d normal = normals.of(face);
+        if (edges.relative_size(face) >= options.web_edge && is_seen(scene, faces[face], normal) &&
+            stands_across(faces[face], normal, normals) &&
+            lies_before(cells, cells.cells[behind], normals)) {
+            doubted.push_back(behind);
         }
-    }
-    return doubted;
+    };
+    return parallel_collect<Index>(large.size(), doubt, 64);
 }
 
 } // namespace vcarve

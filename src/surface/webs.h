@@ -28,7 +28,8 @@ struct WebOptions {
 /// plain sight, and yet no point was found on it: its longest edge is `web_edge` times the median
 /// around. It does not go on with the surface: its normal leaves those of the small faces around
 /// two of its corners. And the cell behind it lies before the surface at one of its own corners,
-/// where no solid is expected. A cell is listed once for each such face. Cost: O(faces + sights).
+/// where no solid is expected. A cell is listed once for each such face. Cost: O(cells), mostly in
+/// parallel.
 std::vector<Index> cells_behind_webs(const TetMesh& cells, const Labels& labels, const Scene& scene,
                                      const WebOptions& options);
 

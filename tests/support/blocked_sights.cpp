@@ -1,6 +1,7 @@
 #include "support/blocked_sights.h"
 
 #include "base/predicates.h"
+#include "surface/local_edges.h"
 #include "surface/sight_guard.h"
 
 #include <algorithm>

@@ -1,0 +1,148 @@
+#include "base/parallel.h"
+#include "surface/local_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Soup {
+    std::vector<Vector3d> positions;
+    std::vector<Face> faces;
+};
+
+/// Faces over random points, lengths from 1 to 1000, so that some are much larger than others.
+Soup random_soup(std::uint32_t seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Soup soup;
+    for (int i = 0; i < 60; ++i) { // the last ten are of no face
+        const double scale = std::pow(10.0, 3.0 * unit(random));
+        soup.positions.emplace_back(scale * unit(random), scale * unit(random), unit(random));
+    }
+    while (soup.faces.size() < 150) {
+        Face face{};
+        std::ranges::generate(face, [&] { return static_cast<std::uint32_t>(random() % 50); });
+        if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) {
+            soup.faces.push_back(face);
+        }
+    }
+    return soup;
+}
+
+double side(const Soup& soup, std::size_t face, std::size_t i)
+{
+    const Face& corners = soup.faces[face];
+    return (soup.positions[corners[i]] - soup.positions[corners[(i + 1) % 3]]).norm();
+}
+
+double longest(const Soup& soup, std::size_t face)
+{
+    return std::max({side(soup, face, 0), side(soup, face, 1), side(soup, face, 2)});
+}
+
+/// By the words of the header.
+double median_by_sorting(const Soup& soup, const FaceFlags& measured, std::uint32_t vertex)
+{
+    std::vector<double> lengths;
+    for (std::size_t face = 0; face < soup.faces.size(); ++face) {
+        if (measured[face] == 0 || std::ranges::count(soup.faces[face], vertex) == 0) continue;
+        lengths.insert(lengths.end(),
+                       {side(soup, face, 0), side(soup, face, 1), side(soup, face, 2)});
+    }
+    std::ranges::sort(lengths);
+    return lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
+}
+
+TEST(LocalEdges, AreTheMediansOfWhatIsMeasuredAroundAVertex)
+{
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+        const Soup soup = random_soup(seed);
+        FaceFlags measured(soup.faces.size());
+        for (std::size_t face = 0; face < measured.size(); ++face) {
+            measured[face] = face % 3 != seed % 3 ? 1 : 0;
+        }
+        const LocalEdges edges(soup.positions, soup.faces, measured);
+        for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
+            EXPECT_EQ(edges.median(v), median_by_sorting(soup, measured, v));
+            EXPECT_EQ(edges.median(v), edges.median(v)) << "asked again";
+        }
+    }
+}
+
+TEST(LocalEdges, FindEveryLargeFaceAndNotAllOthers)
+{
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+        const Soup soup = random_soup(seed);
+        const FaceFlags all(soup.faces.size(), 1);
+        const LocalEdges edges(soup.positions, soup.faces);
+        for (const double size : {0.5, 1.5, 3.0, 8.0}) {
+            const std::vector<std::uint32_t> found = edges.large_faces(size);
+            EXPECT_TRUE(std::ranges::is_sorted(found));
+            for (std::uint32_t face = 0; face < soup.faces.size(); ++face) {
+                std::array<double, 3> scales{};
+                std::ranges::transform(soup.faces[face], scales.begin(), [&](std::uint32_t v) {
+                    return median_by_sorting(soup, all, v);
+                });
+                std::ranges::sort(scales);
+                const double expected = longest(soup, face) / scales[1];
+                EXPECT_EQ(edges.relative_size(face), expected);
+                if (expected < size) continue;
+                EXPECT_TRUE(std::ranges::binary_search(found, face)) << expected << " >= " << size;
+            }
+        }
+        EXPECT_TRUE(edges.large_faces(1e6).empty());
+    }
+}
+
+TEST(LocalEdges, OfOneFaceTakeItsMiddleEdge)
+{
+    const Soup soup = {{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {9, 9, 9}}, {{0, 1, 2}}};
+    const LocalEdges edges(soup.positions, soup.faces);
+    EXPECT_EQ(edges.median(0), 4.0);
+    EXPECT_EQ(edges.median(3), 0.0);
+    EXPECT_EQ(edges.longest_edge(0), 5.0);
+    EXPECT_EQ(edges.relative_size(0), 1.25);
+    EXPECT_EQ(edges.large_faces(1.25), std::vector<std::uint32_t>{0});
+    EXPECT_TRUE(edges.large_faces(1.26).empty());
+}
+
+TEST(VertexFaces, AreAscendingAndOnlyThoseWithAFlag)
+{
+    const std::vector<Face> faces = {{2, 0, 1}, {0, 2, 3}, {3, 2, 1}};
+    const auto row = [](const VertexFaces& at, std::size_t vertex) {
+        return std::vector<std::uint32_t>(at[vertex].begin(), at[vertex].end());
+    };
+    const VertexFaces all(faces, 5);
+    EXPECT_EQ(row(all, 0), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(row(all, 2), (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_TRUE(row(all, 4).empty());
+    const VertexFaces some(faces, 5, {1, 0, 1});
+    EXPECT_EQ(row(some, 0), (std::vector<std::uint32_t>{0}));
+    EXPECT_EQ(row(some, 3), (std::vector<std::uint32_t>{2}));
+}
+
+TEST(ParallelCollect, KeepsTheOrder)
+{
+    const auto twice_the_odd = [](std::size_t i, std::vector<std::size_t>& items) {
+        if (i % 2 == 1) items.insert(items.end(), {i, i});
+    };
+    std::vector<std::size_t> expected;
+    for (std::size_t i = 0; i < 1000; ++i) {
+        twice_the_odd(i, expected);
+    }
+    for (const std::size_t grain : {1, 7, 1000, 5000}) {
+        EXPECT_EQ(parallel_collect<std::size_t>(1000, twice_the_odd, grain), expected);
+    }
+    EXPECT_TRUE(parallel_collect<std::size_t>(0, twice_the_odd).empty());
+}
+
+} // namespace
+} // namespace vcarve
