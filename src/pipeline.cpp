@@ -181,10 +181,10 @@ TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
     return surface;
 }
 
-TriMesh clean(const TriMesh& mesh, const Options& options, Log& log)
+TriMesh clean(TriMesh mesh, const Options& options, Log& log)
 {
     Stage stage(log, "clean");
-    CleanSurface cleaned = clean_surface(mesh, options.cleanup);
+    CleanSurface cleaned = clean_surface(std::move(mesh), options.cleanup);
     stage.end({{"vertices", size_of(cleaned.mesh.positions.size())},
                {"faces", size_of(cleaned.mesh.faces.size())},
                {"split edges", cleaned.counts.split_edges},
@@ -250,9 +250,9 @@ Reconstruction run_passes(Scene input, const Options& options, Log& log)
     Scene scene = filter(center_points(std::move(input)), options, log);
     const TetMesh cells = triangulate(scene, log);
     const Labels labels = label_cells(cells, scene, options, log);
-    const TriMesh surface = extract(cells, labels, scene, options, log);
-    const TriMesh cleaned = clean(surface, options, log);
-    TriMesh mesh = refine(cleaned, scene, options, log);
+    TriMesh surface = extract(cells, labels, scene, options, log);
+    TriMesh cleaned = clean(std::move(surface), options, log);
+    TriMesh mesh = refine(std::move(cleaned), scene, options, log);
     check_orientation(mesh, scene, log);
     return {std::move(scene), std::move(mesh)};
 }

@@ -45,6 +45,7 @@ struct CleanSurface {
 /// along, and every vertex gets the area-weighted mean of its faces' normals (zero where none of
 /// them has an area). What this does not do: move a vertex, turn a face round, join pieces, or
 /// remove self-intersections.
-CleanSurface clean_surface(const TriMesh& mesh, const CleanupOptions& options);
+/// Cost: O(faces), mostly in parallel.
+CleanSurface clean_surface(TriMesh mesh, const CleanupOptions& options);
 
 } // namespace vcarve

@@ -2,28 +2,9 @@
 
 #include "base/index_limit.h"
 #include "base/parallel.h"
-
-#include <atomic>
+#include "surface/used_vertices.h"
 
 namespace vcarve {
-
-namespace {
-
-/// The vertices that faces use, in ascending order.
-std::vector<std::uint32_t> used_vertices(const std::vector<Face>& faces, std::size_t num_vertices)
-{
-    std::vector<char> used(num_vertices, 0);
-    parallel_for(faces.size(), [&](std::size_t i) {
-        for (const std::uint32_t vertex : faces[i]) {
-            std::atomic_ref(used[vertex]).store(1, std::memory_order_relaxed);
-        }
-    });
-    return parallel_collect<std::uint32_t>(num_vertices, [&](std::size_t vertex, auto& vertices) {
-        if (used[vertex] != 0) vertices.push_back(static_cast<std::uint32_t>(vertex));
-    });
-}
-
-} // namespace
 
 std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& labels)
 {
@@ -59,18 +40,11 @@ TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene&
     mesh.points = used_vertices(mesh.faces, cells.positions.size());
     mesh.positions.resize(mesh.points.size());
     mesh.colors.resize(mesh.points.size());
-    std::vector<std::uint32_t> numbers(cells.positions.size());
     parallel_for(mesh.points.size(), [&](std::size_t vertex) {
-        const std::uint32_t point = mesh.points[vertex];
-        mesh.positions[vertex] = cells.positions[point];
-        mesh.colors[vertex] = scene.colors[point];
-        numbers[point] = static_cast<std::uint32_t>(vertex);
+        mesh.positions[vertex] = cells.positions[mesh.points[vertex]];
+        mesh.colors[vertex] = scene.colors[mesh.points[vertex]];
     });
-    parallel_for(mesh.faces.size(), [&](std::size_t i) {
-        for (std::uint32_t& vertex : mesh.faces[i]) {
-            vertex = numbers[vertex];
-        }
-    });
+    renumber(mesh.faces, mesh.points, cells.positions.size());
     return mesh;
 }
 

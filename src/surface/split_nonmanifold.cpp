@@ -1,8 +1,8 @@
 #include "surface/split_nonmanifold.h"
 
+#include "base/parallel.h"
 #include "base/predicates.h"
-#include "surface/edge_table.h"
-#include "surface/union_find.h"
+#include "surface/fans.h"
 
 #include <Eigen/Geometry>
 
@@ -113,19 +113,23 @@ Crowd sew_edges(SewnSoup& soup)
 {
     const std::span<const Face> faces(soup.mesh.faces);
     const EdgeTable edges = gather_edges(faces, soup.mesh.positions.size());
+    const auto crowded =
+        parallel_collect<std::uint32_t>(edges.size(), [&](std::size_t e, auto& found) {
+            const std::span<const Side> sides = edges[e];
+            if (sides.size() == 2 && tail(faces, sides[0]) != tail(faces, sides[1])) {
+                soup.sew(sides[0], sides[1]);
+            } else if (sides.size() > 1) {
+                found.push_back(static_cast<std::uint32_t>(e));
+            }
+        });
+
     Crowd crowd;
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-        const std::span<const Side> sides = edges[e];
-        if (sides.size() == 1) continue;
-        if (sides.size() == 2 && tail(faces, sides[0]) != tail(faces, sides[1])) {
-            soup.sew(sides[0], sides[1]);
-            continue;
-        }
-        if (sides.size() > 2) {
+    for (const std::uint32_t e : crowded) {
+        if (edges[e].size() > 2) {
             ++crowd.num_edges;
-            sew_sectors(sides, soup);
+            sew_sectors(edges[e], soup);
         }
-        for (const Side side : sides) {
+        for (const Side side : edges[e]) {
             crowd.faces.push_back(side / 3);
         }
     }
@@ -142,37 +146,41 @@ std::uint32_t add_copy(TriMesh& mesh, std::uint32_t original)
     return copy;
 }
 
-/// Gives each set of corners that hang together through seams a vertex of its own; the set of the
+/// The corners of vertices whose corners do not all hang together through seams, ascending.
+std::vector<Side> corners_to_separate(const SewnSoup& soup)
+{
+    const std::span<const Face> faces(soup.mesh.faces);
+    const VertexCorners corners(faces, soup.mesh.positions.size());
+    std::vector<char> separate(soup.mesh.positions.size(), 0);
+    parallel_for(separate.size(), [&](std::size_t v) {
+        std::uint32_t count = 0;
+        for_each_corner_of_fan(soup.mates, corners.last(v), [&](Side) { ++count; });
+        separate[v] = count < corners.count(v) ? 1 : 0;
+    });
+    return parallel_collect<Side>(3 * faces.size(), [&](std::size_t corner, auto& found) {
+        const Side side = static_cast<Side>(corner);
+        if (separate[tail(faces, side)] != 0) found.push_back(side);
+    });
+}
+
+/// Gives each fan of corners that hang together through seams a vertex of its own; the fan of the
 /// first corner keeps the old one. Returns how many vertices came apart.
 std::int64_t separate_vertices(SewnSoup& soup)
 {
     std::vector<Face>& faces = soup.mesh.faces;
-    UnionFind sets(3 * faces.size());
-    for (Side side = 0; side < soup.mates.size(); ++side) {
-        const Side mate = soup.mates[side];
-        if (mate == kNoSide || mate < side) continue;
-        sets.join(side, next_side(mate));
-        sets.join(next_side(side), mate);
+    std::set<std::uint32_t> split; // few
+    std::set<Side> done;
+    for (const Side corner : corners_to_separate(soup)) {
+        if (done.contains(corner)) continue;
+        const std::uint32_t original = tail(faces, corner);
+        const bool keeps = split.insert(original).second;
+        const std::uint32_t vertex = keeps ? original : add_copy(soup.mesh, original);
+        for_each_corner_of_fan(soup.mates, corner, [&](Side other) {
+            done.insert(other);
+            faces[other / 3][other % 3] = vertex;
+        });
     }
-
-    enum : char { unused, whole, split };
-    std::vector<char> states(soup.mesh.positions.size(), unused);
-    std::int64_t num_split = 0;
-    for (Side corner = 0; corner < 3 * faces.size(); ++corner) {
-        // A root is the least corner of its set, so it has its vertex already.
-        std::uint32_t& vertex = faces[corner / 3][corner % 3];
-        const Side root = sets.root(corner);
-        if (root != corner) {
-            vertex = tail(faces, root);
-        } else if (states[vertex] == unused) {
-            states[vertex] = whole;
-        } else {
-            if (states[vertex] == whole) ++num_split;
-            states[vertex] = split;
-            vertex = add_copy(soup.mesh, vertex);
-        }
-    }
-    return num_split;
+    return static_cast<std::int64_t>(split.size());
 }
 
 std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b)
@@ -285,9 +293,9 @@ void separate_seams(SewnSoup& soup, const std::vector<std::uint32_t>& crowd)
 
 } // namespace
 
-ManifoldSurface split_nonmanifold(const TriMesh& mesh)
+ManifoldSurface split_nonmanifold(TriMesh mesh)
 {
-    SewnSoup soup{.mesh = mesh, .mates = {}};
+    SewnSoup soup{.mesh = std::move(mesh), .mates = {}};
     soup.mesh.normals.clear();
     std::erase_if(soup.mesh.faces, is_degenerate);
     soup.mates.resize(3 * soup.mesh.faces.size(), kNoSide);
@@ -295,7 +303,7 @@ ManifoldSurface split_nonmanifold(const TriMesh& mesh)
     const Crowd crowd = sew_edges(soup);
     const std::int64_t split_vertices = separate_vertices(soup);
     separate_seams(soup, crowd.faces);
-    return {std::move(soup.mesh), crowd.num_edges, split_vertices};
+    return {std::move(soup.mesh), std::move(soup.mates), crowd.num_edges, split_vertices};
 }
 
 } // namespace vcarve

@@ -1,13 +1,16 @@
 #pragma once
 
 #include "model/tri_mesh.h"
+#include "surface/edge_table.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace vcarve {
 
 struct ManifoldSurface {
     TriMesh mesh;
+    std::vector<Side> mates;         ///< per side the one it shares an edge with, or kNoSide
     std::int64_t split_edges = 0;    ///< edges that had three or more faces
     std::int64_t split_vertices = 0; ///< vertices that became several
 };
@@ -22,7 +25,8 @@ struct ManifoldSurface {
 /// after the split, all but one of them get a vertex of their own in the middle of it; this is the
 /// only case that adds faces. Degenerate faces (a vertex twice) are dropped. Vertices keep their
 /// numbers, copies follow; a copy keeps colour and point, a midpoint has the mean colour and no
-/// point. Normals are dropped. Cost: O(faces log(faces of a vertex)).
-ManifoldSurface split_nonmanifold(const TriMesh& mesh);
+/// point. Normals are dropped. Cost: O(faces log(faces of a vertex)),
+/// mostly in parallel.
+ManifoldSurface split_nonmanifold(TriMesh mesh);
 
 } // namespace vcarve
