@@ -1,10 +1,13 @@
 #include "support/tetra_grid.h"
 #include "surface/check.h"
 #include "surface/cleanup.h"
+#include "surface/fill_holes.h"
+#include "surface/split_nonmanifold.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace vcarve {
 namespace {
@@ -247,6 +250,45 @@ TEST(CleanSurface, ScalesWithTheSurface)
     EXPECT_EQ(clean.mesh.faces, expected.mesh.faces);
     EXPECT_EQ(clean.mesh.normals, expected.mesh.normals);
     EXPECT_EQ(clean.mesh.positions[5], expected.mesh.positions[5] * std::pow(2.0, 20));
+}
+
+/// By half-edges of the whole surface rather than along its borders.
+TriMesh filled_by_half_edges(const TriMesh& mesh, std::size_t max_edges)
+{
+    HalfEdgeMesh half_edges = half_edge_mesh(split_nonmanifold(mesh).mesh);
+    for (const BoundaryLoop& loop : boundary_loops(half_edges)) {
+        const bool fills = loop.size() <= max_edges && !is_rim(half_edges, loop) &&
+                           !touches_itself(half_edges, loop);
+        if (fills) fill_hole(half_edges, loop);
+    }
+    return kept_surface(half_edges, std::vector<char>(half_edges.n_faces(), 1), mesh);
+}
+
+TEST(CleanSurface, IsAsIfTheWholeSurfaceWereHalfEdges)
+{
+    const TetraGrid grid = tetra_grid(5);
+    std::int64_t num_filled = 0;
+    std::mt19937 random(25);
+    for (int round = 0; round < 10; ++round) {
+        TriMesh mesh = boundary_of(grid, random_labels(grid.cells.size(), 0.1 * round, random));
+        std::erase_if(mesh.faces, [&](const Face&) { return random() % 20 == 0; });
+        mesh.colors.resize(mesh.positions.size());
+        mesh.points.resize(mesh.positions.size());
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            mesh.colors[v] = {static_cast<std::uint8_t>(v), 7, 200};
+            mesh.points[v] = static_cast<std::uint32_t>(1000 + v);
+        }
+        const CleanSurface clean =
+            clean_surface(mesh, {.min_component_faces = 0, .max_hole_edges = 12});
+        const TriMesh expected = filled_by_half_edges(mesh, 12);
+        EXPECT_EQ(clean.mesh.faces, expected.faces);
+        EXPECT_EQ(clean.mesh.positions, expected.positions);
+        EXPECT_EQ(clean.mesh.normals, expected.normals) << "to the last digit";
+        EXPECT_EQ(clean.mesh.colors, expected.colors);
+        EXPECT_EQ(clean.mesh.points, expected.points);
+        num_filled += clean.counts.filled_holes;
+    }
+    EXPECT_GT(num_filled, 100);
 }
 
 } // namespace

@@ -45,6 +45,21 @@ TriMesh two_wedges()
     return mesh;
 }
 
+/// Sides are sewn in pairs of opposite directions, but at borders.
+void expect_mates(const ManifoldSurface& split)
+{
+    const std::vector<Face>& faces = split.mesh.faces;
+    ASSERT_EQ(split.mates.size(), 3 * faces.size());
+    for (Side side = 0; side < split.mates.size(); ++side) {
+        const Side mate = split.mates[side];
+        if (mate == kNoSide) continue;
+        ASSERT_EQ(split.mates[mate], side);
+        ASSERT_EQ(tail(faces, mate), head(faces, side));
+        ASSERT_EQ(head(faces, mate), tail(faces, side));
+    }
+    ASSERT_EQ(std::ranges::count(split.mates, kNoSide), check_mesh(split.mesh).boundary_edges);
+}
+
 TEST(SplitNonmanifold, LeavesAManifoldSurfaceAsItIs)
 {
     const TetraGrid grid = tetra_grid(1);
@@ -240,6 +255,7 @@ TEST(SplitNonmanifold, MakesAnySoupManifold)
         }
         const ManifoldSurface split = split_nonmanifold(mesh);
         ASSERT_NO_FATAL_FAILURE(expect_sound(split.mesh)) << "round " << round;
+        ASSERT_NO_FATAL_FAILURE(expect_mates(split)) << "round " << round;
     }
 }
 

@@ -17,25 +17,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The pieces of a surface: how many faces each has, counted at its first face, and 0 elsewhere.
-struct Pieces {
-    UnionFind of_faces;
-    std::vector<std::uint32_t> sizes;
-};
-
-Pieces find_pieces(const std::vector<Side>& mates)
+/// The first face of each face's piece.
+std::vector<std::uint32_t> find_pieces(const std::vector<Side>& mates)
 {
-    Pieces pieces{.of_faces = UnionFind(mates.size() / 3),
-                  .sizes = std::vector<std::uint32_t>(mates.size() / 3, 0)};
-    for (Side side = 0; side < mates.size(); ++side) {
-        if (mates[side] != kNoSide && side < mates[side]) {
-            pieces.of_faces.join(side / 3, mates[side] / 3);
-        }
-    }
-    for (std::uint32_t face = 0; face < pieces.sizes.size(); ++face) {
-        ++pieces.sizes[pieces.of_faces.root(face)];
-    }
-    return pieces;
+    UnionFind pieces(mates.size() / 3);
+    parallel_for(mates.size(), [&](std::size_t side) {
+        const Side mate = mates[side];
+        if (mate != kNoSide && side < mate) pieces.join(static_cast<Side>(side) / 3, mate / 3);
+    });
+    std::vector<std::uint32_t> firsts(mates.size() / 3);
+    parallel_for(firsts.size(), [&](std::size_t face) {
+        firsts[face] = pieces.root(static_cast<std::uint32_t>(face));
+    });
+    return firsts;
 }
 
 struct Selection {
@@ -47,14 +41,20 @@ struct Selection {
 /// case.
 Selection select_pieces(const std::vector<Side>& mates, int min_faces)
 {
-    Pieces pieces = find_pieces(mates);
-    const auto largest = std::ranges::max_element(pieces.sizes) - pieces.sizes.begin();
-    Selection keep{.faces = std::vector<char>(pieces.sizes.size())};
-    for (std::uint32_t face = 0; face < keep.faces.size(); ++face) {
-        const std::uint32_t first = pieces.of_faces.root(face);
-        const bool keeps = first == largest || std::int64_t{pieces.sizes[first]} >= min_faces;
-        keep.faces[face] = keeps ? 1 : 0;
-        if (first == face && !keeps) ++keep.num_removed_pieces;
+    const std::vector<std::uint32_t> firsts = find_pieces(mates);
+    std::vector<std::uint32_t> sizes(firsts.size(), 0); // of pieces, at their first faces
+    for (const std::uint32_t first : firsts) {
+        ++sizes[first];
+    }
+    const auto largest = std::ranges::max_element(sizes) - sizes.begin();
+    const auto keeps = [&](std::uint32_t first) {
+        return first == largest || std::int64_t{sizes[first]} >= min_faces;
+    };
+    Selection keep{.faces = std::vector<char>(firsts.size())};
+    parallel_for(firsts.size(),
+                 [&](std::size_t face) { keep.faces[face] = keeps(firsts[face]) ? 1 : 0; });
+    for (std::uint32_t face = 0; face < sizes.size(); ++face) {
+        if (sizes[face] != 0 && !keeps(face)) ++keep.num_removed_pieces;
     }
     return keep;
 }
@@ -68,29 +68,31 @@ Vector3d twice_area(const TriMesh& mesh, Side corner)
     return (next - here).cross(previous - here);
 }
 
-/// The normal of a vertex whose last corner this is, as vertex_normal() of a half-edge mesh has it
-/// to the last digit, so that it does not depend on what is next to a border; zero on a border.
-Vector3d normal_within(const ManifoldSurface& surface, Side last)
+/// The normal of a vertex with this corner, off the borders as vertex_normal() of a half-edge
+/// mesh has it, to the last digit: what else there is in the surface does not matter.
+Vector3d normal_of_fan(const ManifoldSurface& surface, Side corner)
 {
+    Side last = corner; // where OpenMesh begins
+    for_each_corner_of_fan(surface.mates, corner,
+                           [&](Side other) { last = std::max(last, other); });
+
     Vector3d sum = Vector3d::Zero();
-    Side corner = last;
-    do {
-        corner = next_corner(surface.mates, corner);
-        if (corner == kNoSide) return Vector3d::Zero();
-        sum += twice_area(surface.mesh, corner);
-    } while (corner != last);
+    for_each_corner_of_fan(surface.mates, last,
+                           [&](Side other) { sum += twice_area(surface.mesh, other); });
     const double norm_sq = sum.x() * sum.x() + sum.y() * sum.y() + sum.z() * sum.z();
     return norm_sq > 0.0 ? Vector3d(sum / std::sqrt(norm_sq)) : sum;
 }
 
-/// The normals of vertices off the borders, zero for others.
-std::vector<Eigen::Vector3f> normals_within(const ManifoldSurface& surface)
+/// The normals of all vertices, on borders without what fills their holes; zero where none has an
+/// area.
+std::vector<Eigen::Vector3f> normals_of_fans(const ManifoldSurface& surface)
 {
-    const VertexCorners corners(surface.mesh.faces, surface.mesh.positions.size());
-    std::vector<Eigen::Vector3f> normals(surface.mesh.positions.size(), Eigen::Vector3f::Zero());
+    const std::vector<Side> corners =
+        corners_of_vertices(surface.mesh.faces, surface.mesh.positions.size());
+    std::vector<Eigen::Vector3f> normals(corners.size(), Eigen::Vector3f::Zero());
     parallel_for(normals.size(), [&](std::size_t vertex) {
-        if (corners.count(vertex) == 0) return;
-        normals[vertex] = normal_within(surface, corners.last(vertex)).cast<float>();
+        if (corners[vertex] == kNoSide) return;
+        normals[vertex] = normal_of_fan(surface, corners[vertex]).cast<float>();
     });
     return normals;
 }
@@ -135,7 +137,7 @@ CleanSurface clean_surface(TriMesh mesh, const CleanupOptions& options)
     result.counts.removed_components = keep.num_removed_pieces;
     result.counts.filled_holes = collar.fill_holes(options.max_hole_edges);
 
-    manifold.mesh.normals = normals_within(manifold);
+    manifold.mesh.normals = normals_of_fans(manifold);
     collar.add_to(manifold.mesh);
     const std::size_t num_vertices = manifold.mesh.positions.size();
     result.mesh = kept_part(std::move(manifold.mesh), keep.faces);

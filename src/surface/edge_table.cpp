@@ -8,11 +8,6 @@
 namespace vcarve {
 namespace {
 
-std::uint32_t lower_end(std::span<const Face> faces, Side side)
-{
-    return std::min(tail(faces, side), head(faces, side));
-}
-
 std::uint32_t higher_end(std::span<const Face> faces, Side side)
 {
     return std::max(tail(faces, side), head(faces, side));
@@ -32,8 +27,9 @@ void for_each_side(std::span<const Face> faces, const Visit& visit)
     }
 }
 
-/// Sorts the sides with one lower end by the higher one, then by number.
-void sort_sides(std::span<const Face> faces, std::span<Side> sides,
+/// Sorts the sides with one lower end by the higher one, then by number, and flags the first of
+/// each edge.
+void sort_sides(std::span<const Face> faces, std::span<Side> sides, std::span<char> begins_edge,
                 std::vector<std::uint64_t>& keys)
 {
     keys.clear();
@@ -41,8 +37,10 @@ void sort_sides(std::span<const Face> faces, std::span<Side> sides,
         keys.push_back((std::uint64_t{higher_end(faces, side)} << 32U) | side);
     }
     std::ranges::sort(keys);
-    std::ranges::transform(keys, sides.begin(),
-                           [](std::uint64_t key) { return static_cast<Side>(key); });
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        sides[i] = static_cast<Side>(keys[i]);
+        begins_edge[i] = i == 0 || (keys[i - 1] >> 32U) != (keys[i] >> 32U) ? 1 : 0;
+    }
 }
 
 } // namespace
@@ -59,25 +57,21 @@ EdgeTable gather_edges(std::span<const Face> faces, std::size_t num_vertices)
                   [&](std::uint32_t lower, Side side) { edges.sides[ends[lower]++] = side; });
 
     // ends[v] is now where the sides of v end. Each vertex sorts its few sides by the higher end.
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, num_vertices, 1024), [&](const auto& vertices) {
-            std::vector<std::uint64_t> keys;
-            for (std::size_t v = vertices.begin(); v != vertices.end(); ++v) {
-                const std::uint32_t begin = v == 0 ? 0 : ends[v - 1];
-                sort_sides(faces, std::span(edges.sides).subspan(begin, ends[v] - begin), keys);
-            }
-        });
-
-    // An edge begins where either end changes.
-    const auto same_edge = [&](Side a, Side b) {
-        return lower_end(faces, a) == lower_end(faces, b) &&
-               higher_end(faces, a) == higher_end(faces, b);
-    };
+    std::vector<char> begins_edge(edges.sides.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, num_vertices, 1024),
+                      [&](const auto& vertices) {
+                          std::vector<std::uint64_t> keys;
+                          for (std::size_t v = vertices.begin(); v != vertices.end(); ++v) {
+                              const std::size_t begin = v == 0 ? 0 : ends[v - 1];
+                              const std::size_t count = ends[v] - begin;
+                              if (count == 0) continue;
+                              sort_sides(faces, std::span(edges.sides).subspan(begin, count),
+                                         std::span(begins_edge).subspan(begin, count), keys);
+                          }
+                      });
     edges.begins =
-        parallel_collect<std::uint32_t>(edges.sides.size(), [&](std::size_t i, auto& begins) {
-            if (i == 0 || !same_edge(edges.sides[i - 1], edges.sides[i])) {
-                begins.push_back(static_cast<std::uint32_t>(i));
-            }
+        parallel_collect<std::uint32_t>(begins_edge.size(), [&](std::size_t i, auto& begins) {
+            if (begins_edge[i] != 0) begins.push_back(static_cast<std::uint32_t>(i));
         });
     edges.begins.push_back(static_cast<std::uint32_t>(edges.sides.size()));
     return edges;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "base/parallel.h"
 #include "surface/edge_table.h"
 
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -36,29 +38,18 @@ void for_each_corner_of_fan(std::span<const Side> mates, Side first, const Visit
     }
 }
 
-/// How many corners there are at each vertex, and which one is the last.
-class VertexCorners {
-  public:
-    VertexCorners(std::span<const Face> faces, std::size_t num_vertices) : entries_(num_vertices)
-    {
-        for (std::size_t face = 0; face < faces.size(); ++face) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                Entry& entry = entries_[faces[face][i]];
-                entry.last = static_cast<Side>(3 * face + i);
-                ++entry.count;
-            }
+/// Any corner of each vertex, not the same one every time; kNoSide where it has none. Cost:
+/// O(faces), in parallel.
+inline std::vector<Side> corners_of_vertices(std::span<const Face> faces, std::size_t num_vertices)
+{
+    std::vector<Side> corners(num_vertices, kNoSide);
+    parallel_for(faces.size(), [&](std::size_t face) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            std::atomic_ref(corners[faces[face][i]])
+                .store(static_cast<Side>(3 * face + i), std::memory_order_relaxed);
         }
-    }
-
-    Side last(std::size_t vertex) const { return entries_[vertex].last; } ///< or kNoSide
-    std::uint32_t count(std::size_t vertex) const { return entries_[vertex].count; }
-
-  private:
-    struct Entry {
-        Side last = kNoSide;
-        std::uint32_t count = 0;
-    };
-    std::vector<Entry> entries_;
-};
+    });
+    return corners;
+}
 
 } // namespace vcarve

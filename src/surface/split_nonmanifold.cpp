@@ -150,16 +150,19 @@ std::uint32_t add_copy(TriMesh& mesh, std::uint32_t original)
 std::vector<Side> corners_to_separate(const SewnSoup& soup)
 {
     const std::span<const Face> faces(soup.mesh.faces);
-    const VertexCorners corners(faces, soup.mesh.positions.size());
-    std::vector<char> separate(soup.mesh.positions.size(), 0);
-    parallel_for(separate.size(), [&](std::size_t v) {
-        std::uint32_t count = 0;
-        for_each_corner_of_fan(soup.mates, corners.last(v), [&](Side) { ++count; });
-        separate[v] = count < corners.count(v) ? 1 : 0;
+    const std::vector<Side> starts = corners_of_vertices(faces, soup.mesh.positions.size());
+    std::vector<char> reached(3 * faces.size(), 0);
+    parallel_for(starts.size(), [&](std::size_t v) {
+        for_each_corner_of_fan(soup.mates, starts[v], [&](Side corner) { reached[corner] = 1; });
     });
-    return parallel_collect<Side>(3 * faces.size(), [&](std::size_t corner, auto& found) {
-        const Side side = static_cast<Side>(corner);
-        if (separate[tail(faces, side)] != 0) found.push_back(side);
+    std::vector<char> separate(starts.size(), 0);
+    for (std::size_t corner = 0; corner < reached.size(); ++corner) {
+        if (reached[corner] == 0) separate[tail(faces, static_cast<Side>(corner))] = 1;
+    }
+    return parallel_collect<Side>(faces.size(), [&](std::size_t face, auto& found) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (separate[faces[face][i]] != 0) found.push_back(static_cast<Side>(3 * face + i));
+        }
     });
 }
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace vcarve {
@@ -50,15 +49,21 @@ FaceNumbers small_patches(const TriMesh& mesh, const FaceNumbers& some, const Is
 }
 
 /// From which edge on a face is large beside all that were seen: unseen ones among them are guesses
-/// of a size nobody can overlook, however sparse the points around.
-double vast_edge(const LocalEdges& edges, const FaceFlags& seen)
+/// of a size nobody can overlook, however sparse the points around. No more than `most` is told
+/// exactly.
+double vast_edge(const LocalEdges& edges, const FaceFlags& seen, double most)
 {
     constexpr double kVast = 8.0; ///< x the median longest edge of seen faces
-    auto of_seen = parallel_collect<double>(seen.size(), [&](std::size_t face, auto& lengths) {
-        if (seen[face] != 0) lengths.push_back(edges.longest_edge(face));
+    const auto num_seen = static_cast<std::size_t>(std::ranges::count(seen, 1));
+    auto shorter = parallel_collect<double>(seen.size(), [&](std::size_t face, auto& lengths) {
+        if (seen[face] == 0) return;
+        const double length = edges.longest_edge(face);
+        if (kVast * length < most) lengths.push_back(length);
     });
-    return of_seen.empty() ? std::numeric_limits<double>::infinity()
-                           : kVast * upper_median(of_seen);
+    const std::size_t middle = num_seen / 2;
+    if (middle >= shorter.size()) return most;
+    std::ranges::nth_element(shorter, shorter.begin() + static_cast<std::ptrdiff_t>(middle));
+    return kVast * shorter[middle];
 }
 
 /// Which unseen faces lie in patches of a few small faces: gaps in a surface seen around them.
@@ -71,10 +76,12 @@ FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdg
         });
     const FaceNumbers gaps = small_patches(
         mesh, unseen, [&](std::uint32_t face) { return edges.relative_size(face) <= max_edge; });
+    const auto length = [&](std::uint32_t face) { return edges.longest_edge(face); };
     if (gaps.empty()) return gaps;
-    const double vast = vast_edge(edges, seen);
-    return small_patches(mesh, gaps,
-                         [&](std::uint32_t face) { return edges.longest_edge(face) <= vast; });
+    const double longest = length(std::ranges::max(gaps, {}, length));
+    const double vast = vast_edge(edges, seen, longest);
+    if (vast == longest) return gaps;
+    return small_patches(mesh, gaps, [&](std::uint32_t face) { return length(face) <= vast; });
 }
 
 } // namespace

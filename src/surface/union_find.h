@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -8,7 +9,9 @@
 namespace vcarve {
 
 /// Disjoint sets of the numbers below `size`. The root of a set is its least member, whatever the
-/// order of the joins, so that results do not depend on it.
+/// order of the joins, so that results do not depend on it. Safe from many threads (Jayanti and
+/// Tarjan, "A randomized concurrent algorithm for disjoint set union", PODC 2016, without its
+/// random order).
 class UnionFind {
   public:
     explicit UnionFind(std::size_t size) : parents_(size)
@@ -18,22 +21,39 @@ class UnionFind {
 
     std::uint32_t root(std::uint32_t member)
     {
-        while (parents_[member] != member) {
-            parents_[member] = parents_[parents_[member]];
-            member = parents_[member];
+        for (;;) {
+            const std::uint32_t parent = load(member);
+            if (parent == member) return member;
+            // An ancestor stays one, so a late store does no harm.
+            const std::uint32_t grandparent = load(parent);
+            if (grandparent != parent) {
+                std::atomic_ref(parents_[member]).store(grandparent, std::memory_order_relaxed);
+            }
+            member = grandparent;
         }
-        return member;
     }
 
     void join(std::uint32_t a, std::uint32_t b)
     {
-        a = root(a);
-        b = root(b);
-        if (a > b) std::swap(a, b);
-        parents_[b] = a;
+        for (;;) {
+            a = root(a);
+            b = root(b);
+            if (a == b) return;
+            if (a > b) std::swap(a, b);
+            std::uint32_t expected = b; // fails where b got a parent meanwhile
+            if (std::atomic_ref(parents_[b])
+                    .compare_exchange_strong(expected, a, std::memory_order_relaxed)) {
+                return;
+            }
+        }
     }
 
   private:
+    std::uint32_t load(std::uint32_t member)
+    {
+        return std::atomic_ref(parents_[member]).load(std::memory_order_relaxed);
+    }
+
     std::vector<std::uint32_t> parents_;
 };
 
