@@ -99,24 +99,30 @@ double tracing(const Sizes& n)
     return n.after_triangulation() + n.cells * kNetworkCell + 16 * edges;
 }
 
+/// The network, the solver, and the labels; and for webs the facets amid them, as faces, and the
+/// faces around each vertex.
 double cutting(const Sizes& n)
 {
-    return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 1);
+    constexpr double kWebFace = 8 + 2.0 * sizeof(Face);
+    constexpr double kWebVertex = 4 + 8 + 1;
+    return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 1) +
+           n.faces * kWebFace + n.points * kWebVertex;
 }
 
 /// The labels and the surface, with the faces around each vertex, the usual edge there, and the
-/// faces to keep.
+/// faces to keep; with what parallel loops collect twice.
 double extracting(const Sizes& n)
 {
-    constexpr double kFace = 4.0 * sizeof(Face) + 2;
+    constexpr double kFace = 80;
     constexpr double kVertex = 31 + 4 + 8;
     return n.after_triangulation() + n.cells + n.faces * kFace + n.points * kVertex;
 }
 
-/// The surface before, without its faults, in OpenMesh's half-edges (three a face), and after.
+/// The surface with its edges and seams, the half-edges along its borders, and the surface that is
+/// kept of it.
 double cleaning(const Sizes& n)
 {
-    constexpr double kFace = 200;
+    constexpr double kFace = 150;
     return n.after_triangulation() + n.cells + n.faces * kFace;
 }
 

@@ -1,10 +1,8 @@
 #include "surface/orient.h"
 
-#include "base/parallel.h"
-
 #include <Eigen/Geometry>
-
-#include <atomic>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 namespace vcarve {
 
@@ -30,18 +28,25 @@ ViewAgreement agreement_of_face(const TriMesh& mesh, const Scene& scene, const F
     return agreement;
 }
 
+ViewAgreement sum(const ViewAgreement& a, const ViewAgreement& b)
+{
+    return {.sights = a.sights + b.sights, .facing = a.facing + b.facing};
+}
+
 } // namespace
 
 ViewAgreement view_agreement(const TriMesh& mesh, const Scene& scene)
 {
-    std::atomic<std::int64_t> sights = 0;
-    std::atomic<std::int64_t> facing = 0;
-    parallel_for(mesh.faces.size(), [&](std::size_t i) {
-        const ViewAgreement found = agreement_of_face(mesh, scene, mesh.faces[i]);
-        sights.fetch_add(found.sights, std::memory_order_relaxed);
-        facing.fetch_add(found.facing, std::memory_order_relaxed);
-    });
-    return {sights, facing};
+    using Range = tbb::blocked_range<std::size_t>;
+    return tbb::parallel_reduce(
+        Range(0, mesh.faces.size(), 1024), ViewAgreement(),
+        [&](const Range& range, ViewAgreement agreement) {
+            for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                agreement = sum(agreement, agreement_of_face(mesh, scene, mesh.faces[i]));
+            }
+            return agreement;
+        },
+        sum);
 }
 
 } // namespace vcarve
