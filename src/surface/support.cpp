@@ -74,7 +74,7 @@ FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdg
         parallel_collect<std::uint32_t>(seen.size(), [&](std::size_t face, auto& faces) {
             if (seen[face] == 0) faces.push_back(static_cast<std::uint32_t>(face));
         });
-    const FaceNumbers gaps = small_patches(
+    FaceNumbers gaps = small_patches(
         mesh, unseen, [&](std::uint32_t face) { return edges.relative_size(face) <= max_edge; });
     const auto length = [&](std::uint32_t face) { return edges.longest_edge(face); };
     if (gaps.empty()) return gaps;
