@@ -3,57 +3,80 @@
 #include "base/parallel.h"
 
 #include <Eigen/Geometry>
+#include <tbb/concurrent_vector.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 
 namespace vcarve {
 
 namespace {
 
+using Eigen::Array2d;
+using Eigen::Array4d;
 using Eigen::Vector3d;
-using FacetCosts = std::vector<std::array<std::int32_t, 4>>;
+using Costs = std::array<std::int32_t, 4>;
+using FacetCosts = std::unique_ptr<Costs[]>;
 
-/// 1 - cos of the angle between each facet of a cell and the sphere around the cell; 0 for infinite
-/// cells.
-std::array<double, 4> sphere_angle_costs(const TetMesh& mesh, const Cell& cell)
+/// The cosines of the angles between each facet of a finite cell and the sphere around the cell;
+/// not finite where the cell is too flat to have one. Roots and divisions, the larger part of the
+/// cost, are taken side by side.
+Array4d sphere_cosines(const TetMesh& mesh, const Cell& cell)
 {
-    if (cell.is_infinite()) {
-        return {0.0, 0.0, 0.0, 0.0};
-    }
     const Vector3d& origin = mesh.positions[cell.vertices[0]];
     const Vector3d a = mesh.positions[cell.vertices[1]] - origin;
     const Vector3d b = mesh.positions[cell.vertices[2]] - origin;
     const Vector3d c = mesh.positions[cell.vertices[3]] - origin;
-    const double volume_6 = a.dot(b.cross(c));
-    const Vector3d center = (a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) +
-                             c.squaredNorm() * a.cross(b)) /
-                            (2.0 * volume_6);
-    const std::array<Vector3d, 4> corners = {Vector3d::Zero(), a, b, c};
-    std::array<double, 4> costs{};
+    // Inward, one a slot: those of facets 1 to 3 meet at the origin, that of facet 0 lies opposite.
+    const Vector3d opposite = (c - a).cross(b - a);
+    const Vector3d bc = b.cross(c);
+    const Vector3d ca = c.cross(a);
+    const Vector3d ab = a.cross(b);
+    const double volume_6 = a.dot(bc);
+    const Vector3d center =
+        (a.squaredNorm() * bc + b.squaredNorm() * ca + c.squaredNorm() * ab) / (2.0 * volume_6);
+    const Vector3d center_from_a = center - a;
+    const Array2d radii = Array2d(center_from_a.squaredNorm(), center.squaredNorm()).sqrt();
+    const Array4d lengths =
+        Array4d(opposite.squaredNorm(), bc.squaredNorm(), ca.squaredNorm(), ab.squaredNorm())
+            .sqrt();
+    const Array4d dots(opposite.dot(center_from_a), bc.dot(center), ca.dot(center), ab.dot(center));
+    return dots / (lengths * Array4d(radii[0], radii[1], radii[1], radii[1]));
+}
+
+/// What std::lround gives for numbers from 0 to 2^31 - 1, without its call.
+std::int32_t round_half_up(double number)
+{
+    const auto whole = static_cast<std::int32_t>(number);
+    return whole + (number - whole >= 0.5 ? 1 : 0);
+}
+
+/// 1 - cos of the angle between each facet of a cell and the sphere around the cell, in steps; 0
+/// for infinite cells.
+Costs sphere_angle_costs(const TetMesh& mesh, const Cell& cell, double steps)
+{
+    Costs costs = {0, 0, 0, 0};
+    if (cell.is_infinite()) return costs;
+    const Array4d cosines = sphere_cosines(mesh, cell);
     for (int slot = 0; slot < 4; ++slot) {
-        const auto& [i, j, k] = kFacetCorners[slot];
-        const Vector3d inward = (corners[j] - corners[i]).cross(corners[k] - corners[i]);
-        const Vector3d to_center = center - corners[i];
-        const double cosine = inward.dot(to_center) / (inward.norm() * to_center.norm());
         constexpr double kUnknown = 0.5; // a cell too flat to have a sphere
-        costs[slot] = std::isfinite(cosine) ? 1.0 - std::clamp(cosine, -1.0, 1.0) : kUnknown;
+        const double cosine = cosines[slot];
+        const double cost = std::isfinite(cosine) ? 1.0 - std::clamp(cosine, -1.0, 1.0) : kUnknown;
+        costs[slot] = round_half_up(steps * cost);
     }
     return costs;
 }
 
-/// What cutting each facet costs by its shape, in steps.
+/// What cutting each facet costs by its shape, in steps, seen from either side.
 FacetCosts facet_costs(const TetMesh& mesh, double steps)
 {
-    FacetCosts costs(mesh.cells.size());
-    parallel_for(costs.size(), [&](std::size_t i) {
-        const auto angles = sphere_angle_costs(mesh, mesh.cells[i]);
-        std::transform(angles.begin(), angles.end(), costs[i].begin(), [&](double cost) {
-            return static_cast<std::int32_t>(std::lround(steps * cost));
-        });
-    });
+    auto costs = std::make_unique_for_overwrite<Costs[]>(mesh.cells.size());
+    parallel_for(mesh.cells.size(),
+                 [&](std::size_t i) { costs[i] = sphere_angle_costs(mesh, mesh.cells[i], steps); });
     return costs;
 }
 
@@ -85,17 +108,17 @@ void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
     }
 }
 
-/// The cells that are outside for certain: those that hold views, and the infinite ones.
+/// The cells that are outside for certain: those that hold views, and the infinite ones. In no
+/// order.
 std::vector<Index> source_cells(const TetMesh& mesh, const std::vector<Index>& cells_of_views)
 {
-    std::vector<Index> sources;
+    tbb::concurrent_vector<Index> infinite;
+    parallel_for(mesh.cells.size(), [&](std::size_t i) {
+        if (mesh.cells[i].is_infinite()) infinite.push_back(static_cast<Index>(i));
+    });
+    std::vector<Index> sources(infinite.begin(), infinite.end());
     std::copy_if(cells_of_views.begin(), cells_of_views.end(), std::back_inserter(sources),
                  [](Index cell) { return cell != kInfinite; });
-    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
-        if (mesh.cells[cell].is_infinite()) {
-            sources.push_back(cell);
-        }
-    }
     return sources;
 }
 
