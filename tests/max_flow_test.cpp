@@ -372,6 +372,38 @@ TEST(MinimumCut, AgreesWithBoykovKolmogorovOnATriangulation)
     }
 }
 
+TEST(MinimumCut, IsTheSameHoweverRunsAreMerged)
+{
+    std::mt19937 random(12);
+    const std::vector<Kind> kinds = {{300, 1, 1, 1.0, 0.1},        {300, 3, 40, 0.6, 0.1},
+                                     {1000, 100, 400, 1.0, 0.5},   {1000, 2, 1, 0.9, 0.9},
+                                     {2000, 1000, 90, 0.95, 0.02}, {500, kMost, kMost, 0.9, 0.5}};
+    const std::vector<FlowRuns> sizes = {{2, 2}, {7, 3}, {40, 2}, {50, 16}, {150, 3}};
+    for (int round = 0; round < 180; ++round) {
+        const Kind& kind = kinds[static_cast<std::size_t>(round) % kinds.size()];
+        const Problem problem =
+            round % 12 < 6 ? random_problem(kind, random) : random_ladder(kind, random);
+        const Labels expected = cut(problem); // in one run
+        for (const FlowRuns& runs : sizes)
+            ASSERT_EQ(minimum_cut(problem.cells, problem.network, runs), expected)
+                << "round " << round << ", runs of " << runs.cells;
+    }
+}
+
+TEST(MinimumCut, IsTheSameHoweverRunsOfATriangulationAreMerged)
+{
+    std::mt19937 random(13);
+    const std::vector<Kind> kinds = {{0, 100, 300, 1.0, 0.9}, {0, 300, 900, 0.9, 0.05}};
+    for (const Kind& kind : kinds) {
+        const Problem problem = triangulated_problem(2000, kind, random);
+        ASSERT_LT(problem.cells.cells.size(), FlowRuns().cells) << "one run by default";
+        const Labels expected = cut(problem);
+        for (const FlowRuns& runs : {FlowRuns{10, 4}, FlowRuns{100, 2}, FlowRuns{1000, 5}})
+            EXPECT_TRUE(minimum_cut(problem.cells, problem.network, runs) == expected)
+                << "runs of " << runs.cells;
+    }
+}
+
 TEST(MinimumCut, IsFoundAgainAfterMoreWasOffered)
 {
     std::mt19937 random(11);
@@ -383,7 +415,8 @@ TEST(MinimumCut, IsFoundAgainAfterMoreWasOffered)
         const Kind& kind = kinds[static_cast<std::size_t>(round) % kinds.size()];
         Problem problem =
             round % 8 < 4 ? random_problem(kind, random) : random_ladder(kind, random);
-        MinimumCut minimum(problem.cells, problem.network);
+        const FlowRuns runs = round % 16 < 8 ? FlowRuns() : FlowRuns{30, 3};
+        MinimumCut minimum(problem.cells, problem.network, runs);
         for (int more = 0; more < 4; ++more) {
             std::vector<Index> chosen(1 + random() % 30);
             for (Index& cell : chosen) {

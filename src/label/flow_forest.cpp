@@ -1,6 +1,7 @@
 #include "label/flow_forest.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <utility>
 
@@ -19,7 +20,13 @@
 // Departures from the papers: only the sink side grows, since our excess sits next to the deficits;
 // detached cells are reattached in one search instead of relabelled one by one; and runs of
 // consecutive cells, which lie close together in space and fit a cache, are first solved alone,
-// side by side. Whatever they push, the labels come out the same.
+// side by side, then merged. Whatever they push, the labels come out the same.
+//
+// Runs are merged by growing through their forests again, but only from cells that can lower a
+// level: first those with a neighbour in another run, then those whose own level was lowered. The
+// levels of all others stay right. Up to depth_ the forest is what it would be had it grown from
+// nothing; below hang parts of the old ones, whose cells hold no excess, whose levels may be too
+// high, and whose parents then are higher up than the level above.
 //
 // Cost: a cell's level only rises, each rise costs a constant, and between rises of cells with
 // excess a drain pushes once a cell: O(cells^3) at worst, nearly linear on networks of sights.
@@ -91,12 +98,13 @@ bool FlowForest::rehang(Index cell)
 void FlowForest::detach_or_rehang(Index cell)
 {
     if (rehang(cell)) return;
-    const std::int32_t below = nodes_[cell].level + 1;
+    const std::int32_t own = nodes_[cell].level;
     nodes_[cell].level = 0;
     detached_.push_back(cell);
     for (int slot = 0; slot < 4; ++slot) {
         const Index child = graph_.neighbor(cell, slot);
-        if (level(child) != below || nodes_[child].parent != graph_.mirror(cell, slot)) continue;
+        const std::int32_t below = level(child);
+        if (below <= own || nodes_[child].parent != graph_.mirror(cell, slot)) continue;
         nodes_[child].parent = kNoParent;
         orphans_.add(child, below);
     }
@@ -157,7 +165,11 @@ void FlowForest::repair()
         seek_parent(cell);
     reattach();
     for (const Index cell : detached_) {
-        if (nodes_[cell].level > 0) list_to_drain(cell);
+        if (nodes_[cell].level > 0) {
+            list_to_drain(cell);
+        } else if (!visits_.empty()) {
+            list_to_visit_around(cell);
+        }
     }
     detached_.clear();
 }
@@ -219,7 +231,8 @@ bool FlowForest::take_in(Index cell)
 {
     for (int slot = 0; slot < 4; ++slot) {
         const Index beyond = graph_.neighbor(cell, slot);
-        if (level(beyond) != 0) continue;
+        const std::int32_t there = level(beyond);
+        if (there != 0 && there <= depth_) continue;
         const int mirror = graph_.mirror(cell, slot);
         const std::uint32_t capacity = graph_.capacity_out(beyond, mirror);
         if (capacity == 0) continue;
@@ -270,6 +283,10 @@ void FlowForest::grow()
     for (const Index cell : growing_)
         nodes_[cell].waits = false;
     const std::int32_t level = depth_++;
+    if (static_cast<std::size_t>(level) < visits_.size()) {
+        const std::vector<Index> visits = std::move(visits_[static_cast<std::size_t>(level)]);
+        growing_.insert(growing_.end(), visits.begin(), visits.end());
+    }
     int scans = 0;
     for (std::size_t k = 0; k < growing_.size(); ++k) {
         fetch_ahead(k);
@@ -280,13 +297,16 @@ void FlowForest::grow()
     drain_all();
 }
 
-void FlowForest::fill()
+FilledRun FlowForest::fill()
 {
+    FilledRun filled = {first_, first_ + count_, 0, {}};
     for (Index cell = first_; cell - first_ < count_; ++cell) {
-        nodes_[cell].level = 0;
         if (nodes_[cell].excess < 0) join(cell, kNoParent, 1);
+        if (leaves(cell)) filled.border.push_back(cell);
     }
     settle();
+    filled.deepest = depth_;
+    return filled;
 }
 
 void FlowForest::offer(Index cell, std::int32_t flow)
@@ -311,6 +331,58 @@ void FlowForest::settle()
     drain_all();
     while (!front_.empty())
         grow();
+}
+
+// ---- merging ------------------------------------------------------------------------------------
+
+/// Whether a cell has a neighbour that is not in the run.
+bool FlowForest::leaves(Index cell) const
+{
+    const std::array<Index, 4>& neighbors = graph_.cells[cell].neighbors;
+    return std::any_of(neighbors.begin(), neighbors.end(),
+                       [&](Index beyond) { return beyond - first_ >= count_; });
+}
+
+/// Whether a cell gives a neighbour a lower level than it has.
+bool FlowForest::lowers(Index cell) const
+{
+    const std::int32_t own = nodes_[cell].level;
+    if (own == 0) return false;
+    for (int slot = 0; slot < 4; ++slot) {
+        const std::int32_t there = level(graph_.neighbor(cell, slot));
+        const bool higher = there == 0 || there > own + 1;
+        if (higher && graph_.capacity_in(cell, slot) != 0) return true;
+    }
+    return false;
+}
+
+/// Lists the cells of old forests that may be the way back of a cell that got detached.
+void FlowForest::list_to_visit_around(Index cell)
+{
+    for (const Index beyond : graph_.cells[cell].neighbors) {
+        // Those that wait will be visited anyway.
+        if (level(beyond) < depth_ || nodes_[beyond].waits) continue;
+        visits_[static_cast<std::size_t>(nodes_[beyond].level)].push_back(beyond);
+    }
+}
+
+FilledRun FlowForest::merge(std::span<const FilledRun> parts)
+{
+    FilledRun merged = {first_, first_ + count_, 1, {}};
+    for (const FilledRun& part : parts)
+        merged.deepest = std::max(merged.deepest, part.deepest);
+    visits_.resize(static_cast<std::size_t>(merged.deepest) + 1);
+    for (const FilledRun& part : parts) {
+        for (const Index cell : part.border) {
+            if (leaves(cell)) merged.border.push_back(cell);
+            if (lowers(cell)) visits_[static_cast<std::size_t>(nodes_[cell].level)].push_back(cell);
+        }
+    }
+    while (depth_ <= merged.deepest || !front_.empty())
+        grow();
+    visits_.clear();
+    merged.deepest = depth_;
+    return merged;
 }
 
 } // namespace vcarve

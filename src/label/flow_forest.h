@@ -3,21 +3,33 @@
 #include "label/flow_graph.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace vcarve {
+
+/// The cells [first, last) once all excess has been taken in that can reach a deficit within them.
+struct FilledRun {
+    Index first;
+    Index last;
+    std::int32_t deepest;      ///< no cell has a higher level
+    std::vector<Index> border; ///< cells with a neighbour elsewhere
+};
 
 /// The forest of shortest paths to the deficits in the cells [first, last), see flow_forest.cpp. It
 /// neither reads nor writes nodes or residuals elsewhere.
 class FlowForest {
   public:
     FlowForest(FlowGraph& graph, Index first, Index last)
-        : graph_(graph), nodes_(graph.nodes), first_(first), count_(last - first)
+        : graph_(graph), nodes_(graph.nodes.get()), first_(first), count_(last - first)
     {
     }
 
-    /// Takes in all excess that can reach a deficit within the run.
-    void fill();
+    /// Takes in all excess that can reach a deficit within the run, from cells without levels.
+    FilledRun fill();
+
+    /// The same for a run made of filled ones, in their order, at the cost of what changes.
+    FilledRun merge(std::span<const FilledRun> parts);
 
     /// Adds to the excess of a cell of a filled forest; settle() then takes in what can drain.
     void offer(Index cell, std::int32_t flow);
@@ -43,8 +55,12 @@ class FlowForest {
     void fetch_ahead(std::size_t at) const;
     void grow();
 
+    bool leaves(Index cell) const;
+    bool lowers(Index cell) const;
+    void list_to_visit_around(Index cell);
+
     FlowGraph& graph_;
-    std::vector<FlowNode>& nodes_;
+    FlowNode* nodes_;
     Index first_;
     Index count_;
     std::int32_t depth_ = 1;       ///< deepest level a cell may have
@@ -57,6 +73,8 @@ class FlowForest {
     std::vector<Index> offered_; ///< cells that got more excess, not yet settled
     std::vector<Index> wave_;    ///< cells reattached on one level, and on the next
     std::vector<Index> next_wave_;
+    /// While runs are merged: by level, cells that may give a lower level to their neighbours.
+    std::vector<std::vector<Index>> visits_;
 };
 
 } // namespace vcarve

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,21 +19,22 @@ inline constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
 
 /// What the solver keeps of a cell besides its residuals.
 struct FlowNode {
-    std::int32_t level = 0; ///< 1 for roots, 0 for cells outside the forest
-    std::int32_t excess = 0;
-    Index next = kInfinite; ///< in a bucket
-    std::uint8_t mirrors = 0;
-    std::uint8_t parent = kNoParent; ///< slot towards the parent
-    bool waits = false;              ///< is in the front
-    bool drains = false;             ///< is in the bucket of cells to drain
+    std::int32_t level; ///< 1 for roots, 0 for cells outside the forest
+    std::int32_t excess;
+    Index next; ///< in a bucket
+    std::uint8_t mirrors;
+    std::uint8_t parent; ///< slot towards the parent
+    bool waits;          ///< is in the front
+    bool drains;         ///< is in the bucket of cells to drain
 };
 static_assert(sizeof(FlowNode) == 16);
+static_assert(std::is_trivially_default_constructible_v<FlowNode>); // made without being touched
 
 /// A flow network while it is solved.
 struct FlowGraph {
     const std::vector<Cell>& cells;
     std::vector<std::array<std::int32_t, 4>> residuals;
-    std::vector<FlowNode> nodes;
+    std::unique_ptr<FlowNode[]> nodes;
 
     Index neighbor(Index cell, int slot) const { return cells[cell].neighbors[slot]; }
     int mirror(Index cell, int slot) const { return (nodes[cell].mirrors >> (2 * slot)) & 3; }
@@ -71,7 +74,7 @@ struct FlowGraph {
 /// Cells listed by level. A cell can be in one bucket at a time.
 class LevelBuckets {
   public:
-    explicit LevelBuckets(std::vector<FlowNode>& nodes) : nodes_(nodes) {}
+    explicit LevelBuckets(FlowNode* nodes) : nodes_(nodes) {}
 
     void add(Index cell, std::int32_t level)
     {
@@ -116,7 +119,7 @@ class LevelBuckets {
         highest_ = 0;
     }
 
-    std::vector<FlowNode>& nodes_;
+    FlowNode* nodes_;
     std::vector<Index> firsts_;
     std::int32_t lowest_ = kMost;
     std::int32_t highest_ = 0;

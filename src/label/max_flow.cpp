@@ -4,6 +4,7 @@
 #include "label/flow_forest.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -11,33 +12,70 @@
 namespace vcarve {
 namespace {
 
-constexpr Index kRun = 16384; ///< cells solved alone first: about 1 MB
-
-FlowGraph make_graph(const TetMesh& cells, FlowNetwork network)
+void check_sizes(const TetMesh& cells, const FlowNetwork& network)
 {
     const std::size_t count = cells.cells.size();
     if (cells.mirrors.size() != count || network.residuals.size() != count ||
         network.excesses.size() != count)
         throw std::invalid_argument("minimum_cut: cells, mirrors and network differ in size");
-    FlowGraph graph = {cells.cells, std::move(network.residuals), std::vector<FlowNode>(count)};
-    for (Index cell = 0; cell < count; ++cell) {
-        graph.nodes[cell].excess = network.excesses[cell];
-        graph.nodes[cell].mirrors = cells.mirrors[cell];
-        for (int slot = 0; slot < 4; ++slot) {
-            std::int32_t& residual = graph.residuals[cell][slot];
-            if (residual < 0) throw std::invalid_argument("minimum_cut: a residual is negative");
-            // An arc back to its own cell is in no cut.
-            if (graph.neighbor(cell, slot) == cell) residual = 0;
-        }
+}
+
+/// Makes the node of a cell; `graph` has its residuals.
+void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph& graph)
+{
+    graph.nodes[cell] = {.level = 0,
+                         .excess = excess,
+                         .next = kInfinite,
+                         .mirrors = cells.mirrors[cell],
+                         .parent = kNoParent,
+                         .waits = false,
+                         .drains = false};
+    for (int slot = 0; slot < 4; ++slot) {
+        std::int32_t& residual = graph.residuals[cell][slot];
+        if (residual < 0) throw std::invalid_argument("minimum_cut: a residual is negative");
+        // An arc back to its own cell is in no cut.
+        if (graph.neighbor(cell, slot) == cell) residual = 0;
     }
-    return graph;
+}
+
+/// Makes all nodes of the graph and fills runs of so many alone.
+std::vector<FilledRun> fill_runs(const TetMesh& cells, std::vector<std::int32_t> excesses,
+                                 FlowGraph& graph, std::size_t run_size)
+{
+    const std::size_t count = excesses.size();
+    std::vector<FilledRun> runs((count + run_size - 1) / run_size);
+    const auto fill = [&](std::size_t run) {
+        const auto first = static_cast<Index>(run * run_size);
+        const auto last = static_cast<Index>(std::min(count, (run + 1) * run_size));
+        for (Index cell = first; cell < last; ++cell)
+            make_node(cells, cell, excesses[cell], graph);
+        runs[run] = FlowForest(graph, first, last).fill();
+    };
+    parallel_for(runs.size(), fill, 1);
+    return runs;
+}
+
+/// Merges so many runs at a time.
+std::vector<FilledRun> merge_runs(std::span<const FilledRun> runs, FlowGraph& graph,
+                                  std::size_t at_a_time)
+{
+    std::vector<FilledRun> merged((runs.size() + at_a_time - 1) / at_a_time);
+    const auto merge = [&](std::size_t i) {
+        const std::size_t begin = i * at_a_time;
+        const auto parts = runs.subspan(begin, std::min(at_a_time, runs.size() - begin));
+        merged[i] = FlowForest(graph, parts.front().first, parts.back().last).merge(parts);
+    };
+    parallel_for(merged.size(), merge, 1);
+    return merged;
 }
 
 } // namespace
 
 struct MinimumCut::Solver {
-    explicit Solver(FlowGraph network)
-        : graph(std::move(network)), forest(graph, 0, static_cast<Index>(graph.nodes.size()))
+    Solver(const std::vector<Cell>& cells, std::vector<std::array<std::int32_t, 4>> residuals)
+        : graph{cells, std::move(residuals),
+                std::make_unique_for_overwrite<FlowNode[]>(cells.size())},
+          forest(graph, 0, static_cast<Index>(cells.size()))
     {
     }
 
@@ -45,18 +83,16 @@ struct MinimumCut::Solver {
     FlowForest forest;
 };
 
-MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network)
-    : solver_(std::make_unique<Solver>(make_graph(cells, std::move(network))))
+MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs)
 {
+    check_sizes(cells, network);
+    solver_ = std::make_unique<Solver>(cells.cells, std::move(network.residuals));
     FlowGraph& graph = solver_->graph;
-    const auto count = static_cast<Index>(graph.nodes.size());
-    // Runs of cells alone, then what is left between them.
-    const auto fill_run = [&](std::size_t run) {
-        const auto first = static_cast<Index>(run * kRun);
-        FlowForest(graph, first, first + std::min(kRun, count - first)).fill();
-    };
-    if (count > kRun) parallel_for((std::size_t(count) + kRun - 1) / kRun, fill_run, 1);
-    solver_->forest.fill();
+    std::vector<FilledRun> filled =
+        fill_runs(cells, std::move(network.excesses), graph, runs.cells);
+    while (filled.size() > runs.merged)
+        filled = merge_runs(filled, graph, runs.merged);
+    solver_->forest.merge(filled);
 }
 
 MinimumCut::~MinimumCut() = default;
@@ -70,17 +106,17 @@ void MinimumCut::offer(std::span<const Index> cells, std::int32_t flow)
 
 Labels MinimumCut::labels() const
 {
-    const std::vector<FlowNode>& nodes = solver_->graph.nodes;
-    Labels labels(nodes.size());
-    std::transform(nodes.begin(), nodes.end(), labels.begin(), [](const FlowNode& node) {
-        return node.level > 0 ? Label::inside : Label::outside;
+    const FlowGraph& graph = solver_->graph;
+    Labels labels(graph.cells.size());
+    parallel_for(labels.size(), [&](std::size_t cell) {
+        labels[cell] = graph.nodes[cell].level > 0 ? Label::inside : Label::outside;
     });
     return labels;
 }
 
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network)
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs)
 {
-    return MinimumCut(cells, std::move(network)).labels();
+    return MinimumCut(cells, std::move(network), runs).labels();
 }
 
 } // namespace vcarve

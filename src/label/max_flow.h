@@ -4,19 +4,28 @@
 #include "model/labels.h"
 #include "model/tet_mesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 
 namespace vcarve {
 
+/// How the cells are solved in parallel: runs of them alone, then so many runs at a time as one,
+/// until few are left, which are merged by one thread. Both at least 2; no size changes the labels.
+struct FlowRuns {
+    std::size_t cells = 16384; ///< about 1 MB
+    std::size_t merged = 16;
+};
+
 /// The minimum cut of a network on the cells of a triangulation, found once and found again, at the
 /// cost of what changes, after more flow was offered. `cells` must outlive it. Throws
 /// std::invalid_argument where the sizes differ or a residual is negative. Cost: 53 bytes a cell
-/// beside `cells`, the network's own included.
+/// beside `cells`, the network's own included, and
+/// lists of some of them.
 class MinimumCut {
   public:
-    MinimumCut(const TetMesh& cells, FlowNetwork network);
+    MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs = {});
     ~MinimumCut();
     MinimumCut(MinimumCut&&) = delete;
     MinimumCut& operator=(MinimumCut&&) = delete;
@@ -35,6 +44,6 @@ class MinimumCut {
 };
 
 /// The labels of the minimum cut. `network` is used up.
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network);
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs = {});
 
 } // namespace vcarve
