@@ -28,6 +28,9 @@
 // nothing; below hang parts of the old ones, whose cells hold no excess, whose levels may be too
 // high, and whose parents then are higher up than the level above.
 //
+// Loops over the facets of a cell first gather in bits, without branches, which ones are meant:
+// what holds for a facet is too irregular to be predicted.
+//
 // Cost: a cell's level only rises, each rise costs a constant, and between rises of cells with
 // excess a drain pushes once a cell: O(cells^3) at worst, nearly linear on networks of sights.
 
@@ -52,6 +55,12 @@ std::int32_t FlowForest::level(Index cell) const
     const bool here = cell - first_ < count_;
     const std::int32_t found = nodes_[here ? cell : first_].level;
     return here ? found : kElsewhere;
+}
+
+/// The cell, or the other one if it is not in the run.
+Index FlowForest::if_here(Index cell, Index other) const
+{
+    return cell - first_ < count_ ? cell : other;
 }
 
 void FlowForest::join(Index cell, int parent, std::int32_t level)
@@ -101,12 +110,16 @@ void FlowForest::detach_or_rehang(Index cell)
     const std::int32_t own = nodes_[cell].level;
     nodes_[cell].level = 0;
     detached_.push_back(cell);
+    unsigned children = 0;
     for (int slot = 0; slot < 4; ++slot) {
-        const Index child = graph_.neighbor(cell, slot);
-        const std::int32_t below = level(child);
-        if (below <= own || nodes_[child].parent != graph_.mirror(cell, slot)) continue;
+        const FlowNode& child = nodes_[if_here(graph_.neighbor(cell, slot), cell)];
+        const bool hangs = (child.level > own) & (child.parent == graph_.mirror(cell, slot));
+        children |= static_cast<unsigned>(hangs) << slot;
+    }
+    for (; children != 0; children &= children - 1) {
+        const Index child = graph_.neighbor(cell, std::countr_zero(children));
         nodes_[child].parent = kNoParent;
-        orphans_.add(child, below);
+        orphans_.add(child, nodes_[child].level);
     }
 }
 
@@ -130,9 +143,16 @@ void FlowForest::reach_from(Index cell)
 {
     const std::int32_t below = nodes_[cell].level + 1;
     if (below > depth_) return;
+    unsigned reached = 0;
     for (int slot = 0; slot < 4; ++slot) {
+        const Index beyond = if_here(graph_.neighbor(cell, slot), cell);
+        const std::uint32_t capacity = graph_.capacity_out(beyond, graph_.mirror(cell, slot));
+        const bool hangs = (nodes_[beyond].level == 0) & (capacity != 0);
+        reached |= static_cast<unsigned>(hangs) << slot;
+    }
+    for (; reached != 0; reached &= reached - 1) {
+        const int slot = std::countr_zero(reached);
         const Index beyond = graph_.neighbor(cell, slot);
-        if (level(beyond) != 0 || graph_.capacity_in(cell, slot) == 0) continue;
         join(beyond, graph_.mirror(cell, slot), below);
         next_wave_.push_back(beyond);
     }
@@ -229,10 +249,14 @@ void FlowForest::drain_all()
 /// returns true when the cell has no room.
 bool FlowForest::take_in(Index cell)
 {
+    unsigned gains = 0;
     for (int slot = 0; slot < 4; ++slot) {
+        const std::int32_t there = level(graph_.neighbor(cell, slot));
+        gains |= static_cast<unsigned>((there == 0) | (there > depth_)) << slot;
+    }
+    for (; gains != 0; gains &= gains - 1) {
+        const int slot = std::countr_zero(gains);
         const Index beyond = graph_.neighbor(cell, slot);
-        const std::int32_t there = level(beyond);
-        if (there != 0 && there <= depth_) continue;
         const int mirror = graph_.mirror(cell, slot);
         const std::uint32_t capacity = graph_.capacity_out(beyond, mirror);
         if (capacity == 0) continue;

@@ -37,6 +37,7 @@ class FlowForest {
 
   private:
     std::int32_t level(Index cell) const;
+    Index if_here(Index cell, Index other) const;
     void join(Index cell, int parent, std::int32_t level);
     void list_to_drain(Index cell);
 
