@@ -84,18 +84,20 @@ double filtering(const Sizes& n)
     return 2 * n.scene() + 64 * n.points;
 }
 
-/// The points as CGAL wants them, CGAL's triangulation, the order of its cells, and the flat copy.
+/// The points as CGAL wants them, CGAL's triangulation, the handles of its cells, and the cells
+/// before they are numbered.
 double triangulating(const Sizes& n)
 {
     constexpr double kNumberedPoint = 32;
-    return n.scene() + kNumberedPoint * n.points + n.cgal() + 8 * n.cells + n.flat();
+    constexpr double kCell = 8 + sizeof(Cell);
+    return n.scene() + kNumberedPoint * n.points + n.cgal() + kCell * n.cells;
 }
 
-/// The network, or before it the edges that softness is measured by: up to six a cell of a million
-/// cells, in a list that grows.
+/// The network, or before it the edges that softness is measured by: up to six a cell of a choice
+/// of cells, in lists that grow.
 double tracing(const Sizes& n)
 {
-    const double edges = 6 * std::min(n.cells, 1e6);
+    const double edges = 6 * std::min(n.cells, 5e4);
     return n.after_triangulation() + n.cells * kNetworkCell + 16 * edges;
 }
 

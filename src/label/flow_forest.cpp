@@ -1,5 +1,7 @@
 #include "label/flow_forest.h"
 
+#include "base/prefetch.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -40,13 +42,6 @@ namespace {
 constexpr std::int32_t kElsewhere = -1; ///< level of cells not in the run
 constexpr std::size_t kFetchAhead = 8;
 constexpr int kScansPerDrain = 256; ///< enough to share drains, few enough to stay in the cache
-
-void fetch([[maybe_unused]] const void* address)
-{
-#if defined(__GNUC__)
-    __builtin_prefetch(address);
-#endif
-}
 
 } // namespace
 
@@ -291,11 +286,11 @@ void FlowForest::fetch_ahead(std::size_t at) const
 {
     if (at + 2 * kFetchAhead >= growing_.size()) return;
     const Index far = growing_[at + 2 * kFetchAhead];
-    fetch(&graph_.cells[far].neighbors);
-    fetch(&nodes_[far]);
+    prefetch(&graph_.cells[far].neighbors);
+    prefetch(&nodes_[far]);
     for (const Index beyond : graph_.cells[growing_[at + kFetchAhead]].neighbors) {
-        fetch(&nodes_[beyond]);
-        fetch(&graph_.residuals[beyond]);
+        prefetch(&nodes_[beyond]);
+        prefetch(&graph_.residuals[beyond]);
     }
 }
 
