@@ -93,12 +93,15 @@ double triangulating(const Sizes& n)
     return n.scene() + kNumberedPoint * n.points + n.cgal() + kCell * n.cells;
 }
 
-/// The network, or before it the edges that softness is measured by: up to six a cell of a choice
-/// of cells, in lists that grow.
+/// The network; beside it first the edges that softness is measured by, up to six a cell of a
+/// choice of cells, in lists that grow; then the sights that each thread walks, those of 512
+/// points.
 double tracing(const Sizes& n)
 {
     const double edges = 6 * std::min(n.cells, 5e4);
-    return n.after_triangulation() + n.cells * kNetworkCell + 16 * edges;
+    const double walked = std::min(n.sights, n.threads * 512 * n.sights / std::max(n.points, 1.0));
+    constexpr double kSight = 96;
+    return n.after_triangulation() + n.cells * kNetworkCell + std::max(24 * edges, kSight * walked);
 }
 
 /// The network, the solver, and the labels; and for webs the facets amid them, as faces, and the

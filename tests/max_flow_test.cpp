@@ -324,6 +324,15 @@ TEST(MinimumCut, RefusesANetworkOfAnotherSize)
     EXPECT_THROW(cut(problem), std::invalid_argument);
 }
 
+TEST(MinimumCut, RefusesRunsThatWouldNeverMerge)
+{
+    const Problem problem = isolated_cells({0, 0});
+    EXPECT_THROW(minimum_cut(problem.cells, problem.network, {.cells = 0, .merged = 2}),
+                 std::invalid_argument);
+    EXPECT_THROW(minimum_cut(problem.cells, problem.network, {.cells = 1, .merged = 1}),
+                 std::invalid_argument);
+}
+
 // ---- against the oracles ------------------------------------------------------------------------
 
 TEST(MinimumCut, IsTheCheapestOfAllCutsOfTwelveCells)

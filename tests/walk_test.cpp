@@ -83,6 +83,19 @@ TEST(SightFrame, TurnsPositiveWhereTheSightPassesLeftOfAnEdge)
     EXPECT_EQ(turn({1, 1, 0}, {-1, -1, 2}), 0);
 }
 
+TEST(SightFrame, IsNotClearWhereADeterminantOverflows)
+{
+    // Infinity less infinity is no number, which compares as neither large nor small.
+    const SightFrame frame({0, 0, 0}, {0, 0, 1e160});
+    const std::array<Sighted, 3> from = {frame.project({1e160, 1e160, 0}),
+                                         frame.project({-1e160, 1e160, 0}),
+                                         frame.project({0, -1e160, 0})};
+    EXPECT_LT(frame.clear_turns(from, frame.project({1e160, 1e160, 1e160})), 0);
+    const std::array<Sighted, 3> near = {frame.project({1, 1, 0}), frame.project({-1, 1, 0}),
+                                         frame.project({0, -1, 0})};
+    EXPECT_GE(frame.clear_turns(near, frame.project({0.5, 2, 1})), 0);
+}
+
 TEST(SightFrame, TurnsAsTheExactPredicateSays)
 {
     std::mt19937_64 random(21);
@@ -141,6 +154,43 @@ TEST(SightWalk, CrossesWhatTheExactWalkCrosses)
                       finite_or_none(named.mesh, exact_ends.last))
                 << place(named, vertex, target);
             ASSERT_EQ(crossed, pairs(exact.crossed())) << place(named, vertex, target);
+        }
+    }
+}
+
+TEST(SightWalk, CrossesTheSameSideBySideAsAlone)
+{
+    for (const NamedMesh& named : meshes_to_walk()) {
+        std::mt19937_64 random(16);
+        std::vector<Sight> sights;
+        while (sights.size() < 1000) {
+            const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
+            for (std::size_t of_vertex = pick(random, 6); of_vertex > 0; --of_vertex) {
+                sights.push_back({vertex, any_target(named, vertex, random)});
+            }
+        }
+        std::vector<FastWalk> found(sights.size());
+        std::vector<int> ended(sights.size(), 0);
+        SightWalk(named.mesh)
+            .along_each(
+                sights.size(), [&](std::size_t k) { return sights[k]; },
+                [&](std::size_t k, Index cell, int slot) {
+                    found[k].crossed.emplace_back(cell, slot);
+                },
+                [&](std::size_t k, const WalkEnds& ends) {
+                    found[k].ends = ends;
+                    ++ended[k];
+                });
+        for (std::size_t k = 0; k < sights.size(); ++k) {
+            const auto& [vertex, target] = sights[k];
+            SightWalk walk(named.mesh, vertex);
+            const FastWalk alone = fast_walk(walk, target);
+            ASSERT_EQ(ended[k], 1) << place(named, vertex, target);
+            ASSERT_EQ(found[k].crossed, alone.crossed) << place(named, vertex, target);
+            ASSERT_EQ(found[k].ends.first, alone.ends.first) << place(named, vertex, target);
+            ASSERT_EQ(finite_or_none(named.mesh, found[k].ends.last),
+                      finite_or_none(named.mesh, alone.ends.last))
+                << place(named, vertex, target);
         }
     }
 }

@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 
 #include <Eigen/Geometry>
-#include <tbb/concurrent_vector.h>
 
 #include <algorithm>
 #include <array>
@@ -108,15 +107,12 @@ void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
     }
 }
 
-/// The cells that are outside for certain: those that hold views, and the infinite ones. In no
-/// order.
+/// The cells that are outside for certain: those that hold views, and the infinite ones.
 std::vector<Index> source_cells(const TetMesh& mesh, const std::vector<Index>& cells_of_views)
 {
-    tbb::concurrent_vector<Index> infinite;
-    parallel_for(mesh.cells.size(), [&](std::size_t i) {
+    auto sources = parallel_collect<Index>(mesh.cells.size(), [&](std::size_t i, auto& infinite) {
         if (mesh.cells[i].is_infinite()) infinite.push_back(static_cast<Index>(i));
     });
-    std::vector<Index> sources(infinite.begin(), infinite.end());
     std::copy_if(cells_of_views.begin(), cells_of_views.end(), std::back_inserter(sources),
                  [](Index cell) { return cell != kInfinite; });
     return sources;

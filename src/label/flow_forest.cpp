@@ -33,8 +33,9 @@
 // Loops over the facets of a cell first gather in bits, without branches, which ones are meant:
 // what holds for a facet is too irregular to be predicted.
 //
-// Cost: a cell's level only rises, each rise costs a constant, and between rises of cells with
-// excess a drain pushes once a cell: O(cells^3) at worst, nearly linear on networks of sights.
+// Cost: while a forest grows, a cell's level only rises, each rise costs a constant, and between
+// rises of cells with excess a drain pushes once a cell: O(cells^3) at worst, nearly linear on
+// networks of sights. A merge lowers levels of the forests it merges first.
 
 namespace vcarve {
 namespace {

@@ -64,9 +64,10 @@ class FlowForest {
     FlowNode* nodes_;
     Index first_;
     Index count_;
-    std::int32_t depth_ = 1;       ///< deepest level a cell may have
-    std::vector<Index> front_;     ///< all cells on that level, and some that were
-    std::vector<Index> growing_;   ///< the front of the level above
+    /// Deepest level grown so far; while runs are merged, parts of their forests lie deeper.
+    std::int32_t depth_ = 1;
+    std::vector<Index> front_;     ///< all cells that joined on that level, and some that were
+    std::vector<Index> growing_;   ///< the front of the level above, and the cells to visit there
     LevelBuckets orphans_{nodes_}; ///< by their level; of detached cells, by the one they may get
     LevelBuckets drains_{nodes_};  ///< cells of the forest with excess
     std::vector<Index> late_;      ///< cells whose parent had no room left for all their excess

@@ -86,6 +86,8 @@ struct MinimumCut::Solver {
 MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs)
 {
     check_sizes(cells, network);
+    if (runs.cells == 0 || runs.merged < 2)
+        throw std::invalid_argument("minimum_cut: the runs are too small");
     solver_ = std::make_unique<Solver>(cells.cells, std::move(network.residuals));
     FlowGraph& graph = solver_->graph;
     std::vector<FilledRun> filled =

@@ -12,17 +12,17 @@
 namespace vcarve {
 
 /// How the cells are solved in parallel: runs of them alone, then so many runs at a time as one,
-/// until few are left, which are merged by one thread. Both at least 2; no size changes the labels.
+/// until few are left, which are merged by one thread. No size changes the labels.
 struct FlowRuns {
-    std::size_t cells = 16384; ///< about 1 MB
-    std::size_t merged = 16;
+    std::size_t cells = 16384; ///< at least 1; about 1 MB
+    std::size_t merged = 16;   ///< at least 2
 };
 
 /// The minimum cut of a network on the cells of a triangulation, found once and found again, at the
 /// cost of what changes, after more flow was offered. `cells` must outlive it. Throws
-/// std::invalid_argument where the sizes differ or a residual is negative. Cost: 53 bytes a cell
-/// beside `cells`, the network's own included, and
-/// lists of some of them.
+/// std::invalid_argument where the sizes differ, a residual is negative or a size of the runs is
+/// too small. Cost: 36 bytes a cell beside `cells`, the network's own 20 included, and lists of
+/// some of them.
 class MinimumCut {
   public:
     MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs = {});

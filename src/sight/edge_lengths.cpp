@@ -2,7 +2,6 @@
 
 #include "base/parallel.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -41,17 +40,12 @@ void add_sampled_edges(const Cell& cell, std::uint64_t one_in, std::vector<Edge>
 
 std::vector<Edge> sampled_edges(const TetMesh& mesh)
 {
-    constexpr std::size_t kCellsTakenWhole =
-        50'000; // the quartile is then known to a few per mille
+    // The quartile is then known to a few per mille.
+    constexpr std::size_t kCellsTakenWhole = 50'000;
     const std::uint64_t one_in = 1 + mesh.cells.size() / kCellsTakenWhole;
-    tbb::enumerable_thread_specific<std::vector<Edge>> found;
-    parallel_for(mesh.cells.size(), [&](std::size_t cell) {
-        add_sampled_edges(mesh.cells[cell], one_in, found.local());
+    auto edges = parallel_collect<Edge>(mesh.cells.size(), [&](std::size_t cell, auto& found) {
+        add_sampled_edges(mesh.cells[cell], one_in, found);
     });
-    std::vector<Edge> edges;
-    for (const std::vector<Edge>& some : found) {
-        edges.insert(edges.end(), some.begin(), some.end());
-    }
     tbb::parallel_sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;

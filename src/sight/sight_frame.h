@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace vcarve {
 
@@ -73,15 +72,19 @@ class SightFrame {
     int clear_turns(const std::array<Sighted, 3>& from, const Sighted& to) const
     {
         int left = 0;
-        double least = std::numeric_limits<double>::infinity();
+        std::array<double, 3> magnitudes{};
         double size = 0.0;
         for (int k = 0; k < 3; ++k) {
             const double determinant = from[k].x * to.y - from[k].y * to.x;
             left |= static_cast<int>(determinant > 0.0) << k;
-            least = std::min(least, std::abs(determinant));
+            magnitudes[k] = std::abs(determinant);
             size = std::max(size, from[k].size);
         }
-        return least > kRounding * size * to.size ? left : -1;
+        // What is not a number is not clear.
+        const double bound = kRounding * size * to.size;
+        const bool is_clear =
+            (magnitudes[0] > bound) & (magnitudes[1] > bound) & (magnitudes[2] > bound);
+        return is_clear ? left : -1;
     }
 
   private:

@@ -183,7 +183,7 @@ class Voter {
     {
     }
 
-    /// The sight from the vertex where the walk stands to a view.
+    /// The sight from a vertex to a view.
     OutwardSight outward(Index vertex, std::uint32_t view, const Vector3d& center,
                          std::int32_t full) const
     {

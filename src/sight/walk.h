@@ -26,6 +26,7 @@ struct Sight {
 /// zero, ExactWalk goes on to the end.
 class SightWalk {
   public:
+    /// Stands nowhere: for along_each() only, until stand_at().
     explicit SightWalk(const TetMesh& mesh) : mesh_(mesh) {}
     SightWalk(const TetMesh& mesh, Index vertex) : mesh_(mesh) { stand_at(vertex); }
 
@@ -41,15 +42,13 @@ class SightWalk {
     template <typename OnCrossing>
     WalkEnds to(const Eigen::Vector3d& target, const OnCrossing& on_crossing)
     {
-        WalkEnds ends;
-        along_each(
-            1,
-            [&](std::size_t) {
-                return Sight{vertex_, target};
-            },
-            [&](std::size_t, Index cell, int slot) { on_crossing(cell, slot); },
-            [&](std::size_t, const WalkEnds& found) { ends = found; });
-        return ends;
+        Walker walker;
+        if (start({vertex_, target}, walker, on_crossing)) {
+            do {
+                fetch_tip(walker);
+            } while (step(walker, on_crossing));
+        }
+        return walker.ends;
     }
 
     /// Walks along sight_at(k) for all k below `count`, several at a time, a step each in turn: a
@@ -197,7 +196,7 @@ class SightWalk {
 
     static unsigned may_reach_target(const Sighted& corner)
     {
-        return static_cast<unsigned>(corner.depth >= 1.0 - kMargin);
+        return static_cast<unsigned>(!(corner.depth < 1.0 - kMargin)); // nor if it is no number
     }
 
     void look_ahead(Exit& exit) const

@@ -22,6 +22,7 @@ std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& l
 
 std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<BoundaryFacet>& facets)
 {
+    require_indexable(facets.size(), kMostFaces, "faces");
     std::vector<Face> faces(facets.size());
     parallel_for(faces.size(), [&](std::size_t i) {
         const auto& corners = cells.cells[facets[i].cell].vertices;
@@ -36,7 +37,6 @@ TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene&
     TriMesh mesh;
     mesh.offset = scene.offset;
     mesh.faces = boundary_faces(cells, boundary_facets(cells, labels));
-    require_indexable(mesh.faces.size(), kMostFaces, "faces");
     mesh.points = used_vertices(mesh.faces, cells.positions.size());
     mesh.positions.resize(mesh.points.size());
     mesh.colors.resize(mesh.points.size());

@@ -18,7 +18,8 @@ struct BoundaryFacet {
 /// All of them, in the order of the cells. Cost: O(cells), in parallel.
 std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& labels);
 
-/// The facets as faces over the vertices of the cells, counter-clockwise seen from outside.
+/// The facets as faces over the vertices of the cells, counter-clockwise seen from outside. Throws
+/// InputError where there are too many to number.
 std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<BoundaryFacet>& facets);
 
 /// The boundary of the inside (Akgunduz, Zetu, Banerjee 2000, section 4.4): every facet between an

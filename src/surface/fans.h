@@ -10,9 +10,9 @@
 
 namespace vcarve {
 
-/// Corners at one vertex that hang together through sewn sides form a fan, or a disk if they close.
-/// `mates` has the side that each side is sewn to, or kNoSide at a border. Sewn sides run along the
-/// same two vertices in opposite directions.
+// Corners at one vertex that hang together through sewn sides form a fan, or a disk if they close.
+// `mates` has the side that each side is sewn to, or kNoSide at a border. Sewn sides run along the
+// same two vertices in opposite directions.
 
 /// The next corner of a fan, clockwise seen from outside; kNoSide at its end.
 inline Side next_corner(std::span<const Side> mates, Side corner)

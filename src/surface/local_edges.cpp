@@ -27,8 +27,7 @@ void for_each_vertex_with_values(std::size_t num_vertices, const Body& body)
         });
 }
 
-} // namespace
-
+/// The upper median; 0 where there are no values. Changes their order.
 double upper_median(std::vector<double>& values)
 {
     if (values.empty()) return 0.0;
@@ -36,6 +35,8 @@ double upper_median(std::vector<double>& values)
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
 }
+
+} // namespace
 
 LocalEdges::LocalEdges(std::span<const Vector3d> positions, std::span<const Face> faces,
                        const FaceFlags& measured)
@@ -82,12 +83,12 @@ double LocalEdges::relative_size(std::size_t face) const
     return longest_edge(face) / scales[1];
 }
 
-/// Which vertices have an edge around them that is not below `size` times the median, or perhaps
-/// is: where more than half of the lengths are so short.
-FaceFlags LocalEdges::uneven_vertices(double size) const
+/// Which vertices may have an edge around them of `size` medians or more: those where more than
+/// half of the lengths are at most the longest over `size`.
+std::vector<std::uint8_t> LocalEdges::uneven_vertices(double size) const
 {
     constexpr double kRounding = 1.0 + 1e-9;
-    FaceFlags uneven(positions_.size(), 0);
+    std::vector<std::uint8_t> uneven(positions_.size(), 0);
     for_each_vertex_with_values(uneven.size(), [&](std::uint32_t v, std::vector<double>& values) {
         collect_squared_lengths(v, values);
         if (values.empty()) return;
@@ -101,7 +102,7 @@ FaceFlags LocalEdges::uneven_vertices(double size) const
 
 std::vector<std::uint32_t> LocalEdges::large_faces(double size) const
 {
-    const FaceFlags uneven = uneven_vertices(size);
+    const std::vector<std::uint8_t> uneven = uneven_vertices(size);
     return parallel_collect<std::uint32_t>(faces_.size(), [&](std::size_t face, auto& large) {
         const auto& [a, b, c] = faces_[face];
         if (uneven[a] + uneven[b] + uneven[c] >= 2)

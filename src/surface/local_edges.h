@@ -8,9 +8,6 @@
 
 namespace vcarve {
 
-/// The upper median; 0 where there are no values. Changes their order.
-double upper_median(std::vector<double>& values);
-
 /// How long the edges around a vertex are. Medians cost more than all else that is asked about a
 /// surface, so they are taken when first asked for, and large_faces() tells by less which faces are
 /// worth asking about. Safe from many threads. Keeps references to positions and faces.
@@ -34,8 +31,8 @@ class LocalEdges {
     /// around is measured.
     double relative_size(std::size_t face) const;
 
-    /// The measured faces whose relative size is not below `size`, or perhaps is, ascending. Few
-    /// others are among them. Cost: O(faces), in parallel.
+    /// All measured faces whose relative size is not below `size`, and a few others, ascending.
+    /// Cost: O(faces), in parallel.
     std::vector<std::uint32_t> large_faces(double size) const;
 
   private:
@@ -44,7 +41,7 @@ class LocalEdges {
         return (positions_[a] - positions_[b]).squaredNorm();
     }
     void collect_squared_lengths(std::uint32_t vertex, std::vector<double>& lengths_sq) const;
-    FaceFlags uneven_vertices(double size) const;
+    std::vector<std::uint8_t> uneven_vertices(double size) const;
 
     std::span<const Eigen::Vector3d> positions_;
     std::span<const Face> faces_;

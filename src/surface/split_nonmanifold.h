@@ -25,8 +25,7 @@ struct ManifoldSurface {
 /// after the split, all but one of them get a vertex of their own in the middle of it; this is the
 /// only case that adds faces. Degenerate faces (a vertex twice) are dropped. Vertices keep their
 /// numbers, copies follow; a copy keeps colour and point, a midpoint has the mean colour and no
-/// point. Normals are dropped. Cost: O(faces log(faces of a vertex)),
-/// mostly in parallel.
+/// point. Normals are dropped. Cost: O(faces log(faces of a vertex)), mostly in parallel.
 ManifoldSurface split_nonmanifold(TriMesh mesh);
 
 } // namespace vcarve

@@ -17,7 +17,6 @@ class VertexFaces {
     /// bytes a face and 4 a vertex.
     VertexFaces(std::span<const Face> faces, std::size_t num_vertices, const FaceFlags& flags = {});
 
-    std::size_t size() const { return ends_.size(); }
     std::span<const std::uint32_t> operator[](std::size_t vertex) const
     {
         const std::uint32_t begin = vertex == 0 ? 0 : ends_[vertex - 1];
