@@ -61,12 +61,5 @@ TEST(PointSpacings, AreZeroWhereAllPointsCoincide)
     EXPECT_THAT(point_spacings(points), Each(0.0));
 }
 
-TEST(Median, IsTheUpperMiddle)
-{
-    EXPECT_EQ(median({}), 0.0);
-    EXPECT_EQ(median({3, 1, 2}), 2.0);
-    EXPECT_EQ(median({4, 1, 3, 2}), 3.0);
-}
-
 } // namespace
 } // namespace vcarve

@@ -1,9 +1,9 @@
 #include "compare/evidence.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "compare/image_field.h"
 #include "compare/sample.h"
-#include "compare/spacing.h"
 
 #include <Eigen/Geometry>
 

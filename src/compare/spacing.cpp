@@ -1,5 +1,6 @@
 #include "compare/spacing.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 #include <CGAL/Orthogonal_k_neighbor_search.h>
@@ -25,14 +26,6 @@ Point to_point(const Eigen::Vector3d& position)
 }
 
 } // namespace
-
-double median(std::vector<double> values)
-{
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 std::vector<double> point_spacings(const std::vector<Eigen::Vector3d>& points)
 {

@@ -12,7 +12,4 @@ namespace vcarve {
 /// n), parallel.
 std::vector<double> point_spacings(const std::vector<Eigen::Vector3d>& points);
 
-/// The middle one of the values, the upper of two; 0 where there are none.
-double median(std::vector<double> values);
-
 } // namespace vcarve

@@ -1,6 +1,7 @@
 #include "compare/yardstick.h"
 
 #include "base/error.h"
+#include "base/median.h"
 #include "compare/spacing.h"
 #include "compare/truth.h"
 

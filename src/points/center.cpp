@@ -1,6 +1,7 @@
 #include "points/center.h"
 
-#include <algorithm>
+#include "base/median.h"
+
 #include <cmath>
 
 namespace vcarve {
@@ -21,11 +22,7 @@ Vector3d median_of(const std::vector<Vector3d>& positions)
                 values.push_back(position[axis]);
             }
         }
-        if (!values.empty()) {
-            const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-            std::nth_element(values.begin(), middle, values.end());
-            median[axis] = *middle;
-        }
+        median[axis] = median_in_place(values);
     }
     return median;
 }

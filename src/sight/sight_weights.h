@@ -5,7 +5,6 @@
 #include "sight/trace.h"
 
 #include <cstdint>
-#include <optional>
 
 namespace vcarve {
 
@@ -25,7 +24,7 @@ class SightWeights {
 
     const Scene& scene_;
     const TraceOptions& options_;
-    std::optional<double> median_error_px_;
+    double median_error_px_; ///< 0 where no error is known
     double full_ = 1.0;
 };
 

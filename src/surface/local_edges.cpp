@@ -1,5 +1,6 @@
 #include "surface/local_edges.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -25,15 +26,6 @@ void for_each_vertex_with_values(std::size_t num_vertices, const Body& body)
                 body(v, values);
             }
         });
-}
-
-/// The upper median; 0 where there are no values. Changes their order.
-double upper_median(std::vector<double>& values)
-{
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 } // namespace
@@ -64,7 +56,7 @@ double LocalEdges::median(std::uint32_t vertex) const
     if (found >= 0.0) return found;
     std::vector<double> lengths_sq;
     collect_squared_lengths(vertex, lengths_sq);
-    const double median = std::sqrt(upper_median(lengths_sq)); // roots keep the order
+    const double median = std::sqrt(median_in_place(lengths_sq)); // roots keep the order
     known.store(median, std::memory_order_relaxed); // whoever else finds it finds the same
     return median;
 }
@@ -123,7 +115,7 @@ std::vector<double> vertex_spacings(const TriMesh& mesh)
                     lengths.push_back((mesh.positions[other] - mesh.positions[vertex]).norm());
                 }
             }
-            spacings[vertex] = upper_median(lengths);
+            spacings[vertex] = median_in_place(lengths);
         });
     return spacings;
 }
