@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace vcarve {
 namespace {
+
+using testing::together;
 
 Eigen::Vector3d random_point(std::uint64_t seed, std::uint64_t index)
 {
@@ -103,6 +106,136 @@ TEST(SurfaceTree, BlocksFromEitherSideButNotBesideOrBefore)
     EXPECT_FALSE(tree.blocks({0.3, 0.6, 1.0}, {0.3, 0.6, 1e-9}));
 }
 
+/// The way to a face by solving for it, none where the ray passes it.
+std::optional<FirstHit> hit_of_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& p,
+                                    const Eigen::Vector3d& q)
+{
+    const Eigen::Vector3d& a = mesh.positions[face[0]];
+    const Eigen::Vector3d ab = mesh.positions[face[1]] - a;
+    const Eigen::Vector3d ac = mesh.positions[face[2]] - a;
+    Eigen::Matrix3d system;
+    system << q - p, -ab, -ac;
+    const Eigen::Vector3d along = system.inverse() * (a - p);
+    if (along.minCoeff() < 0.0 || along.y() + along.z() > 1.0) return std::nullopt;
+    return FirstHit{.along = along.x(), .front = ab.cross(ac).dot(q - p) < 0.0};
+}
+
+TEST(SurfaceTree, FirstHitIsTheNearestOfAllFaces)
+{
+    const TriMesh mesh = testing::random_soup(40, 21);
+    const SurfaceTree tree(mesh);
+    int fronts = 0;
+    int backs = 0;
+    int beyond = 0;
+    for (std::uint64_t i = 0; i < 2000; ++i) {
+        const Eigen::Vector3d p = random_point(22, 2 * i);
+        const Eigen::Vector3d q = random_point(22, 2 * i + 1);
+        std::optional<FirstHit> nearest;
+        for (const Face& face : mesh.faces) {
+            const std::optional<FirstHit> hit = hit_of_face(mesh, face, p, q);
+            if (hit && (!nearest || hit->along < nearest->along)) nearest = hit;
+        }
+        const std::optional<FirstHit> found = tree.first_hit(p, q);
+        ASSERT_EQ(found.has_value(), nearest.has_value()) << "ray " << i;
+        if (!found) continue;
+        EXPECT_NEAR(found->along, nearest->along, 1e-12 * (1.0 + nearest->along)) << "ray " << i;
+        EXPECT_EQ(found->front, nearest->front) << "ray " << i;
+        (found->front ? fronts : backs) += 1;
+        beyond += found->along > 1.0 ? 1 : 0;
+    }
+    // Every kind of answer occurred, so the comparison meant something.
+    EXPECT_GT(fronts, 300);
+    EXPECT_GT(backs, 300);
+    EXPECT_GT(beyond, 20);
+    EXPECT_LT(fronts + backs, 1900);
+}
+
+TEST(SurfaceTree, FirstHitTellsTheSides)
+{
+    const SurfaceTree tree(together(testing::square(), testing::square(-1.0)));
+    const auto above = tree.first_hit({0.3, 0.6, 2.0}, {0.3, 0.6, 1.5});
+    ASSERT_TRUE(above.has_value());
+    EXPECT_DOUBLE_EQ(above->along, 4.0);
+    EXPECT_TRUE(above->front);
+    const auto below = tree.first_hit({0.3, 0.6, -2.0}, {0.3, 0.6, 0.0});
+    ASSERT_TRUE(below.has_value());
+    EXPECT_DOUBLE_EQ(below->along, 0.5);
+    EXPECT_FALSE(below->front);
+    EXPECT_FALSE(tree.first_hit({1.3, 0.6, 2.0}, {1.3, 0.6, 1.0}).has_value());
+    EXPECT_FALSE(tree.first_hit({0.3, 0.6, 2.0}, {0.3, 0.6, 3.0}).has_value());
+}
+
+TEST(SurfaceTree, FirstHitCountsTheBorderOfAFace)
+{
+    const SurfaceTree tree(testing::square());
+    // The diagonal, a corner and the outer edges.
+    for (const double x : {0.0, 0.5, 1.0}) {
+        for (const double y : {0.0, 0.5, 1.0}) {
+            const auto hit = tree.first_hit({x, y, 3.0}, {x, y, 2.0});
+            ASSERT_TRUE(hit.has_value()) << x << ' ' << y;
+            EXPECT_EQ(hit->along, 3.0);
+            EXPECT_TRUE(hit->front);
+        }
+    }
+    EXPECT_FALSE(tree.first_hit({1.0 + 1e-15, 0.5, 3.0}, {1.0 + 1e-15, 0.5, 2.0}).has_value());
+}
+
+/// A surface over [0, 1] x [0, 1] of n x n bumpy quads, no slope over 1.
+TriMesh hills(std::uint32_t n)
+{
+    TriMesh mesh;
+    for (std::uint32_t i = 0; i <= n; ++i) {
+        for (std::uint32_t j = 0; j <= n; ++j) {
+            const double height = 0.5 * random_number(31, i * (n + 1) + j) / n;
+            mesh.positions.emplace_back(static_cast<double>(i) / n, static_cast<double>(j) / n,
+                                        height);
+            if (i == n || j == n) continue;
+            const std::uint32_t a = i * (n + 1) + j;
+            const std::uint32_t b = a + n + 1;
+            mesh.faces.push_back({a, b, b + 1});
+            mesh.faces.push_back({a, b + 1, a + 1});
+        }
+    }
+    return mesh;
+}
+
+TEST(SurfaceTree, FirstHitSlipsThroughNoEdgeOrVertex)
+{
+    const TriMesh mesh = hills(20);
+    const SurfaceTree tree(mesh);
+    const Eigen::Vector3d above(0.43, 0.61, 3.0);
+    int rays = 0;
+    for (const Face& face : mesh.faces) {
+        for (int i = 0; i < 3; ++i) {
+            const Eigen::Vector3d& a = mesh.positions[face[i]];
+            const Eigen::Vector3d& b = mesh.positions[face[(i + 1) % 3]];
+            for (const double share : {0.0, 0.5, 0.3}) {
+                const Eigen::Vector3d place = a + share * (b - a);
+                if (place.head<2>().minCoeff() <= 0.0 || place.head<2>().maxCoeff() >= 1.0)
+                    continue;
+                const auto hit = tree.first_hit(above, place);
+                ASSERT_TRUE(hit.has_value());
+                EXPECT_TRUE(hit->front);
+                EXPECT_NEAR(hit->along, 1.0, 1e-12);
+                ++rays;
+            }
+        }
+    }
+    EXPECT_GT(rays, 6000);
+}
+
+TEST(SurfaceTree, FirstHitPassesAFaceItRunsAlong)
+{
+    const SurfaceTree tree(testing::square());
+    EXPECT_FALSE(tree.first_hit({-1.0, 0.3, 0.0}, {0.0, 0.3, 0.0}).has_value());
+    // Of a cube it is the face at the end that counts, and its side's plane is no obstacle.
+    const SurfaceTree box(testing::cube());
+    const auto hit = box.first_hit({-1.0, 0.3, 0.0}, {-0.5, 0.3, 0.0});
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_EQ(hit->along, 2.0);
+    EXPECT_TRUE(hit->front);
+}
+
 TEST(SurfaceTree, WorksOnASingleFace)
 {
     TriMesh mesh = testing::square();
@@ -111,6 +244,8 @@ TEST(SurfaceTree, WorksOnASingleFace)
     EXPECT_DOUBLE_EQ(tree.distance({0.75, 0.25, 3.0}), 3.0);
     EXPECT_TRUE(tree.blocks({0.75, 0.25, 3.0}, {0.75, 0.25, -3.0}));
     EXPECT_FALSE(tree.blocks({0.25, 0.75, 3.0}, {0.25, 0.75, -3.0}));
+    EXPECT_TRUE(tree.first_hit({0.75, 0.25, 3.0}, {0.75, 0.25, 2.0}).has_value());
+    EXPECT_FALSE(tree.first_hit({0.25, 0.75, 3.0}, {0.25, 0.75, 2.0}).has_value());
 }
 
 TEST(SurfaceTree, LeavesOutFacesWithoutArea)

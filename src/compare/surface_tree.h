@@ -5,11 +5,19 @@
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 
 namespace vcarve {
 
-/// A surface made ready for two questions: how far is it, and does it stand in the way. Both may be
-/// asked from any number of threads; answers are in doubles and do not depend on their order.
+/// Where a ray first meets a surface.
+struct FirstHit {
+    double along = 0.0; ///< the way there in lengths of the ray's `from` to `towards`
+    bool front = false; ///< from the side its face's normal looks to
+};
+
+/// A surface made ready for three questions: how far is it, does it stand in the way, and where
+/// does a ray first meet it. All may be asked from any number of threads; answers are in doubles
+/// and do not depend on their order.
 /// Questions are put in the frame of the mesh's positions, its offset plays no part: a mesh far
 /// from zero should be centred first. Faces without area are left out. The mesh itself is not kept.
 /// Cost: O(n log n) to build, O(log n) a question on usual meshes; about 400 bytes a face.
@@ -26,6 +34,13 @@ class SurfaceTree {
 
     /// Whether the closed segment meets the surface, from whichever side.
     bool blocks(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+    /// Where the ray from `from` through `towards` and beyond first meets the surface; nothing
+    /// where it does not. Whether it meets a face, its border included, is decided in exact
+    /// arithmetic, so no ray slips through an edge or a vertex. A face it runs along counts only by
+    /// its neighbours. Of two faces equally far, the front. Precondition: `from` != `towards`.
+    std::optional<FirstHit> first_hit(const Eigen::Vector3d& from,
+                                      const Eigen::Vector3d& towards) const;
 
   private:
     struct Tree;
