@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace vcarve {
 namespace {
 
@@ -75,6 +77,7 @@ TEST(ComparisonTable, SaysWhatTheFiguresMean)
     const std::string full = comparison_table(two_meshes(), square_yardstick());
     EXPECT_THAT(full, HasSubstr("\ntruth: 20400 samples by area of what at least 3 views see "));
     EXPECT_THAT(full, HasSubstr("\nblocked: share of the truth's samples whose line "));
+    EXPECT_THAT(full, HasSubstr("(one a sample, at random; 20400 of 20400 samples have one)"));
 }
 
 TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
@@ -87,9 +90,25 @@ TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
                             "| recall 1 %                 |   1.0000 |\n",
                             "| mean accuracy [%]          |   0.0000 |\n",
                             "| mean completeness [%]      |   0.0000 |\n",
-                            "| blocked                    |   0.0000 |\n"}) {
+                            "| blocked                    |   0.0000 |\n",
+                            "| seen right                 |   1.0000 |\n",
+                            "| torn                       |   0.0000 |\n",
+                            "| open                       |   0.0000 |\n"}) {
         EXPECT_THAT(table, HasSubstr(row));
     }
+}
+
+TEST(ComparisonTable, HasNoLinesWhereNoImageHoldsTheTruth)
+{
+    Yardstick yardstick = square_yardstick();
+    std::ranges::fill(yardstick.truth->image_views, kNoView);
+    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, yardstick)};
+    const std::string table = comparison_table(one, yardstick);
+    EXPECT_THAT(table, HasSubstr("| seen right                 |        - |\n"));
+    EXPECT_THAT(table, HasSubstr("(one a sample, at random; 0 of 20400 samples have one)"));
+    const auto report = nlohmann::json::parse(comparison_json(one, yardstick));
+    EXPECT_EQ(report["truth"]["image_samples"], 0);
+    EXPECT_TRUE(report["meshes"][0]["truth"]["open"].is_null());
 }
 
 /// a.ply was made for the comparison, the other one did not come to be.
@@ -153,9 +172,11 @@ TEST(ComparisonJson, HoldsTheTruth)
     meshes[0].truth = TruthFigures{.agreements = {{{0.0025, 0.5, 1.0, 0.75}, {}, {}}},
                                    .mean_accuracy = 0.1,
                                    .mean_completeness = 0.2,
-                                   .blocked = 0.3};
+                                   .blocked = 0.3,
+                                   .lines = LineFigures{0.625, 0.125, 0.0625}};
     const auto report = nlohmann::json::parse(comparison_json(meshes, yardstick));
     EXPECT_EQ(report["truth"]["samples"], 20400);
+    EXPECT_EQ(report["truth"]["image_samples"], 20400);
     EXPECT_EQ(report["truth"]["seen_share"], 1.0);
     const auto& truth = report["meshes"][0]["truth"];
     EXPECT_EQ(truth["agreement"][0], nlohmann::json::parse(R"(
@@ -163,6 +184,9 @@ TEST(ComparisonJson, HoldsTheTruth)
     EXPECT_EQ(truth["mean_accuracy"], 0.1);
     EXPECT_EQ(truth["mean_completeness"], 0.2);
     EXPECT_EQ(truth["blocked"], 0.3);
+    EXPECT_EQ(truth["seen_right"], 0.625);
+    EXPECT_EQ(truth["torn"], 0.125);
+    EXPECT_EQ(truth["open"], 0.0625);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace vcarve {
@@ -85,14 +86,20 @@ TEST(Truth, TellsPrecisionFromRecall)
     EXPECT_DOUBLE_EQ(half.agreements[2].f_score, 2.0 * recall / (1.0 + recall));
 }
 
-TEST(Truth, CountsLinesTheMeshBlocks)
+/// Four views so high that their lines are upright.
+std::vector<Eigen::Vector3d> upright_centers()
 {
-    // Views so high that their lines are upright; a screen hangs over a quarter of the square.
     std::vector<Eigen::Vector3d> centers = high_centers();
     for (Eigen::Vector3d& center : centers) {
         center.z() = 1e6;
     }
-    const Yardstick yardstick = yardstick_of(square(), centers);
+    return centers;
+}
+
+TEST(Truth, CountsLinesTheMeshBlocks)
+{
+    // A screen hangs over a quarter of the square.
+    const Yardstick yardstick = yardstick_of(square(), upright_centers());
     const TriMesh screened = testing::together(square(), strip(0.0, 0.25, 0.5));
     EXPECT_NEAR(figures_of(screened, yardstick).blocked, 0.25, kFourDeviations);
     // Nearer than 1 % of the diagonal it is taken for the surface itself.
@@ -143,6 +150,134 @@ TEST(Truth, PicksASeeingViewAtRandom)
     }
 }
 
+LineFigures lines_of(const TriMesh& mesh, const Yardstick& yardstick)
+{
+    return figures_of(mesh, yardstick).lines.value();
+}
+
+TEST(TruthLines, SeeTheTruthItselfRight)
+{
+    const LineFigures lines = lines_of(square(), yardstick_of(square(), high_centers()));
+    EXPECT_EQ(lines.seen_right, 1.0);
+    EXPECT_EQ(lines.torn, 0.0);
+    EXPECT_EQ(lines.open, 0.0);
+}
+
+TEST(TruthLines, AreOpenWhereTheMeshHasAHole)
+{
+    const Yardstick yardstick = yardstick_of(square(), high_centers());
+    const TriMesh holed = testing::together(strip(0.0, 0.3, 0.0), strip(0.7, 1.0, 0.0));
+    const auto in_hole = [&](const Eigen::Vector3d& sample) {
+        const double x = sample.x() + yardstick.origin.x();
+        return x > 0.3 && x < 0.7;
+    };
+    const std::vector<Eigen::Vector3d>& samples = yardstick.truth->samples;
+    const double share = static_cast<double>(std::ranges::count_if(samples, in_hole)) /
+                         static_cast<double>(samples.size());
+    const LineFigures lines = lines_of(holed, yardstick);
+    EXPECT_DOUBLE_EQ(lines.open, share);
+    EXPECT_DOUBLE_EQ(lines.seen_right, 1.0 - share);
+    EXPECT_EQ(lines.torn, 0.0);
+    EXPECT_NEAR(share, 0.4, kFourDeviations);
+}
+
+TEST(TruthLines, AreNotOpenWhereTheMeshGoesOnBehind)
+{
+    const TriMesh behind = testing::together(strip(0.0, 0.5, 0.0), strip(-1.0, 2.0, -0.5));
+    const LineFigures lines = lines_of(behind, yardstick_of(square(), upright_centers()));
+    EXPECT_NEAR(lines.seen_right, 0.5, kFourDeviations);
+    EXPECT_EQ(lines.open, 0.0);
+    EXPECT_EQ(lines.torn, 0.0);
+}
+
+TEST(TruthLines, AreTornWhereTheBackIsMetFirst)
+{
+    const Yardstick yardstick = yardstick_of(square(), upright_centers());
+    const LineFigures turned = lines_of(testing::flipped(square()), yardstick);
+    EXPECT_EQ(turned.seen_right, 0.0);
+    EXPECT_EQ(turned.torn, 1.0);
+    EXPECT_EQ(turned.open, 0.0);
+    // However far in front or behind, but not behind a front.
+    EXPECT_EQ(lines_of(testing::flipped(square(0.5)), yardstick).torn, 1.0);
+    EXPECT_EQ(lines_of(testing::flipped(square(-0.5)), yardstick).torn, 1.0);
+    const TriMesh two = testing::together(square(), testing::flipped(square(-0.001)));
+    EXPECT_EQ(lines_of(two, yardstick).torn, 0.0);
+    EXPECT_EQ(lines_of(two, yardstick).seen_right, 1.0);
+}
+
+TEST(TruthLines, SeeRightWithinHalfAPercentOfTheDiagonalAlongTheLine)
+{
+    const Yardstick yardstick = yardstick_of(square(), upright_centers());
+    const double diagonal = yardstick.truth->diagonal;
+    for (const double side : {-1.0, 1.0}) {
+        EXPECT_EQ(lines_of(square(side * 0.0049 * diagonal), yardstick).seen_right, 1.0);
+        const LineFigures lines = lines_of(square(side * 0.0051 * diagonal), yardstick);
+        EXPECT_EQ(lines.seen_right, 0.0);
+        EXPECT_EQ(lines.torn, 0.0);
+        EXPECT_EQ(lines.open, 0.0);
+    }
+    // A line at 45 degrees runs 1.41 as far to the same height.
+    const Yardstick slanting =
+        yardstick_of(square(), {{1e6, 0, 1e6}, {1e6, 1, 1e6}, {1e6, 2, 1e6}});
+    const TriMesh low = strip(-1.0, 2.0, -0.0034 * diagonal);
+    EXPECT_EQ(lines_of(low, slanting).seen_right, 1.0);
+    const TriMesh lower = strip(-1.0, 2.0, -0.0037 * diagonal);
+    EXPECT_EQ(lines_of(lower, slanting).seen_right, 0.0);
+}
+
+/// Cameras 10 above that show `half` to either side of what lies right under them.
+Yardstick narrow_yardstick(const std::vector<Eigen::Vector3d>& centers, double half)
+{
+    Scene scene = scene_above_square(11, centers);
+    scene.cameras[0] = {
+        .id = 1, .model = 0, .width_px = 100, .height_px = 100, .params = {500.0 / half, 50, 50}};
+    const NamedMesh named{"gt.ply", square()};
+    return make_yardstick(scene, &named, few_samples());
+}
+
+TEST(TruthLines, AreOfViewsWhoseImageHoldsTheSample)
+{
+    // No two of the four images overlap, so which view it is can be told by hand, though three
+    // others see the sample as well.
+    const Yardstick yardstick = narrow_yardstick(high_centers(), 0.25);
+    const Truth& truth = *yardstick.truth;
+    ASSERT_EQ(truth.image_views.size(), truth.samples.size());
+    for (std::size_t i = 0; i < truth.samples.size(); ++i) {
+        const Eigen::Vector3d place = truth.samples[i] + yardstick.origin;
+        std::uint32_t expected = kNoView;
+        for (std::uint32_t view = 0; view < 4; ++view) {
+            const Eigen::Vector3d off = place - high_centers()[view];
+            if (std::max(std::abs(off.x()), std::abs(off.y())) <= 0.25) expected = view;
+        }
+        ASSERT_EQ(truth.image_views[i], expected) << "sample " << i;
+    }
+    // 0.05 of the middle in either direction lies in no image.
+    EXPECT_NEAR(static_cast<double>(truth.image_samples()) /
+                    static_cast<double>(truth.samples.size()),
+                0.81, kFourDeviations);
+}
+
+TEST(TruthLines, LeaveOutWhatNoImageHolds)
+{
+    // The images end at 0.25 and 0.75, so nobody misses the rest; and a hole in half the image is
+    // half of what counts, though an eighth of the truth.
+    const std::vector<Eigen::Vector3d> middle(3, Eigen::Vector3d(0.5, 0.5, 10.0));
+    const Yardstick yardstick = narrow_yardstick(middle, 0.25);
+    EXPECT_EQ(lines_of(strip(0.2, 0.8, 0.0), yardstick).seen_right, 1.0);
+    EXPECT_NEAR(lines_of(strip(0.5, 0.8, 0.0), yardstick).open, 0.5, 2.0 * kFourDeviations);
+}
+
+TEST(TruthLines, AreNoneWhereNoImageHoldsATruth)
+{
+    std::vector<Eigen::Vector3d> far = high_centers();
+    for (Eigen::Vector3d& center : far) {
+        center.x() += 5.0;
+    }
+    const Yardstick yardstick = narrow_yardstick(far, 0.25);
+    EXPECT_EQ(yardstick.truth->image_samples(), 0);
+    EXPECT_FALSE(figures_of(square(), yardstick).lines.has_value());
+}
+
 TEST(Truth, FiguresAreTheSameForAnyNumberOfThreads)
 {
     const TriMesh mesh = testing::random_soup(100, 5);
@@ -153,6 +288,10 @@ TEST(Truth, FiguresAreTheSameForAnyNumberOfThreads)
     EXPECT_EQ(alone.mean_accuracy, many.mean_accuracy);
     EXPECT_EQ(alone.mean_completeness, many.mean_completeness);
     EXPECT_EQ(alone.blocked, many.blocked);
+    EXPECT_EQ(alone.lines->seen_right, many.lines->seen_right);
+    EXPECT_EQ(alone.lines->torn, many.lines->torn);
+    EXPECT_EQ(alone.lines->open, many.lines->open);
+    EXPECT_GT(many.lines->torn, 0.0);
 }
 
 } // namespace

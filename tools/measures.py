@@ -32,6 +32,8 @@ def figures_of(mesh):
         "F 0.25 %": at[0]["f"], "F 0.5 %": at[1]["f"], "F 1 %": at[2]["f"],
         "P 0.25 %": at[0]["precision"], "R 0.25 %": at[0]["recall"],
         "blocked": truth["blocked"] if truth else None,
+        "seen right": truth["seen_right"] if truth else None,
+        "torn": truth["torn"] if truth else None, "open": truth["open"] if truth else None,
         "hidden sights": views["hidden_sights"], "missed points": views["missed_points"],
         "unsupported area": views["unsupported_area"],
         "non-manifold edges": size["nonmanifold_edges"],

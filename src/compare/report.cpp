@@ -69,6 +69,13 @@ Row truth_row(std::string title, std::function<double(const TruthFigures&)> figu
             }};
 }
 
+Row line_row(const char* title, double LineFigures::*member)
+{
+    return {title, [member](const Comparison& c) {
+                return c.truth && c.truth->lines ? share((*c.truth->lines).*member) : "-";
+            }};
+}
+
 std::vector<Row> truth_rows()
 {
     std::vector<Row> rows;
@@ -85,6 +92,9 @@ std::vector<Row> truth_rows()
     rows.push_back(truth_row("mean completeness [%]",
                              [](const auto& t) { return 100.0 * t.mean_completeness; }));
     rows.push_back(truth_row("blocked", [](const auto& t) { return t.blocked; }));
+    rows.push_back(line_row("seen right", &LineFigures::seen_right));
+    rows.push_back(line_row("torn", &LineFigures::torn));
+    rows.push_back(line_row("open", &LineFigures::open));
     return rows;
 }
 
@@ -126,6 +136,16 @@ std::string figure_of(const Row& row, const Comparison& comparison, bool is_firs
     return is_first ? comparison.failure : "-";
 }
 
+std::string line_definition(const Truth& truth)
+{
+    return fmt::format(
+        "seen right, torn, open: shares of lines from a view on through a sample of the truth that "
+        "it sees within its image (one a sample, at random; {} of {} samples have one): first meet "
+        "the mesh from its front, at most 0.5 % of the diagonal before or behind the sample; first "
+        "meet it from its back; do not meet it.",
+        truth.image_samples(), truth.samples.size());
+}
+
 /// What the figures mean, a line each, written where the user reads them.
 std::vector<std::string> definitions(const Yardstick& yardstick)
 {
@@ -161,6 +181,7 @@ std::vector<std::string> definitions(const Yardstick& yardstick)
     lines.emplace_back(
         "blocked: share of the truth's samples whose line to a view that sees them (one a "
         "sample, at random) meets the mesh farther than 1 % of the diagonal from the sample.");
+    lines.push_back(line_definition(*yardstick.truth));
     return lines;
 }
 
@@ -218,6 +239,11 @@ Json size_json(const Comparison& comparison)
             {"genus", comparison.genus ? Json(*comparison.genus) : Json(nullptr)}};
 }
 
+Json line_json(const TruthFigures& figures, double LineFigures::*member)
+{
+    return figures.lines ? Json((*figures.lines).*member) : Json(nullptr);
+}
+
 Json truth_json(const TruthFigures& figures)
 {
     Json agreements = Json::array();
@@ -230,7 +256,10 @@ Json truth_json(const TruthFigures& figures)
     return {{"agreement", agreements},
             {"mean_accuracy", figures.mean_accuracy},
             {"mean_completeness", figures.mean_completeness},
-            {"blocked", figures.blocked}};
+            {"blocked", figures.blocked},
+            {"seen_right", line_json(figures, &LineFigures::seen_right)},
+            {"torn", line_json(figures, &LineFigures::torn)},
+            {"open", line_json(figures, &LineFigures::open)}};
 }
 
 Json mesh_json(const Comparison& comparison)
@@ -272,6 +301,7 @@ std::string comparison_json(std::span<const Comparison> comparisons, const Yards
     report["truth"] = nullptr;
     if (yardstick.truth) {
         report["truth"] = {{"samples", yardstick.truth->samples.size()},
+                           {"image_samples", yardstick.truth->image_samples()},
                            {"seen_share", yardstick.truth->seen_share},
                            {"diagonal", yardstick.truth->diagonal}};
     }

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "compare/image_field.h"
 #include "compare/sample.h"
 
 #include <Eigen/Geometry>
@@ -17,11 +18,11 @@
 namespace vcarve {
 namespace {
 
-constexpr std::uint32_t kUnseen = 0xffffffffU;
 constexpr int kLeastViews = 3;
 constexpr double kMaxIncidenceDeg = 80.0;
 constexpr double kTouchShare = 1e-6; ///< of the truth's size: nearer hits are the sample's own face
-constexpr double kBlockedShare = 0.01; ///< of the diagonal
+constexpr double kBlockedShare = 0.01;    ///< of the diagonal
+constexpr double kSeenRightShare = 0.005; ///< of the diagonal
 constexpr std::size_t kPilotSamples = 20000;
 constexpr double kLeastSeenShare = 0.001;
 
@@ -47,6 +48,22 @@ double length_of_box(const std::vector<Eigen::Vector3d>& positions)
     return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
+/// What is to be known of the views that see a sample of the truth.
+struct SeeingViews {
+    int count = 0;
+    std::uint32_t first = kNoView;          ///< that was asked
+    std::uint32_t first_in_image = kNoView; ///< of those whose image holds the sample
+
+    bool enough() const { return count >= kLeastViews; }
+    bool complete() const { return enough() && first_in_image != kNoView; }
+    void add(std::uint32_t view, bool shows)
+    {
+        ++count;
+        if (first == kNoView) first = view;
+        if (shows && first_in_image == kNoView) first_in_image = view;
+    }
+};
+
 /// Decides which views see points of the true surface.
 class TruthSight {
   public:
@@ -57,26 +74,28 @@ class TruthSight {
     {
     }
 
-    /// Asks the views in random order until enough see the sample; the first that did, or kUnseen.
-    std::uint32_t seeing_view(const SurfaceSamples& samples, std::size_t index) const
+    /// Asks the views in random order until enough see the sample and one of them within its image.
+    SeeingViews seeing_views(const SurfaceSamples& samples, std::size_t index) const
     {
         const std::vector<View>& views = yardstick_.scene.views;
+        const Eigen::Vector3d& point = samples.positions[index];
         const Eigen::Vector3d normal = face_normal(samples.faces[index]);
         std::vector<std::uint32_t> order(views.size());
         std::iota(order.begin(), order.end(), 0U);
-        std::uint32_t first = kUnseen;
-        int found = 0;
-        for (std::size_t k = 0; k < order.size(); ++k) {
+        SeeingViews seeing;
+        for (std::size_t k = 0; k < order.size() && !seeing.complete(); ++k) {
             // The next of a random order (Fisher and Yates).
             const auto left = static_cast<double>(order.size() - k);
             const double random =
                 random_number(stream_seed(yardstick_, view_stream), index * order.size() + k);
             std::swap(order[k], order[k + static_cast<std::size_t>(random * left)]);
-            if (!sees(views[order[k]].center, samples.positions[index], normal)) continue;
-            if (first == kUnseen) first = order[k];
-            if (++found == kLeastViews) return first;
+            const View& view = views[order[k]];
+            const bool shows = view_shows(view, yardstick_.scene.cameras[view.camera], point);
+            // Another view beyond its image's end tells nothing more.
+            if (seeing.enough() && !shows) continue;
+            if (sees(view.center, point, normal)) seeing.add(order[k], shows);
         }
-        return kUnseen;
+        return seeing;
     }
 
   private:
@@ -110,15 +129,17 @@ void sample_truth(Truth& truth, const Yardstick& yardstick, std::size_t count, S
     const SurfaceSamples all =
         sample_surface(truth.surface.mesh, count, stream_seed(yardstick, stream));
     const TruthSight sight(truth.surface, yardstick);
-    std::vector<std::uint32_t> views(count);
+    std::vector<SeeingViews> views(count);
     parallel_for(
-        count, [&](std::size_t i) { views[i] = sight.seeing_view(all, i); }, 64);
+        count, [&](std::size_t i) { views[i] = sight.seeing_views(all, i); }, 64);
     truth.samples.clear();
     truth.views.clear();
+    truth.image_views.clear();
     for (std::size_t i = 0; i < count; ++i) {
-        if (views[i] == kUnseen) continue;
+        if (!views[i].enough()) continue;
         truth.samples.push_back(all.positions[i]);
-        truth.views.push_back(views[i]);
+        truth.views.push_back(views[i].first);
+        truth.image_views.push_back(views[i].first_in_image);
     }
     truth.seen_share = static_cast<double>(truth.samples.size()) / static_cast<double>(count);
 }
@@ -161,11 +182,48 @@ double blocked_share(const MeasuredMesh& mesh, const Truth& truth, const std::ve
            static_cast<double>(blocked.size());
 }
 
+enum class Meeting : char { unseen, open, torn, astray, right };
+
+/// What a view meets of the mesh on its way to a sample of the truth and beyond.
+Meeting meeting_of(const MeasuredMesh& mesh, const Truth& truth, const Eigen::Vector3d& center,
+                   const Eigen::Vector3d& sample)
+{
+    const std::optional<FirstHit> hit = mesh.tree.first_hit(center, sample);
+    if (!hit) return Meeting::open;
+    if (!hit->front) return Meeting::torn;
+    const double off = std::abs(hit->along - 1.0) * (sample - center).norm();
+    return off <= kSeenRightShare * truth.diagonal ? Meeting::right : Meeting::astray;
+}
+
+/// Nothing where no image holds a sample of the truth.
+std::optional<LineFigures> line_figures(const MeasuredMesh& mesh, const Truth& truth,
+                                        const std::vector<View>& views)
+{
+    std::vector<Meeting> meetings(truth.samples.size(), Meeting::unseen);
+    parallel_for(
+        meetings.size(),
+        [&](std::size_t i) {
+            const std::uint32_t view = truth.image_views[i];
+            if (view == kNoView) return;
+            meetings[i] = meeting_of(mesh, truth, views[view].center, truth.samples[i]);
+        },
+        64);
+    const auto count = [&](Meeting meeting) {
+        return static_cast<double>(std::ranges::count(meetings, meeting));
+    };
+    const double lines = static_cast<double>(meetings.size()) - count(Meeting::unseen);
+    if (lines == 0.0) return std::nullopt;
+    return LineFigures{.seen_right = count(Meeting::right) / lines,
+                       .torn = count(Meeting::torn) / lines,
+                       .open = count(Meeting::open) / lines};
+}
+
 } // namespace
 
 Truth seen_truth(const NamedMesh& named, const Yardstick& yardstick)
 {
-    Truth truth{.surface = place_mesh(named, yardstick), .samples = {}, .views = {}};
+    Truth truth{
+        .surface = place_mesh(named, yardstick), .samples = {}, .views = {}, .image_views = {}};
     const auto wanted = static_cast<std::size_t>(yardstick.options.samples);
     sample_truth(truth, yardstick, kPilotSamples, pilot_stream);
     // Only a share of the area is seen: draw as many as leaves the wanted number, more if it did
@@ -208,6 +266,7 @@ TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Yardstick& ya
     figures.mean_accuracy = mean(to_truth) / truth.diagonal;
     figures.mean_completeness = mean(to_mesh) / truth.diagonal;
     figures.blocked = blocked_share(mesh, truth, yardstick.scene.views);
+    figures.lines = line_figures(mesh, truth, yardstick.scene.views);
     return figures;
 }
 

@@ -3,6 +3,7 @@
 #include "compare/yardstick.h"
 
 #include <array>
+#include <optional>
 
 namespace vcarve {
 
@@ -18,6 +19,16 @@ struct Agreement {
     double f_score = 0.0; ///< harmonic mean of the two, 0 where both are 0
 };
 
+/// What the views meet of a mesh where they look at the truth: shares of the lines of sight that
+/// go from a view through a sample of the truth it sees within its image and on (one a sample,
+/// picked at random). What is left of 1 first meets the front of a face elsewhere.
+struct LineFigures {
+    double seen_right = 0.0; ///< first meets the mesh from its front, at most 0.5 % of the diagonal
+                             ///< before or behind the sample
+    double torn = 0.0;       ///< first meets the mesh from its back
+    double open = 0.0;       ///< does not meet the mesh
+};
+
 /// A mesh against the truth.
 struct TruthFigures {
     std::array<Agreement, kTolerances.size()> agreements;
@@ -27,6 +38,7 @@ struct TruthFigures {
     /// Share of the truth's samples whose line to a view that sees them (one a sample, picked at
     /// random) meets the mesh farther than 1 % of the diagonal from the sample.
     double blocked = 0.0;
+    std::optional<LineFigures> lines; ///< where some view sees a sample within its image
 };
 
 /// Samples the truth until at least options.samples of its samples count. Throws like
@@ -34,7 +46,7 @@ struct TruthFigures {
 Truth seen_truth(const NamedMesh& named, const Yardstick& yardstick);
 
 /// Precondition: the yardstick has a truth.
-/// Cost: two nearest-point queries and one segment query a sample, parallel.
+/// Cost: two nearest-point queries, a segment query and a ray a sample, parallel.
 TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Yardstick& yardstick);
 
 } // namespace vcarve

@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +52,8 @@ struct MeasuredMesh {
     SurfaceTree tree;
 };
 
+inline constexpr std::uint32_t kNoView = 0xffffffffU;
+
 /// The part of the true surface that counts: where at least 3 views see it.
 struct Truth {
     MeasuredMesh surface;
@@ -58,9 +62,17 @@ struct Truth {
     /// normal, from either side; where the view's image ends plays no part.
     std::vector<Eigen::Vector3d> samples;
     std::vector<std::uint32_t>
-        views;               ///< per sample: one of the views that see it, picked at random
+        views; ///< per sample: one of the views that see it, picked at random
+    std::vector<std::uint32_t>
+        image_views; ///< the same of those whose image holds the sample; kNoView where none does
     double diagonal = 0.0;   ///< of the box of the samples
     double seen_share = 0.0; ///< of the truth's area
+
+    /// How many samples have an image view.
+    std::int64_t image_samples() const
+    {
+        return std::ssize(image_views) - std::ranges::count(image_views, kNoView);
+    }
 };
 
 /// What meshes are measured against: the points and views of a model, and the truth where it is
