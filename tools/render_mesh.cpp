@@ -4,6 +4,7 @@
 #include "io/colmap_model.h"
 #include "io/find_model.h"
 #include "io/ply.h"
+#include "model/camera.h"
 #include "render/picture.h"
 #include "render/raster.h"
 #include "render/shade.h"
@@ -49,16 +50,16 @@ const View& find_view(const Scene& scene, const std::string& image)
     return *found;
 }
 
-/// Lens distortion is left out.
+/// Lens distortion and skew are left out.
 render::Pinhole pinhole(const Camera& camera)
 {
-    // COLMAP's models with one focal length; the others have two.
-    constexpr std::array kSingleFocal{0, 2, 3, 8, 9};
-    const bool single =
-        std::find(kSingleFocal.begin(), kSingleFocal.end(), camera.model) != kSingleFocal.end();
+    const auto lens = intrinsics(camera);
+    if (!lens) {
+        throw UsageError(fmt::format("camera {} has no known focal length", camera.id));
+    }
     render::Pinhole view;
-    view.focal_px = {camera.params[0], camera.params[single ? 0 : 1]};
-    view.principal_px = {camera.params[single ? 1 : 2], camera.params[single ? 2 : 3]};
+    view.focal_px = lens->focal_px;
+    view.principal_px = lens->principal_px;
     view.width_px = static_cast<int>(camera.width_px);
     view.height_px = static_cast<int>(camera.height_px);
     return view;

@@ -2,8 +2,8 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
-#include "compare/image_field.h"
 #include "compare/sample.h"
+#include "model/camera.h"
 
 #include <Eigen/Geometry>
 

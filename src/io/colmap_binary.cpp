@@ -3,10 +3,10 @@
 
 #include "base/error.h"
 #include "io/byte_reader.h"
-#include "io/camera_models.h"
 #include "io/colmap_formats.h"
 #include "io/mapped_file.h"
 #include "io/model_files.h"
+#include "model/lens_model.h"
 
 #include <fmt/format.h>
 
@@ -24,8 +24,8 @@ Camera read_camera(ByteReader& reader, const std::string& name)
     Camera camera;
     camera.id = reader.read<std::uint32_t>("the id of a camera");
     camera.model = reader.read<std::int32_t>("the model of a camera");
-    const auto model = camera_model(camera.model);
-    if (!model) {
+    const LensModel* model = lens_model(camera.model);
+    if (model == nullptr) {
         throw InputError(
             fmt::format("{}: camera {} is of model {}, which is not known, and neither "
                         "is the number of its parameters (a model as text can be read)",

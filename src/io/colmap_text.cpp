@@ -1,11 +1,11 @@
 // The layout is documented at https://colmap.github.io/format.html: a line per camera and point,
 // two lines per image, of which the second, the 2D points, may be empty.
 
-#include "io/camera_models.h"
 #include "io/colmap_formats.h"
 #include "io/mapped_file.h"
 #include "io/model_files.h"
 #include "io/text_reader.h"
+#include "model/lens_model.h"
 
 #include <fmt/format.h>
 
@@ -20,14 +20,14 @@ Camera read_camera(TextReader& reader)
     Camera camera;
     camera.id = reader.read_uint32("the id of a camera");
     const std::string_view model_name = reader.read_word("the model of the camera");
-    camera.model = camera_model_number(model_name).value_or(-1);
+    const LensModel* model = lens_model(model_name);
+    camera.model = model != nullptr ? model->number : -1;
     camera.width_px = reader.read_uint64("the width of the camera");
     camera.height_px = reader.read_uint64("the height of the camera");
     while (!reader.at_line_end()) {
         camera.params.push_back(reader.read_double("a parameter of the camera"));
     }
-    const auto model = camera_model(camera.model);
-    if (model && camera.params.size() != model->num_params) {
+    if (model != nullptr && camera.params.size() != model->num_params) {
         reader.fail(fmt::format("found {} parameters of a {} camera, which has {}",
                                 camera.params.size(), model_name, model->num_params));
     }
