@@ -83,10 +83,37 @@ TEST(Evidence, FindsNoSupportOutsideTheImages)
     // Cameras 10 above that show 0.5 to either side of what lies right under them. 2500 samples by
     // area give a share to within 0.01, one standard deviation.
     Scene scene = scene_above_square(11, {{0.5, 0.5, 10.0}, {0.5, 0.5, 10.0}});
-    scene.cameras[0] = {
-        .id = 1, .model = 0, .width_px = 100, .height_px = 100, .params = {1000, 50, 50}};
+    scene.cameras[0] = testing::square_camera(100, 0.05);
     const Yardstick yardstick = make_yardstick(scene, nullptr, few_samples());
     EXPECT_NEAR(figures_of(strip(0.0, 4.0, 0.0), yardstick).unsupported_area, 0.75, 0.02);
+}
+
+TEST(Evidence, CountsBoundaryEdgesInPlainSight)
+{
+    const Yardstick yardstick = grid_yardstick();
+    // The diagonal is no boundary; from which side the rim is seen plays no part.
+    EXPECT_EQ(figures_of(square(), yardstick).seen_boundary_edges, 4);
+    EXPECT_EQ(figures_of(testing::flipped(square()), yardstick).seen_boundary_edges, 4);
+    EXPECT_EQ(figures_of(testing::cube(), yardstick).seen_boundary_edges, 0);
+    // A screen hides the square from all views, whichever side it turns to them.
+    const TriMesh screen = strip(-1.0, 2.0, 1.0);
+    EXPECT_EQ(figures_of(together(square(), screen), yardstick).seen_boundary_edges, 4);
+    const TriMesh turned = testing::flipped(screen);
+    EXPECT_EQ(figures_of(together(square(), turned), yardstick).seen_boundary_edges, 4);
+    // Over more than half of the square it leaves one edge in sight.
+    const TriMesh half = strip(0.4, 2.0, 1.0);
+    EXPECT_EQ(figures_of(together(square(), half), yardstick).seen_boundary_edges, 4 + 1);
+}
+
+TEST(Evidence, CountsNoBoundaryEdgesOutsideTheImages)
+{
+    // The images show 0.25 to either side of the middle.
+    Scene scene = scene_above_square(11, {{0.5, 0.5, 10.0}, {0.5, 0.5, 10.0}});
+    scene.cameras[0] = testing::square_camera(100, 0.025);
+    const Yardstick yardstick = make_yardstick(scene, nullptr, few_samples());
+    EXPECT_EQ(figures_of(square(), yardstick).seen_boundary_edges, 0);
+    EXPECT_EQ(figures_of(strip(0.4, 1.0, 0.0), yardstick).seen_boundary_edges, 1);
+    EXPECT_EQ(figures_of(strip(0.4, 0.6, 0.0), yardstick).seen_boundary_edges, 2);
 }
 
 TEST(Evidence, SamplesTheSightsWhereThereAreMore)
@@ -135,6 +162,8 @@ TEST(Evidence, IsTheSameForAnyNumberOfThreads)
     EXPECT_EQ(alone.missed_points, many.missed_points);
     EXPECT_EQ(alone.unsupported_area, many.unsupported_area);
     EXPECT_EQ(alone.median_distance, many.median_distance);
+    EXPECT_EQ(alone.seen_boundary_edges, many.seen_boundary_edges);
+    EXPECT_GT(many.seen_boundary_edges, 0);
 }
 
 } // namespace

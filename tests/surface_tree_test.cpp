@@ -106,20 +106,6 @@ TEST(SurfaceTree, BlocksFromEitherSideButNotBesideOrBefore)
     EXPECT_FALSE(tree.blocks({0.3, 0.6, 1.0}, {0.3, 0.6, 1e-9}));
 }
 
-/// The way to a face by solving for it, none where the ray passes it.
-std::optional<FirstHit> hit_of_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& p,
-                                    const Eigen::Vector3d& q)
-{
-    const Eigen::Vector3d& a = mesh.positions[face[0]];
-    const Eigen::Vector3d ab = mesh.positions[face[1]] - a;
-    const Eigen::Vector3d ac = mesh.positions[face[2]] - a;
-    Eigen::Matrix3d system;
-    system << q - p, -ab, -ac;
-    const Eigen::Vector3d along = system.inverse() * (a - p);
-    if (along.minCoeff() < 0.0 || along.y() + along.z() > 1.0) return std::nullopt;
-    return FirstHit{.along = along.x(), .front = ab.cross(ac).dot(q - p) < 0.0};
-}
-
 TEST(SurfaceTree, FirstHitIsTheNearestOfAllFaces)
 {
     const TriMesh mesh = testing::random_soup(40, 21);
@@ -130,11 +116,7 @@ TEST(SurfaceTree, FirstHitIsTheNearestOfAllFaces)
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const Eigen::Vector3d p = random_point(22, 2 * i);
         const Eigen::Vector3d q = random_point(22, 2 * i + 1);
-        std::optional<FirstHit> nearest;
-        for (const Face& face : mesh.faces) {
-            const std::optional<FirstHit> hit = hit_of_face(mesh, face, p, q);
-            if (hit && (!nearest || hit->along < nearest->along)) nearest = hit;
-        }
+        const std::optional<FirstHit> nearest = testing::first_hit_of_all(mesh, p, q);
         const std::optional<FirstHit> found = tree.first_hit(p, q);
         ASSERT_EQ(found.has_value(), nearest.has_value()) << "ray " << i;
         if (!found) continue;

@@ -200,6 +200,9 @@ TEST(TruthLines, AreTornWhereTheBackIsMetFirst)
     // However far in front or behind, but not behind a front.
     EXPECT_EQ(lines_of(testing::flipped(square(0.5)), yardstick).torn, 1.0);
     EXPECT_EQ(lines_of(testing::flipped(square(-0.5)), yardstick).torn, 1.0);
+    const TriMesh wide = testing::moved(testing::scaled(square(), 10.0), {-4.0, -4.0, -1.3});
+    const Yardstick near_by = yardstick_of(square(), {{0.2, 0.2, 2}, {0.8, 0.2, 2}, {0.5, 0.8, 2}});
+    EXPECT_EQ(lines_of(testing::flipped(wide), near_by).torn, 1.0);
     const TriMesh two = testing::together(square(), testing::flipped(square(-0.001)));
     EXPECT_EQ(lines_of(two, yardstick).torn, 0.0);
     EXPECT_EQ(lines_of(two, yardstick).seen_right, 1.0);
@@ -229,8 +232,7 @@ TEST(TruthLines, SeeRightWithinHalfAPercentOfTheDiagonalAlongTheLine)
 Yardstick narrow_yardstick(const std::vector<Eigen::Vector3d>& centers, double half)
 {
     Scene scene = scene_above_square(11, centers);
-    scene.cameras[0] = {
-        .id = 1, .model = 0, .width_px = 100, .height_px = 100, .params = {500.0 / half, 50, 50}};
+    scene.cameras[0] = testing::square_camera(100, half / 10.0);
     const NamedMesh named{"gt.ply", square()};
     return make_yardstick(scene, &named, few_samples());
 }

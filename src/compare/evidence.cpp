@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "compare/sample.h"
 #include "model/camera.h"
+#include "surface/edge_table.h"
 
 #include <Eigen/Geometry>
 
@@ -86,18 +87,27 @@ Eigen::Vector3d face_normal(const TriMesh& mesh, const Face& face)
     return (mesh.positions[face[1]] - a).cross(mesh.positions[face[2]] - a).normalized();
 }
 
+/// Whether a view sees a place of the mesh, from whichever side: its image holds it and the mesh
+/// does not stand between.
+bool sees(const View& view, const Eigen::Vector3d& position, const MeasuredMesh& mesh,
+          const Yardstick& yardstick)
+{
+    const double touch = kTouchSpacings * yardstick.median_spacing;
+    const Eigen::Vector3d line = view.center - position;
+    const double length = line.norm();
+    if (length <= touch) return false;
+    if (!view_shows(view, yardstick.scene.cameras[view.camera], position)) return false;
+    return !mesh.tree.blocks(position + line * (touch / length), view.center);
+}
+
 /// Whether some view sees a sample of the mesh from its front.
 bool supported(const MeasuredMesh& mesh, const Yardstick& yardstick,
                const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
 {
-    const Scene& scene = yardstick.scene;
-    const double touch = kTouchSpacings * yardstick.median_spacing;
-    return std::ranges::any_of(scene.views, [&](const View& view) {
+    return std::ranges::any_of(yardstick.scene.views, [&](const View& view) {
         const Eigen::Vector3d line = view.center - position;
-        const double length = line.norm();
-        if (length <= touch || normal.dot(line) <= kLeastFrontCos * length) return false;
-        if (!view_shows(view, scene.cameras[view.camera], position)) return false;
-        return !mesh.tree.blocks(position + line * (touch / length), view.center);
+        return normal.dot(line) > kLeastFrontCos * line.norm() &&
+               sees(view, position, mesh, yardstick);
     });
 }
 
@@ -118,6 +128,35 @@ double unsupported_share(const MeasuredMesh& mesh, const Yardstick& yardstick)
     return share_of_ones(unsupported);
 }
 
+/// The middles of the edges of one face.
+std::vector<Eigen::Vector3d> rim_of(const TriMesh& mesh)
+{
+    const EdgeTable edges = gather_edges(mesh.faces, mesh.positions.size());
+    std::vector<Eigen::Vector3d> middles;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (edges[e].size() != 1) continue;
+        const Side side = edges[e][0];
+        middles.push_back(0.5 * (mesh.positions[tail(mesh.faces, side)] +
+                                 mesh.positions[head(mesh.faces, side)]));
+    }
+    return middles;
+}
+
+std::int64_t count_seen_rim(const MeasuredMesh& mesh, const Yardstick& yardstick)
+{
+    const std::vector<Eigen::Vector3d> middles = rim_of(mesh.mesh);
+    std::vector<char> seen(middles.size());
+    parallel_for(
+        seen.size(),
+        [&](std::size_t i) {
+            seen[i] = std::ranges::any_of(yardstick.scene.views, [&](const View& view) {
+                return sees(view, middles[i], mesh, yardstick);
+            });
+        },
+        16);
+    return std::ranges::count(seen, 1);
+}
+
 } // namespace
 
 EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Yardstick& yardstick)
@@ -131,6 +170,8 @@ EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Yardstick&
     figures.missed_points = static_cast<double>(missed) / static_cast<double>(distances.size());
     figures.unsupported_area = unsupported_share(mesh, yardstick);
     figures.median_distance = median(std::move(distances));
+    figures.seen_boundary_edges = count_seen_rim(mesh, yardstick);
+    figures.rays = measure_view_rays(mesh, yardstick);
     return figures;
 }
 

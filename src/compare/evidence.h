@@ -1,6 +1,10 @@
 #pragma once
 
+#include "compare/view_rays.h"
 #include "compare/yardstick.h"
+
+#include <cstdint>
+#include <optional>
 
 namespace vcarve {
 
@@ -19,11 +23,16 @@ struct EvidenceFigures {
     double unsupported_area = 0.0;
     /// Median of the points' distances to the mesh, each divided by the point's spacing.
     double median_distance = 0.0;
+    /// Edges of one face whose middle some view sees: within its image, nothing of the mesh between
+    /// from whichever side.
+    std::int64_t seen_boundary_edges = 0;
+    std::optional<RayFigures> rays; ///< where some view has a ray
 };
 
 /// Every sight counts where there are at most options.samples of them, else that many spread evenly
 /// over them; the area is judged by an eighth of options.samples. Cost: a segment query a sight, a
-/// nearest-point query a point, and up to views segment queries for each sample of area; parallel.
+/// nearest-point query a point, up to views segment queries for each sample of area and each
+/// boundary edge, and what measure_view_rays takes; parallel.
 EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Yardstick& yardstick);
 
 } // namespace vcarve

@@ -4,6 +4,7 @@
 #include "base/median.h"
 #include "compare/spacing.h"
 #include "compare/truth.h"
+#include "compare/view_rays.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -132,6 +133,16 @@ void center(Scene& scene)
 
 } // namespace
 
+TriMesh in_frame(TriMesh mesh, const Eigen::Vector3d& origin)
+{
+    const Eigen::Vector3d shift = mesh.offset - origin;
+    for (Eigen::Vector3d& position : mesh.positions) {
+        position += shift;
+    }
+    mesh.offset = origin;
+    return mesh;
+}
+
 MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick)
 {
     if (named.mesh.faces.empty()) {
@@ -142,11 +153,8 @@ MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick)
     TriMesh placed;
     placed.faces = named.mesh.faces;
     placed.positions = named.mesh.positions;
-    const Eigen::Vector3d shift = named.mesh.offset - yardstick.origin;
-    for (Eigen::Vector3d& position : placed.positions) {
-        position += shift;
-    }
-    placed.offset = yardstick.origin;
+    placed.offset = named.mesh.offset;
+    placed = in_frame(std::move(placed), yardstick.origin);
     if (!has_area(placed)) {
         throw InputError(fmt::format("{}: none of the {} faces has an area, so there is no surface "
                                      "to measure",
@@ -172,6 +180,7 @@ Yardstick make_yardstick(const Scene& model, const NamedMesh* truth, const Compa
     yardstick.origin = yardstick.scene.offset;
     yardstick.spacings = point_spacings(yardstick.scene.positions);
     yardstick.median_spacing = median(yardstick.spacings);
+    yardstick.rays = view_rays(yardstick.scene, options);
     if (truth != nullptr) {
         yardstick.truth = seen_truth(*truth, yardstick);
     }

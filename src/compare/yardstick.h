@@ -75,6 +75,12 @@ struct Truth {
     }
 };
 
+/// The line of sight of a pixel: from the view's centre through `towards` and on.
+struct ViewRay {
+    std::uint32_t view;
+    Eigen::Vector3d towards;
+};
+
 /// What meshes are measured against: the points and views of a model, and the truth where it is
 /// known. Everything is in one frame, world minus `origin`, so no precision is lost far from zero.
 struct Yardstick {
@@ -83,14 +89,20 @@ struct Yardstick {
     Scene scene;                  ///< its finite points with at least two views; offset is `origin`
     std::vector<double> spacings; ///< per point, see point_spacings()
     double median_spacing = 0.0;
+    std::vector<ViewRay> rays; ///< see view_rays()
+    /// Per ray: 1 where the closed surface of the model has a face, see add_closed_surface().
+    std::optional<std::vector<char>> closed_hits;
     std::optional<Truth> truth;
 };
 
-/// Prepares a model, and the truth unless it is null. Throws InputError where the model has fewer
-/// than two points that two views saw, or the truth has no faces, lies in another frame than the
-/// model, or is nowhere seen by three views. Cost: with a truth, about samples / seen share x
-/// (lines until 3 views are found, all where unseen).
+/// Prepares a model, and the truth unless it is null; not yet its closed surface. Throws InputError
+/// where the model has fewer than two points that two views saw, or the truth has no faces, lies in
+/// another frame than the model, or is nowhere seen by three views. Cost: with a truth, about
+/// samples / seen share x (lines until 3 views are found, all where unseen).
 Yardstick make_yardstick(const Scene& model, const NamedMesh* truth, const CompareOptions& options);
+
+/// The same mesh with `origin` for its offset.
+TriMesh in_frame(TriMesh mesh, const Eigen::Vector3d& origin);
 
 /// A mesh in the yardstick's frame. Throws InputError where it has no face with area, or where it
 /// evidently lies in another frame than the model: where its box lies more than a diagonal beside

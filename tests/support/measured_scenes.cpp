@@ -2,6 +2,8 @@
 
 #include "compare/sample.h"
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <numbers>
 
@@ -100,6 +102,25 @@ TriMesh random_soup(std::size_t faces, std::uint64_t seed)
     return mesh;
 }
 
+std::optional<FirstHit> first_hit_of_all(const TriMesh& mesh, const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& towards)
+{
+    std::optional<FirstHit> nearest;
+    const Eigen::Vector3d line = towards - from;
+    for (const Face& face : mesh.faces) {
+        const Eigen::Vector3d& a = mesh.positions[face[0]];
+        const Eigen::Vector3d ab = mesh.positions[face[1]] - a;
+        const Eigen::Vector3d ac = mesh.positions[face[2]] - a;
+        Eigen::Matrix3d system;
+        system << line, -ab, -ac;
+        const Eigen::Vector3d place = system.inverse() * (a - from);
+        if (place.minCoeff() < 0.0 || place.y() + place.z() > 1.0) continue;
+        if (nearest && nearest->along <= place.x()) continue;
+        nearest = {.along = place.x(), .front = ab.cross(ac).dot(line) < 0.0};
+    }
+    return nearest;
+}
+
 Scene scene_above_square(std::size_t n, const std::vector<Eigen::Vector3d>& centers)
 {
     Scene scene;
@@ -119,6 +140,16 @@ Scene scene_above_square(std::size_t n, const std::vector<Eigen::Vector3d>& cent
         scene.tracks.push_back(all);
     }
     return scene;
+}
+
+Camera square_camera(std::uint64_t size_px, double tangent)
+{
+    const double middle_px = static_cast<double>(size_px) / 2;
+    return {.id = 1,
+            .model = 0,
+            .width_px = size_px,
+            .height_px = size_px,
+            .params = {middle_px / tangent, middle_px, middle_px}};
 }
 
 std::vector<Eigen::Vector3d> high_centers()

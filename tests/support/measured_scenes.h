@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace vcarve::testing {
@@ -28,9 +29,16 @@ TriMesh flipped(TriMesh mesh);
 /// Random triangles with corners in the unit cube.
 TriMesh random_soup(std::size_t faces, std::uint64_t seed);
 
+/// What SurfaceTree::first_hit finds, by solving for every face; exact where nothing is degenerate.
+std::optional<FirstHit> first_hit_of_all(const TriMesh& mesh, const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& towards);
+
 /// n x n points on the square at height 0, a grid with a step of 1 / (n - 1), all seen from
 /// `centers`. The cameras show everything before them and look down.
 Scene scene_above_square(std::size_t n, const std::vector<Eigen::Vector3d>& centers);
+/// A pinhole without distortion, its axis through the middle of a square image that shows `tangent`
+/// to every side at a distance of 1.
+Camera square_camera(std::uint64_t size_px, double tangent);
 /// Four views high above the square.
 std::vector<Eigen::Vector3d> high_centers();
 

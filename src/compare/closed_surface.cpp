@@ -1,0 +1,31 @@
+#include "compare/closed_surface.h"
+
+#include "base/error.h"
+#include "compare/view_rays.h"
+#include "pipeline.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace vcarve {
+
+void add_closed_surface(Yardstick& yardstick, Scene model, Log& log)
+{
+    if (yardstick.rays.empty()) return;
+    Stage stage(log, "closed");
+    std::int64_t faces = 0;
+    try {
+        Options options;
+        options.closed = true;
+        Log silent;
+        const TriMesh closed = reconstruct(std::move(model), options, silent).mesh;
+        use_closed_surface(yardstick, closed);
+        faces = static_cast<std::int64_t>(closed.faces.size());
+    } catch (const InputError& error) {
+        log.note(fmt::format("no closed surface to measure against: {}", error.what()));
+    }
+    stage.end({{"faces of the closed surface", faces}});
+}
+
+} // namespace vcarve

@@ -1,0 +1,98 @@
+#include "compare/view_rays.h"
+
+#include "base/parallel.h"
+#include "model/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+namespace {
+
+constexpr std::size_t kSamplesPerRay = 4;
+constexpr std::size_t kLeastRaysAView = 36;
+
+/// The middles of a grid of about square cells, at most `most` of them but at least one.
+std::vector<Eigen::Vector2d> grid_pixels(const Camera& camera, std::size_t most)
+{
+    const auto width_px = static_cast<double>(camera.width_px);
+    const auto height_px = static_cast<double>(camera.height_px);
+    const auto count = static_cast<double>(most);
+    const double columns =
+        std::clamp(std::round(std::sqrt(count * width_px / height_px)), 1.0, count);
+    const double rows = std::floor(count / columns);
+    std::vector<Eigen::Vector2d> pixels;
+    for (double row = 0.5; row < rows; ++row) {
+        for (double column = 0.5; column < columns; ++column) {
+            pixels.emplace_back(column / columns * width_px, row / rows * height_px);
+        }
+    }
+    return pixels;
+}
+
+/// Per ray: what it first meets of a surface.
+std::vector<std::optional<FirstHit>> first_hits(const SurfaceTree& tree, const Yardstick& yardstick)
+{
+    std::vector<std::optional<FirstHit>> hits(yardstick.rays.size());
+    parallel_for(
+        hits.size(),
+        [&](std::size_t i) {
+            const ViewRay& ray = yardstick.rays[i];
+            hits[i] = tree.first_hit(yardstick.scene.views[ray.view].center, ray.towards);
+        },
+        64);
+    return hits;
+}
+
+} // namespace
+
+std::vector<ViewRay> view_rays(const Scene& scene, const CompareOptions& options)
+{
+    const std::size_t wanted = static_cast<std::size_t>(options.samples) / kSamplesPerRay;
+    const std::size_t most =
+        std::max(wanted / std::max<std::size_t>(scene.views.size(), 1), kLeastRaysAView);
+    const auto rays_of_view = [&](std::size_t index, std::vector<ViewRay>& rays) {
+        const View& view = scene.views[index];
+        const Camera& camera = scene.cameras[view.camera];
+        if (camera.width_px == 0 || camera.height_px == 0) return;
+        // As long as the centre is far from zero, so that adding it rounds little off.
+        const double reach = view.center.isZero(0.0) ? 1.0 : view.center.norm();
+        for (const Eigen::Vector2d& pixel : grid_pixels(camera, most)) {
+            const std::optional<Eigen::Vector3d> direction = ray(camera, pixel);
+            if (!direction) continue;
+            const Eigen::Vector3d line = view.cam_from_world.conjugate() * *direction;
+            rays.push_back({static_cast<std::uint32_t>(index), view.center + reach * line});
+        }
+    };
+    return parallel_collect<ViewRay>(scene.views.size(), rays_of_view, 4);
+}
+
+void use_closed_surface(Yardstick& yardstick, const TriMesh& closed)
+{
+    const SurfaceTree tree(in_frame(closed, yardstick.origin));
+    std::vector<char> met;
+    for (const std::optional<FirstHit>& hit : first_hits(tree, yardstick)) {
+        met.push_back(hit ? 1 : 0);
+    }
+    yardstick.closed_hits = std::move(met);
+}
+
+std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Yardstick& yardstick)
+{
+    const std::vector<std::optional<FirstHit>> hits = first_hits(mesh.tree, yardstick);
+    if (hits.empty()) return std::nullopt;
+    const auto all = static_cast<double>(hits.size());
+    const auto backs =
+        std::ranges::count_if(hits, [](const auto& hit) { return hit && !hit->front; });
+    RayFigures figures;
+    figures.back_faces_seen = static_cast<double>(backs) / all;
+    if (!yardstick.closed_hits) return figures;
+    std::int64_t missing = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        missing += !hits[i] && (*yardstick.closed_hits)[i] != 0 ? 1 : 0;
+    }
+    figures.nothing_seen = static_cast<double>(missing) / all;
+    return figures;
+}
+
+} // namespace vcarve

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "compare/yardstick.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace vcarve {
+
+/// What the views see of a mesh, wherever they look.
+struct RayFigures {
+    double back_faces_seen = 0.0; ///< share of the rays that first meet the mesh from its back
+    /// Share of the rays that meet no face where the closed surface has one; nothing where there is
+    /// no closed surface.
+    std::optional<double> nothing_seen;
+};
+
+/// The lines of sight through the middles of a grid of about square cells in every image: at most
+/// as many cells an image as make options.samples / 4 in all, or 36 where that is more. Pixels
+/// without a direction, and cameras without size or known lens, have none.
+std::vector<ViewRay> view_rays(const Scene& scene, const CompareOptions& options);
+
+/// Fills Yardstick::closed_hits. `closed` is a surface of the yardstick's model, in any frame.
+void use_closed_surface(Yardstick& yardstick, const TriMesh& closed);
+
+/// Nothing where no view has a ray. Cost: a ray each, parallel.
+std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Yardstick& yardstick);
+
+} // namespace vcarve

@@ -1,0 +1,209 @@
+#include "compare/view_rays.h"
+#include "support/measured_scenes.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+
+namespace vcarve {
+namespace {
+
+using testing::cube;
+using testing::square;
+using testing::square_camera;
+
+CompareOptions with_samples(int samples)
+{
+    CompareOptions options;
+    options.samples = samples;
+    return options;
+}
+
+/// Two views at one place 2 above the top of the unit cube that look down at its middle: the top
+/// fills 50 of the 100 px of their images, each with 40 x 40 rays.
+Yardstick yardstick_above_cube()
+{
+    Scene scene = testing::scene_above_square(11, {{0.5, 0.5, 3.0}, {0.5, 0.5, 3.0}});
+    scene.cameras[0] = square_camera(100, 0.5);
+    return make_yardstick(scene, nullptr, with_samples(4 * 2 * 1600));
+}
+
+TriMesh without_top(TriMesh mesh)
+{
+    mesh.faces.erase(mesh.faces.begin() + 2, mesh.faces.begin() + 4);
+    return mesh;
+}
+
+TriMesh without_top_and_bottom(TriMesh mesh)
+{
+    mesh.faces.erase(mesh.faces.begin(), mesh.faces.begin() + 4);
+    return mesh;
+}
+
+std::optional<RayFigures> figures_of(const TriMesh& mesh, const Yardstick& yardstick)
+{
+    return measure_view_rays(place_mesh({"a.ply", mesh}, yardstick), yardstick);
+}
+
+TEST(ViewRays, AreTheMiddlesOfAGridInEveryImage)
+{
+    Scene scene = testing::scene_above_square(3, {{0.2, 0.3, 5.0}, {0.7, 0.1, 4.0}});
+    scene.cameras[0] = {
+        .id = 1, .model = 1, .width_px = 80, .height_px = 40, .params = {100, 50, 30, 25}};
+    // 36 cells an image at most: 8 columns and 4 rows of 10 px.
+    const std::vector<ViewRay> rays = view_rays(scene, with_samples(4 * 2 * 36));
+    ASSERT_EQ(rays.size(), 64U);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t cell = i % 32;
+        EXPECT_EQ(rays[i].view, i / 32);
+        const double x = (10.0 * static_cast<double>(cell % 8) + 5.0 - 30.0) / 100.0;
+        const double y = (10.0 * static_cast<double>(cell / 8) + 5.0 - 25.0) / 50.0;
+        // The cameras look down: half a turn about x.
+        const Eigen::Vector3d expected(x, -y, -1.0);
+        const Eigen::Vector3d line = rays[i].towards - scene.views[rays[i].view].center;
+        EXPECT_TRUE(line.normalized().isApprox(expected.normalized(), 1e-12)) << "ray " << i;
+    }
+}
+
+TEST(ViewRays, AreSharedByTheViewsButSomeAreLeftForEach)
+{
+    Scene scene = testing::scene_above_square(3, std::vector<Eigen::Vector3d>(10, {0.5, 0.5, 1}));
+    scene.cameras[0] = square_camera(1000, 1.0);
+    EXPECT_EQ(view_rays(scene, with_samples(400000)).size(), 100000U);
+    EXPECT_EQ(view_rays(scene, with_samples(4000)).size(), 1000U);
+    EXPECT_EQ(view_rays(scene, with_samples(1000)).size(), 360U);
+}
+
+TEST(ViewRays, AreNoneOfCamerasWithoutKnownLensOrSize)
+{
+    Scene scene = testing::scene_above_square(3, testing::high_centers());
+    const Camera known = square_camera(100, 1.0);
+    Camera unknown = known;
+    unknown.model = -1;
+    Camera without_size = known;
+    without_size.height_px = 0;
+    scene.cameras = {unknown, without_size, known};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        scene.views[i].camera = std::min(i, 2U);
+    }
+    const std::vector<ViewRay> rays = view_rays(scene, with_samples(4 * 4 * 100));
+    ASSERT_EQ(rays.size(), 200U);
+    EXPECT_EQ(rays.front().view, 2U);
+    EXPECT_EQ(rays.back().view, 3U);
+
+    scene.views[2].camera = 0;
+    scene.views[3].camera = 1;
+    const Yardstick yardstick = make_yardstick(scene, nullptr, with_samples(1000));
+    EXPECT_TRUE(yardstick.rays.empty());
+    EXPECT_FALSE(figures_of(square(), yardstick).has_value());
+}
+
+TEST(ViewRays, SeeTheInsideThroughAMissingFace)
+{
+    const Yardstick yardstick = yardstick_above_cube();
+    EXPECT_EQ(figures_of(cube(), yardstick)->back_faces_seen, 0.0);
+    // The opening is 50 px of 100 wide: 20 rays of 40.
+    EXPECT_EQ(figures_of(without_top(cube()), yardstick)->back_faces_seen, 0.25);
+    EXPECT_EQ(figures_of(testing::flipped(cube()), yardstick)->back_faces_seen, 0.25);
+}
+
+TEST(ViewRays, SeeNothingWhereTheClosedSurfaceHasAFace)
+{
+    Yardstick yardstick = yardstick_above_cube();
+    EXPECT_FALSE(figures_of(cube(), yardstick)->nothing_seen.has_value());
+    TriMesh closed = testing::moved(cube(), {0.0, 0.0, -7.0});
+    closed.offset = {0.0, 0.0, 7.0};
+    use_closed_surface(yardstick, closed);
+    EXPECT_EQ(figures_of(cube(), yardstick)->nothing_seen, 0.0);
+    EXPECT_EQ(figures_of(without_top(cube()), yardstick)->nothing_seen, 0.0);
+    // Through the bottom, 33.3 px wide, go 14 rays of 40; the rest meet the sides from inside.
+    const auto tube = figures_of(without_top_and_bottom(cube()), yardstick);
+    EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
+    EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
+    // Faces where the closed surface has none make up for nothing and are held against nobody.
+    const TriMesh beside = testing::moved(square(), {1.0, 0.0, 1.0});
+    EXPECT_EQ(figures_of(testing::together(cube(), beside), yardstick)->nothing_seen, 0.0);
+    EXPECT_EQ(figures_of(beside, yardstick)->nothing_seen, 0.25);
+    EXPECT_EQ(figures_of(square(1.0), yardstick)->nothing_seen, 0.0);
+}
+
+TEST(ViewRays, FindWhatEveryFaceTriedFinds)
+{
+    // Two slanting views of a cube that lacks its top and a side.
+    Scene scene = testing::scene_above_square(11, {{2.5, 1.9, 2.7}, {-0.7, -1.3, 1.6}});
+    scene.cameras[0] = square_camera(200, 0.4);
+    for (View& view : scene.views) {
+        const Eigen::Vector3d axis = Eigen::Vector3d(0.45, 0.55, 0.4) - view.center;
+        view.cam_from_world =
+            Eigen::Quaterniond::FromTwoVectors(axis.normalized(), Eigen::Vector3d::UnitZ());
+    }
+    Yardstick yardstick = make_yardstick(scene, nullptr, with_samples(4 * 2 * 2500));
+    use_closed_surface(yardstick, cube());
+    TriMesh open = without_top(cube());
+    open.faces.erase(open.faces.end() - 2, open.faces.end());
+
+    int backs = 0;
+    int missing = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const View& view = scene.views[static_cast<std::size_t>(i / 2500)];
+        const double u = 0.4 * ((i % 50 + 0.5) / 25.0 - 1.0);
+        const double v = 0.4 * ((i % 2500 / 50 + 0.5) / 25.0 - 1.0);
+        const Eigen::Vector3d line = view.cam_from_world.conjugate() * Eigen::Vector3d(u, v, 1.0);
+        const Eigen::Vector3d towards = view.center + line;
+        const auto hit = testing::first_hit_of_all(open, view.center, towards);
+        const bool has_face = testing::first_hit_of_all(cube(), view.center, towards).has_value();
+        backs += hit && !hit->front ? 1 : 0;
+        missing += !hit && has_face ? 1 : 0;
+    }
+    EXPECT_GT(backs, 200);
+    EXPECT_GT(missing, 20);
+    const std::optional<RayFigures> figures = figures_of(open, yardstick);
+    EXPECT_DOUBLE_EQ(figures->back_faces_seen, backs / 5000.0);
+    EXPECT_DOUBLE_EQ(figures->nothing_seen.value(), missing / 5000.0);
+}
+
+TEST(ViewRays, DoNotDependOnUnitOrPlace)
+{
+    Scene scene = testing::scene_above_square(11, {{0.5, 0.5, 3.0}, {0.5, 0.5, 3.0}});
+    scene.cameras[0] = square_camera(100, 0.5);
+    for (const double factor : {1e-6, 1e6}) {
+        Scene other = scene;
+        const Eigen::Vector3d shift = factor * Eigen::Vector3d(500, -40, 100);
+        for (Eigen::Vector3d& position : other.positions) {
+            position = position * factor + shift;
+        }
+        for (View& view : other.views) {
+            view.center = view.center * factor + shift;
+        }
+        const auto there = [&](const TriMesh& mesh) {
+            return testing::moved(testing::scaled(mesh, factor), shift);
+        };
+        Yardstick yardstick = make_yardstick(other, nullptr, with_samples(4 * 2 * 1600));
+        use_closed_surface(yardstick, there(cube()));
+        const auto tube = figures_of(there(without_top_and_bottom(cube())), yardstick);
+        EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
+        EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
+    }
+}
+
+TEST(ViewRays, AreTheSameForAnyNumberOfThreads)
+{
+    const TriMesh mesh = testing::random_soup(40, 5);
+    const auto figures = [&] {
+        Yardstick yardstick = yardstick_above_cube();
+        use_closed_surface(yardstick, cube());
+        return figures_of(mesh, yardstick).value();
+    };
+    const RayFigures many = figures();
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const RayFigures alone = figures();
+    EXPECT_EQ(alone.back_faces_seen, many.back_faces_seen);
+    EXPECT_EQ(alone.nothing_seen, many.nothing_seen);
+    EXPECT_GT(many.back_faces_seen, 0.0);
+    EXPECT_GT(many.nothing_seen, 0.0);
+}
+
+} // namespace
+} // namespace vcarve
