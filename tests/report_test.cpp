@@ -35,8 +35,11 @@ std::vector<Comparison> two_meshes()
     a.evidence = {.hidden_sights = 0.25,
                   .missed_points = 0.5,
                   .unsupported_area = 0.125,
-                  .median_distance = 2.0};
+                  .median_distance = 2.0,
+                  .seen_boundary_edges = 2,
+                  .rays = RayFigures{.back_faces_seen = 0.0625, .nothing_seen = 0.375}};
     Comparison b = a;
+    b.evidence.rays->nothing_seen = std::nullopt;
     b.name = "longer_name.ply";
     b.genus = 3;
     return {a, b};
@@ -62,6 +65,9 @@ TEST(ComparisonTable, HasAColumnAMesh)
                                   "| missed points              | 0.5000 |          0.5000 |\n"
                                   "| unsupported area           | 0.1250 |          0.1250 |\n"
                                   "| median distance [spacings] | 2.0000 |          2.0000 |\n"
+                                  "| seen boundary edges        |      2 |               2 |\n"
+                                  "| back faces seen            | 0.0625 |          0.0625 |\n"
+                                  "| nothing seen               | 0.3750 |               - |\n"
                                   "\n"));
 }
 
@@ -73,11 +79,25 @@ TEST(ComparisonTable, SaysWhatTheFiguresMean)
     EXPECT_THAT(plain,
                 HasSubstr("\nmissed points: share of points farther than 3 spacings from the "
                           "mesh.\n"));
+    EXPECT_THAT(plain, HasSubstr("\nback faces seen: share of 0 rays, "));
+    EXPECT_THAT(plain, HasSubstr("\nnothing seen: not known, "));
     EXPECT_THAT(plain, Not(HasSubstr("truth")));
     const std::string full = comparison_table(two_meshes(), square_yardstick());
     EXPECT_THAT(full, HasSubstr("\ntruth: 20400 samples by area of what at least 3 views see "));
     EXPECT_THAT(full, HasSubstr("\nblocked: share of the truth's samples whose line "));
     EXPECT_THAT(full, HasSubstr("(one a sample, at random; 20400 of 20400 samples have one)"));
+}
+
+TEST(ComparisonTable, HasNoRaysWhereNoViewHasOne)
+{
+    const Yardstick yardstick = without_truth();
+    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, yardstick)};
+    const std::string table = comparison_table(one, yardstick);
+    EXPECT_THAT(table, HasSubstr("| back faces seen            |        - |\n"
+                                 "| nothing seen               |        - |\n"));
+    const auto report = nlohmann::json::parse(comparison_json(one, yardstick));
+    EXPECT_TRUE(report["meshes"][0]["views"]["back_faces_seen"].is_null());
+    EXPECT_TRUE(report["meshes"][0]["views"]["nothing_seen"].is_null());
 }
 
 TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
@@ -161,7 +181,10 @@ TEST(ComparisonJson, HoldsTheFiguresOfEveryMesh)
                  "nonmanifold_edges": 0, "nonmanifold_vertices": 0, "orientation_faults": 0,
                  "degenerate_faces": 0, "unreferenced_vertices": 0, "genus": 3},
         "views": {"hidden_sights": 0.25, "missed_points": 0.5, "unsupported_area": 0.125,
-                  "median_distance": 2.0}})"));
+                  "median_distance": 2.0, "seen_boundary_edges": 2, "back_faces_seen": 0.0625,
+                  "nothing_seen": null}})"));
+    EXPECT_EQ(report["meshes"][0]["views"]["nothing_seen"], 0.375);
+    EXPECT_EQ(report["model"]["rays"], 0);
     EXPECT_TRUE(report["meshes"][0]["size"]["genus"].is_null());
 }
 

@@ -25,7 +25,7 @@ def run(words, timeout):
 
 
 def figures_of(mesh):
-    """Name -> figure for one entry of compare's JSON; None where it needs a truth."""
+    """Name -> figure for one entry of compare's JSON; None where it is not known."""
     size, views, truth = mesh["size"], mesh["views"], mesh.get("truth")
     at = truth["agreement"] if truth else [{"f": None, "precision": None, "recall": None}] * 3
     return {
@@ -36,6 +36,8 @@ def figures_of(mesh):
         "torn": truth["torn"] if truth else None, "open": truth["open"] if truth else None,
         "hidden sights": views["hidden_sights"], "missed points": views["missed_points"],
         "unsupported area": views["unsupported_area"],
+        "back faces seen": views["back_faces_seen"], "nothing seen": views["nothing_seen"],
+        "seen boundary edges": views["seen_boundary_edges"],
         "non-manifold edges": size["nonmanifold_edges"],
         "orientation faults": size["orientation_faults"],
         "vertices": size["vertices"], "faces": size["faces"],

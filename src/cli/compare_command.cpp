@@ -5,6 +5,7 @@
 #include "cli/interruption.h"
 #include "cli/model_input.h"
 #include "cli/rival_runs.h"
+#include "compare/closed_surface.h"
 #include "compare/report.h"
 #include "io/mapped_file.h"
 #include "io/output_file.h"
@@ -150,7 +151,7 @@ std::vector<std::string> column_names(const std::vector<fs::path>& meshes)
 
 Yardstick read_yardstick(const CompareArguments& arguments, Log& log)
 {
-    const ModelInput model = read_model_input(arguments.model, log);
+    ModelInput model = read_model_input(arguments.model, log);
     NamedMesh truth;
     if (!arguments.truth.empty()) truth = {arguments.truth.string(), read_ply(arguments.truth)};
     Stage stage(log, "yardstick");
@@ -159,6 +160,7 @@ Yardstick read_yardstick(const CompareArguments& arguments, Log& log)
     const std::size_t samples = yardstick.truth ? yardstick.truth->samples.size() : 0;
     stage.end({{"points", yardstick.scene.num_points()},
                {"samples of the truth", static_cast<std::int64_t>(samples)}});
+    add_closed_surface(yardstick, std::move(model.scene), log);
     return yardstick;
 }
 

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "compare/yardstick.h"
+
+#include <string>
+#include <vector>
+
+namespace vcarve {
+
+/// What the figures mean, a line each, written where the user reads them.
+std::vector<std::string> definitions(const Yardstick& yardstick, bool with_costs);
+
+} // namespace vcarve
