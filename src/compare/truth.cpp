@@ -90,10 +90,12 @@ class TruthSight {
                 random_number(stream_seed(yardstick_, view_stream), index * order.size() + k);
             std::swap(order[k], order[k + static_cast<std::size_t>(random * left)]);
             const View& view = views[order[k]];
-            const bool shows = view_shows(view, yardstick_.scene.cameras[view.camera], point);
-            // Another view beyond its image's end tells nothing more.
-            if (seeing.enough() && !shows) continue;
-            if (sees(view.center, point, normal)) seeing.add(order[k], shows);
+            const auto shows = [&] {
+                return view_shows(view, yardstick_.scene.cameras[view.camera], point);
+            };
+            // Another view whose image ends before the sample tells nothing more.
+            if (seeing.enough() && !shows()) continue;
+            if (sees(view.center, point, normal)) seeing.add(order[k], shows());
         }
         return seeing;
     }
