@@ -27,6 +27,7 @@ constexpr std::array kScenes{
     NamedScene{"noisy", noisy},
     NamedScene{"few_views", few_views},
     NamedScene{"room", room},
+    NamedScene{"city", city},
 };
 
 } // namespace

@@ -13,5 +13,6 @@ PhotoScene low_texture();   ///< half of the parts are nearly even in colour
 PhotoScene noisy();         ///< pictures with strong noise and some blur
 PhotoScene few_views();     ///< the still life from eight places
 PhotoScene room();          ///< an interior, seen from within
+PhotoScene city();          ///< houses with plain walls, seen from the air
 
 } // namespace vcarve::render
