@@ -28,6 +28,7 @@ constexpr std::array kScenes{
     NamedScene{"few_views", few_views},
     NamedScene{"room", room},
     NamedScene{"city", city},
+    NamedScene{"hall", hall},
 };
 
 } // namespace

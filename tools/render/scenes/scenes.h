@@ -14,5 +14,6 @@ PhotoScene noisy();         ///< pictures with strong noise and some blur
 PhotoScene few_views();     ///< the still life from eight places
 PhotoScene room();          ///< an interior, seen from within
 PhotoScene city();          ///< houses with plain walls, seen from the air
+PhotoScene hall();          ///< a high hall without a ceiling, in grainy pictures from within
 
 } // namespace vcarve::render
