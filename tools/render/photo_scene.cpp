@@ -29,6 +29,7 @@ constexpr std::array kScenes{
     NamedScene{"room", room},
     NamedScene{"city", city},
     NamedScene{"hall", hall},
+    NamedScene{"cubicles", cubicles},
 };
 
 } // namespace

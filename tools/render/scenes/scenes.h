@@ -15,5 +15,6 @@ PhotoScene few_views();     ///< the still life from eight places
 PhotoScene room();          ///< an interior, seen from within
 PhotoScene city();          ///< houses with plain walls, seen from the air
 PhotoScene hall();          ///< a high hall without a ceiling, in grainy pictures from within
+PhotoScene cubicles();      ///< thin partitions, in part plain, with desks and chairs
 
 } // namespace vcarve::render
