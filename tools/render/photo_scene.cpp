@@ -30,6 +30,7 @@ constexpr std::array kScenes{
     NamedScene{"city", city},
     NamedScene{"hall", hall},
     NamedScene{"cubicles", cubicles},
+    NamedScene{"bridge", bridge},
 };
 
 } // namespace

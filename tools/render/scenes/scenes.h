@@ -16,5 +16,6 @@ PhotoScene room();          ///< an interior, seen from within
 PhotoScene city();          ///< houses with plain walls, seen from the air
 PhotoScene hall();          ///< a high hall without a ceiling, in grainy pictures from within
 PhotoScene cubicles();      ///< thin partitions, in part plain, with desks and chairs
+PhotoScene bridge();        ///< thin bars before hills far behind them
 
 } // namespace vcarve::render
