@@ -31,6 +31,7 @@ constexpr std::array kScenes{
     NamedScene{"hall", hall},
     NamedScene{"cubicles", cubicles},
     NamedScene{"bridge", bridge},
+    NamedScene{"smooth", smooth},
 };
 
 } // namespace
