@@ -20,13 +20,25 @@ void bench_extract_surface(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells.cells.size()));
 }
 
-void bench_keep_supported(benchmark::State& state)
+FaceFlags supported(std::int64_t size, const TriMesh& boundary)
 {
-    const Scene& scene = sample_scene(state.range(0));
-    const TriMesh boundary =
-        extract_surface(sample_cells(state.range(0)), sample_labels(state.range(0)), scene);
+    const TetMesh& cells = sample_cells(size);
+    const Labels& labels = sample_labels(size);
+    const Scene& scene = sample_scene(size);
+    const FaceVisibility visibility(cells, labels, scene);
+    return supported_faces(boundary, boundary_facets(cells, labels), visibility, scene, {});
+}
+
+TriMesh sample_boundary(std::int64_t size)
+{
+    return extract_surface(sample_cells(size), sample_labels(size), sample_scene(size));
+}
+
+void bench_supported_faces(benchmark::State& state)
+{
+    const TriMesh boundary = sample_boundary(state.range(0));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(keep_supported(boundary, scene, SupportOptions()));
+        benchmark::DoNotOptimize(supported(state.range(0), boundary));
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(boundary.faces.size()));
 }
@@ -37,17 +49,16 @@ void bench_webs(benchmark::State& state)
     const Scene& scene = sample_scene(state.range(0));
     const Labels& labels = sample_labels(state.range(0));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(cells_behind_webs(cells, labels, scene, WebOptions()));
+        const Boundary boundary(cells, labels);
+        benchmark::DoNotOptimize(cells_behind_webs(cells, boundary, scene, WebOptions()));
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells.cells.size()));
 }
 
 void bench_clean_surface(benchmark::State& state)
 {
-    const Scene& scene = sample_scene(state.range(0));
-    const TriMesh surface = keep_supported(
-        extract_surface(sample_cells(state.range(0)), sample_labels(state.range(0)), scene), scene,
-        SupportOptions());
+    const TriMesh boundary = sample_boundary(state.range(0));
+    const TriMesh surface = with_faces(boundary, supported(state.range(0), boundary));
     for (auto _ : state) {
         benchmark::DoNotOptimize(clean_surface(surface, CleanupOptions()));
     }
@@ -56,7 +67,7 @@ void bench_clean_surface(benchmark::State& state)
 
 BENCHMARK(bench_webs)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_extract_surface)->Apply(sample_sizes)->UseRealTime();
-BENCHMARK(bench_keep_supported)->Apply(sample_sizes)->UseRealTime();
+BENCHMARK(bench_supported_faces)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_clean_surface)->Apply(sample_sizes)->UseRealTime();
 
 } // namespace

@@ -96,19 +96,14 @@ Labels cut(const TetMesh& cells, const Scene& scene, Votes votes, const Options&
     Stage label(log, "cut");
     const std::int32_t one_sight = votes.unit;
     MinimumCut minimum = cut(cells, std::move(votes), options.cut);
-    Labels labels = minimum.labels();
-    std::int64_t webs = 0;
-    constexpr int kRounds = 3; // behind a web there may be another
-    for (int round = 0; round < kRounds; ++round) {
-        const std::vector<Index> doubted = cells_behind_webs(cells, labels, scene, options.webs);
-        if (doubted.empty()) break;
-        minimum.offer(doubted, one_sight);
-        labels = minimum.labels();
-        webs += size_of(doubted.size());
-    }
+    DoubtedLabels doubted = doubt_webs(cells, scene, minimum, one_sight, options.webs);
+    Labels& labels = doubted.labels;
+    const std::int64_t needles = take_back_needles(cells, scene, options.needles, labels);
     label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)},
-               {"webs doubted", webs}});
-    return labels;
+               {"webs doubted", doubted.doubts},
+               {"cells taken back", doubted.taken_back},
+               {"needles", needles}});
+    return std::move(labels);
 }
 
 Labels cut(const TetMesh& cells, const Scene& scene, const Options& options, Log& log)
@@ -168,12 +163,20 @@ TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
                 const Options& options, Log& log)
 {
     Stage stage(log, "surface");
-    TriMesh surface = extract_surface(cells, labels, scene);
-    const std::size_t num_faces = surface.faces.size();
-    const bool keeps_all = options.closed || ignores_views(options.method);
-    if (!keeps_all) surface = keep_supported(std::move(surface), scene, options.support);
+    const std::vector<CellFacet> facets = boundary_facets(cells, labels);
+    TriMesh surface = extract_surface(cells, facets, scene);
+    FaceFlags keep(facets.size(), 1);
+    std::int64_t sheets = 0;
+    if (!options.closed && !ignores_views(options.method)) {
+        const FaceVisibility visibility(cells, labels, scene);
+        keep = supported_faces(surface, facets, visibility, scene, options.support);
+        sheets = peel_sheets(surface, facets, visibility, scene, options.sheets, keep);
+    }
+    surface = with_faces(std::move(surface), keep);
+    const std::int64_t dropped = size_of(facets.size() - surface.faces.size());
     stage.end({{"faces", size_of(surface.faces.size())},
-               {"without support", size_of(num_faces - surface.faces.size())}});
+               {"unseen", dropped - sheets},
+               {"sheets", sheets}});
     if (surface.faces.empty()) {
         throw InputError("the sights leave no surface: no part of the space behind the points is "
                          "seen well enough");

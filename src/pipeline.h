@@ -10,6 +10,8 @@
 #include "sight/trace.h"
 #include "sight/virtual_views.h"
 #include "surface/cleanup.h"
+#include "surface/needles.h"
+#include "surface/sheets.h"
 #include "surface/simplify.h"
 #include "surface/smooth.h"
 #include "surface/support.h"
@@ -42,7 +44,9 @@ struct Options {
     VirtualViewOptions virtual_views;
     CutOptions cut;
     WebOptions webs;
+    NeedleOptions needles;
     SupportOptions support;
+    SheetOptions sheets;
     CleanupOptions cleanup;
     SmoothOptions smooth;
     SimplifyOptions simplify;
@@ -69,12 +73,14 @@ struct Options {
         trace.visit(options);
         cut.visit(options);
         webs.visit(options);
+        needles.visit(options);
         virtual_views.visit(options);
         options.stage("Surface");
         options.flag(closed,
                      {.name = "closed",
                       .help = "Keep faces that no view supports, so that the surface is closed."});
         support.visit(options);
+        sheets.visit(options);
         cleanup.visit(options);
         smooth.visit(options);
         simplify.visit(options);

@@ -43,7 +43,7 @@ Walked walked(const TetMesh& mesh, Index vertex, const Vector3d& target)
     ExactWalk walk(mesh, mesh.positions[vertex], target);
     const WalkEnds ends = walk.from_vertex(vertex);
     Walked result{{}, ends.first, ends.last};
-    for (const CrossedFacet& facet : walk.crossed()) {
+    for (const CellFacet& facet : walk.crossed()) {
         result.left.push_back(facet.cell);
     }
     return result;

@@ -2,7 +2,6 @@
 #include "surface/check.h"
 #include "surface/extract.h"
 #include "surface/orient.h"
-#include "surface/support.h"
 #include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
@@ -92,58 +91,6 @@ struct SeenTriangle {
         mesh.faces = {{0, 1, 2}};
     }
 };
-
-TEST(KeepSupported, KeepsAFaceWhoseCornersWereSeenFromItsFront)
-{
-    const SeenTriangle seen({{0, 0, 5}});
-    EXPECT_EQ(keep_supported(seen.mesh, seen.scene, {}).faces, seen.mesh.faces);
-}
-
-TEST(KeepSupported, DropsAFaceSeenOnlyFromItsBackOrItsEdge)
-{
-    const SeenTriangle back({{0, 0, -5}});
-    EXPECT_TRUE(keep_supported(back.mesh, back.scene, {}).faces.empty());
-    const SeenTriangle edge({{50, 0, 1}});
-    EXPECT_TRUE(keep_supported(edge.mesh, edge.scene, {}).faces.empty());
-}
-
-TEST(KeepSupported, NeedsOnlyOneViewACornerButEveryCorner)
-{
-    SeenTriangle seen({{0, 0, 5}, {0, 0, -5}});
-    EXPECT_EQ(keep_supported(seen.mesh, seen.scene, {}).faces.size(), 1U);
-    Tracks tracks;
-    tracks.push_back(std::vector<std::uint32_t>{0, 1});
-    tracks.push_back(std::vector<std::uint32_t>{0});
-    tracks.push_back(std::vector<std::uint32_t>{1}); // the third corner only from the back
-    seen.scene.tracks = tracks;
-    EXPECT_TRUE(keep_supported(seen.mesh, seen.scene, {}).faces.empty());
-}
-
-TEST(KeepSupported, DropsFacesMuchLongerThanTheirNeighbours)
-{
-    // A strip of small triangles and one long web from its end.
-    std::vector<MadePoint> points;
-    for (int i = 0; i < 10; ++i) {
-        points.push_back({{i * 1.0, 0, 0}, {0}});
-        points.push_back({{i * 1.0, 1, 0}, {0}});
-    }
-    points.push_back({{60, 0.5, 0}, {0}});
-    const Scene scene = make_scene({{20, 0, 500}}, points);
-    TriMesh mesh;
-    mesh.positions = scene.positions;
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        mesh.points.push_back(i);
-    }
-    for (std::uint32_t i = 0; i < 9; ++i) {
-        mesh.faces.push_back({2 * i, 2 * i + 2, 2 * i + 1});
-        mesh.faces.push_back({2 * i + 1, 2 * i + 2, 2 * i + 3});
-    }
-    const Face web = {18, 20, 19};
-    mesh.faces.push_back(web);
-    const TriMesh kept = keep_supported(mesh, scene, {.max_edge = 4.0});
-    EXPECT_EQ(kept.faces, std::vector<Face>(mesh.faces.begin(), mesh.faces.end() - 1));
-    EXPECT_EQ(keep_supported(mesh, scene, {.max_edge = 0.0}).faces, mesh.faces);
-}
 
 TEST(ViewAgreement, CountsSightsOnTheFrontOfTheirFaces)
 {

@@ -19,10 +19,10 @@ struct FastWalk {
     WalkEnds ends;
 };
 
-std::vector<CellAndSlot> pairs(const std::vector<CrossedFacet>& facets)
+std::vector<CellAndSlot> pairs(const std::vector<CellFacet>& facets)
 {
     std::vector<CellAndSlot> result;
-    for (const CrossedFacet& facet : facets) {
+    for (const CellFacet& facet : facets) {
         result.emplace_back(facet.cell, facet.slot);
     }
     return result;
@@ -31,7 +31,7 @@ std::vector<CellAndSlot> pairs(const std::vector<CrossedFacet>& facets)
 std::string fault_of_walk(const TetMesh& mesh, Index vertex, const Vector3d& target,
                           const FastWalk& walk)
 {
-    std::vector<CrossedFacet> facets;
+    std::vector<CellFacet> facets;
     for (const auto& [cell, slot] : walk.crossed) {
         facets.push_back({cell, slot});
     }

@@ -81,7 +81,7 @@ TEST(Webs, AreNotSeenInASurfaceThatRunsOn)
 {
     const Scene scene = plate_and_tip();
     const TetMesh mesh = triangulate(scene);
-    EXPECT_TRUE(cells_behind_webs(mesh, below_the_plate(mesh), scene, {}).empty());
+    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, below_the_plate(mesh)}, scene, {}).empty());
 }
 
 TEST(Webs, AreLongSeenFacesAcrossTheSurface)
@@ -93,11 +93,11 @@ TEST(Webs, AreLongSeenFacesAcrossTheSurface)
     Labels labels = below_the_plate(mesh);
     labels[tall] = Label::inside;
 
-    const auto doubted = cells_behind_webs(mesh, labels, scene, {});
+    const auto doubted = cells_behind_webs(mesh, {mesh, labels}, scene, {});
     EXPECT_EQ(std::set<Index>(doubted.begin(), doubted.end()), std::set<Index>{tall});
     EXPECT_LE(doubted.size(), 3U) << "once for each of its faces that stand on the plate";
-    EXPECT_TRUE(cells_behind_webs(mesh, labels, scene, {.web_edge = 0.0}).empty());
-    EXPECT_TRUE(cells_behind_webs(mesh, labels, scene, {.web_edge = 50.0}).empty());
+    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {.web_edge = 0.0}).empty());
+    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {.web_edge = 50.0}).empty());
 }
 
 TEST(Webs, AreOnlyWhatWasSeen)
@@ -109,7 +109,7 @@ TEST(Webs, AreOnlyWhatWasSeen)
     std::fill(scene.tracks.begins.begin() + kTip + 1, scene.tracks.begins.end(),
               scene.tracks.begins[kTip]); // nobody saw the tip
     scene.tracks.views.resize(scene.tracks.begins[kTip]);
-    EXPECT_TRUE(cells_behind_webs(mesh, labels, scene, {}).empty());
+    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {}).empty());
 }
 
 } // namespace

@@ -3,8 +3,8 @@
 // prints the scenes' names. Writes FOLDER/images/*.png, FOLDER/truth.ply, FOLDER/cams.txt (name and
 // true centre of each view), FOLDER/camera.txt (COLMAP's PINHOLE parameters), FOLDER/features.txt
 // (how many to find in a view, at most), FOLDER/pairs.txt (names of views that look in similar
-// directions, a pair a line) and FOLDER/max_error.txt (how far from its true place, in the truth's
-// units, a reconstructed centre may lie).
+// directions from places not too far apart, a pair a line) and FOLDER/max_error.txt (how far from
+// its true place, in the truth's units, a reconstructed centre may lie).
 #include "io/ply.h"
 #include "render/photo_scene.h"
 #include "render/photograph.h"
@@ -61,14 +61,17 @@ void write_settings(const std::filesystem::path& folder, const PhotoScene& scene
     max_error.print("{}\n", scene.frame.scale * kMaxError);
 }
 
-void write_pairs(const std::filesystem::path& path, const std::vector<Pinhole>& views)
+void write_pairs(const std::filesystem::path& path, const PhotoScene& scene)
 {
+    const std::vector<Pinhole>& views = scene.views;
     auto file = fmt::output_file(path.string());
     for (std::size_t i = 0; i < views.size(); ++i) {
         for (std::size_t k = i + 1; k < views.size(); ++k) {
             const double cosine =
                 views[i].cam_from_world.row(2).dot(views[k].cam_from_world.row(2));
-            if (cosine >= kLeastPairCosine) file.print("{} {}\n", name_of(i), name_of(k));
+            const double distance = (views[i].center - views[k].center).norm();
+            if (cosine < kLeastPairCosine || distance > scene.pair_reach) continue;
+            file.print("{} {}\n", name_of(i), name_of(k));
         }
     }
 }
@@ -81,7 +84,7 @@ void write_all(const std::filesystem::path& folder, const std::string& name)
     write_truth(folder, scene,
                 fmt::format("the geometry behind {}", is_fixture ? "fixtures/scene" : name));
     write_settings(folder, scene);
-    write_pairs(folder / "pairs.txt", scene.views);
+    write_pairs(folder / "pairs.txt", scene);
     for (std::size_t i = 0; i < scene.views.size(); ++i) {
         const Picture picture = photograph(scene.parts, scene.views[i]);
         write_png(folder / "images" / name_of(i),

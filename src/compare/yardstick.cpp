@@ -5,6 +5,7 @@
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"
+#include "points/middle_box.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -21,23 +22,6 @@ using Box = Eigen::AlignedBox3d;
 constexpr std::size_t kLeastViews = 2; ///< of a point that counts
 constexpr double kTail = 0.05;         ///< of the coordinates, left out at either end of a box
 constexpr double kMaxScaleRatio = 50.0;
-
-/// The box of the middle nine tenths along each axis.
-Box middle_box(const std::vector<Eigen::Vector3d>& positions)
-{
-    Box box;
-    std::vector<double> values(positions.size());
-    const auto low = static_cast<std::ptrdiff_t>(kTail * static_cast<double>(values.size() - 1));
-    const auto high = static_cast<std::ptrdiff_t>(values.size()) - 1 - low;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::ranges::transform(positions, values.begin(), [&](const auto& p) { return p[axis]; });
-        std::nth_element(values.begin(), values.begin() + low, values.end());
-        box.min()[axis] = values[static_cast<std::size_t>(low)];
-        std::nth_element(values.begin(), values.begin() + high, values.end());
-        box.max()[axis] = values[static_cast<std::size_t>(high)];
-    }
-    return box;
-}
 
 /// The corners of the faces, once per face; none of faces with a corner that is not finite.
 std::vector<Eigen::Vector3d> face_corners(const TriMesh& mesh)
@@ -81,8 +65,8 @@ void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Yar
     for (const Eigen::Vector3d& corner : corners) {
         whole.extend(corner);
     }
-    const Box points = middle_box(yardstick.scene.positions);
-    const double mesh_size = middle_box(corners).diagonal().norm();
+    const Box points = middle_box(yardstick.scene.positions, kTail);
+    const double mesh_size = middle_box(corners, kTail).diagonal().norm();
     const double model_size = points.diagonal().norm();
     const bool same_scale =
         mesh_size <= kMaxScaleRatio * model_size && model_size <= kMaxScaleRatio * mesh_size;

@@ -35,6 +35,12 @@ static_assert(sizeof(Cell) == 32);
 inline constexpr std::array<std::array<int, 3>, 4> kFacetCorners = {
     {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
+/// A facet as seen from one of its two cells.
+struct CellFacet {
+    Index cell;
+    int slot;
+};
+
 /// The Delaunay triangulation of the points, flat. Vertex v is point v of the scene it was made
 /// from. Cells are numbered in a canonical order: ascending by their sorted vertices; within a cell
 /// the vertices ascend, but for the first two where positive orientation demands otherwise. So the
@@ -48,6 +54,12 @@ struct TetMesh {
     /// The slot of `cell` in its neighbour across facet `slot`: neighbors[mirror] of that one is
     /// `cell`.
     int mirror(Index cell, int slot) const { return (mirrors[cell] >> (2 * slot)) & 3; }
+
+    /// The same facet as seen from its other cell.
+    CellFacet other_side(const CellFacet& facet) const
+    {
+        return {cells[facet.cell].neighbors[facet.slot], mirror(facet.cell, facet.slot)};
+    }
 };
 
 } // namespace vcarve

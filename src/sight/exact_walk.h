@@ -8,11 +8,6 @@
 
 namespace vcarve {
 
-struct CrossedFacet {
-    Index cell; ///< the cell the sight leaves
-    int slot;   ///< by this facet
-};
-
 /// Where a walk began and ended.
 struct WalkEnds {
     /// The cell whose interior the sight enters first; kInfinite where it starts along an edge, in
@@ -42,8 +37,8 @@ class ExactWalk {
     /// On from inside a cell that the segment has entered; returns the last cell.
     Index from_cell(Index cell);
 
-    /// The facets crossed so far, in order.
-    const std::vector<CrossedFacet>& crossed() const { return crossed_; }
+    /// The facets crossed so far, in order, as seen from the cells left.
+    const std::vector<CellFacet>& crossed() const { return crossed_; }
 
   private:
     /// What the sight has reached, and where to look for it. `corners` are vertices of `cell`:
@@ -72,7 +67,7 @@ class ExactWalk {
     const TetMesh& mesh_;
     Eigen::Vector3d point_;
     Eigen::Vector3d target_;
-    std::vector<CrossedFacet> crossed_;
+    std::vector<CellFacet> crossed_;
 };
 
 /// The cells around a vertex, infinite ones included, in no particular order. `start` is one of

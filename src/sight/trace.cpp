@@ -105,7 +105,7 @@ void lower(Index& least, Index value)
 }
 
 /// Distance from a point to where the line through it in a direction meets a facet's plane.
-double distance_to_facet(const TetMesh& mesh, CrossedFacet facet, const Vector3d& point,
+double distance_to_facet(const TetMesh& mesh, CellFacet facet, const Vector3d& point,
                          const Vector3d& direction)
 {
     const Cell& cell = mesh.cells[facet.cell];
@@ -248,7 +248,7 @@ class Voter {
     }
 
   private:
-    std::int32_t soft_vote(CrossedFacet facet, const Vector3d& point, const Vector3d& direction,
+    std::int32_t soft_vote(CellFacet facet, const Vector3d& point, const Vector3d& direction,
                            std::int32_t full) const
     {
         if (sigma_ == 0.0) {

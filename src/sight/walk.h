@@ -51,6 +51,32 @@ class SightWalk {
         return walker.ends;
     }
 
+    /// Walks through the middle of a facet to the target, out of the facet's cell, and on into each
+    /// next cell for as long as goes_on(facet) says so, the facet being the one to be crossed next,
+    /// seen from the cell before it. Returns the facet at which it was stopped:
+    /// the given one where `place`, which is to lie inside it, does not as seen along the sight. An
+    /// infinite cell number where nothing stopped it before the target or the hull. Plays no part
+    /// in walks from vertices.
+    template <typename GoesOn>
+    CellFacet through_facet(const CellFacet& facet, const Eigen::Vector3d& place,
+                            const Eigen::Vector3d& target, const GoesOn& goes_on) const
+    {
+        Walker walker;
+        if (!start_in_facet(facet, SightFrame(place, target), walker)) return facet;
+        CellFacet stopped{kInfinite, 0};
+        const auto note_stop = [&](Index cell, int slot) {
+            if (stopped.cell == kInfinite && !goes_on(CellFacet{cell, slot}))
+                stopped = {cell, slot};
+        };
+        note_stop(walker.exit.cell, walker.exit.slot);
+        bool ahead = enter_first(walker, note_stop);
+        while (ahead && stopped.cell == kInfinite) {
+            fetch_tip(walker);
+            ahead = step(walker, note_stop);
+        }
+        return stopped;
+    }
+
     /// Walks along sight_at(k) for all k below `count`, several at a time, a step each in turn: a
     /// walk mostly waits for memory and for its own last step, and so the others go on meanwhile.
     /// Calls on_crossing(k, cell, slot) as to() does, for each k in order of its walk, and
@@ -163,6 +189,38 @@ class SightWalk {
         return true;
     }
 
+    /// Stands before a facet. Returns false if the sight does not clearly pass through its inside.
+    bool start_in_facet(const CellFacet& facet, const SightFrame& frame, Walker& walker) const
+    {
+        const Cell& cell = mesh_.cells[facet.cell];
+        Exit& exit = walker.exit;
+        walker.frame = frame;
+        exit.cell = facet.cell;
+        exit.slot = facet.slot;
+        for (int i = 0; i < 3; ++i) {
+            exit.corners[i] = cell.vertices[kFacetCorners[facet.slot][i]];
+            exit.sighted[i] = frame.project(mesh_.positions[exit.corners[i]]);
+        }
+        look_ahead(exit);
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            if (frame.turn(exit.sighted[i], exit.sighted[j], mesh_.positions[exit.corners[i]],
+                           mesh_.positions[exit.corners[j]]) <= 0) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// Crosses the facet it stands before. Returns false if the walk ends with that.
+    template <typename Cross>
+    bool enter_first(Walker& walker, const Cross& cross) const
+    {
+        fetch_tip(walker);
+        walker.ends.last = walker.exit.beyond;
+        return walker.tip != kInfinite && enter_or_finish(walker, cross);
+    }
+
     /// Crosses the facet ahead. Returns false if the walk ends with that or before.
     template <typename Cross>
     bool step(Walker& walker, const Cross& cross) const
@@ -174,10 +232,14 @@ class SightWalk {
         }
         cross(exit.cell, exit.slot);
         walker.ends.last = exit.beyond;
-        if (walker.tip == kInfinite) {
-            return false;
-        }
-        if (enter_beyond(walker.frame, walker.tip, exit)) {
+        return walker.tip != kInfinite && enter_or_finish(walker, cross);
+    }
+
+    /// Finds the next facet ahead. Returns false if the exact walk went all the way.
+    template <typename Cross>
+    bool enter_or_finish(Walker& walker, const Cross& cross) const
+    {
+        if (enter_beyond(walker.frame, walker.tip, walker.exit)) {
             return true;
         }
         ExactWalk walk(mesh_, walker.frame.point(), walker.frame.target());

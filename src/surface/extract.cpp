@@ -6,9 +6,9 @@
 
 namespace vcarve {
 
-std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& labels)
+std::vector<CellFacet> boundary_facets(const TetMesh& cells, const Labels& labels)
 {
-    return parallel_collect<BoundaryFacet>(cells.cells.size(), [&](std::size_t cell, auto& facets) {
+    return parallel_collect<CellFacet>(cells.cells.size(), [&](std::size_t cell, auto& facets) {
         if (labels[cell] == Label::outside) {
             return;
         }
@@ -20,7 +20,7 @@ std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& l
     });
 }
 
-std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<BoundaryFacet>& facets)
+std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<CellFacet>& facets)
 {
     require_indexable(facets.size(), kMostFaces, "faces");
     std::vector<Face> faces(facets.size());
@@ -34,9 +34,15 @@ std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<Boundar
 
 TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene& scene)
 {
+    return extract_surface(cells, boundary_facets(cells, labels), scene);
+}
+
+TriMesh extract_surface(const TetMesh& cells, const std::vector<CellFacet>& facets,
+                        const Scene& scene)
+{
     TriMesh mesh;
     mesh.offset = scene.offset;
-    mesh.faces = boundary_faces(cells, boundary_facets(cells, labels));
+    mesh.faces = boundary_faces(cells, facets);
     mesh.points = used_vertices(mesh.faces, cells.positions.size());
     mesh.positions.resize(mesh.points.size());
     mesh.colors.resize(mesh.points.size());

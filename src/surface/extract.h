@@ -9,18 +9,12 @@
 
 namespace vcarve {
 
-/// A facet by which an inside cell meets an outside one.
-struct BoundaryFacet {
-    Index cell; ///< the inside one
-    int slot;
-};
-
 /// All of them, in the order of the cells. Cost: O(cells), in parallel.
-std::vector<BoundaryFacet> boundary_facets(const TetMesh& cells, const Labels& labels);
+std::vector<CellFacet> boundary_facets(const TetMesh& cells, const Labels& labels);
 
 /// The facets as faces over the vertices of the cells, counter-clockwise seen from outside. Throws
 /// InputError where there are too many to number.
-std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<BoundaryFacet>& facets);
+std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<CellFacet>& facets);
 
 /// The boundary of the inside (Akgunduz, Zetu, Banerjee 2000, section 4.4): every facet between an
 /// inside and an outside cell, counter-clockwise seen from outside, with the colours of the scene's
@@ -28,5 +22,9 @@ std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<Boundar
 /// vertex. Vertices and faces follow the order of the cells. Throws InputError where
 /// there are more faces than can be numbered. Cost: O(cells), in parallel.
 TriMesh extract_surface(const TetMesh& cells, const Labels& labels, const Scene& scene);
+
+/// The same where the boundary is at hand: face i is facet i.
+TriMesh extract_surface(const TetMesh& cells, const std::vector<CellFacet>& facets,
+                        const Scene& scene);
 
 } // namespace vcarve

@@ -86,20 +86,26 @@ FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdg
 
 } // namespace
 
-TriMesh keep_supported(TriMesh mesh, const Scene& scene, const SupportOptions& options)
+FaceFlags supported_faces(const TriMesh& boundary, const std::vector<CellFacet>& facets,
+                          const FaceVisibility& visibility, const Scene& scene,
+                          const SupportOptions& options)
 {
-    const FaceFlags seen = seen_faces(mesh, scene);
-    const LocalEdges edges(mesh.positions, mesh.faces, seen);
-    FaceFlags keep = seen;
-    if (options.max_edge != 0.0) {
-        const std::vector<std::uint32_t> large = edges.large_faces(options.max_edge);
-        parallel_for(large.size(), [&](std::size_t i) {
-            if (!(edges.relative_size(large[i]) <= options.max_edge)) keep[large[i]] = 0;
-        });
-    }
-    for (const std::uint32_t face : gap_faces(mesh, seen, edges, options.max_gap_edge)) {
+    FaceFlags keep = seen_faces(boundary, scene);
+    parallel_for(
+        keep.size(),
+        [&](std::size_t face) {
+            if (keep[face] == 0 && visibility.is_seen(facets[face])) keep[face] = 1;
+        },
+        64);
+    const LocalEdges edges(boundary.positions, boundary.faces, keep);
+    for (const std::uint32_t face : gap_faces(boundary, keep, edges, options.max_gap_edge)) {
         keep[face] = 1;
     }
+    return keep;
+}
+
+TriMesh with_faces(TriMesh mesh, const FaceFlags& keep)
+{
     mesh.faces = parallel_collect<Face>(keep.size(), [&](std::size_t face, auto& faces) {
         if (keep[face] != 0) faces.push_back(mesh.faces[face]);
     });

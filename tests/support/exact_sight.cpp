@@ -112,7 +112,7 @@ std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index v
                                                     const Vector3d& target)
 {
     const Vector3d& point = mesh.positions[vertex];
-    std::vector<std::pair<Number, CrossedFacet>> found;
+    std::vector<std::pair<Number, CellFacet>> found;
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4 && !mesh.cells[cell].is_infinite(); ++slot) {
             const Triangle triangle = facet(mesh, cell, slot);
@@ -148,11 +148,11 @@ Index first_cell_by_brute_force(const TetMesh& mesh, Index vertex, const Vector3
 }
 
 std::string fault_of_walk(const TetMesh& mesh, Index vertex, const Vector3d& target,
-                          const std::vector<CrossedFacet>& crossed, const WalkEnds& ends)
+                          const std::vector<CellFacet>& crossed, const WalkEnds& ends)
 {
     const auto expected = crossings_by_brute_force(mesh, vertex, target);
     const bool same = std::equal(crossed.begin(), crossed.end(), expected.begin(), expected.end(),
-                                 [](const CrossedFacet& a, const SightCrossing& b) {
+                                 [](const CellFacet& a, const SightCrossing& b) {
                                      return a.cell == b.facet.cell && a.slot == b.facet.slot;
                                  });
     if (!same) {

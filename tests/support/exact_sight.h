@@ -12,7 +12,7 @@ namespace vcarve {
 
 /// Where a sight passes a facet.
 struct SightCrossing {
-    CrossedFacet facet;
+    CellFacet facet;
     double share; ///< of the way from the vertex to the target, 0 to 1
 };
 
@@ -36,6 +36,6 @@ bool is_outside_hull(const TetMesh& mesh, const Eigen::Vector3d& point);
 /// What is wrong with a walk from a vertex to a target that said to have crossed `crossed` and to
 /// have ended like `ends`, compared to brute force; empty if nothing is.
 std::string fault_of_walk(const TetMesh& mesh, Index vertex, const Eigen::Vector3d& target,
-                          const std::vector<CrossedFacet>& crossed, const WalkEnds& ends);
+                          const std::vector<CellFacet>& crossed, const WalkEnds& ends);
 
 } // namespace vcarve

@@ -15,6 +15,7 @@ namespace vcarve::render {
 struct Paint {
     Eigen::Array3f tint = Eigen::Array3f::Ones(); ///< 0 to 1
     double contrast = 1.0; ///< of its texture: 0 is an even colour, without features to match
+    double stretch = 1.0;  ///< of its texture, for what is seen from farther off than the rest
 };
 
 /// Things made of closed parts that may touch and run into each other. z is up, units are about a

@@ -27,6 +27,11 @@ constexpr std::array kScenes{
     NamedScene{"noisy", noisy},
     NamedScene{"few_views", few_views},
     NamedScene{"room", room},
+    NamedScene{"city", city},
+    NamedScene{"hall", hall},
+    NamedScene{"cubicles", cubicles},
+    NamedScene{"bridge", bridge},
+    NamedScene{"smooth", smooth},
 };
 
 } // namespace

@@ -34,6 +34,7 @@ struct PhotoScene {
     Parts parts;
     std::vector<Pinhole> views; ///< all with the same lens and size
     int features = 2200;        ///< to find in a view, at most
+    double pair_reach = 1000.0; ///< views with centres farther apart are not matched
     Grain grain;
     Frame frame;
 };

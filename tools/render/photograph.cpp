@@ -71,7 +71,7 @@ Picture photograph(const Parts& parts, const Pinhole& view)
         const Eigen::Vector3d place = fine.center + hit.depth * fine.ray(pixel);
         const std::uint32_t part = parts.part_of_face[hit.face];
         const Paint& paint = parts.paint_of_part[part];
-        const Eigen::Vector3d apart = place + 10.0 * part * Eigen::Vector3d::Ones();
+        const Eigen::Vector3d apart = place / paint.stretch + 10.0 * part * Eigen::Vector3d::Ones();
         const double share = 0.5 + paint.contrast * (noise.at(apart) - 0.5);
         const auto pattern = static_cast<float>(0.15 + 0.85 * share);
         const float brightness = 255.0F * light(face_normal(parts.mesh, hit.face)) * pattern;

@@ -148,6 +148,15 @@ void add_box(PartBuilder& builder, const StandingBox& box, const Paint& paint)
     builder.quad({v[1], v[3], v[7], v[5]});
 }
 
+void add_bar(PartBuilder& builder, const Bar& bar, const Paint& paint)
+{
+    const Eigen::Vector3d along = bar.to - bar.from;
+    add_box(builder, {{0.0, 0.0, 0.0}, {bar.thickness, bar.thickness, along.norm()}}, paint);
+    Eigen::Isometry3d move(Eigen::Translation3d(bar.from));
+    move.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along));
+    builder.move_part(move);
+}
+
 void add_sphere(PartBuilder& builder, const Eigen::Vector3d& middle, double radius,
                 const Paint& paint)
 {

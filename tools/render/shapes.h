@@ -15,6 +15,14 @@ struct StandingBox {
 };
 void add_box(PartBuilder& builder, const StandingBox& box, const Paint& paint);
 
+/// A square bar between two places.
+struct Bar {
+    Eigen::Vector3d from;
+    Eigen::Vector3d to;
+    double thickness;
+};
+void add_bar(PartBuilder& builder, const Bar& bar, const Paint& paint);
+
 void add_sphere(PartBuilder& builder, const Eigen::Vector3d& middle, double radius,
                 const Paint& paint);
 

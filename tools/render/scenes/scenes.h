@@ -13,5 +13,10 @@ PhotoScene low_texture();   ///< half of the parts are nearly even in colour
 PhotoScene noisy();         ///< pictures with strong noise and some blur
 PhotoScene few_views();     ///< the still life from eight places
 PhotoScene room();          ///< an interior, seen from within
+PhotoScene city();          ///< houses with plain walls, seen from the air
+PhotoScene hall();          ///< a high hall without a ceiling, in grainy pictures from within
+PhotoScene cubicles();      ///< thin partitions, in part plain, with desks and chairs
+PhotoScene bridge();        ///< thin bars before hills far behind them
+PhotoScene smooth();        ///< a round figure and a vase with little texture, seen all round
 
 } // namespace vcarve::render

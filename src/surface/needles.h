@@ -1,0 +1,37 @@
+#pragma once
+
+#include "base/options.h"
+#include "model/labels.h"
+#include "model/scene.h"
+#include "model/tet_mesh.h"
+
+#include <cstdint>
+
+namespace vcarve {
+
+struct NeedleOptions {
+    double needle_edge = 4.0;
+
+    void visit(OptionVisitor& options)
+    {
+        options.number(needle_edge,
+                       {.name = "needle-edge",
+                        .unit = "x local edge",
+                        .help = "Take back the tips of needles that stand this many times the "
+                                "median edge around their feet out of the surface, to a point that "
+                                "few views saw; 0 takes back none."});
+    }
+};
+
+/// Takes back needles: thin spikes of inside cells to a stray point, such as a false match makes
+/// far before the surface. A vertex is the tip of one if the inside cells there fill less than a
+/// twelfth of the full solid angle, if every edge of the boundary there is `needle_edge` times
+/// longer than the median edge at its foot, and if few views saw its point: at most 3, or fewer
+/// than half of the median point's. The inside cells at a tip are called outside; that is repeated,
+/// since a needle may have more than one tip. Returns how many tips were taken back. Does not touch
+/// pits, tunnels of outside cells to a stray point behind the surface. Cost: O(cells) a round,
+/// mostly in parallel.
+std::int64_t take_back_needles(const TetMesh& cells, const Scene& scene,
+                               const NeedleOptions& options, Labels& labels);
+
+} // namespace vcarve
