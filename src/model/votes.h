@@ -18,7 +18,7 @@ struct Votes {
     /// out, as those are outside anyway.
     FlowNetwork network;
     /// The finite cell that holds a view's centre, of several that touch it the first in which a
-    /// sight ended; kInfinite if the view lies out of the hull or no sight leads to it.
+    /// sight ended; kInfinite if the view lies out of the hull.
     std::vector<Index> cell_of_view;
     std::int32_t unit = 0;
 };

@@ -48,35 +48,52 @@ FaceVisibility::FaceVisibility(const TetMesh& cells, const Labels& labels, const
     if (!box.isEmpty()) reach_ = 2.0 * box.diagonal().norm();
 }
 
-FaceVisibility::Places FaceVisibility::places_on(const CellFacet& facet) const
+std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
 {
-    constexpr double kMiddle = 1.0 / 3.0;
     constexpr double kNear = 0.8;
     constexpr double kFar = 0.1;
     constexpr double kHalf = 0.475;
     constexpr double kRim = 0.05;
+    constexpr double kThin = 0.2;
     const auto [a, b, c] = corners_of(cells_, facet);
     const auto mix = [&](double u, double v) -> Vector3d {
         return u * a + v * b + (1.0 - u - v) * c;
     };
-    return {mix(kMiddle, kMiddle), mix(kNear, kFar), mix(kFar, kNear), mix(kFar, kFar),
-            mix(kHalf, kHalf),     mix(kHalf, kRim), mix(kRim, kHalf)};
+    const Vector3d middle = (a + b + c) / 3.0;
+    std::vector<Vector3d> places = {middle,          mix(kNear, kFar),  mix(kFar, kNear),
+                                    mix(kFar, kFar), mix(kHalf, kHalf), mix(kHalf, kRim),
+                                    mix(kRim, kHalf)};
+    const auto [short_edge, long_edge] =
+        std::minmax({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    if (short_edge < kThin * long_edge) {
+        for (const Vector3d& corner : {a, b, c}) {
+            places.emplace_back(corner + (short_edge / long_edge) * (middle - corner));
+        }
+    }
+    return places;
+}
+
+/// Whether a view stands before a facet at a place that its image shows.
+bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
+{
+    const View& eye = scene_.views[view];
+    return stands_before(eye.center, place, outward(cells_, facet)) &&
+           view_shows(eye, scene_.cameras[eye.camera], place);
 }
 
 bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
 {
-    const View& eye = scene_.views[view];
-    if (!stands_before(eye.center, place, outward(cells_, facet))) return false;
-    if (!view_shows(eye, scene_.cameras[eye.camera], place)) return false;
+    if (!faces(view, facet, place)) return false;
     const auto leads_on = [&](const CellFacet& ahead) {
         return labels_[cells_.other_side(ahead).cell] == Label::outside;
     };
-    return SightWalk(cells_).through_facet(facet, place, eye.center, leads_on).cell == kInfinite;
+    const Vector3d& center = scene_.views[view].center;
+    return SightWalk(cells_).through_facet(facet, place, center, leads_on).cell == kInfinite;
 }
 
 bool FaceVisibility::is_seen(const CellFacet& facet) const
 {
-    const Places places = places_on(facet);
+    const std::vector<Vector3d> places = places_on(facet);
     const auto sees_some = [&](std::uint32_t view) {
         return std::ranges::any_of(places,
                                    [&](const Vector3d& place) { return sees(view, facet, place); });
@@ -91,10 +108,9 @@ bool FaceVisibility::is_seen(const CellFacet& facet) const
     return false;
 }
 
-std::vector<CellFacet> FaceVisibility::boundary_behind(std::uint32_t view, const CellFacet& facet,
-                                                       const Vector3d& place) const
+std::vector<CellFacet> FaceVisibility::boundary_along(const CellFacet& facet, const Vector3d& place,
+                                                      const Vector3d& target) const
 {
-    const Vector3d way = (place - scene_.views[view].center).normalized();
     std::vector<CellFacet> crossed;
     const auto note = [&](const CellFacet& ahead) {
         const CellFacet beyond = cells_.other_side(ahead);
@@ -104,8 +120,7 @@ std::vector<CellFacet> FaceVisibility::boundary_behind(std::uint32_t view, const
         }
         return true;
     };
-    SightWalk(cells_).through_facet(cells_.other_side(facet), place, place + reach_ * way, note);
-    if (!crossed.empty()) crossed.erase(crossed.begin()); // the facet itself
+    SightWalk(cells_).through_facet(facet, place, target, note);
     return crossed;
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -19,24 +20,34 @@ namespace vcarve {
 /// are given from their inside cells. Safe from many threads. Keeps references.
 class FaceVisibility {
   public:
-    static constexpr int kPlaces = 7;
-    using Places = std::array<Eigen::Vector3d, kPlaces>;
-
     /// What a line meets.
     enum class Meets { nothing, front, back };
 
     FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene);
 
-    /// Places spread over a facet: its middle, and near its corners and the middles of its edges.
-    Places places_on(const CellFacet& facet) const;
+    /// Places spread over a facet: its middle, and near its corners and the middles of its edges;
+    /// on a long thin one also so near its corners as its shortest edge is long. At most 10.
+    std::vector<Eigen::Vector3d> places_on(const CellFacet& facet) const;
 
     /// Cost: a walk through the cells up to the view, where the view stands before the facet and
     /// its image shows the place.
     bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
 
     /// Whether some view sees one of the places on a facet. The views that saw its corners are
-    /// asked first. Cost: where no view sees it, kPlaces walks a view that stands before it.
+    /// asked first. Cost: where no view sees it, a walk for each place and view that stands
+    /// before it and shows it in its image.
     bool is_seen(const CellFacet& facet) const;
+
+    /// The same where of the boundary only the facets are there that is_kept(facet) names.
+    template <typename IsKept>
+    bool sees_among(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
+                    const IsKept& is_kept) const;
+
+    /// Whether nothing but infinity lies before a facet.
+    bool is_on_hull(const CellFacet& facet) const
+    {
+        return cells_.cells[cells_.other_side(facet).cell].is_infinite();
+    }
 
     /// What a view that sees a place on a facet would meet, were the facet away: the first facet
     /// behind the place that is_kept(facet) says is there, from its front or from its back.
@@ -45,10 +56,13 @@ class FaceVisibility {
                      const IsKept& is_kept) const;
 
   private:
-    /// The facets of the boundary that the line from a view through a place on one crosses behind
-    /// it, in order, each given from its inside cell.
-    std::vector<CellFacet> boundary_behind(std::uint32_t view, const CellFacet& facet,
-                                           const Eigen::Vector3d& place) const;
+    bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
+
+    /// The facets of the boundary that a line crosses out of a facet's cell from a place on it to a
+    /// target, in order, the facet itself first, each given from its inside cell. Empty where the
+    /// line does not clearly pass through the facet.
+    std::vector<CellFacet> boundary_along(const CellFacet& facet, const Eigen::Vector3d& place,
+                                          const Eigen::Vector3d& target) const;
 
     const TetMesh& cells_;
     const Labels& labels_;
@@ -57,15 +71,24 @@ class FaceVisibility {
 };
 
 template <typename IsKept>
+bool FaceVisibility::sees_among(std::uint32_t view, const CellFacet& facet,
+                                const Eigen::Vector3d& place, const IsKept& is_kept) const
+{
+    if (!faces(view, facet, place)) return false;
+    const auto between = boundary_along(facet, place, scene_.views[view].center);
+    return !between.empty() && std::none_of(between.begin() + 1, between.end(), is_kept);
+}
+
+template <typename IsKept>
 FaceVisibility::Meets FaceVisibility::met_behind(std::uint32_t view, const CellFacet& facet,
                                                  const Eigen::Vector3d& place,
                                                  const IsKept& is_kept) const
 {
-    // Behind the place the line is inside, so it leaves by a back first, and so on in turn.
-    bool is_inside = true;
-    for (const CellFacet& crossed : boundary_behind(view, facet, place)) {
-        if (is_kept(crossed)) return is_inside ? Meets::back : Meets::front;
-        is_inside = !is_inside;
+    const Eigen::Vector3d way = (place - scene_.views[view].center).normalized();
+    const auto met = boundary_along(cells_.other_side(facet), place, place + reach_ * way);
+    // Behind the facet itself the line is inside, so it leaves by a back first, and so on in turn.
+    for (std::size_t i = 1; i < met.size(); ++i) {
+        if (is_kept(met[i])) return i % 2 == 1 ? Meets::back : Meets::front;
     }
     return Meets::nothing;
 }

@@ -264,6 +264,20 @@ class Voter {
     double sigma_;
 };
 
+/// Finds the cells of the views to which no sight led, as when none of their points passed the
+/// filter: a camera stands in free space all the same.
+void locate_other_views(const TetMesh& cells, const std::vector<Vector3d>& centers,
+                        std::vector<Index>& cell_of_view)
+{
+    if (cells.positions.empty()) return;
+    SightWalk walk(cells, 0);
+    for (std::size_t view = 0; view < centers.size(); ++view) {
+        if (cell_of_view[view] != kInfinite) continue;
+        const Index last = walk.to(centers[view], [](Index, int) {}).last;
+        if (last != kInfinite && !cells.cells[last].is_infinite()) cell_of_view[view] = last;
+    }
+}
+
 void require_exact(const VoteSums& sums, const Scene& scene)
 {
     if (sums.is_exceeded()) {
@@ -326,6 +340,7 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
         });
     });
     require_exact(sums, scene);
+    locate_other_views(cells, centers, votes.cell_of_view);
     return votes;
 }
 

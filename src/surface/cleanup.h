@@ -7,7 +7,7 @@ namespace vcarve {
 
 /// What is mended, and what is thrown away. Switched off value by value.
 struct CleanupOptions {
-    int min_component_faces = 10;
+    int min_component_faces = 6;
     int max_hole_edges = 12;
 
     void visit(OptionVisitor& options)

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "points/middle_box.h"
+#include "surface/edge_table.h"
 #include "surface/local_edges.h"
 #include "surface/surface_normals.h"
 
@@ -31,20 +32,47 @@ class KeptFacets {
     const FaceFlags& keep_;
 };
 
-/// Whether some view would look onto the back of a kept face, were this one away.
-bool hides_a_back(const CellFacet& facet, const FaceVisibility& visibility, std::size_t num_views,
-                  const KeptFacets& is_kept)
-{
-    const FaceVisibility::Places places = visibility.places_on(facet);
-    for (std::uint32_t view = 0; view < num_views; ++view) {
-        for (const Eigen::Vector3d& place : places) {
-            if (visibility.sees(view, facet, place) &&
+/// All views, and what there is of the boundary for them to see.
+struct Onlookers {
+    const FaceVisibility& visibility;
+    std::size_t num_views;
+    const KeptFacets& is_kept;
+
+    bool see(const CellFacet& facet, const Eigen::Vector3d& place) const
+    {
+        for (std::uint32_t view = 0; view < num_views; ++view) {
+            if (visibility.sees_among(view, facet, place, is_kept)) return true;
+        }
+        return false;
+    }
+
+    /// Whether one of them would look onto the back of a kept face, were this one away.
+    bool would_see_a_back(const CellFacet& facet, const Eigen::Vector3d& place) const
+    {
+        for (std::uint32_t view = 0; view < num_views; ++view) {
+            if (visibility.sees_among(view, facet, place, is_kept) &&
                 visibility.met_behind(view, facet, place, is_kept) == FaceVisibility::Meets::back) {
                 return true;
             }
         }
+        return false;
     }
-    return false;
+};
+
+bool hides_a_back(const CellFacet& facet, const Onlookers& onlookers)
+{
+    return std::ranges::any_of(onlookers.visibility.places_on(facet), [&](const auto& place) {
+        return onlookers.would_see_a_back(facet, place);
+    });
+}
+
+/// Whether no view sees half of the places on a facet or more.
+bool is_mostly_unseen(const CellFacet& facet, const Onlookers& onlookers)
+{
+    const std::vector<Eigen::Vector3d> places = onlookers.visibility.places_on(facet);
+    const auto num_seen = std::ranges::count_if(
+        places, [&](const auto& place) { return onlookers.see(facet, place); });
+    return 2 * static_cast<std::size_t>(num_seen) < places.size();
 }
 
 /// Whether a face goes on with the surface at one of its corners.
@@ -55,29 +83,63 @@ bool goes_on(std::size_t face, const SurfaceNormals& normals)
     return normals.cosines(face, kNotKnown)[2] >= kGoesOn;
 }
 
+/// The kept faces at the rim of what is kept, ascending: those with an edge at which a face is not
+/// kept, and those on the hull.
+std::vector<std::uint32_t> rim_faces(const EdgeTable& table, const std::vector<CellFacet>& facets,
+                                     const FaceVisibility& visibility, const FaceFlags& keep)
+{
+    std::vector<std::uint32_t> rim;
+    for (std::uint32_t face = 0; face < keep.size(); ++face) {
+        if (keep[face] != 0 && visibility.is_on_hull(facets[face])) rim.push_back(face);
+    }
+    for (std::size_t edge = 0; edge < table.size(); ++edge) {
+        const auto is_gone = [&](Side side) { return keep[side / 3] == 0; };
+        if (std::ranges::none_of(table[edge], is_gone)) continue;
+        for (const Side side : table[edge]) {
+            if (!is_gone(side)) rim.push_back(side / 3);
+        }
+    }
+    std::ranges::sort(rim);
+    rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+    return rim;
+}
+
+/// Of some faces those that a question is answered with yes for.
+template <typename Ask>
+std::vector<std::uint32_t> those_that(const std::vector<std::uint32_t>& faces, const Ask& ask)
+{
+    return parallel_collect<std::uint32_t>(
+        faces.size(),
+        [&](std::size_t i, auto& found) {
+            if (ask(faces[i])) found.push_back(faces[i]);
+        },
+        16);
+}
+
 } // namespace
 
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
                          const FaceVisibility& visibility, const Scene& scene,
                          const SheetOptions& options, FaceFlags& keep)
 {
-    constexpr int kRounds = 4;
+    constexpr int kRounds = 20;
     if (options.max_sheet == 0.0) return 0;
     const double longest = options.max_sheet * looked_at_box(scene).diagonal().norm();
+    const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
+    const KeptFacets is_kept(facets, keep);
+    const Onlookers onlookers{visibility, scene.views.size(), is_kept};
     std::int64_t peeled = 0;
     for (int round = 0; round < kRounds; ++round) {
         const LocalEdges edges(boundary.positions, boundary.faces, keep);
         const SurfaceNormals normals(boundary.positions, boundary.faces, edges);
-        const KeptFacets is_kept(facets, keep);
-        const auto sheets = parallel_collect<std::uint32_t>(
-            keep.size(),
-            [&](std::size_t face, auto& found) {
-                if (keep[face] == 0 || edges.longest_edge(face) < longest) return;
-                if (goes_on(face, normals)) return;
-                if (hides_a_back(facets[face], visibility, scene.views.size(), is_kept)) return;
-                found.push_back(static_cast<std::uint32_t>(face));
-            },
-            256);
+        const auto is_sheet = [&](std::uint32_t face) {
+            if (edges.longest_edge(face) < longest) return false;
+            const CellFacet& facet = facets[face];
+            return (!goes_on(face, normals) || is_mostly_unseen(facet, onlookers)) &&
+                   !hides_a_back(facet, onlookers);
+        };
+        std::vector<std::uint32_t> sheets = rim_faces(table, facets, visibility, keep);
+        sheets = those_that(sheets, is_sheet);
         for (const std::uint32_t face : sheets) {
             keep[face] = 0;
         }

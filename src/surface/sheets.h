@@ -11,28 +11,30 @@
 namespace vcarve {
 
 struct SheetOptions {
-    double max_sheet = 0.08;
+    double max_sheet = 0.12;
 
     void visit(OptionVisitor& options)
     {
         options.number(max_sheet,
                        {.name = "max-sheet",
                         .unit = "x extent",
-                        .help = "Take off seen faces with an edge longer than this share of what "
-                                "was looked at, if they go on with the surface at no corner and "
-                                "no back of a face comes to light behind them; 0 takes off none.",
+                        .help = "Take off faces from the rim with an edge longer than this share "
+                                "of what was looked at, if they go on with the surface at no "
+                                "corner or are hardly seen, and no back of a face comes to light "
+                                "behind them; 0 takes off none.",
                         .max = 1.0});
     }
 };
 
 /// Takes off the sheets with which the cut closes what was looked at towards its rim: the lid over
 /// a hall without a ceiling, skirts from the edge of the ground, faces between far walls. They are
-/// seen, but nothing was seen on them. A kept face goes if its longest edge is over `max_sheet`
-/// times the diagonal of what was looked at (looked_at_box), it goes on with the small faces around
-/// none of its corners, and no view that sees it would look onto the back of a kept face through
-/// the gap. Repeated while sheets come to light behind sheets. `boundary` is the surface of
-/// `facets`, face by face. Returns how many faces it took from `keep`. Cost: O(faces) a round, and
-/// up to 14 walks a view for each large face; in parallel.
+/// seen, but nothing was seen on them. From the rim of the kept faces inwards, and from the hull, a
+/// face goes if its longest edge is over `max_sheet` times the diagonal of what was looked at
+/// (looked_at_box), if it goes on with the small faces around none of its corners, or views see
+/// less than half of it, and if no view would look onto the back of a kept face through the gap.
+/// Repeated while sheets come to the rim. `boundary` is the surface of `facets`, which ascend, face
+/// by face. Returns how many faces it took from `keep`. Cost: O(faces) a round, and some walks a
+/// view for each large face at the rim; mostly in parallel.
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
                          const FaceVisibility& visibility, const Scene& scene,
                          const SheetOptions& options, FaceFlags& keep);

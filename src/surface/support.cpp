@@ -66,16 +66,19 @@ double vast_edge(const LocalEdges& edges, const FaceFlags& seen, double most)
     return kVast * shorter[middle];
 }
 
-/// Which unseen faces lie in patches of a few small faces: gaps in a surface seen around them.
+/// Which unseen faces lie in patches of a few small faces, none of them `bare`: gaps in a surface
+/// seen around them.
+template <typename IsBare>
 FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdges& edges,
-                      double max_edge)
+                      const IsBare& is_bare, double max_edge)
 {
     const auto unseen =
         parallel_collect<std::uint32_t>(seen.size(), [&](std::size_t face, auto& faces) {
             if (seen[face] == 0) faces.push_back(static_cast<std::uint32_t>(face));
         });
-    FaceNumbers gaps = small_patches(
-        mesh, unseen, [&](std::uint32_t face) { return edges.relative_size(face) <= max_edge; });
+    FaceNumbers gaps = small_patches(mesh, unseen, [&](std::uint32_t face) {
+        return edges.relative_size(face) <= max_edge && !is_bare(face);
+    });
     const auto length = [&](std::uint32_t face) { return edges.longest_edge(face); };
     if (gaps.empty()) return gaps;
     const double longest = length(std::ranges::max(gaps, {}, length));
@@ -98,7 +101,9 @@ FaceFlags supported_faces(const TriMesh& boundary, const std::vector<CellFacet>&
         },
         64);
     const LocalEdges edges(boundary.positions, boundary.faces, keep);
-    for (const std::uint32_t face : gap_faces(boundary, keep, edges, options.max_gap_edge)) {
+    const auto is_bare = [&](std::uint32_t face) { return visibility.is_on_hull(facets[face]); };
+    for (const std::uint32_t face :
+         gap_faces(boundary, keep, edges, is_bare, options.max_gap_edge)) {
         keep[face] = 1;
     }
     return keep;
