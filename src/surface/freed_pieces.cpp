@@ -2,7 +2,6 @@
 
 #include "base/parallel.h"
 #include "surface/face_evidence.h"
-#include "surface/union_find.h"
 
 #include <Eigen/Geometry>
 
@@ -15,42 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The cells that became free, ascending, and which piece each belongs to.
-class FreedPieces {
-  public:
-    FreedPieces(const TetMesh& cells, const Labels& before, const Labels& after)
-        : freed_(parallel_collect<Index>(cells.cells.size(),
-                                         [&](std::size_t cell, auto& freed) {
-                                             if (before[cell] == Label::inside &&
-                                                 after[cell] == Label::outside)
-                                                 freed.push_back(static_cast<Index>(cell));
-                                         })),
-          pieces_(freed_.size())
-    {
-        parallel_for(freed_.size(), [&](std::size_t i) {
-            for (const Index neighbor : cells.cells[freed_[i]].neighbors) {
-                const bool is_freed =
-                    before[neighbor] == Label::inside && after[neighbor] == Label::outside;
-                if (is_freed) pieces_.join(static_cast<std::uint32_t>(i), number_of(neighbor));
-            }
-        });
-    }
-
-    const std::vector<Index>& cells() const { return freed_; }
-
-    /// The number of the piece that holds the i-th freed cell, below cells().size().
-    std::uint32_t piece(std::uint32_t i) { return pieces_.root(i); }
-
-    /// Which of the freed cells a freed cell is.
-    std::uint32_t number_of(Index cell) const
-    {
-        return static_cast<std::uint32_t>(std::ranges::lower_bound(freed_, cell) - freed_.begin());
-    }
-
-  private:
-    std::vector<Index> freed_;
-    UnionFind pieces_;
-};
+std::vector<Index> freed_cells(const TetMesh& cells, const Labels& before, const Labels& after)
+{
+    return parallel_collect<Index>(cells.cells.size(), [&](std::size_t cell, auto& freed) {
+        if (before[cell] == Label::inside && after[cell] == Label::outside) {
+            freed.push_back(static_cast<Index>(cell));
+        }
+    });
+}
 
 double area_of(const TetMesh& cells, const Face& face)
 {
@@ -70,25 +41,11 @@ double worth(const TetMesh& cells, const Scene& scene, const Boundary& boundary,
     return kDoubtful * area * plausibility(boundary, face);
 }
 
-/// A freed cell, by its number, and the worth of a face of it.
+/// A freed cell, by its place among them, and the worth of a face of it.
 struct CellWorth {
     std::uint32_t cell;
     double worth;
 };
-
-/// The worth of each face of `boundary` that belongs to a freed cell: freed_cell(facet) tells
-/// which, or kInfinite.
-template <typename FreedCell>
-std::vector<CellWorth> worths(const TetMesh& cells, const Scene& scene, const Boundary& boundary,
-                              const FreedPieces& pieces, const FreedCell& freed_cell)
-{
-    return parallel_collect<CellWorth>(
-        boundary.facets().size(), [&](std::size_t face, auto& found) {
-            const Index cell = freed_cell(boundary.facets()[face]);
-            if (cell == kInfinite) return;
-            found.push_back({pieces.number_of(cell), worth(cells, scene, boundary, face)});
-        });
-}
 
 } // namespace
 
@@ -106,28 +63,67 @@ double plausibility(const Boundary& boundary, std::size_t face)
     return chance >= 0.0 ? chance : 0.0; // 0 where the size is not known
 }
 
-std::vector<Index> unpaid_cells(const TetMesh& cells, const Scene& scene,
-                                const BoundedLabels& before, const BoundedLabels& after)
+FreedPieces::FreedPieces(const TetMesh& cells, const Scene& scene, const Labels& before,
+                         const Labels& after)
+    : cells_(cells),
+      scene_(scene),
+      before_(before),
+      after_(after),
+      freed_(freed_cells(cells, before, after)),
+      pieces_(freed_.size()),
+      gains_(freed_.size(), 0.0)
 {
-    FreedPieces pieces(cells, before.labels, after.labels);
-    if (pieces.cells().empty()) return {};
-    const auto freed_inner = [&](const CellFacet& facet) {
-        return after.labels[facet.cell] == Label::outside ? facet.cell : kInfinite;
-    };
-    const auto freed_outer = [&](const CellFacet& facet) {
-        const Index outer = cells.cells[facet.cell].neighbors[facet.slot];
-        return before.labels[outer] == Label::inside ? outer : kInfinite;
-    };
-    std::vector<double> gains(pieces.cells().size(), 0.0); // of pieces, at their numbers
-    for (const auto& [cell, worth] : worths(cells, scene, before.boundary, pieces, freed_inner)) {
-        gains[pieces.piece(cell)] -= worth;
+    parallel_for(freed_.size(), [&](std::size_t i) {
+        for (const Index neighbor : cells.cells[freed_[i]].neighbors) {
+            const bool is_freed =
+                before[neighbor] == Label::inside && after[neighbor] == Label::outside;
+            if (is_freed) pieces_.join(static_cast<std::uint32_t>(i), number_of(neighbor));
+        }
+    });
+}
+
+/// Where a freed cell stands among them.
+std::uint32_t FreedPieces::number_of(Index cell) const
+{
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(freed_, cell) - freed_.begin());
+}
+
+/// Adds the worths of the faces of a boundary that belong to freed cells: freed_cell(facet) tells
+/// which, or kInfinite.
+template <typename FreedCell>
+void FreedPieces::add_worths(const Boundary& boundary, double sign, const FreedCell& freed_cell)
+{
+    const std::vector<CellFacet>& facets = boundary.facets();
+    const auto worths = parallel_collect<CellWorth>(facets.size(), [&](std::size_t i, auto& found) {
+        const Index cell = freed_cell(facets[i]);
+        if (cell == kInfinite) return;
+        found.push_back({number_of(cell), worth(cells_, scene_, boundary, i)});
+    });
+    for (const auto& [cell, worth] : worths) {
+        gains_[pieces_.root(cell)] += sign * worth;
     }
-    for (const auto& [cell, worth] : worths(cells, scene, after.boundary, pieces, freed_outer)) {
-        gains[pieces.piece(cell)] += worth;
-    }
+}
+
+void FreedPieces::take_away(const Boundary& boundary_before)
+{
+    add_worths(boundary_before, -1.0, [&](const CellFacet& facet) {
+        return after_[facet.cell] == Label::outside ? facet.cell : kInfinite;
+    });
+}
+
+void FreedPieces::lay_open(const Boundary& boundary_after)
+{
+    add_worths(boundary_after, 1.0, [&](const CellFacet& facet) {
+        const Index outer = cells_.other_side(facet).cell;
+        return before_[outer] == Label::inside ? outer : kInfinite;
+    });
+}
+
+std::vector<Index> FreedPieces::unpaid()
+{
     std::vector<Index> unpaid;
-    for (std::uint32_t i = 0; i < pieces.cells().size(); ++i) {
-        if (gains[pieces.piece(i)] < 0.0) unpaid.push_back(pieces.cells()[i]);
+    for (std::uint32_t i = 0; i < freed_.size(); ++i) {
+        if (gains_[pieces_.root(i)] < 0.0) unpaid.push_back(freed_[i]);
     }
     return unpaid;
 }

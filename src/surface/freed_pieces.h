@@ -4,7 +4,9 @@
 #include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "surface/boundary.h"
+#include "surface/union_find.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace vcarve {
@@ -14,20 +16,41 @@ namespace vcarve {
 /// mostly are; long ones that stand across it are right every other time (docs/quality.md).
 double plausibility(const Boundary& boundary, std::size_t face);
 
-/// A labelling of cells and its boundary.
-struct BoundedLabels {
-    const Labels& labels;
-    const Boundary& boundary;
-};
+/// The cells inside before and outside after, in pieces joined through facets, and what became of
+/// each: a piece takes away the faces it had with the outside before, and lays others open. Each
+/// face counts by its area times its plausibility: by half of that where its corners were not seen
+/// from its front, and by half its area against the piece where they were seen from its back
+/// instead, like the underside of a roof. Asked for one boundary after the other, so that only one
+/// of them need be held. Keeps references. Cost: O(faces + freed cells) a question, in parallel but
+/// for the sums.
+class FreedPieces {
+  public:
+    FreedPieces(const TetMesh& cells, const Scene& scene, const Labels& before,
+                const Labels& after);
 
-/// The cells that became free without being worth it, ascending. The cells inside before and
-/// outside after form pieces, joined through facets. A piece takes away the faces it had with the
-/// outside before, and lays others open. Each counts by its area times its plausibility: by half of
-/// that where its corners were not seen from its front, and by half its area against the piece
-/// where they were seen from its back instead, like the underside of a roof. A piece pays if what
-/// it lays open counts at least as much as what it takes away; the cells of all others are
-/// returned. Cost: O(faces + freed cells), in parallel but for the sums.
-std::vector<Index> unpaid_cells(const TetMesh& cells, const Scene& scene,
-                                const BoundedLabels& before, const BoundedLabels& after);
+    bool empty() const { return freed_.empty(); }
+
+    /// Charges the pieces with the faces they took from the boundary before.
+    void take_away(const Boundary& boundary_before);
+    /// Credits the pieces with the faces they lay open in the boundary after.
+    void lay_open(const Boundary& boundary_after);
+
+    /// The cells, ascending, of the pieces that do not pay: whose debits are larger than their
+    /// credits.
+    std::vector<Index> unpaid();
+
+  private:
+    template <typename FreedCell>
+    void add_worths(const Boundary& boundary, double sign, const FreedCell& freed_cell);
+    std::uint32_t number_of(Index cell) const;
+
+    const TetMesh& cells_;
+    const Scene& scene_;
+    const Labels& before_;
+    const Labels& after_;
+    std::vector<Index> freed_;  ///< ascending
+    UnionFind pieces_;          ///< of the freed cells, by their places in `freed_`
+    std::vector<double> gains_; ///< of pieces, at the places of their first cells
+};
 
 } // namespace vcarve

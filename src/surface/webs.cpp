@@ -75,16 +75,21 @@ DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& c
         cut.offer(doubted, one_sight);
         result.doubts += static_cast<std::int64_t>(doubted.size());
         Labels next = cut.labels();
-        auto next_boundary = std::make_unique<Boundary>(cells, next);
-        const std::vector<Index> unpaid =
-            unpaid_cells(cells, scene, {result.labels, *boundary}, {next, *next_boundary});
+        FreedPieces pieces(cells, scene, result.labels, next);
+        pieces.take_away(*boundary);
+        boundary.reset(); // one at a time is enough to hold
+        boundary = std::make_unique<Boundary>(cells, next);
+        pieces.lay_open(*boundary);
+        const std::vector<Index> unpaid = pieces.unpaid();
         for (const Index cell : unpaid) {
             next[cell] = Label::inside;
         }
-        if (!unpaid.empty()) next_boundary = std::make_unique<Boundary>(cells, next);
         result.taken_back += static_cast<std::int64_t>(unpaid.size());
         result.labels = std::move(next);
-        boundary = std::move(next_boundary);
+        if (!unpaid.empty()) {
+            boundary.reset();
+            boundary = std::make_unique<Boundary>(cells, result.labels);
+        }
     }
     return result;
 }

@@ -44,7 +44,7 @@ struct DoubtedLabels {
 };
 
 /// Finds the cut again and again, each time with `one_sight` more for the outside in each cell
-/// behind a web, and keeps what becomes free where that pays (see unpaid_cells). Cost: that of
+/// behind a web, and keeps what becomes free where that pays (see FreedPieces). Cost: that of
 /// cells_behind_webs and of what changes in the cut, a few times.
 DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
                          std::int32_t one_sight, const WebOptions& options);
