@@ -132,6 +132,13 @@ TEST(FaceVisibility, DoesNotSeeThroughInsideCells)
     EXPECT_TRUE(one.sees(1));
 }
 
+TEST(FaceVisibility, DoesNotSeeThroughTheEdgeOfAnInsideCell)
+{
+    // From the place the line enters the first one through the edge from (0, 1, -3) to (0, 0, -2).
+    const TwoTetrahedra scene({{0, 0, -5}});
+    EXPECT_FALSE(scene.sees(0, {0, 0.6, 0}));
+}
+
 TEST(FaceVisibility, SeesNothingFromInsideACell)
 {
     const TwoTetrahedra scene({{0, 0, -2.5}});
@@ -235,6 +242,16 @@ TEST(FaceVisibility, MeetsTheFirstKeptFacetBehindAPlace)
                   Meets::nothing)
             << "the facet itself is away";
     }
+}
+
+TEST(FaceVisibility, TellsFrontFromBackBehindAnEdge)
+{
+    // The line leaves the first one through the same edge and enters the second by its base.
+    const TwoTetrahedra scene({{0, 0, -5}});
+    EXPECT_EQ(scene.made.visibility.met_behind(
+                  0, scene.first_base, {0, 0.24, -3},
+                  [&](const CellFacet& facet) { return facet.cell == scene.base.cell; }),
+              Meets::front);
 }
 
 TEST(FaceVisibility, AsksAboutFacetsFromTheirInsideCellsInOrder)

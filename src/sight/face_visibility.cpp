@@ -68,8 +68,10 @@ bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vect
     const View& eye = scene_.views[view];
     if (!stands_before(eye.center, place, outward(cells_, facet))) return false;
     if (!view_shows(eye, scene_.cameras[eye.camera], place)) return false;
+    // Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
     const auto leads_on = [&](const CellFacet& ahead) {
-        return labels_[cells_.other_side(ahead).cell] == Label::outside;
+        return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
+               labels_[cells_.other_side(ahead).cell] == Label::outside;
     };
     return SightWalk(cells_).through_facet(facet, place, eye.center, leads_on).cell == kInfinite;
 }
@@ -91,16 +93,17 @@ bool FaceVisibility::is_seen(const CellFacet& facet) const
     return false;
 }
 
-std::vector<CellFacet> FaceVisibility::boundary_behind(std::uint32_t view, const CellFacet& facet,
-                                                       const Vector3d& place) const
+std::vector<FaceVisibility::Crossed> FaceVisibility::boundary_behind(std::uint32_t view,
+                                                                     const CellFacet& facet,
+                                                                     const Vector3d& place) const
 {
     const Vector3d way = (place - scene_.views[view].center).normalized();
-    std::vector<CellFacet> crossed;
+    std::vector<Crossed> crossed;
     const auto note = [&](const CellFacet& ahead) {
         const CellFacet beyond = cells_.other_side(ahead);
         const bool leaves = labels_[ahead.cell] == Label::inside;
         if (leaves != (labels_[beyond.cell] == Label::inside)) {
-            crossed.push_back(leaves ? ahead : beyond);
+            crossed.push_back(leaves ? Crossed{ahead, Meets::back} : Crossed{beyond, Meets::front});
         }
         return true;
     };

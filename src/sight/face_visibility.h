@@ -45,10 +45,15 @@ class FaceVisibility {
                      const IsKept& is_kept) const;
 
   private:
-    /// The facets of the boundary that the line from a view through a place on one crosses behind
-    /// it, in order, each given from its inside cell.
-    std::vector<CellFacet> boundary_behind(std::uint32_t view, const CellFacet& facet,
-                                           const Eigen::Vector3d& place) const;
+    /// A facet of the boundary, given from its inside cell, and from which side a line meets it.
+    struct Crossed {
+        CellFacet facet;
+        Meets side;
+    };
+
+    /// What the line from a view through a place on a facet crosses behind it, in order.
+    std::vector<Crossed> boundary_behind(std::uint32_t view, const CellFacet& facet,
+                                         const Eigen::Vector3d& place) const;
 
     const TetMesh& cells_;
     const Labels& labels_;
@@ -61,11 +66,8 @@ FaceVisibility::Meets FaceVisibility::met_behind(std::uint32_t view, const CellF
                                                  const Eigen::Vector3d& place,
                                                  const IsKept& is_kept) const
 {
-    // Behind the place the line is inside, so it leaves by a back first, and so on in turn.
-    bool is_inside = true;
-    for (const CellFacet& crossed : boundary_behind(view, facet, place)) {
-        if (is_kept(crossed)) return is_inside ? Meets::back : Meets::front;
-        is_inside = !is_inside;
+    for (const Crossed& crossed : boundary_behind(view, facet, place)) {
+        if (is_kept(crossed.facet)) return crossed.side;
     }
     return Meets::nothing;
 }
