@@ -84,8 +84,10 @@ bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vec
 bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
 {
     if (!faces(view, facet, place)) return false;
+    // Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
     const auto leads_on = [&](const CellFacet& ahead) {
-        return labels_[cells_.other_side(ahead).cell] == Label::outside;
+        return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
+               labels_[cells_.other_side(ahead).cell] == Label::outside;
     };
     const Vector3d& center = scene_.views[view].center;
     return SightWalk(cells_).through_facet(facet, place, center, leads_on).cell == kInfinite;
@@ -108,15 +110,16 @@ bool FaceVisibility::is_seen(const CellFacet& facet) const
     return false;
 }
 
-std::vector<CellFacet> FaceVisibility::boundary_along(const CellFacet& facet, const Vector3d& place,
-                                                      const Vector3d& target) const
+std::vector<FaceVisibility::Crossed> FaceVisibility::boundary_along(const CellFacet& facet,
+                                                                    const Vector3d& place,
+                                                                    const Vector3d& target) const
 {
-    std::vector<CellFacet> crossed;
+    std::vector<Crossed> crossed;
     const auto note = [&](const CellFacet& ahead) {
         const CellFacet beyond = cells_.other_side(ahead);
         const bool leaves = labels_[ahead.cell] == Label::inside;
         if (leaves != (labels_[beyond.cell] == Label::inside)) {
-            crossed.push_back(leaves ? ahead : beyond);
+            crossed.push_back(leaves ? Crossed{ahead, Meets::back} : Crossed{beyond, Meets::front});
         }
         return true;
     };

@@ -58,11 +58,16 @@ class FaceVisibility {
   private:
     bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
 
-    /// The facets of the boundary that a line crosses out of a facet's cell from a place on it to a
-    /// target, in order, the facet itself first, each given from its inside cell. Empty where the
-    /// line does not clearly pass through the facet.
-    std::vector<CellFacet> boundary_along(const CellFacet& facet, const Eigen::Vector3d& place,
-                                          const Eigen::Vector3d& target) const;
+    /// A facet of the boundary, given from its inside cell, and from which side a line meets it.
+    struct Crossed {
+        CellFacet facet;
+        Meets side;
+    };
+
+    /// What a line crosses of the boundary out of a facet's cell from a place on it to a target, in
+    /// order, the facet itself first. Empty where the line does not clearly pass through the facet.
+    std::vector<Crossed> boundary_along(const CellFacet& facet, const Eigen::Vector3d& place,
+                                        const Eigen::Vector3d& target) const;
 
     const TetMesh& cells_;
     const Labels& labels_;
@@ -76,7 +81,9 @@ bool FaceVisibility::sees_among(std::uint32_t view, const CellFacet& facet,
 {
     if (!faces(view, facet, place)) return false;
     const auto between = boundary_along(facet, place, scene_.views[view].center);
-    return !between.empty() && std::none_of(between.begin() + 1, between.end(), is_kept);
+    return !between.empty() &&
+           std::none_of(between.begin() + 1, between.end(),
+                        [&](const Crossed& crossed) { return is_kept(crossed.facet); });
 }
 
 template <typename IsKept>
@@ -86,9 +93,8 @@ FaceVisibility::Meets FaceVisibility::met_behind(std::uint32_t view, const CellF
 {
     const Eigen::Vector3d way = (place - scene_.views[view].center).normalized();
     const auto met = boundary_along(cells_.other_side(facet), place, place + reach_ * way);
-    // Behind the facet itself the line is inside, so it leaves by a back first, and so on in turn.
-    for (std::size_t i = 1; i < met.size(); ++i) {
-        if (is_kept(met[i])) return i % 2 == 1 ? Meets::back : Meets::front;
+    for (std::size_t i = 1; i < met.size(); ++i) { // the first is the facet itself
+        if (is_kept(met[i].facet)) return met[i].side;
     }
     return Meets::nothing;
 }

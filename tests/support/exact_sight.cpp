@@ -19,7 +19,7 @@ struct Triangle {
     Vector3d a, b, c;
 };
 
-Triangle facet(const TetMesh& mesh, Index cell, int slot)
+Triangle triangle_of(const TetMesh& mesh, Index cell, int slot)
 {
     const auto& vertices = mesh.cells[cell].vertices;
     const auto& corners = kFacetCorners[slot];
@@ -55,6 +55,14 @@ Number volume_6(const Triangle& t, const Vector3d& tip)
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
+/// Where on the way from one point to another, in shares of it, their line passes a triangle's
+/// plane.
+Number share_at(const Triangle& t, const Vector3d& from, const Vector3d& to)
+{
+    const Number before = volume_6(t, from);
+    return before / (before - volume_6(t, to));
+}
+
 bool is_at_vertex(const Cell& cell, Index vertex)
 {
     return std::find(cell.vertices.begin(), cell.vertices.end(), vertex) != cell.vertices.end();
@@ -64,7 +72,7 @@ bool is_at_vertex(const Cell& cell, Index vertex)
 bool leaves_past(const TetMesh& mesh, Index vertex, const Vector3d& target, Index cell)
 {
     return mesh.cells[cell].is_infinite() && is_at_vertex(mesh.cells[cell], vertex) &&
-           side(facet(mesh, cell, 3), target) > 0;
+           side(triangle_of(mesh, cell, 3), target) > 0;
 }
 
 std::string fault_of_last(const TetMesh& mesh, Index vertex, const Vector3d& target,
@@ -91,7 +99,7 @@ std::string fault_of_last(const TetMesh& mesh, Index vertex, const Vector3d& tar
 bool holds(const TetMesh& mesh, Index cell, const Vector3d& point)
 {
     for (int slot = 0; slot < 4; ++slot) {
-        if (side(facet(mesh, cell, slot), point) < 0) {
+        if (side(triangle_of(mesh, cell, slot), point) < 0) {
             return false;
         }
     }
@@ -101,7 +109,7 @@ bool holds(const TetMesh& mesh, Index cell, const Vector3d& point)
 bool is_outside_hull(const TetMesh& mesh, const Vector3d& point)
 {
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
-        if (mesh.cells[cell].is_infinite() && side(facet(mesh, cell, 3), point) > 0) {
+        if (mesh.cells[cell].is_infinite() && side(triangle_of(mesh, cell, 3), point) > 0) {
             return true;
         }
     }
@@ -115,11 +123,10 @@ std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index v
     std::vector<std::pair<Number, CellFacet>> found;
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4 && !mesh.cells[cell].is_infinite(); ++slot) {
-            const Triangle triangle = facet(mesh, cell, slot);
+            const Triangle triangle = triangle_of(mesh, cell, slot);
             if (side(triangle, point) > 0 && side(triangle, target) < 0 &&
                 pierces(triangle, point, target)) {
-                const Number before = volume_6(triangle, point);
-                found.push_back({before / (before - volume_6(triangle, target)), {cell, slot}});
+                found.push_back({share_at(triangle, point, target), {cell, slot}});
             }
         }
     }
@@ -132,13 +139,40 @@ std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index v
     return crossings;
 }
 
+std::vector<CellFacet> crossings_by_brute_force(const TetMesh& mesh, const CellFacet& facet,
+                                                const Vector3d& place, const Vector3d& target)
+{
+    const Triangle start = triangle_of(mesh, facet.cell, facet.slot);
+    if (!pierces(start, place, target) || orientation(place, target, start.a, start.b) > 0) {
+        return {};
+    }
+    const Number begin = share_at(start, place, target);
+    std::vector<std::pair<Number, CellFacet>> found{{begin, facet}};
+    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
+        for (int slot = 0; slot < 4 && !mesh.cells[cell].is_infinite(); ++slot) {
+            const Triangle triangle = triangle_of(mesh, cell, slot);
+            if (side(triangle, target) < 0 && pierces(triangle, place, target)) {
+                const Number share = share_at(triangle, place, target);
+                const bool leads_out = orientation(place, target, triangle.a, triangle.b) < 0;
+                if (leads_out && share > begin) found.push_back({share, {cell, slot}});
+            }
+        }
+    }
+    std::ranges::sort(found, {}, [](const auto& crossing) { return crossing.first; });
+    std::vector<CellFacet> crossings;
+    for (const auto& [share, crossed] : found) {
+        crossings.push_back(crossed);
+    }
+    return crossings;
+}
+
 Index first_cell_by_brute_force(const TetMesh& mesh, Index vertex, const Vector3d& target)
 {
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         const auto& vertices = mesh.cells[cell].vertices;
         bool enters = !mesh.cells[cell].is_infinite() && is_at_vertex(mesh.cells[cell], vertex);
         for (int slot = 0; slot < 4 && enters; ++slot) {
-            enters = vertices[slot] == vertex || side(facet(mesh, cell, slot), target) > 0;
+            enters = vertices[slot] == vertex || side(triangle_of(mesh, cell, slot), target) > 0;
         }
         if (enters) {
             return cell;

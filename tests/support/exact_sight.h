@@ -23,6 +23,13 @@ struct SightCrossing {
 std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index vertex,
                                                     const Eigen::Vector3d& target);
 
+/// The same for the way from a place in a facet, out of the facet's cell: that facet first, then
+/// those that the line crosses behind it, the target strictly beyond. None if the line does not
+/// lead out of the cell through the facet's relative interior.
+std::vector<CellFacet> crossings_by_brute_force(const TetMesh& mesh, const CellFacet& facet,
+                                                const Eigen::Vector3d& place,
+                                                const Eigen::Vector3d& target);
+
 /// The finite cell at a vertex whose interior the way to the target enters first; kInfinite if it
 /// enters none. Found by trying every cell.
 Index first_cell_by_brute_force(const TetMesh& mesh, Index vertex, const Eigen::Vector3d& target);

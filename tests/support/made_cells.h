@@ -1,0 +1,75 @@
+#pragma once
+
+#include "model/labels.h"
+#include "model/scene.h"
+#include "model/tet_mesh.h"
+#include "model/tri_mesh.h"
+#include "sight/face_visibility.h"
+#include "support/point_sets.h"
+#include "surface/extract.h"
+#include "tetra/triangulate.h"
+
+#include <tbb/task_arena.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <vector>
+
+namespace vcarve::testing {
+
+/// The mean of the corners of a finite cell.
+Eigen::Vector3d middle(const TetMesh& mesh, Index cell);
+Eigen::Vector3d middle(const TetMesh& mesh, const CellFacet& facet);
+
+/// The cell with these corners; kInfinite if there is none.
+Index cell_of(const TetMesh& mesh, const std::array<Index, 4>& corners);
+/// The facet of a cell across from one of its corners.
+CellFacet facet_across(const TetMesh& mesh, Index cell, Index corner);
+
+/// Inside are the finite cells for which `is_inside` holds.
+Labels labels_where(const TetMesh& mesh, const std::function<bool(Index)>& is_inside);
+/// All finite cells inside: the boundary is the convex hull.
+Labels solid(const TetMesh& mesh);
+
+/// Turns a view so that the middle of its image shows a place.
+void aim(View& view, const Eigen::Vector3d& place);
+/// The same tracks, but nobody saw some of the points.
+void forget(Scene& scene, const std::set<Index>& points);
+
+/// columns x rows points of a triangular lattice with edges of length 1 at height 0, the first at
+/// the origin, rows one after another along x, each half a step further than the one before. A
+/// point has the neighbours +-1, +-columns and +-(columns - 1).
+Positions triangular_lattice(int columns, int rows);
+
+template <typename Action>
+auto with_threads(int threads, const Action& action)
+{
+    tbb::task_arena arena(threads);
+    return arena.execute(action);
+}
+
+/// A scene with labelled cells, their boundary and what the views see of it.
+struct LabelledScene {
+    LabelledScene(Scene made, const std::function<Labels(const TetMesh&)>& label)
+        : scene(std::move(made)),
+          mesh(triangulate(scene)),
+          labels(label(mesh)),
+          facets(boundary_facets(mesh, labels)),
+          corners(boundary_faces(mesh, facets)),
+          surface(extract_surface(mesh, facets, scene)),
+          visibility(mesh, labels, scene)
+    {
+    }
+
+    Scene scene;
+    TetMesh mesh;
+    Labels labels;
+    std::vector<CellFacet> facets;
+    std::vector<Face> corners; ///< of each facet, as points of the scene
+    TriMesh surface;
+    FaceVisibility visibility;
+};
+
+} // namespace vcarve::testing
