@@ -106,7 +106,8 @@ void FreedPieces::add_worths(const Boundary& boundary, double sign, const FreedC
 
 void FreedPieces::take_away(const Boundary& boundary_before)
 {
-    add_worths(boundary_before, -1.0, [&](const CellFacet& facet) {
+    constexpr double kAtLeast = 0.9; // of what it takes away a piece must lay open
+    add_worths(boundary_before, -kAtLeast, [&](const CellFacet& facet) {
         return after_[facet.cell] == Label::outside ? facet.cell : kInfinite;
     });
 }

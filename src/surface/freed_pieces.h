@@ -35,8 +35,8 @@ class FreedPieces {
     /// Credits the pieces with the faces they lay open in the boundary after.
     void lay_open(const Boundary& boundary_after);
 
-    /// The cells, ascending, of the pieces that do not pay: whose debits are larger than their
-    /// credits.
+    /// The cells, ascending, of the pieces that do not pay: that lay open less than nine tenths of
+    /// what they take away.
     std::vector<Index> unpaid();
 
   private:

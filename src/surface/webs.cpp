@@ -66,7 +66,7 @@ std::vector<Index> cells_behind_webs(const TetMesh& cells, const Boundary& bound
 DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
                          std::int32_t one_sight, const WebOptions& options)
 {
-    constexpr int kRounds = 5; // behind a web there may be another
+    constexpr int kRounds = 3; // behind a web there may be another
     DoubtedLabels result{.labels = cut.labels()};
     auto boundary = std::make_unique<Boundary>(cells, result.labels);
     for (int round = 0; round < kRounds; ++round) {
