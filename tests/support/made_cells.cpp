@@ -1,7 +1,6 @@
 #include "support/made_cells.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace vcarve::testing {
 
@@ -74,7 +73,7 @@ Positions triangular_lattice(int columns, int rows)
     Positions points;
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns; ++column) {
-            points.emplace_back(column + 0.5 * row, row * std::sqrt(0.75), 0.0);
+            points.emplace_back(column + 0.5 * row, 0.875 * row, 0.0);
         }
     }
     return points;

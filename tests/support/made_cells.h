@@ -38,9 +38,10 @@ void aim(View& view, const Eigen::Vector3d& place);
 /// The same tracks, but nobody saw some of the points.
 void forget(Scene& scene, const std::set<Index>& points);
 
-/// columns x rows points of a triangular lattice with edges of length 1 at height 0, the first at
-/// the origin, rows one after another along x, each half a step further than the one before. A
-/// point has the neighbours +-1, +-columns and +-(columns - 1).
+/// columns x rows points of a triangular lattice at height 0 with edges of length 1 along the rows
+/// and 1.008 between them, exact, so that the outer ones lie on lines. The first is at the origin,
+/// rows one after another along x, each half a step further than the one before. A point has the
+/// neighbours +-1, +-columns and +-(columns - 1).
 Positions triangular_lattice(int columns, int rows);
 
 template <typename Action>
