@@ -23,10 +23,11 @@ struct BoundedLabels {
 /// The cells that became free without being worth it, ascending. The cells inside before and
 /// outside after form pieces, joined through facets. A piece takes away the faces it had with the
 /// outside before, and lays others open. Each counts by its area times its plausibility: by half of
-/// that where its corners were not seen from its front, and by half its area against the piece
-/// where they were seen from its back instead, like the underside of a roof. A piece pays if what
-/// it lays open counts at least as much as what it takes away; the cells of all others are
-/// returned. Cost: O(faces + freed cells), in parallel but for the sums.
+/// that where its corners were not seen from its front, and by minus half its area where they were
+/// seen from its back instead, like the underside of a roof, so that it speaks against a piece that
+/// lays it open and for one that takes it away. A piece pays if what it lays open counts at least
+/// as much as what it takes away; the cells of all others are returned. Cost: O(faces + freed
+/// cells), in parallel but for the sums.
 std::vector<Index> unpaid_cells(const TetMesh& cells, const Scene& scene,
                                 const BoundedLabels& before, const BoundedLabels& after);
 
