@@ -105,7 +105,7 @@ TEST(FacetWalk, CrossesWhatBruteForceFinds)
 {
     for (const NamedMesh& named : meshes_to_walk()) {
         std::mt19937_64 random(31);
-        for (int round = 0; round < 900; ++round) {
+        for (int round = 0; round < 200; ++round) {
             const Way way = any_way(named, random);
             const auto crossed = expected(named.mesh, way);
             const FacetWalk walk = walked(named.mesh, way, kNever);
@@ -121,7 +121,7 @@ TEST(FacetWalk, StopsAtTheFacetItMayNotCross)
 {
     for (const NamedMesh& named : meshes_to_walk()) {
         std::mt19937_64 random(32);
-        for (int round = 0; round < 300; ++round) {
+        for (int round = 0; round < 100; ++round) {
             const Way way = any_way(named, random);
             auto crossed = expected(named.mesh, way);
             if (crossed.empty()) continue;

@@ -20,7 +20,8 @@ using testing::triangular_lattice;
 
 constexpr int kSide = 12;
 
-/// A wall at height 0 that view 0 stands before, 20 below its middle: everything above is solid, up
+/// A wall at height 0 that view 0 stands before, 20 below its middle: everything above is solid,
+/// everything below free down to a point that nobody saw, so that the wall is not the hull; up
 /// to four points that nobody saw. The corners of the wall were all seen from view 0.
 Scene wall(const Positions& points, const Vector3d& center)
 {
@@ -33,7 +34,14 @@ Scene wall(const Positions& points, const Vector3d& center)
          {Vector3d(1, 0, 0), Vector3d(-1, 0.1, 0), Vector3d(0.1, 1, 0), Vector3d(0, -1, 0)}) {
         made.push_back({high + way, {}});
     }
+    made.push_back({center + Vector3d(0, 0, 10), {}});
     return make_scene({center}, made);
+}
+
+Labels solid_above(const TetMesh& mesh)
+{
+    return testing::labels_where(mesh,
+                                 [&](Index cell) { return testing::middle(mesh, cell).z() > 0.0; });
 }
 
 Scene wall()
@@ -100,7 +108,7 @@ std::ptrdiff_t num_kept(const FaceFlags& keep)
 TEST(SupportedFaces, KeepAPlainWallInAnImageButNotTheShell)
 {
     const Scene scene = wall();
-    const LabelledScene made(without_tracks(scene, all_points(scene)), testing::solid);
+    const LabelledScene made(without_tracks(scene, all_points(scene)), solid_above);
     const FaceFlags keep = supported(made, {});
     EXPECT_EQ(keep, wall_but(made, {}));
     EXPECT_EQ(num_kept(keep), 2 * (kSide - 1) * (kSide - 1));
@@ -108,14 +116,14 @@ TEST(SupportedFaces, KeepAPlainWallInAnImageButNotTheShell)
 
 TEST(SupportedFaces, KeepWhatTheTracksOfAllCornersSaw)
 {
-    const LabelledScene made(looking_away(wall()), testing::solid);
+    const LabelledScene made(looking_away(wall()), solid_above);
     EXPECT_EQ(supported(made, {}), wall_but(made, {}));
 }
 
 TEST(SupportedFaces, DropAFaceWithACornerThatNobodySaw)
 {
     const std::set<Index> unseen = {at(4, 4), at(0, 0)};
-    const LabelledScene made(without_tracks(looking_away(wall()), unseen), testing::solid);
+    const LabelledScene made(without_tracks(looking_away(wall()), unseen), solid_above);
     EXPECT_EQ(supported(made, {.max_gap_edge = 0.0}), wall_but(made, unseen));
 }
 
@@ -123,7 +131,7 @@ TEST(SupportedFaces, DropAWallSeenOnlyFromBehind)
 {
     Scene scene = wall();
     scene.views[0].center.z() = 80.0;
-    const LabelledScene made(scene, testing::solid);
+    const LabelledScene made(scene, solid_above);
     EXPECT_EQ(num_kept(supported(made, {})), 0);
 }
 
@@ -140,7 +148,7 @@ TEST(SupportedFaces, AreNoneWhereNothingWasSeen)
 /// What is kept of the wall where nobody saw some points of it.
 FaceFlags kept_around(const std::set<Index>& unseen, const SupportOptions& options)
 {
-    const LabelledScene made(without_tracks(looking_away(wall()), unseen), testing::solid);
+    const LabelledScene made(without_tracks(looking_away(wall()), unseen), solid_above);
     const FaceFlags keep = supported(made, options);
     EXPECT_EQ(num_kept(wall_but(made, {})), 242);
     return keep;
@@ -159,6 +167,23 @@ TEST(SupportedFaces, JoinGapsThroughEdgesOnly)
     EXPECT_EQ(num_kept(kept_around({at(2, 2), at(3, 3), at(4, 4), at(5, 5)}, {})), 242 - 24);
 }
 
+TEST(SupportedFaces, DropAGapOnTheHull)
+{
+    // With everything solid, the wall is the hull, and the gap a part of the shell.
+    const std::set<Index> unseen = {at(4, 4)};
+    const LabelledScene made(without_tracks(looking_away(wall()), unseen), [](const TetMesh& mesh) {
+        Labels labels = solid_above(mesh);
+        const Index below = static_cast<Index>(mesh.positions.size()) - 1;
+        for (Index cell = 0; cell < labels.size(); ++cell) {
+            const auto& vertices = mesh.cells[cell].vertices;
+            const bool at_gap = std::ranges::count(vertices, at(4, 4)) > 0;
+            if (at_gap && std::ranges::count(vertices, below) > 0) labels[cell] = Label::inside;
+        }
+        return labels;
+    });
+    EXPECT_EQ(num_kept(supported(made, {.max_gap_edge = 100.0})), 242 - 6);
+}
+
 /// How many faces are kept around a point that nobody saw, amid `spokes` faces 3.3 long and a band
 /// of twice as many seen ones.
 std::ptrdiff_t kept_of_wheel(int spokes)
@@ -171,7 +196,7 @@ std::ptrdiff_t kept_of_wheel(int spokes)
         points.push_back(4.3 * Vector3d(std::cos(next), std::sin(next), 0.0));
     }
     const LabelledScene made(without_tracks(looking_away(wall(points, {0, 0, -20})), {0}),
-                             testing::solid);
+                             solid_above);
     EXPECT_EQ(num_kept(wall_but(made, {})), 3 * spokes);
     return num_kept(supported(made, {.max_gap_edge = 5.0}));
 }
@@ -197,7 +222,7 @@ struct HoleyWall {
         std::ranges::copy_if(lattice, std::back_inserter(points),
                              [&](const Vector3d& point) { return (point - center).norm() > 2.1; });
         made = std::make_unique<LabelledScene>(
-            without_tracks(looking_away(wall(points, {8.25, 4.76, -20})), {0}), testing::solid);
+            without_tracks(looking_away(wall(points, {8.25, 4.76, -20})), {0}), solid_above);
         for (const Face& corners : made->corners) {
             if (std::ranges::count(corners, 0U) == 0) continue;
             ++unseen;
@@ -231,7 +256,7 @@ FaceFlags kept_of_coarse_wall(double step, const SupportOptions& options)
         points.push_back(point);
     }
     const LabelledScene made(
-        without_tracks(looking_away(wall(points, {30, 10, -20})), {kCoarse + 12}), testing::solid);
+        without_tracks(looking_away(wall(points, {30, 10, -20})), {kCoarse + 12}), solid_above);
     const FaceFlags keep = supported(made, options);
     const FaceFlags seen = wall_but(made, {kCoarse + 12});
     EXPECT_EQ(num_kept(supported(made, {.max_gap_edge = 0.0})), num_kept(seen));

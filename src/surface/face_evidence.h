@@ -12,7 +12,7 @@
 
 namespace vcarve {
 
-/// Unit, pointing outside; not finite where the face has no area.
+/// Unit, pointing outside; zero where the face has no area.
 Eigen::Vector3d face_normal(std::span<const Eigen::Vector3d> positions, const Face& face);
 
 /// Whether a face over points of the scene has been seen: each corner by some view of its point's

@@ -19,10 +19,10 @@ double plausibility(const Boundary& boundary, std::size_t face);
 /// The cells inside before and outside after, in pieces joined through facets, and what became of
 /// each: a piece takes away the faces it had with the outside before, and lays others open. Each
 /// face counts by its area times its plausibility: by half of that where its corners were not seen
-/// from its front, and by half its area against the piece where they were seen from its back
-/// instead, like the underside of a roof. Asked for one boundary after the other, so that only one
-/// of them need be held. Keeps references. Cost: O(faces + freed cells) a question, in parallel but
-/// for the sums.
+/// from its front, and by minus half its area where they were seen from its back instead, like the
+/// underside of a roof, so that it speaks against a piece that lays it open. Asked for one boundary
+/// after the other, so that only one of them need be held. Keeps references. Cost: O(faces + freed
+/// cells) a question, in parallel but for the sums.
 class FreedPieces {
   public:
     FreedPieces(const TetMesh& cells, const Scene& scene, const Labels& before,

@@ -21,7 +21,7 @@ class SurfaceNormals {
     {
     }
 
-    /// The normal of a face: unit, pointing outside; not finite where the face has no area.
+    /// The normal of a face: unit, pointing outside; zero where the face has no area.
     Eigen::Vector3d of(std::size_t face) const;
 
     /// The mean normal of the small faces around a vertex; zero where there are none.
