@@ -112,5 +112,124 @@ TEST(Webs, AreOnlyWhatWasSeen)
     EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {}).empty());
 }
 
+// ---- doubt_webs ---------------------------------------------------------------------------------
+
+constexpr std::int32_t kOneSight = 10;
+
+/// Cells that do not care about each other: inside are those with a wish for it, until they are
+/// offered as much.
+FlowNetwork wishes(const TetMesh& mesh, const Labels& inside, const Labels& loose)
+{
+    FlowNetwork network;
+    network.residuals.assign(mesh.cells.size(), {0, 0, 0, 0});
+    network.excesses.assign(mesh.cells.size(), 0);
+    for (std::size_t cell = 0; cell < inside.size(); ++cell) {
+        if (inside[cell] == Label::inside) network.excesses[cell] = -1000 * kOneSight;
+        if (loose[cell] == Label::inside) network.excesses[cell] = -kOneSight;
+    }
+    return network;
+}
+
+TEST(DoubtWebs, TakesBackWhatDoesNotPay)
+{
+    // What goes are three long faces seen from all around, what comes is one small one.
+    const Scene scene = plate_and_tip();
+    const TetMesh mesh = triangulate(scene);
+    Labels loose(mesh.cells.size(), Label::outside);
+    loose[tall_cell(mesh)] = Label::inside;
+    Labels before = below_the_plate(mesh);
+    before[tall_cell(mesh)] = Label::inside;
+    const auto doubted = cells_behind_webs(mesh, {mesh, before}, scene, {});
+
+    MinimumCut cut(mesh, wishes(mesh, before, loose));
+    const DoubtedLabels result = doubt_webs(mesh, scene, cut, kOneSight, {});
+    EXPECT_EQ(result.labels, before);
+    EXPECT_GT(result.taken_back, 0);
+    EXPECT_EQ(result.doubts, static_cast<std::int64_t>(doubted.size()) * result.taken_back)
+        << "each time again";
+    EXPECT_NE(cut.labels(), before) << "the cut would free it";
+}
+
+constexpr int kRows = 6;
+
+/// A valley of many points between two slopes of 60 degrees, 1 wide at the ground and a unit wider
+/// with each row, seen from above. Four points far below that nobody saw.
+Scene valley()
+{
+    const std::vector<Vector3d> centers = {{0, 6, 60}, {1, -30, 50}, {-1, 45, 50}};
+    std::vector<MadePoint> points;
+    const auto add_line = [&](double x, double z, double shift) {
+        for (int i = 0; i < 12; ++i) {
+            points.push_back({{x, i + shift, z}, {0, 1, 2}});
+        }
+    };
+    for (int row = 0; row <= kRows; ++row) {
+        const double shift = row % 2 == 0 ? 0.0 : 0.5;
+        add_line(-0.5 - 0.5 * row, 0.875 * row, shift);
+        add_line(0.5 + 0.5 * row, 0.875 * row, shift + 0.01);
+    }
+    for (int beside = 1; beside <= 3; ++beside) {
+        add_line(-0.5 - 0.5 * kRows - beside, 0.875 * kRows, 0.25 * beside);
+        add_line(0.5 + 0.5 * kRows + beside, 0.875 * kRows, 0.25 * beside + 0.01);
+    }
+    for (const double x : {-3.0, 3.1}) {
+        for (const double y : {2.0, 9.1}) {
+            points.push_back({{x, y, -9.0}, {}});
+        }
+    }
+    return make_scene(centers, points);
+}
+
+/// The cells between the slopes of the valley up to a row.
+Labels in_the_valley(const TetMesh& mesh, int rows)
+{
+    Labels labels(mesh.cells.size(), Label::outside);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (mesh.cells[i].is_infinite()) continue;
+        const Vector3d p = middle(mesh, mesh.cells[i]);
+        if (p.z() > 0.0 && p.z() < 0.875 * rows && std::abs(p.x()) < 0.5 + p.z() / 1.75)
+            labels[i] = Label::inside;
+    }
+    return labels;
+}
+
+TEST(DoubtWebs, FreesWhatPaysWebBehindWeb)
+{
+    constexpr int kFilled = 3;
+    const Scene scene = valley();
+    const TetMesh mesh = triangulate(scene);
+    const Labels loose = in_the_valley(mesh, kFilled);
+    const Labels above = in_the_valley(mesh, kRows);
+    Labels before(mesh.cells.size(), Label::outside);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const bool is_solid = !mesh.cells[i].is_infinite() && above[i] == Label::outside;
+        if (is_solid || loose[i] == Label::inside) before[i] = Label::inside;
+    }
+    MinimumCut cut(mesh, wishes(mesh, before, loose));
+    ASSERT_EQ(cut.labels(), before);
+    const DoubtedLabels result = doubt_webs(mesh, scene, cut, kOneSight, {});
+    EXPECT_EQ(result.taken_back, 0);
+    EXPECT_GT(result.doubts, 0);
+    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, result.labels}, scene, {}).empty());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const bool stays = loose[i] == Label::outside || middle(mesh, mesh.cells[i]).z() < 1.75;
+        EXPECT_TRUE(!stays || result.labels[i] == before[i]) << "cell " << i;
+    }
+    EXPECT_EQ(result.labels, cut.labels());
+}
+
+TEST(DoubtWebs, LeavesTheCutAsItIsWhereNotAsked)
+{
+    const Scene scene = plate_and_tip();
+    const TetMesh mesh = triangulate(scene);
+    Labels before = below_the_plate(mesh);
+    before[tall_cell(mesh)] = Label::inside;
+    MinimumCut cut(mesh, wishes(mesh, before, before));
+    const DoubtedLabels result = doubt_webs(mesh, scene, cut, kOneSight, {.web_edge = 0.0});
+    EXPECT_EQ(result.labels, before);
+    EXPECT_EQ(result.doubts, 0);
+    EXPECT_EQ(result.taken_back, 0);
+}
+
 } // namespace
 } // namespace vcarve
