@@ -170,7 +170,7 @@ TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
     if (!options.closed && !ignores_views(options.method)) {
         const FaceVisibility visibility(cells, labels, scene);
         keep = supported_faces(surface, facets, visibility, scene, options.support);
-        sheets = peel_sheets(surface, facets, visibility, scene, options.sheets, keep);
+        sheets = peel_sheets(surface, facets, visibility, options.sheets, keep);
     }
     surface = with_faces(std::move(surface), keep);
     const std::int64_t dropped = size_of(facets.size() - surface.faces.size());

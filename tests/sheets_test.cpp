@@ -111,7 +111,7 @@ struct Hall {
     }
     std::int64_t peel(const SheetOptions& options, FaceFlags& keep) const
     {
-        return peel_sheets(made.surface, made.facets, made.visibility, made.scene, options, keep);
+        return peel_sheets(made.surface, made.facets, made.visibility, options, keep);
     }
 
     LabelledScene made;

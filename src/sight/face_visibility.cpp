@@ -55,7 +55,10 @@ std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
     constexpr double kHalf = 0.475;
     constexpr double kRim = 0.05;
     constexpr double kThin = 0.2;
-    const auto [a, b, c] = corners_of(cells_, facet);
+    const auto corners = corners_of(cells_, facet);
+    const Vector3d& a = corners[0];
+    const Vector3d& b = corners[1];
+    const Vector3d& c = corners[2];
     const auto mix = [&](double u, double v) -> Vector3d {
         return u * a + v * b + (1.0 - u - v) * c;
     };
@@ -66,7 +69,7 @@ std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
     const auto [short_edge, long_edge] =
         std::minmax({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     if (short_edge < kThin * long_edge) {
-        for (const Vector3d& corner : {a, b, c}) {
+        for (const Vector3d& corner : corners) {
             places.emplace_back(corner + (short_edge / long_edge) * (middle - corner));
         }
     }

@@ -25,6 +25,8 @@ class FaceVisibility {
 
     FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene);
 
+    const Scene& scene() const { return scene_; }
+
     /// Places spread over a facet: its middle, and near its corners and the middles of its edges;
     /// on a long thin one also so near its corners as its shortest edge is long. At most 10.
     std::vector<Eigen::Vector3d> places_on(const CellFacet& facet) const;

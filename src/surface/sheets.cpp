@@ -119,15 +119,15 @@ std::vector<std::uint32_t> those_that(const std::vector<std::uint32_t>& faces, c
 } // namespace
 
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
-                         const FaceVisibility& visibility, const Scene& scene,
-                         const SheetOptions& options, FaceFlags& keep)
+                         const FaceVisibility& visibility, const SheetOptions& options,
+                         FaceFlags& keep)
 {
     constexpr int kRounds = 20;
     if (options.max_sheet == 0.0) return 0;
-    const double longest = options.max_sheet * looked_at_box(scene).diagonal().norm();
+    const double longest = options.max_sheet * looked_at_box(visibility.scene()).diagonal().norm();
     const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
     const KeptFacets is_kept(facets, keep);
-    const Onlookers onlookers{visibility, scene.views.size(), is_kept};
+    const Onlookers onlookers{visibility, visibility.scene().views.size(), is_kept};
     std::int64_t peeled = 0;
     for (int round = 0; round < kRounds; ++round) {
         const LocalEdges edges(boundary.positions, boundary.faces, keep);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/options.h"
-#include "model/scene.h"
 #include "model/tri_mesh.h"
 #include "sight/face_visibility.h"
 #include "surface/vertex_faces.h"
@@ -36,7 +35,7 @@ struct SheetOptions {
 /// by face. Returns how many faces it took from `keep`. Cost: O(faces) a round, and some walks a
 /// view for each large face at the rim; mostly in parallel.
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
-                         const FaceVisibility& visibility, const Scene& scene,
-                         const SheetOptions& options, FaceFlags& keep);
+                         const FaceVisibility& visibility, const SheetOptions& options,
+                         FaceFlags& keep);
 
 } // namespace vcarve
