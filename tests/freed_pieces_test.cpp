@@ -137,6 +137,30 @@ TEST(Plausibility, FallsFastWhereAFaceGoesOnAtNoCorner)
     }
 }
 
+TEST(Plausibility, CountsACornerWithoutSmallFacesAsOneWhereAFaceDoesNotGoOn)
+{
+    // A spike on a plate: at its tip there are long faces only.
+    Positions points = testing::triangular_lattice(10, 10);
+    points.push_back((points[44] + points[45] + points[54]) / 3.0 + Vector3d(0, 0, 6));
+    for (const Vector3d& p : mapped(testing::triangular_lattice(2, 2), 5.0, Vector3d(4, 2, -20))) {
+        points.push_back(p);
+    }
+    const TetMesh mesh = triangulation_of(points);
+    const Index spike = cell_of(mesh, {44, 45, 54, 100});
+    const Boundary boundary(mesh, labels_where(mesh, [&](Index cell) {
+                                return cell == spike || middle(mesh, cell).z() < 0.0;
+                            }));
+    int found = 0;
+    for (std::size_t face = 0; face < boundary.faces().size(); ++face) {
+        if (boundary.facets()[face].cell != spike) continue;
+        const double size = boundary.edges().relative_size(face);
+        EXPECT_NEAR(size, 6.0, 0.1);
+        EXPECT_NEAR(plausibility(boundary, face), 0.75 / (1.0 + size / 6.0), 1e-9);
+        ++found;
+    }
+    EXPECT_EQ(found, 3);
+}
+
 // ---- FreedPieces --------------------------------------------------------------------------------
 
 /// Two regular tetrahedra on one triangle, all points seen from the views. The upper one is freed.

@@ -172,6 +172,15 @@ TEST(Needles, AreTakenBackTipByTip)
     EXPECT_EQ(plate.labels, plate.bare);
 }
 
+TEST(Needles, StandOutByAllOfTheirEdges)
+{
+    // The same, but many views saw the upper tip, where all edges are long.
+    Plate plate({{{0.1, 0.2, 6}, 2}, {{0.3, 0.1, 100}, 5}});
+    plate.add(plate.cells_between({kTip}, 2.0));
+    plate.add(plate.cells_between({kTip, kTip + 1}, 10.0));
+    EXPECT_EQ(plate.take_back(), 0);
+}
+
 TEST(Needles, AreNotPits)
 {
     // All is solid but a thin cell that leads down to a point below the plate.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace vcarve {
@@ -100,6 +101,7 @@ TEST(Boundary, HasAFaceForEachFacetSeenFromOutside)
         const auto& [a, b, c] = boundary.faces()[i];
         EXPECT_LT(boundary.normals().of(i).dot(behind - mesh.positions[a]), 0.0);
         EXPECT_EQ(testing::cell_of(mesh, {a, b, c, mesh.cells[cell].vertices[slot]}), cell);
+        EXPECT_EQ(std::ranges::count(boundary.edges().faces_at()[a], i), 1) << "measured";
         EXPECT_NEAR(boundary.edges().longest_edge(i),
                     std::sqrt(std::max({(mesh.positions[a] - mesh.positions[b]).squaredNorm(),
                                         (mesh.positions[b] - mesh.positions[c]).squaredNorm(),
