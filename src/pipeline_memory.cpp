@@ -104,13 +104,13 @@ double tracing(const Sizes& n)
     return n.after_triangulation() + n.cells * kNetworkCell + std::max(24 * edges, kSight * walked);
 }
 
-/// The network, the solver, and the labels; and for webs the facets amid them, as faces, and the
-/// faces around each vertex.
+/// The network, the solver, and the labels before and after; and for webs the facets amid them, as
+/// faces, and the faces around each vertex.
 double cutting(const Sizes& n)
 {
     constexpr double kWebFace = 8 + 2.0 * sizeof(Face);
     constexpr double kWebVertex = 4 + 8 + 1;
-    return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 1) +
+    return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 2) +
            n.faces * kWebFace + n.points * kWebVertex;
 }
 

@@ -18,9 +18,8 @@
 #include <exception>
 #include <string>
 
+namespace vcarve {
 namespace {
-
-using namespace vcarve;
 
 struct Request {
     std::string mesh;
@@ -113,15 +112,16 @@ void run(const Request& request)
 }
 
 } // namespace
+} // namespace vcarve
 
 int main(int argc, char** argv)
 {
-    Request request;
+    vcarve::Request request;
     CLI::App app("Renders a mesh to a PNG. Back faces are magenta.", "render_mesh");
-    declare(app, request);
+    vcarve::declare(app, request);
     CLI11_PARSE(app, argc, argv);
     try {
-        run(request);
+        vcarve::run(request);
     } catch (const std::exception& error) {
         fmt::print(stderr, "render_mesh: {}\n", error.what());
         return 1;
