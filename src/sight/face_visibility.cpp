@@ -99,7 +99,9 @@ bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vect
 bool FaceVisibility::is_seen(const CellFacet& facet) const
 {
     const std::vector<Vector3d> places = places_on(facet);
+    const Vector3d normal = outward(cells_, facet);
     const auto sees_some = [&](std::uint32_t view) {
+        if (normal.dot(scene_.views[view].center - places[0]) <= 0.0) return false; // most are
         return std::ranges::any_of(places,
                                    [&](const Vector3d& place) { return sees(view, facet, place); });
     };
