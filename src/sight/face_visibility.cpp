@@ -55,9 +55,9 @@ FaceVisibility::Places FaceVisibility::places_on(const CellFacet& facet) const
     constexpr double kFar = 0.1;
     constexpr double kHalf = 0.475;
     constexpr double kRim = 0.05;
-    const auto [a, b, c] = corners_of(cells_, facet);
+    const std::array<Vector3d, 3> corners = corners_of(cells_, facet);
     const auto mix = [&](double u, double v) -> Vector3d {
-        return u * a + v * b + (1.0 - u - v) * c;
+        return u * corners[0] + v * corners[1] + (1.0 - u - v) * corners[2];
     };
     return {mix(kMiddle, kMiddle), mix(kNear, kFar), mix(kFar, kNear), mix(kFar, kFar),
             mix(kHalf, kHalf),     mix(kHalf, kRim), mix(kRim, kHalf)};
