@@ -15,6 +15,7 @@ using Eigen::Vector3d;
 std::vector<Vector3d> row(int count)
 {
     std::vector<Vector3d> positions;
+    positions.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         positions.emplace_back(i, -i, 5.0);
     }

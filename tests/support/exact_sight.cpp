@@ -160,6 +160,7 @@ std::vector<CellFacet> crossings_by_brute_force(const TetMesh& mesh, const CellF
     }
     std::ranges::sort(found, {}, [](const auto& crossing) { return crossing.first; });
     std::vector<CellFacet> crossings;
+    crossings.reserve(found.size());
     for (const auto& [share, crossed] : found) {
         crossings.push_back(crossed);
     }
