@@ -159,6 +159,13 @@ TEST(SupportedFaces, KeepASmallGapAmidSeenFaces)
     EXPECT_EQ(num_kept(kept_around({at(4, 4)}, {.max_gap_edge = 0.0})), 242 - 6);
 }
 
+TEST(SupportedFaces, KeepASmallGapInWhoseMiddleNoFaceWasSeen)
+{
+    EXPECT_EQ(num_kept(kept_around({at(4, 4), at(5, 4)}, {})), 242) << "10 faces";
+    EXPECT_EQ(num_kept(kept_around({at(3, 4), at(4, 4), at(5, 4)}, {})), 242) << "14 faces";
+    EXPECT_EQ(num_kept(kept_around({at(4, 4), at(5, 4)}, {.max_gap_edge = 0.0})), 242 - 10);
+}
+
 TEST(SupportedFaces, JoinGapsThroughEdgesOnly)
 {
     // 24 faces in four gaps that touch each other in a vertex, and in four that share edges.

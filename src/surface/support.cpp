@@ -7,6 +7,7 @@
 #include "surface/union_find.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -66,6 +67,18 @@ double vast_edge(const LocalEdges& edges, const FaceFlags& seen, double most)
     return kVast * shorter[middle];
 }
 
+/// Whether no edge of a face is over `most` times the median edge at those of its corners where a
+/// face was seen: the larger of two, the middle of three. Amid unseen faces a corner knows nothing.
+bool is_local_size(const TriMesh& mesh, const LocalEdges& edges, std::uint32_t face, double most)
+{
+    std::array<double, 3> medians{};
+    std::ranges::transform(mesh.faces[face], medians.begin(),
+                           [&](std::uint32_t vertex) { return edges.median(vertex); });
+    std::ranges::sort(medians);
+    const double known = medians[1] > 0.0 ? medians[1] : medians[2];
+    return known == 0.0 || edges.longest_edge(face) <= most * known;
+}
+
 /// Which unseen faces lie in patches of a few small faces, none of them `bare`: gaps in a surface
 /// seen around them.
 template <typename IsBare>
@@ -77,7 +90,7 @@ FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdg
             if (seen[face] == 0) faces.push_back(static_cast<std::uint32_t>(face));
         });
     FaceNumbers gaps = small_patches(mesh, unseen, [&](std::uint32_t face) {
-        return edges.relative_size(face) <= max_edge && !is_bare(face);
+        return is_local_size(mesh, edges, face, max_edge) && !is_bare(face);
     });
     const auto length = [&](std::uint32_t face) { return edges.longest_edge(face); };
     if (gaps.empty()) return gaps;
