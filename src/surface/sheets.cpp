@@ -104,6 +104,24 @@ std::vector<std::uint32_t> rim_faces(const EdgeTable& table, const std::vector<C
     return rim;
 }
 
+/// Whether a kept face has an edge so long.
+bool has_large_face(const TriMesh& boundary, const FaceFlags& keep, double longest)
+{
+    const auto is_long = [&](std::uint32_t from, std::uint32_t to) {
+        return (boundary.positions[to] - boundary.positions[from]).squaredNorm() >=
+               longest * longest;
+    };
+    const auto large =
+        parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t i, auto& found) {
+            const auto& [a, b, c] = boundary.faces[i];
+            if (keep[i] == 0 || !found.empty()) return; // one is enough
+            if (is_long(a, b) || is_long(b, c) || is_long(c, a)) {
+                found.push_back(static_cast<std::uint32_t>(i));
+            }
+        });
+    return !large.empty();
+}
+
 /// Of some faces those that a question is answered with yes for.
 template <typename Ask>
 std::vector<std::uint32_t> those_that(const std::vector<std::uint32_t>& faces, const Ask& ask)
@@ -125,6 +143,9 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
     constexpr int kRounds = 20;
     if (options.max_sheet == 0.0) return 0;
     const double longest = options.max_sheet * looked_at_box(visibility.scene()).diagonal().norm();
+    // A thousandth less, so that no rounding leaves out what is asked more exactly below.
+    constexpr double kSpare = 0.999;
+    if (!has_large_face(boundary, keep, kSpare * longest)) return 0;
     const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
     const KeptFacets is_kept(facets, keep);
     const Onlookers onlookers{visibility, visibility.scene().views.size(), is_kept};
