@@ -4,7 +4,9 @@
 #include "base/parallel.h"
 #include "compare/sample.h"
 #include "model/camera.h"
+#include "sight/face_visibility.h"
 #include "surface/edge_table.h"
+#include "surface/face_evidence.h"
 
 #include <Eigen/Geometry>
 
@@ -14,7 +16,6 @@
 namespace vcarve {
 namespace {
 
-constexpr double kLeastFrontCos = 0.05;
 constexpr double kTouchSpacings = 1e-3; ///< nearer hits are the sample's own face
 constexpr int kSamplesPerAreaSample = 8;
 constexpr std::uint64_t kSightStream = 5;
@@ -81,12 +82,6 @@ std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Yardsti
     return result;
 }
 
-Eigen::Vector3d face_normal(const TriMesh& mesh, const Face& face)
-{
-    const Eigen::Vector3d& a = mesh.positions[face[0]];
-    return (mesh.positions[face[1]] - a).cross(mesh.positions[face[2]] - a).normalized();
-}
-
 /// Whether a view sees a place of the mesh, from whichever side: its image holds it and the mesh
 /// does not stand between.
 bool sees(const View& view, const Eigen::Vector3d& position, const MeasuredMesh& mesh,
@@ -105,8 +100,7 @@ bool supported(const MeasuredMesh& mesh, const Yardstick& yardstick,
                const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
 {
     return std::ranges::any_of(yardstick.scene.views, [&](const View& view) {
-        const Eigen::Vector3d line = view.center - position;
-        return normal.dot(line) > kLeastFrontCos * line.norm() &&
+        return stands_before(view.center, position, normal) &&
                sees(view, position, mesh, yardstick);
     });
 }
@@ -121,7 +115,7 @@ double unsupported_share(const MeasuredMesh& mesh, const Yardstick& yardstick)
         unsupported.size(),
         [&](std::size_t i) {
             const Eigen::Vector3d normal =
-                face_normal(mesh.mesh, mesh.mesh.faces[samples.faces[i]]);
+                face_normal(mesh.mesh.positions, mesh.mesh.faces[samples.faces[i]]);
             unsupported[i] = supported(mesh, yardstick, samples.positions[i], normal) ? 0 : 1;
         },
         16);

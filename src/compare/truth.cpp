@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "compare/sample.h"
 #include "model/camera.h"
+#include "surface/face_evidence.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -79,7 +80,9 @@ class TruthSight {
     {
         const std::vector<View>& views = yardstick_.scene.views;
         const Eigen::Vector3d& point = samples.positions[index];
-        const Eigen::Vector3d normal = face_normal(samples.faces[index]);
+        const TriMesh& mesh = surface_.mesh;
+        const Eigen::Vector3d normal =
+            face_normal(mesh.positions, mesh.faces[samples.faces[index]]);
         std::vector<std::uint32_t> order(views.size());
         std::iota(order.begin(), order.end(), 0U);
         SeeingViews seeing;
@@ -101,15 +104,6 @@ class TruthSight {
     }
 
   private:
-    Eigen::Vector3d face_normal(std::uint32_t index) const
-    {
-        const Face& face = surface_.mesh.faces[index];
-        const Eigen::Vector3d& a = surface_.mesh.positions[face[0]];
-        const Eigen::Vector3d& b = surface_.mesh.positions[face[1]];
-        const Eigen::Vector3d& c = surface_.mesh.positions[face[2]];
-        return (b - a).cross(c - a).normalized();
-    }
-
     bool sees(const Eigen::Vector3d& center, const Eigen::Vector3d& point,
               const Eigen::Vector3d& normal) const
     {

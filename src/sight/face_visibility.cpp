@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 
 namespace vcarve {
 
@@ -27,16 +28,15 @@ Vector3d outward(const TetMesh& mesh, const CellFacet& facet)
     return (c - a).cross(b - a);
 }
 
-/// Whether a view stands before a place with this normal, by more than a graze.
+} // namespace
+
 bool stands_before(const Vector3d& center, const Vector3d& place, const Vector3d& normal)
 {
-    constexpr double kGrazing = 0.05; // cosine, about 87 degrees off the normal
+    constexpr double kGrazing = 0.05; // cosine
     const Vector3d way = center - place;
     const double height = normal.dot(way);
-    return height > 0.0 && height > kGrazing * way.norm() * normal.norm();
+    return height > 0.0 && height > kGrazing * way.norm(); // most need no root
 }
-
-} // namespace
 
 FaceVisibility::FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene)
     : cells_(cells), labels_(labels), scene_(scene)
@@ -80,7 +80,7 @@ std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
 bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
 {
     const View& eye = scene_.views[view];
-    return stands_before(eye.center, place, outward(cells_, facet)) &&
+    return stands_before(eye.center, place, outward(cells_, facet).normalized()) &&
            view_shows(eye, scene_.cameras[eye.camera], place);
 }
 

@@ -7,12 +7,15 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace vcarve {
+
+/// Whether a view at `center` stands before a place with this unit normal, by more than a graze: at
+/// under about 87 degrees off the normal. Never where the normal is zero.
+bool stands_before(const Eigen::Vector3d& center, const Eigen::Vector3d& place,
+                   const Eigen::Vector3d& normal);
 
 /// What the views see of the boundary between inside and outside cells. A view sees a place on a
 /// boundary facet if its image shows the place, the facet turns its front, the outside, to the

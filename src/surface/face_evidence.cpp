@@ -1,6 +1,7 @@
 #include "surface/face_evidence.h"
 
 #include "base/parallel.h"
+#include "sight/face_visibility.h"
 
 #include <Eigen/Geometry>
 
@@ -12,21 +13,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Whether a view at `center` sees a point from the side the unit normal points to.
-bool is_before(const Vector3d& center, const Vector3d& point, const Vector3d& normal)
-{
-    constexpr double kGrazing = 0.05; // cosine, about 87 degrees off the normal
-    const Vector3d to_view = center - point;
-    const double height = normal.dot(to_view);
-    return height > 0.0 && height > kGrazing * to_view.norm(); // most need no root
-}
-
 /// Whether some view of a point's track sees it from the side the unit normal points to.
 bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Vector3d& normal)
 {
     const auto track = scene.tracks[point];
     return std::any_of(track.begin(), track.end(), [&](std::uint32_t view) {
-        return is_before(scene.views[view].center, scene.positions[point], normal);
+        return stands_before(scene.views[view].center, scene.positions[point], normal);
     });
 }
 
@@ -40,7 +32,7 @@ std::int32_t face_support(const TriMesh& mesh, const Scene& scene, const Face& f
         }
         const auto track = scene.tracks[mesh.points[vertex]];
         return std::count_if(track.begin(), track.end(), [&](std::uint32_t view) {
-            return is_before(scene.views[view].center, mesh.positions[vertex], normal);
+            return stands_before(scene.views[view].center, mesh.positions[vertex], normal);
         });
     };
     return static_cast<std::int32_t>(

@@ -35,27 +35,31 @@ class KeptFacets {
 /// All views, and what there is of the boundary for them to see.
 struct Onlookers {
     const FaceVisibility& visibility;
-    std::size_t num_views;
     const KeptFacets& is_kept;
+
+    /// Whether for one of those that see a place ask(view) says yes.
+    template <typename Ask>
+    bool any_that_sees(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const
+    {
+        const std::size_t num_views = visibility.scene().views.size();
+        for (std::uint32_t view = 0; view < num_views; ++view) {
+            if (visibility.sees_among(view, facet, place, is_kept) && ask(view)) return true;
+        }
+        return false;
+    }
 
     bool see(const CellFacet& facet, const Eigen::Vector3d& place) const
     {
-        for (std::uint32_t view = 0; view < num_views; ++view) {
-            if (visibility.sees_among(view, facet, place, is_kept)) return true;
-        }
-        return false;
+        return any_that_sees(facet, place, [](std::uint32_t) { return true; });
     }
 
     /// Whether one of them would look onto the back of a kept face, were this one away.
     bool would_see_a_back(const CellFacet& facet, const Eigen::Vector3d& place) const
     {
-        for (std::uint32_t view = 0; view < num_views; ++view) {
-            if (visibility.sees_among(view, facet, place, is_kept) &&
-                visibility.met_behind(view, facet, place, is_kept) == FaceVisibility::Meets::back) {
-                return true;
-            }
-        }
-        return false;
+        return any_that_sees(facet, place, [&](std::uint32_t view) {
+            return visibility.met_behind(view, facet, place, is_kept) ==
+                   FaceVisibility::Meets::back;
+        });
     }
 };
 
@@ -148,7 +152,7 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
     if (!has_large_face(boundary, keep, kSpare * longest)) return 0;
     const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
     const KeptFacets is_kept(facets, keep);
-    const Onlookers onlookers{visibility, visibility.scene().views.size(), is_kept};
+    const Onlookers onlookers{visibility, is_kept};
     std::int64_t peeled = 0;
     for (int round = 0; round < kRounds; ++round) {
         const LocalEdges edges(boundary.positions, boundary.faces, keep);

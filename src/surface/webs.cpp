@@ -68,14 +68,16 @@ DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& c
 {
     constexpr int kRounds = 3; // behind a web there may be another
     DoubtedLabels result{.labels = cut.labels()};
-    auto boundary = std::make_unique<Boundary>(cells, result.labels);
+    std::unique_ptr<Boundary> boundary; // of result.labels, once it was asked for
     for (int round = 0; round < kRounds; ++round) {
+        if (!boundary) boundary = std::make_unique<Boundary>(cells, result.labels);
         const std::vector<Index> doubted = cells_behind_webs(cells, *boundary, scene, options);
         if (doubted.empty()) break;
         cut.offer(doubted, one_sight);
         result.doubts += static_cast<std::int64_t>(doubted.size());
         Labels next = cut.labels();
         FreedPieces pieces(cells, scene, result.labels, next);
+        if (pieces.empty()) continue; // what is offered only frees, so the labels are the same
         pieces.take_away(*boundary);
         boundary.reset(); // one at a time is enough to hold
         boundary = std::make_unique<Boundary>(cells, next);
@@ -86,10 +88,7 @@ DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& c
         }
         result.taken_back += static_cast<std::int64_t>(unpaid.size());
         result.labels = std::move(next);
-        if (!unpaid.empty()) {
-            boundary.reset();
-            boundary = std::make_unique<Boundary>(cells, result.labels);
-        }
+        if (!unpaid.empty()) boundary.reset();
     }
     return result;
 }
