@@ -1,21 +1,28 @@
 #include "cli/interruption.h"
+#include "support/subprocess.h"
 #include "support/temporary_folder.h"
+#include "support/usual_signals.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
+#include <string>
 
 namespace vcarve::cli {
 namespace {
 
 /// The exit code of a process that gets `signal` while it writes `part`; -1 where the signal killed
-/// it.
-int exit_code_of(int signal, const std::filesystem::path& part)
+/// it. It takes signals as usual but for `ignored`, as nohup ignores SIGHUP.
+int exit_code_of(int signal, const std::filesystem::path& part, int ignored = 0)
 {
     const pid_t child = ::fork();
     if (child == 0) {
+        take_signals_as_usual();
+        if (ignored != 0) std::signal(ignored, SIG_IGN);
         end_cleanly_on_signals({part, part.string() + "-never-begun"});
         std::raise(signal);
         ::_exit(0);
@@ -32,6 +39,49 @@ TEST(EndCleanlyOnSignals, RemovesWhatIsUnfinishedAndExitsWithTheSignalsCode)
         const auto part = folder.write("out.ply.part", "half of it");
         EXPECT_EQ(exit_code_of(signal, part), code);
         EXPECT_EQ(folder.num_entries(), 0U);
+    }
+}
+
+TEST(EndCleanlyOnSignals, GoesOnWhereASignalWasIgnoredFromTheStart)
+{
+    const TemporaryFolder folder;
+    const auto part = folder.write("out.ply.part", "half of it");
+    for (const int signal : kEndingSignals) {
+        EXPECT_EQ(exit_code_of(signal, part, signal), 0);
+        EXPECT_EQ(folder.num_entries(), 1U);
+    }
+}
+
+/// While it lives, the tests ignore the signals, as shells start jobs in the background.
+class InTheBackground {
+  public:
+    InTheBackground()
+    {
+        std::ranges::transform(kEndingSignals, before_.begin(),
+                               [](int signal) { return std::signal(signal, SIG_IGN); });
+    }
+    ~InTheBackground()
+    {
+        for (std::size_t i = 0; i < kEndingSignals.size(); ++i) {
+            std::signal(kEndingSignals[i], before_[i]);
+        }
+    }
+    InTheBackground(const InTheBackground&) = delete;
+    InTheBackground& operator=(const InTheBackground&) = delete;
+
+  private:
+    std::array<void (*)(int), kEndingSignals.size()> before_{};
+};
+
+TEST(EndCleanlyOnSignals, IsTestedAlikeInTheBackground)
+{
+    const TemporaryFolder folder;
+    const InTheBackground background;
+    for (const int signal : kEndingSignals) {
+        const auto part = folder.write("out.ply.part", "half of it");
+        EXPECT_EQ(exit_code_of(signal, part), 128 + signal);
+        const std::string told = "kill -" + std::to_string(signal) + " $$; exit 0";
+        EXPECT_EQ(Subprocess({"/bin/sh", "-c", told}).wait().exit_code, -1) << "killed";
     }
 }
 

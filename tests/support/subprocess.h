@@ -1,6 +1,7 @@
 #pragma once
 
 #include "support/temporary_folder.h"
+#include "support/usual_signals.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -66,6 +67,7 @@ class Subprocess {
   private:
     [[noreturn]] void become(char** words, rlim_t memory_limit) const
     {
+        take_signals_as_usual();
         ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
         ::dup2(::open((folder_ / "out").c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
         ::dup2(::open((folder_ / "err").c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
