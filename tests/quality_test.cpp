@@ -3,48 +3,123 @@
 #include "io/ply.h"
 #include "pipeline.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iostream>
+#include <string>
 
-// What the program is proud of, held to bounds on a fixture whose truth is known, at the defaults
-// it ships. The bounds lie between what it makes and what it made before the pass they guard.
+// What the program is proud of, held to bounds on every fixture whose truth is known, at the
+// defaults it ships. After a change that is meant to move these figures, print them anew with
+//   build/vcarve_tests --gtest_filter='*Quality*'
+// and put the lines that begin with a brace in place of those below.
 
 namespace vcarve {
 namespace {
 
-Scene scene_fixture()
+/// What was measured of a fixture.
+struct Figures {
+    const char* fixture; ///< its folder
+    double f_score;      ///< at 0.25 % of the diagonal
+    double blocked;
+    double unsupported;
+    double seen_right;
+    double torn;
+    double open;
+};
+
+constexpr Figures kMeasured[] = {
+    // F, blocked, unsupported, seen right, torn, open
+    {"scene", 0.7369, 0.0922, 0.0428, 0.6955, 0.0000, 0.0981},
+    {"air", 0.6743, 0.0386, 0.0342, 0.6667, 0.0000, 0.0385},
+    {"room", 0.5937, 0.0997, 0.0292, 0.5937, 0.0007, 0.2168},
+    {"paper/cube_with_cavity", 1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000},
+    {"paper/boissonnat", 1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000},
+    {"paper/cubicles", 0.9902, 0.0039, 0.0000, 0.9904, 0.0000, 0.0008},
+    {"paper/desk", 1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000},
+};
+
+/// How much worse a figure may become: less than what the passes it guards gain.
+constexpr double kMargin = 0.01;
+constexpr double kTornMargin = 0.0005;
+
+std::filesystem::path folder_of(const char* fixture)
 {
-    return read_colmap_model(std::filesystem::path(VCARVE_FIXTURES) / "scene" / "sparse_txt",
-                             ModelFormat::text);
+    return std::filesystem::path(VCARVE_FIXTURES) / fixture;
 }
 
-Comparison compared(const Options& options)
+Comparison compared(const char* fixture)
 {
-    Log silent;
-    const Scene model = scene_fixture();
-    const std::filesystem::path truth = std::filesystem::path(VCARVE_FIXTURES) / "scene/truth.ply";
-    const NamedMesh known{"truth.ply", read_ply(truth)};
+    const std::filesystem::path folder = folder_of(fixture);
+    const bool has_folder = std::filesystem::exists(folder / "sparse_txt");
+    const bool is_solid = std::filesystem::exists(folder / "solid.ply");
+    const Scene model =
+        read_colmap_model(has_folder ? folder / "sparse_txt" : folder, ModelFormat::text);
+    const NamedMesh known{"truth", read_ply(folder / (is_solid ? "solid.ply" : "truth.ply"))};
     const Yardstick yardstick = make_yardstick(model, &known, {.samples = 40000});
-    return compare_mesh({"ours.ply", reconstruct(model, options, silent).mesh}, yardstick);
+    Log silent;
+    return compare_mesh({"ours.ply", reconstruct(model, Options(), silent).mesh}, yardstick);
 }
 
-TEST(Quality, IsWholeAndTrueOnTheSceneAtShippedDefaults)
+Figures figures_of(const char* fixture, const Comparison& ours)
 {
-    const Comparison ours = compared({});
+    return {.fixture = fixture,
+            .f_score = ours.truth->agreements[0].f_score,
+            .blocked = ours.truth->blocked,
+            .unsupported = ours.evidence.unsupported_area,
+            .seen_right = ours.truth->lines->seen_right,
+            .torn = ours.truth->lines->torn,
+            .open = ours.truth->lines->open};
+}
+
+std::string line_of(const Figures& figures)
+{
+    return fmt::format("    {{\"{}\", {:.4f}, {:.4f}, {:.4f}, {:.4f}, {:.4f}, {:.4f}}},",
+                       figures.fixture, figures.f_score, figures.blocked, figures.unsupported,
+                       figures.seen_right, figures.torn, figures.open);
+}
+
+void PrintTo(const Figures& figures, std::ostream* out)
+{
+    *out << line_of(figures);
+}
+
+class Quality : public testing::TestWithParam<Figures> {};
+
+TEST_P(Quality, IsNoWorseThanMeasuredAtShippedDefaults)
+{
+    const Figures& before = GetParam();
+    const Comparison ours = compared(before.fixture);
     ASSERT_TRUE(ours.truth && ours.truth->lines && ours.evidence.rays);
-    EXPECT_GE(ours.truth->agreements[0].f_score, 0.735);
-    EXPECT_LE(ours.truth->blocked, 0.095);
-    EXPECT_GE(ours.truth->lines->seen_right, 0.693);
-    EXPECT_LE(ours.truth->lines->torn, 0.0005);
-    EXPECT_LE(ours.truth->lines->open, 0.1);
-    EXPECT_LE(ours.evidence.rays->back_faces_seen, 0.0005);
+    const Figures now = figures_of(before.fixture, ours);
+    std::cout << line_of(now) << '\n';
+    SCOPED_TRACE("measured now:\n" + line_of(now) + "\nand before:\n" + line_of(before));
+    EXPECT_GE(now.f_score, before.f_score - kMargin);
+    EXPECT_LE(now.blocked, before.blocked + kMargin);
+    EXPECT_LE(now.unsupported, before.unsupported + kMargin);
+    EXPECT_GE(now.seen_right, before.seen_right - kMargin);
+    EXPECT_LE(now.torn, before.torn + kTornMargin);
+    EXPECT_LE(now.open, before.open + kMargin);
+    EXPECT_LE(ours.evidence.rays->back_faces_seen, 0.001);
     EXPECT_LE(ours.evidence.hidden_sights, 0.002);
-    EXPECT_LE(ours.evidence.missed_points, 0.001);
-    EXPECT_LE(ours.evidence.unsupported_area, 0.05);
+    EXPECT_LE(ours.evidence.missed_points, 0.006);
     EXPECT_LE(ours.evidence.seen_boundary_edges, 60);
     EXPECT_EQ(ours.size.nonmanifold_edges + ours.size.nonmanifold_vertices, 0);
     EXPECT_EQ(ours.size.orientation_faults, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures, Quality, testing::ValuesIn(kMeasured), [](const auto& figures) {
+    return std::filesystem::path(figures.param.fixture).filename().string();
+});
+
+TEST(QualityOfFixtures, IsMeasuredWhereverATruthIsCommitted)
+{
+    std::size_t truths = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(VCARVE_FIXTURES)) {
+        truths += file.path().extension() == ".ply" ? 1 : 0;
+    }
+    EXPECT_EQ(truths, std::size(kMeasured));
 }
 
 } // namespace

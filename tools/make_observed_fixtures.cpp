@@ -1,0 +1,45 @@
+// Makes fixtures/air and fixtures/room: models of scenes whose geometry is known, as COLMAP would
+// reconstruct them, without pictures. Usage: make_observed_fixtures FOLDER
+#include "observed/observe.h"
+#include "observed/observed_scene.h"
+#include "observed/write_model.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+
+namespace {
+
+using vcarve::observed::ObservedModel;
+using vcarve::observed::ObservedScene;
+
+void make(const std::filesystem::path& folder, const ObservedScene& observed)
+{
+    const ObservedModel model = vcarve::observed::observe(observed);
+    write_model(folder, model);
+    write_truth(folder, observed);
+    fmt::print("{}: {} points, {} views, {} sights, {} true faces\n", observed.name,
+               model.scene.num_points(), model.scene.views.size(), model.scene.num_sights(),
+               observed.parts.mesh.faces.size());
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc != 2) {
+        fmt::print(stderr, "usage: make_observed_fixtures FOLDER\n");
+        return 2;
+    }
+    try {
+        for (const ObservedScene& observed :
+             {vcarve::observed::from_the_air(), vcarve::observed::inside_a_room()}) {
+            make(std::filesystem::path(argv[1]) / observed.name, observed);
+        }
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "make_observed_fixtures: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}

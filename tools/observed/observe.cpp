@@ -1,0 +1,301 @@
+#include "observed/observe.h"
+
+#include "compare/surface_tree.h"
+#include "model/camera.h"
+#include "random.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace vcarve::observed {
+
+namespace {
+
+using bench::Random;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kNoisePx = 0.7;
+constexpr double kFalse = 1.0 / 100.0;
+constexpr double kFoundAgain = 2.0 / 3.0;
+
+Camera camera_of(const render::Pinhole& view)
+{
+    return {.id = 1,
+            .model = 1, // PINHOLE
+            .width_px = static_cast<std::uint64_t>(view.width_px),
+            .height_px = static_cast<std::uint64_t>(view.height_px),
+            .params = {view.focal_px.x(), view.focal_px.y(), view.principal_px.x(),
+                       view.principal_px.y()}};
+}
+
+/// A place on the true surface.
+struct Spot {
+    Vector3d position;
+    Vector3d normal;
+    render::Paint paint;
+};
+
+/// Draws places on a surface by area and contrast.
+class Spots {
+  public:
+    explicit Spots(const render::Parts& parts) : parts_(parts)
+    {
+        double sum = 0.0;
+        for (std::size_t face = 0; face < parts.mesh.faces.size(); ++face) {
+            sum += normal_of(face).norm() * paint_of(face).contrast;
+            sums_.push_back(sum);
+        }
+    }
+
+    Spot draw(Random& random) const
+    {
+        const double sum = random.uniform(0.0, sums_.back());
+        const auto found = std::ranges::upper_bound(sums_, sum);
+        const auto face = static_cast<std::size_t>(found - sums_.begin());
+        double to_second = random.uniform();
+        double to_third = random.uniform();
+        if (to_second + to_third > 1.0) {
+            to_second = 1.0 - to_second;
+            to_third = 1.0 - to_third;
+        }
+        const auto& [a, b, c] = corners_of(face);
+        return {a + to_second * (b - a) + to_third * (c - a), normal_of(face).normalized(),
+                paint_of(face)};
+    }
+
+  private:
+    std::array<Vector3d, 3> corners_of(std::size_t face) const
+    {
+        const auto& [a, b, c] = parts_.mesh.faces[face];
+        const auto& positions = parts_.mesh.positions;
+        return {positions[a], positions[b], positions[c]};
+    }
+    Vector3d normal_of(std::size_t face) const
+    {
+        const auto [a, b, c] = corners_of(face);
+        return (b - a).cross(c - a);
+    }
+    const render::Paint& paint_of(std::size_t face) const
+    {
+        return parts_.paint_of_part[parts_.part_of_face[face]];
+    }
+
+    const render::Parts& parts_;
+    std::vector<double> sums_; ///< of area and contrast, up to each face
+};
+
+/// A point as one view or more have it in their images.
+struct Match {
+    std::vector<std::uint32_t> views; ///< ascending
+    std::vector<Vector2d> places_px;  ///< one a view
+};
+
+/// Finds matches in the images of a scene and makes points of them.
+class Matcher {
+  public:
+    explicit Matcher(const ObservedScene& observed)
+        : camera_(camera_of(observed.views.front())),
+          spots_(observed.parts),
+          tree_(closed(observed))
+    {
+        for (const render::Pinhole& pinhole : observed.views) {
+            View view;
+            view.id = static_cast<std::uint32_t>(views_.size() + 1);
+            view.name = fmt::format("{}_{:02}.png", observed.name, view.id);
+            view.cam_from_world = Eigen::Quaterniond(pinhole.cam_from_world).normalized();
+            view.center = pinhole.center;
+            views_.push_back(view);
+        }
+        model_.scene.cameras = {camera_};
+        model_.scene.views = views_;
+        model_.observations.resize(views_.size());
+    }
+
+    void add_point(Random& random)
+    {
+        const Spot spot = spots_.draw(random);
+        std::vector<std::uint32_t> seeing = views_seeing(spot);
+        if (seeing.size() < 2) return;
+        const std::uint32_t first = seeing[random.below(seeing.size())];
+        const bool is_false = random.uniform() < kFalse;
+        is_false ? add_false_match(spot, first, random) : add_match(spot, first, seeing, random);
+    }
+
+    std::size_t num_points() const { return model_.scene.num_points(); }
+    ObservedModel take() { return std::move(model_); }
+
+  private:
+    static SurfaceTree closed(const ObservedScene& observed)
+    {
+        return SurfaceTree(observed.parts.mesh);
+    }
+
+    std::vector<std::uint32_t> views_seeing(const Spot& spot) const
+    {
+        constexpr double kLeastCosine = 0.26; // 75 degrees
+        constexpr double kTouch = 1e-4;       // of the way, nearer is the spot's own face
+        std::vector<std::uint32_t> seeing;
+        for (std::uint32_t i = 0; i < views_.size(); ++i) {
+            const Vector3d way = views_[i].center - spot.position;
+            if (spot.normal.dot(way) < kLeastCosine * way.norm()) continue;
+            if (!view_shows(views_[i], camera_, spot.position)) continue;
+            if (!tree_.blocks(spot.position + kTouch * way, views_[i].center)) seeing.push_back(i);
+        }
+        return seeing;
+    }
+
+    void add_match(const Spot& spot, std::uint32_t first, const std::vector<std::uint32_t>& seeing,
+                   Random& random)
+    {
+        static const double least_cosine = std::cos(35.0 * kDegree);
+        const auto towards = [&](std::uint32_t view) -> Vector3d {
+            return (views_[view].center - spot.position).normalized();
+        };
+        Match match;
+        for (const std::uint32_t view : seeing) {
+            const bool alike = towards(view).dot(towards(first)) >= least_cosine;
+            if (view == first || (random.uniform() < kFoundAgain && alike))
+                add_to(match, view, spot.position, random);
+        }
+        const Vector3d position = best_fit(match, spot.position);
+        if (is_good(match, position)) add(match, position, spot.paint);
+    }
+
+    /// Somewhere along the sight of a view, seen by that and up to two more.
+    void add_false_match(const Spot& spot, std::uint32_t first, Random& random)
+    {
+        const double share = 0.5 * std::pow(3.0, random.uniform()); // 0.5 to 1.5 of the way
+        const Vector3d& center = views_[first].center;
+        const Vector3d position = center + share * (spot.position - center);
+        Match match;
+        std::size_t others = 1 + random.below(2);
+        for (std::uint32_t view = 0; view < views_.size(); ++view) {
+            const bool joins = view == first || (others > 0 && random.uniform() < 0.2);
+            if (!joins || !view_shows(views_[view], camera_, position)) continue;
+            if (view != first) --others;
+            add_to(match, view, position, random);
+        }
+        const Vector3d fitted = best_fit(match, position);
+        if (is_good(match, fitted)) add(match, fitted, spot.paint);
+    }
+
+    void add_to(Match& match, std::uint32_t view, const Vector3d& position, Random& random) const
+    {
+        const double x = random.normal();
+        const Vector2d noise(kNoisePx * x, kNoisePx * random.normal());
+        match.views.push_back(view);
+        match.places_px.push_back(*place_px(view, position) + noise);
+    }
+
+    Vector3d in_camera(std::uint32_t view, const Vector3d& position) const
+    {
+        return views_[view].cam_from_world * (position - views_[view].center);
+    }
+
+    std::optional<Vector2d> place_px(std::uint32_t view, const Vector3d& position) const
+    {
+        return project(camera_, in_camera(view, position));
+    }
+
+    /// Where the sum of squared reprojection errors is least, by Gauss and Newton.
+    Vector3d best_fit(const Match& match, Vector3d position) const
+    {
+        constexpr int kSteps = 8;
+        const Vector2d focal_px(camera_.params[0], camera_.params[1]);
+        for (int step = 0; step < kSteps && match.views.size() > 1; ++step) {
+            Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
+            Vector3d right_side = Vector3d::Zero();
+            for (std::size_t i = 0; i < match.views.size(); ++i) {
+                const std::uint32_t view = match.views[i];
+                const Vector3d x = in_camera(view, position);
+                const auto place = place_px(view, position);
+                if (!place) return position;
+                Eigen::Matrix<double, 2, 3> slope;
+                slope << focal_px.x() / x.z(), 0.0, -focal_px.x() * x.x() / (x.z() * x.z()), 0.0,
+                    focal_px.y() / x.z(), -focal_px.y() * x.y() / (x.z() * x.z());
+                slope = slope * views_[view].cam_from_world.toRotationMatrix();
+                normal_matrix += slope.transpose() * slope;
+                right_side += slope.transpose() * (match.places_px[i] - *place);
+            }
+            position += normal_matrix.ldlt().solve(right_side);
+        }
+        return position;
+    }
+
+    /// Mean distance in the images; nothing where a view does not have the position before it.
+    std::optional<double> error_px(const Match& match, const Vector3d& position) const
+    {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < match.views.size(); ++i) {
+            const auto place = place_px(match.views[i], position);
+            if (!place) return std::nullopt;
+            sum += (*place - match.places_px[i]).norm();
+        }
+        return sum / static_cast<double>(match.views.size());
+    }
+
+    /// What the mapper would keep: two views, a reprojection error of up to 4 px, 1.5 degrees.
+    bool is_good(const Match& match, const Vector3d& position) const
+    {
+        constexpr double kMostErrorPx = 4.0;
+        static const double most_cosine = std::cos(1.5 * kDegree);
+        if (match.views.size() < 2) return false;
+        const auto error = error_px(match, position);
+        if (!error || *error > kMostErrorPx) return false;
+        const Vector3d way = (views_[match.views.front()].center - position).normalized();
+        return std::ranges::any_of(match.views, [&](std::uint32_t view) {
+            return way.dot((views_[view].center - position).normalized()) < most_cosine;
+        });
+    }
+
+    void add(const Match& match, const Vector3d& position, const render::Paint& paint)
+    {
+        Scene& scene = model_.scene;
+        const auto point = static_cast<std::uint32_t>(scene.num_points());
+        for (std::size_t i = 0; i < match.views.size(); ++i) {
+            model_.observations[match.views[i]].push_back({point, match.places_px[i]});
+        }
+        const Eigen::Array3i levels = (255.0F * paint.tint).round().cast<int>();
+        scene.positions.push_back(position);
+        scene.colors.push_back({static_cast<std::uint8_t>(levels[0]),
+                                static_cast<std::uint8_t>(levels[1]),
+                                static_cast<std::uint8_t>(levels[2])});
+        scene.errors_px.push_back(*error_px(match, position));
+        scene.point_ids.push_back(point + 1);
+        scene.tracks.push_back(match.views);
+    }
+
+    Camera camera_;
+    Spots spots_;
+    SurfaceTree tree_;
+    std::vector<View> views_;
+    ObservedModel model_;
+};
+
+} // namespace
+
+ObservedModel observe(const ObservedScene& observed)
+{
+    constexpr std::uint64_t kSeed = 1;
+    const std::size_t most_tries = 100 * observed.points;
+    Random random(kSeed);
+    Matcher matcher(observed);
+    for (std::size_t i = 0; i < most_tries && matcher.num_points() < observed.points; ++i) {
+        matcher.add_point(random);
+    }
+    if (matcher.num_points() < observed.points) {
+        throw std::runtime_error(observed.name + ": too little of the scene is seen by two views");
+    }
+    return matcher.take();
+}
+
+} // namespace vcarve::observed
