@@ -14,6 +14,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -77,18 +78,35 @@ tbb::global_control limit_of(int threads)
                                static_cast<std::size_t>(threads));
 }
 
-/// Returns the peak that the program would have foretold.
-std::int64_t make_surface(const Sample& sample, int threads, Log& log)
+/// Returns the size that predictions are made from.
+SceneSize make_surface(const Sample& sample, int threads, Log& log)
 {
     Options options;
     options.threads = threads;
     cli::ModelInput input = cli::read_model_input(sample.folder, log);
-    const std::int64_t predicted = predicted_peak(size_of(input.scene), threads);
+    const SceneSize size = size_of(input.scene);
     const TriMesh mesh = reconstruct(std::move(input.scene), options, log).mesh;
     Stage stage(log, "write");
     write_ply(sample.folder / "surface.ply", mesh, {});
     stage.end({{"faces", mesh.faces.size()}});
-    return predicted;
+    return size;
+}
+
+/// The stages recorded, with their peaks above the base and what was foretold of them.
+Json stages_of(const cli::Json& recorded, const Meter& meter, const SceneSize& size, int threads)
+{
+    Json stages = Json::array();
+    const std::vector<StageMemory> predicted = predicted_memory(size, threads);
+    for (const cli::Json& stage : recorded) {
+        stages.push_back({{"name", stage["name"]},
+                          {"seconds", stage["seconds"]},
+                          {"cpu_seconds", stage["cpu_seconds"]},
+                          {"peak_bytes", meter.above_base(stage["peak_memory_bytes"])}});
+        const auto found = std::ranges::find_if(
+            predicted, [&](const StageMemory& memory) { return stage["name"] == memory.stage; });
+        if (found != predicted.end()) stages.back()["predicted_bytes"] = found->bytes;
+    }
+    return stages;
 }
 
 } // namespace
@@ -140,19 +158,14 @@ Json measure_run(const Sample& sample, int threads)
     Log silent;
     const Meter meter;
     cli::StageRecorder recorder(silent);
-    const std::int64_t predicted = make_surface(sample, threads, recorder);
+    const SceneSize size = make_surface(sample, threads, recorder);
     Json result = meter.json();
     result["base_bytes"] = meter.base_bytes();
-    result["predicted_bytes"] = predicted;
+    result["predicted_bytes"] = predicted_peak(size, threads);
     // Each stage began a new peak
     const cli::Json recorded = recorder.json();
     result["peak_bytes"] = meter.above_base(recorded["total"]["peak_memory_bytes"]);
-    for (const cli::Json& stage : recorded["stages"]) {
-        result["stages"].push_back({{"name", stage["name"]},
-                                    {"seconds", stage["seconds"]},
-                                    {"cpu_seconds", stage["cpu_seconds"]},
-                                    {"peak_bytes", meter.above_base(stage["peak_memory_bytes"])}});
-    }
+    result["stages"] = stages_of(recorded["stages"], meter, size, threads);
     return result;
 }
 

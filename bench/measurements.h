@@ -33,7 +33,7 @@ Json measure_parallel_triangulation(const Sample& sample, int threads);
 
 /// From the files of the model to the file of the surface, as the program does it; with
 /// "base_bytes", what the process held before, and "predicted_bytes", the peak of the process
-/// foretold.
+/// foretold; the latter also for every stage that has a prediction.
 Json measure_run(const Sample& sample, int threads);
 
 } // namespace vcarve::bench

@@ -70,7 +70,8 @@ std::string machine_line()
     std::array<double, 3> loads{};
     const bool known = ::getloadavg(loads.data(), 3) == 3;
     return fmt::format("Load of the machine when this began: {:.1f}. Peaks are above the program's "
-                       "own memory. x sequential and x parallel: times CGAL's triangulation alone, "
+                       "own memory; predicted / measured is of the whole "
+                       "process. x sequential and x parallel: times CGAL's triangulation alone, "
                        "the latter on as many threads.",
                        known ? loads[0] : -1.0);
 }

@@ -1,9 +1,12 @@
 #include "run_report.h"
 
+#include "pipeline_memory.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 namespace vcarve::bench {
 
@@ -20,18 +23,34 @@ double seconds_of(const Json& measured)
 struct Bases {
     double points;
     double sequential_s;
-    double parallel_s; ///< 0 where there is none
+    double parallel_s;       ///< 0 where there is none
+    double base_bytes = 0.0; ///< what the process held before; predictions are of the whole process
 };
+
+/// Foretold memory over measured memory; nothing where none was foretold.
+std::optional<double> predicted_share(const Json& measured, double base_bytes)
+{
+    if (!measured.contains("predicted_bytes")) return std::nullopt;
+    return measured["predicted_bytes"].get<double>() /
+           (base_bytes + measured["peak_bytes"].get<double>());
+}
+
+std::string two_digits(const std::optional<double>& number)
+{
+    return number ? fmt::format("{:.2f}", *number) : "-";
+}
 
 std::string row(const std::string& what, int threads, const Json& measured, const Bases& bases)
 {
     const double seconds = seconds_of(measured);
     const auto peak_bytes = measured["peak_bytes"].get<double>();
-    const std::string parallel =
-        bases.parallel_s > 0.0 ? fmt::format("{:.2f}", seconds / bases.parallel_s) : "-";
-    return fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.1f} | {:.0f} | {:.2f} | {} |\n", what,
+    std::optional<double> parallel;
+    if (bases.parallel_s > 0.0) parallel = seconds / bases.parallel_s;
+    return fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.1f} | {:.0f} | {} | {:.2f} | {} |\n", what,
                        threads, seconds, measured["cpu_seconds"].get<double>(), 1e-6 * peak_bytes,
-                       peak_bytes / bases.points, seconds / bases.sequential_s, parallel);
+                       peak_bytes / bases.points,
+                       two_digits(predicted_share(measured, bases.base_bytes)),
+                       seconds / bases.sequential_s, two_digits(parallel));
 }
 
 std::string rows_of_runs(const SampleResult& result, double points)
@@ -43,7 +62,8 @@ std::string rows_of_runs(const SampleResult& result, double points)
         const auto parallel = result.parallel.find(threads);
         const bool has_parallel = parallel != result.parallel.end();
         const Bases bases = {points, sequential_s,
-                             has_parallel ? seconds_of(parallel->second) : 0.0};
+                             has_parallel ? seconds_of(parallel->second) : 0.0,
+                             run["base_bytes"].get<double>()};
         if (has_parallel) text += row("CGAL alone, parallel", threads, parallel->second, bases);
         text += row("**whole run**", threads, run, bases);
         for (const Json& stage : run["stages"]) {
@@ -53,20 +73,27 @@ std::string rows_of_runs(const SampleResult& result, double points)
     return text;
 }
 
+std::string verdict_on_memory(const Json& run)
+{
+    const double share = predicted_share(run, run["base_bytes"].get<double>()).value();
+    const bool is_right = share >= kLeastPredicted && share <= kMostPredicted;
+    return fmt::format("predicted peak of the process {:.0f} MB, {:.2f} x what was measured{}",
+                       1e-6 * run["predicted_bytes"].get<double>(), share,
+                       is_right ? ""
+                                : fmt::format(" (**WARNING**: not within {} to {})",
+                                              kLeastPredicted, kMostPredicted));
+}
+
 std::string summary_of_run(const SampleResult& result, int threads, const Json& run)
 {
     const auto points = result.sizes["points"].get<double>();
     const double first_s = seconds_of(result.runs.begin()->second);
     const double base_cpu_s = result.sequential["cpu_seconds"].get<double>();
-    const double peak = run["base_bytes"].get<double>() + run["peak_bytes"].get<double>();
-    const auto predicted = run["predicted_bytes"].get<double>();
     return fmt::format("- on {} thread{}: {:.2f} us a point; {:.2f} x as fast as on {}; {:.2f} x "
-                       "the CPU seconds of the sequential triangulation; predicted peak of the "
-                       "process {:.0f} MB, {:.2f} x what it was\n",
+                       "the CPU seconds of the sequential triangulation; {}\n",
                        threads, threads == 1 ? "" : "s", 1e6 * seconds_of(run) / points,
                        first_s / seconds_of(run), result.runs.begin()->first,
-                       run["cpu_seconds"].get<double>() / base_cpu_s, 1e-6 * predicted,
-                       predicted / peak);
+                       run["cpu_seconds"].get<double>() / base_cpu_s, verdict_on_memory(run));
 }
 
 } // namespace
@@ -95,8 +122,9 @@ std::string report(const SampleResult& result)
     const auto points = result.sizes["points"].get<double>();
     std::string text = fmt::format(
         "## {}: {} points ({} triangulated), {} sights, {} views\n\n"
-        "| what | threads | seconds | CPU seconds | peak MB | bytes a point | x sequential | x "
-        "parallel |\n|---|---:|---:|---:|---:|---:|---:|---:|\n",
+        "| what | threads | seconds | CPU seconds | peak MB | bytes a point | "
+        "predicted / measured | x sequential | x parallel |\n"
+        "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         result.sizes["shape"].get<std::string>(), result.sizes["points"].get<std::size_t>(),
         result.sizes["triangulated"].get<std::size_t>(), result.sizes["sights"].get<std::size_t>(),
         result.sizes["views"].get<std::size_t>());

@@ -19,7 +19,8 @@ struct SampleResult {
 /// The middle of each figure of some measurements of the same thing; of an even number the upper.
 Json median_of(const std::vector<Json>& measurements);
 
-/// A table in Markdown, with the ratios to CGAL's triangulation.
+/// A table in Markdown, with the ratios to CGAL's triangulation and of predicted to measured
+/// memory; warns of runs whose memory was not foretold as pipeline_memory.h says.
 std::string report(const SampleResult& result);
 
 /// All figures.
