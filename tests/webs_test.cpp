@@ -48,13 +48,14 @@ Vector3d middle(const TetMesh& mesh, const Cell& cell)
     return sum / 4.0;
 }
 
-/// Everything below the plate is inside.
+/// Everything below the plate is inside but for what reaches up to the tip.
 Labels below_the_plate(const TetMesh& mesh)
 {
     Labels labels(mesh.cells.size(), Label::outside);
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const Cell& cell = mesh.cells[i];
-        if (!cell.is_infinite() && middle(mesh, cell).z() < 0.0) {
+        const bool has_tip = std::ranges::count(cell.vertices, kTip) > 0;
+        if (!cell.is_infinite() && !has_tip && middle(mesh, cell).z() < 0.0) {
             labels[i] = Label::inside;
         }
     }
@@ -132,7 +133,7 @@ FlowNetwork wishes(const TetMesh& mesh, const Labels& inside, const Labels& loos
 
 TEST(DoubtWebs, TakesBackWhatDoesNotPay)
 {
-    // What goes are three long faces seen from all around, what comes is one small one.
+    // The tip would be on no face.
     const Scene scene = plate_and_tip();
     const TetMesh mesh = triangulate(scene);
     Labels loose(mesh.cells.size(), Label::outside);

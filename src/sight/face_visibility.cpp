@@ -115,17 +115,37 @@ bool FaceVisibility::is_seen(const CellFacet& facet) const
     return false;
 }
 
+FaceVisibility::Crossed FaceVisibility::met_beyond(std::uint32_t view, const CellFacet& facet,
+                                                   const Vector3d& place) const
+{
+    Crossed met{facet, Meets::nothing};
+    const auto leads_on = [&](const CellFacet& ahead) {
+        met = crossed_at(ahead);
+        return met.side == Meets::nothing;
+    };
+    const Vector3d way = (place - scene_.views[view].center).normalized();
+    SightWalk(cells_).through_facet(cells_.other_side(facet), place, place + reach_ * way,
+                                    leads_on);
+    return met;
+}
+
+/// What a line crosses of the boundary where it goes through a facet out of the facet's cell.
+FaceVisibility::Crossed FaceVisibility::crossed_at(const CellFacet& ahead) const
+{
+    const CellFacet beyond = cells_.other_side(ahead);
+    const bool leaves = labels_[ahead.cell] == Label::inside;
+    if (leaves == (labels_[beyond.cell] == Label::inside)) return {ahead, Meets::nothing};
+    return leaves ? Crossed{ahead, Meets::back} : Crossed{beyond, Meets::front};
+}
+
 std::vector<FaceVisibility::Crossed> FaceVisibility::boundary_along(const CellFacet& facet,
                                                                     const Vector3d& place,
                                                                     const Vector3d& target) const
 {
     std::vector<Crossed> crossed;
     const auto note = [&](const CellFacet& ahead) {
-        const CellFacet beyond = cells_.other_side(ahead);
-        const bool leaves = labels_[ahead.cell] == Label::inside;
-        if (leaves != (labels_[beyond.cell] == Label::inside)) {
-            crossed.push_back(leaves ? Crossed{ahead, Meets::back} : Crossed{beyond, Meets::front});
-        }
+        const Crossed met = crossed_at(ahead);
+        if (met.side != Meets::nothing) crossed.push_back(met);
         return true;
     };
     SightWalk(cells_).through_facet(facet, place, target, note);

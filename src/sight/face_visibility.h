@@ -26,6 +26,12 @@ class FaceVisibility {
     /// What a line meets.
     enum class Meets { nothing, front, back };
 
+    /// A facet of the boundary, given from its inside cell, and from which side a line meets it.
+    struct Crossed {
+        CellFacet facet;
+        Meets side = Meets::nothing;
+    };
+
     FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene);
 
     const Scene& scene() const { return scene_; }
@@ -60,14 +66,15 @@ class FaceVisibility {
     Meets met_behind(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                      const IsKept& is_kept) const;
 
+    /// What a view meets first behind a place, if the cells on both sides of the facet are outside.
+    /// Where that is nothing, so is the side. Cost: a walk through the cells up to there.
+    Crossed met_beyond(std::uint32_t view, const CellFacet& facet,
+                       const Eigen::Vector3d& place) const;
+
   private:
     bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
 
-    /// A facet of the boundary, given from its inside cell, and from which side a line meets it.
-    struct Crossed {
-        CellFacet facet;
-        Meets side;
-    };
+    Crossed crossed_at(const CellFacet& ahead) const;
 
     /// What a line crosses of the boundary out of a facet's cell from a place on it to a target, in
     /// order, the facet itself first. Empty where the line does not clearly pass through the facet.

@@ -12,4 +12,9 @@ Boundary::Boundary(const TetMesh& cells, const Labels& labels)
 {
 }
 
+std::size_t Boundary::number_of(const CellFacet& facet) const
+{
+    return place_of(facet, facets_);
+}
+
 } // namespace vcarve

@@ -19,6 +19,8 @@ class Boundary {
     Boundary& operator=(const Boundary&) = delete;
 
     const std::vector<CellFacet>& facets() const { return facets_; }
+    /// Which of the facets one is. Precondition: it is one of them. Cost: O(log faces).
+    std::size_t number_of(const CellFacet& facet) const;
     const std::vector<Face>& faces() const { return faces_; }
     const LocalEdges& edges() const { return edges_; }
     const SurfaceNormals& normals() const { return normals_; }

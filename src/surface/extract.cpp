@@ -4,6 +4,9 @@
 #include "base/parallel.h"
 #include "surface/used_vertices.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace vcarve {
 
 std::vector<CellFacet> boundary_facets(const TetMesh& cells, const Labels& labels)
@@ -18,6 +21,13 @@ std::vector<CellFacet> boundary_facets(const TetMesh& cells, const Labels& label
             }
         }
     });
+}
+
+std::size_t place_of(const CellFacet& facet, const std::vector<CellFacet>& facets)
+{
+    const auto key = [](const CellFacet& f) { return std::pair(f.cell, f.slot); };
+    const auto found = std::ranges::lower_bound(facets, key(facet), {}, key);
+    return static_cast<std::size_t>(found - facets.begin());
 }
 
 std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<CellFacet>& facets)

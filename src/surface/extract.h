@@ -12,6 +12,10 @@ namespace vcarve {
 /// All of them, in the order of the cells. Cost: O(cells), in parallel.
 std::vector<CellFacet> boundary_facets(const TetMesh& cells, const Labels& labels);
 
+/// Where a facet stands among those of a boundary, which are in the order of the cells.
+/// Precondition: it is one of them. Cost: O(log facets).
+std::size_t place_of(const CellFacet& facet, const std::vector<CellFacet>& facets);
+
 /// The facets as faces over the vertices of the cells, counter-clockwise seen from outside. Throws
 /// InputError where there are too many to number.
 std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<CellFacet>& facets);

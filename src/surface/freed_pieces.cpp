@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace vcarve {
 
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double kNeverPays = -std::numeric_limits<double>::infinity();
 
 std::vector<Index> freed_cells(const TetMesh& cells, const Labels& before, const Labels& after)
 {
@@ -29,23 +32,18 @@ double area_of(const TetMesh& cells, const Face& face)
     return 0.5 * (cells.positions[face[1]] - a).cross(cells.positions[face[2]] - a).norm();
 }
 
-/// What a face is worth: its area by its plausibility and by how its corners were seen.
-double worth(const TetMesh& cells, const Scene& scene, const Boundary& boundary, std::size_t face)
+/// The views that saw one of the corners at least, ascending.
+std::vector<std::uint32_t> views_of(const Scene& scene, const Face& corners)
 {
-    constexpr double kDoubtful = 0.5;
-    const Face& corners = boundary.faces()[face];
-    const Vector3d normal = boundary.normals().of(face);
-    const double area = area_of(cells, corners);
-    if (is_seen(scene, corners, normal)) return area * plausibility(boundary, face);
-    if (is_seen(scene, corners, -normal)) return -kDoubtful * area;
-    return kDoubtful * area * plausibility(boundary, face);
+    std::vector<std::uint32_t> views;
+    for (const std::uint32_t corner : corners) {
+        const auto track = scene.tracks[corner];
+        views.insert(views.end(), track.begin(), track.end());
+    }
+    std::ranges::sort(views);
+    views.erase(std::unique(views.begin(), views.end()), views.end());
+    return views;
 }
-
-/// A freed cell, by its place among them, and the worth of a face of it.
-struct CellWorth {
-    std::uint32_t cell;
-    double worth;
-};
 
 } // namespace
 
@@ -71,6 +69,8 @@ FreedPieces::FreedPieces(const TetMesh& cells, const Scene& scene, const Labels&
       after_(after),
       freed_(freed_cells(cells, before, after)),
       pieces_(freed_.size()),
+      saw_(cells, before, scene),
+      sees_(cells, after, scene),
       gains_(freed_.size(), 0.0)
 {
     parallel_for(freed_.size(), [&](std::size_t i) {
@@ -88,36 +88,89 @@ std::uint32_t FreedPieces::number_of(Index cell) const
     return static_cast<std::uint32_t>(std::ranges::lower_bound(freed_, cell) - freed_.begin());
 }
 
-/// Adds the worths of the faces of a boundary that belong to freed cells: freed_cell(facet) tells
-/// which, or kInfinite.
-template <typename FreedCell>
-void FreedPieces::add_worths(const Boundary& boundary, double sign, const FreedCell& freed_cell)
+/// What the views that saw a face see in its stead.
+std::vector<FreedPieces::Outlook> FreedPieces::outlooks_from(const Boundary& boundary_before,
+                                                             std::size_t face) const
 {
-    const std::vector<CellFacet>& facets = boundary.facets();
-    const auto worths = parallel_collect<CellWorth>(facets.size(), [&](std::size_t i, auto& found) {
-        const Index cell = freed_cell(facets[i]);
-        if (cell == kInfinite) return;
-        found.push_back({number_of(cell), worth(cells_, scene_, boundary, i)});
-    });
-    for (const auto& [cell, worth] : worths) {
-        gains_[pieces_.root(cell)] += sign * worth;
+    constexpr std::ptrdiff_t kPlaces = 4; // its middle and near its corners
+    const CellFacet& facet = boundary_before.facets()[face];
+    const std::vector<Vector3d> places = saw_.places_on(facet);
+    std::vector<Outlook> outlooks;
+    for (const std::uint32_t view : views_of(scene_, boundary_before.faces()[face])) {
+        for (const Vector3d& place : std::span(places).first(kPlaces)) {
+            if (!saw_.sees(view, facet, place)) continue;
+            outlooks.push_back(
+                {.freed = number_of(facet.cell), .met = sees_.met_beyond(view, facet, place)});
+        }
     }
+    const double area = area_of(cells_, boundary_before.faces()[face]);
+    for (Outlook& outlook : outlooks) {
+        outlook.area = area / static_cast<double>(outlooks.size());
+        outlook.taken = outlook.area * plausibility(boundary_before, face);
+    }
+    return outlooks;
 }
 
 void FreedPieces::take_away(const Boundary& boundary_before)
 {
-    constexpr double kAtLeast = 0.9; // of what it takes away a piece must lay open
-    add_worths(boundary_before, -kAtLeast, [&](const CellFacet& facet) {
-        return after_[facet.cell] == Label::outside ? facet.cell : kInfinite;
+    constexpr double kAtLeast = 0.9; // of what it takes away a piece must show
+    const std::vector<CellFacet>& facets = boundary_before.facets();
+    const auto is_taken = [&](std::size_t face) {
+        return after_[facets[face].cell] == Label::outside;
+    };
+    const auto taken = parallel_collect<std::uint32_t>(
+        facets.size(), [&](std::size_t face, std::vector<std::uint32_t>& found) {
+            if (is_taken(face)) found.push_back(static_cast<std::uint32_t>(face));
+        });
+    const auto look = [&](std::size_t i, std::vector<Outlook>& found) {
+        const std::vector<Outlook> outlooks = outlooks_from(boundary_before, taken[i]);
+        found.insert(found.end(), outlooks.begin(), outlooks.end());
+    };
+    outlooks_ = parallel_collect<Outlook>(taken.size(), look, 16);
+    for (const Outlook& outlook : outlooks_) {
+        gains_[pieces_.root(outlook.freed)] -= kAtLeast * outlook.taken;
+    }
+}
+
+/// How good it is to see something, from -0.5 to 1.
+double FreedPieces::worth(const Boundary& boundary_after, const FaceVisibility::Crossed& met) const
+{
+    constexpr double kNothing = 0.3;
+    constexpr double kBack = -0.5;
+    constexpr double kDoubtful = 0.5;
+    if (met.side == FaceVisibility::Meets::nothing) return kNothing;
+    if (met.side == FaceVisibility::Meets::back) return kBack;
+    const std::size_t face = boundary_after.number_of(met.facet);
+    const Face& corners = boundary_after.faces()[face];
+    const Vector3d normal = boundary_after.normals().of(face);
+    if (is_seen(scene_, corners, normal)) return plausibility(boundary_after, face);
+    if (is_seen(scene_, corners, -normal)) return kBack;
+    return kDoubtful * plausibility(boundary_after, face);
+}
+
+/// Whether a corner of a freed cell is on no face any more.
+bool FreedPieces::loses_a_point(Index cell, const Boundary& boundary_after) const
+{
+    return std::ranges::any_of(cells_.cells[cell].vertices, [&](Index vertex) {
+        return vertex != kInfinite && boundary_after.edges().faces_at()[vertex].empty();
     });
 }
 
 void FreedPieces::lay_open(const Boundary& boundary_after)
 {
-    add_worths(boundary_after, 1.0, [&](const CellFacet& facet) {
-        const Index outer = cells_.other_side(facet).cell;
-        return before_[outer] == Label::inside ? outer : kInfinite;
-    });
+    std::vector<double> shown(outlooks_.size());
+    parallel_for(
+        shown.size(),
+        [&](std::size_t i) {
+            shown[i] = outlooks_[i].area * worth(boundary_after, outlooks_[i].met);
+        },
+        64);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        gains_[pieces_.root(outlooks_[i].freed)] += shown[i];
+    }
+    for (std::uint32_t i = 0; i < freed_.size(); ++i) {
+        if (loses_a_point(freed_[i], boundary_after)) gains_[pieces_.root(i)] = kNeverPays;
+    }
 }
 
 std::vector<Index> FreedPieces::unpaid()

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "points/middle_box.h"
 #include "surface/edge_table.h"
+#include "surface/extract.h"
 #include "surface/local_edges.h"
 #include "surface/surface_normals.h"
 
@@ -20,12 +21,7 @@ class KeptFacets {
     {
     }
 
-    bool operator()(const CellFacet& facet) const
-    {
-        const auto key = [](const CellFacet& f) { return std::pair(f.cell, f.slot); };
-        const auto found = std::ranges::lower_bound(facets_, key(facet), {}, key);
-        return keep_[static_cast<std::size_t>(found - facets_.begin())] != 0;
-    }
+    bool operator()(const CellFacet& facet) const { return keep_[place_of(facet, facets_)] != 0; }
 
   private:
     const std::vector<CellFacet>& facets_;
