@@ -1,6 +1,7 @@
 #include "base/predicates.h"
 #include "io/colmap_model.h"
 #include "label/carve.h"
+#include "sight/edge_lengths.h"
 #include "sight/trace.h"
 #include "sight/virtual_views.h"
 #include "sight/walk.h"
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace vcarve {
@@ -156,6 +158,56 @@ TEST_F(VirtualViews, StandInDifferentCellsThatAreOutsideAndCrossed)
         }
     }
     EXPECT_EQ(cells.size(), 25U);
+}
+
+/// How far the middle of a cell is from its nearest corner.
+double clearance(const TetMesh& mesh, const Cell& cell)
+{
+    Vector3d middle = Vector3d::Zero();
+    for (const Index vertex : cell.vertices) {
+        middle += mesh.positions[vertex] / 4.0;
+    }
+    double least = kUnlimited;
+    for (const Index vertex : cell.vertices) {
+        least = std::min(least, (mesh.positions[vertex] - middle).norm());
+    }
+    return least;
+}
+
+TEST_F(VirtualViews, StandNeitherAtTheSurfaceNorFarOff)
+{
+    // A plate of points a unit apart, and four high above it: free cells of all sizes between.
+    std::vector<MadePoint> points;
+    for (int i = 0; i < 10; ++i) {
+        for (int j = 0; j < 10; ++j) {
+            const double uneven = 0.1 * std::sin(7.0 * i + 3.0 * j * j);
+            points.push_back({{i + uneven, j - uneven, uneven}, {0, 1}});
+        }
+    }
+    for (const Vector3d& high :
+         {Vector3d(-20, -20, 50), {31, -20, 48}, {-20, 30, 46}, {30, 31, 52}}) {
+        points.push_back({high, {0, 1}});
+    }
+    points.push_back({{5, 5, 12}, {0, 1}});
+    const Scene scene = make_scene({{4, 5, 100}, {60, 4, 90}}, points);
+    const TetMesh mesh = triangulate(scene);
+    const Labels labels = carve(mesh, count_crossings(mesh, scene, stage_), 1);
+    const double short_edge = short_edge_length(mesh);
+    int free_but_far = 0;
+    for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
+        if (mesh.cells[cell].is_infinite() || labels[cell] == Label::inside) continue;
+        free_but_far += clearance(mesh, mesh.cells[cell]) > 8.0 * short_edge ? 1 : 0;
+    }
+    EXPECT_GT(free_but_far, 10);
+    const VirtualSights sights = look_around(scene, mesh, labels, 10000);
+    EXPECT_GT(sights.centers.size(), 10U);
+    for (const Vector3d& center : sights.centers) {
+        const auto cell = std::ranges::find_if(
+            mesh.cells, [&](const Cell& candidate) { return holds(mesh, candidate, center); });
+        ASSERT_NE(cell, mesh.cells.end());
+        EXPECT_GE(clearance(mesh, *cell), 0.5 * short_edge);
+        EXPECT_LE(clearance(mesh, *cell), 8.0 * short_edge);
+    }
 }
 
 TEST_F(VirtualViews, SeeNothingThroughCellsBehindASeenPoint)

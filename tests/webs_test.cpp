@@ -113,6 +113,63 @@ TEST(Webs, AreOnlyWhatWasSeen)
     EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {}).empty());
 }
 
+/// A floor with x > 0 and a wall over its edge, four units higher and one behind, both of points a
+/// unit apart and seen from before them. Points far behind that nobody saw.
+Scene floor_and_wall()
+{
+    const std::vector<Vector3d> centers = {{30, 4, 20}, {20, -20, 25}, {20, 30, 25}, {40, 5, 40}};
+    const std::vector<std::uint32_t> all = {0, 1, 2, 3};
+    std::vector<MadePoint> points;
+    for (int i = 0; i < kSide; ++i) {
+        for (int j = 0; j < kSide; ++j) {
+            const double uneven = 0.02 * std::sin(7.0 * i + 3.0 * j * j);
+            points.push_back({{i + uneven, j - uneven, 0.0}, all});
+            points.push_back({{-1.0, j + 0.5 + uneven, 4.0 + i + uneven}, all});
+        }
+    }
+    for (const double y : {-5.0, 4.0, 13.1}) {
+        points.push_back({{-8.0, y, 8.0}, {}});
+        points.push_back({{20.0, y, -20.3}, {}});
+    }
+    return make_scene(centers, points);
+}
+
+/// Below the floor, behind the wall, and below the slope between their edges.
+Labels behind_floor_and_wall(const TetMesh& mesh)
+{
+    Labels labels(mesh.cells.size(), Label::outside);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (mesh.cells[i].is_infinite()) continue;
+        const Vector3d p = middle(mesh, mesh.cells[i]);
+        if (p.z() < 0.0 || p.x() < -1.0 || 4.0 * p.x() + p.z() < 0.0) labels[i] = Label::inside;
+    }
+    return labels;
+}
+
+TEST(Webs, StandAcrossAtTwoCornersNotAtOne)
+{
+    // The faces between floor and wall lie 76 degrees off the floor and 14 off the wall.
+    const Scene scene = floor_and_wall();
+    const TetMesh mesh = triangulate(scene);
+    const Boundary boundary(mesh, behind_floor_and_wall(mesh));
+    const auto doubted = cells_behind_webs(mesh, boundary, scene, {.web_edge = 2.5});
+    int across_at_two = 0;
+    int across_at_one = 0;
+    for (std::size_t i = 0; i < boundary.faces().size(); ++i) {
+        const Vector3d normal = boundary.normals().of(i);
+        if (normal.x() < 0.96 || normal.z() < 0.23) continue; // not the slope
+        const auto on_floor = std::ranges::count_if(
+            boundary.faces()[i], [&](Index corner) { return mesh.positions[corner].z() == 0.0; });
+        const bool is_doubted = std::ranges::count(doubted, boundary.facets()[i].cell) > 0;
+        if (mesh.positions[boundary.faces()[i][0]].y() < 1.4)
+            continue; // where wall and floor begin
+        EXPECT_EQ(is_doubted, on_floor == 2) << "face " << i;
+        (on_floor == 2 ? across_at_two : across_at_one) += 1;
+    }
+    EXPECT_EQ(across_at_two, 5);
+    EXPECT_EQ(across_at_one, 6);
+}
+
 // ---- doubt_webs ---------------------------------------------------------------------------------
 
 constexpr std::int32_t kOneSight = 10;
