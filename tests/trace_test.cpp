@@ -108,6 +108,17 @@ TEST(TraceSights, LeavesTheWholeFlowInTheCellOfAViewThatNoFacetPartsFromItsPoint
     EXPECT_EQ(votes.cell_of_view, std::vector<Index>{0});
 }
 
+TEST(TraceSights, FindsTheCellsOfViewsThatSeeNoPoint)
+{
+    Scene scene = star({kBeyondCell0});
+    for (const Vector3d& center : {kInCell0, kBeyondCell0}) {
+        scene.views.push_back(scene.views[0]);
+        scene.views.back().center = center;
+    }
+    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
+    EXPECT_EQ(votes.cell_of_view, (std::vector<Index>{kInfinite, 0, kInfinite}));
+}
+
 TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
 {
     // The origin has one view; point 0 has two, out of the hull, and cell 4 behind it.
