@@ -173,6 +173,33 @@ TEST(FaceVisibility, SpreadsPlacesOverAFacet)
     EXPECT_EQ(at_edge, std::vector<int>(3, 1));
 }
 
+/// The places on a facet with corners at 0 and at x = 10, y = +-half the width.
+std::vector<Vector3d> places_on_facet_of_width(double width)
+{
+    const LabelledScene made(make_scene({}, {{{0, 0, 0}, {}},
+                                             {{10, -0.5 * width, 0}, {}},
+                                             {{10, 0.5 * width, 0}, {}},
+                                             {{7, 0, 5}, {}}}),
+                             testing::solid);
+    return made.visibility.places_on(facet_across(made.mesh, cell_of(made.mesh, {0, 1, 2, 3}), 3));
+}
+
+TEST(FaceVisibility, SpreadsPlacesNearerToTheCornersOfAThinFacet)
+{
+    EXPECT_EQ(places_on_facet_of_width(2.1).size(), 7U); // the other edges are 10.06 long
+    const double width = 1.0;
+    const std::vector<Vector3d> places = places_on_facet_of_width(width);
+    ASSERT_EQ(places.size(), 10U);
+    const double share = width / std::hypot(10.0, 0.5 * width);
+    const Vector3d middle(20.0 / 3.0, 0.0, 0.0);
+    for (const Vector3d& corner : {Vector3d(0, 0, 0), {10, -0.5, 0}, {10, 0.5, 0}}) {
+        const Vector3d expected = corner + share * (middle - corner);
+        EXPECT_EQ(std::count_if(places.begin() + 7, places.end(),
+                                [&](const Vector3d& p) { return (p - expected).norm() < 1e-12; }),
+                  1);
+    }
+}
+
 TEST(FaceVisibility, NeedsNoTrackToSeeAFacet)
 {
     const TwoTetrahedra seen({{0, 0, -5}}, false, true);
