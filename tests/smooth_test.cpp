@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace vcarve {
@@ -63,6 +64,26 @@ TEST(SmoothSurface, FlattensNoiseAndKeepsTheRest)
         }
         EXPECT_GT(smooth.mesh.normals[v].z(), 0.9F);
     }
+}
+
+TEST(SmoothSurface, KeepsVerticesWithinHalfTheirSpacing)
+{
+    // Hills nearly as high as the edges are long, which smoothing takes away where it may.
+    TriMesh mesh = flat_grid(kSide);
+    for (Vector3d& position : mesh.positions) {
+        constexpr double kWave = 4.0 * std::numbers::pi;
+        position.z() = 0.04 * std::sin(kWave * position.x()) * std::sin(kWave * position.y());
+    }
+    const SightGuard guard(empty_scene(), {});
+    const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 30}).mesh;
+    const std::vector<double> spacings = vertex_spacings(mesh);
+    int at_the_end_of_their_reach = 0;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        const double share = (smooth.positions[v] - mesh.positions[v]).norm() / spacings[v];
+        EXPECT_LE(share, 0.5 + 1e-9);
+        at_the_end_of_their_reach += share > 0.499 ? 1 : 0;
+    }
+    EXPECT_EQ(at_the_end_of_their_reach, 64);
 }
 
 TEST(SmoothSurface, KeepsSharpEdges)

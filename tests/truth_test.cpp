@@ -105,6 +105,8 @@ TEST(Truth, CountsLinesTheMeshBlocks)
     // Nearer than 1 % of the diagonal it is taken for the surface itself.
     const TriMesh skin = testing::together(square(), strip(0.0, 0.25, 0.01));
     EXPECT_EQ(figures_of(skin, yardstick).blocked, 0.0);
+    const TriMesh farther = testing::together(square(), strip(0.0, 0.25, 0.015));
+    EXPECT_NEAR(figures_of(farther, yardstick).blocked, 0.25, kFourDeviations);
 }
 
 TEST(Truth, CountsOnlyWhatThreeViewsSee)
