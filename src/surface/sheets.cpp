@@ -141,11 +141,14 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
                          FaceFlags& keep)
 {
     constexpr int kRounds = 20;
+    constexpr double kHardlySeen = 0.25; // of the share: what views see little of may go sooner
     if (options.max_sheet == 0.0) return 0;
-    const double longest = options.max_sheet * looked_at_box(visibility.scene()).diagonal().norm();
+    const double long_edge =
+        options.max_sheet * looked_at_box(visibility.scene()).diagonal().norm();
     // A thousandth less, so that no rounding leaves out what is asked more exactly below.
     constexpr double kSpare = 0.999;
-    if (!has_large_face(boundary, keep, kSpare * longest)) return 0;
+    const double hardly_seen_edge = kHardlySeen * long_edge;
+    if (!has_large_face(boundary, keep, kSpare * hardly_seen_edge)) return 0;
     const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
     const KeptFacets is_kept(facets, keep);
     const Onlookers onlookers{visibility, is_kept};
@@ -154,9 +157,11 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
         const LocalEdges edges(boundary.positions, boundary.faces, keep);
         const SurfaceNormals normals(boundary.positions, boundary.faces, edges);
         const auto is_sheet = [&](std::uint32_t face) {
-            if (edges.longest_edge(face) < longest) return false;
+            const double edge = edges.longest_edge(face);
+            if (edge < hardly_seen_edge) return false;
             const CellFacet& facet = facets[face];
-            return (!goes_on(face, normals) || is_mostly_unseen(facet, onlookers)) &&
+            const bool is_bent = edge >= long_edge && !goes_on(face, normals);
+            return (is_bent || is_mostly_unseen(facet, onlookers)) &&
                    !hides_a_back(facet, onlookers);
         };
         std::vector<std::uint32_t> sheets = rim_faces(table, facets, visibility, keep);
