@@ -1,8 +1,7 @@
 #include "points/middle_box.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <numeric>
+#include <cstddef>
 
 namespace vcarve {
 
@@ -19,31 +18,6 @@ Eigen::AlignedBox3d middle_box(const std::vector<Eigen::Vector3d>& positions, do
         box.min()[axis] = values[static_cast<std::size_t>(low)];
         std::nth_element(values.begin(), values.begin() + high, values.end());
         box.max()[axis] = values[static_cast<std::size_t>(high)];
-    }
-    return box;
-}
-
-Eigen::AlignedBox3d looked_at_box(const Scene& scene)
-{
-    constexpr double kTail = 0.02;
-    Eigen::AlignedBox3d box;
-    if (scene.num_sights() == 0) return box;
-    const auto left_out =
-        static_cast<std::uint64_t>(kTail * static_cast<double>(scene.num_sights()));
-    std::vector<std::uint32_t> order(scene.num_points());
-    std::iota(order.begin(), order.end(), 0U);
-    // The coordinate of the point where more than `left_out` sights are passed.
-    const auto end_of = [&](int axis, auto first, auto last) {
-        std::uint64_t passed = scene.tracks[*first].size();
-        while (passed <= left_out && std::next(first) != last) {
-            passed += scene.tracks[*++first].size();
-        }
-        return scene.positions[*first][axis];
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-        std::ranges::sort(order, {}, [&](std::uint32_t i) { return scene.positions[i][axis]; });
-        box.min()[axis] = end_of(axis, order.begin(), order.end());
-        box.max()[axis] = end_of(axis, order.rbegin(), order.rend());
     }
     return box;
 }

@@ -1,7 +1,7 @@
 #include "surface/sheets.h"
 
 #include "base/parallel.h"
-#include "points/middle_box.h"
+#include "points/looked_at_ball.h"
 #include "surface/edge_table.h"
 #include "surface/extract.h"
 #include "surface/local_edges.h"
@@ -143,8 +143,7 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
     constexpr int kRounds = 20;
     constexpr double kHardlySeen = 0.25; // of the share: what views see little of may go sooner
     if (options.max_sheet == 0.0) return 0;
-    const double long_edge =
-        options.max_sheet * looked_at_box(visibility.scene()).diagonal().norm();
+    const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
     // A thousandth less, so that no rounding leaves out what is asked more exactly below.
     constexpr double kSpare = 0.999;
     const double hardly_seen_edge = kHardlySeen * long_edge;

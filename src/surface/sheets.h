@@ -10,7 +10,7 @@
 namespace vcarve {
 
 struct SheetOptions {
-    double max_sheet = 0.12;
+    double max_sheet = 0.13;
 
     void visit(OptionVisitor& options)
     {
@@ -28,8 +28,8 @@ struct SheetOptions {
 /// Takes off the sheets with which the cut closes what was looked at towards its rim: the lid over
 /// a hall without a ceiling, skirts from the edge of the ground, faces between far walls. They are
 /// seen, but nothing was seen on them. From the rim of the kept faces inwards, and from the hull, a
-/// face goes if its longest edge is over `max_sheet` times the diagonal of what was looked at
-/// (looked_at_box) and it goes on with the small faces around none of its corners, or if the edge
+/// face goes if its longest edge is over `max_sheet` times the diameter of what was looked at
+/// (looked_at_ball) and it goes on with the small faces around none of its corners, or if the edge
 /// is over a quarter of that and views see less than half of the face; and if no view would look
 /// onto the back of a kept face through the gap.
 /// Repeated while sheets come to the rim. `boundary` is the surface of `facets`, which ascend, face
