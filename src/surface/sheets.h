@@ -30,7 +30,8 @@ struct SheetOptions {
 /// seen, but nothing was seen on them. From the rim of the kept faces inwards, and from the hull, a
 /// face goes if its longest edge is over `max_sheet` times the diameter of what was looked at
 /// (looked_at_ball) and it goes on with the small faces around none of its corners, or if the edge
-/// is over a quarter of that and views see less than half of the face; and if no view would look
+/// is over a quarter of that, and over four times the median kept face's, and views see less than
+/// half of the face; and if no view would look
 /// onto the back of a kept face through the gap.
 /// Repeated while sheets come to the rim. `boundary` is the surface of `facets`, which ascend, face
 /// by face. Returns how many faces it took from `keep`. Cost: O(faces) a round, and some walks a
