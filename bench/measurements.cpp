@@ -4,13 +4,13 @@
 #include "cli/model_input.h"
 #include "cli/process_usage.h"
 #include "cli/run_record.h"
-#include "io/colmap_model.h"
-#include "io/mapped_file.h"
-#include "io/ply.h"
-#include "pipeline.h"
-#include "pipeline_memory.h"
-#include "points/arrange.h"
-#include "points/center.h"
+#include "io/colmap/colmap_model.h"
+#include "io/files/mapped_file.h"
+#include "io/ply/ply.h"
+#include "pipeline/memory.h"
+#include "pipeline/reconstruct.h"
+#include "steps/1_points/center.h"
+#include "steps/1_points/spatial_sort.h"
 
 #include <tbb/global_control.h>
 

@@ -1,4 +1,4 @@
-#include "io/colmap_model.h"
+#include "io/colmap/colmap_model.h"
 #include "samples.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #include "run_report.h"
 
-#include "pipeline_memory.h"
+#include "pipeline/memory.h"
 
 #include <fmt/format.h>
 

@@ -1,14 +1,14 @@
 #include "samples.h"
 
-#include "io/colmap_model.h"
-#include "label/cut.h"
-#include "label/max_flow.h"
-#include "points/arrange.h"
-#include "points/center.h"
-#include "points/filter.h"
+#include "io/colmap/colmap_model.h"
 #include "sample_scene.h"
-#include "sight/trace.h"
-#include "tetra/triangulate.h"
+#include "steps/1_points/center.h"
+#include "steps/1_points/filter.h"
+#include "steps/1_points/spatial_sort.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/trace.h"
+#include "steps/4_labels/cut.h"
+#include "steps/4_labels/max_flow/max_flow.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

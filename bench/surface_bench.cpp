@@ -1,8 +1,9 @@
 #include "samples.h"
-#include "surface/cleanup.h"
-#include "surface/extract.h"
-#include "surface/support.h"
-#include "surface/webs.h"
+#include "steps/4_labels/boundary.h"
+#include "steps/4_labels/bridging_facets.h"
+#include "steps/5_surface/cleanup.h"
+#include "steps/5_surface/extract.h"
+#include "steps/5_surface/support.h"
 
 #include <benchmark/benchmark.h>
 

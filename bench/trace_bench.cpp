@@ -1,5 +1,5 @@
 #include "samples.h"
-#include "sight/trace.h"
+#include "steps/3_visibility/trace.h"
 #include "walk_all_sights.h"
 
 #include <benchmark/benchmark.h>

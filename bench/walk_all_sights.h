@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/scene.h"
-#include "sight/walk.h"
+#include "steps/3_visibility/walk.h"
 
 #include <benchmark/benchmark.h>
 

@@ -9,7 +9,7 @@ install(FILES ${completion} RENAME colmap-vcarve
 
 install(TARGETS vcarve EXPORT vcarve_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY src/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vcarve
-  FILES_MATCHING PATTERN "*.h" PATTERN "commands.h" EXCLUDE PATTERN "cli" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "cli" EXCLUDE)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/vcarve)
 install(EXPORT vcarve_targets NAMESPACE vcarve:: FILE vcarveTargets.cmake

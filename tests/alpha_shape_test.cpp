@@ -1,7 +1,7 @@
-#include "label/alpha_shape.h"
-#include "label/circumsphere.h"
+#include "baselines/alpha_shape.h"
+#include "baselines/circumsphere.h"
+#include "steps/2_cells/triangulate.h"
 #include "support/random_cells.h"
-#include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/byte_reader.h"
+#include "io/colmap/byte_reader.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

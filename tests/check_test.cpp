@@ -1,4 +1,4 @@
-#include "surface/check.h"
+#include "mesh/check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "label/circumsphere.h"
+#include "baselines/circumsphere.h"
+#include "steps/2_cells/triangulate.h"
 #include "support/random_cells.h"
-#include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
+#include "mesh/check.h"
+#include "steps/5_surface/cleanup.h"
+#include "steps/5_surface/fill_holes.h"
+#include "steps/5_surface/split_nonmanifold.h"
 #include "support/tetra_grid.h"
-#include "surface/check.h"
-#include "surface/cleanup.h"
-#include "surface/fill_holes.h"
-#include "surface/split_nonmanifold.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "cli/option_table.h"
-#include "pipeline.h"
+#include "pipeline/reconstruct.h"
 #include "support/ball_model.h"
 #include "support/subprocess.h"
 #include "support/temporary_folder.h"
@@ -201,7 +201,7 @@ TEST(Program, RefusesWrongOptionsInOneSentence)
               "colmap-vcarve: --threads takes a whole number from 0 to 1024 (threads), not "
               "\"many\"\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--method=ctu"}),
-              "colmap-vcarve: --method takes cut or strict or alpha or sculpt, not \"ctu\"\n");
+              "colmap-vcarve: --method takes cut or strict, not \"ctu\"\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--quiet=no"}),
               "colmap-vcarve: --quiet takes no value\n");
 }

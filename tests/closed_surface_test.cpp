@@ -1,6 +1,6 @@
 #include "compare/closed_surface.h"
 #include "compare/view_rays.h"
-#include "pipeline.h"
+#include "pipeline/reconstruct.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
 
@@ -71,7 +71,7 @@ TEST(ClosedSurface, IsWhatTheProgramMakesWithClosed)
     Options options;
     Log silent;
     EXPECT_GT(nothing_seen(reconstruct(scene, options, silent).mesh, yardstick), 0.0);
-    options.closed = true;
+    options.surface.closed = true;
     EXPECT_EQ(nothing_seen(reconstruct(scene, options, silent).mesh, yardstick), 0.0);
 }
 

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/colmap_model.h"
+#include "io/colmap/colmap_model.h"
 #include "support/scene_checks.h"
 #include "support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
-#include "io/colmap_model.h"
-#include "io/find_model.h"
+#include "io/colmap/colmap_model.h"
+#include "io/colmap/find_model.h"
 #include "support/scene_checks.h"
 #include "support/temporary_folder.h"
 

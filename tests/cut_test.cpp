@@ -1,8 +1,8 @@
-#include "label/cut.h"
-#include "points/arrange.h"
-#include "sight/trace.h"
+#include "steps/1_points/spatial_sort.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/trace.h"
+#include "steps/4_labels/cut.h"
 #include "support/scenes.h"
-#include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "points/arrange.h"
-#include "sight/edge_lengths.h"
+#include "steps/1_points/spatial_sort.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/edge_lengths.h"
 #include "support/scenes.h"
-#include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
+#include "mesh/check.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/5_surface/extract.h"
+#include "steps/5_surface/orient.h"
 #include "support/scenes.h"
-#include "surface/check.h"
-#include "surface/extract.h"
-#include "surface/orient.h"
-#include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
 

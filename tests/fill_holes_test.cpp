@@ -1,5 +1,5 @@
-#include "surface/check.h"
-#include "surface/fill_holes.h"
+#include "mesh/check.h"
+#include "steps/5_surface/fill_holes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "points/arrange.h"
-#include "points/center.h"
-#include "points/filter.h"
+#include "steps/1_points/center.h"
+#include "steps/1_points/filter.h"
+#include "steps/1_points/spatial_sort.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

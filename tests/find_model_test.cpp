@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/find_model.h"
+#include "io/colmap/find_model.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>

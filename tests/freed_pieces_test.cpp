@@ -1,7 +1,7 @@
+#include "steps/3_visibility/face_evidence.h"
+#include "steps/4_labels/freed_pieces.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
-#include "surface/face_evidence.h"
-#include "surface/freed_pieces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "base/parallel.h"
-#include "surface/local_edges.h"
+#include "mesh/local_edges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "points/looked_at_ball.h"
+#include "steps/1_points/looked_at_ball.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

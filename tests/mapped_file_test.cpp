@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/mapped_file.h"
+#include "io/files/mapped_file.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

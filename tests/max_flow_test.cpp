@@ -1,6 +1,6 @@
-#include "label/max_flow.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/4_labels/max_flow/max_flow.h"
 #include "support/random_cells.h"
-#include "tetra/triangulate.h"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>

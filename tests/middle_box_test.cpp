@@ -1,4 +1,4 @@
-#include "points/middle_box.h"
+#include "steps/1_points/middle_box.h"
 
 #include <gtest/gtest.h>
 

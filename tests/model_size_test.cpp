@@ -1,4 +1,4 @@
-#include "io/model_size.h"
+#include "io/colmap/model_size.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

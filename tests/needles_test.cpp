@@ -1,6 +1,6 @@
+#include "steps/4_labels/needles.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
-#include "surface/needles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "base/error.h"
+#include "baselines/alpha_shape.h"
 #include "cli/option_parser.h"
-#include "label/alpha_shape.h"
 #include "support/sample_options.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/output_file.h"
+#include "io/files/output_file.h"
 #include "support/temporary_folder.h"
 
 #include <fcntl.h>

@@ -1,11 +1,11 @@
 // The comparisons of the paper (Akgunduz, Zetu, Banerjee 2000, section 2) on its own objects:
 // strict carving gets the solid, no alpha shape does, and sculpting takes what it should keep.
-#include "io/colmap_model.h"
-#include "io/ply.h"
-#include "label/alpha_shape.h"
-#include "label/circumsphere.h"
-#include "label/sculpt.h"
-#include "tetra/triangulate.h"
+#include "baselines/alpha_shape.h"
+#include "baselines/circumsphere.h"
+#include "baselines/sculpt.h"
+#include "io/colmap/colmap_model.h"
+#include "io/ply/ply.h"
+#include "steps/2_cells/triangulate.h"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
 // The objects of the paper's figures 15-18: strict carving must give each true solid, no more and
 // no less. fixtures/README.md says what the fixtures guarantee.
 #include "base/log.h"
-#include "io/colmap_model.h"
-#include "io/ply.h"
-#include "label/carve.h"
-#include "sight/trace.h"
-#include "surface/extract.h"
-#include "tetra/triangulate.h"
+#include "io/colmap/colmap_model.h"
+#include "io/ply/ply.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/trace.h"
+#include "steps/4_labels/strict_carving.h"
+#include "steps/5_surface/extract.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
+#include "steps/4_labels/freed_pieces.h"
 #include "support/made_cells.h"
-#include "surface/freed_pieces.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/ply.h"
+#include "io/ply/ply.h"
 #include "support/temporary_folder.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>

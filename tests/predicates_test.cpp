@@ -1,4 +1,4 @@
-#include "base/predicates.h"
+#include "geometry/predicates.h"
 
 #include <gtest/gtest.h>
 

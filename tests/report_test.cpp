@@ -1,4 +1,4 @@
-#include "compare/report.h"
+#include "report/report.h"
 #include "support/measured_scenes.h"
 
 #include <gmock/gmock.h>

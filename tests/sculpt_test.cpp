@@ -1,9 +1,9 @@
-#include "label/circumsphere.h"
-#include "label/sculpt.h"
+#include "baselines/circumsphere.h"
+#include "baselines/sculpt.h"
+#include "mesh/check.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/5_surface/extract.h"
 #include "support/random_cells.h"
-#include "surface/check.h"
-#include "surface/extract.h"
-#include "tetra/triangulate.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
+#include "steps/5_surface/sheets.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
-#include "surface/sheets.h"
 
 #include <gtest/gtest.h>
 

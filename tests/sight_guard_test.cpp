@@ -1,7 +1,7 @@
+#include "mesh/local_edges.h"
+#include "steps/6_refine/sight_guard.h"
 #include "support/blocked_sights.h"
 #include "support/scenes.h"
-#include "surface/local_edges.h"
-#include "surface/sight_guard.h"
 
 #include <gtest/gtest.h>
 

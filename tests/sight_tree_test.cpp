@@ -1,6 +1,6 @@
+#include "steps/6_refine/sight_tree.h"
 #include "support/blocked_sights.h"
 #include "support/scenes.h"
-#include "surface/sight_tree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sight/sight_weights.h"
+#include "steps/3_visibility/sight_weights.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
-#include "pipeline.h"
+#include "mesh/check.h"
+#include "pipeline/reconstruct.h"
+#include "steps/6_refine/simplify.h"
 #include "support/blocked_sights.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
-#include "surface/check.h"
-#include "surface/simplify.h"
 
 #include <gtest/gtest.h>
 
@@ -129,7 +129,7 @@ Simplified quarter(bool closed)
 {
     Log silent;
     Options options;
-    options.closed = closed;
+    options.surface.closed = closed;
     Simplified result{reconstruct(bumpy_sphere(500, 4), options, silent), {}};
     const auto& [scene, mesh] = result.before;
     const SightGuard guard(scene, mesh);

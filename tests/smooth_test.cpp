@@ -1,8 +1,8 @@
+#include "mesh/local_edges.h"
+#include "steps/6_refine/smooth.h"
 #include "support/blocked_sights.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
-#include "surface/local_edges.h"
-#include "surface/smooth.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
+#include "mesh/check.h"
+#include "steps/5_surface/split_nonmanifold.h"
 #include "support/tetra_grid.h"
-#include "surface/check.h"
-#include "surface/split_nonmanifold.h"
 
 #include <gtest/gtest.h>
 

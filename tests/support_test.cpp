@@ -1,6 +1,6 @@
+#include "steps/5_surface/support.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
-#include "surface/support.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
+#include "mesh/surface_normals.h"
+#include "steps/4_labels/boundary.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
-#include "surface/boundary.h"
-#include "surface/surface_normals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "base/predicates.h"
 #include "compare/sample.h"
 #include "compare/surface_tree.h"
+#include "geometry/predicates.h"
 #include "support/measured_scenes.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "io/text_reader.h"
+#include "io/colmap/text_reader.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,12 +1,12 @@
-#include "label/cut.h"
-#include "sight/trace.h"
-#include "sight/walk.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/trace.h"
+#include "steps/3_visibility/walk.h"
+#include "steps/4_labels/cut.h"
 #include "support/exact_sight.h"
 #include "support/paper_rule.h"
 #include "support/point_sets.h"
 #include "support/scenes.h"
 #include "support/unpushed_network.h"
-#include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

@@ -1,5 +1,5 @@
 #include "base/parallel.h"
-#include "surface/union_find.h"
+#include "base/union_find.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

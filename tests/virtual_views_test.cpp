@@ -1,13 +1,13 @@
-#include "base/predicates.h"
-#include "io/colmap_model.h"
-#include "label/carve.h"
-#include "sight/edge_lengths.h"
-#include "sight/trace.h"
-#include "sight/virtual_views.h"
-#include "sight/walk.h"
+#include "geometry/predicates.h"
+#include "io/colmap/colmap_model.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/edge_lengths.h"
+#include "steps/3_visibility/trace.h"
+#include "steps/3_visibility/virtual_views.h"
+#include "steps/3_visibility/walk.h"
+#include "steps/4_labels/strict_carving.h"
 #include "support/exact_sight.h"
 #include "support/scenes.h"
-#include "tetra/triangulate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Renders a mesh to a PNG, from the pose of a model's image or from a direction, to look at it.
 // Back faces are magenta.
 #include "base/error.h"
-#include "io/colmap_model.h"
-#include "io/find_model.h"
-#include "io/ply.h"
+#include "io/colmap/colmap_model.h"
+#include "io/colmap/find_model.h"
+#include "io/ply/ply.h"
 #include "model/camera.h"
 #include "render/picture.h"
 #include "render/raster.h"

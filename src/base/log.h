@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -10,6 +11,12 @@ namespace vcarve {
 
 /// Named counts of what a stage did, in the order they are to be read: {"points", 3012}.
 using Counts = std::vector<std::pair<std::string, std::int64_t>>;
+
+/// The size of a container, as a count.
+inline std::int64_t size_of(std::size_t count)
+{
+    return static_cast<std::int64_t>(count);
+}
 
 /// Where a run tells what it does. The library prints nothing itself; the program, or whoever uses
 /// the library, decides what to show. The default shows nothing.

@@ -2,20 +2,23 @@
 
 #include "base/error.h"
 #include "base/threads.h"
+#include "baselines/baseline_surface.h"
 #include "cli/interruption.h"
 #include "cli/model_input.h"
 #include "cli/rival_runs.h"
 #include "compare/closed_surface.h"
-#include "compare/report.h"
-#include "io/mapped_file.h"
-#include "io/output_file.h"
-#include "io/ply.h"
+#include "io/files/mapped_file.h"
+#include "io/files/output_file.h"
+#include "io/ply/ply.h"
+#include "report/report.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace vcarve::cli {
@@ -43,6 +46,22 @@ struct CompareRunOptions {
     }
 };
 
+/// Which of the paper's baselines are made and measured.
+struct BaselineOptions {
+    bool baselines = false;
+    AlphaOptions alpha;
+
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Baselines");
+        options.flag(baselines,
+                     {.name = "baselines",
+                      .help = "Add a column for the alpha shape and one for Boissonnat's sculpture "
+                              "of MODEL; they know the points only."});
+        alpha.visit(options);
+    }
+};
+
 /// Everything the command line says.
 struct CompareArguments {
     fs::path model;
@@ -50,6 +69,7 @@ struct CompareArguments {
     fs::path truth; ///< empty: none
     fs::path json;  ///< empty: none
     CompareOptions measure;
+    BaselineOptions baselines;
     std::string colmap; ///< empty: not run
     RivalOptions rivals;
     CompareRunOptions run;
@@ -58,6 +78,7 @@ struct CompareArguments {
 std::vector<OptionRow> compare_options()
 {
     CompareOptions measure;
+    BaselineOptions baselines;
     RivalOptions rivals;
     CompareRunOptions run;
     bool off = false;
@@ -67,6 +88,7 @@ std::vector<OptionRow> compare_options()
                 .help = "The true surface as PLY, in the model's frame: adds precision, recall, "
                         "F and blocked sights."});
     measure.visit(table);
+    baselines.visit(table);
     table.stage("COLMAP");
     table.path({.name = "colmap",
                 .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and "
@@ -87,10 +109,12 @@ CompareArguments read_arguments(const ParsedArguments& given)
     CompareArguments arguments;
     OptionReader reader(given);
     arguments.measure.visit(reader);
+    arguments.baselines.visit(reader);
     arguments.rivals.visit(reader);
     arguments.run.visit(reader);
     if (given.has("colmap")) arguments.colmap = given.options.at("colmap");
-    if (given.operands.size() < (given.has("colmap") ? 1U : 2U)) {
+    const bool makes_meshes = given.has("colmap") || arguments.baselines.baselines;
+    if (given.operands.size() < (makes_meshes ? 1U : 2U)) {
         throw UsageError(fmt::format("expected a model and meshes, MODEL A.ply ..., but got {}{}",
                                      given.operands.empty() ? "nothing" : given.operands[0],
                                      kSeeCompareHelp));
@@ -149,18 +173,31 @@ std::vector<std::string> column_names(const std::vector<fs::path>& meshes)
     return names;
 }
 
-Yardstick read_yardstick(const CompareArguments& arguments, Log& log)
+/// The surfaces of the paper's baselines, where they are asked for.
+std::vector<NamedMesh> baselines_of(const CompareArguments& arguments, const Scene& model, Log& log)
 {
-    ModelInput model = read_model_input(arguments.model, log);
+    if (!arguments.baselines.baselines) return {};
+    std::vector<NamedMesh> meshes;
+    for (const Baseline baseline : {Baseline::alpha_shape, Baseline::sculpture}) {
+        Stage stage(log, name_of(baseline));
+        TriMesh mesh = baseline_surface(model, baseline, arguments.baselines.alpha);
+        stage.end({{"faces", size_of(mesh.faces.size())}});
+        meshes.push_back({name_of(baseline), std::move(mesh)});
+    }
+    return meshes;
+}
+
+Yardstick yardstick_of(const CompareArguments& arguments, Scene model, Log& log)
+{
     NamedMesh truth;
     if (!arguments.truth.empty()) truth = {arguments.truth.string(), read_ply(arguments.truth)};
     Stage stage(log, "yardstick");
     Yardstick yardstick =
-        make_yardstick(model.scene, arguments.truth.empty() ? nullptr : &truth, arguments.measure);
+        make_yardstick(model, arguments.truth.empty() ? nullptr : &truth, arguments.measure);
     const std::size_t samples = yardstick.truth ? yardstick.truth->samples.size() : 0;
     stage.end({{"points", yardstick.scene.num_points()},
                {"samples of the truth", static_cast<std::int64_t>(samples)}});
-    add_closed_surface(yardstick, std::move(model.scene), log);
+    add_closed_surface(yardstick, std::move(model), log);
     return yardstick;
 }
 
@@ -172,10 +209,9 @@ Comparison measure(const NamedMesh& mesh, const Yardstick& yardstick, Log& log)
     return comparison;
 }
 
-/// A column for each rival and each file.
-std::vector<Comparison> measure_all(const CompareArguments& arguments,
-                                    std::vector<RivalMesh> rivals, const Yardstick& yardstick,
-                                    Log& log)
+/// A column for each rival.
+std::vector<Comparison> measure_rivals(std::vector<RivalMesh> rivals, const Yardstick& yardstick,
+                                       Log& log)
 {
     std::vector<Comparison> columns;
     for (RivalMesh& rival : rivals) {
@@ -188,6 +224,14 @@ std::vector<Comparison> measure_all(const CompareArguments& arguments,
         column.cost = rival.cost;
         columns.push_back(std::move(column));
     }
+    return columns;
+}
+
+/// A column for each file.
+std::vector<Comparison> measure_files(const CompareArguments& arguments, const Yardstick& yardstick,
+                                      Log& log)
+{
+    std::vector<Comparison> columns;
     const std::vector<std::string> names = column_names(arguments.meshes);
     for (std::size_t i = 0; i < names.size(); ++i) {
         columns.push_back(
@@ -215,12 +259,13 @@ Manual compare_manual()
         {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which one fits the views"},
         {"colmap-vcarve compare sparse/0 mesh.ply --truth gt.ply", "how true it is"},
         {"colmap-vcarve compare sparse/0 --colmap colmap", "this program beside COLMAP's mesher"},
+        {"colmap-vcarve compare sparse/0 mesh.ply --baselines", "beside the paper's baselines"},
     };
     manual.operand_meanings = {
         {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},
         {"A.ply ...",
          "Surfaces in the model's frame, each a column of the table; may be left out with "
-         "--colmap."},
+         "--colmap or --baselines."},
     };
     manual.footnotes = {
         {"Figures", "What they mean is written under the table."},
@@ -243,13 +288,18 @@ void run_compare(const ParsedArguments& given)
 
     std::vector<RivalMesh> rivals = rivals_of(arguments, *log);
     remove_on_signals(arguments, nullptr);
-    if (rivals.empty() && arguments.meshes.empty()) {
+    if (rivals.empty() && arguments.meshes.empty() && !arguments.baselines.baselines) {
         throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
                                      arguments.model.string()));
     }
-    const Yardstick yardstick = read_yardstick(arguments, *log);
-    const std::vector<Comparison> comparisons =
-        measure_all(arguments, std::move(rivals), yardstick, *log);
+    ModelInput model = read_model_input(arguments.model, *log);
+    const std::vector<NamedMesh> baselines = baselines_of(arguments, model.scene, *log);
+    const Yardstick yardstick = yardstick_of(arguments, std::move(model.scene), *log);
+    std::vector<Comparison> comparisons = measure_rivals(std::move(rivals), yardstick, *log);
+    for (const NamedMesh& baseline : baselines) {
+        comparisons.push_back(measure(baseline, yardstick, *log));
+    }
+    std::ranges::move(measure_files(arguments, yardstick, *log), std::back_inserter(comparisons));
     print_table(comparison_table(comparisons, yardstick));
     if (arguments.json.empty()) return;
     OutputFile file(arguments.json);

@@ -6,12 +6,12 @@
 #include "cli/interruption.h"
 #include "cli/model_input.h"
 #include "cli/run_record.h"
-#include "io/output_file.h"
-#include "io/ply.h"
-#include "pipeline.h"
-#include "pipeline_memory.h"
-#include "surface/check.h"
-#include "surface/provenance.h"
+#include "io/files/output_file.h"
+#include "io/ply/ply.h"
+#include "mesh/check.h"
+#include "pipeline/memory.h"
+#include "pipeline/reconstruct.h"
+#include "steps/5_surface/provenance.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -1,7 +1,7 @@
 #include "cli/model_input.h"
 
 #include "cli/console_log.h"
-#include "io/model_size.h"
+#include "io/colmap/model_size.h"
 
 namespace vcarve::cli {
 

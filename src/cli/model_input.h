@@ -2,7 +2,7 @@
 
 #include "base/log.h"
 #include "cli/run_record.h"
-#include "io/find_model.h"
+#include "io/colmap/find_model.h"
 #include "model/scene_size.h"
 
 #include <filesystem>

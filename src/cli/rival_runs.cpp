@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "cli/child_process.h"
-#include "io/find_model.h"
-#include "io/ply.h"
+#include "io/colmap/find_model.h"
+#include "io/ply/ply.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "compare/view_rays.h"
-#include "pipeline.h"
+#include "pipeline/reconstruct.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ void add_closed_surface(Yardstick& yardstick, Scene model, Log& log)
     std::int64_t faces = 0;
     try {
         Options options;
-        options.closed = true;
+        options.surface.closed = true;
         Log silent;
         const TriMesh closed = reconstruct(std::move(model), options, silent).mesh;
         use_closed_surface(yardstick, closed);

@@ -3,7 +3,7 @@
 #include "compare/evidence.h"
 #include "compare/truth.h"
 #include "compare/yardstick.h"
-#include "surface/check.h"
+#include "mesh/check.h"
 
 #include <cstdint>
 #include <optional>

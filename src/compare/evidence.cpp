@@ -3,10 +3,11 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "compare/sample.h"
+#include "geometry/triangle.h"
+#include "mesh/edge_table.h"
 #include "model/camera.h"
-#include "sight/face_visibility.h"
-#include "surface/edge_table.h"
-#include "surface/face_evidence.h"
+#include "steps/3_visibility/face_evidence.h"
+#include "steps/3_visibility/face_visibility.h"
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,7 @@
 #include "compare/sample.h"
 
 #include "base/parallel.h"
+#include "geometry/triangle.h"
 
 #include <Eigen/Geometry>
 
@@ -27,10 +28,7 @@ std::vector<double> cumulated_areas(const TriMesh& mesh)
     ends.reserve(mesh.faces.size());
     double sum = 0.0;
     for (const Face& face : mesh.faces) {
-        const Eigen::Vector3d& a = mesh.positions[face[0]];
-        const Eigen::Vector3d& b = mesh.positions[face[1]];
-        const Eigen::Vector3d& c = mesh.positions[face[2]];
-        const double area = 0.5 * (b - a).cross(c - a).norm();
+        const double area = face_area(mesh.positions, face);
         sum += std::isfinite(area) ? area : 0.0;
         ends.push_back(sum);
     }

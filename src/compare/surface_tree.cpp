@@ -1,6 +1,6 @@
 #include "compare/surface_tree.h"
 
-#include "base/predicates.h"
+#include "geometry/predicates.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "compare/sample.h"
+#include "geometry/triangle.h"
 #include "model/camera.h"
-#include "surface/face_evidence.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

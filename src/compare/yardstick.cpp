@@ -5,7 +5,8 @@
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"
-#include "points/middle_box.h"
+#include "geometry/triangle.h"
+#include "steps/1_points/middle_box.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -42,10 +43,8 @@ std::vector<Eigen::Vector3d> face_corners(const TriMesh& mesh)
 bool has_area(const TriMesh& mesh)
 {
     return std::ranges::any_of(mesh.faces, [&](const Face& face) {
-        const Eigen::Vector3d& a = mesh.positions[face[0]];
-        const double area_sq =
-            (mesh.positions[face[1]] - a).cross(mesh.positions[face[2]] - a).squaredNorm();
-        return area_sq > 0.0 && area_sq < kUnlimited;
+        const double size_sq = scaled_normal(mesh.positions, face).squaredNorm();
+        return size_sq > 0.0 && size_sq < kUnlimited;
     });
 }
 

@@ -1,9 +1,9 @@
 #include "base/error.h"
 #include "base/validate.h"
 #include "base/version.h"
-#include "io/find_model.h"
-#include "io/ply.h"
-#include "pipeline.h"
+#include "io/colmap/find_model.h"
+#include "io/ply/ply.h"
+#include "pipeline/reconstruct.h"
 
 #include <iostream>
 #include <utility>
@@ -16,7 +16,7 @@ int main(int count, char** words)
         const vcarve::FoundModel found = vcarve::find_model(words[1]);
         vcarve::Scene scene = vcarve::read_colmap_model(found.folder, found.format);
         vcarve::Options options;
-        options.filter.min_views = 2;
+        options.points.min_views = 2;
         vcarve::validate(options);
         vcarve::Log silent;
         const vcarve::TriMesh mesh = vcarve::reconstruct(std::move(scene), options, silent).mesh;

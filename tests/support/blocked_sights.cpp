@@ -1,8 +1,8 @@
 #include "support/blocked_sights.h"
 
-#include "base/predicates.h"
-#include "surface/local_edges.h"
-#include "surface/sight_guard.h"
+#include "geometry/predicates.h"
+#include "mesh/local_edges.h"
+#include "steps/6_refine/sight_guard.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "support/exact_sight.h"
 
-#include "base/predicates.h"
+#include "geometry/predicates.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <fmt/core.h>

@@ -4,10 +4,11 @@
 #include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "model/tri_mesh.h"
-#include "sight/face_visibility.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/face_visibility.h"
+#include "steps/4_labels/boundary.h"
+#include "steps/5_surface/extract.h"
 #include "support/point_sets.h"
-#include "surface/extract.h"
-#include "tetra/triangulate.h"
 
 #include <tbb/task_arena.h>
 

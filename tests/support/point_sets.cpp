@@ -1,7 +1,7 @@
 #include "support/point_sets.h"
 
+#include "steps/2_cells/triangulate.h"
 #include "support/scenes.h"
-#include "tetra/triangulate.h"
 
 #include <cmath>
 

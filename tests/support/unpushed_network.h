@@ -3,7 +3,7 @@
 #include "model/labels.h"
 #include "model/scene.h"
 #include "model/tet_mesh.h"
-#include "sight/trace.h"
+#include "steps/3_visibility/trace.h"
 
 #include <array>
 #include <cstdint>

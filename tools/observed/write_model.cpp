@@ -1,6 +1,6 @@
 #include "observed/write_model.h"
 
-#include "io/ply.h"
+#include "io/ply/ply.h"
 
 #include <fmt/format.h>
 #include <fmt/os.h>

@@ -1,6 +1,6 @@
 #include "paper/write_fixture.h"
 
-#include "base/predicates.h"
+#include "geometry/predicates.h"
 
 #include <fmt/format.h>
 #include <fmt/os.h>

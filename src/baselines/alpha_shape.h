@@ -1,0 +1,36 @@
+#pragma once
+
+#include "base/options.h"
+#include "model/labels.h"
+#include "model/tet_mesh.h"
+
+namespace vcarve {
+
+/// How large the alpha of an alpha shape is; no length, for those would be in scene units.
+struct AlphaOptions {
+    double alpha = 1.0;
+
+    void visit(OptionVisitor& options)
+    {
+        options.number(alpha,
+                       {.name = "alpha",
+                        .unit = "x auto",
+                        .help = "The radius of the alpha shape, as a multiple of the smallest one "
+                                "that keeps all points and one piece; auto is that one.",
+                        .word = "auto",
+                        .word_value = 1.0});
+    }
+};
+
+/// The alpha shape as a solid (Edelsbrunner, Mücke 1994): inside are the cells whose circumsphere
+/// has a radius of at most `alpha`. A baseline: it knows the points only and nothing of the views.
+/// Where the solid is thinner than its points are dense, or gaps are narrower, no alpha is right.
+/// Cost: O(cells).
+Labels alpha_shape(const TetMesh& cells, double alpha);
+
+/// The smallest alpha whose alpha shape has every point as the corner of an inside cell and is one
+/// piece of cells that hang together through facets. Where flat cells keep every alpha from that:
+/// infinity, whose alpha shape is the convex hull. Cost: O(cells log cells).
+double smallest_whole_alpha(const TetMesh& cells);
+
+} // namespace vcarve

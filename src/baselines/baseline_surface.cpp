@@ -1,0 +1,48 @@
+#include "baselines/baseline_surface.h"
+
+#include "base/error.h"
+#include "baselines/sculpt.h"
+#include "steps/1_points/center.h"
+#include "steps/1_points/filter.h"
+#include "steps/1_points/spatial_sort.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/5_surface/cleanup.h"
+#include "steps/5_surface/extract.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+Labels labels_of(Baseline baseline, const TetMesh& cells, const AlphaOptions& options)
+{
+    if (baseline == Baseline::sculpture) return sculpt(cells);
+    Labels labels = alpha_shape(cells, options.alpha * smallest_whole_alpha(cells));
+    if (std::ranges::count(labels, Label::inside) == 0) {
+        throw InputError(fmt::format("no cell is as small as --alpha {} asks for: 1 is the "
+                                     "smallest that keeps all points",
+                                     options.alpha));
+    }
+    return labels;
+}
+
+} // namespace
+
+const char* name_of(Baseline baseline)
+{
+    return baseline == Baseline::alpha_shape ? "alpha shape" : "sculpture";
+}
+
+TriMesh baseline_surface(Scene model, Baseline baseline, const AlphaOptions& options)
+{
+    const Scene scene = arrange_points(filter_points(center_points(std::move(model)), {}).scene);
+    const TetMesh cells = triangulate(scene);
+    const Labels labels = labels_of(baseline, cells, options);
+    return clean_surface(extract_surface(cells, labels, scene), {}).mesh;
+}
+
+} // namespace vcarve

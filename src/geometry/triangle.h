@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace vcarve {
+
+/// The normal of a triangle, as long as twice its area; it points to where a, b, c run
+/// counter-clockwise.
+inline Eigen::Vector3d scaled_normal(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                     const Eigen::Vector3d& c)
+{
+    return (b - a).cross(c - a);
+}
+
+inline double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                            const Eigen::Vector3d& c)
+{
+    return 0.5 * scaled_normal(a, b, c).norm();
+}
+
+/// The same for a face, given by the indices of its corners.
+inline Eigen::Vector3d scaled_normal(std::span<const Eigen::Vector3d> positions,
+                                     const std::array<std::uint32_t, 3>& face)
+{
+    return scaled_normal(positions[face[0]], positions[face[1]], positions[face[2]]);
+}
+
+inline double face_area(std::span<const Eigen::Vector3d> positions,
+                        const std::array<std::uint32_t, 3>& face)
+{
+    return 0.5 * scaled_normal(positions, face).norm();
+}
+
+/// Unit, pointing outside; zero where the face has no area.
+inline Eigen::Vector3d face_normal(std::span<const Eigen::Vector3d> positions,
+                                   const std::array<std::uint32_t, 3>& face)
+{
+    return scaled_normal(positions, face).normalized();
+}
+
+} // namespace vcarve

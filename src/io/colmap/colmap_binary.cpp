@@ -1,0 +1,123 @@
+// The layout is documented at https://colmap.github.io/format.html and has not changed since 2016:
+// every file is a count (uint64) and that many records, without padding.
+
+#include "base/error.h"
+#include "io/colmap/byte_reader.h"
+#include "io/colmap/colmap_formats.h"
+#include "io/colmap/model_files.h"
+#include "io/files/mapped_file.h"
+#include "model/lens_model.h"
+
+#include <fmt/format.h>
+
+namespace vcarve {
+
+namespace {
+
+constexpr std::size_t kCameraBytes = 4 + 4 + 8 + 8;        // without its parameters
+constexpr std::size_t kImageBytes = 4 + 7 * 8 + 4 + 1 + 8; // with an empty name and no 2D points
+constexpr std::size_t kPoint2dBytes = 2 * 8 + 8;           // x, y, point id
+constexpr std::size_t kTrackElementBytes = 4 + 4;          // image id, index of the 2D point
+
+Camera read_camera(ByteReader& reader, const std::string& name)
+{
+    Camera camera;
+    camera.id = reader.read<std::uint32_t>("the id of a camera");
+    camera.model = reader.read<std::int32_t>("the model of a camera");
+    const LensModel* model = lens_model(camera.model);
+    if (model == nullptr) {
+        throw InputError(
+            fmt::format("{}: camera {} is of model {}, which is not known, and neither "
+                        "is the number of its parameters (a model as text can be read)",
+                        name, camera.id, camera.model));
+    }
+    camera.width_px = reader.read<std::uint64_t>("the width of a camera");
+    camera.height_px = reader.read<std::uint64_t>("the height of a camera");
+    for (std::size_t i = 0; i < model->num_params; ++i) {
+        camera.params.push_back(reader.read<double>("the parameters of a camera"));
+    }
+    return camera;
+}
+
+void read_cameras(const std::filesystem::path& path, SceneBuilder& builder)
+{
+    const MappedFile file(path);
+    ByteReader reader(file.bytes(), path.string());
+    const std::uint64_t count = reader.read_count(kCameraBytes, "cameras");
+    for (std::uint64_t i = 0; i < count; ++i) {
+        builder.add_camera(read_camera(reader, path.string()));
+    }
+    reader.expect_end("the last camera");
+    builder.close_cameras();
+}
+
+ImageRecord read_image(ByteReader& reader)
+{
+    ImageRecord image;
+    image.id = reader.read<std::uint32_t>("the id of an image");
+    for (double& component : image.rotation_wxyz) {
+        component = reader.read<double>("the rotation of an image");
+    }
+    for (double& component : image.translation) {
+        component = reader.read<double>("the translation of an image");
+    }
+    image.camera_id = reader.read<std::uint32_t>("the camera of an image");
+    image.name = reader.read_zero_terminated("the name of an image");
+    // The 2D points are not needed
+    reader.skip(reader.read_count(kPoint2dBytes, "2D points"), kPoint2dBytes);
+    return image;
+}
+
+void read_images(const std::filesystem::path& path, SceneBuilder& builder)
+{
+    const MappedFile file(path);
+    ByteReader reader(file.bytes(), path.string());
+    const std::uint64_t count = reader.read_count(kImageBytes, "images");
+    for (std::uint64_t i = 0; i < count; ++i) {
+        builder.add_image(read_image(reader));
+    }
+    reader.expect_end("the last image");
+    builder.close_images();
+}
+
+PointRecord read_point(ByteReader& reader)
+{
+    PointRecord point;
+    point.id = reader.read<std::uint64_t>("the id of a point");
+    for (double& coordinate : point.position) {
+        coordinate = reader.read<double>("the position of a point");
+    }
+    point.color = reader.read<Color>("the colour of a point");
+    point.error_px = reader.read<double>("the error of a point");
+    return point;
+}
+
+void read_points(const std::filesystem::path& path, SceneBuilder& builder)
+{
+    const MappedFile file(path);
+    ByteReader reader(file.bytes(), path.string());
+    const std::uint64_t count = reader.read_count(kPointBytes, "points");
+    builder.reserve_points(count);
+    std::vector<std::uint32_t> image_ids;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const PointRecord point = read_point(reader);
+        image_ids.resize(reader.read_count(kTrackElementBytes, "views in a track"));
+        for (std::uint32_t& image_id : image_ids) {
+            image_id = reader.read<std::uint32_t>("the track of a point");
+            reader.read<std::uint32_t>("the track of a point");
+        }
+        builder.add_point(point, image_ids);
+    }
+    reader.expect_end("the last point");
+}
+
+} // namespace
+
+void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder)
+{
+    read_cameras(folder / model_file("cameras", ModelFormat::binary), builder);
+    read_images(folder / model_file("images", ModelFormat::binary), builder);
+    read_points(folder / model_file("points3D", ModelFormat::binary), builder);
+}
+
+} // namespace vcarve

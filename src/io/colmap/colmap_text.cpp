@@ -1,0 +1,132 @@
+// The layout is documented at https://colmap.github.io/format.html: a line per camera and point,
+// two lines per image, of which the second, the 2D points, may be empty.
+
+#include "io/colmap/colmap_formats.h"
+#include "io/colmap/model_files.h"
+#include "io/colmap/text_reader.h"
+#include "io/files/mapped_file.h"
+#include "model/lens_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vcarve {
+
+namespace {
+
+Camera read_camera(TextReader& reader)
+{
+    Camera camera;
+    camera.id = reader.read_uint32("the id of a camera");
+    const std::string_view model_name = reader.read_word("the model of the camera");
+    const LensModel* model = lens_model(model_name);
+    camera.model = model != nullptr ? model->number : -1;
+    camera.width_px = reader.read_uint64("the width of the camera");
+    camera.height_px = reader.read_uint64("the height of the camera");
+    while (!reader.at_line_end()) {
+        camera.params.push_back(reader.read_double("a parameter of the camera"));
+    }
+    if (model != nullptr && camera.params.size() != model->num_params) {
+        reader.fail(fmt::format("found {} parameters of a {} camera, which has {}",
+                                camera.params.size(), model_name, model->num_params));
+    }
+    return camera;
+}
+
+void read_cameras(const std::filesystem::path& path, SceneBuilder& builder)
+{
+    const MappedFile file(path);
+    TextReader reader(file.bytes(), path.string());
+    while (reader.next_record()) {
+        builder.add_camera(read_camera(reader));
+    }
+    builder.close_cameras();
+}
+
+/// Refuses a line that cannot be 2D points, as where the second line of an image was left out: the
+/// last word has to be the id of a point.
+void check_points2d(TextReader& reader)
+{
+    const std::string_view line = reader.rest();
+    if (line.empty()) return;
+    const std::string_view word = line.substr(line.find_last_of(" \t") + 1);
+    const std::string_view digits = word.substr(word.starts_with('-') ? 1 : 0);
+    const bool is_id =
+        std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!is_id || digits.empty()) {
+        reader.fail(
+            fmt::format("found '{}' at the end of the line, which should hold the 2D points "
+                        "of the image on the line before, as x, y and point id, or nothing",
+                        printable(word)));
+    }
+}
+
+ImageRecord read_image(TextReader& reader)
+{
+    ImageRecord image;
+    image.id = reader.read_uint32("the id of an image");
+    for (double& component : image.rotation_wxyz) {
+        component = reader.read_double("the rotation of the image");
+    }
+    for (double& component : image.translation) {
+        component = reader.read_double("the translation of the image");
+    }
+    image.camera_id = reader.read_uint32("the camera of the image");
+    // A name may hold blanks, but a line without one has lost a field
+    if (reader.at_line_end()) reader.read_word("the name of the image");
+    image.name = reader.rest();
+    if (reader.next_line()) check_points2d(reader);
+    return image;
+}
+
+void read_images(const std::filesystem::path& path, SceneBuilder& builder)
+{
+    const MappedFile file(path);
+    TextReader reader(file.bytes(), path.string());
+    while (reader.next_record()) {
+        builder.add_image(read_image(reader));
+    }
+    builder.close_images();
+}
+
+PointRecord read_point(TextReader& reader)
+{
+    PointRecord point;
+    point.id = reader.read_uint64("the id of a point");
+    for (double& coordinate : point.position) {
+        coordinate = reader.read_double("the position of the point");
+    }
+    for (std::uint8_t& channel : point.color) {
+        channel = reader.read_uint8("the colour of the point");
+    }
+    point.error_px = reader.read_double("the error of the point");
+    return point;
+}
+
+void read_points(const std::filesystem::path& path, SceneBuilder& builder)
+{
+    const MappedFile file(path);
+    TextReader reader(file.bytes(), path.string());
+    std::vector<std::uint32_t> image_ids;
+    while (reader.next_record()) {
+        const PointRecord point = read_point(reader);
+        image_ids.clear();
+        while (!reader.at_line_end()) {
+            image_ids.push_back(reader.read_uint32("the id of an image in the track"));
+            reader.read_uint32("the index of a 2D point in the track");
+        }
+        builder.add_point(point, image_ids);
+    }
+}
+
+} // namespace
+
+void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder)
+{
+    read_cameras(folder / model_file("cameras", ModelFormat::text), builder);
+    read_images(folder / model_file("images", ModelFormat::text), builder);
+    read_points(folder / model_file("points3D", ModelFormat::text), builder);
+}
+
+} // namespace vcarve

@@ -1,0 +1,244 @@
+#include "io/colmap/find_model.h"
+
+#include "base/error.h"
+#include "io/colmap/byte_reader.h"
+#include "io/colmap/model_files.h"
+#include "io/colmap/text_reader.h"
+#include "io/files/mapped_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <system_error>
+
+namespace vcarve {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kWhatAModelIs =
+    "a COLMAP model is a folder with cameras, images and points3D as .bin or .txt";
+
+/// A folder that holds a whole model, and how many points it has.
+struct Component {
+    fs::path folder;
+    ModelFormat format = ModelFormat::binary;
+    std::uint64_t num_points = 0;
+};
+
+bool is_file(const fs::path& path)
+{
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+}
+
+bool is_folder(const fs::path& path)
+{
+    std::error_code error;
+    return fs::is_directory(path, error);
+}
+
+std::vector<std::string> missing_files(const fs::path& folder, ModelFormat format)
+{
+    std::vector<std::string> missing;
+    for (const char* stem : kModelFiles) {
+        const std::string file = model_file(stem, format);
+        if (!is_file(folder / file)) missing.push_back(file);
+    }
+    return missing;
+}
+
+/// The format to read `folder` in, or none where it does not hold a whole model.
+std::optional<ModelFormat> format_of(const fs::path& folder)
+{
+    for (const ModelFormat format : {ModelFormat::binary, ModelFormat::text}) {
+        if (missing_files(folder, format).empty()) return format;
+    }
+    return std::nullopt;
+}
+
+/// The names of what is in a folder, short before long so that 2 comes before 10.
+std::vector<std::string> names_in(const fs::path& folder)
+{
+    std::vector<std::string> names;
+    try {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+            names.push_back(entry.path().filename().string());
+        }
+    } catch (const fs::filesystem_error& failure) {
+        throw InputError(fmt::format("{}: the folder cannot be listed ({})", folder.string(),
+                                     failure.code().message()));
+    }
+    std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+        return a.size() != b.size() ? a.size() < b.size() : a < b;
+    });
+    return names;
+}
+
+/// What the header of points3D.bin says, or zero where the file cannot hold that many.
+std::uint64_t count_points_binary(const fs::path& path)
+{
+    const MappedFile file(path);
+    ByteReader reader(file.bytes(), path.string());
+    try {
+        return reader.read_count(kPointBytes, "points");
+    } catch (const InputError&) {
+        return 0;
+    }
+}
+
+std::uint64_t count_points_text(const fs::path& path)
+{
+    const MappedFile file(path);
+    TextReader reader(file.bytes(), path.string());
+    std::uint64_t count = 0;
+    while (reader.next_record()) {
+        ++count;
+    }
+    return count;
+}
+
+std::uint64_t count_points(const fs::path& folder, ModelFormat format)
+{
+    const fs::path path = folder / model_file("points3D", format);
+    return format == ModelFormat::binary ? count_points_binary(path) : count_points_text(path);
+}
+
+std::vector<Component> components_in(const fs::path& folder)
+{
+    std::vector<Component> components;
+    for (const std::string& name : names_in(folder)) {
+        const fs::path path = folder / name;
+        if (!is_folder(path)) continue;
+        const auto format = format_of(path);
+        if (format) components.push_back({path, *format, count_points(path, *format)});
+    }
+    return components;
+}
+
+FoundModel model_in(const fs::path& folder, ModelFormat format)
+{
+    FoundModel found{folder, format, {}};
+    const auto has_other = [&](ModelFormat other) {
+        return missing_files(folder, other).size() < kModelFiles.size();
+    };
+    if (format == ModelFormat::binary && has_other(ModelFormat::text)) {
+        found.notes.push_back(
+            fmt::format("{} holds .bin and .txt files: the .bin are read", folder.string()));
+    }
+    if (format == ModelFormat::text && has_other(ModelFormat::binary)) {
+        found.notes.push_back(fmt::format(
+            "{} holds .bin and .txt files: the .txt are read, for {} is missing", folder.string(),
+            fmt::join(missing_files(folder, ModelFormat::binary), " and ")));
+    }
+    return found;
+}
+
+/// The component with most points, the first of them where several have as many.
+FoundModel largest_of(const std::vector<Component>& components)
+{
+    const auto largest = std::max_element(
+        components.begin(), components.end(),
+        [](const Component& a, const Component& b) { return a.num_points < b.num_points; });
+    FoundModel found = model_in(largest->folder, largest->format);
+    std::vector<std::string> others;
+    for (const Component& component : components) {
+        if (component.folder == largest->folder) continue;
+        others.push_back(fmt::format("{} ({})", component.folder.string(), component.num_points));
+    }
+    if (!others.empty()) {
+        found.notes.push_back(fmt::format("{} has most points ({}) and is taken; left out: {}",
+                                          largest->folder.string(), largest->num_points,
+                                          fmt::join(others, ", ")));
+    }
+    return found;
+}
+
+/// The model that is `folder` itself, or the largest of those in it.
+std::optional<FoundModel> model_at(const fs::path& folder)
+{
+    if (!is_folder(folder)) return std::nullopt;
+    const auto format = format_of(folder);
+    if (format) return model_in(folder, *format);
+    const std::vector<Component> components = components_in(folder);
+    if (!components.empty()) return largest_of(components);
+    return std::nullopt;
+}
+
+/// A part of a model in `folder`, told as a sentence's part; empty where there is none.
+std::string incomplete_model(const fs::path& folder)
+{
+    std::vector<std::string> parts;
+    for (const ModelFormat format : {ModelFormat::binary, ModelFormat::text}) {
+        const auto missing = missing_files(folder, format);
+        if (missing.size() == kModelFiles.size()) continue;
+        parts.push_back(
+            fmt::format("a model in {} without {}", folder.string(), fmt::join(missing, " and ")));
+    }
+    return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// Files that tell what else a folder may be: COLMAP's own, and clouds or meshes.
+std::vector<std::string> telling_files(const fs::path& folder)
+{
+    std::vector<std::string> telling;
+    std::vector<std::string> plys;
+    for (const std::string& name : names_in(folder)) {
+        if (name == "database.db" || name == "project.ini") telling.push_back(name);
+        if (fs::path(name).extension() == ".ply") plys.push_back(name);
+    }
+    if (plys.size() == 1) telling.push_back(plys.front());
+    if (plys.size() > 1) telling.push_back(fmt::format("{} .ply files", plys.size()));
+    return telling;
+}
+
+[[noreturn]] void fail_not_found(const fs::path& input)
+{
+    std::vector<fs::path> looked_in{input};
+    if (is_folder(input / "sparse")) looked_in.push_back(input / "sparse");
+
+    // What was there instead
+    std::vector<std::string> found;
+    for (const fs::path& folder : looked_in) {
+        const std::string own = incomplete_model(folder);
+        if (!own.empty()) found.push_back(own);
+        for (const std::string& name : names_in(folder)) {
+            const std::string part = incomplete_model(folder / name);
+            if (!part.empty() && folder / name != input / "sparse") found.push_back(part);
+        }
+    }
+    for (const std::string& name : telling_files(input)) {
+        found.push_back(name);
+    }
+    const std::string instead =
+        found.empty() ? "nothing of the kind" : fmt::format("{}", fmt::join(found, ", "));
+    throw InputError(
+        fmt::format("{}: no COLMAP model, looked for cameras, images and points3D, all "
+                    ".bin or all .txt, in this folder, in sparse and in the folders "
+                    "they hold, found {}",
+                    input.string(), instead));
+}
+
+} // namespace
+
+FoundModel find_model(const fs::path& input)
+{
+    std::error_code error;
+    if (!fs::exists(input, error)) {
+        throw InputError(fmt::format("{}: does not exist; {}", input.string(), kWhatAModelIs));
+    }
+    if (!is_folder(input)) {
+        throw InputError(fmt::format("{}: is not a folder; {}", input.string(), kWhatAModelIs));
+    }
+    // The folder itself first, then the workspace's, then components right in the folder
+    const auto format = format_of(input);
+    if (format) return model_in(input, *format);
+    if (auto found = model_at(input / "sparse")) return *found;
+    if (auto found = model_at(input)) return *found;
+    fail_not_found(input);
+}
+
+} // namespace vcarve

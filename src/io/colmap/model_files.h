@@ -1,0 +1,24 @@
+#pragma once
+
+#include "io/colmap/colmap_model.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+namespace vcarve {
+
+/// The files a COLMAP model cannot do without, by their names before the dot.
+inline constexpr std::array<const char*, 3> kModelFiles{"cameras", "images", "points3D"};
+
+/// The name of one of them: model_file("images", ModelFormat::text) is "images.txt".
+inline std::string model_file(const char* stem, ModelFormat format)
+{
+    return std::string(stem) + (format == ModelFormat::binary ? ".bin" : ".txt");
+}
+
+/// The fewest bytes a point takes in points3D.bin: id, position, colour, error, length of the
+/// track.
+inline constexpr std::size_t kPointBytes = 8 + 3 * 8 + 3 + 8 + 8;
+
+} // namespace vcarve

@@ -1,0 +1,150 @@
+#include "io/colmap/scene_builder.h"
+
+#include "base/error.h"
+#include "io/colmap/model_files.h"
+#include "io/colmap/text_reader.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+/// Sorts by id and returns the first element whose id is also its neighbour's, or the end.
+template <typename Record>
+auto sort_and_find_twice(std::vector<Record>& records)
+{
+    std::stable_sort(records.begin(), records.end(),
+                     [](const Record& a, const Record& b) { return a.id < b.id; });
+    return std::adjacent_find(records.begin(), records.end(),
+                              [](const Record& a, const Record& b) { return a.id == b.id; });
+}
+
+std::string image_label(std::uint32_t id, std::string_view name)
+{
+    return fmt::format("image {} ({})", id, printable(name));
+}
+
+} // namespace
+
+SceneBuilder::SceneBuilder(const std::filesystem::path& folder, ModelFormat format)
+    : folder_(folder), format_(format)
+{
+}
+
+void SceneBuilder::close_cameras()
+{
+    const auto twice = sort_and_find_twice(scene_.cameras);
+    if (twice == scene_.cameras.end()) return;
+    throw InputError(fmt::format("{}: camera {} occurs twice",
+                                 (folder_ / model_file("cameras", format_)).string(), twice->id));
+}
+
+void SceneBuilder::add_image(const ImageRecord& image)
+{
+    const auto fail = [&](const std::string& finding) {
+        throw InputError(fmt::format("{}: {} {}",
+                                     (folder_ / model_file("images", format_)).string(),
+                                     image_label(image.id, image.name), finding));
+    };
+    const auto camera =
+        std::lower_bound(scene_.cameras.begin(), scene_.cameras.end(), image.camera_id,
+                         [](const Camera& a, std::uint32_t id) { return a.id < id; });
+    if (camera == scene_.cameras.end() || camera->id != image.camera_id) {
+        fail(fmt::format("uses camera {}, which {} does not have", image.camera_id,
+                         model_file("cameras", format_)));
+    }
+    if (!image.rotation_wxyz.allFinite() || !image.translation.allFinite()) {
+        fail("has a pose that is not finite");
+    }
+    const Eigen::Vector4d rotation = image.rotation_wxyz.stableNormalized();
+    if (!(rotation.squaredNorm() > 0.5)) fail("has a rotation quaternion of length zero");
+
+    View view;
+    view.id = image.id;
+    view.camera = static_cast<std::uint32_t>(camera - scene_.cameras.begin());
+    view.name = image.name;
+    view.cam_from_world = {rotation[0], rotation[1], rotation[2], rotation[3]};
+    view.center = -(view.cam_from_world.conjugate() * image.translation);
+    if (!view.center.allFinite()) fail("has a centre too far out to be a number");
+    scene_.views.push_back(std::move(view));
+}
+
+void SceneBuilder::close_images()
+{
+    const auto twice = sort_and_find_twice(scene_.views);
+    if (twice != scene_.views.end()) {
+        throw InputError(fmt::format("{}: {} has the id of {}",
+                                     (folder_ / model_file("images", format_)).string(),
+                                     image_label(std::next(twice)->id, std::next(twice)->name),
+                                     image_label(twice->id, twice->name)));
+    }
+    image_ids_.reserve(scene_.views.size());
+    for (const View& view : scene_.views) {
+        image_ids_.push_back(view.id);
+    }
+}
+
+void SceneBuilder::reserve_points(std::size_t count)
+{
+    scene_.positions.reserve(count);
+    scene_.colors.reserve(count);
+    scene_.errors_px.reserve(count);
+    scene_.point_ids.reserve(count);
+    scene_.tracks.begins.reserve(count + 1);
+}
+
+std::uint32_t SceneBuilder::view_index(std::uint32_t image_id, std::uint64_t point_id) const
+{
+    // Most often the ids have no gaps.
+    const std::size_t guess = image_ids_.empty() ? 0 : image_id - image_ids_.front();
+    if (guess < image_ids_.size() && image_ids_[guess] == image_id) {
+        return static_cast<std::uint32_t>(guess);
+    }
+    const auto found = std::lower_bound(image_ids_.begin(), image_ids_.end(), image_id);
+    if (found == image_ids_.end() || *found != image_id) {
+        throw InputError(fmt::format("{}: point {} was seen in image {}, which {} does not have",
+                                     (folder_ / model_file("points3D", format_)).string(), point_id,
+                                     image_id, model_file("images", format_)));
+    }
+    return static_cast<std::uint32_t>(found - image_ids_.begin());
+}
+
+void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint32_t> image_ids)
+{
+    row_.clear();
+    for (const std::uint32_t image_id : image_ids) {
+        row_.push_back(view_index(image_id, point.id));
+    }
+    std::sort(row_.begin(), row_.end());
+    row_.erase(std::unique(row_.begin(), row_.end()), row_.end());
+
+    scene_.positions.push_back(point.position);
+    scene_.colors.push_back(point.color);
+    scene_.errors_px.push_back(std::isnan(point.error_px) ? -1.0 : point.error_px);
+    scene_.point_ids.push_back(point.id);
+    scene_.tracks.push_back(row_);
+}
+
+void SceneBuilder::refuse_point_ids_twice() const
+{
+    std::vector<std::uint64_t> ids = scene_.point_ids;
+    tbb::parallel_sort(ids.begin(), ids.end());
+    const auto twice = std::adjacent_find(ids.begin(), ids.end());
+    if (twice == ids.end()) return;
+    throw InputError(fmt::format("{}: point {} occurs twice",
+                                 (folder_ / model_file("points3D", format_)).string(), *twice));
+}
+
+Scene SceneBuilder::finish()
+{
+    refuse_point_ids_twice();
+    return std::move(scene_);
+}
+
+} // namespace vcarve

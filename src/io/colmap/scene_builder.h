@@ -1,0 +1,68 @@
+#pragma once
+
+#include "io/colmap/colmap_model.h"
+#include "model/scene.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace vcarve {
+
+/// An image as COLMAP's files hold it, without its 2D points.
+struct ImageRecord {
+    std::uint32_t id = 0;
+    Eigen::Vector4d rotation_wxyz = Eigen::Vector4d::Zero(); ///< quaternion, camera from world
+    Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< camera from world
+    std::uint32_t camera_id = 0;
+    std::string_view name;
+};
+
+/// A point as COLMAP's files hold it, without its track.
+struct PointRecord {
+    std::uint64_t id = 0;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Color color{};
+    double error_px = -1.0;
+};
+
+/// Puts a Scene together from the records of a model, whatever the format of its files, and checks
+/// that they agree: ids occur once, cameras and images that are named exist, poses are poses.
+/// To be given all cameras, then all images, then all points. Throws InputError.
+class SceneBuilder {
+  public:
+    /// Folder and format are for messages only.
+    SceneBuilder(const std::filesystem::path& folder, ModelFormat format);
+
+    void add_camera(Camera camera) { scene_.cameras.push_back(std::move(camera)); }
+    /// To be called between the last camera and the first image.
+    void close_cameras();
+
+    void add_image(const ImageRecord& image);
+    /// To be called between the last image and the first point.
+    void close_images();
+
+    void reserve_points(std::size_t count);
+    /// `image_ids` may be in any order and name an image more than once.
+    void add_point(const PointRecord& point, std::span<const std::uint32_t> image_ids);
+
+    /// The scene, its cameras and views sorted by COLMAP's ids; the builder is spent.
+    Scene finish();
+
+  private:
+    std::uint32_t view_index(std::uint32_t image_id, std::uint64_t point_id) const;
+    void refuse_point_ids_twice() const;
+
+    std::filesystem::path folder_;
+    ModelFormat format_;
+    Scene scene_;
+    std::vector<std::uint32_t> image_ids_; ///< ascending, parallel to the views
+    std::vector<std::uint32_t> row_;       ///< view indices of the point being added
+};
+
+} // namespace vcarve

@@ -1,0 +1,47 @@
+#include "io/files/mapped_file.h"
+
+#include "base/error.h"
+
+#include <boost/interprocess/exceptions.hpp>
+#include <boost/interprocess/file_mapping.hpp>
+#include <fmt/format.h>
+
+#include <system_error>
+
+namespace vcarve {
+
+namespace bip = boost::interprocess;
+
+namespace {
+
+bip::mapped_region map_file(const std::filesystem::path& path)
+{
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) {
+        throw InputError(fmt::format("{}: the file does not exist", path.string()));
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        throw InputError(fmt::format("{}: found something that is not a file", path.string()));
+    }
+    try {
+        const bip::file_mapping file(path.c_str(), bip::read_only);
+        // No system maps zero bytes
+        if (std::filesystem::file_size(path) == 0) return {};
+        return {file, bip::read_only};
+    } catch (const bip::interprocess_exception& failure) {
+        throw InputError(
+            fmt::format("{}: the file cannot be read ({})", path.string(), failure.what()));
+    }
+}
+
+} // namespace
+
+MappedFile::MappedFile(const std::filesystem::path& path) : region_(map_file(path)) {}
+
+std::span<const char> MappedFile::bytes() const
+{
+    return {static_cast<const char*>(region_.get_address()), region_.get_size()};
+}
+
+} // namespace vcarve

@@ -1,0 +1,123 @@
+#include "mesh/local_edges.h"
+
+#include "base/median.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Calls body(vertex, values) for every vertex in parallel, with an empty list of its own.
+template <typename Body>
+void for_each_vertex_with_values(std::size_t num_vertices, const Body& body)
+{
+    tbb::parallel_for(
+        tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(num_vertices), 1024),
+        [&](const tbb::blocked_range<std::uint32_t>& range) {
+            std::vector<double> values;
+            for (std::uint32_t v = range.begin(); v != range.end(); ++v) {
+                values.clear();
+                body(v, values);
+            }
+        });
+}
+
+} // namespace
+
+LocalEdges::LocalEdges(std::span<const Vector3d> positions, std::span<const Face> faces,
+                       const FaceFlags& measured)
+    : positions_(positions),
+      faces_(faces),
+      faces_at_(faces, positions.size(), measured),
+      medians_(positions.size(), -1.0)
+{
+}
+
+void LocalEdges::collect_squared_lengths(std::uint32_t vertex,
+                                         std::vector<double>& lengths_sq) const
+{
+    for (const std::uint32_t face : faces_at_[vertex]) {
+        const auto& [a, b, c] = faces_[face];
+        lengths_sq.insert(lengths_sq.end(),
+                          {squared_length(a, b), squared_length(b, c), squared_length(c, a)});
+    }
+}
+
+double LocalEdges::median(std::uint32_t vertex) const
+{
+    const std::atomic_ref<double> known(medians_[vertex]);
+    const double found = known.load(std::memory_order_relaxed);
+    if (found >= 0.0) return found;
+    std::vector<double> lengths_sq;
+    collect_squared_lengths(vertex, lengths_sq);
+    const double median = std::sqrt(median_in_place(lengths_sq)); // roots keep the order
+    known.store(median, std::memory_order_relaxed); // whoever else finds it finds the same
+    return median;
+}
+
+double LocalEdges::longest_edge(std::size_t face) const
+{
+    const auto& [a, b, c] = faces_[face];
+    return std::sqrt(std::max({squared_length(a, b), squared_length(b, c), squared_length(c, a)}));
+}
+
+double LocalEdges::relative_size(std::size_t face) const
+{
+    const auto& [a, b, c] = faces_[face];
+    std::array<double, 3> scales = {median(a), median(b), median(c)};
+    std::sort(scales.begin(), scales.end());
+    return longest_edge(face) / scales[1];
+}
+
+/// Which vertices may have an edge around them of `size` medians or more: those where more than
+/// half of the lengths are at most the longest over `size`.
+std::vector<std::uint8_t> LocalEdges::uneven_vertices(double size) const
+{
+    constexpr double kRounding = 1.0 + 1e-9;
+    std::vector<std::uint8_t> uneven(positions_.size(), 0);
+    for_each_vertex_with_values(uneven.size(), [&](std::uint32_t v, std::vector<double>& values) {
+        collect_squared_lengths(v, values);
+        if (values.empty()) return;
+        const double short_sq = kRounding * *std::ranges::max_element(values) / (size * size);
+        const auto num_short =
+            std::ranges::count_if(values, [&](double value) { return value <= short_sq; });
+        uneven[v] = 2 * static_cast<std::size_t>(num_short) > values.size() ? 1 : 0;
+    });
+    return uneven;
+}
+
+std::vector<std::uint32_t> LocalEdges::large_faces(double size) const
+{
+    const std::vector<std::uint8_t> uneven = uneven_vertices(size);
+    return parallel_collect<std::uint32_t>(faces_.size(), [&](std::size_t face, auto& large) {
+        const auto& [a, b, c] = faces_[face];
+        if (uneven[a] + uneven[b] + uneven[c] >= 2)
+            large.push_back(static_cast<std::uint32_t>(face));
+    });
+}
+
+std::vector<double> vertex_spacings(const TriMesh& mesh)
+{
+    const VertexFaces faces_at(mesh.faces, mesh.positions.size());
+    std::vector<double> spacings(mesh.positions.size());
+    for_each_vertex_with_values(
+        spacings.size(), [&](std::uint32_t vertex, std::vector<double>& lengths) {
+            // An edge amid two faces counts twice, which leaves the median.
+            for (const std::uint32_t face : faces_at[vertex]) {
+                for (const std::uint32_t other : mesh.faces[face]) {
+                    if (other == vertex) continue;
+                    lengths.push_back((mesh.positions[other] - mesh.positions[vertex]).norm());
+                }
+            }
+            spacings[vertex] = median_in_place(lengths);
+        });
+    return spacings;
+}
+
+} // namespace vcarve

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "mesh/vertex_faces.h"
+#include "model/tri_mesh.h"
+
+#include <span>
+#include <vector>
+
+namespace vcarve {
+
+/// How long the edges around a vertex are. Medians cost more than all else that is asked about a
+/// surface, so they are taken when first asked for, and large_faces() tells by less which faces are
+/// worth asking about. Safe from many threads. Keeps references to positions and faces.
+class LocalEdges {
+  public:
+    /// Only the faces with a flag are measured; all where there are no flags. Cost: O(faces).
+    LocalEdges(std::span<const Eigen::Vector3d> positions, std::span<const Face> faces,
+               const FaceFlags& measured = {});
+
+    /// The measured faces at each vertex.
+    const VertexFaces& faces_at() const { return faces_at_; }
+
+    /// The median length of the edges of the measured faces around a vertex; 0 where there are
+    /// none.
+    double median(std::uint32_t vertex) const;
+
+    double longest_edge(std::size_t face) const;
+
+    /// The longest edge of a face over the median at its middle corner: not at the one that knows
+    /// only the face itself, nor at the one in the densest place. Infinite or NaN where no face
+    /// around is measured.
+    double relative_size(std::size_t face) const;
+
+    /// All measured faces whose relative size is not below `size`, and a few others, ascending.
+    /// Cost: O(faces), in parallel.
+    std::vector<std::uint32_t> large_faces(double size) const;
+
+  private:
+    double squared_length(std::uint32_t a, std::uint32_t b) const
+    {
+        return (positions_[a] - positions_[b]).squaredNorm();
+    }
+    void collect_squared_lengths(std::uint32_t vertex, std::vector<double>& lengths_sq) const;
+    std::vector<std::uint8_t> uneven_vertices(double size) const;
+
+    std::span<const Eigen::Vector3d> positions_;
+    std::span<const Face> faces_;
+    VertexFaces faces_at_;
+    mutable std::vector<double> medians_; ///< negative where not known yet
+};
+
+/// Per vertex the median length of the edges there, in scene units; 0 for a vertex of no face.
+/// Cost: O(faces), in parallel.
+std::vector<double> vertex_spacings(const TriMesh& mesh);
+
+} // namespace vcarve

@@ -1,0 +1,173 @@
+#include "pipeline/memory.h"
+
+#include "base/byte_size.h"
+#include "base/error.h"
+#include "model/tet_mesh.h"
+#include "model/tri_mesh.h"
+#include "steps/2_cells/triangulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+/// Code, libraries and small things; the stack of a thread, and what allocators keep for it.
+constexpr double kProgram = 7e6;
+constexpr double kThread = 0.5e6;
+
+constexpr double kCellsPerPoint = 6.8;
+constexpr double kFacesPerPoint = 2.0; ///< of a closed surface through all points
+
+/// Scene: position, colour, error, id and begin of the track; index of a view; a view with its
+/// name.
+constexpr double kScenePoint = 24 + 3 + 8 + 8 + 8;
+constexpr double kSceneSight = 4;
+constexpr double kSceneView = 256;
+
+/// points3D.bin: a point, and an image id with the index of a 2D point.
+constexpr double kFilePoint = 51;
+constexpr double kFileSight = 8;
+
+/// CGAL: a cell holds 4 vertices, 4 neighbours, its state and index; a vertex its point, a cell and
+/// its index; both with some room to grow.
+constexpr double kCgalCell = 76;
+constexpr double kCgalVertex = 48;
+/// What oneTBB's allocator keeps of CGAL's memory that was freed, after a parallel triangulation,
+/// which triangulate() makes of kParallelFromPoints points or more.
+constexpr double kMostKept = 128e6;
+
+/// TetMesh.
+constexpr double kFlatCell = sizeof(Cell) + 1;
+constexpr double kFlatVertex = 24 + 4;
+
+/// FlowNetwork, and the solver on top of it: its nodes or the facets' costs, and lists of cells.
+constexpr double kNetworkCell = 16 + 4;
+constexpr double kSolverCell = 16 + 8;
+
+/// Counts of a model, as doubles: products of them leave no range.
+struct Sizes {
+    double points;
+    double sights;
+    double views;
+    double cells;
+    double faces;
+    double threads;
+
+    double scene() const
+    {
+        return points * kScenePoint + sights * kSceneSight + views * kSceneView;
+    }
+    double cgal() const { return cells * kCgalCell + points * kCgalVertex; }
+    double flat() const { return cells * kFlatCell + points * kFlatVertex; }
+
+    /// The scene, the cells, and what was freed but not given back.
+    double after_triangulation() const
+    {
+        const bool keeps = threads > 1 && points >= static_cast<double>(kParallelFromPoints);
+        return scene() + flat() + (keeps ? std::min(cgal(), kMostKept) : 0.0);
+    }
+};
+
+/// The file, the scene with its growing tracks, and the ids once more to find doubles.
+double reading(const Sizes& n)
+{
+    return n.points * (kFilePoint + 8) + n.sights * (kFileSight + kSceneSight) + n.scene();
+}
+
+/// The scene before and after, and the orders points are sorted in.
+double filtering(const Sizes& n)
+{
+    return 2 * n.scene() + 64 * n.points;
+}
+
+/// The points as CGAL wants them, CGAL's triangulation, the handles of its cells, and the cells
+/// before they are numbered.
+double triangulating(const Sizes& n)
+{
+    constexpr double kNumberedPoint = 32;
+    constexpr double kCell = 8 + sizeof(Cell);
+    return n.scene() + kNumberedPoint * n.points + n.cgal() + kCell * n.cells;
+}
+
+/// The network; beside it first the edges that softness is measured by, up to six a cell of a
+/// choice of cells, in lists that grow; then the sights that each thread walks, those of 512
+/// points.
+double tracing(const Sizes& n)
+{
+    const double edges = 6 * std::min(n.cells, 5e4);
+    const double walked = std::min(n.sights, n.threads * 512 * n.sights / std::max(n.points, 1.0));
+    constexpr double kSight = 96;
+    return n.after_triangulation() + n.cells * kNetworkCell + std::max(24 * edges, kSight * walked);
+}
+
+/// The network, the solver, and the labels before and after; and for webs the facets amid them, as
+/// faces, and the faces around each vertex.
+double cutting(const Sizes& n)
+{
+    constexpr double kWebFace = 8 + 2.0 * sizeof(Face);
+    constexpr double kWebVertex = 4 + 8 + 1;
+    return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 2) +
+           n.faces * kWebFace + n.points * kWebVertex;
+}
+
+/// The labels and the surface, with the faces around each vertex, the usual edge there, and the
+/// faces to keep; with what parallel loops collect twice.
+double extracting(const Sizes& n)
+{
+    constexpr double kFace = 80;
+    constexpr double kVertex = 31 + 4 + 8;
+    return n.after_triangulation() + n.cells + n.faces * kFace + n.points * kVertex;
+}
+
+/// The surface with its edges and seams, the half-edges along its borders, and the surface that is
+/// kept of it.
+double cleaning(const Sizes& n)
+{
+    constexpr double kFace = 150;
+    return n.after_triangulation() + n.cells + n.faces * kFace;
+}
+
+} // namespace
+
+std::vector<StageMemory> predicted_memory(const SceneSize& size, int threads)
+{
+    const auto points = static_cast<double>(size.points);
+    const Sizes n = {.points = points,
+                     .sights = static_cast<double>(size.sights),
+                     .views = static_cast<double>(size.views),
+                     .cells = kCellsPerPoint * points,
+                     .faces = kFacesPerPoint * points,
+                     .threads = static_cast<double>(threads)};
+    const auto stage = [&](const char* name, double bytes) {
+        const double program = kProgram + kThread * n.threads;
+        return StageMemory{name, std::llround(std::min(program + bytes, 0x1p62))};
+    };
+    return {stage("read", reading(n)),
+            stage("filter", filtering(n)),
+            stage("triangulate", triangulating(n)),
+            stage("sights", tracing(n)),
+            stage("cut", cutting(n)),
+            stage("surface", extracting(n)),
+            stage("clean", cleaning(n))};
+}
+
+std::int64_t predicted_peak(const SceneSize& size, int threads)
+{
+    const std::vector<StageMemory> stages = predicted_memory(size, threads);
+    return std::ranges::max(stages, {}, &StageMemory::bytes).bytes;
+}
+
+void require_memory(const SceneSize& size, int threads, std::int64_t most)
+{
+    const std::int64_t needed = predicted_peak(size, threads);
+    if (most == 0 || needed <= most) return;
+    throw InputError(
+        fmt::format("{} points with {} sights need about {} of memory, and --max-memory allows {}",
+                    size.points, size.sights, byte_size_text(needed), byte_size_text(most)));
+}
+
+} // namespace vcarve

@@ -1,0 +1,77 @@
+#include "pipeline/reconstruct.h"
+
+#include "pipeline/memory.h"
+#include "steps/1_points/center.h"
+#include "steps/1_points/spatial_sort.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/5_surface/orient.h"
+
+#include <tbb/task_arena.h>
+
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+void foresee_memory(const Scene& scene, const Options& options, Log& log)
+{
+    Stage stage(log, "memory");
+    const int threads = tbb::this_task_arena::max_concurrency();
+    require_memory(size_of(scene), threads, options.max_memory);
+    const std::int64_t peak = predicted_peak(size_of(scene), threads);
+    stage.end({{"MiB expected", (peak >> 20) + 1}});
+}
+
+Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
+{
+    Stage stage(log, "filter");
+    FilteredPoints filtered = filter_points(scene, options);
+    Scene arranged = arrange_points(std::move(filtered.scene));
+    const FilterReport& dropped = filtered.report;
+    stage.end({{"points", size_of(arranged.num_points())},
+               {"of", size_of(scene.num_points())},
+               {"non-finite", dropped.non_finite},
+               {"duplicate", dropped.duplicate},
+               {"few views", dropped.few_views},
+               {"high error", dropped.high_error},
+               {"low angle", dropped.low_angle}});
+    return arranged;
+}
+
+TetMesh triangulate(const Scene& scene, Log& log)
+{
+    Stage stage(log, "triangulate");
+    TetMesh cells = triangulate(scene);
+    stage.end({{"cells", size_of(cells.cells.size())}});
+    return cells;
+}
+
+void check_orientation(const TriMesh& mesh, const Scene& scene, Log& log)
+{
+    Stage stage(log, "orient");
+    const ViewAgreement agreement = view_agreement(mesh, scene);
+    stage.end({{"sights on the outside", agreement.facing}, {"of", agreement.sights}});
+}
+
+Reconstruction run_steps(Scene input, const Options& options, Log& log)
+{
+    foresee_memory(input, options, log);
+    Scene scene = filter(center_points(std::move(input)), options.points, log);
+    const TetMesh cells = triangulate(scene, log);
+    const Labels labels = label_cells(cells, scene, options.labels, log);
+    TriMesh surface = make_surface(cells, labels, scene, options.surface, log);
+    TriMesh mesh = refine(std::move(surface), scene, options.refine, log);
+    check_orientation(mesh, scene, log);
+    return {std::move(scene), std::move(mesh)};
+}
+
+} // namespace
+
+Reconstruction reconstruct(Scene input, const Options& options, Log& log)
+{
+    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
+    return arena.execute([&] { return run_steps(std::move(input), options, log); });
+}
+
+} // namespace vcarve

@@ -1,0 +1,45 @@
+#include "steps/1_points/center.h"
+
+#include "base/median.h"
+
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// The middle coordinate on every axis: robust against far points, and the same for any order.
+Vector3d median_of(const std::vector<Vector3d>& positions)
+{
+    Vector3d median = Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> values;
+        values.reserve(positions.size());
+        for (const Vector3d& position : positions) {
+            if (std::isfinite(position[axis])) {
+                values.push_back(position[axis]);
+            }
+        }
+        median[axis] = median_in_place(values);
+    }
+    return median;
+}
+
+} // namespace
+
+Scene center_points(Scene scene)
+{
+    const Vector3d median = median_of(scene.positions);
+    for (Vector3d& position : scene.positions) {
+        position -= median;
+    }
+    for (View& view : scene.views) {
+        view.center -= median;
+    }
+    scene.offset += median;
+    return scene;
+}
+
+} // namespace vcarve

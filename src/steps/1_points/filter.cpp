@@ -1,0 +1,169 @@
+#include "steps/1_points/filter.h"
+
+#include "base/index_limit.h"
+#include "base/parallel.h"
+#include "steps/1_points/lexicographic_sort.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+using PointIndices = std::vector<std::uint32_t>;
+
+/// Points at one place, by the index of the best of them.
+struct Merged {
+    PointIndices best;                 ///< one point a place, ascending
+    std::vector<std::uint32_t> group;  ///< per entry of `best`, its row in `members`, or kAlone
+    std::vector<PointIndices> members; ///< all points of a place that has more than one
+
+    static constexpr std::uint32_t kAlone = 0xffffffffU;
+};
+
+/// Which of the points at one place stands for them: most views, smallest error, smallest id.
+std::uint32_t best_of(const Scene& scene, const PointIndices& points)
+{
+    const auto worth = [&](std::uint32_t i) {
+        const double error = scene.errors_px[i];
+        return std::tuple(-static_cast<std::int64_t>(scene.tracks[i].size()),
+                          error < 0.0 ? kUnlimited : error, scene.point_ids[i]);
+    };
+    return *std::min_element(points.begin(), points.end(),
+                             [&](std::uint32_t a, std::uint32_t b) { return worth(a) < worth(b); });
+}
+
+Merged merge_duplicates(const Scene& scene, const PointIndices& by_place)
+{
+    constexpr std::uint32_t kLeftOut = Merged::kAlone - 1;
+    std::vector<std::uint32_t> groups(scene.num_points(), kLeftOut);
+    Merged merged;
+    for (std::size_t begin = 0, end = 0; begin < by_place.size(); begin = end) {
+        const Vector3d& place = scene.positions[by_place[begin]];
+        while (end < by_place.size() && scene.positions[by_place[end]] == place) {
+            ++end;
+        }
+        if (end - begin == 1) {
+            groups[by_place[begin]] = Merged::kAlone;
+            continue;
+        }
+        PointIndices members(by_place.begin() + static_cast<std::ptrdiff_t>(begin),
+                             by_place.begin() + static_cast<std::ptrdiff_t>(end));
+        groups[best_of(scene, members)] = static_cast<std::uint32_t>(merged.members.size());
+        merged.members.push_back(std::move(members));
+    }
+    for (std::uint32_t point = 0; point < groups.size(); ++point) {
+        if (groups[point] != kLeftOut) {
+            merged.best.push_back(point);
+            merged.group.push_back(groups[point]);
+        }
+    }
+    return merged;
+}
+
+/// The views that saw any of the points, ascending, each once.
+std::vector<std::uint32_t> united_views(const Scene& scene, const PointIndices& points)
+{
+    std::vector<std::uint32_t> views;
+    for (const std::uint32_t point : points) {
+        const auto track = scene.tracks[point];
+        views.insert(views.end(), track.begin(), track.end());
+    }
+    std::sort(views.begin(), views.end());
+    views.erase(std::unique(views.begin(), views.end()), views.end());
+    return views;
+}
+
+/// Whether two of the sights of a point meet at `min_angle_rad` or more.
+bool sees_from_wide_enough(const Scene& scene, const Vector3d& point,
+                           std::span<const std::uint32_t> track, double min_angle_rad)
+{
+    std::vector<Vector3d> directions;
+    directions.reserve(track.size());
+    for (const std::uint32_t view : track) {
+        directions.push_back(scene.views[view].center - point);
+    }
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const double sine = directions[i].cross(directions[j]).norm();
+            const double cosine = directions[i].dot(directions[j]);
+            if (std::atan2(sine, cosine) >= min_angle_rad) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+enum class Verdict : std::uint8_t { keep, few_views, high_error, low_angle };
+
+Verdict judge(const Scene& scene, std::uint32_t point, std::span<const std::uint32_t> track,
+              const FilterOptions& options)
+{
+    if (track.size() < static_cast<std::size_t>(options.min_views)) {
+        return Verdict::few_views;
+    }
+    if (options.max_error_px > 0.0 && scene.errors_px[point] > options.max_error_px) {
+        return Verdict::high_error;
+    }
+    const double min_angle_rad = options.min_angle_deg * std::numbers::pi / 180.0;
+    if (min_angle_rad > 0.0 &&
+        !sees_from_wide_enough(scene, scene.positions[point], track, min_angle_rad)) {
+        return Verdict::low_angle;
+    }
+    return Verdict::keep;
+}
+
+void count(Verdict verdict, FilterReport& report)
+{
+    report.few_views += verdict == Verdict::few_views ? 1 : 0;
+    report.high_error += verdict == Verdict::high_error ? 1 : 0;
+    report.low_angle += verdict == Verdict::low_angle ? 1 : 0;
+}
+
+} // namespace
+
+FilteredPoints filter_points(const Scene& scene, const FilterOptions& options)
+{
+    require_indexable(scene.num_points(), kMostIndices, "points");
+    const PointIndices finite = order_by_place(scene.positions);
+    const Merged merged = merge_duplicates(scene, finite);
+    std::vector<std::vector<std::uint32_t>> united(merged.members.size());
+    parallel_for(united.size(),
+                 [&](std::size_t i) { united[i] = united_views(scene, merged.members[i]); });
+    const auto track_of = [&](std::size_t place) -> std::span<const std::uint32_t> {
+        const std::uint32_t group = merged.group[place];
+        return group == Merged::kAlone ? scene.tracks[merged.best[place]] : united[group];
+    };
+
+    std::vector<Verdict> verdicts(merged.best.size());
+    parallel_for(verdicts.size(), [&](std::size_t place) {
+        verdicts[place] = judge(scene, merged.best[place], track_of(place), options);
+    });
+
+    FilteredPoints result;
+    result.report.non_finite = static_cast<std::int64_t>(scene.num_points() - finite.size());
+    result.report.duplicate = static_cast<std::int64_t>(finite.size() - merged.best.size());
+    Scene& kept = result.scene;
+    kept.cameras = scene.cameras;
+    kept.views = scene.views;
+    kept.offset = scene.offset;
+    for (std::size_t place = 0; place < merged.best.size(); ++place) {
+        count(verdicts[place], result.report);
+        if (verdicts[place] == Verdict::keep) {
+            const std::uint32_t point = merged.best[place];
+            kept.positions.push_back(scene.positions[point]);
+            kept.colors.push_back(scene.colors[point]);
+            kept.errors_px.push_back(scene.errors_px[point]);
+            kept.point_ids.push_back(scene.point_ids[point]);
+            kept.tracks.push_back(track_of(place));
+        }
+    }
+    return result;
+}
+
+} // namespace vcarve

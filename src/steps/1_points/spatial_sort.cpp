@@ -1,0 +1,76 @@
+#include "steps/1_points/spatial_sort.h"
+
+#include "base/parallel.h"
+#include "steps/1_points/lexicographic_sort.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using PointMap = CGAL::Pointer_property_map<Kernel::Point_3>::type;
+using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, PointMap>;
+
+/// Point indices along a Hilbert curve. Sorted by place first, so that the sort, which is
+/// deterministic but not stable, starts from the same sequence whatever the order of the input.
+std::vector<std::size_t> hilbert_order(const std::vector<Vector3d>& positions)
+{
+    const std::vector<std::uint32_t> by_place = order_by_place(positions);
+    std::vector<std::size_t> order(by_place.begin(), by_place.end());
+    std::vector<Kernel::Point_3> points;
+    points.reserve(positions.size());
+    for (const Vector3d& p : positions) {
+        points.emplace_back(p.x(), p.y(), p.z());
+    }
+    CGAL::hilbert_sort<CGAL::Parallel_if_available_tag>(
+        order.begin(), order.end(), SortTraits(CGAL::make_property_map(points)));
+    return order;
+}
+
+template <typename T>
+std::vector<T> reordered(const std::vector<T>& values, const std::vector<std::size_t>& order)
+{
+    std::vector<T> result(order.size());
+    parallel_for(order.size(), [&](std::size_t i) { result[i] = values[order[i]]; });
+    return result;
+}
+
+Tracks reordered(const Tracks& tracks, const std::vector<std::size_t>& order)
+{
+    Tracks result;
+    result.begins.reserve(order.size() + 1);
+    for (const std::size_t point : order) {
+        result.begins.push_back(result.begins.back() + tracks[point].size());
+    }
+    result.views.resize(result.begins.back());
+    parallel_for(order.size(), [&](std::size_t i) {
+        const auto track = tracks[order[i]];
+        std::copy(track.begin(), track.end(),
+                  result.views.begin() + static_cast<std::ptrdiff_t>(result.begins[i]));
+    });
+    return result;
+}
+
+} // namespace
+
+Scene arrange_points(Scene scene)
+{
+    const std::vector<std::size_t> order = hilbert_order(scene.positions);
+    scene.positions = reordered(scene.positions, order);
+    scene.colors = reordered(scene.colors, order);
+    scene.errors_px = reordered(scene.errors_px, order);
+    scene.point_ids = reordered(scene.point_ids, order);
+    scene.tracks = reordered(scene.tracks, order);
+    return scene;
+}
+
+} // namespace vcarve

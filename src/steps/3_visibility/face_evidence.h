@@ -1,0 +1,26 @@
+#pragma once
+
+#include "mesh/vertex_faces.h"
+#include "model/scene.h"
+#include "model/tri_mesh.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace vcarve {
+
+/// Whether a face over points of the scene has been seen: each corner by some view of its point's
+/// track that the face turns its front to, at under about 87 degrees.
+bool is_seen(const Scene& scene, const Face& points, const Eigen::Vector3d& normal);
+
+/// Which faces have been seen. Needs TriMesh::points. Cost: O(sights), in parallel.
+FaceFlags seen_faces(const TriMesh& mesh, const Scene& scene);
+
+/// Per face, how many views of its track saw the least seen corner from the front of the face: what
+/// seen_faces wants to be 1 or more. 0 where a corner is no point. Needs TriMesh::points. Cost:
+/// O(faces x views of their points), in parallel.
+std::vector<std::int32_t> face_supports(const TriMesh& mesh, const Scene& scene);
+
+} // namespace vcarve

@@ -1,0 +1,73 @@
+#include "steps/3_visibility/sight_weights.h"
+
+#include "base/median.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+double views_weight(double views, double views_sigma)
+{
+    if (views_sigma == 0.0) {
+        return 1.0;
+    }
+    const double ratio = views / views_sigma;
+    return 1.0 - std::exp(-0.5 * ratio * ratio);
+}
+
+std::vector<double> track_lengths(const Tracks& tracks)
+{
+    std::vector<double> lengths;
+    for (std::size_t point = 0; point < tracks.size(); ++point) {
+        if (!tracks[point].empty()) {
+            lengths.push_back(static_cast<double>(tracks[point].size()));
+        }
+    }
+    return lengths;
+}
+
+std::vector<double> known_errors_px(const Scene& scene)
+{
+    std::vector<double> errors;
+    std::copy_if(scene.errors_px.begin(), scene.errors_px.end(), std::back_inserter(errors),
+                 [](double error) { return error >= 0.0; });
+    return errors;
+}
+
+} // namespace
+
+SightWeights::SightWeights(const Scene& scene, const TraceOptions& options)
+    : scene_(scene), options_(options), median_error_px_(median(known_errors_px(scene)))
+{
+    // Full weight is what the median of the points that are seen gets, so that a model of two-view
+    // points is not all doubt.
+    const std::vector<double> lengths = track_lengths(scene.tracks);
+    full_ = views_weight(lengths.empty() ? 1.0 : median(lengths), options.views_sigma);
+}
+
+std::int32_t SightWeights::full_vote(Index point, double weight) const
+{
+    const auto views = static_cast<double>(scene_.tracks[point].size());
+    const double by_views = views_weight(views, options_.views_sigma);
+    weight *= by_views / full_ * by_error(scene_.errors_px[point]);
+    return static_cast<std::int32_t>(std::lround(kUnit * weight));
+}
+
+/// Errors up to the median one, and unknown ones, take nothing away.
+double SightWeights::by_error(double error_px) const
+{
+    if (options_.error_sigma == 0.0 || median_error_px_ == 0.0) {
+        return 1.0;
+    }
+    const double ratio = error_px / median_error_px_;
+    const double beyond = std::max(0.0, ratio * ratio - 1.0);
+    return std::exp(-0.5 * beyond / (options_.error_sigma * options_.error_sigma));
+}
+
+} // namespace vcarve

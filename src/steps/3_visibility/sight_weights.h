@@ -1,0 +1,31 @@
+#pragma once
+
+#include "model/scene.h"
+#include "model/tet_mesh.h"
+#include "steps/3_visibility/trace.h"
+
+#include <cstdint>
+
+namespace vcarve {
+
+/// Says what a sight weighs by the point it leads to: more with more views, less with a larger
+/// reprojection error. `scene` and `options` must outlive it. Cost: O(points) once, then O(1).
+class SightWeights {
+  public:
+    static constexpr std::int32_t kUnit = 256; ///< steps of one sight of full weight
+
+    SightWeights(const Scene& scene, const TraceOptions& options);
+
+    /// `weight` sights to a point, in whole steps.
+    std::int32_t full_vote(Index point, double weight = 1.0) const;
+
+  private:
+    double by_error(double error_px) const;
+
+    const Scene& scene_;
+    const TraceOptions& options_;
+    double median_error_px_; ///< 0 where no error is known
+    double full_ = 1.0;
+};
+
+} // namespace vcarve

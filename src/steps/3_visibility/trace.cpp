@@ -1,0 +1,370 @@
+#include "steps/3_visibility/trace.h"
+
+#include "base/error.h"
+#include "base/prefetch.h"
+#include "geometry/triangle.h"
+#include "steps/3_visibility/each_vertex.h"
+#include "steps/3_visibility/edge_lengths.h"
+#include "steps/3_visibility/sight_weights.h"
+#include "steps/3_visibility/walk.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <span>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Adds to the network from many threads, and remembers whether a sum came near the end of 32 bits.
+class VoteSums {
+  public:
+    explicit VoteSums(FlowNetwork& network) : network_(network) {}
+
+    void add_residual(Index cell, int slot, std::int32_t vote)
+    {
+        add(network_.residuals[cell][slot], vote);
+    }
+    void add_excess(Index cell, std::int32_t flow) { add(network_.excesses[cell], flow); }
+    bool is_exceeded() const { return is_exceeded_; }
+
+    /// Asks early for the memory of a cell's votes.
+    void fetch(Index cell) const { prefetch(&network_.residuals[cell]); }
+
+  private:
+    void add(std::int32_t& sum, std::int32_t value)
+    {
+        // The cut adds a few sums and the costs of facets: a quarter of the range is theirs.
+        constexpr std::int32_t kMaxSum = 1 << 29;
+        const std::int32_t before =
+            std::atomic_ref<std::int32_t>(sum).fetch_add(value, std::memory_order_relaxed);
+        if (before > kMaxSum || before < -kMaxSum) {
+            is_exceeded_.store(true, std::memory_order_relaxed);
+        }
+    }
+
+    FlowNetwork& network_;
+    std::atomic<bool> is_exceeded_ = false;
+};
+
+void count_one(std::uint32_t& count)
+{
+    std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
+}
+
+std::vector<Vector3d> centers_of(const std::vector<View>& views)
+{
+    std::vector<Vector3d> centers(views.size());
+    std::transform(views.begin(), views.end(), centers.begin(),
+                   [](const View& view) { return view.center; });
+    return centers;
+}
+
+/// The sights of a run of vertices.
+std::vector<Sight> sights_from(Index first, Index last, const Tracks& tracks,
+                               const std::vector<Vector3d>& centers)
+{
+    std::vector<Sight> sights;
+    sights.reserve(tracks.begins[last] - tracks.begins[first]);
+    for (Index vertex = first; vertex < last; ++vertex) {
+        for (const std::uint32_t view : tracks[vertex]) {
+            sights.push_back({vertex, centers[view]});
+        }
+    }
+    return sights;
+}
+
+/// Counts the facets that sights cross, on both sides.
+void count_facets(const TetMesh& cells, const Tracks& tracks, const std::vector<Vector3d>& centers,
+                  Crossings& crossings, Stage& stage)
+{
+    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
+        const std::vector<Sight> sights = sights_from(first, last, tracks, centers);
+        SightWalk(cells).along_each(
+            sights.size(), [&](std::size_t k) { return sights[k]; },
+            [&](std::size_t, Index cell, int slot) {
+                const Index beyond = cells.cells[cell].neighbors[slot];
+                count_one(crossings[cell][slot]);
+                count_one(crossings[beyond][cells.mirror(cell, slot)]);
+            },
+            [](std::size_t, const WalkEnds&) {});
+    });
+}
+
+/// A view on the border of cells is found in different ones; the smallest does not depend on order.
+void lower(Index& least, Index value)
+{
+    const std::atomic_ref<Index> shared(least);
+    Index seen = shared.load(std::memory_order_relaxed);
+    while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+    }
+}
+
+/// Distance from a point to where the line through it in a direction meets a facet's plane.
+double distance_to_facet(const TetMesh& mesh, CellFacet facet, const Vector3d& point,
+                         const Vector3d& direction)
+{
+    const Cell& cell = mesh.cells[facet.cell];
+    const auto& corners = kFacetCorners[facet.slot];
+    const Vector3d& a = mesh.positions[cell.vertices[corners[0]]];
+    const Vector3d& b = mesh.positions[cell.vertices[corners[1]]];
+    const Vector3d& c = mesh.positions[cell.vertices[corners[2]]];
+    const Vector3d normal = scaled_normal(a, b, c);
+    const double along = normal.dot(direction);
+    return along == 0.0 ? 0.0 : std::abs(normal.dot(a - point) / along);
+}
+
+/// What each cell keeps of the flow of one sight, cell by cell from the point on. The next cell is
+/// not the one reached where the sight met an edge or a vertex: there one stretch ends, with a
+/// source (or sink) of its own, and another begins.
+class Push {
+  public:
+    enum class Sign : std::int32_t { source = 1, sink = -1 };
+
+    Push(const TetMesh& mesh, VoteSums& sums, Sign sign)
+        : mesh_(mesh), sums_(sums), sign_(static_cast<std::int32_t>(sign))
+    {
+    }
+
+    std::int32_t carried() const { return carried_; }
+
+    void cross(Index near, Index far, std::int32_t vote)
+    {
+        arrive(near, vote);
+        reached_ = far;
+        carried_ = vote;
+    }
+
+    void end(Index last, std::int32_t full) { arrive(last, full); }
+
+  private:
+    void arrive(Index cell, std::int32_t vote)
+    {
+        if (reached_ != kInfinite && reached_ != cell) {
+            keep(reached_, vote - carried_);
+            carried_ = 0;
+        }
+        keep(cell, vote - carried_);
+    }
+
+    void keep(Index cell, std::int32_t flow)
+    {
+        // Infinite cells are outside whatever they keep.
+        if (flow != 0 && cell != kInfinite && !mesh_.cells[cell].is_infinite()) {
+            sums_.add_excess(cell, sign_ * flow);
+        }
+    }
+
+    const TetMesh& mesh_;
+    VoteSums& sums_;
+    std::int32_t sign_;
+    std::int32_t carried_ = 0;
+    Index reached_ = kInfinite;
+};
+
+/// A sight from a point to a view, and how far its flow is pushed.
+struct OutwardSight {
+    Sight sight;
+    std::uint32_t view;
+    std::int32_t full; ///< its vote where softness has no say
+    Vector3d direction;
+    Push push;
+};
+
+/// Adds what sights vote to the network.
+class Voter {
+  public:
+    Voter(const TetMesh& mesh, VoteSums& sums, double sigma)
+        : mesh_(mesh), sums_(sums), sigma_(sigma)
+    {
+    }
+
+    /// The sight from a vertex to a view.
+    OutwardSight outward(Index vertex, std::uint32_t view, const Vector3d& center,
+                         std::int32_t full) const
+    {
+        return {{vertex, center},
+                view,
+                full,
+                (center - mesh_.positions[vertex]).normalized(),
+                Push(mesh_, sums_, Push::Sign::source)};
+    }
+
+    /// Outside, from the points to the views. Calls on_end(view, cell) with the cell of the view,
+    /// kInfinite if that lies out of the hull.
+    template <typename OnEnd>
+    void vote_outside(SightWalk& walk, std::vector<OutwardSight>& sights, const OnEnd& on_end) const
+    {
+        walk.along_each(
+            sights.size(), [&](std::size_t k) -> const Sight& { return sights[k].sight; },
+            [&](std::size_t k, Index cell, int slot) {
+                const Index beyond = mesh_.cells[cell].neighbors[slot];
+                sums_.fetch(beyond);
+                // The sight's flow comes from the view and falls towards the point: it fills the
+                // arc inwards, opens the one outwards, and what the next facet will not take stays
+                // here.
+                auto& [sight, view, full, direction, push] = sights[k];
+                const std::int32_t vote =
+                    push.carried() == full
+                        ? full
+                        : soft_vote({cell, slot}, mesh_.positions[sight.vertex], direction, full);
+                sums_.add_residual(cell, slot, vote);
+                push.cross(cell, beyond, vote);
+            },
+            [&](std::size_t k, const WalkEnds& ends) {
+                sights[k].push.end(ends.last, sights[k].full);
+                const bool in_hull =
+                    ends.last != kInfinite && !mesh_.cells[ends.last].is_infinite();
+                on_end(sights[k].view, in_hull ? ends.last : kInfinite);
+            });
+    }
+
+    /// Inside, from the point where the walk stands away from the view, down to a depth of
+    /// `sink_depth` sigmas.
+    void vote_inside(SightWalk& walk, const Vector3d& point, const Vector3d& center,
+                     std::int32_t full, double sink_depth) const
+    {
+        const Vector3d direction = (point - center).normalized();
+        const double depth = sink_depth * sigma_;
+        if (depth == 0.0) {
+            const Index behind = walk.first_cell(2.0 * point - center);
+            if (behind != kInfinite) {
+                sums_.add_excess(behind, -full);
+            }
+            return;
+        }
+        Push push(mesh_, sums_, Push::Sign::sink);
+        const WalkEnds ends = walk.to(point + depth * direction, [&](Index cell, int slot) {
+            const std::int32_t vote = soft_vote({cell, slot}, point, direction, full);
+            const Index beyond = mesh_.cells[cell].neighbors[slot];
+            sums_.add_residual(beyond, mesh_.mirror(cell, slot), vote);
+            push.cross(cell, beyond, vote);
+        });
+        push.end(ends.last, full);
+    }
+
+  private:
+    std::int32_t soft_vote(CellFacet facet, const Vector3d& point, const Vector3d& direction,
+                           std::int32_t full) const
+    {
+        if (sigma_ == 0.0) {
+            return full;
+        }
+        const double distance = distance_to_facet(mesh_, facet, point, direction) / sigma_;
+        const double soft = 1.0 - std::exp(-0.5 * distance * distance);
+        return static_cast<std::int32_t>(std::lround(full * soft));
+    }
+
+    const TetMesh& mesh_;
+    VoteSums& sums_;
+    double sigma_;
+};
+
+/// Finds the cells of the views to which no sight led, as when none of their points passed the
+/// filter: a camera stands in free space all the same.
+void locate_other_views(const TetMesh& cells, const std::vector<Vector3d>& centers,
+                        std::vector<Index>& cell_of_view)
+{
+    if (cells.positions.empty()) return;
+    SightWalk walk(cells, 0);
+    for (std::size_t view = 0; view < centers.size(); ++view) {
+        if (cell_of_view[view] != kInfinite) continue;
+        const Index last = walk.to(centers[view], [](Index, int) {}).last;
+        if (last != kInfinite && !cells.cells[last].is_infinite()) cell_of_view[view] = last;
+    }
+}
+
+void require_exact(const VoteSums& sums, const Scene& scene)
+{
+    if (sums.is_exceeded()) {
+        throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
+                                     "at one facet; a surface needs fewer points or views",
+                                     scene.num_sights()));
+    }
+}
+
+} // namespace
+
+Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage)
+{
+    Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
+    const std::vector<Vector3d> centers = centers_of(scene.views);
+    count_facets(cells, scene.tracks, centers, crossings, stage);
+    return crossings;
+}
+
+void add_crossings(const TetMesh& cells, const VirtualSights& sights, double weight,
+                   Crossings& crossings, Stage& stage)
+{
+    Crossings more(cells.cells.size(), {0, 0, 0, 0});
+    count_facets(cells, sights.tracks, sights.centers, more, stage);
+    parallel_for(more.size(), [&](std::size_t cell) {
+        for (int slot = 0; slot < 4; ++slot) {
+            crossings[cell][slot] += static_cast<std::uint32_t>(weight * more[cell][slot]);
+        }
+    });
+}
+
+Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
+                   Stage& stage)
+{
+    Votes votes;
+    votes.unit = SightWeights::kUnit;
+    votes.network.residuals.assign(cells.cells.size(), {0, 0, 0, 0});
+    votes.network.excesses.assign(cells.cells.size(), 0);
+    votes.cell_of_view.assign(scene.views.size(), kInfinite);
+    VoteSums sums(votes.network);
+    const double sigma = options.softness * short_edge_length(cells);
+    const Voter voter(cells, sums, sigma);
+    const SightWeights weights(scene, options);
+    const std::vector<Vector3d> centers = centers_of(scene.views);
+
+    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
+        SightWalk walk(cells);
+        std::vector<OutwardSight> sights;
+        for (Index vertex = first; vertex < last; ++vertex) {
+            walk.stand_at(vertex);
+            const std::int32_t full = weights.full_vote(vertex);
+            for (const std::uint32_t view : scene.tracks[vertex]) {
+                voter.vote_inside(walk, cells.positions[vertex], centers[view], full,
+                                  options.sink_depth);
+                sights.push_back(voter.outward(vertex, view, centers[view], full));
+            }
+        }
+        voter.vote_outside(walk, sights, [&](std::uint32_t view, Index cell) {
+            lower(votes.cell_of_view[view], cell);
+        });
+    });
+    require_exact(sums, scene);
+    locate_other_views(cells, centers, votes.cell_of_view);
+    return votes;
+}
+
+// NOLINTNEXTLINE(readability-function-size): the pass has that many inputs
+void add_votes(const TetMesh& cells, const Scene& scene, const VirtualSights& sights, double weight,
+               const TraceOptions& options, Votes& votes, Stage& stage)
+{
+    VoteSums sums(votes.network);
+    const double sigma = options.softness * short_edge_length(cells);
+    const SightWeights weights(scene, options);
+    const Voter voter(cells, sums, sigma);
+    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
+        SightWalk walk(cells);
+        std::vector<OutwardSight> outward;
+        for (Index vertex = first; vertex < last; ++vertex) {
+            const std::int32_t full = weights.full_vote(vertex, weight);
+            for (const std::uint32_t view : sights.tracks[vertex]) {
+                outward.push_back(voter.outward(vertex, view, sights.centers[view], full));
+            }
+        }
+        voter.vote_outside(walk, outward, [](std::uint32_t, Index) {});
+    });
+    require_exact(sums, scene);
+}
+
+} // namespace vcarve

@@ -1,0 +1,96 @@
+#include "steps/4_labels/bridging_facets.h"
+
+#include "base/parallel.h"
+#include "steps/3_visibility/face_evidence.h"
+#include "steps/4_labels/freed_pieces.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kBent = 0.8;   ///< cosine, about 37 degrees: a face so far off stands across
+constexpr double kBefore = 0.2; ///< cosine, about 11 degrees above the surface: a cell is before it
+
+/// Whether a face stands across the surface at the corners that know how it runs: at the middle of
+/// three, the better of two; one alone tells nothing.
+bool stands_across(std::size_t face, const SurfaceNormals& normals)
+{
+    constexpr double kNoObjection = 1.0;
+    return normals.cosines(face, kNoObjection)[1] < kBent;
+}
+
+/// Whether a cell lies before the surface at one of its corners.
+bool lies_before(const TetMesh& mesh, const Cell& cell, const SurfaceNormals& normals)
+{
+    Vector3d middle = Vector3d::Zero();
+    for (const Index vertex : cell.vertices) {
+        middle += 0.25 * mesh.positions[vertex];
+    }
+    return std::any_of(cell.vertices.begin(), cell.vertices.end(), [&](Index vertex) {
+        const Vector3d direction = (middle - mesh.positions[vertex]).normalized();
+        return direction.dot(normals.at(vertex)) >= kBefore;
+    });
+}
+
+} // namespace
+
+std::vector<Index> cells_behind_webs(const TetMesh& cells, const Boundary& boundary,
+                                     const Scene& scene, const WebOptions& options)
+{
+    if (options.web_edge == 0.0) {
+        return {};
+    }
+    // Few faces are large, so that everything but their size is cheap.
+    const SurfaceNormals& normals = boundary.normals();
+    const std::vector<std::uint32_t> large = boundary.edges().large_faces(options.web_edge);
+    const auto doubt = [&](std::size_t i, std::vector<Index>& doubted) {
+        const std::uint32_t face = large[i];
+        const Index behind = boundary.facets()[face].cell;
+        if (boundary.edges().relative_size(face) >= options.web_edge &&
+            is_seen(scene, boundary.faces()[face], normals.of(face)) &&
+            stands_across(face, normals) && lies_before(cells, cells.cells[behind], normals)) {
+            doubted.push_back(behind);
+        }
+    };
+    return parallel_collect<Index>(large.size(), doubt, 64);
+}
+
+DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
+                         std::int32_t one_sight, const WebOptions& options)
+{
+    constexpr int kRounds = 3; // behind a web there may be another
+    DoubtedLabels result{.labels = cut.labels()};
+    std::unique_ptr<Boundary> boundary; // of result.labels, once it was asked for
+    for (int round = 0; round < kRounds; ++round) {
+        if (!boundary) boundary = std::make_unique<Boundary>(cells, result.labels);
+        const std::vector<Index> doubted = cells_behind_webs(cells, *boundary, scene, options);
+        if (doubted.empty()) break;
+        cut.offer(doubted, one_sight);
+        result.doubts += static_cast<std::int64_t>(doubted.size());
+        Labels next = cut.labels();
+        FreedPieces pieces(cells, scene, result.labels, next);
+        if (pieces.empty()) continue; // what is offered only frees, so the labels are the same
+        pieces.take_away(*boundary);
+        boundary.reset(); // one at a time is enough to hold
+        boundary = std::make_unique<Boundary>(cells, next);
+        pieces.lay_open(*boundary);
+        const std::vector<Index> unpaid = pieces.unpaid();
+        for (const Index cell : unpaid) {
+            next[cell] = Label::inside;
+        }
+        result.taken_back += static_cast<std::int64_t>(unpaid.size());
+        result.labels = std::move(next);
+        if (!unpaid.empty()) boundary.reset();
+    }
+    return result;
+}
+
+} // namespace vcarve

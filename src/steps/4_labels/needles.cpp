@@ -1,0 +1,105 @@
+#include "steps/4_labels/needles.h"
+
+#include "base/median.h"
+#include "base/parallel.h"
+#include "steps/3_visibility/exact_walk.h"
+#include "steps/4_labels/boundary.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// The solid angle of a cell at one of its vertices (Van Oosterom and Strackee, IEEE Trans. Biomed.
+/// Eng. 30, 1983).
+double solid_angle(const TetMesh& mesh, const Cell& cell, Index vertex)
+{
+    std::array<Vector3d, 3> ways;
+    int count = 0;
+    for (const Index other : cell.vertices) {
+        if (other == vertex) continue;
+        ways[count++] = (mesh.positions[other] - mesh.positions[vertex]).normalized();
+    }
+    const auto& [a, b, c] = ways;
+    const double numerator = std::abs(a.dot(b.cross(c)));
+    return 2.0 * std::atan2(numerator, 1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+}
+
+std::vector<Index> inside_cells_at(const TetMesh& mesh, const Labels& labels, Index vertex)
+{
+    std::vector<Index> cells = cells_around_vertex(mesh, vertex, mesh.cell_of_vertex[vertex]);
+    std::erase_if(cells, [&](Index cell) { return labels[cell] == Label::outside; });
+    return cells;
+}
+
+/// How many views a point must have to be held for a good one.
+double enough_views(const Scene& scene)
+{
+    constexpr double kFew = 4.0;
+    std::vector<double> counts(scene.num_points());
+    parallel_for(counts.size(),
+                 [&](std::size_t i) { counts[i] = static_cast<double>(scene.tracks[i].size()); });
+    return std::max(kFew, 0.5 * median_in_place(counts));
+}
+
+/// Whether every edge of the boundary at a vertex is so many times longer than those at its foot.
+bool stands_out(const TetMesh& mesh, const Boundary& boundary, Index vertex, double times)
+{
+    const auto& edges = boundary.edges();
+    return std::ranges::all_of(edges.faces_at()[vertex], [&](std::uint32_t face) {
+        return std::ranges::all_of(boundary.faces()[face], [&](std::uint32_t foot) {
+            const double length = (mesh.positions[foot] - mesh.positions[vertex]).norm();
+            return foot == vertex || length >= times * edges.median(foot);
+        });
+    });
+}
+
+bool is_thin(const TetMesh& mesh, const Labels& labels, Index vertex)
+{
+    constexpr double kThin = std::numbers::pi / 3.0; // a twelfth of all around
+    double sum = 0.0;
+    for (const Index cell : inside_cells_at(mesh, labels, vertex)) {
+        sum += solid_angle(mesh, mesh.cells[cell], vertex);
+    }
+    return sum < kThin;
+}
+
+} // namespace
+
+std::int64_t take_back_needles(const TetMesh& cells, const Scene& scene,
+                               const NeedleOptions& options, Labels& labels)
+{
+    constexpr int kRounds = 4;
+    if (options.needle_edge == 0.0) return 0;
+    const double enough = enough_views(scene);
+    std::int64_t taken_back = 0;
+    for (int round = 0; round < kRounds; ++round) {
+        const Boundary boundary(cells, labels);
+        const auto tips =
+            parallel_collect<Index>(scene.num_points(), [&](std::size_t i, auto& found) {
+                const auto vertex = static_cast<Index>(i);
+                if (static_cast<double>(scene.tracks[i].size()) >= enough) return;
+                if (boundary.edges().faces_at()[i].empty()) return;
+                if (!stands_out(cells, boundary, vertex, options.needle_edge)) return;
+                if (is_thin(cells, labels, vertex)) found.push_back(vertex);
+            });
+        for (const Index tip : tips) {
+            for (const Index cell : inside_cells_at(cells, labels, tip)) {
+                labels[cell] = Label::outside;
+            }
+        }
+        taken_back += static_cast<std::int64_t>(tips.size());
+        if (tips.empty()) break;
+    }
+    return taken_back;
+}
+
+} // namespace vcarve

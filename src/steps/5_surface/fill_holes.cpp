@@ -1,0 +1,189 @@
+#include "steps/5_surface/fill_holes.h"
+
+#include <limits>
+
+namespace vcarve {
+namespace {
+
+using OpenMesh::Vec3d;
+using OpenMesh::VertexHandle;
+
+/// Twice the area of the faces along a loop, each as a vector along its normal.
+struct AreaAlong {
+    Vec3d sum{0.0, 0.0, 0.0};
+    double total = 0.0;
+};
+
+AreaAlong area_along(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
+{
+    AreaAlong area;
+    for (const auto edge : loop) {
+        Vec3d twice_area;
+        mesh.calc_sector_normal(mesh.opposite_halfedge_handle(edge), twice_area);
+        area.sum += twice_area;
+        area.total += twice_area.norm();
+    }
+    return area;
+}
+
+/// Twice the area vector of whatever surface fills the loop: it depends on the loop alone.
+Vec3d area_within(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
+{
+    const Vec3d origin = mesh.point(mesh.from_vertex_handle(loop[0]));
+    Vec3d area(0.0, 0.0, 0.0);
+    for (const auto edge : loop) {
+        area += cross(mesh.point(mesh.from_vertex_handle(edge)) - origin,
+                      mesh.point(mesh.to_vertex_handle(edge)) - origin);
+    }
+    return area;
+}
+
+/// The least-area triangulation of a polygon in space, by dynamic programming over its chords.
+class PolygonFill {
+  public:
+    PolygonFill(const HalfEdgeMesh& mesh, std::vector<VertexHandle> corners)
+        : mesh_(mesh), corners_(std::move(corners)), chords_(corners_.size() * corners_.size())
+    {
+        const std::size_t n = corners_.size();
+        for (std::size_t span = 2; span < n; ++span) {
+            for (std::size_t i = 0; i + span < n; ++i) {
+                fill_behind(i, i + span);
+            }
+        }
+    }
+
+    bool exists() const { return chord(0, corners_.size() - 1).area < kImpossible; }
+
+    /// Adds the triangles; call it only where they exist.
+    void add_to(HalfEdgeMesh& mesh) const { add_behind(mesh, 0, corners_.size() - 1); }
+
+  private:
+    static constexpr double kImpossible = std::numeric_limits<double>::infinity();
+
+    /// From corner i to corner j: the least area of the polygon i, i + 1, ..., j and the corner
+    /// that the triangle on the chord has there.
+    struct Chord {
+        double area = 0.0;
+        std::size_t apex = 0;
+    };
+
+    Chord& chord(std::size_t i, std::size_t j) { return chords_[i * corners_.size() + j]; }
+    const Chord& chord(std::size_t i, std::size_t j) const
+    {
+        return chords_[i * corners_.size() + j];
+    }
+
+    double triangle_area(std::size_t i, std::size_t k, std::size_t j) const
+    {
+        const Vec3d& a = mesh_.point(corners_[i]);
+        return cross(mesh_.point(corners_[k]) - a, mesh_.point(corners_[j]) - a).norm() / 2;
+    }
+
+    void fill_behind(std::size_t i, std::size_t j)
+    {
+        Chord& best = chord(i, j);
+        best.area = kImpossible;
+        const bool closes_loop = i == 0 && j + 1 == corners_.size();
+        const bool taken = mesh_.find_halfedge(corners_[i], corners_[j]).is_valid();
+        if (taken && !closes_loop) return;
+        for (std::size_t k = i + 1; k < j; ++k) {
+            const double area = chord(i, k).area + chord(k, j).area + triangle_area(i, k, j);
+            if (area < best.area) best = {area, k};
+        }
+    }
+
+    void add_behind(HalfEdgeMesh& mesh, std::size_t i, std::size_t j) const
+    {
+        if (j - i < 2) return;
+        const std::size_t k = chord(i, j).apex;
+        mesh.add_face(corners_[i], corners_[k], corners_[j]);
+        add_behind(mesh, i, k);
+        add_behind(mesh, k, j);
+    }
+
+    const HalfEdgeMesh& mesh_;
+    std::vector<VertexHandle> corners_;
+    std::vector<Chord> chords_;
+};
+
+VertexHandle add_middle(HalfEdgeMesh& mesh, const std::vector<VertexHandle>& corners)
+{
+    const auto count = static_cast<double>(corners.size());
+    Vec3d position(0.0, 0.0, 0.0);
+    Vec3d color(0.5, 0.5, 0.5); // rounds to nearest
+    for (const VertexHandle corner : corners) {
+        const Color& c = mesh.data(corner).color;
+        position += mesh.point(corner) / count;
+        color += Vec3d(c[0], c[1], c[2]) / count;
+    }
+    // NOLINTNEXTLINE(cppcoreguidelines-slicing): a handle is all that is wanted
+    const VertexHandle middle = mesh.add_vertex(position);
+    mesh.data(middle).color = {static_cast<std::uint8_t>(color[0]),
+                               static_cast<std::uint8_t>(color[1]),
+                               static_cast<std::uint8_t>(color[2])};
+    return middle;
+}
+
+void add_fan(HalfEdgeMesh& mesh, const std::vector<VertexHandle>& corners)
+{
+    const VertexHandle middle = add_middle(mesh, corners);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        mesh.add_face(corners[i], corners[(i + 1) % corners.size()], middle);
+    }
+}
+
+} // namespace
+
+std::vector<BoundaryLoop> boundary_loops(const HalfEdgeMesh& mesh)
+{
+    std::vector<char> seen(mesh.n_halfedges(), 0);
+    std::vector<BoundaryLoop> loops;
+    for (const auto first : mesh.halfedges()) {
+        if (!mesh.is_boundary(first) || seen[static_cast<std::size_t>(first.idx())] != 0) continue;
+        BoundaryLoop loop;
+        for (OpenMesh::HalfedgeHandle edge = first; seen[static_cast<std::size_t>(edge.idx())] == 0;
+             edge = mesh.next_halfedge_handle(edge)) {
+            seen[static_cast<std::size_t>(edge.idx())] = 1;
+            loop.push_back(edge);
+        }
+        loops.push_back(std::move(loop));
+    }
+    return loops;
+}
+
+bool is_rim(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
+{
+    constexpr double kCosine = -0.5;
+    const AreaAlong along = area_along(mesh, loop);
+    const Vec3d within = area_within(mesh, loop);
+    return dot(within, along.sum) < kCosine * within.norm() * along.total;
+}
+
+bool touches_itself(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
+{
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (mesh.point(mesh.from_vertex_handle(loop[i])) ==
+                mesh.point(mesh.from_vertex_handle(loop[j]))) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop)
+{
+    std::vector<VertexHandle> corners;
+    for (const auto edge : loop) {
+        corners.push_back(mesh.from_vertex_handle(edge));
+    }
+    const PolygonFill fill(mesh, corners);
+    if (fill.exists()) {
+        fill.add_to(mesh);
+    } else {
+        add_fan(mesh, corners);
+    }
+}
+
+} // namespace vcarve

@@ -1,0 +1,61 @@
+#include "steps/5_surface/make_surface.h"
+
+#include "base/error.h"
+#include "steps/3_visibility/face_visibility.h"
+#include "steps/4_labels/boundary.h"
+#include "steps/5_surface/extract.h"
+
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
+                const SurfaceOptions& options, Log& log)
+{
+    Stage stage(log, "surface");
+    const std::vector<CellFacet> facets = boundary_facets(cells, labels);
+    TriMesh surface = extract_surface(cells, facets, scene);
+    FaceFlags keep(facets.size(), 1);
+    std::int64_t sheets = 0;
+    if (!options.closed) {
+        const FaceVisibility visibility(cells, labels, scene);
+        keep = supported_faces(surface, facets, visibility, scene, options.support);
+        sheets = peel_sheets(surface, facets, visibility, options.sheets, keep);
+    }
+    surface = with_faces(std::move(surface), keep);
+    const std::int64_t dropped = size_of(facets.size() - surface.faces.size());
+    stage.end({{"faces", size_of(surface.faces.size())},
+               {"unseen", dropped - sheets},
+               {"sheets", sheets}});
+    if (surface.faces.empty()) {
+        throw InputError("the sights leave no surface: no part of the space behind the points is "
+                         "seen well enough");
+    }
+    return surface;
+}
+
+TriMesh clean(TriMesh mesh, const SurfaceOptions& options, Log& log)
+{
+    Stage stage(log, "clean");
+    CleanSurface cleaned = clean_surface(std::move(mesh), options.cleanup);
+    stage.end({{"vertices", size_of(cleaned.mesh.positions.size())},
+               {"faces", size_of(cleaned.mesh.faces.size())},
+               {"split edges", cleaned.counts.split_edges},
+               {"split vertices", cleaned.counts.split_vertices},
+               {"components dropped", cleaned.counts.removed_components},
+               {"holes filled", cleaned.counts.filled_holes}});
+    return std::move(cleaned.mesh);
+}
+
+} // namespace
+
+TriMesh make_surface(const TetMesh& cells, const Labels& labels, const Scene& scene,
+                     const SurfaceOptions& options, Log& log)
+{
+    return clean(extract(cells, labels, scene, options, log), options, log);
+}
+
+} // namespace vcarve

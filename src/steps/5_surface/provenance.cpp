@@ -1,0 +1,51 @@
+#include "steps/5_surface/provenance.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "steps/3_visibility/face_evidence.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace vcarve {
+
+namespace {
+
+constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53; // doubles hold whole numbers up to it
+
+void require_exact_ids(const TriMesh& mesh, const Scene& scene)
+{
+    for (const std::uint32_t point : mesh.points) {
+        if (point != kNoPoint && scene.point_ids[point] > kLargestId) {
+            throw InputError(fmt::format("point {} cannot be written with --attributes: a PLY file "
+                                         "holds ids up to {} only",
+                                         scene.point_ids[point], kLargestId));
+        }
+    }
+}
+
+} // namespace
+
+Provenance find_provenance(const TriMesh& mesh, const Scene& scene)
+{
+    require_exact_ids(mesh, scene);
+    Provenance found;
+    found.point_ids.assign(mesh.positions.size(), -1);
+    found.num_views.assign(mesh.positions.size(), 0);
+    found.errors_px.assign(mesh.positions.size(), -1.0F);
+    parallel_for(mesh.positions.size(), [&](std::size_t vertex) {
+        const std::uint32_t point = mesh.points[vertex];
+        if (point == kNoPoint) {
+            return;
+        }
+        found.point_ids[vertex] = static_cast<std::int64_t>(scene.point_ids[point]);
+        found.num_views[vertex] = static_cast<std::int32_t>(scene.tracks[point].size());
+        const double error = scene.errors_px[point];
+        found.errors_px[vertex] = error < 0.0 ? -1.0F : static_cast<float>(error);
+    });
+    found.supports = face_supports(mesh, scene);
+    return found;
+}
+
+} // namespace vcarve

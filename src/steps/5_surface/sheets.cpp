@@ -1,0 +1,196 @@
+#include "steps/5_surface/sheets.h"
+
+#include "base/median.h"
+#include "base/parallel.h"
+#include "mesh/edge_table.h"
+#include "mesh/local_edges.h"
+#include "mesh/surface_normals.h"
+#include "steps/1_points/looked_at_ball.h"
+#include "steps/4_labels/boundary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+/// Whether a facet is kept, for facets in ascending order.
+class KeptFacets {
+  public:
+    KeptFacets(const std::vector<CellFacet>& facets, const FaceFlags& keep)
+        : facets_(facets), keep_(keep)
+    {
+    }
+
+    bool operator()(const CellFacet& facet) const { return keep_[place_of(facet, facets_)] != 0; }
+
+  private:
+    const std::vector<CellFacet>& facets_;
+    const FaceFlags& keep_;
+};
+
+/// All views, and what there is of the boundary for them to see.
+struct Onlookers {
+    const FaceVisibility& visibility;
+    const KeptFacets& is_kept;
+
+    /// Whether for one of those that see a place ask(view) says yes.
+    template <typename Ask>
+    bool any_that_sees(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const
+    {
+        const std::size_t num_views = visibility.scene().views.size();
+        for (std::uint32_t view = 0; view < num_views; ++view) {
+            if (visibility.sees_among(view, facet, place, is_kept) && ask(view)) return true;
+        }
+        return false;
+    }
+
+    bool see(const CellFacet& facet, const Eigen::Vector3d& place) const
+    {
+        return any_that_sees(facet, place, [](std::uint32_t) { return true; });
+    }
+
+    /// Whether one of them would look onto the back of a kept face, were this one away.
+    bool would_see_a_back(const CellFacet& facet, const Eigen::Vector3d& place) const
+    {
+        return any_that_sees(facet, place, [&](std::uint32_t view) {
+            return visibility.met_behind(view, facet, place, is_kept) ==
+                   FaceVisibility::Meets::back;
+        });
+    }
+};
+
+bool hides_a_back(const CellFacet& facet, const Onlookers& onlookers)
+{
+    return std::ranges::any_of(onlookers.visibility.places_on(facet), [&](const auto& place) {
+        return onlookers.would_see_a_back(facet, place);
+    });
+}
+
+/// Whether no view sees half of the places on a facet or more.
+bool is_mostly_unseen(const CellFacet& facet, const Onlookers& onlookers)
+{
+    const std::vector<Eigen::Vector3d> places = onlookers.visibility.places_on(facet);
+    const auto num_seen = std::ranges::count_if(
+        places, [&](const auto& place) { return onlookers.see(facet, place); });
+    return 2 * static_cast<std::size_t>(num_seen) < places.size();
+}
+
+/// Whether a face goes on with the surface at one of its corners.
+bool goes_on(std::size_t face, const SurfaceNormals& normals)
+{
+    constexpr double kGoesOn = 0.9; // cosine, about 26 degrees
+    constexpr double kNotKnown = -1.0;
+    return normals.cosines(face, kNotKnown)[2] >= kGoesOn;
+}
+
+/// The kept faces at the rim of what is kept, ascending: those with an edge at which a face is not
+/// kept, and those on the hull.
+std::vector<std::uint32_t> rim_faces(const EdgeTable& table, const std::vector<CellFacet>& facets,
+                                     const FaceVisibility& visibility, const FaceFlags& keep)
+{
+    std::vector<std::uint32_t> rim;
+    for (std::uint32_t face = 0; face < keep.size(); ++face) {
+        if (keep[face] != 0 && visibility.is_on_hull(facets[face])) rim.push_back(face);
+    }
+    for (std::size_t edge = 0; edge < table.size(); ++edge) {
+        const auto is_gone = [&](Side side) { return keep[side / 3] == 0; };
+        if (std::ranges::none_of(table[edge], is_gone)) continue;
+        for (const Side side : table[edge]) {
+            if (!is_gone(side)) rim.push_back(side / 3);
+        }
+    }
+    std::ranges::sort(rim);
+    rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+    return rim;
+}
+
+/// Whether a kept face has an edge so long.
+bool has_large_face(const TriMesh& boundary, const FaceFlags& keep, double longest)
+{
+    const auto is_long = [&](std::uint32_t from, std::uint32_t to) {
+        return (boundary.positions[to] - boundary.positions[from]).squaredNorm() >=
+               longest * longest;
+    };
+    const auto large =
+        parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t i, auto& found) {
+            const auto& [a, b, c] = boundary.faces[i];
+            if (keep[i] == 0 || !found.empty()) return; // one is enough
+            if (is_long(a, b) || is_long(b, c) || is_long(c, a)) {
+                found.push_back(static_cast<std::uint32_t>(i));
+            }
+        });
+    return !large.empty();
+}
+
+/// The median of the longest edges of the kept faces; 0 where none are kept.
+double median_longest_edge(const TriMesh& boundary, const FaceFlags& keep)
+{
+    auto lengths_sq = parallel_collect<double>(keep.size(), [&](std::size_t i, auto& found) {
+        if (keep[i] == 0) return;
+        const auto& [a, b, c] = boundary.faces[i];
+        const auto length_sq = [&](std::uint32_t from, std::uint32_t to) {
+            return (boundary.positions[to] - boundary.positions[from]).squaredNorm();
+        };
+        found.push_back(std::max({length_sq(a, b), length_sq(b, c), length_sq(c, a)}));
+    });
+    return std::sqrt(median_in_place(lengths_sq));
+}
+
+/// Of some faces those that a question is answered with yes for.
+template <typename Ask>
+std::vector<std::uint32_t> those_that(const std::vector<std::uint32_t>& faces, const Ask& ask)
+{
+    return parallel_collect<std::uint32_t>(
+        faces.size(),
+        [&](std::size_t i, auto& found) {
+            if (ask(faces[i])) found.push_back(faces[i]);
+        },
+        16);
+}
+
+} // namespace
+
+std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
+                         const FaceVisibility& visibility, const SheetOptions& options,
+                         FaceFlags& keep)
+{
+    constexpr int kRounds = 20;
+    constexpr double kHardlySeen = 0.25; // of the share: what views see little of may go sooner,
+    constexpr double kOrdinary = 4.0;    // but not what is below so many median faces
+    if (options.max_sheet == 0.0) return 0;
+    const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
+    // A thousandth less, so that no rounding leaves out what is asked more exactly below.
+    constexpr double kSpare = 0.999;
+    double hardly_seen_edge = kHardlySeen * long_edge;
+    if (!has_large_face(boundary, keep, kSpare * hardly_seen_edge)) return 0;
+    hardly_seen_edge = std::min(
+        long_edge, std::max(hardly_seen_edge, kOrdinary * median_longest_edge(boundary, keep)));
+    const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
+    const KeptFacets is_kept(facets, keep);
+    const Onlookers onlookers{visibility, is_kept};
+    std::int64_t peeled = 0;
+    for (int round = 0; round < kRounds; ++round) {
+        const LocalEdges edges(boundary.positions, boundary.faces, keep);
+        const SurfaceNormals normals(boundary.positions, boundary.faces, edges);
+        const auto is_sheet = [&](std::uint32_t face) {
+            const double edge = edges.longest_edge(face);
+            if (edge < hardly_seen_edge) return false;
+            const CellFacet& facet = facets[face];
+            const bool is_bent = edge >= long_edge && !goes_on(face, normals);
+            return (is_bent || is_mostly_unseen(facet, onlookers)) &&
+                   !hides_a_back(facet, onlookers);
+        };
+        std::vector<std::uint32_t> sheets = rim_faces(table, facets, visibility, keep);
+        sheets = those_that(sheets, is_sheet);
+        for (const std::uint32_t face : sheets) {
+            keep[face] = 0;
+        }
+        peeled += static_cast<std::int64_t>(sheets.size());
+        if (sheets.empty()) break;
+    }
+    return peeled;
+}
+
+} // namespace vcarve

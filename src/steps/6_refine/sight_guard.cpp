@@ -1,0 +1,63 @@
+#include "steps/6_refine/sight_guard.h"
+
+#include "base/parallel.h"
+#include "mesh/local_edges.h"
+
+#include <algorithm>
+#include <atomic>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Per point, how much of its sights does not count; of two vertices at a point the lesser.
+std::vector<double> margins_of_points(const Scene& scene, const TriMesh& surface)
+{
+    const std::vector<double> spacings = vertex_spacings(surface);
+    std::vector<double> margins(scene.num_points(), 0.0);
+    for (std::size_t v = 0; v < surface.points.size(); ++v) {
+        const std::uint32_t point = surface.points[v];
+        if (point == kNoPoint) continue;
+        double& margin = margins[point];
+        margin = margin > 0.0 ? std::min(margin, spacings[v]) : spacings[v];
+    }
+    return margins;
+}
+
+} // namespace
+
+SightGuard::SightGuard(const Scene& scene, const TriMesh& surface)
+    : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)
+{
+    parallel_for(
+        surface.faces.size(),
+        [&](std::size_t f) {
+            const Face& face = surface.faces[f];
+            tree_.visit_meeting(
+                {surface.positions[face[0]], surface.positions[face[1]],
+                 surface.positions[face[2]]},
+                [&](std::size_t sight) {
+                    std::atomic_ref(blocked_[sight]).store(1, std::memory_order_relaxed);
+                    return true;
+                });
+        },
+        64);
+}
+
+bool SightGuard::blocks(const std::array<Vector3d, 3>& triangle) const
+{
+    bool found = false;
+    tree_.visit_meeting(triangle, [&](std::size_t sight) {
+        found = blocked_[sight] == 0;
+        return !found;
+    });
+    return found;
+}
+
+std::int64_t SightGuard::num_free() const
+{
+    return std::ranges::count(blocked_, 0);
+}
+
+} // namespace vcarve

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "base/options.h"
+#include "model/tri_mesh.h"
+#include "steps/6_refine/sight_guard.h"
+
+#include <cstdint>
+
+namespace vcarve {
+
+struct SmoothOptions {
+    int iterations = 0;
+
+    void visit(OptionVisitor& options)
+    {
+        options.count(iterations,
+                      {.name = "smooth",
+                       .unit = "iterations",
+                       .help = "Smooth the surface so often, never so that a face hides a point "
+                               "from a view that it did not hide; 0 leaves it as it is.",
+                       .max = 1000});
+    }
+};
+
+struct SmoothCounts {
+    std::int64_t moved = 0; ///< vertices that are elsewhere than before
+    std::int64_t held = 0;  ///< vertices that a sight kept from going all the way
+};
+
+struct SmoothedSurface {
+    TriMesh mesh;
+    SmoothCounts counts;
+};
+
+/// Moves vertices so that faces take the directions of those around them that differ little, which
+/// flattens noise and keeps edges: `options.iterations` times the normals are filtered (Zheng, Fu,
+/// Au, Tai, "Bilateral normal filtering for mesh denoising", TVCG 2011, local scheme; spread 0.2 of
+/// unit normals) and vertices follow them (Sun, Rosin, Martin, Langbein, "Fast and effective
+/// feature-preserving mesh denoising", TVCG 2007), three rounds each.
+///
+/// A vertex stays within half its spacing of where it was, and goes a half or a quarter of its way,
+/// or stays, where a face around it would turn by more than 60 degrees or block a free sight of
+/// `guard`. Rims stay. Faces, colours and points are those of `mesh`, normals are made anew. Takes
+/// a manifold, consistently oriented surface. Cost: O(iterations x faces x sights near them), in
+/// parallel; the result does not depend on the number of threads.
+SmoothedSurface smooth_surface(const TriMesh& mesh, const SightGuard& guard,
+                               const SmoothOptions& options);
+
+} // namespace vcarve

@@ -1,0 +1,131 @@
+#include "base/error.h"
+#include "pipeline/memory.h"
+#include "pipeline/reconstruct.h"
+#include "support/ball_model.h"
+#include "support/scenes.h"
+#include "support/subprocess.h"
+#include "support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <map>
+
+namespace vcarve {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr SceneSize kMillion = {.points = 1'000'000, .sights = 3'700'000, .views = 300};
+
+TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
+{
+    struct Names : Log {
+        std::vector<std::string> heard = {"read"}; // before reconstruct
+        void stage_begins(std::string_view name) override { heard.emplace_back(name); }
+    } log;
+    const Scene scene = bumpy_sphere(300, 1);
+    reconstruct(scene, Options(), log);
+    auto at = log.heard.begin();
+    for (const StageMemory& stage : predicted_memory(size_of(scene), 1)) {
+        at = std::find(at, log.heard.end(), stage.stage);
+        ASSERT_NE(at, log.heard.end()) << stage.stage;
+    }
+}
+
+TEST(PredictedMemory, GrowsWithPointsAndSightsAndThreads)
+{
+    const std::int64_t peak = predicted_peak(kMillion, 1);
+    SceneSize more = kMillion;
+    more.points += 1000;
+    EXPECT_GT(predicted_peak(more, 1), peak);
+    more = kMillion;
+    more.sights += 1000;
+    EXPECT_GT(predicted_peak(more, 1), peak);
+    EXPECT_GE(predicted_peak(kMillion, 2), peak);
+    // Ten times the model takes ten times what a run takes beside the program itself.
+    const SceneSize ten = {.points = 10'000'000, .sights = 37'000'000, .views = 3'000};
+    const std::int64_t program = predicted_peak({}, 1);
+    EXPECT_NEAR(static_cast<double>(predicted_peak(ten, 1) - program),
+                10.0 * static_cast<double>(peak - program), 1e3);
+}
+
+TEST(PredictedMemory, OfReadingHoldsASightInTheFileInTheSceneAndInTheTrackThatGrows)
+{
+    SceneSize more = kMillion;
+    more.sights += 1000;
+    const StageMemory before = predicted_memory(kMillion, 1).front();
+    const StageMemory after = predicted_memory(more, 1).front();
+    EXPECT_STREQ(before.stage, "read");
+    EXPECT_EQ(after.bytes - before.bytes, 1000 * (8 + 4 + 4));
+}
+
+TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
+{
+    const SceneSize most = {.points = ~0ULL, .sights = ~0ULL, .views = ~0ULL};
+    EXPECT_GT(predicted_peak(most, 2), std::int64_t{1} << 60);
+}
+
+#ifndef __SANITIZE_ADDRESS__ // which needs memory of its own
+TEST(PredictedMemory, IsWhatTheProgramNeeds)
+{
+    const TemporaryFolder folder;
+    write_ball_model(folder / "ball", 30'000);
+    const std::string stats = folder / "stats.json";
+    ASSERT_EQ(Subprocess({VCARVE_PROGRAM, "--quiet", "--threads", "1", "--stats", stats,
+                          folder / "ball", folder / "out.ply"})
+                  .wait()
+                  .exit_code,
+              0);
+    const auto record = nlohmann::json::parse(std::ifstream(stats));
+    ASSERT_TRUE(record["peak_memory_is_per_stage"]);
+    std::map<std::string, double> measured;
+    for (const auto& stage : record["stages"]) {
+        measured[stage["name"]] = stage["peak_memory_bytes"];
+    }
+    const SceneSize size = {.points = record["input"]["points"],
+                            .sights = record["input"]["sights"],
+                            .views = record["input"]["views"]};
+    const std::map<std::string, double> expected = {
+        {"read", 1.00}, {"filter", 1.02},  {"triangulate", 1.34}, {"sights", 1.36},
+        {"cut", 1.32},  {"surface", 1.06}, {"clean", 1.20}}; // as measured
+    for (const StageMemory& stage : predicted_memory(size, 1)) {
+        EXPECT_NEAR(static_cast<double>(stage.bytes) / measured.at(stage.stage),
+                    expected.at(stage.stage), 0.1)
+            << stage.stage;
+    }
+    const double ratio = static_cast<double>(predicted_peak(size, 1)) /
+                         record["total"]["peak_memory_bytes"].get<double>();
+    EXPECT_GE(ratio, kLeastPredicted);
+    EXPECT_LE(ratio, kMostPredicted);
+}
+#endif
+
+TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
+{
+    const std::int64_t peak = predicted_peak(kMillion, 1);
+    EXPECT_NO_THROW(require_memory(kMillion, 1, peak));
+    EXPECT_NO_THROW(require_memory(kMillion, 1, 0));
+    EXPECT_THROW(require_memory(kMillion, 1, peak - 1), InputError);
+    EXPECT_THAT(refusal<InputError>([] { require_memory(kMillion, 1, 4 << 20); }),
+                testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
+                                      "memory, and --max-memory allows 4M"));
+}
+
+TEST(Reconstruct, RefusesAModelThatNeedsTooMuchMemoryBeforeAnyWork)
+{
+    struct Stages : Log {
+        int ended = 0;
+        void stage_ends(std::string_view, const Counts&) override { ++ended; }
+    } log;
+    Options options;
+    options.max_memory = 1000;
+    EXPECT_THAT(refusal<InputError>([&] { reconstruct(bumpy_sphere(300, 1), options, log); }),
+                HasSubstr("--max-memory allows 1000"));
+    EXPECT_EQ(log.ended, 0);
+}
+
+} // namespace
+} // namespace vcarve
