@@ -16,11 +16,14 @@ struct PlyFormat {
     const Provenance* provenance = nullptr; ///< written as well where there is one
 };
 
-/// Writes a surface as PLY through OpenMesh's IO: per vertex x y z (double, `offset` added), nx ny
-/// nz (float) and red green blue (uchar) where the mesh has them; per face vertex_indices (uchar,
-/// int). Binary little endian, or ascii with the fewest digits that read back as the same number.
-/// Faces are written as they stand, manifold or not. The bytes depend on the arguments alone. The
-/// file appears whole or not at all. Throws UsageError where it cannot be written.
+/// Writes a surface as PLY: per vertex x y z (double, `offset` added), nx ny nz (float) and red
+/// green blue (uchar) where the mesh has them; per face vertex_indices (uchar, int). Binary little
+/// endian, or ascii with the fewest digits that read back as the same number. Faces are written as
+/// they stand, manifold or not. The bytes depend on the arguments alone. The file appears whole or
+/// not at all. Throws UsageError where it cannot be written. OpenMesh's own writer is not used
+/// because it rounds coordinates to float, writes no comments and takes no faces that are not
+/// manifold; a writer of ours behind its IOManager would be found or not by the order of addresses,
+/// since two would then write PLY.
 ///
 /// Why so: MeshLab, CloudCompare, Open3D, trimesh and COLMAP's mesh_simplifier and mesh_texturer
 /// take double coordinates (some round them to float themselves, which is then their loss and not
