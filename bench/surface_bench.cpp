@@ -1,3 +1,4 @@
+#include "mesh/half_edge_mesh.h"
 #include "samples.h"
 #include "steps/4_labels/boundary.h"
 #include "steps/4_labels/bridging_facets.h"

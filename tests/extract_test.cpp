@@ -2,6 +2,7 @@
 #include "steps/2_cells/triangulate.h"
 #include "steps/5_surface/extract.h"
 #include "steps/5_surface/orient.h"
+#include "support/half_edges.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -95,7 +96,7 @@ struct SeenTriangle {
 TEST(ViewAgreement, CountsSightsOnTheFrontOfTheirFaces)
 {
     const SeenTriangle seen({{0, 0, 5}, {0, 0, -5}, {3, 3, 1}});
-    const ViewAgreement agreement = view_agreement(seen.mesh, seen.scene);
+    const ViewAgreement agreement = view_agreement(testing::half_edges(seen.mesh), seen.scene);
     EXPECT_EQ(agreement.sights, 9);
     EXPECT_EQ(agreement.facing, 6);
 }
@@ -104,7 +105,7 @@ TEST(ViewAgreement, PassesOverCornersWithoutAPoint)
 {
     SeenTriangle seen({{0, 0, 5}});
     seen.mesh.points[1] = kNoPoint;
-    EXPECT_EQ(view_agreement(seen.mesh, seen.scene).sights, 2);
+    EXPECT_EQ(view_agreement(testing::half_edges(seen.mesh), seen.scene).sights, 2);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "mesh/check.h"
 #include "steps/5_surface/fill_holes.h"
+#include "support/half_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -11,27 +12,11 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-
-std::vector<Face> faces_of(const HalfEdgeMesh& mesh)
-{
-    std::vector<Face> faces;
-    for (const auto face : mesh.faces()) {
-        Face corners{};
-        std::size_t i = 0;
-        for (const auto vertex : mesh.fv_range(face)) {
-            corners[i++] = static_cast<std::uint32_t>(vertex.idx());
-        }
-        faces.push_back(corners);
-    }
-    return faces;
-}
+using testing::half_edges;
 
 MeshCheck check_of(const HalfEdgeMesh& mesh)
 {
-    TriMesh soup;
-    soup.positions.resize(mesh.n_vertices(), Vector3d::Zero());
-    soup.faces = faces_of(mesh);
-    return check_mesh(soup);
+    return check_mesh(tri_mesh(mesh));
 }
 
 /// A tube of `n` sides around the z axis, open at both ends; its lower end is vertices 0 to n - 1.
@@ -52,59 +37,9 @@ TriMesh tube(std::uint32_t n)
     return mesh;
 }
 
-TEST(HalfEdgeMesh, KeepsNumbersColorsAndPoints)
-{
-    const TriMesh mesh = tube(5);
-    const HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-    EXPECT_EQ(faces_of(half_edges), mesh.faces);
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        const OpenMesh::VertexHandle vertex(static_cast<int>(v));
-        const OpenMesh::Vec3d& p = half_edges.point(vertex);
-        EXPECT_EQ(Vector3d(p[0], p[1], p[2]), mesh.positions[v]);
-        EXPECT_EQ(half_edges.data(vertex).color, mesh.colors[v]);
-        EXPECT_EQ(half_edges.data(vertex).point, mesh.points[v]);
-    }
-}
-
-TEST(VertexNormal, IsTheMeanOfTheFacesByArea)
-{
-    // Three faces of areas 1/2, 1 and 3/2 with normals z, -y and x, open or not makes no
-    // difference.
-    TriMesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 2}};
-    mesh.faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
-    const OpenMesh::Vec3d closed = vertex_normal(half_edge_mesh(mesh), OpenMesh::VertexHandle(0));
-    const OpenMesh::Vec3d expected = OpenMesh::Vec3d(2, 2, 1) / 3.0;
-    EXPECT_NEAR((closed - expected).norm(), 0.0, 1e-15);
-    for (std::size_t first = 0; first < 3; ++first) {
-        TriMesh open = mesh;
-        open.faces = {mesh.faces[first], mesh.faces[(first + 1) % 3]};
-        OpenMesh::Vec3d sum(0, 0, 0);
-        for (const std::size_t f : {first, (first + 1) % 3}) {
-            const Vector3d& a = mesh.positions[mesh.faces[f][0]];
-            const Vector3d area =
-                (mesh.positions[mesh.faces[f][1]] - a).cross(mesh.positions[mesh.faces[f][2]] - a);
-            sum += OpenMesh::Vec3d(area.x(), area.y(), area.z());
-        }
-        const OpenMesh::Vec3d normal =
-            vertex_normal(half_edge_mesh(open), OpenMesh::VertexHandle(0));
-        EXPECT_NEAR((normal - sum.normalized()).norm(), 0.0, 1e-15);
-    }
-}
-
-TEST(VertexNormal, IsZeroWhereNoFaceHasAnArea)
-{
-    TriMesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 0, 1}};
-    mesh.faces = {{0, 1, 2}};
-    const HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-    EXPECT_EQ(vertex_normal(half_edges, OpenMesh::VertexHandle(0)), OpenMesh::Vec3d(0, 0, 0));
-    EXPECT_EQ(vertex_normal(half_edges, OpenMesh::VertexHandle(3)), OpenMesh::Vec3d(0, 0, 0));
-}
-
 TEST(BoundaryLoops, RunAlongEveryBorderOnce)
 {
-    const HalfEdgeMesh mesh = half_edge_mesh(tube(7));
+    const HalfEdgeMesh mesh = half_edges(tube(7));
     const std::vector<BoundaryLoop> loops = boundary_loops(mesh);
     ASSERT_EQ(loops.size(), 2U);
     for (const BoundaryLoop& loop : loops) {
@@ -119,8 +54,8 @@ TEST(BoundaryLoops, RunAlongEveryBorderOnce)
 TEST(BoundaryLoop, TouchesItselfAtCopiesOfAVertex)
 {
     const auto first_loop_touches_itself = [](const TriMesh& mesh) {
-        const HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-        return touches_itself(half_edges, boundary_loops(half_edges)[0]);
+        const HalfEdgeMesh surface = half_edges(mesh);
+        return touches_itself(surface, boundary_loops(surface)[0]);
     };
     TriMesh mesh = tube(6);
     EXPECT_FALSE(first_loop_touches_itself(mesh));
@@ -131,8 +66,8 @@ TEST(BoundaryLoop, TouchesItselfAtCopiesOfAVertex)
 TEST(IsRim, TellsAPatchFromAHole)
 {
     const auto first_loop_is_rim = [](const TriMesh& mesh) {
-        const HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-        return is_rim(half_edges, boundary_loops(half_edges)[0]);
+        const HalfEdgeMesh surface = half_edges(mesh);
+        return is_rim(surface, boundary_loops(surface)[0]);
     };
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -153,12 +88,12 @@ TEST(FillHole, ClosesATriangleWithOneFace)
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}};
-    HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-    fill_hole(half_edges, boundary_loops(half_edges)[0]);
-    EXPECT_EQ(half_edges.n_faces(), 4U);
-    EXPECT_EQ(half_edges.n_vertices(), 4U);
-    EXPECT_TRUE(check_of(half_edges).is_closed());
-    EXPECT_EQ(check_of(half_edges).orientation_faults, 0);
+    HalfEdgeMesh surface = half_edges(mesh);
+    fill_hole(surface, boundary_loops(surface)[0]);
+    EXPECT_EQ(surface.n_faces(), 4U);
+    EXPECT_EQ(surface.n_vertices(), 4U);
+    EXPECT_TRUE(check_of(surface).is_closed());
+    EXPECT_EQ(check_of(surface).orientation_faults, 0);
 }
 
 /// Least total area of a triangulated polygon by trying every one.
@@ -183,25 +118,24 @@ TEST(FillHole, FindsTheLeastArea)
         for (std::uint32_t i = 0; i < n; ++i) { // lift the lower end out of its plane
             mesh.positions[i].z() = std::sin(3.0 * i) / 2;
         }
-        HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-        for (const BoundaryLoop& loop : boundary_loops(half_edges)) {
+        HalfEdgeMesh surface = half_edges(mesh);
+        for (const BoundaryLoop& loop : boundary_loops(surface)) {
             std::vector<Vector3d> polygon;
             for (const auto edge : loop) {
-                const OpenMesh::Vec3d& p = half_edges.point(half_edges.from_vertex_handle(edge));
-                polygon.emplace_back(p[0], p[1], p[2]);
+                polygon.push_back(surface.point(surface.from_vertex_handle(edge)));
             }
-            const std::size_t num_before = half_edges.n_faces();
-            fill_hole(half_edges, loop);
+            const std::size_t num_before = surface.n_faces();
+            fill_hole(surface, loop);
             double area = 0.0;
-            for (std::size_t f = num_before; f < half_edges.n_faces(); ++f) {
-                const OpenMesh::FaceHandle face(static_cast<int>(f));
-                area += half_edges.calc_sector_area(half_edges.halfedge_handle(face));
+            for (std::size_t f = num_before; f < surface.n_faces(); ++f) {
+                const auto face = handle_at<OpenMesh::FaceHandle>(f);
+                area += surface.calc_sector_area(surface.halfedge_handle(face));
             }
             EXPECT_NEAR(area, least_area(polygon), 1e-12) << n << " edges";
         }
-        EXPECT_EQ(half_edges.n_vertices(), 2 * n);
-        EXPECT_TRUE(check_of(half_edges).is_closed());
-        EXPECT_EQ(check_of(half_edges).euler_characteristic, 2);
+        EXPECT_EQ(surface.n_vertices(), 2 * n);
+        EXPECT_TRUE(check_of(surface).is_closed());
+        EXPECT_EQ(check_of(surface).euler_characteristic, 2);
     }
 }
 
@@ -211,12 +145,12 @@ TEST(FillHole, NeverUsesAnEdgeThatIsThere)
     TriMesh mesh;
     mesh.positions = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
     mesh.faces = {{0, 1, 2}, {0, 2, 3}};
-    HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-    fill_hole(half_edges, boundary_loops(half_edges)[0]);
+    HalfEdgeMesh surface = half_edges(mesh);
+    fill_hole(surface, boundary_loops(surface)[0]);
     EXPECT_TRUE(
-        half_edges.find_halfedge(OpenMesh::VertexHandle(1), OpenMesh::VertexHandle(3)).is_valid());
-    EXPECT_EQ(half_edges.n_faces(), 4U);
-    EXPECT_TRUE(check_of(half_edges).is_closed());
+        surface.find_halfedge(OpenMesh::VertexHandle(1), OpenMesh::VertexHandle(3)).is_valid());
+    EXPECT_EQ(surface.n_faces(), 4U);
+    EXPECT_TRUE(check_of(surface).is_closed());
 }
 
 TEST(FillHole, TakesAVertexInTheMiddleWhereEveryChordIsTaken)
@@ -233,21 +167,46 @@ TEST(FillHole, TakesAVertexInTheMiddleWhereEveryChordIsTaken)
             if (std::ranges::count(face, 6U) == 0) mesh.faces.push_back(face);
         }
     }
-    HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-    const std::vector<BoundaryLoop> loops = boundary_loops(half_edges);
+    HalfEdgeMesh surface = half_edges(mesh);
+    const std::vector<BoundaryLoop> loops = boundary_loops(surface);
     ASSERT_EQ(loops.size(), 1U);
     ASSERT_EQ(loops[0].size(), 6U);
-    fill_hole(half_edges, loops[0]);
+    fill_hole(surface, loops[0]);
     const OpenMesh::VertexHandle middle(7);
-    EXPECT_EQ(half_edges.n_vertices(), 8U);
-    EXPECT_EQ(half_edges.n_faces(), 14U);
-    EXPECT_NEAR((half_edges.point(middle) - OpenMesh::Vec3d(15, 55, 225) / 6.0).norm(), 0, 1e-13);
-    EXPECT_EQ(half_edges.data(middle).color, (Color{25, 255, 0}));
-    EXPECT_EQ(half_edges.data(middle).point, kNoPoint);
-    EXPECT_TRUE(check_of(half_edges).is_closed());
-    EXPECT_TRUE(check_of(half_edges).is_manifold());
-    EXPECT_EQ(check_of(half_edges).orientation_faults, 0);
-    EXPECT_EQ(check_of(half_edges).euler_characteristic, 0);
+    EXPECT_EQ(surface.n_vertices(), 8U);
+    EXPECT_EQ(surface.n_faces(), 14U);
+    EXPECT_NEAR((surface.point(middle) - Vector3d(15, 55, 225) / 6.0).norm(), 0, 1e-13);
+    EXPECT_EQ(surface.data(middle).color, (Color{25, 255, 0}));
+    EXPECT_EQ(surface.data(middle).scene_point, kNoPoint);
+    EXPECT_TRUE(check_of(surface).is_closed());
+    EXPECT_TRUE(check_of(surface).is_manifold());
+    EXPECT_EQ(check_of(surface).orientation_faults, 0);
+    EXPECT_EQ(check_of(surface).euler_characteristic, 0);
+}
+
+TEST(FillHoles, FillsNoHoleOfADeletedPieceAndNoRim)
+{
+    // A tube and, far off, a second one; and a lone triangle.
+    TriMesh mesh = tube(5);
+    for (const Vector3d& position : tube(5).positions) {
+        mesh.positions.emplace_back(position + Vector3d(9, 0, 0));
+    }
+    for (const Face& face : tube(5).faces) {
+        mesh.faces.push_back({face[0] + 10, face[1] + 10, face[2] + 10});
+    }
+    mesh.positions.insert(mesh.positions.end(), {{0, 9, 0}, {1, 9, 0}, {0, 10, 0}});
+    mesh.faces.push_back({20, 21, 22});
+    mesh.colors.clear();
+    mesh.points.clear();
+    HalfEdgeMesh surface = half_edges(mesh);
+    for (std::size_t f = 10; f < 20; ++f) {
+        surface.status(handle_at<OpenMesh::FaceHandle>(f)).set_deleted(true);
+    }
+    EXPECT_EQ(boundary_loops(surface).size(), 3U);
+    EXPECT_EQ(fill_holes(surface, 4), 0);
+    EXPECT_EQ(fill_holes(surface, 5), 2);
+    EXPECT_EQ(boundary_loops(surface).size(), 1U);
+    EXPECT_EQ(num_faces_left(surface), 10 + 1 + 2 * 3);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "mesh/check.h"
 #include "pipeline/reconstruct.h"
 #include "steps/5_surface/orient.h"
+#include "support/half_edges.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 
@@ -59,7 +60,7 @@ TEST(Reconstruct, GivesAManifoldColouredSurfaceThatFacesItsViews)
     EXPECT_EQ(check.unreferenced_vertices, 0);
     EXPECT_EQ(check.degenerate_faces, 0);
     EXPECT_EQ(result.mesh.colors.size(), result.mesh.positions.size());
-    const ViewAgreement agreement = view_agreement(result.mesh, result.scene);
+    const ViewAgreement agreement = view_agreement(testing::half_edges(result.mesh), result.scene);
     EXPECT_GT(agreement.facing, 0.95 * static_cast<double>(agreement.sights));
     // A sphere has about twice as many faces as vertices, and most points lie on it.
     EXPECT_GT(check.faces, static_cast<std::int64_t>(1.6 * kPoints));

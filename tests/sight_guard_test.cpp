@@ -1,6 +1,6 @@
-#include "mesh/local_edges.h"
 #include "steps/6_refine/sight_guard.h"
 #include "support/blocked_sights.h"
+#include "support/half_edges.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::flat_grid;
+using testing::half_edges;
 using testing::Triangle;
 
 /// A grid of 3 x 3 points at the vertices of flat_grid(3), half a unit apart; one view above all.
@@ -30,7 +31,7 @@ Triangle lid(double height)
 
 TEST(SightGuard, GuardsSightsBeyondTheSpacingOfTheirPoint)
 {
-    const SightGuard guard(grid_seen_from_above(), flat_grid(3));
+    const SightGuard guard(grid_seen_from_above(), half_edges(flat_grid(3)));
     EXPECT_EQ(guard.num_sights(), 9);
     EXPECT_EQ(guard.num_free(), 9);
     EXPECT_TRUE(guard.blocks(lid(0.51)));
@@ -48,7 +49,7 @@ TEST(SightGuard, LeavesToTheirFateSightsThatAreBlockedAlready)
         mesh.points.push_back(kNoPoint);
     }
     mesh.faces.push_back({9, 10, 11});
-    const SightGuard guard(grid_seen_from_above(), mesh);
+    const SightGuard guard(grid_seen_from_above(), half_edges(mesh));
     // Halfway up, the sights of the neighbours are a quarter of a unit off the middle one.
     EXPECT_EQ(guard.num_free(), 8);
     EXPECT_FALSE(guard.blocks(lid(0.51)));
@@ -60,7 +61,7 @@ TEST(SightGuard, GuardsAPointOffTheSurfaceToItsVeryEnd)
     Scene scene = make_scene({{0.5, 0.5, 10}}, {{{0.5, 0.5, 0.25}, {0}}});
     TriMesh mesh = flat_grid(3);
     mesh.points.assign(mesh.points.size(), kNoPoint);
-    const SightGuard guard(scene, mesh);
+    const SightGuard guard(scene, half_edges(mesh));
     EXPECT_TRUE(guard.blocks(lid(0.26)));
     EXPECT_TRUE(guard.blocks(lid(0.25)));
     EXPECT_FALSE(guard.blocks(lid(0.24)));
@@ -77,7 +78,9 @@ TEST(SightGuard, FindsTheFreeSightsThatBruteForceFinds)
         mesh.points.push_back(v % 2 == 0 ? v : kNoPoint);
         mesh.faces.push_back({v, (v * 7 + 1) % 200, (v * 13 + 5) % 200});
     }
-    const SightGuard guard(scene, mesh);
+    const HalfEdgeMesh surface = half_edges(mesh);
+    mesh = tri_mesh(surface); // has copies of vertices
+    const SightGuard guard(scene, surface);
     const auto margins = testing::margins_in(mesh, scene);
     const auto blocked = testing::blocked_sights(scene, mesh, margins);
     EXPECT_GT(blocked.size(), 20U);
@@ -89,7 +92,7 @@ TEST(VertexSpacings, AreMedianEdgeLengths)
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {-8, 0, 0}, {5, 5, 5}};
     mesh.faces = {{0, 1, 2}, {0, 2, 3}};
-    const std::vector<double> spacings = vertex_spacings(mesh);
+    const std::vector<double> spacings = vertex_spacings(half_edges(mesh));
     EXPECT_EQ(spacings[0], 2.0); // of 1, 2 (twice) and 8
     EXPECT_EQ(spacings[4], 0.0); // of no face
 }

@@ -2,6 +2,7 @@
 #include "pipeline/reconstruct.h"
 #include "steps/6_refine/simplify.h"
 #include "support/blocked_sights.h"
+#include "support/half_edges.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
 
@@ -17,7 +18,23 @@ using Eigen::Vector3d;
 using testing::blocked_sights;
 using testing::empty_scene;
 using testing::flat_grid;
+using testing::half_edges;
 using testing::margins_in;
+
+TriMesh simplified(const TriMesh& mesh, const SightGuard& guard, const SimplifyOptions& options)
+{
+    HalfEdgeMesh surface = half_edges(mesh);
+    const SimplifyCounts counts = simplify_surface(surface, guard, options);
+    TriMesh simple = tri_mesh(surface);
+    EXPECT_EQ(counts.faces_before, static_cast<std::int64_t>(mesh.faces.size()));
+    EXPECT_EQ(counts.faces, static_cast<std::int64_t>(simple.faces.size()));
+    return simple;
+}
+
+SightGuard unguarded()
+{
+    return {empty_scene(), half_edges({})};
+}
 
 std::size_t face_count(const TriMesh& mesh)
 {
@@ -26,8 +43,8 @@ std::size_t face_count(const TriMesh& mesh)
 
 TEST(SimplifySurface, KeepsAFlatSquareASquare)
 {
-    const SightGuard guard(empty_scene(), {});
-    const TriMesh simple = simplify_surface(flat_grid(11), guard, {.faces = 20});
+    const SightGuard guard = unguarded();
+    const TriMesh simple = simplified(flat_grid(11), guard, {.faces = 20});
     EXPECT_LE(face_count(simple), 20U);
     EXPECT_GE(face_count(simple), 19U);
     const MeshCheck check = check_mesh(simple);
@@ -51,9 +68,9 @@ double roundness(const TriMesh& mesh, const Face& face)
 TEST(SimplifySurface, MakesNoSliverOfRoundFaces)
 {
     // All collapses within the plane cost the same, so nothing but the rule keeps slivers away.
-    const SightGuard guard(empty_scene(), {});
+    const SightGuard guard = unguarded();
     for (const int faces : {800, 400, 200, 100}) {
-        const TriMesh simple = simplify_surface(flat_grid(25), guard, {.faces = faces});
+        const TriMesh simple = simplified(flat_grid(25), guard, {.faces = faces});
         EXPECT_LE(face_count(simple), static_cast<std::size_t>(faces));
         for (const Face& face : simple.faces) {
             EXPECT_GE(roundness(simple, face), 0.1);
@@ -63,17 +80,17 @@ TEST(SimplifySurface, MakesNoSliverOfRoundFaces)
 
 TEST(SimplifySurface, LeavesAloneWhatIsSmallEnough)
 {
-    const SightGuard guard(empty_scene(), {});
+    const SightGuard guard = unguarded();
     const TriMesh mesh = testing::cube();
-    EXPECT_EQ(simplify_surface(mesh, guard, {.faces = 12}).faces, mesh.faces);
+    EXPECT_EQ(simplified(mesh, guard, {.faces = 12}).faces, mesh.faces);
 }
 
 TEST(SimplifySurface, StopsWhereASolidWouldVanish)
 {
-    const SightGuard guard(empty_scene(), {});
+    const SightGuard guard = unguarded();
     const TriMesh two =
         testing::together(testing::torus(12), testing::moved(testing::cube(), {9, 0, 0}));
-    const MeshCheck check = check_mesh(simplify_surface(two, guard, {.faces = 1}));
+    const MeshCheck check = check_mesh(simplified(two, guard, {.faces = 1}));
     EXPECT_TRUE(check.is_closed());
     EXPECT_TRUE(check.is_manifold());
     EXPECT_EQ(check.components, 2);
@@ -107,15 +124,15 @@ TEST(SimplifySurface, BlocksNoSightThatWasFree)
     const std::vector<double> margins = margins_in(mesh, scene);
     const auto blocked_before = blocked_sights(scene, mesh, margins);
     const auto newly_blocked = [&](const SightGuard& guard) {
-        const TriMesh simple = simplify_surface(mesh, guard, {.faces = 30});
+        const TriMesh simple = simplified(mesh, guard, {.faces = 30});
         auto blocked = blocked_sights(scene, simple, margins);
         for (const auto& sight : blocked_before) {
             blocked.erase(sight);
         }
         return blocked.size();
     };
-    EXPECT_GT(newly_blocked(SightGuard(empty_scene(), {})), 0U);
-    EXPECT_EQ(newly_blocked(SightGuard(scene, mesh)), 0U);
+    EXPECT_GT(newly_blocked(unguarded()), 0U);
+    EXPECT_EQ(newly_blocked(SightGuard(scene, half_edges(mesh))), 0U);
 }
 
 /// What simplifying to a quarter does to a scene.
@@ -132,8 +149,8 @@ Simplified quarter(bool closed)
     options.surface.closed = closed;
     Simplified result{reconstruct(bumpy_sphere(500, 4), options, silent), {}};
     const auto& [scene, mesh] = result.before;
-    const SightGuard guard(scene, mesh);
-    result.after = simplify_surface(mesh, guard, {.faces = static_cast<int>(face_count(mesh) / 4)});
+    const SightGuard guard(scene, half_edges(mesh));
+    result.after = simplified(mesh, guard, {.faces = static_cast<int>(face_count(mesh) / 4)});
     const std::vector<double> margins = margins_in(mesh, scene);
     const auto blocked_before = blocked_sights(scene, mesh, margins);
     for (const auto& sight : blocked_sights(scene, result.after, margins)) {
@@ -182,9 +199,9 @@ TEST(SimplifySurface, ScalesWithTheSurface)
     for (Vector3d& position : large.positions) {
         position *= 1024.0;
     }
-    const SightGuard guard(empty_scene(), {});
-    EXPECT_EQ(simplify_surface(large, guard, {.faces = 200}).faces,
-              simplify_surface(mesh, guard, {.faces = 200}).faces);
+    const SightGuard guard = unguarded();
+    EXPECT_EQ(simplified(large, guard, {.faces = 200}).faces,
+              simplified(mesh, guard, {.faces = 200}).faces);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
-#include "mesh/local_edges.h"
 #include "steps/6_refine/smooth.h"
 #include "support/blocked_sights.h"
+#include "support/half_edges.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
 
@@ -17,9 +17,27 @@ using Eigen::Vector3d;
 using testing::blocked_sights;
 using testing::empty_scene;
 using testing::flat_grid;
+using testing::half_edges;
 using testing::margins_in;
 
 constexpr std::uint32_t kSide = 21;
+
+struct SmoothedSurface {
+    TriMesh mesh;
+    SmoothCounts counts;
+};
+
+SmoothedSurface smoothed(const TriMesh& mesh, const SightGuard& guard, const SmoothOptions& options)
+{
+    HalfEdgeMesh surface = half_edges(mesh);
+    const SmoothCounts counts = smooth_surface(surface, guard, options);
+    return {tri_mesh(surface), counts};
+}
+
+SightGuard unguarded()
+{
+    return {empty_scene(), half_edges({})};
+}
 
 TriMesh noisy_grid()
 {
@@ -50,8 +68,8 @@ double mean_square_height(const TriMesh& mesh)
 TEST(SmoothSurface, FlattensNoiseAndKeepsTheRest)
 {
     const TriMesh mesh = noisy_grid();
-    const SightGuard guard(empty_scene(), {});
-    const SmoothedSurface smooth = smooth_surface(mesh, guard, {.iterations = 5});
+    const SightGuard guard = unguarded();
+    const SmoothedSurface smooth = smoothed(mesh, guard, {.iterations = 5});
     EXPECT_LT(mean_square_height(smooth.mesh), 0.3 * mean_square_height(mesh));
     EXPECT_EQ(smooth.mesh.faces, mesh.faces);
     EXPECT_EQ(smooth.mesh.points, mesh.points);
@@ -74,9 +92,9 @@ TEST(SmoothSurface, KeepsVerticesWithinHalfTheirSpacing)
         constexpr double kWave = 4.0 * std::numbers::pi;
         position.z() = 0.04 * std::sin(kWave * position.x()) * std::sin(kWave * position.y());
     }
-    const SightGuard guard(empty_scene(), {});
-    const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 30}).mesh;
-    const std::vector<double> spacings = vertex_spacings(mesh);
+    const SightGuard guard = unguarded();
+    const TriMesh smooth = smoothed(mesh, guard, {.iterations = 30}).mesh;
+    const std::vector<double> spacings = testing::spacings_of(mesh);
     int at_the_end_of_their_reach = 0;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const double share = (smooth.positions[v] - mesh.positions[v]).norm() / spacings[v];
@@ -89,8 +107,8 @@ TEST(SmoothSurface, KeepsVerticesWithinHalfTheirSpacing)
 TEST(SmoothSurface, KeepsSharpEdges)
 {
     const TriMesh mesh = testing::cube();
-    const SightGuard guard(empty_scene(), {});
-    const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 10}).mesh;
+    const SightGuard guard = unguarded();
+    const TriMesh smooth = smoothed(mesh, guard, {.iterations = 10}).mesh;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         EXPECT_LT((smooth.positions[v] - mesh.positions[v]).norm(), 1e-6);
     }
@@ -100,9 +118,9 @@ TEST(SmoothSurface, StaysWithinHalfASpacing)
 {
     TriMesh mesh = flat_grid(kSide);
     mesh.positions[kSide * 10 + 10].z() = 0.02; // the edges are 0.05 long
-    const SightGuard guard(empty_scene(), {});
-    const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 50}).mesh;
-    const std::vector<double> spacings = vertex_spacings(mesh);
+    const SightGuard guard = unguarded();
+    const TriMesh smooth = smoothed(mesh, guard, {.iterations = 50}).mesh;
+    const std::vector<double> spacings = testing::spacings_of(mesh);
     double farthest = 0.0;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         const double way = (smooth.positions[v] - mesh.positions[v]).norm();
@@ -123,8 +141,8 @@ TEST(SmoothSurface, DoesNotRiseIntoASight)
     const Scene scene = make_scene({above + Vector3d(0, 0, 9)}, {{above, {0}}});
     mesh.points.assign(mesh.points.size(), kNoPoint);
     const SmoothOptions options{.iterations = 20};
-    const SmoothedSurface held = smooth_surface(mesh, SightGuard(scene, mesh), options);
-    const SmoothedSurface loose = smooth_surface(mesh, SightGuard(empty_scene(), {}), options);
+    const SmoothedSurface held = smoothed(mesh, SightGuard(scene, half_edges(mesh)), options);
+    const SmoothedSurface loose = smoothed(mesh, unguarded(), options);
     EXPECT_GT(loose.mesh.positions[middle].z(), above.z());
     EXPECT_LT(held.mesh.positions[middle].z(), above.z());
     EXPECT_GT(held.counts.held, 0);
@@ -143,15 +161,15 @@ TEST(SmoothSurface, BlocksNoSightThatWasFree)
     const std::vector<double> margins = margins_in(mesh, scene);
     const auto blocked_before = blocked_sights(scene, mesh, margins);
     const auto newly_blocked = [&](const SightGuard& guard) {
-        const TriMesh smooth = smooth_surface(mesh, guard, {.iterations = 4}).mesh;
+        const TriMesh smooth = smoothed(mesh, guard, {.iterations = 4}).mesh;
         auto blocked = blocked_sights(scene, smooth, margins);
         for (const auto& sight : blocked_before) {
             blocked.erase(sight);
         }
         return blocked.size();
     };
-    EXPECT_GT(newly_blocked(SightGuard(empty_scene(), {})), 100U);
-    EXPECT_EQ(newly_blocked(SightGuard(scene, mesh)), 0U);
+    EXPECT_GT(newly_blocked(unguarded()), 100U);
+    EXPECT_EQ(newly_blocked(SightGuard(scene, half_edges(mesh))), 0U);
 }
 
 TEST(SmoothSurface, ScalesWithTheSurface)
@@ -161,9 +179,9 @@ TEST(SmoothSurface, ScalesWithTheSurface)
     for (Vector3d& position : large.positions) {
         position *= 1024.0;
     }
-    const SightGuard guard(empty_scene(), {});
-    const TriMesh expected = smooth_surface(mesh, guard, {.iterations = 2}).mesh;
-    const TriMesh smooth = smooth_surface(large, guard, {.iterations = 2}).mesh;
+    const SightGuard guard = unguarded();
+    const TriMesh expected = smoothed(mesh, guard, {.iterations = 2}).mesh;
+    const TriMesh smooth = smoothed(large, guard, {.iterations = 2}).mesh;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         EXPECT_EQ(smooth.positions[v], expected.positions[v] * 1024.0);
     }

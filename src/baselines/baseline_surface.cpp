@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "baselines/sculpt.h"
+#include "mesh/half_edge_mesh.h"
 #include "steps/1_points/center.h"
 #include "steps/1_points/filter.h"
 #include "steps/1_points/spatial_sort.h"
@@ -42,7 +43,7 @@ TriMesh baseline_surface(Scene model, Baseline baseline, const AlphaOptions& opt
     const Scene scene = arrange_points(filter_points(center_points(std::move(model)), {}).scene);
     const TetMesh cells = triangulate(scene);
     const Labels labels = labels_of(baseline, cells, options);
-    return clean_surface(extract_surface(cells, labels, scene), {}).mesh;
+    return tri_mesh(*clean_surface(extract_surface(cells, labels, scene), {}).mesh);
 }
 
 } // namespace vcarve

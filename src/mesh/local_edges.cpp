@@ -102,22 +102,4 @@ std::vector<std::uint32_t> LocalEdges::large_faces(double size) const
     });
 }
 
-std::vector<double> vertex_spacings(const TriMesh& mesh)
-{
-    const VertexFaces faces_at(mesh.faces, mesh.positions.size());
-    std::vector<double> spacings(mesh.positions.size());
-    for_each_vertex_with_values(
-        spacings.size(), [&](std::uint32_t vertex, std::vector<double>& lengths) {
-            // An edge amid two faces counts twice, which leaves the median.
-            for (const std::uint32_t face : faces_at[vertex]) {
-                for (const std::uint32_t other : mesh.faces[face]) {
-                    if (other == vertex) continue;
-                    lengths.push_back((mesh.positions[other] - mesh.positions[vertex]).norm());
-                }
-            }
-            spacings[vertex] = median_in_place(lengths);
-        });
-    return spacings;
-}
-
 } // namespace vcarve

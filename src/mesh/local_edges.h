@@ -49,8 +49,4 @@ class LocalEdges {
     mutable std::vector<double> medians_; ///< negative where not known yet
 };
 
-/// Per vertex the median length of the edges there, in scene units; 0 for a vertex of no face.
-/// Cost: O(faces), in parallel.
-std::vector<double> vertex_spacings(const TriMesh& mesh);
-
 } // namespace vcarve

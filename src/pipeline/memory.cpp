@@ -123,8 +123,8 @@ double extracting(const Sizes& n)
     return n.after_triangulation() + n.cells + n.faces * kFace + n.points * kVertex;
 }
 
-/// The surface with its edges and seams, the half-edges along its borders, and the surface that is
-/// kept of it.
+/// The surface with its edges and seams; then with its seams the half-edges and what these are laid
+/// by (146 bytes a face in all).
 double cleaning(const Sizes& n)
 {
     constexpr double kFace = 150;

@@ -1,5 +1,6 @@
 #include "pipeline/reconstruct.h"
 
+#include "mesh/half_edge_mesh.h"
 #include "pipeline/memory.h"
 #include "steps/1_points/center.h"
 #include "steps/1_points/spatial_sort.h"
@@ -47,11 +48,14 @@ TetMesh triangulate(const Scene& scene, Log& log)
     return cells;
 }
 
-void check_orientation(const TriMesh& mesh, const Scene& scene, Log& log)
+/// Checks which way the surface faces, and hands it over.
+TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 {
     Stage stage(log, "orient");
     const ViewAgreement agreement = view_agreement(mesh, scene);
+    TriMesh surface = tri_mesh(mesh);
     stage.end({{"sights on the outside", agreement.facing}, {"of", agreement.sights}});
+    return surface;
 }
 
 Reconstruction run_steps(Scene input, const Options& options, Log& log)
@@ -60,10 +64,11 @@ Reconstruction run_steps(Scene input, const Options& options, Log& log)
     Scene scene = filter(center_points(std::move(input)), options.points, log);
     const TetMesh cells = triangulate(scene, log);
     const Labels labels = label_cells(cells, scene, options.labels, log);
-    TriMesh surface = make_surface(cells, labels, scene, options.surface, log);
-    TriMesh mesh = refine(std::move(surface), scene, options.refine, log);
-    check_orientation(mesh, scene, log);
-    return {std::move(scene), std::move(mesh)};
+    const std::unique_ptr<HalfEdgeMesh> mesh =
+        make_surface(cells, labels, scene, options.surface, log);
+    refine(*mesh, scene, options.refine, log);
+    TriMesh surface = orient(*mesh, scene, log);
+    return {std::move(scene), std::move(surface)};
 }
 
 } // namespace

@@ -1,8 +1,7 @@
 #include "support/blocked_sights.h"
 
+#include "base/median.h"
 #include "geometry/predicates.h"
-#include "mesh/local_edges.h"
-#include "steps/6_refine/sight_guard.h"
 
 #include <algorithm>
 
@@ -55,9 +54,27 @@ blocked_sights(const Scene& scene, const TriMesh& mesh, const std::vector<double
     return blocked;
 }
 
+std::vector<double> spacings_of(const TriMesh& mesh)
+{
+    std::vector<std::vector<double>> lengths(mesh.positions.size());
+    for (const Face& face : mesh.faces) {
+        for (const std::uint32_t from : face) {
+            for (const std::uint32_t to : face) {
+                if (from == to) continue;
+                lengths[from].push_back((mesh.positions[from] - mesh.positions[to]).norm());
+            }
+        }
+    }
+    std::vector<double> spacings;
+    for (const std::vector<double>& around : lengths) {
+        spacings.push_back(median(around));
+    }
+    return spacings;
+}
+
 std::vector<double> margins_in(const TriMesh& mesh, const Scene& scene)
 {
-    const std::vector<double> spacings = vertex_spacings(mesh);
+    const std::vector<double> spacings = spacings_of(mesh);
     std::vector<double> margins(scene.num_points(), 0.0);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (mesh.points[v] == kNoPoint) continue;

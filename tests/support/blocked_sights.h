@@ -26,6 +26,9 @@ Eigen::Vector3d trimmed(const Scene& scene, std::uint32_t point, std::uint32_t v
 std::set<std::pair<std::uint32_t, std::uint32_t>>
 blocked_sights(const Scene& scene, const TriMesh& mesh, const std::vector<double>& margins);
 
+/// Per vertex the median length of the edges of its faces, each face counting its own.
+std::vector<double> spacings_of(const TriMesh& mesh);
+
 /// Per point the spacing of its vertex in `mesh`, the least if it has several, 0 if it has none.
 std::vector<double> margins_in(const TriMesh& mesh, const Scene& scene);
 

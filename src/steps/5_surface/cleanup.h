@@ -3,6 +3,9 @@
 #include "base/options.h"
 #include "model/tri_mesh.h"
 
+#include <cstdint>
+#include <memory>
+
 namespace vcarve {
 
 /// What is mended, and what is thrown away. Switched off value by value.
@@ -24,6 +27,8 @@ struct CleanupOptions {
 };
 
 struct CleanupCounts {
+    std::int64_t vertices = 0; ///< of the clean surface
+    std::int64_t faces = 0;
     std::int64_t split_edges = 0;
     std::int64_t split_vertices = 0;
     std::int64_t removed_components = 0;
@@ -31,21 +36,22 @@ struct CleanupCounts {
     std::int64_t filled_holes = 0;
 };
 
+class HalfEdgeMesh;
+
 struct CleanSurface {
-    TriMesh mesh;
+    std::unique_ptr<HalfEdgeMesh> mesh;
     CleanupCounts counts;
 };
 
-/// A manifold, consistently oriented surface without unreferenced vertices from any consistently
-/// oriented triangle soup with shared vertices. In this order: edges and vertices that are not
-/// manifold are taken apart (split_nonmanifold.h), small pieces removed, the largest never, small
-/// holes of the rest filled (fill_holes.h; the outer rim of an open piece is no hole, and one
-/// that comes twice to one place stays open), unreferenced
-/// vertices dropped. Vertices and faces that stay keep their order, colours and points travel
-/// along, and every vertex gets the area-weighted mean of its faces' normals (zero where none of
-/// them has an area). What this does not do: move a vertex, turn a face round, join pieces, or
-/// remove self-intersections.
+/// A manifold, consistently oriented surface, as the one mesh that is worked on from then on, from
+/// any consistently oriented triangle soup with shared vertices. In this order: edges and vertices
+/// that are not manifold are taken apart (split_nonmanifold.h), small pieces deleted, the largest
+/// never, small holes of the rest filled (fill_holes.h; the outer rim of an open piece is no hole,
+/// and one that comes twice to one place stays open). Vertices and faces that stay keep their
+/// order, colours and points travel along, and every vertex gets the area-weighted mean of its
+/// faces' normals (zero where none of them has an area). What this does not do: move a vertex, turn
+/// a face round, join pieces, or remove self-intersections.
 /// Cost: O(faces), mostly in parallel.
-CleanSurface clean_surface(TriMesh mesh, const CleanupOptions& options);
+CleanSurface clean_surface(TriMesh soup, const CleanupOptions& options);
 
 } // namespace vcarve

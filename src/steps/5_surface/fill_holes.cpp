@@ -1,24 +1,29 @@
 #include "steps/5_surface/fill_holes.h"
 
+#include "base/parallel.h"
+
+#include <algorithm>
 #include <limits>
 
 namespace vcarve {
 namespace {
 
-using OpenMesh::Vec3d;
+using Eigen::Vector3d;
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
 /// Twice the area of the faces along a loop, each as a vector along its normal.
 struct AreaAlong {
-    Vec3d sum{0.0, 0.0, 0.0};
+    Vector3d sum = Vector3d::Zero();
     double total = 0.0;
 };
 
 AreaAlong area_along(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 {
     AreaAlong area;
-    for (const auto edge : loop) {
-        Vec3d twice_area;
+    for (const HalfedgeHandle edge : loop) {
+        Vector3d twice_area;
         mesh.calc_sector_normal(mesh.opposite_halfedge_handle(edge), twice_area);
         area.sum += twice_area;
         area.total += twice_area.norm();
@@ -27,18 +32,19 @@ AreaAlong area_along(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 }
 
 /// Twice the area vector of whatever surface fills the loop: it depends on the loop alone.
-Vec3d area_within(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
+Vector3d area_within(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 {
-    const Vec3d origin = mesh.point(mesh.from_vertex_handle(loop[0]));
-    Vec3d area(0.0, 0.0, 0.0);
-    for (const auto edge : loop) {
-        area += cross(mesh.point(mesh.from_vertex_handle(edge)) - origin,
-                      mesh.point(mesh.to_vertex_handle(edge)) - origin);
+    const Vector3d& origin = mesh.point(mesh.from_vertex_handle(loop[0]));
+    Vector3d area = Vector3d::Zero();
+    for (const HalfedgeHandle edge : loop) {
+        area += (mesh.point(mesh.from_vertex_handle(edge)) - origin)
+                    .cross(mesh.point(mesh.to_vertex_handle(edge)) - origin);
     }
     return area;
 }
 
 /// The least-area triangulation of a polygon in space, by dynamic programming over its chords.
+/// (CGAL's triangulate_hole() wants small angles first, and bulges: see docs/algorithm.md.)
 class PolygonFill {
   public:
     PolygonFill(const HalfEdgeMesh& mesh, std::vector<VertexHandle> corners)
@@ -75,8 +81,8 @@ class PolygonFill {
 
     double triangle_area(std::size_t i, std::size_t k, std::size_t j) const
     {
-        const Vec3d& a = mesh_.point(corners_[i]);
-        return cross(mesh_.point(corners_[k]) - a, mesh_.point(corners_[j]) - a).norm() / 2;
+        const Vector3d& a = mesh_.point(corners_[i]);
+        return (mesh_.point(corners_[k]) - a).cross(mesh_.point(corners_[j]) - a).norm() / 2;
     }
 
     void fill_behind(std::size_t i, std::size_t j)
@@ -109,12 +115,12 @@ class PolygonFill {
 VertexHandle add_middle(HalfEdgeMesh& mesh, const std::vector<VertexHandle>& corners)
 {
     const auto count = static_cast<double>(corners.size());
-    Vec3d position(0.0, 0.0, 0.0);
-    Vec3d color(0.5, 0.5, 0.5); // rounds to nearest
+    Vector3d position = Vector3d::Zero();
+    Vector3d color = Vector3d::Constant(0.5); // rounds to nearest
     for (const VertexHandle corner : corners) {
         const Color& c = mesh.data(corner).color;
         position += mesh.point(corner) / count;
-        color += Vec3d(c[0], c[1], c[2]) / count;
+        color += Vector3d(c[0], c[1], c[2]) / count;
     }
     // NOLINTNEXTLINE(cppcoreguidelines-slicing): a handle is all that is wanted
     const VertexHandle middle = mesh.add_vertex(position);
@@ -132,18 +138,29 @@ void add_fan(HalfEdgeMesh& mesh, const std::vector<VertexHandle>& corners)
     }
 }
 
+/// The half-edges without a face, beside a face that is not deleted, ascending.
+std::vector<HalfedgeHandle> boundary_half_edges(const HalfEdgeMesh& mesh)
+{
+    return parallel_collect<HalfedgeHandle>(mesh.n_halfedges(), [&](std::size_t h, auto& found) {
+        const auto edge = handle_at<HalfedgeHandle>(h);
+        if (!mesh.is_boundary(edge)) return;
+        const FaceHandle beside = mesh.face_handle(mesh.opposite_halfedge_handle(edge));
+        if (!mesh.is_deleted(beside)) found.push_back(edge);
+    });
+}
+
 } // namespace
 
 std::vector<BoundaryLoop> boundary_loops(const HalfEdgeMesh& mesh)
 {
     std::vector<char> seen(mesh.n_halfedges(), 0);
     std::vector<BoundaryLoop> loops;
-    for (const auto first : mesh.halfedges()) {
-        if (!mesh.is_boundary(first) || seen[static_cast<std::size_t>(first.idx())] != 0) continue;
+    for (const HalfedgeHandle first : boundary_half_edges(mesh)) {
+        if (seen[index(first)] != 0) continue;
         BoundaryLoop loop;
-        for (OpenMesh::HalfedgeHandle edge = first; seen[static_cast<std::size_t>(edge.idx())] == 0;
+        for (HalfedgeHandle edge = first; seen[index(edge)] == 0;
              edge = mesh.next_halfedge_handle(edge)) {
-            seen[static_cast<std::size_t>(edge.idx())] = 1;
+            seen[index(edge)] = 1;
             loop.push_back(edge);
         }
         loops.push_back(std::move(loop));
@@ -155,8 +172,8 @@ bool is_rim(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 {
     constexpr double kCosine = -0.5;
     const AreaAlong along = area_along(mesh, loop);
-    const Vec3d within = area_within(mesh, loop);
-    return dot(within, along.sum) < kCosine * within.norm() * along.total;
+    const Vector3d within = area_within(mesh, loop);
+    return within.dot(along.sum) < kCosine * within.norm() * along.total;
 }
 
 bool touches_itself(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
@@ -175,7 +192,7 @@ bool touches_itself(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 {
     std::vector<VertexHandle> corners;
-    for (const auto edge : loop) {
+    for (const HalfedgeHandle edge : loop) {
         corners.push_back(mesh.from_vertex_handle(edge));
     }
     const PolygonFill fill(mesh, corners);
@@ -184,6 +201,18 @@ void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop)
     } else {
         add_fan(mesh, corners);
     }
+}
+
+std::int64_t fill_holes(HalfEdgeMesh& mesh, int max_edges)
+{
+    std::int64_t num_filled = 0;
+    for (const BoundaryLoop& loop : boundary_loops(mesh)) {
+        if (loop.size() > static_cast<std::size_t>(std::max(max_edges, 0))) continue;
+        if (is_rim(mesh, loop) || touches_itself(mesh, loop)) continue;
+        fill_hole(mesh, loop);
+        ++num_filled;
+    }
+    return num_filled;
 }
 
 } // namespace vcarve

@@ -10,7 +10,8 @@ namespace vcarve {
 /// A closed chain of half-edges without a face, each one's end the next one's start.
 using BoundaryLoop = std::vector<OpenMesh::HalfedgeHandle>;
 
-/// All loops, each beginning at its least half-edge, in the order of these.
+/// All loops along faces that are not deleted, each beginning at its least half-edge, in the order
+/// of these. Cost: O(edges).
 std::vector<BoundaryLoop> boundary_loops(const HalfEdgeMesh& mesh);
 
 /// Whether a loop is the outer rim of a piece rather than a hole in it: what would fill it would
@@ -26,7 +27,11 @@ bool touches_itself(const HalfEdgeMesh& mesh, const BoundaryLoop& loop);
 /// Closes a loop with the triangles over its vertices whose total area is least (Barequet and
 /// Sharir, "Filling gaps in the boundary of a polyhedron", CAGD 1995), never along an edge that is
 /// there already. Where that rules every triangulation out, with a fan around a new vertex in the
-/// middle, which has the mean colour and no point. Cost: O(n^3) for n edges.
+/// middle, which has the mean colour and is no point of the scene. Cost: O(n^3) for n edges.
 void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop);
+
+/// Fills the holes of at most so many edges: not rims, nor what touches itself. Returns how many
+/// there were.
+std::int64_t fill_holes(HalfEdgeMesh& mesh, int max_edges);
 
 } // namespace vcarve

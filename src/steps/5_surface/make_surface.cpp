@@ -1,6 +1,7 @@
 #include "steps/5_surface/make_surface.h"
 
 #include "base/error.h"
+#include "mesh/half_edge_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/4_labels/boundary.h"
 #include "steps/5_surface/extract.h"
@@ -37,23 +38,25 @@ TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
     return surface;
 }
 
-TriMesh clean(TriMesh mesh, const SurfaceOptions& options, Log& log)
+std::unique_ptr<HalfEdgeMesh> clean(TriMesh surface, const SurfaceOptions& options, Log& log)
 {
     Stage stage(log, "clean");
-    CleanSurface cleaned = clean_surface(std::move(mesh), options.cleanup);
-    stage.end({{"vertices", size_of(cleaned.mesh.positions.size())},
-               {"faces", size_of(cleaned.mesh.faces.size())},
-               {"split edges", cleaned.counts.split_edges},
-               {"split vertices", cleaned.counts.split_vertices},
-               {"components dropped", cleaned.counts.removed_components},
-               {"holes filled", cleaned.counts.filled_holes}});
+    CleanSurface cleaned = clean_surface(std::move(surface), options.cleanup);
+    const CleanupCounts& counts = cleaned.counts;
+    stage.end({{"vertices", counts.vertices},
+               {"faces", counts.faces},
+               {"split edges", counts.split_edges},
+               {"split vertices", counts.split_vertices},
+               {"components dropped", counts.removed_components},
+               {"holes filled", counts.filled_holes}});
     return std::move(cleaned.mesh);
 }
 
 } // namespace
 
-TriMesh make_surface(const TetMesh& cells, const Labels& labels, const Scene& scene,
-                     const SurfaceOptions& options, Log& log)
+std::unique_ptr<HalfEdgeMesh> make_surface(const TetMesh& cells, const Labels& labels,
+                                           const Scene& scene, const SurfaceOptions& options,
+                                           Log& log)
 {
     return clean(extract(cells, labels, scene, options, log), options, log);
 }

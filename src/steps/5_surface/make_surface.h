@@ -5,10 +5,11 @@
 #include "model/labels.h"
 #include "model/scene.h"
 #include "model/tet_mesh.h"
-#include "model/tri_mesh.h"
 #include "steps/5_surface/cleanup.h"
 #include "steps/5_surface/sheets.h"
 #include "steps/5_surface/support.h"
+
+#include <memory>
 
 namespace vcarve {
 
@@ -33,8 +34,10 @@ struct SurfaceOptions {
 
 /// The surface of a labelling: the boundary of the inside (extract.h), of which only the faces are
 /// kept that views support (support.h, sheets.h) unless it is to be closed, mended into a manifold
-/// (cleanup.h). Throws InputError where no face is left.
-TriMesh make_surface(const TetMesh& cells, const Labels& labels, const Scene& scene,
-                     const SurfaceOptions& options, Log& log);
+/// (cleanup.h), as the one mesh that is worked on from then on. Throws InputError where no face is
+/// left.
+std::unique_ptr<HalfEdgeMesh> make_surface(const TetMesh& cells, const Labels& labels,
+                                           const Scene& scene, const SurfaceOptions& options,
+                                           Log& log);
 
 } // namespace vcarve

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "model/scene.h"
-#include "model/tri_mesh.h"
 
 #include <cstdint>
 
 namespace vcarve {
+
+class HalfEdgeMesh;
 
 /// How well a surface faces the views that saw it (Akgunduz, Zetu, Banerjee 2000, section 4.5).
 struct ViewAgreement {
@@ -16,6 +17,6 @@ struct ViewAgreement {
 /// Counts, without changing anything: orientation comes from the labels and is right by
 /// construction; this checks it. Corners without a point do not count. Cost: O(faces x track
 /// length), in parallel.
-ViewAgreement view_agreement(const TriMesh& mesh, const Scene& scene);
+ViewAgreement view_agreement(const HalfEdgeMesh& mesh, const Scene& scene);
 
 } // namespace vcarve

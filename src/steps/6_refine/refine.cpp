@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace vcarve {
 
 namespace {
 
-SightGuard guard_sights(const TriMesh& mesh, const Scene& scene, Log& log)
+SightGuard guard_sights(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 {
     Stage stage(log, "guard");
     SightGuard guard(scene, mesh);
@@ -16,41 +14,37 @@ SightGuard guard_sights(const TriMesh& mesh, const Scene& scene, Log& log)
     return guard;
 }
 
-TriMesh smooth(const TriMesh& mesh, const SightGuard& guard, const RefineOptions& options, Log& log)
+void smooth(HalfEdgeMesh& mesh, const SightGuard& guard, const SmoothOptions& options, Log& log)
 {
     Stage stage(log, "smooth");
-    SmoothedSurface smoothed = smooth_surface(mesh, guard, options.smooth);
-    stage.end({{"vertices moved", smoothed.counts.moved},
-               {"of", size_of(mesh.positions.size())},
-               {"held by sights", smoothed.counts.held}});
-    return std::move(smoothed.mesh);
+    const SmoothCounts counts = smooth_surface(mesh, guard, options);
+    stage.end({{"vertices moved", counts.moved},
+               {"of", counts.vertices},
+               {"held by sights", counts.held}});
 }
 
-TriMesh simplify(const TriMesh& mesh, const SightGuard& guard, const RefineOptions& options,
-                 Log& log)
+void simplify(HalfEdgeMesh& mesh, const SightGuard& guard, const SimplifyOptions& options, Log& log)
 {
     Stage stage(log, "simplify");
-    TriMesh simple = simplify_surface(mesh, guard, options.simplify);
-    stage.end({{"faces", size_of(simple.faces.size())}, {"of", size_of(mesh.faces.size())}});
-    if (simple.faces.size() > static_cast<std::size_t>(options.simplify.faces)) {
+    const SimplifyCounts counts = simplify_surface(mesh, guard, options);
+    stage.end({{"faces", counts.faces}, {"of", counts.faces_before}});
+    if (counts.faces > options.faces) {
         log.note(fmt::format("{} faces are left, not {}: merging more vertices would hide what was "
                              "seen, or fold or tear the surface",
-                             simple.faces.size(), options.simplify.faces));
+                             counts.faces, options.faces));
     }
-    return simple;
 }
 
 } // namespace
 
-TriMesh refine(TriMesh mesh, const Scene& scene, const RefineOptions& options, Log& log)
+void refine(HalfEdgeMesh& mesh, const Scene& scene, const RefineOptions& options, Log& log)
 {
     const bool smooths = options.smooth.iterations > 0;
     const bool simplifies = options.simplify.faces > 0;
-    if (!smooths && !simplifies) return mesh;
+    if (!smooths && !simplifies) return;
     const SightGuard guard = guard_sights(mesh, scene, log);
-    if (smooths) mesh = smooth(mesh, guard, options, log);
-    if (simplifies) mesh = simplify(mesh, guard, options, log);
-    return mesh;
+    if (smooths) smooth(mesh, guard, options.smooth, log);
+    if (simplifies) simplify(mesh, guard, options.simplify, log);
 }
 
 } // namespace vcarve

@@ -3,7 +3,6 @@
 #include "base/log.h"
 #include "base/options.h"
 #include "model/scene.h"
-#include "model/tri_mesh.h"
 #include "steps/6_refine/simplify.h"
 #include "steps/6_refine/smooth.h"
 
@@ -22,8 +21,8 @@ struct RefineOptions {
 };
 
 /// Moves vertices (smooth.h), then merges them (simplify.h), each where it is asked for. Neither
-/// makes a face hide a point from a view that it did not hide before (sight_guard.h). Needs
-/// TriMesh::points and a manifold, consistently oriented surface.
-TriMesh refine(TriMesh mesh, const Scene& scene, const RefineOptions& options, Log& log);
+/// makes a face hide a point from a view that it did not hide before (sight_guard.h). The vertices
+/// must know their points of the scene.
+void refine(HalfEdgeMesh& mesh, const Scene& scene, const RefineOptions& options, Log& log);
 
 } // namespace vcarve

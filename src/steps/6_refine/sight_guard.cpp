@@ -1,7 +1,7 @@
 #include "steps/6_refine/sight_guard.h"
 
 #include "base/parallel.h"
-#include "mesh/local_edges.h"
+#include "mesh/half_edge_mesh.h"
 
 #include <algorithm>
 #include <atomic>
@@ -12,13 +12,14 @@ namespace {
 using Eigen::Vector3d;
 
 /// Per point, how much of its sights does not count; of two vertices at a point the lesser.
-std::vector<double> margins_of_points(const Scene& scene, const TriMesh& surface)
+std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& surface)
 {
     const std::vector<double> spacings = vertex_spacings(surface);
     std::vector<double> margins(scene.num_points(), 0.0);
-    for (std::size_t v = 0; v < surface.points.size(); ++v) {
-        const std::uint32_t point = surface.points[v];
-        if (point == kNoPoint) continue;
+    for (std::size_t v = 0; v < spacings.size(); ++v) {
+        const auto vertex = handle_at<OpenMesh::VertexHandle>(v);
+        const std::uint32_t point = surface.data(vertex).scene_point;
+        if (point == kNoPoint || surface.is_deleted(vertex)) continue;
         double& margin = margins[point];
         margin = margin > 0.0 ? std::min(margin, spacings[v]) : spacings[v];
     }
@@ -27,20 +28,18 @@ std::vector<double> margins_of_points(const Scene& scene, const TriMesh& surface
 
 } // namespace
 
-SightGuard::SightGuard(const Scene& scene, const TriMesh& surface)
+SightGuard::SightGuard(const Scene& scene, const HalfEdgeMesh& surface)
     : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)
 {
     parallel_for(
-        surface.faces.size(),
+        surface.n_faces(),
         [&](std::size_t f) {
-            const Face& face = surface.faces[f];
-            tree_.visit_meeting(
-                {surface.positions[face[0]], surface.positions[face[1]],
-                 surface.positions[face[2]]},
-                [&](std::size_t sight) {
-                    std::atomic_ref(blocked_[sight]).store(1, std::memory_order_relaxed);
-                    return true;
-                });
+            const auto face = handle_at<OpenMesh::FaceHandle>(f);
+            if (surface.is_deleted(face)) return;
+            tree_.visit_meeting(surface.triangle(face), [&](std::size_t sight) {
+                std::atomic_ref(blocked_[sight]).store(1, std::memory_order_relaxed);
+                return true;
+            });
         },
         64);
 }

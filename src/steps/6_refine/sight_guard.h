@@ -1,12 +1,14 @@
 #pragma once
 
-#include "model/tri_mesh.h"
+#include "model/scene.h"
 #include "steps/6_refine/sight_tree.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace vcarve {
+
+class HalfEdgeMesh;
 
 /// Keeps changes of a surface from hiding what was seen. A sight is *free* if no face of the
 /// surface meets it, the part next to its point aside: a point that is a vertex of the surface
@@ -17,7 +19,7 @@ class SightGuard {
   public:
     /// Finds the free sights. Cost: O(sights log sights + faces x
     /// sights near them), in parallel.
-    SightGuard(const Scene& scene, const TriMesh& surface);
+    SightGuard(const Scene& scene, const HalfEdgeMesh& surface);
 
     /// Whether a triangle meets a free sight, its border included; decided exactly. A triangle
     /// without area meets none. Safe from many threads.

@@ -1,9 +1,11 @@
 #include "steps/6_refine/simplify.h"
 
+#include "base/parallel.h"
 #include "mesh/half_edge_mesh.h"
 
-#include <OpenMesh/Core/Geometry/QuadricT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
+#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 
 #include <algorithm>
 #include <cmath>
@@ -12,209 +14,249 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using OpenMesh::Vec3d;
+using OpenMesh::EdgeHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
 using OpenMesh::Geometry::Quadricd;
 
-Vector3d to_eigen(const Vec3d& v)
+using Collapse = OpenMesh::Decimater::CollapseInfoT<HalfEdgeMesh>;
+using Corners = std::array<VertexHandle, 3>;
+using Triangle = std::array<Vector3d, 3>;
+
+Triangle triangle(const HalfEdgeMesh& mesh, const Corners& corners)
 {
-    return {v[0], v[1], v[2]};
+    return {mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
 }
 
-/// 1 for an equilateral triangle, 0 for one without area.
-double roundness(const std::array<Vec3d, 3>& t)
+/// Calls visit(corners) for each face that a collapse changes, as it becomes, until that says no.
+/// Returns whether it never did.
+template <typename Visit>
+bool all_changed_faces(const HalfEdgeMesh& mesh, const Collapse& collapse, const Visit& visit)
 {
-    const double sum_sq =
-        (t[1] - t[0]).sqrnorm() + (t[2] - t[1]).sqrnorm() + (t[0] - t[2]).sqrnorm();
-    const double twice_area = cross(t[1] - t[0], t[2] - t[0]).norm();
-    return sum_sq > 0.0 ? 2.0 * std::sqrt(3.0) * twice_area / sum_sq : 0.0;
-}
-
-/// What a collapse costs, and whether the new faces may be. The one module of the decimater: it can
-/// ask for the sights last, and only where the collapse is the cheapest of its vertex so far.
-class GuardedQuadric : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
-  public:
-    using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;
-    using Handle = OpenMesh::Decimater::ModHandleT<GuardedQuadric>;
-
-    explicit GuardedQuadric(HalfEdgeMesh& mesh)
-        : Base(mesh, false), quadrics_(mesh.n_vertices()), verdicts_(8 * mesh.n_vertices() + 1)
-    {
+    for (const auto face : mesh.vf_range(collapse.v0)) {
+        if (face == collapse.fl || face == collapse.fr) continue;
+        Corners corners = mesh.corners(face);
+        std::ranges::replace(corners, collapse.v0, collapse.v1);
+        if (!visit(corners)) return false;
     }
+    return true;
+}
 
-    void set_guard(const SightGuard& guard) { guard_ = &guard; }
+/// What a collapse costs: OpenMesh's quadrics, and for rims, which these know nothing of, the same
+/// for planes along a rim and across its face.
+class RimQuadrics : public OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh> {
+  public:
+    using Faces = OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh>;
+    using Handle = OpenMesh::Decimater::ModHandleT<RimQuadrics>;
+
+    explicit RimQuadrics(HalfEdgeMesh& mesh) : Faces(mesh), rims_(mesh.n_vertices()) {}
 
     void initialize() override
     {
-        const HalfEdgeMesh& mesh = Base::mesh();
-        double sum_sq = 0.0;
-        for (const auto face : mesh.faces()) {
-            add_face(face);
+        Faces::initialize();
+        for (const auto edge : mesh().edges()) {
+            if (mesh().is_boundary(edge)) add_rim(edge);
         }
-        for (const auto edge : mesh.edges()) {
-            sum_sq += mesh.calc_edge_sqr_length(edge);
-            if (mesh.is_boundary(edge)) add_rim(edge);
-        }
-        const double mean_sq =
-            sum_sq / static_cast<double>(std::max<std::size_t>(mesh.n_edges(), 1));
-        unit_ = mean_sq > 0.0 ? mean_sq * mean_sq : 1.0;
     }
 
-    float collapse_priority(const CollapseInfo& collapse) override
+    float collapse_priority(const Collapse& collapse) override
     {
-        if (collapse.v0.idx() != vertex_) {
-            vertex_ = collapse.v0.idx();
-            best_ = HUGE_VALF;
-        }
-        Quadricd quadric = quadrics_[index(collapse.v0)];
-        quadric += quadrics_[index(collapse.v1)];
-        // Free of units, so that a float holds it.
-        const auto cost = static_cast<float>(std::max(quadric(collapse.p1), 0.0) / unit_);
-        if (!(cost < best_) || !is_allowed(collapse)) return Base::ILLEGAL_COLLAPSE;
-        best_ = cost;
-        return cost;
+        Quadricd rim = rims_[index(collapse.v0)];
+        rim += rims_[index(collapse.v1)];
+        // Rounding must not make a cost of nothing a negative one, which would rule it out.
+        return std::max(Faces::collapse_priority(collapse), 0.0F) +
+               static_cast<float>(std::max(rim(collapse.p1), 0.0));
     }
 
-    void postprocess_collapse(const CollapseInfo& collapse) override
+    void postprocess_collapse(const Collapse& collapse) override
     {
-        quadrics_[index(collapse.v1)] += quadrics_[index(collapse.v0)];
-        vertex_ = -1;
+        Faces::postprocess_collapse(collapse);
+        rims_[index(collapse.v1)] += rims_[index(collapse.v0)];
     }
 
   private:
-    using Triangle = std::array<Vec3d, 3>;
+    void add_rim(EdgeHandle edge)
+    {
+        constexpr double kRimWeight = 4.0;
+        const HalfedgeHandle first = mesh().halfedge_handle(edge, 0);
+        const HalfedgeHandle inner =
+            mesh().is_boundary(first) ? mesh().opposite_halfedge_handle(first) : first;
+        const VertexHandle end = mesh().to_vertex_handle(inner);
+        Vector3d normal;
+        mesh().calc_sector_normal(inner, normal);
+        const Vector3d along = mesh().calc_edge_vector(inner);
+        const Vector3d across = normal.cross(along).normalized();
+        const double offset = -across.dot(mesh().point(end));
+        if (across.isZero()) return;
+        Quadricd quadric(across.x(), across.y(), across.z(), offset);
+        quadric *= kRimWeight * along.squaredNorm();
+        rims_[index(end)] += quadric;
+        rims_[index(mesh().from_vertex_handle(inner))] += quadric;
+    }
 
+    std::vector<Quadricd> rims_; ///< one a vertex
+};
+
+/// Rules out faces that are worse slivers than those they replace. OpenMesh's ModRoundnessT looks
+/// at the wrong ones of the faces around and rounds to floats, and its ModAspectRatioT takes no
+/// Eigen vectors.
+class NoNewSlivers : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
+  public:
+    using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;
+    using Handle = OpenMesh::Decimater::ModHandleT<NoNewSlivers>;
+
+    explicit NoNewSlivers(HalfEdgeMesh& mesh) : Base(mesh, true) {}
+
+    float collapse_priority(const Collapse& collapse) override
+    {
+        constexpr double kSliver = 0.1; // of roundness
+        double least = kSliver;
+        for (const auto face : mesh().vf_range(collapse.v0)) {
+            least = std::min(least, roundness(mesh().triangle(face)));
+        }
+        const bool is_legal = all_changed_faces(mesh(), collapse, [&](const Corners& corners) {
+            return roundness(triangle(mesh(), corners)) >= least;
+        });
+        return is_legal ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE;
+    }
+
+  private:
+    /// 1 for an equilateral triangle, 0 for one without area.
+    static double roundness(const Triangle& t)
+    {
+        const double sum_sq =
+            (t[1] - t[0]).squaredNorm() + (t[2] - t[1]).squaredNorm() + (t[0] - t[2]).squaredNorm();
+        const double twice_area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
+        return sum_sq > 0.0 ? 2.0 * std::sqrt(3.0) * twice_area / sum_sq : 0.0;
+    }
+};
+
+/// Rules out faces that would block a free sight. Asking costs more than all else, so collapses
+/// that cost no less than one of the same vertex found legal before are ruled out unasked: the
+/// decimater takes the cheapest of a vertex. Hence this module comes last.
+class NoBlockedSights : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
+  public:
+    using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;
+    using Handle = OpenMesh::Decimater::ModHandleT<NoBlockedSights>;
+
+    explicit NoBlockedSights(HalfEdgeMesh& mesh)
+        : Base(mesh, true), verdicts_(8 * mesh.n_vertices() + 1)
+    {
+    }
+
+    /// A unit of the mesh is so many units of the guard's scene.
+    void set_guard(const SightGuard& guard, double unit)
+    {
+        guard_ = &guard;
+        unit_ = unit;
+    }
+    void set_costs(RimQuadrics& costs) { costs_ = &costs; }
+
+    float collapse_priority(const Collapse& collapse) override
+    {
+        if (collapse.v0 != vertex_) {
+            vertex_ = collapse.v0;
+            least_cost_ = HUGE_VALF;
+        }
+        const float cost = costs_->collapse_priority(collapse);
+        const bool is_legal =
+            cost < least_cost_ && all_changed_faces(mesh(), collapse, [&](const Corners& corners) {
+                return !blocks(corners);
+            });
+        if (!is_legal) return Base::ILLEGAL_COLLAPSE;
+        least_cost_ = cost;
+        return Base::LEGAL_COLLAPSE;
+    }
+
+    void postprocess_collapse(const Collapse& /*collapse*/) override { vertex_.invalidate(); }
+
+  private:
     /// Whether a triangle of these vertices, ascending, blocks a free sight.
     struct Verdict {
         std::array<int, 3> corners{-1, -1, -1};
         bool blocks = false;
     };
 
-    void add_face(OpenMesh::FaceHandle face)
-    {
-        const HalfEdgeMesh& mesh = Base::mesh();
-        Vec3d normal;
-        mesh.calc_sector_normal(mesh.halfedge_handle(face), normal);
-        const double twice_area = normal.norm();
-        if (!(twice_area > 0.0)) return;
-        const auto first = mesh.to_vertex_handle(mesh.halfedge_handle(face));
-        Quadricd quadric(normal / twice_area, mesh.point(first));
-        quadric *= twice_area / 2.0;
-        for (const auto vertex : mesh.fv_range(face)) {
-            quadrics_[index(vertex)] += quadric;
-        }
-    }
-
-    /// A plane along a rim and across its face.
-    void add_rim(OpenMesh::EdgeHandle edge)
-    {
-        constexpr double kRimWeight = 4.0;
-        const HalfEdgeMesh& mesh = Base::mesh();
-        const auto inner = mesh.opposite_halfedge_handle(
-            mesh.is_boundary(mesh.halfedge_handle(edge, 0)) ? mesh.halfedge_handle(edge, 0)
-                                                            : mesh.halfedge_handle(edge, 1));
-        Vec3d normal;
-        mesh.calc_sector_normal(inner, normal);
-        const Vec3d along = mesh.calc_edge_vector(inner);
-        const Vec3d across = cross(normal, along);
-        if (!(across.norm() > 0.0)) return;
-        Quadricd quadric(across.normalized(), mesh.point(mesh.to_vertex_handle(inner)));
-        quadric *= kRimWeight * along.sqrnorm();
-        quadrics_[index(mesh.to_vertex_handle(inner))] += quadric;
-        quadrics_[index(mesh.from_vertex_handle(inner))] += quadric;
-    }
-
-    /// Whether the faces that the collapse changes may be as they become.
-    bool is_allowed(const CollapseInfo& collapse)
-    {
-        changed_.clear();
-        double worst_before = 1.0;
-        double worst_after = 1.0;
-        for (const auto face : mesh().vf_range(collapse.v0)) {
-            const std::array<int, 3> corners = corners_of(face);
-            const Triangle before = triangle(corners);
-            worst_before = std::min(worst_before, roundness(before));
-            if (face == collapse.fl || face == collapse.fr) continue;
-            std::array<int, 3> moved = corners;
-            std::ranges::replace(moved, collapse.v0.idx(), collapse.v1.idx());
-            const Triangle after = triangle(moved);
-            if (turns_too_far(before, after)) return false;
-            worst_after = std::min(worst_after, roundness(after));
-            changed_.push_back(moved);
-        }
-        return worst_after >= std::min(kSliver, worst_before) &&
-               std::ranges::none_of(changed_, [&](const auto& corners) { return blocks(corners); });
-    }
-
-    std::array<int, 3> corners_of(OpenMesh::FaceHandle face)
-    {
-        std::array<int, 3> corners{};
-        std::size_t i = 0;
-        for (const auto vertex : mesh().fv_range(face)) {
-            corners[i++] = vertex.idx();
-        }
-        return corners;
-    }
-
-    Triangle triangle(const std::array<int, 3>& corners)
-    {
-        const auto at = [&](int corner) { return mesh().point(OpenMesh::VertexHandle(corner)); };
-        return {at(corners[0]), at(corners[1]), at(corners[2])};
-    }
-
     /// Vertices never move, so what was found out holds: neighbours ask for the same again.
-    bool blocks(std::array<int, 3> corners)
+    bool blocks(const Corners& corners)
     {
-        std::ranges::sort(corners);
-        const std::size_t hash = (static_cast<std::size_t>(corners[0]) * 0x9E3779B97F4A7C15U) ^
-                                 (static_cast<std::size_t>(corners[1]) * 0xC2B2AE3D27D4EB4FU) ^
-                                 (static_cast<std::size_t>(corners[2]) * 0x165667B19E3779F9U);
+        std::array<int, 3> numbers{corners[0].idx(), corners[1].idx(), corners[2].idx()};
+        std::ranges::sort(numbers);
+        const std::size_t hash = (static_cast<std::size_t>(numbers[0]) * 0x9E3779B97F4A7C15U) ^
+                                 (static_cast<std::size_t>(numbers[1]) * 0xC2B2AE3D27D4EB4FU) ^
+                                 (static_cast<std::size_t>(numbers[2]) * 0x165667B19E3779F9U);
         Verdict& verdict = verdicts_[(hash >> 32U) % verdicts_.size()];
-        if (verdict.corners != corners) {
-            const Triangle t = triangle(corners);
-            verdict = {corners, guard_->blocks({to_eigen(t[0]), to_eigen(t[1]), to_eigen(t[2])})};
+        if (verdict.corners != numbers) {
+            const auto [a, b, c] = triangle(mesh(), corners);
+            verdict = {numbers, guard_->blocks({a * unit_, b * unit_, c * unit_})};
         }
         return verdict.blocks;
     }
 
-    static bool turns_too_far(const Triangle& before, const Triangle& after)
-    {
-        constexpr double kLeastCosine = 0.5;
-        const Vec3d old_normal = cross(before[1] - before[0], before[2] - before[0]);
-        const Vec3d new_normal = cross(after[1] - after[0], after[2] - after[0]);
-        const double scale = old_normal.norm() * new_normal.norm();
-        return !(dot(old_normal, new_normal) > kLeastCosine * scale);
-    }
-
-    static constexpr double kSliver = 0.1; ///< of roundness
-
     const SightGuard* guard_ = nullptr;
-    std::vector<Quadricd> quadrics_; ///< one a vertex
     double unit_ = 1.0;
-    int vertex_ = -1;   ///< whose collapses are being compared
-    float best_ = 0.0F; ///< cheapest of them so far
-    std::vector<std::array<int, 3>> changed_;
+    RimQuadrics* costs_ = nullptr;
+    VertexHandle vertex_;           ///< whose collapses are being compared
+    float least_cost_ = HUGE_VALF;  ///< of them so far
     std::vector<Verdict> verdicts_; ///< by hash, the last one at each place
 };
 
+/// The power of two next to the mean length of an edge; 1 where that is none.
+double usual_length(const HalfEdgeMesh& mesh)
+{
+    double sum = 0.0;
+    for (const auto edge : mesh.edges()) {
+        sum += mesh.calc_edge_length(edge);
+    }
+    const double mean = sum / static_cast<double>(std::max<std::size_t>(mesh.n_edges(), 1));
+    return mean > 0.0 ? std::exp2(std::round(std::log2(mean))) : 1.0;
+}
+
+void scale(HalfEdgeMesh& mesh, double factor)
+{
+    parallel_for(mesh.n_vertices(),
+                 [&](std::size_t v) { mesh.point(handle_at<VertexHandle>(v)) *= factor; });
+}
+
+void decimate(HalfEdgeMesh& mesh, const SightGuard& guard, double unit, std::size_t num_faces)
+{
+    constexpr double kMostTurnDeg = 60.0;
+    mesh.request_face_normals();
+    mesh.update_face_normals();
+    OpenMesh::Decimater::DecimaterT<HalfEdgeMesh> decimater(mesh);
+    RimQuadrics::Handle quadrics;
+    OpenMesh::Decimater::ModNormalFlippingT<HalfEdgeMesh>::Handle flipping;
+    NoNewSlivers::Handle slivers;
+    NoBlockedSights::Handle sights;
+    decimater.add(quadrics);
+    decimater.add(flipping);
+    decimater.add(slivers);
+    decimater.add(sights);
+    decimater.module(flipping).set_max_normal_deviation(kMostTurnDeg);
+    decimater.module(sights).set_guard(guard, unit);
+    decimater.module(sights).set_costs(decimater.module(quadrics));
+    decimater.initialize();
+    // The decimater counts deleted faces as well.
+    const std::size_t num_deleted = mesh.n_faces() - static_cast<std::size_t>(num_faces_left(mesh));
+    decimater.decimate_to_faces(0, num_faces + num_deleted);
+    mesh.release_face_normals();
+}
+
 } // namespace
 
-TriMesh simplify_surface(const TriMesh& mesh, const SightGuard& guard,
-                         const SimplifyOptions& options)
+SimplifyCounts simplify_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
+                                const SimplifyOptions& options)
 {
-    HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-    OpenMesh::Decimater::DecimaterT<HalfEdgeMesh> decimater(half_edges);
-    GuardedQuadric::Handle module;
-    decimater.add(module);
-    decimater.module(module).set_guard(guard);
-    decimater.initialize();
-    decimater.decimate_to_faces(0, static_cast<std::size_t>(options.faces));
-
-    std::vector<char> keep_faces(half_edges.n_faces(), 0);
-    for (std::size_t f = 0; f < keep_faces.size(); ++f) {
-        const OpenMesh::FaceHandle face(static_cast<int>(f));
-        keep_faces[f] = half_edges.status(face).deleted() ? 0 : 1;
-    }
-    return kept_surface(half_edges, keep_faces, mesh);
+    SimplifyCounts counts{.faces_before = num_faces_left(mesh)};
+    // OpenMesh's costs are floats: edges of about 1 keep them in range. Powers of two scale
+    // exactly.
+    const double unit = usual_length(mesh);
+    scale(mesh, 1.0 / unit);
+    decimate(mesh, guard, unit, static_cast<std::size_t>(options.faces));
+    scale(mesh, unit);
+    set_vertex_normals(mesh);
+    counts.faces = num_faces_left(mesh);
+    return counts;
 }
 
 } // namespace vcarve

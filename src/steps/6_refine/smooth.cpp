@@ -3,9 +3,9 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
-#include "mesh/local_edges.h"
 
 #include <Eigen/Geometry>
+#include <OpenMesh/Tools/Smoother/SmootherT.hh>
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,6 @@ using OpenMesh::VertexHandle;
 
 using Positions = std::vector<Vector3d>; ///< one a vertex
 using Triangle = std::array<Vector3d, 3>;
-
-template <typename Handle>
-Handle handle(std::size_t number)
-{
-    return Handle(static_cast<int>(number));
-}
 
 Vector3d twice_area(const Triangle& t)
 {
@@ -41,11 +35,8 @@ std::vector<FaceFrame> face_frames(const HalfEdgeMesh& mesh, const Positions& po
 {
     std::vector<FaceFrame> frames(mesh.n_faces());
     parallel_for(frames.size(), [&](std::size_t f) {
-        Triangle corners;
-        std::size_t i = 0;
-        for (const auto vertex : mesh.fv_range(handle<FaceHandle>(f))) {
-            corners[i++] = positions[index(vertex)];
-        }
+        const auto [a, b, c] = mesh.corners(handle_at<FaceHandle>(f));
+        const Triangle corners{positions[index(a)], positions[index(b)], positions[index(c)]};
         const Vector3d normal = twice_area(corners);
         const double length = normal.norm();
         frames[f].center = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -63,14 +54,14 @@ Vector3d filtered_normal(const HalfEdgeMesh& mesh, const std::vector<FaceFrame>&
     const FaceFrame& self = frames[f];
     double reach = 0.0;
     double num_beside = 0.0;
-    for (const auto beside : mesh.ff_range(handle<FaceHandle>(f))) {
+    for (const auto beside : mesh.ff_range(handle_at<FaceHandle>(f))) {
         reach += (frames[index(beside)].center - self.center).norm();
         num_beside += 1.0;
     }
     if (!(reach > 0.0)) return self.normal;
     reach /= num_beside;
     Vector3d sum = Vector3d::Zero();
-    for (const auto vertex : mesh.fv_range(handle<FaceHandle>(f))) {
+    for (const auto vertex : mesh.fv_range(handle_at<FaceHandle>(f))) {
         for (const auto around : mesh.vf_range(vertex)) {
             const FaceFrame& other = frames[index(around)];
             const double far = (other.center - self.center).squaredNorm() / (reach * reach);
@@ -109,7 +100,7 @@ Positions targets(const HalfEdgeMesh& mesh, Positions positions)
     for (int round = 0; round < kRounds; ++round) {
         Positions fitted = positions;
         parallel_for(fitted.size(), [&](std::size_t v) {
-            const auto vertex = handle<VertexHandle>(v);
+            const auto vertex = handle_at<VertexHandle>(v);
             if (mesh.is_boundary(vertex)) return;
             fitted[v] = fitted_position(mesh, frames, positions[v], vertex);
         });
@@ -128,7 +119,8 @@ std::vector<std::vector<VertexHandle>> independent_sets(const HalfEdgeMesh& mesh
     std::vector<std::size_t> set_of(mesh.n_vertices());
     std::vector<std::vector<VertexHandle>> sets;
     for (std::size_t v = 0; v < set_of.size(); ++v) {
-        const auto vertex = handle<VertexHandle>(v);
+        const auto vertex = handle_at<VertexHandle>(v);
+        if (mesh.is_deleted(vertex)) continue;
         std::vector<char> taken(sets.size() + 1, 0);
         for (const auto neighbor : mesh.vv_range(vertex)) {
             if (index(neighbor) < v) taken[set_of[index(neighbor)]] = 1;
@@ -140,30 +132,59 @@ std::vector<std::vector<VertexHandle>> independent_sets(const HalfEdgeMesh& mesh
     return sets;
 }
 
-/// The surface on its way: where the vertices are, and which a sight has held back.
-class MovingSurface {
+/// OpenMesh's smoother with goals of ours, since those of its JacobiLaplaceSmootherT round off
+/// edges (docs/algorithm.md has figures), and with sights held free. Vertices at rims stay.
+class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> {
   public:
-    MovingSurface(const HalfEdgeMesh& mesh, const TriMesh& start, const SightGuard& guard)
-        : mesh_(mesh),
-          start_(start.positions),
-          spacings_(vertex_spacings(start)),
+    SightGuardedSmoother(HalfEdgeMesh& mesh, const SightGuard& guard)
+        : SmootherT(mesh),
           guard_(guard),
-          positions_(start.positions),
-          held_(start.positions.size(), 0)
+          sets_(independent_sets(mesh)),
+          spacings_(vertex_spacings(mesh)),
+          positions_(mesh.n_vertices()),
+          held_(mesh.n_vertices(), 0)
     {
+        initialize(Tangential_and_Normal, C0);
     }
 
-    const Positions& positions() const { return positions_; }
-    std::int64_t num_held() const { return std::ranges::count(held_, 1); }
+    SmoothCounts counts() const
+    {
+        SmoothCounts counts;
+        counts.held = std::ranges::count(held_, 1);
+        counts.vertices = num_vertices_left(mesh_);
+        for (const auto vertex : mesh_.vertices()) {
+            if (mesh_.point(vertex) != orig_position(vertex)) ++counts.moved;
+        }
+        return counts;
+    }
+
+  private:
+    void compute_new_positions_C0() override
+    {
+        parallel_for(positions_.size(), [&](std::size_t v) {
+            positions_[v] = mesh_.point(handle_at<VertexHandle>(v));
+        });
+        const Positions goals = targets(mesh_, positions_);
+        for (const std::vector<VertexHandle>& set : sets_) {
+            parallel_for(
+                set.size(), [&](std::size_t i) { move(set[i], goals[index(set[i])]); }, 64);
+        }
+        for (const auto vertex : mesh_.vertices()) {
+            set_new_position(vertex, positions_[index(vertex)]);
+        }
+    }
+    void compute_new_positions_C1() override { compute_new_positions_C0(); }
 
     void move(VertexHandle vertex, const Vector3d& target)
     {
+        if (!is_active(vertex)) return;
         constexpr double kReach = 0.5; // of the spacing, from the start
         const std::size_t v = index(vertex);
-        const Vector3d way = target - start_[v];
+        const Vector3d& start = orig_position(vertex);
+        const Vector3d way = target - start;
         const double most = kReach * spacings_[v];
         const Vector3d goal =
-            way.norm() > most ? Vector3d(start_[v] + way * (most / way.norm())) : target;
+            way.norm() > most ? Vector3d(start + way * (most / way.norm())) : target;
         for (const double share : {1.0, 0.5, 0.25}) {
             const Vector3d place = positions_[v] + share * (goal - positions_[v]);
             if (place == positions_[v]) return;
@@ -173,7 +194,6 @@ class MovingSurface {
         }
     }
 
-  private:
     bool may_be_at(VertexHandle vertex, const Vector3d& place)
     {
         constexpr double kLeastCosine = 0.5;
@@ -198,39 +218,22 @@ class MovingSurface {
         return true;
     }
 
-    const HalfEdgeMesh& mesh_;
-    const Positions& start_;
-    std::vector<double> spacings_;
     const SightGuard& guard_;
-    Positions positions_;
+    std::vector<std::vector<VertexHandle>> sets_;
+    std::vector<double> spacings_;
+    Positions positions_; ///< on the way
     std::vector<char> held_;
 };
 
 } // namespace
 
-SmoothedSurface smooth_surface(const TriMesh& mesh, const SightGuard& guard,
-                               const SmoothOptions& options)
+SmoothCounts smooth_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
+                            const SmoothOptions& options)
 {
-    HalfEdgeMesh half_edges = half_edge_mesh(mesh);
-    const std::vector<std::vector<VertexHandle>> sets = independent_sets(half_edges);
-    MovingSurface surface(half_edges, mesh, guard);
-    for (int iteration = 0; iteration < options.iterations; ++iteration) {
-        const Positions goals = targets(half_edges, surface.positions());
-        for (const std::vector<VertexHandle>& set : sets) {
-            parallel_for(
-                set.size(), [&](std::size_t i) { surface.move(set[i], goals[index(set[i])]); }, 64);
-        }
-    }
-
-    SmoothedSurface result;
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        const Vector3d& p = surface.positions()[v];
-        half_edges.set_point(handle<VertexHandle>(v), {p.x(), p.y(), p.z()});
-        if (p != mesh.positions[v]) ++result.counts.moved;
-    }
-    result.counts.held = surface.num_held();
-    result.mesh = kept_surface(half_edges, std::vector<char>(half_edges.n_faces(), 1), mesh);
-    return result;
+    SightGuardedSmoother smoother(mesh, guard);
+    smoother.smooth(static_cast<unsigned>(options.iterations));
+    set_vertex_normals(mesh);
+    return smoother.counts();
 }
 
 } // namespace vcarve

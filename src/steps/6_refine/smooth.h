@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/options.h"
-#include "model/tri_mesh.h"
 #include "steps/6_refine/sight_guard.h"
 
 #include <cstdint>
@@ -23,14 +22,12 @@ struct SmoothOptions {
 };
 
 struct SmoothCounts {
-    std::int64_t moved = 0; ///< vertices that are elsewhere than before
-    std::int64_t held = 0;  ///< vertices that a sight kept from going all the way
+    std::int64_t vertices = 0; ///< of the surface
+    std::int64_t moved = 0;    ///< vertices that are elsewhere than before
+    std::int64_t held = 0;     ///< vertices that a sight kept from going all the way
 };
 
-struct SmoothedSurface {
-    TriMesh mesh;
-    SmoothCounts counts;
-};
+class HalfEdgeMesh;
 
 /// Moves vertices so that faces take the directions of those around them that differ little, which
 /// flattens noise and keeps edges: `options.iterations` times the normals are filtered (Zheng, Fu,
@@ -40,10 +37,9 @@ struct SmoothedSurface {
 ///
 /// A vertex stays within half its spacing of where it was, and goes a half or a quarter of its way,
 /// or stays, where a face around it would turn by more than 60 degrees or block a free sight of
-/// `guard`. Rims stay. Faces, colours and points are those of `mesh`, normals are made anew. Takes
-/// a manifold, consistently oriented surface. Cost: O(iterations x faces x sights near them), in
-/// parallel; the result does not depend on the number of threads.
-SmoothedSurface smooth_surface(const TriMesh& mesh, const SightGuard& guard,
-                               const SmoothOptions& options);
+/// `guard`. Rims stay, faces and colours too; normals are made anew. Cost: O(iterations x faces x
+/// sights near them), in parallel; the result does not depend on the number of threads.
+SmoothCounts smooth_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
+                            const SmoothOptions& options);
 
 } // namespace vcarve
