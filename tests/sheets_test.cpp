@@ -178,18 +178,6 @@ TEST(PeelSheets, TakesUnseenFacesOfTheHullAndThenWhatTheyWereBehind)
     expect_peeled(hall, kThird, keep, hall.without(open, Part::lid, kLong));
 }
 
-TEST(PeelSheets, TakesHardlySeenFacesFromAQuarterOfTheShareOn)
-{
-    Hall hall;
-    hall.made.scene.views[1].center.z() = -90.0; // nobody looks at the box around
-    testing::aim(hall.made.scene.views[1], {3.0, 3.0, -200.0});
-    const FaceFlags keep = hall.opened(hall.all_but({}));
-    // The hall is 9 across, the box has edges of 66 and diagonals of 93.
-    const FaceFlags without_box = hall.opened(hall.all_but({Part::top, Part::around}));
-    expect_peeled(hall, {.max_sheet = 20.0}, keep, without_box);
-    expect_peeled(hall, {.max_sheet = 50.0}, keep, keep);
-}
-
 TEST(PeelSheets, TakesNoFaceThatIsNotKept)
 {
     const Hall hall;

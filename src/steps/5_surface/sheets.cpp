@@ -1,6 +1,5 @@
 #include "steps/5_surface/sheets.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
 #include "mesh/edge_table.h"
 #include "mesh/local_edges.h"
@@ -9,7 +8,6 @@
 #include "steps/4_labels/boundary.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace vcarve {
 
@@ -124,20 +122,6 @@ bool has_large_face(const TriMesh& boundary, const FaceFlags& keep, double longe
     return !large.empty();
 }
 
-/// The median of the longest edges of the kept faces; 0 where none are kept.
-double median_longest_edge(const TriMesh& boundary, const FaceFlags& keep)
-{
-    auto lengths_sq = parallel_collect<double>(keep.size(), [&](std::size_t i, auto& found) {
-        if (keep[i] == 0) return;
-        const auto& [a, b, c] = boundary.faces[i];
-        const auto length_sq = [&](std::uint32_t from, std::uint32_t to) {
-            return (boundary.positions[to] - boundary.positions[from]).squaredNorm();
-        };
-        found.push_back(std::max({length_sq(a, b), length_sq(b, c), length_sq(c, a)}));
-    });
-    return std::sqrt(median_in_place(lengths_sq));
-}
-
 /// Of some faces those that a question is answered with yes for.
 template <typename Ask>
 std::vector<std::uint32_t> those_that(const std::vector<std::uint32_t>& faces, const Ask& ask)
@@ -157,16 +141,11 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
                          FaceFlags& keep)
 {
     constexpr int kRounds = 20;
-    constexpr double kHardlySeen = 0.25; // of the share: what views see little of may go sooner,
-    constexpr double kOrdinary = 4.0;    // but not what is below so many median faces
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
     // A thousandth less, so that no rounding leaves out what is asked more exactly below.
     constexpr double kSpare = 0.999;
-    double hardly_seen_edge = kHardlySeen * long_edge;
-    if (!has_large_face(boundary, keep, kSpare * hardly_seen_edge)) return 0;
-    hardly_seen_edge = std::min(
-        long_edge, std::max(hardly_seen_edge, kOrdinary * median_longest_edge(boundary, keep)));
+    if (!has_large_face(boundary, keep, kSpare * long_edge)) return 0;
     const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
     const KeptFacets is_kept(facets, keep);
     const Onlookers onlookers{visibility, is_kept};
@@ -175,11 +154,9 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
         const LocalEdges edges(boundary.positions, boundary.faces, keep);
         const SurfaceNormals normals(boundary.positions, boundary.faces, edges);
         const auto is_sheet = [&](std::uint32_t face) {
-            const double edge = edges.longest_edge(face);
-            if (edge < hardly_seen_edge) return false;
+            if (edges.longest_edge(face) < long_edge) return false;
             const CellFacet& facet = facets[face];
-            const bool is_bent = edge >= long_edge && !goes_on(face, normals);
-            return (is_bent || is_mostly_unseen(facet, onlookers)) &&
+            return (!goes_on(face, normals) || is_mostly_unseen(facet, onlookers)) &&
                    !hides_a_back(facet, onlookers);
         };
         std::vector<std::uint32_t> sheets = rim_faces(table, facets, visibility, keep);

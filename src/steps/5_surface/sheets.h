@@ -18,9 +18,9 @@ struct SheetOptions {
                        {.name = "max-sheet",
                         .unit = "x extent",
                         .help = "Take off faces from the rim with an edge longer than this share "
-                                "of what was looked at that go on with the surface at no corner, "
-                                "and hardly seen ones from a quarter of it on, if no back of a "
-                                "face comes to light behind them; 0 takes off none.",
+                                "of what was looked at, if they go on with the surface at no "
+                                "corner or are hardly seen, and no back of a face comes to light "
+                                "behind them; 0 takes off none.",
                         .max = 1.0});
     }
 };
@@ -29,10 +29,8 @@ struct SheetOptions {
 /// a hall without a ceiling, skirts from the edge of the ground, faces between far walls. They are
 /// seen, but nothing was seen on them. From the rim of the kept faces inwards, and from the hull, a
 /// face goes if its longest edge is over `max_sheet` times the diameter of what was looked at
-/// (looked_at_ball) and it goes on with the small faces around none of its corners, or if the edge
-/// is over a quarter of that, and over four times the median kept face's, and views see less than
-/// half of the face; and if no view would look
-/// onto the back of a kept face through the gap.
+/// (looked_at_ball), if it goes on with the small faces around none of its corners, or views see
+/// less than half of it, and if no view would look onto the back of a kept face through the gap.
 /// Repeated while sheets come to the rim. `boundary` is the surface of `facets`, which ascend, face
 /// by face. Returns how many faces it took from `keep`. Cost: O(faces) a round, and some walks a
 /// view for each large face at the rim; mostly in parallel.
