@@ -58,7 +58,7 @@ Graph to_boost(const TetMesh& cells, const FlowNetwork& network)
     const std::size_t count = cells.cells.size();
     Graph graph(count + 2);
     for (Index cell = 0; cell < count; ++cell) {
-        const std::int32_t excess = network.excesses[cell];
+        const std::int32_t excess = network.terminal_capacities[cell];
         if (excess > 0) add_arcs(graph, {count, cell}, {excess, 0});
         if (excess < 0) add_arcs(graph, {cell, count + 1}, {-excess, 0});
         for (int slot = 0; slot < 4; ++slot) {
@@ -66,8 +66,8 @@ Graph to_boost(const TetMesh& cells, const FlowNetwork& network)
             if (beyond < cell) continue;
             const auto mirror = static_cast<std::size_t>(cells.mirror(cell, slot));
             add_arcs(graph, {cell, beyond},
-                     {network.residuals[cell][static_cast<std::size_t>(slot)],
-                      network.residuals[beyond][mirror]});
+                     {network.arc_capacities[cell][static_cast<std::size_t>(slot)],
+                      network.arc_capacities[beyond][mirror]});
         }
     }
     return graph;

@@ -120,7 +120,7 @@ Json prepare(const Sample& sample)
     const Scene read = read_colmap_model(sample.folder, ModelFormat::binary);
     const Json sizes = {
         {"points", read.num_points()}, {"views", read.views.size()}, {"sights", read.num_sights()}};
-    const Scene scene = arrange_points(filter_points(center_points(read), FilterOptions()).scene);
+    const Scene scene = spatial_sort(filter_points(center_points(read), FilterOptions()).scene);
     write_raw_points(sample.triangulated(), scene.positions);
     Json record = {{"shape", name_of(sample.shape)}};
     record.update(sizes);

@@ -52,7 +52,7 @@ std::filesystem::path make_folder(std::int64_t points)
 Scene make_scene(std::int64_t points)
 {
     Scene scene = read_colmap_model(sample_folder(points), ModelFormat::binary);
-    return arrange_points(filter_points(center_points(std::move(scene)), FilterOptions()).scene);
+    return spatial_sort(filter_points(center_points(std::move(scene)), FilterOptions()).scene);
 }
 
 FlowNetwork make_network(std::int64_t points)

@@ -45,14 +45,15 @@ void bench_supported_faces(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(boundary.faces.size()));
 }
 
-void bench_webs(benchmark::State& state)
+void bench_bridging_facets(benchmark::State& state)
 {
     const TetMesh& cells = sample_cells(state.range(0));
     const Scene& scene = sample_scene(state.range(0));
     const Labels& labels = sample_labels(state.range(0));
     for (auto _ : state) {
         const Boundary boundary(cells, labels);
-        benchmark::DoNotOptimize(cells_behind_webs(cells, boundary, scene, WebOptions()));
+        benchmark::DoNotOptimize(
+            cells_behind_bridging_facets(cells, boundary, scene, BridgingOptions()));
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells.cells.size()));
 }
@@ -67,7 +68,7 @@ void bench_clean_surface(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(surface.faces.size()));
 }
 
-BENCHMARK(bench_webs)->Apply(sample_sizes)->UseRealTime();
+BENCHMARK(bench_bridging_facets)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_extract_surface)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_supported_faces)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_clean_surface)->Apply(sample_sizes)->UseRealTime();

@@ -79,14 +79,15 @@ Index tall_cell(const TetMesh& mesh)
     return kInfinite;
 }
 
-TEST(Webs, AreNotSeenInASurfaceThatRunsOn)
+TEST(BridgingFacets, AreNotSeenInASurfaceThatRunsOn)
 {
     const Scene scene = plate_and_tip();
     const TetMesh mesh = triangulate(scene);
-    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, below_the_plate(mesh)}, scene, {}).empty());
+    EXPECT_TRUE(
+        cells_behind_bridging_facets(mesh, {mesh, below_the_plate(mesh)}, scene, {}).empty());
 }
 
-TEST(Webs, AreLongSeenFacesAcrossTheSurface)
+TEST(BridgingFacets, AreLongSeenFacesAcrossTheSurface)
 {
     const Scene scene = plate_and_tip();
     const TetMesh mesh = triangulate(scene);
@@ -95,14 +96,16 @@ TEST(Webs, AreLongSeenFacesAcrossTheSurface)
     Labels labels = below_the_plate(mesh);
     labels[tall] = Label::inside;
 
-    const auto doubted = cells_behind_webs(mesh, {mesh, labels}, scene, {});
+    const auto doubted = cells_behind_bridging_facets(mesh, {mesh, labels}, scene, {});
     EXPECT_EQ(std::set<Index>(doubted.begin(), doubted.end()), std::set<Index>{tall});
     EXPECT_LE(doubted.size(), 3U) << "once for each of its faces that stand on the plate";
-    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {.web_edge = 0.0}).empty());
-    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {.web_edge = 50.0}).empty());
+    EXPECT_TRUE(
+        cells_behind_bridging_facets(mesh, {mesh, labels}, scene, {.bridging_edge = 0.0}).empty());
+    EXPECT_TRUE(
+        cells_behind_bridging_facets(mesh, {mesh, labels}, scene, {.bridging_edge = 50.0}).empty());
 }
 
-TEST(Webs, AreOnlyWhatWasSeen)
+TEST(BridgingFacets, AreOnlyWhatWasSeen)
 {
     Scene scene = plate_and_tip();
     const TetMesh mesh = triangulate(scene);
@@ -111,7 +114,7 @@ TEST(Webs, AreOnlyWhatWasSeen)
     std::fill(scene.tracks.begins.begin() + kTip + 1, scene.tracks.begins.end(),
               scene.tracks.begins[kTip]); // nobody saw the tip
     scene.tracks.views.resize(scene.tracks.begins[kTip]);
-    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, labels}, scene, {}).empty());
+    EXPECT_TRUE(cells_behind_bridging_facets(mesh, {mesh, labels}, scene, {}).empty());
 }
 
 /// How far a wall stands behind the edge of the floor, and how far above.
@@ -167,7 +170,8 @@ SlopeFaces slope_faces(const Gap& gap)
     const Scene scene = floor_and_wall(gap);
     const TetMesh mesh = triangulate(scene);
     const Boundary boundary(mesh, behind_floor_and_wall(mesh, gap));
-    const auto doubted = cells_behind_webs(mesh, boundary, scene, {.web_edge = 2.5});
+    const auto doubted =
+        cells_behind_bridging_facets(mesh, boundary, scene, {.bridging_edge = 2.5});
     SlopeFaces faces;
     for (std::size_t i = 0; i < boundary.faces().size(); ++i) {
         const Face& corners = boundary.faces()[i];
@@ -183,7 +187,7 @@ SlopeFaces slope_faces(const Gap& gap)
     return faces;
 }
 
-TEST(Webs, StandAcrossAtTwoCornersNotAtOne)
+TEST(BridgingFacets, StandAcrossAtTwoCornersNotAtOne)
 {
     // 76 degrees off the floor and 14 off the wall.
     const SlopeFaces faces = slope_faces({.back = 1.0, .up = 4.0});
@@ -191,7 +195,7 @@ TEST(Webs, StandAcrossAtTwoCornersNotAtOne)
     EXPECT_EQ(faces.doubted, (std::array<int, 3>{0, 0, 5}));
 }
 
-TEST(Webs, DoNotStandAcrossASurfaceThatBendsALittle)
+TEST(BridgingFacets, DoNotStandAcrossASurfaceThatBendsALittle)
 {
     // 27 degrees off the floor and 63 off the wall.
     const SlopeFaces faces = slope_faces({.back = 4.0, .up = 2.0});
@@ -199,25 +203,25 @@ TEST(Webs, DoNotStandAcrossASurfaceThatBendsALittle)
     EXPECT_EQ(faces.doubted[2], 0) << "across the wall at one corner";
 }
 
-// ---- doubt_webs ---------------------------------------------------------------------------------
+// ---- doubt_bridging_facets ----------------------------------------------------------------------
 
 constexpr std::int32_t kOneSight = 10;
 
-/// Cells that do not care about each other: inside are those with a wish for it, until they are
-/// offered as much.
+/// Cells without arcs between them: inside are those with a sink capacity, until they are given as
+/// much source capacity.
 FlowNetwork wishes(const TetMesh& mesh, const Labels& inside, const Labels& loose)
 {
     FlowNetwork network;
-    network.residuals.assign(mesh.cells.size(), {0, 0, 0, 0});
-    network.excesses.assign(mesh.cells.size(), 0);
+    network.arc_capacities.assign(mesh.cells.size(), {0, 0, 0, 0});
+    network.terminal_capacities.assign(mesh.cells.size(), 0);
     for (std::size_t cell = 0; cell < inside.size(); ++cell) {
-        if (inside[cell] == Label::inside) network.excesses[cell] = -1000 * kOneSight;
-        if (loose[cell] == Label::inside) network.excesses[cell] = -kOneSight;
+        if (inside[cell] == Label::inside) network.terminal_capacities[cell] = -1000 * kOneSight;
+        if (loose[cell] == Label::inside) network.terminal_capacities[cell] = -kOneSight;
     }
     return network;
 }
 
-TEST(DoubtWebs, TakesBackWhatDoesNotPay)
+TEST(DoubtBridgingFacets, TakesBackWhatDoesNotPay)
 {
     // The tip would be on no face.
     const Scene scene = plate_and_tip();
@@ -226,10 +230,10 @@ TEST(DoubtWebs, TakesBackWhatDoesNotPay)
     loose[tall_cell(mesh)] = Label::inside;
     Labels before = below_the_plate(mesh);
     before[tall_cell(mesh)] = Label::inside;
-    const auto doubted = cells_behind_webs(mesh, {mesh, before}, scene, {});
+    const auto doubted = cells_behind_bridging_facets(mesh, {mesh, before}, scene, {});
 
     MinimumCut cut(mesh, wishes(mesh, before, loose));
-    const DoubtedLabels result = doubt_webs(mesh, scene, cut, kOneSight, {});
+    const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, {});
     EXPECT_EQ(result.labels, before);
     EXPECT_GT(result.taken_back, 0);
     EXPECT_EQ(result.doubts, static_cast<std::int64_t>(doubted.size()) * result.taken_back)
@@ -280,7 +284,7 @@ Labels in_the_valley(const TetMesh& mesh, int rows)
     return labels;
 }
 
-TEST(DoubtWebs, FreesWhatPaysWebBehindWeb)
+TEST(DoubtBridgingFacets, FreesWhatPaysOneBehindTheOther)
 {
     constexpr int kFilled = 3;
     const Scene scene = valley();
@@ -294,10 +298,10 @@ TEST(DoubtWebs, FreesWhatPaysWebBehindWeb)
     }
     MinimumCut cut(mesh, wishes(mesh, before, loose));
     ASSERT_EQ(cut.labels(), before);
-    const DoubtedLabels result = doubt_webs(mesh, scene, cut, kOneSight, {});
+    const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, {});
     EXPECT_EQ(result.taken_back, 0);
     EXPECT_GT(result.doubts, 0);
-    EXPECT_TRUE(cells_behind_webs(mesh, {mesh, result.labels}, scene, {}).empty());
+    EXPECT_TRUE(cells_behind_bridging_facets(mesh, {mesh, result.labels}, scene, {}).empty());
     for (std::size_t i = 0; i < before.size(); ++i) {
         const bool stays = loose[i] == Label::outside || middle(mesh, mesh.cells[i]).z() < 1.75;
         EXPECT_TRUE(!stays || result.labels[i] == before[i]) << "cell " << i;
@@ -305,14 +309,15 @@ TEST(DoubtWebs, FreesWhatPaysWebBehindWeb)
     EXPECT_EQ(result.labels, cut.labels());
 }
 
-TEST(DoubtWebs, LeavesTheCutAsItIsWhereNotAsked)
+TEST(DoubtBridgingFacets, LeavesTheCutAsItIsWhereNotAsked)
 {
     const Scene scene = plate_and_tip();
     const TetMesh mesh = triangulate(scene);
     Labels before = below_the_plate(mesh);
     before[tall_cell(mesh)] = Label::inside;
     MinimumCut cut(mesh, wishes(mesh, before, before));
-    const DoubtedLabels result = doubt_webs(mesh, scene, cut, kOneSight, {.web_edge = 0.0});
+    const DoubtedLabels result =
+        doubt_bridging_facets(mesh, scene, cut, kOneSight, {.bridging_edge = 0.0});
     EXPECT_EQ(result.labels, before);
     EXPECT_EQ(result.doubts, 0);
     EXPECT_EQ(result.taken_back, 0);

@@ -195,6 +195,18 @@ TEST(Program, RefusesWrongOptionsInOneSentence)
 {
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--min-vews", "3"}),
               "colmap-vcarve: there is no option --min-vews; did you mean --min-views?" + kSeeHelp);
+    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--web-edge=0"}),
+              "colmap-vcarve: there is no option --web-edge; did you mean --bridging-edge?" +
+                  kSeeHelp);
+    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--softness", "1"}),
+              "colmap-vcarve: there is no option --softness; did you mean --distance-sigma?" +
+                  kSeeHelp);
+    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--web-edge=0"}),
+              "colmap-vcarve: there is no option --web-edge; did you mean --bridging-edge?" +
+                  kSeeHelp);
+    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--softness", "1"}),
+              "colmap-vcarve: there is no option --softness; did you mean --distance-sigma?" +
+                  kSeeHelp);
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads"}),
               "colmap-vcarve: --threads needs a value: a whole number from 0 to 1024 (threads)\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads", "many"}),

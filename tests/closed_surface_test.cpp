@@ -50,29 +50,29 @@ Scene ball_seen_from_one_side()
     return scene;
 }
 
-double nothing_seen(const TriMesh& mesh, const Yardstick& yardstick)
+double nothing_seen(const TriMesh& mesh, const Reference& reference)
 {
-    const MeasuredMesh measured = place_mesh({"a.ply", mesh}, yardstick);
-    return measure_view_rays(measured, yardstick).value().nothing_seen.value();
+    const MeasuredMesh measured = place_mesh({"a.ply", mesh}, reference);
+    return measure_view_rays(measured, reference).value().nothing_seen.value();
 }
 
 TEST(ClosedSurface, IsWhatTheProgramMakesWithClosed)
 {
     const Scene scene = ball_seen_from_one_side();
-    Yardstick yardstick = make_yardstick(scene, nullptr, testing::few_samples());
+    Reference reference = make_reference(scene, nullptr, testing::few_samples());
     KeptLog log;
-    add_closed_surface(yardstick, scene, log);
+    add_closed_surface(reference, scene, log);
     EXPECT_THAT(log.stages, ElementsAre("closed"));
     EXPECT_THAT(log.notes, IsEmpty());
-    const auto met = std::ranges::count(*yardstick.closed_hits, 1);
-    EXPECT_GT(met, std::ssize(yardstick.rays) / 10);
-    EXPECT_LT(met, std::ssize(yardstick.rays));
+    const auto met = std::ranges::count(*reference.closed_hits, 1);
+    EXPECT_GT(met, std::ssize(reference.rays) / 10);
+    EXPECT_LT(met, std::ssize(reference.rays));
 
     Options options;
     Log silent;
-    EXPECT_GT(nothing_seen(reconstruct(scene, options, silent).mesh, yardstick), 0.0);
+    EXPECT_GT(nothing_seen(reconstruct(scene, options, silent).mesh, reference), 0.0);
     options.surface.closed = true;
-    EXPECT_EQ(nothing_seen(reconstruct(scene, options, silent).mesh, yardstick), 0.0);
+    EXPECT_EQ(nothing_seen(reconstruct(scene, options, silent).mesh, reference), 0.0);
 }
 
 TEST(ClosedSurface, IsNoneWhereThePointsLeaveNone)
@@ -83,13 +83,13 @@ TEST(ClosedSurface, IsNoneWhereThePointsLeaveNone)
     scene.colors.resize(scene.num_points());
     scene.errors_px.resize(scene.num_points());
     scene.point_ids.resize(scene.num_points());
-    Yardstick yardstick = make_yardstick(scene, nullptr, testing::few_samples());
+    Reference reference = make_reference(scene, nullptr, testing::few_samples());
     KeptLog log;
-    add_closed_surface(yardstick, scene, log);
-    EXPECT_FALSE(yardstick.closed_hits.has_value());
+    add_closed_surface(reference, scene, log);
+    EXPECT_FALSE(reference.closed_hits.has_value());
     EXPECT_THAT(log.notes, ElementsAre(StartsWith("no closed surface to measure against: ")));
-    const MeasuredMesh mesh = place_mesh({"a.ply", testing::square()}, yardstick);
-    const RayFigures figures = measure_view_rays(mesh, yardstick).value();
+    const MeasuredMesh mesh = place_mesh({"a.ply", testing::square()}, reference);
+    const RayFigures figures = measure_view_rays(mesh, reference).value();
     EXPECT_EQ(figures.back_faces_seen, 0.0);
     EXPECT_FALSE(figures.nothing_seen.has_value());
 }
@@ -97,10 +97,10 @@ TEST(ClosedSurface, IsNoneWhereThePointsLeaveNone)
 TEST(ClosedSurface, IsNotMadeWhereNoViewHasARay)
 {
     const Scene scene = testing::scene_above_square(3, testing::high_centers());
-    Yardstick yardstick = make_yardstick(scene, nullptr, testing::few_samples());
+    Reference reference = make_reference(scene, nullptr, testing::few_samples());
     KeptLog log;
-    add_closed_surface(yardstick, scene, log);
-    EXPECT_FALSE(yardstick.closed_hits.has_value());
+    add_closed_surface(reference, scene, log);
+    EXPECT_FALSE(reference.closed_hits.has_value());
     EXPECT_THAT(log.stages, IsEmpty());
 }
 

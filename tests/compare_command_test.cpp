@@ -83,7 +83,7 @@ TEST_F(CompareOnBall, PrintsATableWithAColumnForEachMeshAndWhatItMeans)
     EXPECT_THAT(outcome.out, HasSubstr("\nhidden sights: share of lines"));
     EXPECT_THAT(outcome.out, Not(HasSubstr("seconds")));
     EXPECT_THAT(outcome.err, MatchesRegex("read +400 points (.|\n)*"
-                                          "yardstick +[0-9]+ points.* s\n"
+                                          "reference +[0-9]+ points.* s\n"
                                           "closed +[0-9]+ faces of the closed surface .* s\n"
                                           "measure +[0-9]+ faces of .* s\n"
                                           "measure +[0-9]+ faces of .* s\n"));

@@ -12,8 +12,8 @@ using testing::torus;
 Comparison comparison_of(const TriMesh& mesh)
 {
     const Scene scene = testing::scene_above_square(11, testing::high_centers());
-    const Yardstick yardstick = make_yardstick(scene, nullptr, testing::few_samples());
-    return compare_mesh({"a.ply", mesh}, yardstick);
+    const Reference reference = make_reference(scene, nullptr, testing::few_samples());
+    return compare_mesh({"a.ply", mesh}, reference);
 }
 
 TEST(Comparison, CountsWhatTheMeshIsMadeOf)

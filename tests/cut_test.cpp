@@ -11,14 +11,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Votes that say nothing, with no view's cell known.
-Votes silence(const TetMesh& mesh)
+/// VisibilityEnergy that say nothing, with no view's cell known.
+VisibilityEnergy silence(const TetMesh& mesh)
 {
-    Votes votes;
-    votes.unit = 256;
-    votes.network.residuals.assign(mesh.cells.size(), {0, 0, 0, 0});
-    votes.network.excesses.assign(mesh.cells.size(), 0);
-    return votes;
+    VisibilityEnergy energy;
+    energy.unit = 256;
+    energy.network.arc_capacities.assign(mesh.cells.size(), {0, 0, 0, 0});
+    energy.network.terminal_capacities.assign(mesh.cells.size(), 0);
+    return energy;
 }
 
 /// Two tetrahedra on one triangle: the apexes of a bipyramid at +-height.
@@ -42,9 +42,9 @@ std::vector<Index> finite_cells(const TetMesh& mesh)
     return finite;
 }
 
-TEST(Cut, LeavesEverythingOutsideWithoutVotes)
+TEST(Cut, LeavesEverythingOutsideWithoutEvidence)
 {
-    const TetMesh mesh = triangulate(arrange_points(bumpy_sphere(300, 31)));
+    const TetMesh mesh = triangulate(spatial_sort(bumpy_sphere(300, 31)));
     const Labels labels = cut(mesh, silence(mesh), {}).labels();
     EXPECT_EQ(labels, Labels(mesh.cells.size(), Label::outside));
 }
@@ -54,17 +54,17 @@ TEST(Cut, PutsACellInsideWhenItsVoteOutweighsItsFacets)
     const TetMesh mesh = bipyramid(2.0);
     ASSERT_EQ(finite_cells(mesh).size(), 2U);
     const Index chosen = finite_cells(mesh)[0];
-    Votes votes = silence(mesh);
-    votes.network.excesses[chosen] = -100 * votes.unit;
+    VisibilityEnergy energy = silence(mesh);
+    energy.network.terminal_capacities[chosen] = -100 * energy.unit;
     // The other cell stays outside: a border through the triangle between the two costs 0.38 of a
     // sight by the angle of its spheres, one through the other cell's three facets 0.73 to 0.78
     // each.
     Labels expected(mesh.cells.size(), Label::outside);
     expected[chosen] = Label::inside;
-    EXPECT_EQ(cut(mesh, votes, {}).labels(), expected);
+    EXPECT_EQ(cut(mesh, energy, {}).labels(), expected);
 
-    // Facets that cost more than the vote make it not worth while.
-    EXPECT_EQ(cut(mesh, votes, {.quality = 1000.0}).labels(),
+    // Facets that cost more than the sink capacity make it not worth while.
+    EXPECT_EQ(cut(mesh, energy, {.quality = 1000.0}).labels(),
               Labels(mesh.cells.size(), Label::outside));
 }
 
@@ -72,26 +72,26 @@ TEST(Cut, NeverPutsAViewsCellInside)
 {
     const TetMesh mesh = bipyramid(2.0);
     const Index chosen = finite_cells(mesh)[0];
-    Votes votes = silence(mesh);
-    votes.network.excesses[chosen] = -100 * votes.unit;
-    votes.cell_of_view = {chosen};
-    EXPECT_EQ(cut(mesh, votes, {}).labels()[chosen], Label::outside);
+    VisibilityEnergy energy = silence(mesh);
+    energy.network.terminal_capacities[chosen] = -100 * energy.unit;
+    energy.cell_of_view = {chosen};
+    EXPECT_EQ(cut(mesh, energy, {}).labels()[chosen], Label::outside);
 }
 
-TEST(Cut, LetsOnlyTheVotesDecideWithoutQuality)
+TEST(Cut, LetsOnlyTheSightsDecideWithoutQuality)
 {
     const TetMesh mesh = bipyramid(0.3);
     const auto finite = finite_cells(mesh);
-    Votes votes = silence(mesh);
-    votes.network.excesses[finite[1]] = -1; // the smallest vote there is
-    const Labels labels = cut(mesh, votes, {.quality = 0.0}).labels();
+    VisibilityEnergy energy = silence(mesh);
+    energy.network.terminal_capacities[finite[1]] = -1; // the smallest term there is
+    const Labels labels = cut(mesh, energy, {.quality = 0.0}).labels();
     EXPECT_EQ(labels[finite[0]], Label::outside);
     EXPECT_EQ(labels[finite[1]], Label::inside);
 }
 
 TEST(Cut, NeverPutsAnInfiniteCellInside)
 {
-    const Scene scene = arrange_points(bumpy_sphere(1000, 32));
+    const Scene scene = spatial_sort(bumpy_sphere(1000, 32));
     const TetMesh mesh = triangulate(scene);
     Log silent;
     Stage stage(silent, "");

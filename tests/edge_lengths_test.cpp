@@ -34,14 +34,14 @@ std::vector<double> edge_lengths(const TetMesh& mesh)
 
 TEST(ShortEdgeLength, IsTheFirstQuartileOfAllFiniteEdges)
 {
-    const TetMesh mesh = triangulate(arrange_points(bumpy_sphere(800, 21)));
+    const TetMesh mesh = triangulate(spatial_sort(bumpy_sphere(800, 21)));
     const std::vector<double> lengths = edge_lengths(mesh);
     EXPECT_EQ(short_edge_length(mesh), lengths[lengths.size() / 4]);
 }
 
 TEST(ShortEdgeLength, IsNearThatQuartileWhereAChoiceOfEdgesStandsForAll)
 {
-    const TetMesh mesh = triangulate(arrange_points(bumpy_sphere(20000, 22)));
+    const TetMesh mesh = triangulate(spatial_sort(bumpy_sphere(20000, 22)));
     ASSERT_GT(mesh.cells.size(), 100'000U);
     const std::vector<double> lengths = edge_lengths(mesh);
     const double found = short_edge_length(mesh);

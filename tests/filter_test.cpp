@@ -106,31 +106,31 @@ TEST(CenterPoints, IgnoresCoordinatesThatAreNotFinite)
     EXPECT_EQ(center_points(scene).offset, Vector3d(3, 5, 5));
 }
 
-TEST(ArrangePoints, GivesOneOrderForAnyOrderOfTheInput)
+TEST(SpatialSortPoints, GivesOneOrderForAnyOrderOfTheInput)
 {
     const Scene scene = bumpy_sphere(2000, 11);
-    const Scene arranged = arrange_points(scene);
-    EXPECT_EQ(arranged.positions, arrange_points(permuted(scene, 3)).positions);
-    EXPECT_EQ(arranged.point_ids, arrange_points(permuted(scene, 4)).point_ids);
+    const Scene sorted = spatial_sort(scene);
+    EXPECT_EQ(sorted.positions, spatial_sort(permuted(scene, 3)).positions);
+    EXPECT_EQ(sorted.point_ids, spatial_sort(permuted(scene, 4)).point_ids);
 }
 
-TEST(ArrangePoints, KeepsWhatBelongsToAPointTogether)
+TEST(SpatialSortPoints, KeepsWhatBelongsToAPointTogether)
 {
     const Scene scene = bumpy_sphere(500, 12);
-    const Scene arranged = arrange_points(scene);
-    ASSERT_EQ(arranged.num_points(), scene.num_points());
-    for (std::size_t i = 0; i < arranged.num_points(); ++i) {
-        const std::size_t from = arranged.point_ids[i] - 1;
-        ASSERT_EQ(arranged.positions[i], scene.positions[from]);
-        ASSERT_EQ(arranged.colors[i], scene.colors[from]);
-        ASSERT_EQ(arranged.errors_px[i], scene.errors_px[from]);
-        const auto row = arranged.tracks[i];
+    const Scene sorted = spatial_sort(scene);
+    ASSERT_EQ(sorted.num_points(), scene.num_points());
+    for (std::size_t i = 0; i < sorted.num_points(); ++i) {
+        const std::size_t from = sorted.point_ids[i] - 1;
+        ASSERT_EQ(sorted.positions[i], scene.positions[from]);
+        ASSERT_EQ(sorted.colors[i], scene.colors[from]);
+        ASSERT_EQ(sorted.errors_px[i], scene.errors_px[from]);
+        const auto row = sorted.tracks[i];
         const auto expected = scene.tracks[from];
         ASSERT_TRUE(std::equal(row.begin(), row.end(), expected.begin(), expected.end()));
     }
 }
 
-TEST(ArrangePoints, PutsNeighboursNextToEachOther)
+TEST(SpatialSortPoints, PutsNeighboursNextToEachOther)
 {
     const Scene scene = bumpy_sphere(4000, 13);
     const auto way = [](const Scene& s) {
@@ -140,7 +140,7 @@ TEST(ArrangePoints, PutsNeighboursNextToEachOther)
         }
         return length;
     };
-    EXPECT_LT(way(arrange_points(scene)), 0.2 * way(scene));
+    EXPECT_LT(way(spatial_sort(scene)), 0.2 * way(scene));
 }
 
 } // namespace

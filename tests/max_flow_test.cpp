@@ -29,15 +29,15 @@ struct Problem {
 // ---- problems -----------------------------------------------------------------------------------
 
 /// Cells without an arc that could carry anything: every cell is its own neighbour.
-Problem isolated_cells(std::vector<std::int32_t> excesses)
+Problem isolated_cells(std::vector<std::int32_t> terminal_capacities)
 {
     Problem problem;
-    problem.cells.cells.resize(excesses.size());
-    for (Index cell = 0; cell < excesses.size(); ++cell)
+    problem.cells.cells.resize(terminal_capacities.size());
+    for (Index cell = 0; cell < terminal_capacities.size(); ++cell)
         problem.cells.cells[cell].neighbors = {cell, cell, cell, cell};
-    problem.cells.mirrors.assign(excesses.size(), 0b10'11'00'01);
-    problem.network.residuals.assign(excesses.size(), {0, 0, 0, 0});
-    problem.network.excesses = std::move(excesses);
+    problem.cells.mirrors.assign(terminal_capacities.size(), 0b10'11'00'01);
+    problem.network.arc_capacities.assign(terminal_capacities.size(), {0, 0, 0, 0});
+    problem.network.terminal_capacities = std::move(terminal_capacities);
     return problem;
 }
 
@@ -56,14 +56,14 @@ void connect(TetMesh& cells, std::pair<Index, int> a, std::pair<Index, int> b)
 }
 
 /// Cells in a row, each leading to the next by slot 1 and back by slot 0.
-Problem chain(std::vector<std::int32_t> excesses, const std::vector<std::int32_t>& forward,
-              const std::vector<std::int32_t>& backward)
+Problem chain(std::vector<std::int32_t> terminal_capacities,
+              const std::vector<std::int32_t>& forward, const std::vector<std::int32_t>& backward)
 {
-    Problem problem = isolated_cells(std::move(excesses));
+    Problem problem = isolated_cells(std::move(terminal_capacities));
     for (Index cell = 0; cell + 1 < problem.cells.cells.size(); ++cell) {
         connect(problem.cells, {cell, 1}, {cell + 1, 0});
-        problem.network.residuals[cell][1] = forward[cell];
-        problem.network.residuals[cell + 1][0] = backward[cell];
+        problem.network.arc_capacities[cell][1] = forward[cell];
+        problem.network.arc_capacities[cell + 1][0] = backward[cell];
     }
     // The two ends have a slot left that would break the pairing: join them, with no capacity.
     connect(problem.cells, {static_cast<Index>(problem.cells.cells.size() - 1), 1}, {0, 0});
@@ -72,7 +72,7 @@ Problem chain(std::vector<std::int32_t> excesses, const std::vector<std::int32_t
 
 struct Kind {
     Index cells;
-    std::int32_t max_residual;
+    std::int32_t max_arc_capacity;
     std::int32_t max_excess;
     double arcs;  ///< share of arcs that are not zero
     double roots; ///< share of cells with an excess or a deficit
@@ -81,13 +81,13 @@ struct Kind {
 /// Facets paired at random: several between the same two cells, or one cell with itself, happen.
 Problem random_problem(const Kind& kind, std::mt19937& random)
 {
-    std::vector<std::int32_t> excesses(kind.cells, 0);
+    std::vector<std::int32_t> terminal_capacities(kind.cells, 0);
     std::bernoulli_distribution is_root(kind.roots), is_arc(kind.arcs);
     std::uniform_int_distribution<std::int32_t> excess(-kind.max_excess, kind.max_excess);
-    std::uniform_int_distribution<std::int32_t> residual(0, kind.max_residual);
-    for (std::int32_t& value : excesses)
+    std::uniform_int_distribution<std::int32_t> residual(0, kind.max_arc_capacity);
+    for (std::int32_t& value : terminal_capacities)
         value = is_root(random) ? excess(random) : 0;
-    Problem problem = isolated_cells(std::move(excesses));
+    Problem problem = isolated_cells(std::move(terminal_capacities));
 
     std::vector<std::pair<Index, int>> facets;
     for (Index cell = 0; cell < kind.cells; ++cell)
@@ -96,13 +96,13 @@ Problem random_problem(const Kind& kind, std::mt19937& random)
     std::shuffle(facets.begin(), facets.end(), random);
     for (std::size_t k = 0; k < facets.size(); k += 2)
         connect(problem.cells, facets[k], facets[k + 1]);
-    for (auto& residuals : problem.network.residuals)
-        for (std::int32_t& value : residuals)
+    for (auto& arc_capacities : problem.network.arc_capacities)
+        for (std::int32_t& value : arc_capacities)
             value = is_arc(random) ? residual(random) : 0;
     return problem;
 }
 
-/// Arcs and excesses at random on the cells of a Delaunay triangulation.
+/// Arcs and terminal_capacities at random on the cells of a Delaunay triangulation.
 Problem triangulated_problem(std::size_t points, const Kind& kind, std::mt19937& random)
 {
     TetMesh cells = triangulate(testing::random_points(points, 11));
@@ -130,7 +130,7 @@ std::int64_t cut_value(const Problem& problem, const Labels& labels)
 {
     std::int64_t value = 0;
     for (Index cell = 0; cell < labels.size(); ++cell) {
-        const std::int64_t excess = problem.network.excesses[cell];
+        const std::int64_t excess = problem.network.terminal_capacities[cell];
         if (labels[cell] == i) {
             value += std::max<std::int64_t>(excess, 0);
             continue;
@@ -138,7 +138,7 @@ std::int64_t cut_value(const Problem& problem, const Labels& labels)
         value += std::max<std::int64_t>(-excess, 0);
         for (int slot = 0; slot < 4; ++slot)
             if (labels[problem.cells.cells[cell].neighbors[slot]] == i)
-                value += problem.network.residuals[cell][slot];
+                value += problem.network.arc_capacities[cell][slot];
     }
     return value;
 }
@@ -189,7 +189,7 @@ Graph to_boost(const Problem& problem)
     const std::size_t count = problem.cells.cells.size();
     Graph graph(count + 2);
     for (Index cell = 0; cell < count; ++cell) {
-        const std::int64_t excess = problem.network.excesses[cell];
+        const std::int64_t excess = problem.network.terminal_capacities[cell];
         add_arcs(graph, {count, cell}, {std::max<std::int64_t>(excess, 0), 0});
         add_arcs(graph, {cell, count + 1}, {std::max<std::int64_t>(-excess, 0), 0});
         for (int slot = 0; slot < 4; ++slot) {
@@ -197,8 +197,8 @@ Graph to_boost(const Problem& problem)
             if (beyond < cell) continue;
             const int mirror = problem.cells.mirror(cell, slot);
             add_arcs(graph, {cell, beyond},
-                     {problem.network.residuals[cell][slot],
-                      beyond == cell ? 0 : problem.network.residuals[beyond][mirror]});
+                     {problem.network.arc_capacities[cell][slot],
+                      beyond == cell ? 0 : problem.network.arc_capacities[beyond][mirror]});
         }
     }
     return graph;
@@ -251,7 +251,7 @@ TEST(MinimumCut, LeavesInsideOnlyIsolatedCellsWithADeficit)
 TEST(MinimumCut, IgnoresACapacityFromACellToItself)
 {
     Problem problem = isolated_cells({4, -3, 0});
-    problem.network.residuals.assign(3, {9, 9, 9, 9});
+    problem.network.arc_capacities.assign(3, {9, 9, 9, 9});
     EXPECT_EQ(cut(problem), Labels({o, i, o}));
 }
 
@@ -287,15 +287,15 @@ TEST(MinimumCut, SendsFlowBackWhereALaterPathNeedsTheArc)
     connect(problem.cells, {5, 1}, {4, 1});
     connect(problem.cells, {0, 0}, {2, 2});
     connect(problem.cells, {0, 1}, {1, 2});
-    problem.network.residuals[1] = {3, 2, 0, 0};
-    problem.network.residuals[2] = {0, 3, 0, 0};
-    problem.network.residuals[3] = {0, 2, 0, 0};
-    problem.network.residuals[5] = {0, 1, 0, 0};
-    problem.network.residuals[0] = {1, 1, 0, 0};
+    problem.network.arc_capacities[1] = {3, 2, 0, 0};
+    problem.network.arc_capacities[2] = {0, 3, 0, 0};
+    problem.network.arc_capacities[3] = {0, 2, 0, 0};
+    problem.network.arc_capacities[5] = {0, 1, 0, 0};
+    problem.network.arc_capacities[0] = {1, 1, 0, 0};
     EXPECT_EQ(cut(problem), Labels({o, o, o, o, o, o}));
-    problem.network.excesses[4] = -5;
+    problem.network.terminal_capacities[4] = -5;
     EXPECT_EQ(cut(problem), Labels({o, o, o, o, i, o}));
-    problem.network.excesses[1] = 3;
+    problem.network.terminal_capacities[1] = 3;
     EXPECT_EQ(cut(problem), Labels({i, i, i, i, i, i}));
 }
 
@@ -310,17 +310,17 @@ TEST(MinimumCut, SurvivesTheLargestNumbers)
     EXPECT_EQ(cut(chain({1, -kMost, -kMost, -kMost, -kMost}, most, most)), Labels(5, i));
 }
 
-TEST(MinimumCut, RefusesANegativeResidual)
+TEST(MinimumCut, RefusesANegativeArcCapacity)
 {
     Problem problem = isolated_cells({0, 0});
-    problem.network.residuals[1][2] = -1;
+    problem.network.arc_capacities[1][2] = -1;
     EXPECT_THROW(cut(problem), std::invalid_argument);
 }
 
 TEST(MinimumCut, RefusesANetworkOfAnotherSize)
 {
     Problem problem = isolated_cells({0, 0});
-    problem.network.excesses.push_back(0);
+    problem.network.terminal_capacities.push_back(0);
     EXPECT_THROW(cut(problem), std::invalid_argument);
 }
 
@@ -373,7 +373,7 @@ TEST(MinimumCut, AgreesWithBoykovKolmogorovOnATriangulation)
     const std::vector<Kind> kinds = {{0, 100, 300, 1.0, 0.9}, {0, 300, 900, 0.9, 0.05}};
     for (const Kind& kind : kinds) {
         const Problem problem = triangulated_problem(8000, kind, random);
-        ASSERT_GT(problem.cells.cells.size(), 3 * 16384U) << "several runs, to be merged";
+        ASSERT_GT(problem.cells.cells.size(), 3 * 16384U) << "several blocks, to be merged";
         const auto [flow, expected] = boost_cut(problem);
         const Labels labels = cut(problem);
         EXPECT_EQ(cut_value(problem, labels), flow);
@@ -387,33 +387,34 @@ TEST(MinimumCut, IsTheSameHoweverRunsAreMerged)
     const std::vector<Kind> kinds = {{300, 1, 1, 1.0, 0.1},        {300, 3, 40, 0.6, 0.1},
                                      {1000, 100, 400, 1.0, 0.5},   {1000, 2, 1, 0.9, 0.9},
                                      {2000, 1000, 90, 0.95, 0.02}, {500, kMost, kMost, 0.9, 0.5}};
-    const std::vector<FlowRuns> sizes = {{2, 2}, {7, 3}, {40, 2}, {50, 16}, {150, 3}};
+    const std::vector<FlowBlocks> sizes = {{2, 2}, {7, 3}, {40, 2}, {50, 16}, {150, 3}};
     for (int round = 0; round < 180; ++round) {
         const Kind& kind = kinds[static_cast<std::size_t>(round) % kinds.size()];
         const Problem problem =
             round % 12 < 6 ? random_problem(kind, random) : random_ladder(kind, random);
-        const Labels expected = cut(problem); // in one run
-        for (const FlowRuns& runs : sizes)
-            ASSERT_EQ(minimum_cut(problem.cells, problem.network, runs), expected)
-                << "round " << round << ", runs of " << runs.cells;
+        const Labels expected = cut(problem); // in one block
+        for (const FlowBlocks& blocks : sizes)
+            ASSERT_EQ(minimum_cut(problem.cells, problem.network, blocks), expected)
+                << "round " << round << ", blocks of " << blocks.cells;
     }
 }
 
-TEST(MinimumCut, IsTheSameHoweverRunsOfATriangulationAreMerged)
+TEST(MinimumCut, IsTheSameHoweverBlocksOfATriangulationAreMerged)
 {
     std::mt19937 random(13);
     const std::vector<Kind> kinds = {{0, 100, 300, 1.0, 0.9}, {0, 300, 900, 0.9, 0.05}};
     for (const Kind& kind : kinds) {
         const Problem problem = triangulated_problem(2000, kind, random);
-        ASSERT_LT(problem.cells.cells.size(), FlowRuns().cells) << "one run by default";
+        ASSERT_LT(problem.cells.cells.size(), FlowBlocks().cells) << "one block by default";
         const Labels expected = cut(problem);
-        for (const FlowRuns& runs : {FlowRuns{10, 4}, FlowRuns{100, 2}, FlowRuns{1000, 5}})
-            EXPECT_TRUE(minimum_cut(problem.cells, problem.network, runs) == expected)
-                << "runs of " << runs.cells;
+        for (const FlowBlocks& blocks :
+             {FlowBlocks{10, 4}, FlowBlocks{100, 2}, FlowBlocks{1000, 5}})
+            EXPECT_TRUE(minimum_cut(problem.cells, problem.network, blocks) == expected)
+                << "blocks of " << blocks.cells;
     }
 }
 
-TEST(MinimumCut, IsFoundAgainAfterMoreWasOffered)
+TEST(MinimumCut, IsFoundAgainAfterSourceCapacityWasAdded)
 {
     std::mt19937 random(11);
     const std::vector<Kind> kinds = {{300, 1, 1, 1.0, 0.1},
@@ -424,15 +425,15 @@ TEST(MinimumCut, IsFoundAgainAfterMoreWasOffered)
         const Kind& kind = kinds[static_cast<std::size_t>(round) % kinds.size()];
         Problem problem =
             round % 8 < 4 ? random_problem(kind, random) : random_ladder(kind, random);
-        const FlowRuns runs = round % 16 < 8 ? FlowRuns() : FlowRuns{30, 3};
-        MinimumCut minimum(problem.cells, problem.network, runs);
+        const FlowBlocks blocks = round % 16 < 8 ? FlowBlocks() : FlowBlocks{30, 3};
+        MinimumCut minimum(problem.cells, problem.network, blocks);
         for (int more = 0; more < 4; ++more) {
             std::vector<Index> chosen(1 + random() % 30);
             for (Index& cell : chosen) {
                 cell = static_cast<Index>(random() % problem.cells.cells.size());
-                problem.network.excesses[cell] += kind.max_excess;
+                problem.network.terminal_capacities[cell] += kind.max_excess;
             }
-            minimum.offer(chosen, kind.max_excess);
+            minimum.add_source_capacity(chosen, kind.max_excess);
             ASSERT_EQ(minimum.labels(), cut(problem)) << "round " << round << '.' << more;
         }
     }
@@ -455,17 +456,18 @@ TEST(MinimumCut, SolvesALongChain)
     constexpr std::size_t kCells = 200000;
     std::mt19937 random(3);
     std::uniform_int_distribution<std::int32_t> residual(5, 9);
-    std::vector<std::int32_t> excesses(kCells, 0), forward(kCells - 1), backward(kCells - 1);
+    std::vector<std::int32_t> terminal_capacities(kCells, 0), forward(kCells - 1),
+        backward(kCells - 1);
     for (std::int32_t& value : forward)
         value = residual(random);
     for (std::int32_t& value : backward)
         value = residual(random);
-    excesses.front() = 100;
-    excesses.back() = -100;
+    terminal_capacities.front() = 100;
+    terminal_capacities.back() = -100;
     forward[123456] = 4;
     Labels expected(kCells, i);
     std::fill(expected.begin(), expected.begin() + 123457, o);
-    EXPECT_EQ(cut(chain(std::move(excesses), forward, backward)), expected);
+    EXPECT_EQ(cut(chain(std::move(terminal_capacities), forward, backward)), expected);
 }
 
 // ---- relations ----------------------------------------------------------------------------------
@@ -480,13 +482,14 @@ TEST(MinimumCut, FollowsAPermutationOfTheCellsAndSlots)
     std::shuffle(order.begin(), order.end(), random);
     Problem permuted = isolated_cells(std::vector<std::int32_t>(count));
     for (Index cell = 0; cell < count; ++cell) {
-        permuted.network.excesses[order[cell]] = problem.network.excesses[cell];
+        permuted.network.terminal_capacities[order[cell]] =
+            problem.network.terminal_capacities[cell];
         for (int slot = 0; slot < 4; ++slot) {
             const Index beyond = problem.cells.cells[cell].neighbors[slot];
             connect(permuted.cells, {order[cell], 3 - slot},
                     {order[beyond], 3 - problem.cells.mirror(cell, slot)});
-            permuted.network.residuals[order[cell]][3 - slot] =
-                problem.network.residuals[cell][slot];
+            permuted.network.arc_capacities[order[cell]][3 - slot] =
+                problem.network.arc_capacities[cell][slot];
         }
     }
     const Labels labels = cut(problem);
@@ -501,10 +504,10 @@ TEST(MinimumCut, StaysWhenAllCapacitiesAreDoubled)
     std::mt19937 random(5);
     Problem problem = random_problem({2000, 20, 60, 0.9, 0.4}, random);
     const Labels labels = cut(problem);
-    for (auto& residuals : problem.network.residuals)
-        for (std::int32_t& value : residuals)
+    for (auto& arc_capacities : problem.network.arc_capacities)
+        for (std::int32_t& value : arc_capacities)
             value *= 2;
-    for (std::int32_t& value : problem.network.excesses)
+    for (std::int32_t& value : problem.network.terminal_capacities)
         value *= 2;
     ASSERT_NE(std::count(labels.begin(), labels.end(), i), 0);
     EXPECT_EQ(cut(problem), labels);

@@ -57,9 +57,9 @@ Comparison compared(const char* fixture)
     const Scene model =
         read_colmap_model(has_folder ? folder / "sparse_txt" : folder, ModelFormat::text);
     const NamedMesh known{"truth", read_ply(folder / (is_solid ? "solid.ply" : "truth.ply"))};
-    const Yardstick yardstick = make_yardstick(model, &known, {.samples = 40000});
+    const Reference reference = make_reference(model, &known, {.samples = 40000});
     Log silent;
-    return compare_mesh({"ours.ply", reconstruct(model, Options(), silent).mesh}, yardstick);
+    return compare_mesh({"ours.ply", reconstruct(model, Options(), silent).mesh}, reference);
 }
 
 Figures figures_of(const char* fixture, const Comparison& ours)

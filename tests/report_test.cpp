@@ -14,17 +14,17 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 /// A square seen by all views, measured against itself.
-Yardstick square_yardstick()
+Reference square_reference()
 {
     const NamedMesh truth{"gt.ply", testing::square()};
     const Scene scene = testing::scene_above_square(11, testing::high_centers());
-    return make_yardstick(scene, &truth, testing::few_samples());
+    return make_reference(scene, &truth, testing::few_samples());
 }
 
-Yardstick without_truth()
+Reference without_truth()
 {
     const Scene scene = testing::scene_above_square(11, testing::high_centers());
-    return make_yardstick(scene, nullptr, testing::few_samples());
+    return make_reference(scene, nullptr, testing::few_samples());
 }
 
 std::vector<Comparison> two_meshes()
@@ -82,7 +82,7 @@ TEST(ComparisonTable, SaysWhatTheFiguresMean)
     EXPECT_THAT(plain, HasSubstr("\nback faces seen: share of 0 rays, "));
     EXPECT_THAT(plain, HasSubstr("\nnothing seen: not known, "));
     EXPECT_THAT(plain, Not(HasSubstr("truth")));
-    const std::string full = comparison_table(two_meshes(), square_yardstick());
+    const std::string full = comparison_table(two_meshes(), square_reference());
     EXPECT_THAT(full, HasSubstr("\ntruth: 20400 samples by area of what at least 3 views see "));
     EXPECT_THAT(full, HasSubstr("\nblocked: share of the truth's samples whose line "));
     EXPECT_THAT(full, HasSubstr("(one a sample, at random; 20400 of 20400 samples have one)"));
@@ -90,21 +90,21 @@ TEST(ComparisonTable, SaysWhatTheFiguresMean)
 
 TEST(ComparisonTable, HasNoRaysWhereNoViewHasOne)
 {
-    const Yardstick yardstick = without_truth();
-    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, yardstick)};
-    const std::string table = comparison_table(one, yardstick);
+    const Reference reference = without_truth();
+    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, reference)};
+    const std::string table = comparison_table(one, reference);
     EXPECT_THAT(table, HasSubstr("| back faces seen            |        - |\n"
                                  "| nothing seen               |        - |\n"));
-    const auto report = nlohmann::json::parse(comparison_json(one, yardstick));
+    const auto report = nlohmann::json::parse(comparison_json(one, reference));
     EXPECT_TRUE(report["meshes"][0]["views"]["back_faces_seen"].is_null());
     EXPECT_TRUE(report["meshes"][0]["views"]["nothing_seen"].is_null());
 }
 
 TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
 {
-    const Yardstick yardstick = square_yardstick();
-    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, yardstick)};
-    const std::string table = comparison_table(one, yardstick);
+    const Reference reference = square_reference();
+    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, reference)};
+    const std::string table = comparison_table(one, reference);
     for (const char* row : {"| F 0.25 %                   |   1.0000 |\n",
                             "| precision 0.5 %            |   1.0000 |\n",
                             "| recall 1 %                 |   1.0000 |\n",
@@ -120,13 +120,13 @@ TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
 
 TEST(ComparisonTable, HasNoLinesWhereNoImageHoldsTheTruth)
 {
-    Yardstick yardstick = square_yardstick();
-    std::ranges::fill(yardstick.truth->image_views, kNoView);
-    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, yardstick)};
-    const std::string table = comparison_table(one, yardstick);
+    Reference reference = square_reference();
+    std::ranges::fill(reference.truth->image_views, kNoView);
+    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, reference)};
+    const std::string table = comparison_table(one, reference);
     EXPECT_THAT(table, HasSubstr("| seen right                 |        - |\n"));
     EXPECT_THAT(table, HasSubstr("(one a sample, at random; 0 of 20400 samples have one)"));
-    const auto report = nlohmann::json::parse(comparison_json(one, yardstick));
+    const auto report = nlohmann::json::parse(comparison_json(one, reference));
     EXPECT_EQ(report["truth"]["image_samples"], 0);
     EXPECT_TRUE(report["meshes"][0]["truth"]["open"].is_null());
 }
@@ -190,14 +190,14 @@ TEST(ComparisonJson, HoldsTheFiguresOfEveryMesh)
 
 TEST(ComparisonJson, HoldsTheTruth)
 {
-    const Yardstick yardstick = square_yardstick();
+    const Reference reference = square_reference();
     std::vector<Comparison> meshes = two_meshes();
     meshes[0].truth = TruthFigures{.agreements = {{{0.0025, 0.5, 1.0, 0.75}, {}, {}}},
                                    .mean_accuracy = 0.1,
                                    .mean_completeness = 0.2,
                                    .blocked = 0.3,
                                    .lines = LineFigures{0.625, 0.125, 0.0625}};
-    const auto report = nlohmann::json::parse(comparison_json(meshes, yardstick));
+    const auto report = nlohmann::json::parse(comparison_json(meshes, reference));
     EXPECT_EQ(report["truth"]["samples"], 20400);
     EXPECT_EQ(report["truth"]["image_samples"], 20400);
     EXPECT_EQ(report["truth"]["seen_share"], 1.0);

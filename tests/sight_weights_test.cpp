@@ -23,10 +23,10 @@ TEST(SightWeights, CountAMedianPointAsOneAndOthersByTheirViews)
     const auto by_views = [&](double views) {
         return 1.0 - std::exp(-0.5 * views * views / (options.views_sigma * options.views_sigma));
     };
-    EXPECT_EQ(weights.full_vote(1), SightWeights::kUnit);
-    EXPECT_EQ(weights.full_vote(0), std::lround(SightWeights::kUnit * by_views(2) / by_views(3)));
-    EXPECT_EQ(weights.full_vote(2), std::lround(SightWeights::kUnit * by_views(4) / by_views(3)));
-    EXPECT_EQ(weights.full_vote(1, 0.25), SightWeights::kUnit / 4);
+    EXPECT_EQ(weights.full_weight(1), SightWeights::kUnit);
+    EXPECT_EQ(weights.full_weight(0), std::lround(SightWeights::kUnit * by_views(2) / by_views(3)));
+    EXPECT_EQ(weights.full_weight(2), std::lround(SightWeights::kUnit * by_views(4) / by_views(3)));
+    EXPECT_EQ(weights.full_weight(1, 0.25), SightWeights::kUnit / 4);
 }
 
 TEST(SightWeights, CountErrorsBeyondTheMedianOnly)
@@ -37,9 +37,10 @@ TEST(SightWeights, CountErrorsBeyondTheMedianOnly)
     options.views_sigma = 0.0;
     options.error_sigma = 2.0;
     const SightWeights weights(scene, options);
-    EXPECT_EQ(weights.full_vote(0), SightWeights::kUnit);
-    EXPECT_EQ(weights.full_vote(2), SightWeights::kUnit);
-    EXPECT_EQ(weights.full_vote(1), std::lround(SightWeights::kUnit * std::exp(-0.5 * 8.0 / 4.0)));
+    EXPECT_EQ(weights.full_weight(0), SightWeights::kUnit);
+    EXPECT_EQ(weights.full_weight(2), SightWeights::kUnit);
+    EXPECT_EQ(weights.full_weight(1),
+              std::lround(SightWeights::kUnit * std::exp(-0.5 * 8.0 / 4.0)));
 }
 
 TEST(SightWeights, KnowNothingOfAnEmptyScene)

@@ -19,7 +19,7 @@ namespace {
 using Eigen::Vector3d;
 using Four = std::array<std::int32_t, 4>;
 
-Votes traced(const TetMesh& mesh, const Scene& scene, const TraceOptions& options)
+VisibilityEnergy traced(const TetMesh& mesh, const Scene& scene, const TraceOptions& options)
 {
     Log log;
     Stage stage(log, "sights");
@@ -40,10 +40,10 @@ auto with_threads(int threads, const Action& action)
     return arena.execute(action);
 }
 
-void expect_equal(const Votes& a, const Votes& b)
+void expect_equal(const VisibilityEnergy& a, const VisibilityEnergy& b)
 {
-    EXPECT_EQ(a.network.residuals, b.network.residuals);
-    EXPECT_EQ(a.network.excesses, b.network.excesses);
+    EXPECT_EQ(a.network.arc_capacities, b.network.arc_capacities);
+    EXPECT_EQ(a.network.terminal_capacities, b.network.terminal_capacities);
     EXPECT_EQ(a.cell_of_view, b.cell_of_view);
     EXPECT_EQ(a.unit, b.unit);
 }
@@ -68,9 +68,9 @@ Scene star(const Positions& centers)
 const Vector3d kBeyondCell0(0, 8, 16); // the way there leaves the hull at a sixth
 const Vector3d kInCell0(0, 1, 2);
 
-constexpr TraceOptions kFullWeight = {.views_sigma = 0.0, .softness = 0.0, .sink_depth = 0.0};
+constexpr TraceOptions kFullWeight = {.views_sigma = 0.0, .distance_sigma = 0.0, .sink_depth = 0.0};
 
-std::vector<Four> no_residuals()
+std::vector<Four> no_arc_capacities()
 {
     return {8, Four{0, 0, 0, 0}};
 }
@@ -90,22 +90,24 @@ TEST(CountCrossings, CountsBothSidesOfAFacet)
 TEST(TraceSights, PushesASightFromBeyondTheHullToItsPoint)
 {
     const Scene scene = star({kBeyondCell0});
-    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
-    std::vector<Four> residuals = no_residuals();
-    residuals[0][3] = 256; // back out; the way in is used up
-    EXPECT_EQ(votes.network.residuals, residuals);
-    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
-    EXPECT_EQ(votes.cell_of_view, std::vector<Index>{kInfinite});
-    EXPECT_EQ(votes.unit, 256);
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
+    std::vector<Four> arc_capacities = no_arc_capacities();
+    arc_capacities[0][3] = 256; // back out; the way in is used up
+    EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
+    EXPECT_EQ(energy.network.terminal_capacities,
+              (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
+    EXPECT_EQ(energy.cell_of_view, std::vector<Index>{kInfinite});
+    EXPECT_EQ(energy.unit, 256);
 }
 
 TEST(TraceSights, LeavesTheWholeFlowInTheCellOfAViewThatNoFacetPartsFromItsPoint)
 {
     const Scene scene = star({kInCell0});
-    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
-    EXPECT_EQ(votes.network.residuals, no_residuals());
-    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
-    EXPECT_EQ(votes.cell_of_view, std::vector<Index>{0});
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
+    EXPECT_EQ(energy.network.arc_capacities, no_arc_capacities());
+    EXPECT_EQ(energy.network.terminal_capacities,
+              (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
+    EXPECT_EQ(energy.cell_of_view, std::vector<Index>{0});
 }
 
 TEST(TraceSights, FindsTheCellsOfViewsThatSeeNoPoint)
@@ -115,8 +117,8 @@ TEST(TraceSights, FindsTheCellsOfViewsThatSeeNoPoint)
         scene.views.push_back(scene.views[0]);
         scene.views.back().center = center;
     }
-    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
-    EXPECT_EQ(votes.cell_of_view, (std::vector<Index>{kInfinite, 0, kInfinite}));
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
+    EXPECT_EQ(energy.cell_of_view, (std::vector<Index>{kInfinite, 0, kInfinite}));
 }
 
 TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
@@ -128,13 +130,14 @@ TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
                                                                  {scene.positions[2], {}},
                                                                  {scene.positions[3], {}},
                                                                  {scene.positions[4], {0}}});
-    const TraceOptions options = {.views_sigma = 3.0, .softness = 0.0, .sink_depth = 0.0};
-    const Votes votes = traced(triangulate(scene), scene, options);
+    const TraceOptions options = {.views_sigma = 3.0, .distance_sigma = 0.0, .sink_depth = 0.0};
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, options);
     // 256 (1 - exp(-1 / 18)) / (1 - exp(-4 / 18)) = 69.4 beside 256
-    std::vector<Four> residuals = no_residuals();
-    residuals[0][3] = 69;
-    EXPECT_EQ(votes.network.residuals, residuals);
-    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{69, 0, 0, 0, -512, 0, -69, 0}));
+    std::vector<Four> arc_capacities = no_arc_capacities();
+    arc_capacities[0][3] = 69;
+    EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
+    EXPECT_EQ(energy.network.terminal_capacities,
+              (std::vector<std::int32_t>{69, 0, 0, 0, -512, 0, -69, 0}));
 }
 
 TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
@@ -144,28 +147,28 @@ TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
     TraceOptions options = kFullWeight;
     options.error_sigma = 3.0;
     const std::int32_t weight = 217; // 256 exp(-(4 - 1) / 18)
-    EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses,
+    EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities,
               (std::vector<std::int32_t>{weight, 0, 0, 0, 0, 0, -weight, 0}));
 
     const std::vector<std::int32_t> full = {256, 0, 0, 0, 0, 0, -256, 0};
     for (const double harmless_px : {0.0, 1.0, -1.0}) {
         scene.errors_px[4] = harmless_px;
-        EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses, full);
+        EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities, full);
     }
     scene.errors_px[4] = 2.0;
     options.error_sigma = 0.0;
-    EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses, full);
+    EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities, full);
     options.error_sigma = 3.0;
     scene.errors_px.assign(5, -1.0);
-    EXPECT_EQ(traced(triangulate(scene), scene, options).network.excesses, full);
+    EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities, full);
 }
 
 TEST(TraceSights, SaysNothingWithoutSights)
 {
     const Scene scene = star({});
-    const Votes votes = traced(triangulate(scene), scene, {});
-    EXPECT_EQ(votes.network.residuals, no_residuals());
-    EXPECT_EQ(votes.network.excesses, std::vector<std::int32_t>(8, 0));
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, {});
+    EXPECT_EQ(energy.network.arc_capacities, no_arc_capacities());
+    EXPECT_EQ(energy.network.terminal_capacities, std::vector<std::int32_t>(8, 0));
 }
 
 TEST(TraceSights, SoftensWhatIsNearThePoint)
@@ -173,12 +176,13 @@ TEST(TraceSights, SoftensWhatIsNearThePoint)
     // The facet is |(0, 4/3, 8/3)| = 2.98142 away. Of the ten edges, four are sqrt(48) = 6.9282
     // long and six sqrt(128), so a short edge is 6.9282.
     const Scene scene = star({kBeyondCell0});
-    const TraceOptions options = {.views_sigma = 0.0, .softness = 0.5, .sink_depth = 0.0};
-    const Votes votes = traced(triangulate(scene), scene, options);
-    std::vector<Four> residuals = no_residuals();
-    residuals[0][3] = 79; // 256 (1 - exp(-(2.98142 / 3.4641)^2 / 2)) = 79.24
-    EXPECT_EQ(votes.network.residuals, residuals);
-    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{79, 0, 0, 0, 0, 0, -256, 0}));
+    const TraceOptions options = {.views_sigma = 0.0, .distance_sigma = 0.5, .sink_depth = 0.0};
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, options);
+    std::vector<Four> arc_capacities = no_arc_capacities();
+    arc_capacities[0][3] = 79; // 256 (1 - exp(-(2.98142 / 3.4641)^2 / 2)) = 79.24
+    EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
+    EXPECT_EQ(energy.network.terminal_capacities,
+              (std::vector<std::int32_t>{79, 0, 0, 0, 0, 0, -256, 0}));
 }
 
 TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
@@ -186,13 +190,14 @@ TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
     Scene scene = make_scene(
         {{1, 1, 1}},
         {{{0, 0, 0}, {}}, {{4, 0, 0}, {}}, {{0, 4, 0}, {}}, {{1, 1, 3}, {0}}, {{1, 1, -3}, {0}}});
-    const Votes votes = traced(triangulate(scene), scene, kFullWeight);
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
     // Cell 0 {0 1 2 3} holds the view; point 4's sight crosses into it from cell 2 {0 1 2 4}.
-    std::vector<Four> residuals = no_residuals();
-    residuals[1][3] = 256;
-    EXPECT_EQ(votes.network.residuals, residuals);
-    EXPECT_EQ(votes.network.excesses, (std::vector<std::int32_t>{256, 256, 0, 0, 0, 0, 0, 0}));
-    EXPECT_EQ(votes.cell_of_view, std::vector<Index>{0});
+    std::vector<Four> arc_capacities = no_arc_capacities();
+    arc_capacities[1][3] = 256;
+    EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
+    EXPECT_EQ(energy.network.terminal_capacities,
+              (std::vector<std::int32_t>{256, 256, 0, 0, 0, 0, 0, 0}));
+    EXPECT_EQ(energy.cell_of_view, std::vector<Index>{0});
 }
 
 // ---- against brute force ------------------------------------------------------------------------
@@ -264,13 +269,13 @@ TEST(CountCrossings, MarksWhatThePapersOwnTestMarks)
 std::ptrdiff_t compare_cuts(const Scene& scene, const TraceOptions& options)
 {
     const TetMesh mesh = triangulate(scene);
-    const Votes votes = traced(mesh, scene, options);
-    UnpushedNetwork network = network_of_votes(mesh, scene, options);
-    pin_outside(mesh, votes.cell_of_view, network);
+    const VisibilityEnergy energy = traced(mesh, scene, options);
+    UnpushedNetwork network = network_of_sights(mesh, scene, options);
+    pin_outside(mesh, energy.cell_of_view, network);
     const Labels expected = boost_minimum_cut(mesh, network);
-    const Labels labels = cut(mesh, votes, {.quality = 0.0}).labels();
+    const Labels labels = cut(mesh, energy, {.quality = 0.0}).labels();
     EXPECT_TRUE(labels == expected)
-        << "softness " << options.softness << ", sink depth " << options.sink_depth;
+        << "distance_sigma " << options.distance_sigma << ", sink depth " << options.sink_depth;
     return std::count(expected.begin(), expected.end(), Label::inside);
 }
 
@@ -333,7 +338,7 @@ TEST(TraceSights, IsTheSameForOneAndTwoThreads)
     for (const Scene& scene :
          {bumpy_sphere(3000, 71), scene_seen_from(views_on_points, lattice(12), 0.7, 72)}) {
         const TetMesh mesh = triangulate(scene);
-        const TraceOptions options = {.views_sigma = 3.0, .softness = 0.5, .sink_depth = 1.0};
+        const TraceOptions options = {.views_sigma = 3.0, .distance_sigma = 0.5, .sink_depth = 1.0};
         for (int round = 0; round < 3; ++round) {
             expect_equal(with_threads(2, [&] { return traced(mesh, scene, options); }),
                          with_threads(1, [&] { return traced(mesh, scene, options); }));
@@ -360,13 +365,13 @@ void expect_same_for_views_in_another_order(const Scene& scene)
         permuted.views[order[view]] = scene.views[view];
     }
     const TetMesh mesh = triangulate(scene);
-    const TraceOptions options = {.views_sigma = 3.0, .softness = 0.5, .sink_depth = 1.0};
-    const Votes votes = traced(mesh, scene, options);
-    const Votes again = traced(mesh, permuted, options);
-    EXPECT_EQ(again.network.residuals, votes.network.residuals);
-    EXPECT_EQ(again.network.excesses, votes.network.excesses);
+    const TraceOptions options = {.views_sigma = 3.0, .distance_sigma = 0.5, .sink_depth = 1.0};
+    const VisibilityEnergy energy = traced(mesh, scene, options);
+    const VisibilityEnergy again = traced(mesh, permuted, options);
+    EXPECT_EQ(again.network.arc_capacities, energy.network.arc_capacities);
+    EXPECT_EQ(again.network.terminal_capacities, energy.network.terminal_capacities);
     for (std::size_t view = 0; view < order.size(); ++view) {
-        EXPECT_EQ(again.cell_of_view[order[view]], votes.cell_of_view[view]);
+        EXPECT_EQ(again.cell_of_view[order[view]], energy.cell_of_view[view]);
     }
     EXPECT_EQ(counted(mesh, permuted), counted(mesh, scene));
 }

@@ -255,16 +255,16 @@ TEST(Triangulate, HasTheSameCellsForPermutedPoints)
     }
 }
 
-TEST(Triangulate, GivesTheSameArraysForArrangedPointsInAnyOrder)
+TEST(Triangulate, GivesTheSameArraysForSortedPointsInAnyOrder)
 {
     for (const Positions& points :
          {lattice(6), points_on_sphere(), random_points(3000, 33), body_centered_lattice(5)}) {
-        const Scene arranged = arrange_points(scene_of(points));
-        const TetMesh mesh = triangulate(arranged);
+        const Scene sorted = spatial_sort(scene_of(points));
+        const TetMesh mesh = triangulate(sorted);
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
             const auto order = random_order(points.size(), seed);
-            const Scene again = arrange_points(scene_of(reordered(points, order)));
-            ASSERT_EQ(again.positions, arranged.positions);
+            const Scene again = spatial_sort(scene_of(reordered(points, order)));
+            ASSERT_EQ(again.positions, sorted.positions);
             expect_equal(triangulate(again), mesh);
         }
     }
@@ -292,7 +292,7 @@ TEST(Triangulate, GivesTheSameArraysForOneAndTwoThreads)
     for (std::size_t i = 0; i < 4000; ++i) {
         points[i].z() = 7.5;
     }
-    points = arrange_points(scene_of(points)).positions;
+    points = spatial_sort(scene_of(points)).positions;
     const TetMesh one = with_threads(1, points);
     expect_canonical(one);
     expect_mutual_neighbors(one);

@@ -21,21 +21,21 @@ using testing::strip;
 /// Of a share of 20,000 random samples, at most.
 constexpr double kFourDeviations = 0.0142;
 
-Yardstick yardstick_of(const TriMesh& truth, const std::vector<Eigen::Vector3d>& centers)
+Reference reference_of(const TriMesh& truth, const std::vector<Eigen::Vector3d>& centers)
 {
     const NamedMesh named{"gt.ply", truth};
-    return make_yardstick(scene_above_square(11, centers), &named, few_samples());
+    return make_reference(scene_above_square(11, centers), &named, few_samples());
 }
 
-TruthFigures figures_of(const TriMesh& mesh, const Yardstick& yardstick)
+TruthFigures figures_of(const TriMesh& mesh, const Reference& reference)
 {
-    return measure_against_truth(place_mesh({"a.ply", mesh}, yardstick), yardstick);
+    return measure_against_truth(place_mesh({"a.ply", mesh}, reference), reference);
 }
 
 TEST(Truth, AgreesWithItself)
 {
-    const Yardstick yardstick = yardstick_of(square(), high_centers());
-    const TruthFigures figures = figures_of(square(), yardstick);
+    const Reference reference = reference_of(square(), high_centers());
+    const TruthFigures figures = figures_of(square(), reference);
     for (const Agreement& agreement : figures.agreements) {
         EXPECT_EQ(agreement.precision, 1.0);
         EXPECT_EQ(agreement.recall, 1.0);
@@ -48,9 +48,9 @@ TEST(Truth, AgreesWithItself)
 
 TEST(Truth, MeasuresAMoveAlongTheNormal)
 {
-    const Yardstick yardstick = yardstick_of(square(), high_centers());
+    const Reference reference = reference_of(square(), high_centers());
     const double height = 0.004 * std::numbers::sqrt2;
-    const TruthFigures figures = figures_of(square(height), yardstick);
+    const TruthFigures figures = figures_of(square(height), reference);
     EXPECT_EQ(figures.agreements[0].precision, 0.0);
     EXPECT_EQ(figures.agreements[0].recall, 0.0);
     EXPECT_EQ(figures.agreements[0].f_score, 0.0);
@@ -63,8 +63,8 @@ TEST(Truth, MeasuresAMoveAlongTheNormal)
 
 TEST(Truth, MeasuresAMoveAlongTheSurface)
 {
-    const Yardstick yardstick = yardstick_of(square(), high_centers());
-    const TruthFigures figures = figures_of(strip(0.2, 1.2, 0.0), yardstick);
+    const Reference reference = reference_of(square(), high_centers());
+    const TruthFigures figures = figures_of(strip(0.2, 1.2, 0.0), reference);
     for (std::size_t i = 0; i < kTolerances.size(); ++i) {
         // Within tolerance of the other lies all but the strip beyond it.
         const double overlap = 0.8 + kTolerances[i] * std::numbers::sqrt2;
@@ -78,8 +78,8 @@ TEST(Truth, MeasuresAMoveAlongTheSurface)
 
 TEST(Truth, TellsPrecisionFromRecall)
 {
-    const Yardstick yardstick = yardstick_of(square(), high_centers());
-    const TruthFigures half = figures_of(strip(0.0, 0.5, 0.0), yardstick);
+    const Reference reference = reference_of(square(), high_centers());
+    const TruthFigures half = figures_of(strip(0.0, 0.5, 0.0), reference);
     EXPECT_EQ(half.agreements[2].precision, 1.0);
     EXPECT_NEAR(half.agreements[2].recall, 0.5 + 0.01 * std::numbers::sqrt2, kFourDeviations);
     const double recall = half.agreements[2].recall;
@@ -99,32 +99,32 @@ std::vector<Eigen::Vector3d> upright_centers()
 TEST(Truth, CountsLinesTheMeshBlocks)
 {
     // A screen hangs over a quarter of the square.
-    const Yardstick yardstick = yardstick_of(square(), upright_centers());
+    const Reference reference = reference_of(square(), upright_centers());
     const TriMesh screened = testing::together(square(), strip(0.0, 0.25, 0.5));
-    EXPECT_NEAR(figures_of(screened, yardstick).blocked, 0.25, kFourDeviations);
+    EXPECT_NEAR(figures_of(screened, reference).blocked, 0.25, kFourDeviations);
     // Nearer than 1 % of the diagonal it is taken for the surface itself.
     const TriMesh skin = testing::together(square(), strip(0.0, 0.25, 0.01));
-    EXPECT_EQ(figures_of(skin, yardstick).blocked, 0.0);
+    EXPECT_EQ(figures_of(skin, reference).blocked, 0.0);
     const TriMesh farther = testing::together(square(), strip(0.0, 0.25, 0.015));
-    EXPECT_NEAR(figures_of(farther, yardstick).blocked, 0.25, kFourDeviations);
+    EXPECT_NEAR(figures_of(farther, reference).blocked, 0.25, kFourDeviations);
 }
 
 TEST(Truth, CountsOnlyWhatThreeViewsSee)
 {
     const TriMesh stacked = testing::together(square(), square(-0.5));
-    const Yardstick yardstick = yardstick_of(stacked, high_centers());
+    const Reference reference = reference_of(stacked, high_centers());
     // Every line from the lower square to a view passes the upper one.
-    EXPECT_NEAR(yardstick.truth->seen_share, 0.5, 1e-4);
-    EXPECT_GE(yardstick.truth->samples.size(), 20000U);
-    for (const Eigen::Vector3d& sample : yardstick.truth->samples) {
+    EXPECT_NEAR(reference.truth->seen_share, 0.5, 1e-4);
+    EXPECT_GE(reference.truth->samples.size(), 20000U);
+    for (const Eigen::Vector3d& sample : reference.truth->samples) {
         ASSERT_EQ(sample.z(), 0.0);
     }
 }
 
 TEST(Truth, IsSeenFromEitherSide)
 {
-    const Yardstick yardstick = yardstick_of(testing::flipped(square()), high_centers());
-    EXPECT_EQ(yardstick.truth->seen_share, 1.0);
+    const Reference reference = reference_of(testing::flipped(square()), high_centers());
+    EXPECT_EQ(reference.truth->seen_share, 1.0);
 }
 
 TEST(Truth, CountsNoGrazingViews)
@@ -134,32 +134,32 @@ TEST(Truth, CountsNoGrazingViews)
     std::vector<Eigen::Vector3d> centers = {
         {0.2, 0.2, 10}, {0.8, 0.2, 10}, {100, 0, 1}, {0, 200, 1}};
     EXPECT_THAT(
-        [&] { yardstick_of(square(), centers); },
+        [&] { reference_of(square(), centers); },
         ::testing::ThrowsMessage<InputError>(
             "gt.ply: less than a thousandth of its area is seen by at least 3 of the model's 4 "
             "views, so it cannot tell how good a mesh is"));
     centers[2] = {0.5, 0.5, 1.0};
-    EXPECT_EQ(yardstick_of(square(), centers).truth->seen_share, 1.0);
+    EXPECT_EQ(reference_of(square(), centers).truth->seen_share, 1.0);
 }
 
 TEST(Truth, PicksASeeingViewAtRandom)
 {
-    const Yardstick yardstick = yardstick_of(square(), high_centers());
-    const auto samples = static_cast<double>(yardstick.truth->samples.size());
+    const Reference reference = reference_of(square(), high_centers());
+    const auto samples = static_cast<double>(reference.truth->samples.size());
     for (const std::uint32_t view : {0U, 1U, 2U, 3U}) {
-        const auto count = std::ranges::count(yardstick.truth->views, view);
+        const auto count = std::ranges::count(reference.truth->views, view);
         EXPECT_NEAR(static_cast<double>(count) / samples, 0.25, kFourDeviations);
     }
 }
 
-LineFigures lines_of(const TriMesh& mesh, const Yardstick& yardstick)
+LineFigures lines_of(const TriMesh& mesh, const Reference& reference)
 {
-    return figures_of(mesh, yardstick).lines.value();
+    return figures_of(mesh, reference).lines.value();
 }
 
 TEST(TruthLines, SeeTheTruthItselfRight)
 {
-    const LineFigures lines = lines_of(square(), yardstick_of(square(), high_centers()));
+    const LineFigures lines = lines_of(square(), reference_of(square(), high_centers()));
     EXPECT_EQ(lines.seen_right, 1.0);
     EXPECT_EQ(lines.torn, 0.0);
     EXPECT_EQ(lines.open, 0.0);
@@ -167,16 +167,16 @@ TEST(TruthLines, SeeTheTruthItselfRight)
 
 TEST(TruthLines, AreOpenWhereTheMeshHasAHole)
 {
-    const Yardstick yardstick = yardstick_of(square(), high_centers());
+    const Reference reference = reference_of(square(), high_centers());
     const TriMesh holed = testing::together(strip(0.0, 0.3, 0.0), strip(0.7, 1.0, 0.0));
     const auto in_hole = [&](const Eigen::Vector3d& sample) {
-        const double x = sample.x() + yardstick.origin.x();
+        const double x = sample.x() + reference.origin.x();
         return x > 0.3 && x < 0.7;
     };
-    const std::vector<Eigen::Vector3d>& samples = yardstick.truth->samples;
+    const std::vector<Eigen::Vector3d>& samples = reference.truth->samples;
     const double share = static_cast<double>(std::ranges::count_if(samples, in_hole)) /
                          static_cast<double>(samples.size());
-    const LineFigures lines = lines_of(holed, yardstick);
+    const LineFigures lines = lines_of(holed, reference);
     EXPECT_DOUBLE_EQ(lines.open, share);
     EXPECT_DOUBLE_EQ(lines.seen_right, 1.0 - share);
     EXPECT_EQ(lines.torn, 0.0);
@@ -186,7 +186,7 @@ TEST(TruthLines, AreOpenWhereTheMeshHasAHole)
 TEST(TruthLines, AreNotOpenWhereTheMeshGoesOnBehind)
 {
     const TriMesh behind = testing::together(strip(0.0, 0.5, 0.0), strip(-1.0, 2.0, -0.5));
-    const LineFigures lines = lines_of(behind, yardstick_of(square(), upright_centers()));
+    const LineFigures lines = lines_of(behind, reference_of(square(), upright_centers()));
     EXPECT_NEAR(lines.seen_right, 0.5, kFourDeviations);
     EXPECT_EQ(lines.open, 0.0);
     EXPECT_EQ(lines.torn, 0.0);
@@ -194,36 +194,36 @@ TEST(TruthLines, AreNotOpenWhereTheMeshGoesOnBehind)
 
 TEST(TruthLines, AreTornWhereTheBackIsMetFirst)
 {
-    const Yardstick yardstick = yardstick_of(square(), upright_centers());
-    const LineFigures turned = lines_of(testing::flipped(square()), yardstick);
+    const Reference reference = reference_of(square(), upright_centers());
+    const LineFigures turned = lines_of(testing::flipped(square()), reference);
     EXPECT_EQ(turned.seen_right, 0.0);
     EXPECT_EQ(turned.torn, 1.0);
     EXPECT_EQ(turned.open, 0.0);
     // However far in front or behind, but not behind a front.
-    EXPECT_EQ(lines_of(testing::flipped(square(0.5)), yardstick).torn, 1.0);
-    EXPECT_EQ(lines_of(testing::flipped(square(-0.5)), yardstick).torn, 1.0);
+    EXPECT_EQ(lines_of(testing::flipped(square(0.5)), reference).torn, 1.0);
+    EXPECT_EQ(lines_of(testing::flipped(square(-0.5)), reference).torn, 1.0);
     const TriMesh wide = testing::moved(testing::scaled(square(), 10.0), {-4.0, -4.0, -1.3});
-    const Yardstick near_by = yardstick_of(square(), {{0.2, 0.2, 2}, {0.8, 0.2, 2}, {0.5, 0.8, 2}});
+    const Reference near_by = reference_of(square(), {{0.2, 0.2, 2}, {0.8, 0.2, 2}, {0.5, 0.8, 2}});
     EXPECT_EQ(lines_of(testing::flipped(wide), near_by).torn, 1.0);
     const TriMesh two = testing::together(square(), testing::flipped(square(-0.001)));
-    EXPECT_EQ(lines_of(two, yardstick).torn, 0.0);
-    EXPECT_EQ(lines_of(two, yardstick).seen_right, 1.0);
+    EXPECT_EQ(lines_of(two, reference).torn, 0.0);
+    EXPECT_EQ(lines_of(two, reference).seen_right, 1.0);
 }
 
 TEST(TruthLines, SeeRightWithinHalfAPercentOfTheDiagonalAlongTheLine)
 {
-    const Yardstick yardstick = yardstick_of(square(), upright_centers());
-    const double diagonal = yardstick.truth->diagonal;
+    const Reference reference = reference_of(square(), upright_centers());
+    const double diagonal = reference.truth->diagonal;
     for (const double side : {-1.0, 1.0}) {
-        EXPECT_EQ(lines_of(square(side * 0.0049 * diagonal), yardstick).seen_right, 1.0);
-        const LineFigures lines = lines_of(square(side * 0.0051 * diagonal), yardstick);
+        EXPECT_EQ(lines_of(square(side * 0.0049 * diagonal), reference).seen_right, 1.0);
+        const LineFigures lines = lines_of(square(side * 0.0051 * diagonal), reference);
         EXPECT_EQ(lines.seen_right, 0.0);
         EXPECT_EQ(lines.torn, 0.0);
         EXPECT_EQ(lines.open, 0.0);
     }
     // A line at 45 degrees runs 1.41 as far to the same height.
-    const Yardstick slanting =
-        yardstick_of(square(), {{1e6, 0, 1e6}, {1e6, 1, 1e6}, {1e6, 2, 1e6}});
+    const Reference slanting =
+        reference_of(square(), {{1e6, 0, 1e6}, {1e6, 1, 1e6}, {1e6, 2, 1e6}});
     const TriMesh low = strip(-1.0, 2.0, -0.0034 * diagonal);
     EXPECT_EQ(lines_of(low, slanting).seen_right, 1.0);
     const TriMesh lower = strip(-1.0, 2.0, -0.0037 * diagonal);
@@ -231,23 +231,23 @@ TEST(TruthLines, SeeRightWithinHalfAPercentOfTheDiagonalAlongTheLine)
 }
 
 /// Cameras 10 above that show `half` to either side of what lies right under them.
-Yardstick narrow_yardstick(const std::vector<Eigen::Vector3d>& centers, double half)
+Reference narrow_reference(const std::vector<Eigen::Vector3d>& centers, double half)
 {
     Scene scene = scene_above_square(11, centers);
     scene.cameras[0] = testing::square_camera(100, half / 10.0);
     const NamedMesh named{"gt.ply", square()};
-    return make_yardstick(scene, &named, few_samples());
+    return make_reference(scene, &named, few_samples());
 }
 
 TEST(TruthLines, AreOfViewsWhoseImageHoldsTheSample)
 {
     // No two of the four images overlap, so which view it is can be told by hand, though three
     // others see the sample as well.
-    const Yardstick yardstick = narrow_yardstick(high_centers(), 0.25);
-    const Truth& truth = *yardstick.truth;
+    const Reference reference = narrow_reference(high_centers(), 0.25);
+    const Truth& truth = *reference.truth;
     ASSERT_EQ(truth.image_views.size(), truth.samples.size());
     for (std::size_t i = 0; i < truth.samples.size(); ++i) {
-        const Eigen::Vector3d place = truth.samples[i] + yardstick.origin;
+        const Eigen::Vector3d place = truth.samples[i] + reference.origin;
         std::uint32_t expected = kNoView;
         for (std::uint32_t view = 0; view < 4; ++view) {
             const Eigen::Vector3d off = place - high_centers()[view];
@@ -266,9 +266,9 @@ TEST(TruthLines, LeaveOutWhatNoImageHolds)
     // The images end at 0.25 and 0.75, so nobody misses the rest; and a hole in half the image is
     // half of what counts, though an eighth of the truth.
     const std::vector<Eigen::Vector3d> middle(3, Eigen::Vector3d(0.5, 0.5, 10.0));
-    const Yardstick yardstick = narrow_yardstick(middle, 0.25);
-    EXPECT_EQ(lines_of(strip(0.2, 0.8, 0.0), yardstick).seen_right, 1.0);
-    EXPECT_NEAR(lines_of(strip(0.5, 0.8, 0.0), yardstick).open, 0.5, 2.0 * kFourDeviations);
+    const Reference reference = narrow_reference(middle, 0.25);
+    EXPECT_EQ(lines_of(strip(0.2, 0.8, 0.0), reference).seen_right, 1.0);
+    EXPECT_NEAR(lines_of(strip(0.5, 0.8, 0.0), reference).open, 0.5, 2.0 * kFourDeviations);
 }
 
 TEST(TruthLines, AreNoneWhereNoImageHoldsATruth)
@@ -277,17 +277,17 @@ TEST(TruthLines, AreNoneWhereNoImageHoldsATruth)
     for (Eigen::Vector3d& center : far) {
         center.x() += 5.0;
     }
-    const Yardstick yardstick = narrow_yardstick(far, 0.25);
-    EXPECT_EQ(yardstick.truth->image_samples(), 0);
-    EXPECT_FALSE(figures_of(square(), yardstick).lines.has_value());
+    const Reference reference = narrow_reference(far, 0.25);
+    EXPECT_EQ(reference.truth->image_samples(), 0);
+    EXPECT_FALSE(figures_of(square(), reference).lines.has_value());
 }
 
 TEST(Truth, FiguresAreTheSameForAnyNumberOfThreads)
 {
     const TriMesh mesh = testing::random_soup(100, 5);
-    const TruthFigures many = figures_of(mesh, yardstick_of(square(), high_centers()));
+    const TruthFigures many = figures_of(mesh, reference_of(square(), high_centers()));
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const TruthFigures alone = figures_of(mesh, yardstick_of(square(), high_centers()));
+    const TruthFigures alone = figures_of(mesh, reference_of(square(), high_centers()));
     EXPECT_EQ(alone.agreements[2].f_score, many.agreements[2].f_score);
     EXPECT_EQ(alone.mean_accuracy, many.mean_accuracy);
     EXPECT_EQ(alone.mean_completeness, many.mean_completeness);

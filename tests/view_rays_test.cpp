@@ -23,11 +23,11 @@ CompareOptions with_samples(int samples)
 
 /// Two views at one place 2 above the top of the unit cube that look down at its middle: the top
 /// fills 50 of the 100 px of their images, each with 40 x 40 rays.
-Yardstick yardstick_above_cube()
+Reference reference_above_cube()
 {
     Scene scene = testing::scene_above_square(11, {{0.5, 0.5, 3.0}, {0.5, 0.5, 3.0}});
     scene.cameras[0] = square_camera(100, 0.5);
-    return make_yardstick(scene, nullptr, with_samples(4 * 2 * 1600));
+    return make_reference(scene, nullptr, with_samples(4 * 2 * 1600));
 }
 
 TriMesh without_top(TriMesh mesh)
@@ -42,9 +42,9 @@ TriMesh without_top_and_bottom(TriMesh mesh)
     return mesh;
 }
 
-std::optional<RayFigures> figures_of(const TriMesh& mesh, const Yardstick& yardstick)
+std::optional<RayFigures> figures_of(const TriMesh& mesh, const Reference& reference)
 {
-    return measure_view_rays(place_mesh({"a.ply", mesh}, yardstick), yardstick);
+    return measure_view_rays(place_mesh({"a.ply", mesh}, reference), reference);
 }
 
 TEST(ViewRays, AreTheMiddlesOfAGridInEveryImage)
@@ -95,38 +95,38 @@ TEST(ViewRays, AreNoneOfCamerasWithoutKnownLensOrSize)
 
     scene.views[2].camera = 0;
     scene.views[3].camera = 1;
-    const Yardstick yardstick = make_yardstick(scene, nullptr, with_samples(1000));
-    EXPECT_TRUE(yardstick.rays.empty());
-    EXPECT_FALSE(figures_of(square(), yardstick).has_value());
+    const Reference reference = make_reference(scene, nullptr, with_samples(1000));
+    EXPECT_TRUE(reference.rays.empty());
+    EXPECT_FALSE(figures_of(square(), reference).has_value());
 }
 
 TEST(ViewRays, SeeTheInsideThroughAMissingFace)
 {
-    const Yardstick yardstick = yardstick_above_cube();
-    EXPECT_EQ(figures_of(cube(), yardstick)->back_faces_seen, 0.0);
+    const Reference reference = reference_above_cube();
+    EXPECT_EQ(figures_of(cube(), reference)->back_faces_seen, 0.0);
     // The opening is 50 px of 100 wide: 20 rays of 40.
-    EXPECT_EQ(figures_of(without_top(cube()), yardstick)->back_faces_seen, 0.25);
-    EXPECT_EQ(figures_of(testing::flipped(cube()), yardstick)->back_faces_seen, 0.25);
+    EXPECT_EQ(figures_of(without_top(cube()), reference)->back_faces_seen, 0.25);
+    EXPECT_EQ(figures_of(testing::flipped(cube()), reference)->back_faces_seen, 0.25);
 }
 
 TEST(ViewRays, SeeNothingWhereTheClosedSurfaceHasAFace)
 {
-    Yardstick yardstick = yardstick_above_cube();
-    EXPECT_FALSE(figures_of(cube(), yardstick)->nothing_seen.has_value());
+    Reference reference = reference_above_cube();
+    EXPECT_FALSE(figures_of(cube(), reference)->nothing_seen.has_value());
     TriMesh closed = testing::moved(cube(), {0.0, 0.0, -7.0});
     closed.offset = {0.0, 0.0, 7.0};
-    use_closed_surface(yardstick, closed);
-    EXPECT_EQ(figures_of(cube(), yardstick)->nothing_seen, 0.0);
-    EXPECT_EQ(figures_of(without_top(cube()), yardstick)->nothing_seen, 0.0);
+    use_closed_surface(reference, closed);
+    EXPECT_EQ(figures_of(cube(), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(figures_of(without_top(cube()), reference)->nothing_seen, 0.0);
     // Through the bottom, 33.3 px wide, go 14 rays of 40; the rest meet the sides from inside.
-    const auto tube = figures_of(without_top_and_bottom(cube()), yardstick);
+    const auto tube = figures_of(without_top_and_bottom(cube()), reference);
     EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
     EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
     // Faces where the closed surface has none make up for nothing and are held against nobody.
     const TriMesh beside = testing::moved(square(), {1.0, 0.0, 1.0});
-    EXPECT_EQ(figures_of(testing::together(cube(), beside), yardstick)->nothing_seen, 0.0);
-    EXPECT_EQ(figures_of(beside, yardstick)->nothing_seen, 0.25);
-    EXPECT_EQ(figures_of(square(1.0), yardstick)->nothing_seen, 0.0);
+    EXPECT_EQ(figures_of(testing::together(cube(), beside), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(figures_of(beside, reference)->nothing_seen, 0.25);
+    EXPECT_EQ(figures_of(square(1.0), reference)->nothing_seen, 0.0);
 }
 
 TEST(ViewRays, FindWhatEveryFaceTriedFinds)
@@ -139,8 +139,8 @@ TEST(ViewRays, FindWhatEveryFaceTriedFinds)
         view.cam_from_world =
             Eigen::Quaterniond::FromTwoVectors(axis.normalized(), Eigen::Vector3d::UnitZ());
     }
-    Yardstick yardstick = make_yardstick(scene, nullptr, with_samples(4 * 2 * 2500));
-    use_closed_surface(yardstick, cube());
+    Reference reference = make_reference(scene, nullptr, with_samples(4 * 2 * 2500));
+    use_closed_surface(reference, cube());
     TriMesh open = without_top(cube());
     open.faces.erase(open.faces.end() - 2, open.faces.end());
 
@@ -159,7 +159,7 @@ TEST(ViewRays, FindWhatEveryFaceTriedFinds)
     }
     EXPECT_GT(backs, 200);
     EXPECT_GT(missing, 20);
-    const std::optional<RayFigures> figures = figures_of(open, yardstick);
+    const std::optional<RayFigures> figures = figures_of(open, reference);
     EXPECT_DOUBLE_EQ(figures->back_faces_seen, backs / 5000.0);
     EXPECT_DOUBLE_EQ(figures->nothing_seen.value(), missing / 5000.0);
 }
@@ -180,9 +180,9 @@ TEST(ViewRays, DoNotDependOnUnitOrPlace)
         const auto there = [&](const TriMesh& mesh) {
             return testing::moved(testing::scaled(mesh, factor), shift);
         };
-        Yardstick yardstick = make_yardstick(other, nullptr, with_samples(4 * 2 * 1600));
-        use_closed_surface(yardstick, there(cube()));
-        const auto tube = figures_of(there(without_top_and_bottom(cube())), yardstick);
+        Reference reference = make_reference(other, nullptr, with_samples(4 * 2 * 1600));
+        use_closed_surface(reference, there(cube()));
+        const auto tube = figures_of(there(without_top_and_bottom(cube())), reference);
         EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
         EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
     }
@@ -192,9 +192,9 @@ TEST(ViewRays, AreTheSameForAnyNumberOfThreads)
 {
     const TriMesh mesh = testing::random_soup(40, 5);
     const auto figures = [&] {
-        Yardstick yardstick = yardstick_above_cube();
-        use_closed_surface(yardstick, cube());
-        return figures_of(mesh, yardstick).value();
+        Reference reference = reference_above_cube();
+        use_closed_surface(reference, cube());
+        return figures_of(mesh, reference).value();
     };
     const RayFigures many = figures();
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);

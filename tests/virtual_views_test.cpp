@@ -80,8 +80,8 @@ Faults faults_of(const TetMesh& mesh, const Labels& labels, const Labels& truth)
 
 class VirtualViews : public ::testing::Test {
   protected:
-    VirtualSights look_around(const Scene& scene, const TetMesh& mesh, const Labels& labels,
-                              int count)
+    VirtualSights virtual_sights_of(const Scene& scene, const TetMesh& mesh, const Labels& labels,
+                                    int count)
     {
         return find_virtual_sights(mesh, scene, labels, {.count = count, .weight = 0.5}, stage_);
     }
@@ -106,7 +106,7 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
             const Scene two = seen_by_two(scene, a, b);
             Crossings crossings = count_crossings(mesh, two, stage_);
             const Labels first = carve(mesh, crossings, 1);
-            add_crossings(mesh, look_around(two, mesh, first, 20), 0.5, crossings, stage_);
+            add_crossings(mesh, virtual_sights_of(two, mesh, first, 20), 0.5, crossings, stage_);
             const Faults left = faults_of(mesh, first, truth);
             const Faults still_left = faults_of(mesh, carve(mesh, crossings, 1), truth);
             before += left;
@@ -146,7 +146,7 @@ TEST_F(VirtualViews, StandInDifferentCellsThatAreOutsideAndCrossed)
     const TetMesh mesh = triangulate(scene);
     const Crossings crossings = count_crossings(mesh, scene, stage_);
     const Labels labels = carve(mesh, crossings, 2); // leaves cells inside that a sight crosses
-    const VirtualSights sights = look_around(scene, mesh, labels, 25);
+    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
     ASSERT_EQ(sights.centers.size(), 25U);
     std::set<Index> cells;
     for (const Vector3d& center : sights.centers) {
@@ -199,7 +199,7 @@ TEST_F(VirtualViews, StandNeitherAtTheSurfaceNorFarOff)
         free_but_far += clearance(mesh, mesh.cells[cell]) > 8.0 * short_edge ? 1 : 0;
     }
     EXPECT_GT(free_but_far, 10);
-    const VirtualSights sights = look_around(scene, mesh, labels, 10000);
+    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 10000);
     EXPECT_GT(sights.centers.size(), 10U);
     for (const Vector3d& center : sights.centers) {
         const auto cell = std::ranges::find_if(
@@ -230,7 +230,7 @@ TEST_F(VirtualViews, SeeNothingThroughCellsBehindASeenPoint)
             }
         }
     }
-    const VirtualSights sights = look_around(scene, mesh, labels, 10);
+    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 10);
     ASSERT_GT(sights.tracks.views.size(), 100U);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
         for (const std::uint32_t view : sights.tracks[vertex]) {
@@ -247,7 +247,7 @@ TEST_F(VirtualViews, SeeNoPointThatNoViewSaw)
     const Scene scene = seen_by_two(paper_object("desk"), 3, 7);
     const TetMesh mesh = triangulate(scene);
     const Labels labels = carve(mesh, count_crossings(mesh, scene, stage_), 1);
-    const VirtualSights sights = look_around(scene, mesh, labels, 25);
+    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
         EXPECT_TRUE(!scene.tracks[vertex].empty() || sights.tracks[vertex].empty());
     }
@@ -258,7 +258,7 @@ TEST_F(VirtualViews, StandNowhereWhereNothingIsFree)
     const Scene scene = bumpy_sphere(300, 1);
     const TetMesh mesh = triangulate(scene);
     const Labels solid(mesh.cells.size(), Label::inside);
-    const VirtualSights sights = look_around(scene, mesh, solid, 25);
+    const VirtualSights sights = virtual_sights_of(scene, mesh, solid, 25);
     EXPECT_TRUE(sights.centers.empty());
     EXPECT_TRUE(sights.tracks.views.empty());
     EXPECT_EQ(sights.tracks.size(), scene.num_points());
@@ -282,7 +282,7 @@ TEST_F(VirtualViews, CountLikeRealOnesAtFullWeight)
     const Scene scene = bumpy_sphere(500, 4);
     const TetMesh mesh = triangulate(scene);
     const Crossings before = count_crossings(mesh, scene, stage_);
-    const VirtualSights sights = look_around(scene, mesh, carve(mesh, before, 1), 25);
+    const VirtualSights sights = virtual_sights_of(scene, mesh, carve(mesh, before, 1), 25);
     const Crossings own = count_crossings(mesh, as_real(scene, sights), stage_);
     Crossings whole = before;
     add_crossings(mesh, sights, 1.0, whole, stage_);
@@ -304,13 +304,13 @@ TEST_F(VirtualViews, VoteForOutsideLikeRealOnesAtFullWeight)
     const Scene scene = bumpy_sphere(500, 4);
     const TetMesh mesh = triangulate(scene);
     const TraceOptions options = {.views_sigma = 0.0};
-    const Votes before = trace_sights(mesh, scene, options, stage_);
+    const VisibilityEnergy before = trace_sights(mesh, scene, options, stage_);
     const Labels labels = carve(mesh, count_crossings(mesh, scene, stage_), 1);
-    const VirtualSights sights = look_around(scene, mesh, labels, 25);
+    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
     const Scene real = as_real(scene, sights);
-    const Votes own = trace_sights(mesh, real, options, stage_);
-    Votes votes = before;
-    add_votes(mesh, scene, sights, 1.0, options, votes, stage_);
+    const VisibilityEnergy own = trace_sights(mesh, real, options, stage_);
+    VisibilityEnergy energy = before;
+    add_sights(mesh, scene, sights, 1.0, options, energy, stage_);
 
     // What real sights say besides: the cell behind the point is inside.
     std::vector<std::int32_t> sinks(mesh.cells.size(), 0);
@@ -323,15 +323,17 @@ TEST_F(VirtualViews, VoteForOutsideLikeRealOnesAtFullWeight)
         }
     }
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
-        const FlowNetwork& network = votes.network;
-        ASSERT_EQ(network.excesses[cell],
-                  before.network.excesses[cell] + own.network.excesses[cell] + sinks[cell]);
+        const FlowNetwork& network = energy.network;
+        ASSERT_EQ(network.terminal_capacities[cell], before.network.terminal_capacities[cell] +
+                                                         own.network.terminal_capacities[cell] +
+                                                         sinks[cell]);
         for (int slot = 0; slot < 4; ++slot) {
-            ASSERT_EQ(network.residuals[cell][slot],
-                      before.network.residuals[cell][slot] + own.network.residuals[cell][slot]);
+            ASSERT_EQ(network.arc_capacities[cell][slot],
+                      before.network.arc_capacities[cell][slot] +
+                          own.network.arc_capacities[cell][slot]);
         }
     }
-    EXPECT_EQ(votes.cell_of_view, before.cell_of_view); // nobody stood there
+    EXPECT_EQ(energy.cell_of_view, before.cell_of_view); // nobody stood there
 }
 
 } // namespace

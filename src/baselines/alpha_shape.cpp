@@ -20,7 +20,7 @@ std::vector<double> radii_of(const TetMesh& cells)
     return radii;
 }
 
-/// An alpha shape that takes in cell after cell, and knows when it is whole.
+/// An alpha shape that gains cell after cell, and knows when it is whole.
 class GrowingSolid {
   public:
     explicit GrowingSolid(const TetMesh& cells)

@@ -40,7 +40,7 @@ const char* name_of(Baseline baseline)
 
 TriMesh baseline_surface(Scene model, Baseline baseline, const AlphaOptions& options)
 {
-    const Scene scene = arrange_points(filter_points(center_points(std::move(model)), {}).scene);
+    const Scene scene = spatial_sort(filter_points(center_points(std::move(model)), {}).scene);
     const TetMesh cells = triangulate(scene);
     const Labels labels = labels_of(baseline, cells, options);
     return tri_mesh(*clean_surface(extract_surface(cells, labels, scene), {}).mesh);

@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/threads.h"
 #include "baselines/baseline_surface.h"
+#include "cli/baseline_runs.h"
 #include "cli/interruption.h"
 #include "cli/model_input.h"
-#include "cli/rival_runs.h"
 #include "compare/closed_surface.h"
 #include "io/files/mapped_file.h"
 #include "io/files/output_file.h"
@@ -47,7 +47,7 @@ struct CompareRunOptions {
 };
 
 /// Which of the paper's baselines are made and measured.
-struct BaselineOptions {
+struct PointBaselineOptions {
     bool baselines = false;
     AlphaOptions alpha;
 
@@ -69,17 +69,17 @@ struct CompareArguments {
     fs::path truth; ///< empty: none
     fs::path json;  ///< empty: none
     CompareOptions measure;
-    BaselineOptions baselines;
+    PointBaselineOptions point_baselines;
     std::string colmap; ///< empty: not run
-    RivalOptions rivals;
+    BaselineRunOptions baselines;
     CompareRunOptions run;
 };
 
 std::vector<OptionRow> compare_options()
 {
     CompareOptions measure;
-    BaselineOptions baselines;
-    RivalOptions rivals;
+    PointBaselineOptions point_baselines;
+    BaselineRunOptions baselines;
     CompareRunOptions run;
     bool off = false;
     OptionTable table;
@@ -88,12 +88,12 @@ std::vector<OptionRow> compare_options()
                 .help = "The true surface as PLY, in the model's frame: adds precision, recall, "
                         "F and blocked sights."});
     measure.visit(table);
-    baselines.visit(table);
+    point_baselines.visit(table);
     table.stage("COLMAP");
     table.path({.name = "colmap",
                 .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and "
                         "adds a column for each, with seconds and peak memory."});
-    rivals.visit(table);
+    baselines.visit(table);
     table.stage("Output");
     table.path({.name = "json", .help = "Also write all figures, unrounded, as JSON."});
     run.visit(table);
@@ -109,11 +109,11 @@ CompareArguments read_arguments(const ParsedArguments& given)
     CompareArguments arguments;
     OptionReader reader(given);
     arguments.measure.visit(reader);
+    arguments.point_baselines.visit(reader);
     arguments.baselines.visit(reader);
-    arguments.rivals.visit(reader);
     arguments.run.visit(reader);
     if (given.has("colmap")) arguments.colmap = given.options.at("colmap");
-    const bool makes_meshes = given.has("colmap") || arguments.baselines.baselines;
+    const bool makes_meshes = given.has("colmap") || arguments.point_baselines.baselines;
     if (given.operands.size() < (makes_meshes ? 1U : 2U)) {
         throw UsageError(fmt::format("expected a model and meshes, MODEL A.ply ..., but got {}{}",
                                      given.operands.empty() ? "nothing" : given.operands[0],
@@ -150,16 +150,16 @@ void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* s
 }
 
 /// The meshes of COLMAP and of this program, where they are asked for.
-std::vector<RivalMesh> rivals_of(const CompareArguments& arguments, Log& log)
+std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, Log& log)
 {
     if (arguments.colmap.empty()) return {};
     const ScratchFolder scratch;
     remove_on_signals(arguments, &scratch);
-    return run_rivals({.colmap = arguments.colmap,
-                       .model = arguments.model,
-                       .options = arguments.rivals,
-                       .threads = arguments.run.threads},
-                      scratch, log);
+    return run_baselines({.colmap = arguments.colmap,
+                          .model = arguments.model,
+                          .options = arguments.baselines,
+                          .threads = arguments.run.threads},
+                         scratch, log);
 }
 
 /// The columns' names: file names, or whole paths where file names would not tell them apart.
@@ -174,68 +174,69 @@ std::vector<std::string> column_names(const std::vector<fs::path>& meshes)
 }
 
 /// The surfaces of the paper's baselines, where they are asked for.
-std::vector<NamedMesh> baselines_of(const CompareArguments& arguments, const Scene& model, Log& log)
+std::vector<NamedMesh> point_baselines_of(const CompareArguments& arguments, const Scene& model,
+                                          Log& log)
 {
-    if (!arguments.baselines.baselines) return {};
+    if (!arguments.point_baselines.baselines) return {};
     std::vector<NamedMesh> meshes;
     for (const Baseline baseline : {Baseline::alpha_shape, Baseline::sculpture}) {
         Stage stage(log, name_of(baseline));
-        TriMesh mesh = baseline_surface(model, baseline, arguments.baselines.alpha);
+        TriMesh mesh = baseline_surface(model, baseline, arguments.point_baselines.alpha);
         stage.end({{"faces", size_of(mesh.faces.size())}});
         meshes.push_back({name_of(baseline), std::move(mesh)});
     }
     return meshes;
 }
 
-Yardstick yardstick_of(const CompareArguments& arguments, Scene model, Log& log)
+Reference reference_of(const CompareArguments& arguments, Scene model, Log& log)
 {
     NamedMesh truth;
     if (!arguments.truth.empty()) truth = {arguments.truth.string(), read_ply(arguments.truth)};
-    Stage stage(log, "yardstick");
-    Yardstick yardstick =
-        make_yardstick(model, arguments.truth.empty() ? nullptr : &truth, arguments.measure);
-    const std::size_t samples = yardstick.truth ? yardstick.truth->samples.size() : 0;
-    stage.end({{"points", yardstick.scene.num_points()},
+    Stage stage(log, "reference");
+    Reference reference =
+        make_reference(model, arguments.truth.empty() ? nullptr : &truth, arguments.measure);
+    const std::size_t samples = reference.truth ? reference.truth->samples.size() : 0;
+    stage.end({{"points", reference.scene.num_points()},
                {"samples of the truth", static_cast<std::int64_t>(samples)}});
-    add_closed_surface(yardstick, std::move(model), log);
-    return yardstick;
+    add_closed_surface(reference, std::move(model), log);
+    return reference;
 }
 
-Comparison measure(const NamedMesh& mesh, const Yardstick& yardstick, Log& log)
+Comparison measure(const NamedMesh& mesh, const Reference& reference, Log& log)
 {
     Stage stage(log, "measure");
-    Comparison comparison = compare_mesh(mesh, yardstick);
+    Comparison comparison = compare_mesh(mesh, reference);
     stage.end({{"faces of " + mesh.name, comparison.size.faces}});
     return comparison;
 }
 
-/// A column for each rival.
-std::vector<Comparison> measure_rivals(std::vector<RivalMesh> rivals, const Yardstick& yardstick,
-                                       Log& log)
+/// A column for each baseline.
+std::vector<Comparison> measure_baselines(std::vector<BaselineMesh> baselines,
+                                          const Reference& reference, Log& log)
 {
     std::vector<Comparison> columns;
-    for (RivalMesh& rival : rivals) {
+    for (BaselineMesh& baseline : baselines) {
         Comparison column;
-        column.name = rival.name;
-        if (rival.failure.empty()) {
-            column = measure({rival.name, std::move(rival.mesh)}, yardstick, log);
+        column.name = baseline.name;
+        if (baseline.failure.empty()) {
+            column = measure({baseline.name, std::move(baseline.mesh)}, reference, log);
         }
-        column.failure = rival.failure;
-        column.cost = rival.cost;
+        column.failure = baseline.failure;
+        column.cost = baseline.cost;
         columns.push_back(std::move(column));
     }
     return columns;
 }
 
 /// A column for each file.
-std::vector<Comparison> measure_files(const CompareArguments& arguments, const Yardstick& yardstick,
+std::vector<Comparison> measure_files(const CompareArguments& arguments, const Reference& reference,
                                       Log& log)
 {
     std::vector<Comparison> columns;
     const std::vector<std::string> names = column_names(arguments.meshes);
     for (std::size_t i = 0; i < names.size(); ++i) {
         columns.push_back(
-            measure({arguments.meshes[i].string(), read_ply(arguments.meshes[i])}, yardstick, log));
+            measure({arguments.meshes[i].string(), read_ply(arguments.meshes[i])}, reference, log));
         columns.back().name = names[i];
     }
     return columns;
@@ -286,24 +287,24 @@ void run_compare(const ParsedArguments& given)
                                     static_cast<std::size_t>(threads));
     const std::unique_ptr<Log> log = shown_log(arguments.run.quiet);
 
-    std::vector<RivalMesh> rivals = rivals_of(arguments, *log);
+    std::vector<BaselineMesh> baselines = baselines_of(arguments, *log);
     remove_on_signals(arguments, nullptr);
-    if (rivals.empty() && arguments.meshes.empty() && !arguments.baselines.baselines) {
+    if (baselines.empty() && arguments.meshes.empty() && !arguments.point_baselines.baselines) {
         throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
                                      arguments.model.string()));
     }
     ModelInput model = read_model_input(arguments.model, *log);
-    const std::vector<NamedMesh> baselines = baselines_of(arguments, model.scene, *log);
-    const Yardstick yardstick = yardstick_of(arguments, std::move(model.scene), *log);
-    std::vector<Comparison> comparisons = measure_rivals(std::move(rivals), yardstick, *log);
-    for (const NamedMesh& baseline : baselines) {
-        comparisons.push_back(measure(baseline, yardstick, *log));
+    const std::vector<NamedMesh> point_baselines = point_baselines_of(arguments, model.scene, *log);
+    const Reference reference = reference_of(arguments, std::move(model.scene), *log);
+    std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), reference, *log);
+    for (const NamedMesh& baseline : point_baselines) {
+        comparisons.push_back(measure(baseline, reference, *log));
     }
-    std::ranges::move(measure_files(arguments, yardstick, *log), std::back_inserter(comparisons));
-    print_table(comparison_table(comparisons, yardstick));
+    std::ranges::move(measure_files(arguments, reference, *log), std::back_inserter(comparisons));
+    print_table(comparison_table(comparisons, reference));
     if (arguments.json.empty()) return;
     OutputFile file(arguments.json);
-    file.stream() << comparison_json(comparisons, yardstick);
+    file.stream() << comparison_json(comparisons, reference);
     file.commit();
 }
 

@@ -49,6 +49,26 @@ void declare(CLI::App& app, const std::vector<OptionRow>& rows)
     }
 }
 
+/// Options that were called otherwise in 0.1.
+struct RenamedOption {
+    std::string_view before;
+    std::string_view now;
+};
+constexpr RenamedOption kRenamedOptions[] = {
+    {"--web-edge", "--bridging-edge"},
+    {"--softness", "--distance-sigma"},
+};
+
+/// The option of `names` that a word most likely means; empty where there is none.
+std::string likely_option(std::string_view word, const std::vector<std::string>& names)
+{
+    for (const RenamedOption& option : kRenamedOptions) {
+        const bool is_here = std::ranges::find(names, option.now) != names.end();
+        if (option.before == word && is_here) return std::string(option.now);
+    }
+    return nearest(word, names);
+}
+
 [[noreturn]] void refuse_unknown(std::string_view word, const std::vector<OptionRow>& rows)
 {
     const std::string_view name = word.substr(0, word.find('='));
@@ -57,7 +77,7 @@ void declare(CLI::App& app, const std::vector<OptionRow>& rows)
     for (const OptionRow& row : rows) {
         names.push_back("--" + row.name);
     }
-    const std::string near = nearest(name, names);
+    const std::string near = likely_option(name, names);
     throw UsageError(near.empty() ? fmt::format("there is no option {}{}", name, kSeeHelp)
                                   : fmt::format("there is no option {}; did you mean {}?{}", name,
                                                 near, kSeeHelp));

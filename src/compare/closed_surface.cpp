@@ -10,9 +10,9 @@
 
 namespace vcarve {
 
-void add_closed_surface(Yardstick& yardstick, Scene model, Log& log)
+void add_closed_surface(Reference& reference, Scene model, Log& log)
 {
-    if (yardstick.rays.empty()) return;
+    if (reference.rays.empty()) return;
     Stage stage(log, "closed");
     std::int64_t faces = 0;
     try {
@@ -20,7 +20,7 @@ void add_closed_surface(Yardstick& yardstick, Scene model, Log& log)
         options.surface.closed = true;
         Log silent;
         const TriMesh closed = reconstruct(std::move(model), options, silent).mesh;
-        use_closed_surface(yardstick, closed);
+        use_closed_surface(reference, closed);
         faces = static_cast<std::int64_t>(closed.faces.size());
     } catch (const InputError& error) {
         log.note(fmt::format("no closed surface to measure against: {}", error.what()));

@@ -10,15 +10,15 @@ std::optional<std::int64_t> genus(const MeshCheck& check)
     return check.components - check.euler_characteristic / 2;
 }
 
-Comparison compare_mesh(const NamedMesh& named, const Yardstick& yardstick)
+Comparison compare_mesh(const NamedMesh& named, const Reference& reference)
 {
-    const MeasuredMesh mesh = place_mesh(named, yardstick);
+    const MeasuredMesh mesh = place_mesh(named, reference);
     Comparison comparison;
     comparison.name = named.name;
     comparison.size = check_mesh(mesh.mesh);
     comparison.genus = genus(comparison.size);
-    comparison.evidence = measure_against_views(mesh, yardstick);
-    if (yardstick.truth) comparison.truth = measure_against_truth(mesh, yardstick);
+    comparison.evidence = measure_against_views(mesh, reference);
+    if (reference.truth) comparison.truth = measure_against_truth(mesh, reference);
     return comparison;
 }
 

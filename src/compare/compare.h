@@ -1,8 +1,8 @@
 #pragma once
 
 #include "compare/evidence.h"
+#include "compare/reference.h"
 #include "compare/truth.h"
-#include "compare/yardstick.h"
 #include "mesh/check.h"
 
 #include <cstdint>
@@ -26,16 +26,16 @@ struct Comparison {
     MeshCheck size;
     std::optional<std::int64_t> genus; ///< of a closed, manifold, consistently oriented surface
     EvidenceFigures evidence;
-    std::optional<TruthFigures> truth; ///< where the yardstick has one
+    std::optional<TruthFigures> truth; ///< where the reference has one
 };
 
 /// The number of handles, summed over the pieces; nothing where the surface is not closed, manifold
 /// and consistently oriented, or has degenerate faces.
 std::optional<std::int64_t> genus(const MeshCheck& check);
 
-/// Measures a mesh. The same mesh, yardstick and options give the same figures for any number of
+/// Measures a mesh. The same mesh, reference and options give the same figures for any number of
 /// threads. Throws InputError where the mesh has no surface or lies in another frame (see
 /// place_mesh).
-Comparison compare_mesh(const NamedMesh& named, const Yardstick& yardstick);
+Comparison compare_mesh(const NamedMesh& named, const Reference& reference);
 
 } // namespace vcarve

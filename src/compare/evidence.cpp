@@ -22,9 +22,9 @@ constexpr int kSamplesPerAreaSample = 8;
 constexpr std::uint64_t kSightStream = 5;
 constexpr std::uint64_t kAreaStream = 6;
 
-std::uint64_t stream_seed(const Yardstick& yardstick, std::uint64_t stream)
+std::uint64_t stream_seed(const Reference& reference, std::uint64_t stream)
 {
-    return (static_cast<std::uint64_t>(yardstick.options.seed) << 8U) + stream;
+    return (static_cast<std::uint64_t>(reference.options.seed) << 8U) + stream;
 }
 
 double share_of_ones(const std::vector<char>& flags)
@@ -35,48 +35,48 @@ double share_of_ones(const std::vector<char>& flags)
 
 /// Whether the mesh stands between a view and a point it saw, or the point's place does not decide
 /// it.
-bool hides(const SurfaceTree& tree, const Yardstick& yardstick, std::uint64_t sight)
+bool hides(const SurfaceTree& tree, const Reference& reference, std::uint64_t sight)
 {
-    const std::vector<std::uint64_t>& begins = yardstick.scene.tracks.begins;
+    const std::vector<std::uint64_t>& begins = reference.scene.tracks.begins;
     const auto row = std::upper_bound(begins.begin(), begins.end(), sight) - 1;
     const auto point = static_cast<std::size_t>(row - begins.begin());
-    const Eigen::Vector3d& position = yardstick.scene.positions[point];
+    const Eigen::Vector3d& position = reference.scene.positions[point];
     const Eigen::Vector3d& center =
-        yardstick.scene.views[yardstick.scene.tracks.views[sight]].center;
+        reference.scene.views[reference.scene.tracks.views[sight]].center;
     const Eigen::Vector3d line = center - position;
     const double length = line.norm();
-    const double skip = yardstick.options.spacings * yardstick.spacings[point];
+    const double skip = reference.options.spacings * reference.spacings[point];
     return length > skip && tree.blocks(position + line * (skip / length), center);
 }
 
-double hidden_share(const SurfaceTree& tree, const Yardstick& yardstick)
+double hidden_share(const SurfaceTree& tree, const Reference& reference)
 {
-    const std::uint64_t sights = yardstick.scene.num_sights();
-    const std::uint64_t most = static_cast<std::uint64_t>(yardstick.options.samples);
+    const std::uint64_t sights = reference.scene.num_sights();
+    const std::uint64_t most = static_cast<std::uint64_t>(reference.options.samples);
     std::vector<char> hidden(std::min(sights, most));
     const double step = static_cast<double>(sights) / static_cast<double>(hidden.size());
-    const std::uint64_t seed = stream_seed(yardstick, kSightStream);
+    const std::uint64_t seed = stream_seed(reference, kSightStream);
     parallel_for(
         hidden.size(),
         [&](std::size_t i) {
             const double within = sights > most ? random_number(seed, i) : 0.5;
             const double place = (static_cast<double>(i) + within) * step;
             const auto sight = std::min(static_cast<std::uint64_t>(place), sights - 1);
-            hidden[i] = hides(tree, yardstick, sight) ? 1 : 0;
+            hidden[i] = hides(tree, reference, sight) ? 1 : 0;
         },
         64);
     return share_of_ones(hidden);
 }
 
 /// Per point: its distance to the mesh in its own spacings.
-std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Yardstick& yardstick)
+std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Reference& reference)
 {
-    std::vector<double> result(yardstick.scene.num_points());
+    std::vector<double> result(reference.scene.num_points());
     parallel_for(
         result.size(),
         [&](std::size_t i) {
-            const double spacing = yardstick.spacings[i];
-            const double distance = tree.distance(yardstick.scene.positions[i]);
+            const double spacing = reference.spacings[i];
+            const double distance = tree.distance(reference.scene.positions[i]);
             result[i] = distance > 0.0 ? distance / spacing : 0.0;
         },
         64);
@@ -86,38 +86,38 @@ std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Yardsti
 /// Whether a view sees a place of the mesh, from whichever side: its image holds it and the mesh
 /// does not stand between.
 bool sees(const View& view, const Eigen::Vector3d& position, const MeasuredMesh& mesh,
-          const Yardstick& yardstick)
+          const Reference& reference)
 {
-    const double touch = kTouchSpacings * yardstick.median_spacing;
+    const double touch = kTouchSpacings * reference.median_spacing;
     const Eigen::Vector3d line = view.center - position;
     const double length = line.norm();
     if (length <= touch) return false;
-    if (!view_shows(view, yardstick.scene.cameras[view.camera], position)) return false;
+    if (!view_shows(view, reference.scene.cameras[view.camera], position)) return false;
     return !mesh.tree.blocks(position + line * (touch / length), view.center);
 }
 
 /// Whether some view sees a sample of the mesh from its front.
-bool supported(const MeasuredMesh& mesh, const Yardstick& yardstick,
+bool supported(const MeasuredMesh& mesh, const Reference& reference,
                const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
 {
-    return std::ranges::any_of(yardstick.scene.views, [&](const View& view) {
+    return std::ranges::any_of(reference.scene.views, [&](const View& view) {
         return stands_before(view.center, position, normal) &&
-               sees(view, position, mesh, yardstick);
+               sees(view, position, mesh, reference);
     });
 }
 
-double unsupported_share(const MeasuredMesh& mesh, const Yardstick& yardstick)
+double unsupported_share(const MeasuredMesh& mesh, const Reference& reference)
 {
-    const auto count = static_cast<std::size_t>(yardstick.options.samples / kSamplesPerAreaSample);
+    const auto count = static_cast<std::size_t>(reference.options.samples / kSamplesPerAreaSample);
     const SurfaceSamples samples =
-        sample_surface(mesh.mesh, count, stream_seed(yardstick, kAreaStream));
+        sample_surface(mesh.mesh, count, stream_seed(reference, kAreaStream));
     std::vector<char> unsupported(samples.positions.size());
     parallel_for(
         unsupported.size(),
         [&](std::size_t i) {
             const Eigen::Vector3d normal =
                 face_normal(mesh.mesh.positions, mesh.mesh.faces[samples.faces[i]]);
-            unsupported[i] = supported(mesh, yardstick, samples.positions[i], normal) ? 0 : 1;
+            unsupported[i] = supported(mesh, reference, samples.positions[i], normal) ? 0 : 1;
         },
         16);
     return share_of_ones(unsupported);
@@ -137,15 +137,15 @@ std::vector<Eigen::Vector3d> rim_of(const TriMesh& mesh)
     return middles;
 }
 
-std::int64_t count_seen_rim(const MeasuredMesh& mesh, const Yardstick& yardstick)
+std::int64_t count_seen_rim(const MeasuredMesh& mesh, const Reference& reference)
 {
     const std::vector<Eigen::Vector3d> middles = rim_of(mesh.mesh);
     std::vector<char> seen(middles.size());
     parallel_for(
         seen.size(),
         [&](std::size_t i) {
-            seen[i] = std::ranges::any_of(yardstick.scene.views, [&](const View& view) {
-                return sees(view, middles[i], mesh, yardstick);
+            seen[i] = std::ranges::any_of(reference.scene.views, [&](const View& view) {
+                return sees(view, middles[i], mesh, reference);
             });
         },
         16);
@@ -154,19 +154,19 @@ std::int64_t count_seen_rim(const MeasuredMesh& mesh, const Yardstick& yardstick
 
 } // namespace
 
-EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Yardstick& yardstick)
+EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference& reference)
 {
-    std::vector<double> distances = distances_in_spacings(mesh.tree, yardstick);
+    std::vector<double> distances = distances_in_spacings(mesh.tree, reference);
     const auto missed = std::ranges::count_if(
-        distances, [&](double distance) { return distance > yardstick.options.spacings; });
+        distances, [&](double distance) { return distance > reference.options.spacings; });
 
     EvidenceFigures figures;
-    figures.hidden_sights = hidden_share(mesh.tree, yardstick);
+    figures.hidden_sights = hidden_share(mesh.tree, reference);
     figures.missed_points = static_cast<double>(missed) / static_cast<double>(distances.size());
-    figures.unsupported_area = unsupported_share(mesh, yardstick);
+    figures.unsupported_area = unsupported_share(mesh, reference);
     figures.median_distance = median(std::move(distances));
-    figures.seen_boundary_edges = count_seen_rim(mesh, yardstick);
-    figures.rays = measure_view_rays(mesh, yardstick);
+    figures.seen_boundary_edges = count_seen_rim(mesh, reference);
+    figures.rays = measure_view_rays(mesh, reference);
     return figures;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "compare/reference.h"
 #include "compare/view_rays.h"
-#include "compare/yardstick.h"
 
 #include <cstdint>
 #include <optional>
@@ -33,6 +33,6 @@ struct EvidenceFigures {
 /// over them; the area is judged by an eighth of options.samples. Cost: a segment query a sight, a
 /// nearest-point query a point, up to views segment queries for each sample of area and each
 /// boundary edge, and what measure_view_rays takes; parallel.
-EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Yardstick& yardstick);
+EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference& reference);
 
 } // namespace vcarve

@@ -35,9 +35,9 @@ enum Stream : std::uint64_t {
     view_stream = 4
 };
 
-std::uint64_t stream_seed(const Yardstick& yardstick, Stream stream)
+std::uint64_t stream_seed(const Reference& reference, Stream stream)
 {
-    return (static_cast<std::uint64_t>(yardstick.options.seed) << 8U) + stream;
+    return (static_cast<std::uint64_t>(reference.options.seed) << 8U) + stream;
 }
 
 double length_of_box(const std::vector<Eigen::Vector3d>& positions)
@@ -68,9 +68,9 @@ struct SeeingViews {
 /// Decides which views see points of the true surface.
 class TruthSight {
   public:
-    TruthSight(const MeasuredMesh& surface, const Yardstick& yardstick)
+    TruthSight(const MeasuredMesh& surface, const Reference& reference)
         : surface_(surface),
-          yardstick_(yardstick),
+          reference_(reference),
           touch_(kTouchShare * length_of_box(surface.mesh.positions))
     {
     }
@@ -78,7 +78,7 @@ class TruthSight {
     /// Asks the views in random order until enough see the sample and one of them within its image.
     SeeingViews seeing_views(const SurfaceSamples& samples, std::size_t index) const
     {
-        const std::vector<View>& views = yardstick_.scene.views;
+        const std::vector<View>& views = reference_.scene.views;
         const Eigen::Vector3d& point = samples.positions[index];
         const TriMesh& mesh = surface_.mesh;
         const Eigen::Vector3d normal =
@@ -90,11 +90,11 @@ class TruthSight {
             // The next of a random order (Fisher and Yates).
             const auto left = static_cast<double>(order.size() - k);
             const double random =
-                random_number(stream_seed(yardstick_, view_stream), index * order.size() + k);
+                random_number(stream_seed(reference_, view_stream), index * order.size() + k);
             std::swap(order[k], order[k + static_cast<std::size_t>(random * left)]);
             const View& view = views[order[k]];
             const auto shows = [&] {
-                return view_shows(view, yardstick_.scene.cameras[view.camera], point);
+                return view_shows(view, reference_.scene.cameras[view.camera], point);
             };
             // Another view whose image ends before the sample tells nothing more.
             if (seeing.enough() && !shows()) continue;
@@ -115,16 +115,16 @@ class TruthSight {
     }
 
     const MeasuredMesh& surface_;
-    const Yardstick& yardstick_;
+    const Reference& reference_;
     double touch_;
 };
 
 /// Replaces truth.samples by those of `count` samples of the whole surface that count.
-void sample_truth(Truth& truth, const Yardstick& yardstick, std::size_t count, Stream stream)
+void sample_truth(Truth& truth, const Reference& reference, std::size_t count, Stream stream)
 {
     const SurfaceSamples all =
-        sample_surface(truth.surface.mesh, count, stream_seed(yardstick, stream));
-    const TruthSight sight(truth.surface, yardstick);
+        sample_surface(truth.surface.mesh, count, stream_seed(reference, stream));
+    const TruthSight sight(truth.surface, reference);
     std::vector<SeeingViews> views(count);
     parallel_for(
         count, [&](std::size_t i) { views[i] = sight.seeing_views(all, i); }, 64);
@@ -216,12 +216,12 @@ std::optional<LineFigures> line_figures(const MeasuredMesh& mesh, const Truth& t
 
 } // namespace
 
-Truth seen_truth(const NamedMesh& named, const Yardstick& yardstick)
+Truth seen_truth(const NamedMesh& named, const Reference& reference)
 {
     Truth truth{
-        .surface = place_mesh(named, yardstick), .samples = {}, .views = {}, .image_views = {}};
-    const auto wanted = static_cast<std::size_t>(yardstick.options.samples);
-    sample_truth(truth, yardstick, kPilotSamples, pilot_stream);
+        .surface = place_mesh(named, reference), .samples = {}, .views = {}, .image_views = {}};
+    const auto wanted = static_cast<std::size_t>(reference.options.samples);
+    sample_truth(truth, reference, kPilotSamples, pilot_stream);
     // Only a share of the area is seen: draw as many as leaves the wanted number, more if it did
     // not.
     double surplus = 1.0;
@@ -232,21 +232,21 @@ Truth seen_truth(const NamedMesh& named, const Yardstick& yardstick)
                 fmt::format("{}: less than a thousandth of its area is seen by at least "
                             "{} of the model's {} views, so it cannot tell how good a "
                             "mesh is",
-                            named.name, kLeastViews, yardstick.scene.views.size()));
+                            named.name, kLeastViews, reference.scene.views.size()));
         }
         const double draws = surplus * static_cast<double>(wanted) / truth.seen_share;
-        sample_truth(truth, yardstick, static_cast<std::size_t>(draws), truth_stream);
+        sample_truth(truth, reference, static_cast<std::size_t>(draws), truth_stream);
     } while (truth.samples.size() < wanted);
     truth.diagonal = length_of_box(truth.samples);
     return truth;
 }
 
-TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Yardstick& yardstick)
+TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Reference& reference)
 {
-    const Truth& truth = *yardstick.truth;
-    const auto count = static_cast<std::size_t>(yardstick.options.samples);
+    const Truth& truth = *reference.truth;
+    const auto count = static_cast<std::size_t>(reference.options.samples);
     const SurfaceSamples samples =
-        sample_surface(mesh.mesh, count, stream_seed(yardstick, mesh_stream));
+        sample_surface(mesh.mesh, count, stream_seed(reference, mesh_stream));
     const std::vector<double> to_truth = distances(truth.surface.tree, samples.positions);
     const std::vector<double> to_mesh = distances(mesh.tree, truth.samples);
 
@@ -261,8 +261,8 @@ TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Yardstick& ya
     }
     figures.mean_accuracy = mean(to_truth) / truth.diagonal;
     figures.mean_completeness = mean(to_mesh) / truth.diagonal;
-    figures.blocked = blocked_share(mesh, truth, yardstick.scene.views);
-    figures.lines = line_figures(mesh, truth, yardstick.scene.views);
+    figures.blocked = blocked_share(mesh, truth, reference.scene.views);
+    figures.lines = line_figures(mesh, truth, reference.scene.views);
     return figures;
 }
 

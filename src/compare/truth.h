@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/yardstick.h"
+#include "compare/reference.h"
 
 #include <array>
 #include <optional>
@@ -42,11 +42,11 @@ struct TruthFigures {
 };
 
 /// Samples the truth until at least options.samples of its samples count. Throws like
-/// make_yardstick, which is what to call: the yardstick must be complete but for its truth.
-Truth seen_truth(const NamedMesh& named, const Yardstick& yardstick);
+/// make_reference, which is what to call: the reference must be complete but for its truth.
+Truth seen_truth(const NamedMesh& named, const Reference& reference);
 
-/// Precondition: the yardstick has a truth.
+/// Precondition: the reference has a truth.
 /// Cost: two nearest-point queries, a segment query and a ray a sample, parallel.
-TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Yardstick& yardstick);
+TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Reference& reference);
 
 } // namespace vcarve

@@ -31,14 +31,14 @@ std::vector<Eigen::Vector2d> grid_pixels(const Camera& camera, std::size_t most)
 }
 
 /// Per ray: what it first meets of a surface.
-std::vector<std::optional<FirstHit>> first_hits(const SurfaceTree& tree, const Yardstick& yardstick)
+std::vector<std::optional<FirstHit>> first_hits(const SurfaceTree& tree, const Reference& reference)
 {
-    std::vector<std::optional<FirstHit>> hits(yardstick.rays.size());
+    std::vector<std::optional<FirstHit>> hits(reference.rays.size());
     parallel_for(
         hits.size(),
         [&](std::size_t i) {
-            const ViewRay& ray = yardstick.rays[i];
-            hits[i] = tree.first_hit(yardstick.scene.views[ray.view].center, ray.towards);
+            const ViewRay& ray = reference.rays[i];
+            hits[i] = tree.first_hit(reference.scene.views[ray.view].center, ray.towards);
         },
         64);
     return hits;
@@ -67,29 +67,29 @@ std::vector<ViewRay> view_rays(const Scene& scene, const CompareOptions& options
     return parallel_collect<ViewRay>(scene.views.size(), rays_of_view, 4);
 }
 
-void use_closed_surface(Yardstick& yardstick, const TriMesh& closed)
+void use_closed_surface(Reference& reference, const TriMesh& closed)
 {
-    const SurfaceTree tree(in_frame(closed, yardstick.origin));
+    const SurfaceTree tree(in_frame(closed, reference.origin));
     std::vector<char> met;
-    for (const std::optional<FirstHit>& hit : first_hits(tree, yardstick)) {
+    for (const std::optional<FirstHit>& hit : first_hits(tree, reference)) {
         met.push_back(hit ? 1 : 0);
     }
-    yardstick.closed_hits = std::move(met);
+    reference.closed_hits = std::move(met);
 }
 
-std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Yardstick& yardstick)
+std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Reference& reference)
 {
-    const std::vector<std::optional<FirstHit>> hits = first_hits(mesh.tree, yardstick);
+    const std::vector<std::optional<FirstHit>> hits = first_hits(mesh.tree, reference);
     if (hits.empty()) return std::nullopt;
     const auto all = static_cast<double>(hits.size());
     const auto backs =
         std::ranges::count_if(hits, [](const auto& hit) { return hit && !hit->front; });
     RayFigures figures;
     figures.back_faces_seen = static_cast<double>(backs) / all;
-    if (!yardstick.closed_hits) return figures;
+    if (!reference.closed_hits) return figures;
     std::int64_t missing = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
-        missing += !hits[i] && (*yardstick.closed_hits)[i] != 0 ? 1 : 0;
+        missing += !hits[i] && (*reference.closed_hits)[i] != 0 ? 1 : 0;
     }
     figures.nothing_seen = static_cast<double>(missing) / all;
     return figures;

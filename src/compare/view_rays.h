@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/yardstick.h"
+#include "compare/reference.h"
 
 #include <cstdint>
 #include <optional>
@@ -21,10 +21,10 @@ struct RayFigures {
 /// without a direction, and cameras without size or known lens, have none.
 std::vector<ViewRay> view_rays(const Scene& scene, const CompareOptions& options);
 
-/// Fills Yardstick::closed_hits. `closed` is a surface of the yardstick's model, in any frame.
-void use_closed_surface(Yardstick& yardstick, const TriMesh& closed);
+/// Fills Reference::closed_hits. `closed` is a surface of the reference's model, in any frame.
+void use_closed_surface(Reference& reference, const TriMesh& closed);
 
 /// Nothing where no view has a ray. Cost: a ray each, parallel.
-std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Yardstick& yardstick);
+std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Reference& reference);
 
 } // namespace vcarve

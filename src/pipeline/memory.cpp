@@ -93,8 +93,8 @@ double triangulating(const Sizes& n)
     return n.scene() + kNumberedPoint * n.points + n.cgal() + kCell * n.cells;
 }
 
-/// The network; beside it first the edges that softness is measured by, up to six a cell of a
-/// choice of cells, in lists that grow; then the sights that each thread walks, those of 512
+/// The network; beside it first the edges that the distance sigma is measured by, up to six a cell
+/// of a choice of cells, in lists that grow; then the sights that each thread walks, those of 512
 /// points.
 double tracing(const Sizes& n)
 {
@@ -104,14 +104,14 @@ double tracing(const Sizes& n)
     return n.after_triangulation() + n.cells * kNetworkCell + std::max(24 * edges, kSight * walked);
 }
 
-/// The network, the solver, and the labels before and after; and for webs the facets amid them, as
-/// faces, and the faces around each vertex.
+/// The network, the solver, and the labels before and after; and for bridging facets the facets
+/// amid them, as faces, and the faces around each vertex.
 double cutting(const Sizes& n)
 {
-    constexpr double kWebFace = 8 + 2.0 * sizeof(Face);
-    constexpr double kWebVertex = 4 + 8 + 1;
+    constexpr double kBridgingFace = 8 + 2.0 * sizeof(Face);
+    constexpr double kBridgingVertex = 4 + 8 + 1;
     return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 2) +
-           n.faces * kWebFace + n.points * kWebVertex;
+           n.faces * kBridgingFace + n.points * kBridgingVertex;
 }
 
 /// The labels and the surface, with the faces around each vertex, the usual edge there, and the

@@ -28,16 +28,16 @@ Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
 {
     Stage stage(log, "filter");
     FilteredPoints filtered = filter_points(scene, options);
-    Scene arranged = arrange_points(std::move(filtered.scene));
+    Scene sorted = spatial_sort(std::move(filtered.scene));
     const FilterReport& dropped = filtered.report;
-    stage.end({{"points", size_of(arranged.num_points())},
+    stage.end({{"points", size_of(sorted.num_points())},
                {"of", size_of(scene.num_points())},
                {"non-finite", dropped.non_finite},
                {"duplicate", dropped.duplicate},
                {"few views", dropped.few_views},
                {"high error", dropped.high_error},
                {"low angle", dropped.low_angle}});
-    return arranged;
+    return sorted;
 }
 
 TetMesh triangulate(const Scene& scene, Log& log)

@@ -11,13 +11,13 @@ constexpr const char* kCostDefinition = "seconds, CPU seconds (all threads), pea
                                         "whole program that made the mesh, from "
                                         "its start to its end, on this machine.";
 
-std::vector<std::string> evidence_definitions(const Yardstick& yardstick)
+std::vector<std::string> evidence_definitions(const Reference& reference)
 {
-    const double k = yardstick.options.spacings;
+    const double k = reference.options.spacings;
     return {
         fmt::format("Measured against {} points with at least 2 views and {} views; spacing of a "
                     "point = distance to its 6th nearest point.",
-                    yardstick.scene.num_points(), yardstick.scene.views.size()),
+                    reference.scene.num_points(), reference.scene.views.size()),
         fmt::format(
             "hidden sights: share of lines from a point to a view that saw it which meet the "
             "mesh farther than {} spacings from the point.",
@@ -29,8 +29,8 @@ std::vector<std::string> evidence_definitions(const Yardstick& yardstick)
         "nothing of the mesh between).",
         fmt::format("back faces seen: share of {} rays, a regular grid in every image, that first "
                     "meet the mesh from its back.",
-                    yardstick.rays.size()),
-        yardstick.closed_hits
+                    reference.rays.size()),
+        reference.closed_hits
             ? "nothing seen: share of these rays that meet no face where the closed surface (what "
               "--closed makes of the model) has one."
             : "nothing seen: not known, for no closed surface was made of the model.",
@@ -48,37 +48,37 @@ std::string line_definition(const Truth& truth)
         truth.image_samples(), truth.samples.size());
 }
 
-std::vector<std::string> truth_definitions(const Yardstick& yardstick)
+std::vector<std::string> truth_definitions(const Reference& reference)
 {
     std::vector<std::string> lines;
     lines.push_back(fmt::format("truth: {} samples by area of what at least 3 views see (nothing "
                                 "of the truth between, under 80 degrees from the normal, wherever "
                                 "its image ends; {:.1f} % of its area), seed {}; "
                                 "diagonal = of their box = {:.6g}.",
-                                yardstick.truth->samples.size(),
-                                100.0 * yardstick.truth->seen_share, yardstick.options.seed,
-                                yardstick.truth->diagonal));
+                                reference.truth->samples.size(),
+                                100.0 * reference.truth->seen_share, reference.options.seed,
+                                reference.truth->diagonal));
     lines.push_back(fmt::format(
         "precision: share of {} samples by area of the whole mesh within that part of the diagonal "
         "of the truth; recall: of the truth's samples, of the mesh; F: harmonic mean.",
-        yardstick.options.samples));
+        reference.options.samples));
     lines.emplace_back(
         "accuracy, completeness: mean distance of the mesh's samples to the truth and back, "
         "in % of the diagonal.");
     lines.emplace_back(
         "blocked: share of the truth's samples whose line to a view that sees them (one a "
         "sample, at random) meets the mesh farther than 1 % of the diagonal from the sample.");
-    lines.push_back(line_definition(*yardstick.truth));
+    lines.push_back(line_definition(*reference.truth));
     return lines;
 }
 
 } // namespace
 
-std::vector<std::string> definitions(const Yardstick& yardstick, bool with_costs)
+std::vector<std::string> definitions(const Reference& reference, bool with_costs)
 {
-    std::vector<std::string> lines = evidence_definitions(yardstick);
-    if (yardstick.truth) {
-        for (std::string& line : truth_definitions(yardstick)) {
+    std::vector<std::string> lines = evidence_definitions(reference);
+    if (reference.truth) {
+        for (std::string& line : truth_definitions(reference)) {
             lines.push_back(std::move(line));
         }
     }

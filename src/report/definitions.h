@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/yardstick.h"
+#include "compare/reference.h"
 
 #include <string>
 #include <vector>
@@ -8,6 +8,6 @@
 namespace vcarve {
 
 /// What the figures mean, a line each, written where the user reads them.
-std::vector<std::string> definitions(const Yardstick& yardstick, bool with_costs);
+std::vector<std::string> definitions(const Reference& reference, bool with_costs);
 
 } // namespace vcarve

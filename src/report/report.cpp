@@ -132,24 +132,24 @@ Json mesh_json(const Comparison& comparison)
 
 } // namespace
 
-std::string comparison_json(std::span<const Comparison> comparisons, const Yardstick& yardstick)
+std::string comparison_json(std::span<const Comparison> comparisons, const Reference& reference)
 {
     Json report;
-    report["definitions"] = definitions(yardstick, has_costs(comparisons));
-    report["options"] = {{"samples", yardstick.options.samples},
-                         {"seed", yardstick.options.seed},
-                         {"spacings", yardstick.options.spacings}};
-    report["model"] = {{"points", yardstick.scene.num_points()},
-                       {"views", yardstick.scene.views.size()},
-                       {"sights", yardstick.scene.num_sights()},
-                       {"rays", yardstick.rays.size()},
-                       {"median_spacing", yardstick.median_spacing}};
+    report["definitions"] = definitions(reference, has_costs(comparisons));
+    report["options"] = {{"samples", reference.options.samples},
+                         {"seed", reference.options.seed},
+                         {"spacings", reference.options.spacings}};
+    report["model"] = {{"points", reference.scene.num_points()},
+                       {"views", reference.scene.views.size()},
+                       {"sights", reference.scene.num_sights()},
+                       {"rays", reference.rays.size()},
+                       {"median_spacing", reference.median_spacing}};
     report["truth"] = nullptr;
-    if (yardstick.truth) {
-        report["truth"] = {{"samples", yardstick.truth->samples.size()},
-                           {"image_samples", yardstick.truth->image_samples()},
-                           {"seen_share", yardstick.truth->seen_share},
-                           {"diagonal", yardstick.truth->diagonal}};
+    if (reference.truth) {
+        report["truth"] = {{"samples", reference.truth->samples.size()},
+                           {"image_samples", reference.truth->image_samples()},
+                           {"seen_share", reference.truth->seen_share},
+                           {"diagonal", reference.truth->diagonal}};
     }
     report["meshes"] = Json::array();
     for (const Comparison& comparison : comparisons) {
@@ -159,12 +159,12 @@ std::string comparison_json(std::span<const Comparison> comparisons, const Yards
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-std::string comparison_table(std::span<const Comparison> comparisons, const Yardstick& yardstick)
+std::string comparison_table(std::span<const Comparison> comparisons, const Reference& reference)
 {
-    const std::vector<Row> rows = report_rows(comparisons, yardstick.truth.has_value());
+    const std::vector<Row> rows = report_rows(comparisons, reference.truth.has_value());
     std::string text = table(comparisons, rows);
     text += '\n';
-    for (const std::string& line : definitions(yardstick, has_costs(comparisons))) {
+    for (const std::string& line : definitions(reference, has_costs(comparisons))) {
         text += line + '\n';
     }
     return text;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/yardstick.h"
+#include "compare/reference.h"
 #include "model/scene.h"
 #include "model/tri_mesh.h"
 

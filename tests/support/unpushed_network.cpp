@@ -65,9 +65,9 @@ std::size_t median_views(const Scene& scene)
 }
 
 /// One sight, from a vertex to a view.
-class SightVotes {
+class SightTerms {
   public:
-    SightVotes(const TetMesh& mesh, Index vertex, double weight, double sigma)
+    SightTerms(const TetMesh& mesh, Index vertex, double weight, double sigma)
         : mesh_(mesh), vertex_(vertex), full_(std::lround(kSteps * weight)), sigma_(sigma)
     {
     }
@@ -78,7 +78,7 @@ class SightVotes {
         const double length = (center - mesh_.positions[vertex_]).norm();
         Index entered = kInfinite;
         for (const auto& [facet, share] : crossings_by_brute_force(mesh_, vertex_, center)) {
-            const std::int64_t flow = vote(share * length);
+            const std::int64_t flow = weight(share * length);
             const Index beyond = mesh_.cells[facet.cell].neighbors[facet.slot];
             add_at_gap(network.sources, entered, facet.cell, flow);
             network.arcs[beyond][mesh_.mirror(facet.cell, facet.slot)] += flow;
@@ -99,7 +99,7 @@ class SightVotes {
         const Vector3d target = point + depth * (point - center).normalized();
         Index entered = kInfinite;
         for (const auto& [facet, share] : crossings_by_brute_force(mesh_, vertex_, target)) {
-            const std::int64_t flow = vote(share * depth);
+            const std::int64_t flow = weight(share * depth);
             add_at_gap(network.sinks, entered, facet.cell, flow);
             network.arcs[facet.cell][facet.slot] += flow;
             entered = mesh_.cells[facet.cell].neighbors[facet.slot];
@@ -134,7 +134,7 @@ class SightVotes {
         add(terminals, last, full_);
     }
 
-    std::int64_t vote(double distance) const
+    std::int64_t weight(double distance) const
     {
         return std::lround(static_cast<double>(full_) * softened(distance, sigma_));
     }
@@ -147,18 +147,18 @@ class SightVotes {
 
 } // namespace
 
-UnpushedNetwork network_of_votes(const TetMesh& mesh, const Scene& scene,
-                                 const TraceOptions& options)
+UnpushedNetwork network_of_sights(const TetMesh& mesh, const Scene& scene,
+                                  const TraceOptions& options)
 {
     const std::size_t count = mesh.cells.size();
     UnpushedNetwork network{std::vector<std::int64_t>(count, 0),
                             std::vector<std::int64_t>(count, 0),
                             std::vector<std::array<std::int64_t, 4>>(count, {0, 0, 0, 0})};
-    const double sigma = options.softness * short_edge_length(mesh);
+    const double sigma = options.distance_sigma * short_edge_length(mesh);
     const double usual = weight(median_views(scene), options.views_sigma);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
         const double share = weight(scene.tracks[vertex].size(), options.views_sigma) / usual;
-        const SightVotes sight(mesh, vertex, share, sigma);
+        const SightTerms sight(mesh, vertex, share, sigma);
         for (const std::uint32_t view : scene.tracks[vertex]) {
             sight.add_outside(scene.views[view].center, network);
             sight.add_inside(scene.views[view].center, options.sink_depth * sigma, network);

@@ -11,7 +11,7 @@
 
 namespace vcarve {
 
-/// The network of all votes as the definitions have it, nothing pushed, nothing netted.
+/// The network of all sights as the definitions have it, nothing pushed, nothing netted.
 struct UnpushedNetwork {
     std::vector<std::int64_t> sources;             ///< a cell, the capacity from the source
     std::vector<std::int64_t> sinks;               ///< a cell, the capacity to the sink
@@ -21,8 +21,8 @@ struct UnpushedNetwork {
 /// Every sight of a scene: from the cell of the view through the facets it crosses, found by brute
 /// force, towards the point, and behind that to the cell that is called inside. A sight that meets
 /// edges or vertices falls into stretches, each with a terminal at its end.
-UnpushedNetwork network_of_votes(const TetMesh& mesh, const Scene& scene,
-                                 const TraceOptions& options);
+UnpushedNetwork network_of_sights(const TetMesh& mesh, const Scene& scene,
+                                  const TraceOptions& options);
 
 /// Binds to the source the infinite cells and `cells_of_views`.
 void pin_outside(const TetMesh& mesh, const std::vector<Index>& cells_of_views,

@@ -130,7 +130,7 @@ void count(Verdict verdict, FilterReport& report)
 FilteredPoints filter_points(const Scene& scene, const FilterOptions& options)
 {
     require_indexable(scene.num_points(), kMostIndices, "points");
-    const PointIndices finite = order_by_place(scene.positions);
+    const PointIndices finite = lexicographic_sort(scene.positions);
     const Merged merged = merge_duplicates(scene, finite);
     std::vector<std::vector<std::uint32_t>> united(merged.members.size());
     parallel_for(united.size(),

@@ -7,7 +7,7 @@
 
 namespace vcarve {
 
-std::vector<std::uint32_t> order_by_place(const std::vector<Eigen::Vector3d>& positions)
+std::vector<std::uint32_t> lexicographic_sort(const std::vector<Eigen::Vector3d>& positions)
 {
     // The first coordinate sits beside the index, so that sorting seldom looks elsewhere.
     struct Entry {

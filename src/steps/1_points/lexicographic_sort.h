@@ -8,6 +8,6 @@
 namespace vcarve {
 
 /// The indices of the finite points, by x, then y, then z, then index. Cost: a parallel sort.
-std::vector<std::uint32_t> order_by_place(const std::vector<Eigen::Vector3d>& positions);
+std::vector<std::uint32_t> lexicographic_sort(const std::vector<Eigen::Vector3d>& positions);
 
 } // namespace vcarve

@@ -24,7 +24,7 @@ using SortTraits = CGAL::Spatial_sort_traits_adapter_3<Kernel, PointMap>;
 /// deterministic but not stable, starts from the same sequence whatever the order of the input.
 std::vector<std::size_t> hilbert_order(const std::vector<Vector3d>& positions)
 {
-    const std::vector<std::uint32_t> by_place = order_by_place(positions);
+    const std::vector<std::uint32_t> by_place = lexicographic_sort(positions);
     std::vector<std::size_t> order(by_place.begin(), by_place.end());
     std::vector<Kernel::Point_3> points;
     points.reserve(positions.size());
@@ -62,7 +62,7 @@ Tracks reordered(const Tracks& tracks, const std::vector<std::size_t>& order)
 
 } // namespace
 
-Scene arrange_points(Scene scene)
+Scene spatial_sort(Scene scene)
 {
     const std::vector<std::size_t> order = hilbert_order(scene.positions);
     scene.positions = reordered(scene.positions, order);

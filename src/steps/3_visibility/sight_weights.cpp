@@ -51,7 +51,7 @@ SightWeights::SightWeights(const Scene& scene, const TraceOptions& options)
     full_ = views_weight(lengths.empty() ? 1.0 : median(lengths), options.views_sigma);
 }
 
-std::int32_t SightWeights::full_vote(Index point, double weight) const
+std::int32_t SightWeights::full_weight(Index point, double weight) const
 {
     const auto views = static_cast<double>(scene_.tracks[point].size());
     const double by_views = views_weight(views, options_.views_sigma);

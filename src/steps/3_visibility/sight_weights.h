@@ -17,7 +17,7 @@ class SightWeights {
     SightWeights(const Scene& scene, const TraceOptions& options);
 
     /// `weight` sights to a point, in whole steps.
-    std::int32_t full_vote(Index point, double weight = 1.0) const;
+    std::int32_t full_weight(Index point, double weight = 1.0) const;
 
   private:
     double by_error(double error_px) const;

@@ -22,19 +22,22 @@ namespace {
 using Eigen::Vector3d;
 
 /// Adds to the network from many threads, and remembers whether a sum came near the end of 32 bits.
-class VoteSums {
+class EnergySums {
   public:
-    explicit VoteSums(FlowNetwork& network) : network_(network) {}
+    explicit EnergySums(FlowNetwork& network) : network_(network) {}
 
-    void add_residual(Index cell, int slot, std::int32_t vote)
+    void add_arc_capacity(Index cell, int slot, std::int32_t weight)
     {
-        add(network_.residuals[cell][slot], vote);
+        add(network_.arc_capacities[cell][slot], weight);
     }
-    void add_excess(Index cell, std::int32_t flow) { add(network_.excesses[cell], flow); }
+    void add_terminal_capacity(Index cell, std::int32_t flow)
+    {
+        add(network_.terminal_capacities[cell], flow);
+    }
     bool is_exceeded() const { return is_exceeded_; }
 
-    /// Asks early for the memory of a cell's votes.
-    void fetch(Index cell) const { prefetch(&network_.residuals[cell]); }
+    /// Asks early for the memory of a cell's arcs.
+    void fetch(Index cell) const { prefetch(&network_.arc_capacities[cell]); }
 
   private:
     void add(std::int32_t& sum, std::int32_t value)
@@ -126,42 +129,42 @@ class Push {
   public:
     enum class Sign : std::int32_t { source = 1, sink = -1 };
 
-    Push(const TetMesh& mesh, VoteSums& sums, Sign sign)
+    Push(const TetMesh& mesh, EnergySums& sums, Sign sign)
         : mesh_(mesh), sums_(sums), sign_(static_cast<std::int32_t>(sign))
     {
     }
 
     std::int32_t carried() const { return carried_; }
 
-    void cross(Index near, Index far, std::int32_t vote)
+    void cross(Index near, Index far, std::int32_t weight)
     {
-        arrive(near, vote);
+        arrive(near, weight);
         reached_ = far;
-        carried_ = vote;
+        carried_ = weight;
     }
 
     void end(Index last, std::int32_t full) { arrive(last, full); }
 
   private:
-    void arrive(Index cell, std::int32_t vote)
+    void arrive(Index cell, std::int32_t weight)
     {
         if (reached_ != kInfinite && reached_ != cell) {
-            keep(reached_, vote - carried_);
+            keep(reached_, weight - carried_);
             carried_ = 0;
         }
-        keep(cell, vote - carried_);
+        keep(cell, weight - carried_);
     }
 
     void keep(Index cell, std::int32_t flow)
     {
         // Infinite cells are outside whatever they keep.
         if (flow != 0 && cell != kInfinite && !mesh_.cells[cell].is_infinite()) {
-            sums_.add_excess(cell, sign_ * flow);
+            sums_.add_terminal_capacity(cell, sign_ * flow);
         }
     }
 
     const TetMesh& mesh_;
-    VoteSums& sums_;
+    EnergySums& sums_;
     std::int32_t sign_;
     std::int32_t carried_ = 0;
     Index reached_ = kInfinite;
@@ -171,15 +174,15 @@ class Push {
 struct OutwardSight {
     Sight sight;
     std::uint32_t view;
-    std::int32_t full; ///< its vote where softness has no say
+    std::int32_t full; ///< its weight where the distance sigma is zero
     Vector3d direction;
     Push push;
 };
 
-/// Adds what sights vote to the network.
-class Voter {
+/// Adds the terms of sights to the network.
+class SightTerms {
   public:
-    Voter(const TetMesh& mesh, VoteSums& sums, double sigma)
+    SightTerms(const TetMesh& mesh, EnergySums& sums, double sigma)
         : mesh_(mesh), sums_(sums), sigma_(sigma)
     {
     }
@@ -198,7 +201,8 @@ class Voter {
     /// Outside, from the points to the views. Calls on_end(view, cell) with the cell of the view,
     /// kInfinite if that lies out of the hull.
     template <typename OnEnd>
-    void vote_outside(SightWalk& walk, std::vector<OutwardSight>& sights, const OnEnd& on_end) const
+    void add_outside_terms(SightWalk& walk, std::vector<OutwardSight>& sights,
+                           const OnEnd& on_end) const
     {
         walk.along_each(
             sights.size(), [&](std::size_t k) -> const Sight& { return sights[k].sight; },
@@ -209,12 +213,12 @@ class Voter {
                 // arc inwards, opens the one outwards, and what the next facet will not take stays
                 // here.
                 auto& [sight, view, full, direction, push] = sights[k];
-                const std::int32_t vote =
+                const std::int32_t weight =
                     push.carried() == full
                         ? full
-                        : soft_vote({cell, slot}, mesh_.positions[sight.vertex], direction, full);
-                sums_.add_residual(cell, slot, vote);
-                push.cross(cell, beyond, vote);
+                        : soft_weight({cell, slot}, mesh_.positions[sight.vertex], direction, full);
+                sums_.add_arc_capacity(cell, slot, weight);
+                push.cross(cell, beyond, weight);
             },
             [&](std::size_t k, const WalkEnds& ends) {
                 sights[k].push.end(ends.last, sights[k].full);
@@ -226,31 +230,31 @@ class Voter {
 
     /// Inside, from the point where the walk stands away from the view, down to a depth of
     /// `sink_depth` sigmas.
-    void vote_inside(SightWalk& walk, const Vector3d& point, const Vector3d& center,
-                     std::int32_t full, double sink_depth) const
+    void add_inside_terms(SightWalk& walk, const Vector3d& point, const Vector3d& center,
+                          std::int32_t full, double sink_depth) const
     {
         const Vector3d direction = (point - center).normalized();
         const double depth = sink_depth * sigma_;
         if (depth == 0.0) {
             const Index behind = walk.first_cell(2.0 * point - center);
             if (behind != kInfinite) {
-                sums_.add_excess(behind, -full);
+                sums_.add_terminal_capacity(behind, -full);
             }
             return;
         }
         Push push(mesh_, sums_, Push::Sign::sink);
         const WalkEnds ends = walk.to(point + depth * direction, [&](Index cell, int slot) {
-            const std::int32_t vote = soft_vote({cell, slot}, point, direction, full);
+            const std::int32_t weight = soft_weight({cell, slot}, point, direction, full);
             const Index beyond = mesh_.cells[cell].neighbors[slot];
-            sums_.add_residual(beyond, mesh_.mirror(cell, slot), vote);
-            push.cross(cell, beyond, vote);
+            sums_.add_arc_capacity(beyond, mesh_.mirror(cell, slot), weight);
+            push.cross(cell, beyond, weight);
         });
         push.end(ends.last, full);
     }
 
   private:
-    std::int32_t soft_vote(CellFacet facet, const Vector3d& point, const Vector3d& direction,
-                           std::int32_t full) const
+    std::int32_t soft_weight(CellFacet facet, const Vector3d& point, const Vector3d& direction,
+                             std::int32_t full) const
     {
         if (sigma_ == 0.0) {
             return full;
@@ -261,7 +265,7 @@ class Voter {
     }
 
     const TetMesh& mesh_;
-    VoteSums& sums_;
+    EnergySums& sums_;
     double sigma_;
 };
 
@@ -279,7 +283,7 @@ void locate_other_views(const TetMesh& cells, const std::vector<Vector3d>& cente
     }
 }
 
-void require_exact(const VoteSums& sums, const Scene& scene)
+void require_exact(const EnergySums& sums, const Scene& scene)
 {
     if (sums.is_exceeded()) {
         throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
@@ -310,17 +314,17 @@ void add_crossings(const TetMesh& cells, const VirtualSights& sights, double wei
     });
 }
 
-Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
-                   Stage& stage)
+VisibilityEnergy trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
+                              Stage& stage)
 {
-    Votes votes;
-    votes.unit = SightWeights::kUnit;
-    votes.network.residuals.assign(cells.cells.size(), {0, 0, 0, 0});
-    votes.network.excesses.assign(cells.cells.size(), 0);
-    votes.cell_of_view.assign(scene.views.size(), kInfinite);
-    VoteSums sums(votes.network);
-    const double sigma = options.softness * short_edge_length(cells);
-    const Voter voter(cells, sums, sigma);
+    VisibilityEnergy energy;
+    energy.unit = SightWeights::kUnit;
+    energy.network.arc_capacities.assign(cells.cells.size(), {0, 0, 0, 0});
+    energy.network.terminal_capacities.assign(cells.cells.size(), 0);
+    energy.cell_of_view.assign(scene.views.size(), kInfinite);
+    EnergySums sums(energy.network);
+    const double sigma = options.distance_sigma * short_edge_length(cells);
+    const SightTerms terms(cells, sums, sigma);
     const SightWeights weights(scene, options);
     const std::vector<Vector3d> centers = centers_of(scene.views);
 
@@ -329,40 +333,40 @@ Votes trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions&
         std::vector<OutwardSight> sights;
         for (Index vertex = first; vertex < last; ++vertex) {
             walk.stand_at(vertex);
-            const std::int32_t full = weights.full_vote(vertex);
+            const std::int32_t full = weights.full_weight(vertex);
             for (const std::uint32_t view : scene.tracks[vertex]) {
-                voter.vote_inside(walk, cells.positions[vertex], centers[view], full,
-                                  options.sink_depth);
-                sights.push_back(voter.outward(vertex, view, centers[view], full));
+                terms.add_inside_terms(walk, cells.positions[vertex], centers[view], full,
+                                       options.sink_depth);
+                sights.push_back(terms.outward(vertex, view, centers[view], full));
             }
         }
-        voter.vote_outside(walk, sights, [&](std::uint32_t view, Index cell) {
-            lower(votes.cell_of_view[view], cell);
+        terms.add_outside_terms(walk, sights, [&](std::uint32_t view, Index cell) {
+            lower(energy.cell_of_view[view], cell);
         });
     });
     require_exact(sums, scene);
-    locate_other_views(cells, centers, votes.cell_of_view);
-    return votes;
+    locate_other_views(cells, centers, energy.cell_of_view);
+    return energy;
 }
 
 // NOLINTNEXTLINE(readability-function-size): the pass has that many inputs
-void add_votes(const TetMesh& cells, const Scene& scene, const VirtualSights& sights, double weight,
-               const TraceOptions& options, Votes& votes, Stage& stage)
+void add_sights(const TetMesh& cells, const Scene& scene, const VirtualSights& sights,
+                double weight, const TraceOptions& options, VisibilityEnergy& energy, Stage& stage)
 {
-    VoteSums sums(votes.network);
-    const double sigma = options.softness * short_edge_length(cells);
+    EnergySums sums(energy.network);
+    const double sigma = options.distance_sigma * short_edge_length(cells);
     const SightWeights weights(scene, options);
-    const Voter voter(cells, sums, sigma);
+    const SightTerms terms(cells, sums, sigma);
     for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
         SightWalk walk(cells);
         std::vector<OutwardSight> outward;
         for (Index vertex = first; vertex < last; ++vertex) {
-            const std::int32_t full = weights.full_vote(vertex, weight);
+            const std::int32_t full = weights.full_weight(vertex, weight);
             for (const std::uint32_t view : sights.tracks[vertex]) {
-                outward.push_back(voter.outward(vertex, view, sights.centers[view], full));
+                outward.push_back(terms.outward(vertex, view, sights.centers[view], full));
             }
         }
-        voter.vote_outside(walk, outward, [](std::uint32_t, Index) {});
+        terms.add_outside_terms(walk, outward, [](std::uint32_t, Index) {});
     });
     require_exact(sums, scene);
 }

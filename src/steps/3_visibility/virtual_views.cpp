@@ -148,7 +148,7 @@ std::vector<Vector3d> outward_normals(const TetMesh& mesh, const Labels& labels)
     return normals;
 }
 
-/// What is known before anybody looks around.
+/// What is known before any virtual viewpoint is placed.
 struct Known {
     const TetMesh& mesh;
     const Labels& labels;

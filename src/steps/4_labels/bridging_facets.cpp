@@ -42,19 +42,19 @@ bool lies_before(const TetMesh& mesh, const Cell& cell, const SurfaceNormals& no
 
 } // namespace
 
-std::vector<Index> cells_behind_webs(const TetMesh& cells, const Boundary& boundary,
-                                     const Scene& scene, const WebOptions& options)
+std::vector<Index> cells_behind_bridging_facets(const TetMesh& cells, const Boundary& boundary,
+                                                const Scene& scene, const BridgingOptions& options)
 {
-    if (options.web_edge == 0.0) {
+    if (options.bridging_edge == 0.0) {
         return {};
     }
     // Few faces are large, so that everything but their size is cheap.
     const SurfaceNormals& normals = boundary.normals();
-    const std::vector<std::uint32_t> large = boundary.edges().large_faces(options.web_edge);
+    const std::vector<std::uint32_t> large = boundary.edges().large_faces(options.bridging_edge);
     const auto doubt = [&](std::size_t i, std::vector<Index>& doubted) {
         const std::uint32_t face = large[i];
         const Index behind = boundary.facets()[face].cell;
-        if (boundary.edges().relative_size(face) >= options.web_edge &&
+        if (boundary.edges().relative_size(face) >= options.bridging_edge &&
             is_seen(scene, boundary.faces()[face], normals.of(face)) &&
             stands_across(face, normals) && lies_before(cells, cells.cells[behind], normals)) {
             doubted.push_back(behind);
@@ -63,21 +63,23 @@ std::vector<Index> cells_behind_webs(const TetMesh& cells, const Boundary& bound
     return parallel_collect<Index>(large.size(), doubt, 64);
 }
 
-DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
-                         std::int32_t one_sight, const WebOptions& options)
+DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
+                                    std::int32_t one_sight, const BridgingOptions& options)
 {
-    constexpr int kRounds = 3; // behind a web there may be another
+    constexpr int kRounds = 3; // behind a bridging facet there may be another
     DoubtedLabels result{.labels = cut.labels()};
     std::unique_ptr<Boundary> boundary; // of result.labels, once it was asked for
     for (int round = 0; round < kRounds; ++round) {
         if (!boundary) boundary = std::make_unique<Boundary>(cells, result.labels);
-        const std::vector<Index> doubted = cells_behind_webs(cells, *boundary, scene, options);
+        const std::vector<Index> doubted =
+            cells_behind_bridging_facets(cells, *boundary, scene, options);
         if (doubted.empty()) break;
-        cut.offer(doubted, one_sight);
+        cut.add_source_capacity(doubted, one_sight);
         result.doubts += static_cast<std::int64_t>(doubted.size());
         Labels next = cut.labels();
         FreedPieces pieces(cells, scene, result.labels, next);
-        if (pieces.empty()) continue; // what is offered only frees, so the labels are the same
+        if (pieces.empty())
+            continue; // more source capacity only frees cells, so the labels are the same
         pieces.take_away(*boundary);
         boundary.reset(); // one at a time is enough to hold
         boundary = std::make_unique<Boundary>(cells, next);

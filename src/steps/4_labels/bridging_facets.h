@@ -12,13 +12,13 @@
 
 namespace vcarve {
 
-struct WebOptions {
-    double web_edge = 3.0;
+struct BridgingOptions {
+    double bridging_edge = 3.0;
 
     void visit(OptionVisitor& options)
     {
-        options.number(web_edge,
-                       {.name = "web-edge",
+        options.number(bridging_edge,
+                       {.name = "bridging-edge",
                         .unit = "x local edge",
                         .help = "Doubt seen faces with an edge this many times longer than the "
                                 "median around them that stand across the surface at their "
@@ -26,17 +26,17 @@ struct WebOptions {
     }
 };
 
-/// The cells behind faces that look like webs: sheets the cut leaves between things that stand
-/// close to each other, because sights are needles and none happens to pass there. A web is in
-/// plain sight, and yet no point was found on it: its longest edge is `web_edge` times the median
-/// around. It does not go on with the surface: its normal leaves those of the small faces around
-/// two of its corners. And the cell behind it lies before the surface at one of its own corners,
-/// where no solid is expected. A cell is listed once for each such face. Cost: O(faces), mostly in
-/// parallel.
-std::vector<Index> cells_behind_webs(const TetMesh& cells, const Boundary& boundary,
-                                     const Scene& scene, const WebOptions& options);
+/// The cells behind bridging facets. The cut leaves such facets between things that stand close to
+/// each other, where no sight happens to pass: they bridge the gap. A face is taken for one if it
+/// was seen from its front; if its longest edge is at least `bridging_edge` times the median edge
+/// around, since points would have been found on a real surface of that size; if its normal differs
+/// from the normals of the small faces at two of its corners; and if the cell behind it lies before
+/// the surface at a corner of that cell, where no solid is expected. A cell is listed once for each
+/// such face. Cost: O(faces), mostly in parallel.
+std::vector<Index> cells_behind_bridging_facets(const TetMesh& cells, const Boundary& boundary,
+                                                const Scene& scene, const BridgingOptions& options);
 
-/// Labels of the cut, and how many doubts in webs led to them.
+/// Labels of the cut, and how many bridging facets were doubted on the way.
 struct DoubtedLabels {
     Labels labels;
     std::int64_t doubts = 0;
@@ -44,9 +44,9 @@ struct DoubtedLabels {
 };
 
 /// Finds the cut again and again, each time with `one_sight` more for the outside in each cell
-/// behind a web, and keeps what becomes free where that pays (see FreedPieces). Cost: that of
-/// cells_behind_webs and of what changes in the cut, a few times.
-DoubtedLabels doubt_webs(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
-                         std::int32_t one_sight, const WebOptions& options);
+/// behind a bridging facet, and keeps what becomes free where that pays (see FreedPieces). Cost:
+/// that of cells_behind_bridging_facets and of what changes in the cut, a few times.
+DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
+                                    std::int32_t one_sight, const BridgingOptions& options);
 
 } // namespace vcarve

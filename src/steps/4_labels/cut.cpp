@@ -86,7 +86,7 @@ void add_facet_costs(const TetMesh& mesh, const FacetCosts& costs, FlowNetwork& 
         for (int slot = 0; slot < 4; ++slot) {
             const Index neighbor = mesh.cells[i].neighbors[slot];
             const int mirror = mesh.mirror(static_cast<Index>(i), slot);
-            network.residuals[i][slot] += std::max(costs[i][slot], costs[neighbor][mirror]);
+            network.arc_capacities[i][slot] += std::max(costs[i][slot], costs[neighbor][mirror]);
         }
     });
 }
@@ -98,12 +98,12 @@ void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
     for (int slot = 0; slot < 4; ++slot) {
         const Index neighbor = mesh.cells[cell].neighbors[slot];
         // Held below the end of 32 bits: so much excess is more than any cell can pass on.
-        const std::int64_t sum =
-            std::int64_t{network.excesses[neighbor]} + std::int64_t{network.residuals[cell][slot]};
+        const std::int64_t sum = std::int64_t{network.terminal_capacities[neighbor]} +
+                                 std::int64_t{network.arc_capacities[cell][slot]};
         constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-        network.excesses[neighbor] = static_cast<std::int32_t>(std::min(sum, kMost));
-        network.residuals[cell][slot] = 0;
-        network.residuals[neighbor][mesh.mirror(cell, slot)] = 0;
+        network.terminal_capacities[neighbor] = static_cast<std::int32_t>(std::min(sum, kMost));
+        network.arc_capacities[cell][slot] = 0;
+        network.arc_capacities[neighbor][mesh.mirror(cell, slot)] = 0;
     }
 }
 
@@ -125,22 +125,22 @@ void pin_outside(const TetMesh& mesh, const std::vector<Index>& sources, FlowNet
     }
     // A source cell may have got flow from the next one; it has no way on and no meaning.
     for (const Index cell : sources) {
-        network.excesses[cell] = 0;
+        network.terminal_capacities[cell] = 0;
     }
 }
 
 } // namespace
 
-FlowNetwork cut_network(const TetMesh& cells, Votes votes, const CutOptions& options)
+FlowNetwork cut_network(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options)
 {
-    add_facet_costs(cells, facet_costs(cells, options.quality * votes.unit), votes.network);
-    pin_outside(cells, source_cells(cells, votes.cell_of_view), votes.network);
-    return std::move(votes.network);
+    add_facet_costs(cells, facet_costs(cells, options.quality * energy.unit), energy.network);
+    pin_outside(cells, source_cells(cells, energy.cell_of_view), energy.network);
+    return std::move(energy.network);
 }
 
-MinimumCut cut(const TetMesh& cells, Votes votes, const CutOptions& options)
+MinimumCut cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options)
 {
-    return MinimumCut(cells, cut_network(cells, std::move(votes), options));
+    return MinimumCut(cells, cut_network(cells, std::move(energy), options));
 }
 
 } // namespace vcarve

@@ -2,7 +2,7 @@
 
 #include "base/options.h"
 #include "model/tet_mesh.h"
-#include "model/votes.h"
+#include "model/visibility_energy.h"
 #include "steps/4_labels/max_flow/max_flow.h"
 
 namespace vcarve {
@@ -22,13 +22,13 @@ struct CutOptions {
     }
 };
 
-/// The labelling that contradicts the votes least: the minimum cut of the votes plus what each
+/// The labelling of least energy: the minimum cut of the visibility terms plus what each
 /// facet costs by its shape, quality (1 - min(cos phi, cos psi)) with the angles between the facet
 /// and the spheres around its two cells (Labatut, Pons, Keriven 2009, figure 9). Infinite cells and
 /// the cells that hold views are outside.
-MinimumCut cut(const TetMesh& cells, Votes votes, const CutOptions& options);
+MinimumCut cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options);
 
 /// The network that cut() finds the minimum cut of.
-FlowNetwork cut_network(const TetMesh& cells, Votes votes, const CutOptions& options);
+FlowNetwork cut_network(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options);
 
 } // namespace vcarve

@@ -9,8 +9,8 @@ namespace vcarve {
 
 namespace {
 
-VirtualSights look_around(const TetMesh& cells, const Scene& scene, const Labels& labels,
-                          const LabelOptions& options, Log& log)
+VirtualSights place_virtual_views(const TetMesh& cells, const Scene& scene, const Labels& labels,
+                                  const LabelOptions& options, Log& log)
 {
     Stage stage(log, "virtual");
     VirtualSights sights = find_virtual_sights(cells, scene, labels, options.virtual_views, stage);
@@ -37,24 +37,25 @@ Labels carve(const TetMesh& cells, const Scene& scene, const LabelOptions& optio
     if (options.virtual_views.count == 0) {
         return labels;
     }
-    const VirtualSights more = look_around(cells, scene, labels, options, log);
+    const VirtualSights more = place_virtual_views(cells, scene, labels, options, log);
     Stage trace_more(log, "sights");
     add_crossings(cells, more, options.virtual_views.weight, crossings, trace_more);
     trace_more.end({{"sights", size_of(more.tracks.views.size())}});
     return carve(cells, crossings, options, log);
 }
 
-Labels cut(const TetMesh& cells, const Scene& scene, Votes votes, const LabelOptions& options,
-           Log& log)
+Labels cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
+           const LabelOptions& options, Log& log)
 {
     Stage label(log, "cut");
-    const std::int32_t one_sight = votes.unit;
-    MinimumCut minimum = cut(cells, std::move(votes), options.cut);
-    DoubtedLabels doubted = doubt_webs(cells, scene, minimum, one_sight, options.webs);
+    const std::int32_t one_sight = energy.unit;
+    MinimumCut minimum = cut(cells, std::move(energy), options.cut);
+    DoubtedLabels doubted =
+        doubt_bridging_facets(cells, scene, minimum, one_sight, options.bridging);
     Labels& labels = doubted.labels;
     const std::int64_t needles = take_back_needles(cells, scene, options.needles, labels);
     label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)},
-               {"webs doubted", doubted.doubts},
+               {"bridging facets doubted", doubted.doubts},
                {"cells taken back", doubted.taken_back},
                {"needles", needles}});
     return std::move(labels);
@@ -63,17 +64,17 @@ Labels cut(const TetMesh& cells, const Scene& scene, Votes votes, const LabelOpt
 Labels cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
 {
     Stage trace(log, "sights");
-    Votes votes = trace_sights(cells, scene, options.trace, trace);
+    VisibilityEnergy energy = trace_sights(cells, scene, options.trace, trace);
     trace.end({{"sights", size_of(scene.num_sights())}});
     if (options.virtual_views.count == 0) {
-        return cut(cells, scene, std::move(votes), options, log);
+        return cut(cells, scene, std::move(energy), options, log);
     }
-    const Labels first = cut(cells, scene, votes, options, log);
-    const VirtualSights more = look_around(cells, scene, first, options, log);
+    const Labels first = cut(cells, scene, energy, options, log);
+    const VirtualSights more = place_virtual_views(cells, scene, first, options, log);
     Stage trace_more(log, "sights");
-    add_votes(cells, scene, more, options.virtual_views.weight, options.trace, votes, trace_more);
+    add_sights(cells, scene, more, options.virtual_views.weight, options.trace, energy, trace_more);
     trace_more.end({{"sights", size_of(more.tracks.views.size())}});
-    return cut(cells, scene, std::move(votes), options, log);
+    return cut(cells, scene, std::move(energy), options, log);
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct LabelOptions {
     int min_crossings = 1;
     TraceOptions trace;
     CutOptions cut;
-    WebOptions webs;
+    BridgingOptions bridging;
     NeedleOptions needles;
     VirtualViewOptions virtual_views;
 
@@ -45,7 +45,7 @@ struct LabelOptions {
                        .min = 1});
         trace.visit(options);
         cut.visit(options);
-        webs.visit(options);
+        bridging.visit(options);
         needles.visit(options);
         virtual_views.visit(options);
     }

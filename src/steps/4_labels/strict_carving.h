@@ -2,7 +2,7 @@
 
 #include "model/labels.h"
 #include "model/tet_mesh.h"
-#include "model/votes.h"
+#include "model/visibility_energy.h"
 
 namespace vcarve {
 

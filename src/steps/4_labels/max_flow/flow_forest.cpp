@@ -12,20 +12,20 @@
 // (ESA 2015), after "Maximum flows by incremental breadth-first search" (ESA 2011).
 //
 // A forest of shortest paths grows level by level from the cells with a deficit, against the arcs
-// with residual capacity. Where it meets excess it takes in what the arc carries and drains it from
+// with residual capacity. Where it meets excess it pulls what the arc carries and pushes it from
 // parent to parent down to the roots. An arc that saturates, or a root that is filled, leaves
 // orphans. Those that find no other parent on their level are detached with all below them, then
 // reattached by breadth-first search from what still stands, or left out of the forest. What cannot
-// drain is left as excess outside the forest. When the forest grows no more it holds exactly the
-// cells that reach a deficit, and no arc with residual capacity enters it: the minimum cut.
+// reach a root is left as excess outside the forest. When the forest grows no more it holds exactly
+// the cells that reach a deficit, and no arc with residual capacity enters it: the minimum cut.
 //
 // Departures from the papers: only the sink side grows, since our excess sits next to the deficits;
-// detached cells are reattached in one search instead of relabelled one by one; and runs of
+// detached cells are reattached in one search instead of relabelled one by one; and blocks of
 // consecutive cells, which lie close together in space and fit a cache, are first solved alone,
 // side by side, then merged. Whatever they push, the labels come out the same.
 //
-// Runs are merged by growing through their forests again, but only from cells that can lower a
-// level: first those with a neighbour in another run, then those whose own level was lowered. The
+// Blocks are merged by growing through their forests again, but only from cells that can lower a
+// level: first those with a neighbour in another block, then those whose own level was lowered. The
 // levels of all others stay right. Up to depth_ the forest is what it would be had it grown from
 // nothing; below hang parts of the old ones, whose cells hold no excess, whose levels may be too
 // high, and whose parents then are higher up than the level above.
@@ -34,15 +34,16 @@
 // what holds for a facet is too irregular to be predicted.
 //
 // Cost: while a forest grows, a cell's level only rises, each rise costs a constant, and between
-// rises of cells with excess a drain pushes once a cell: O(cells^3) at worst, nearly linear on
-// networks of sights. A merge lowers levels of the forests it merges first.
+// rises of cells with excess an augmentation pushes once a cell: O(cells^3) at worst, nearly linear
+// on networks of sights. A merge lowers levels of the forests it merges first.
 
 namespace vcarve {
 namespace {
 
-constexpr std::int32_t kElsewhere = -1; ///< level of cells not in the run
+constexpr std::int32_t kElsewhere = -1; ///< level of cells not in the block
 constexpr std::size_t kFetchAhead = 8;
-constexpr int kScansPerDrain = 256; ///< enough to share drains, few enough to stay in the cache
+/// Enough to share augmentations, few enough to stay in the cache.
+constexpr int kScansPerAugmentation = 256;
 
 } // namespace
 
@@ -53,7 +54,7 @@ std::int32_t FlowForest::level(Index cell) const
     return here ? found : kElsewhere;
 }
 
-/// The cell, or the other one if it is not in the run.
+/// The cell, or the other one if it is not in the block.
 Index FlowForest::if_here(Index cell, Index other) const
 {
     return cell - first_ < count_ ? cell : other;
@@ -69,18 +70,18 @@ void FlowForest::join(Index cell, int parent, std::int32_t level)
     front_.push_back(cell);
 }
 
-void FlowForest::list_to_drain(Index cell)
+void FlowForest::list_to_augment(Index cell)
 {
     FlowNode& node = nodes_[cell];
-    if (node.drains || node.excess <= 0) return;
-    node.drains = true;
-    drains_.add(cell, node.level);
+    if (node.is_active || node.excess <= 0) return;
+    node.is_active = true;
+    active_.add(cell, node.level);
 }
 
 // ---- orphans ------------------------------------------------------------------------------------
 
-/// Hangs a cell on another parent that keeps it on its level, if there is one.
-bool FlowForest::rehang(Index cell)
+/// Adopts an orphan: gives it another parent that keeps it on its level, if there is one.
+bool FlowForest::adopt(Index cell)
 {
     const std::int32_t above = nodes_[cell].level - 1;
     if (above == 0) return false;
@@ -100,9 +101,9 @@ bool FlowForest::rehang(Index cell)
     return false;
 }
 
-void FlowForest::detach_or_rehang(Index cell)
+void FlowForest::adopt_or_detach(Index cell)
 {
-    if (rehang(cell)) return;
+    if (adopt(cell)) return;
     const std::int32_t own = nodes_[cell].level;
     nodes_[cell].level = 0;
     detached_.push_back(cell);
@@ -172,17 +173,17 @@ void FlowForest::reattach()
     }
 }
 
-/// Mends the forest after a drain. Orphans come by rising level: above them all is settled.
+/// Mends the forest after augmenting. Orphans come by rising level: above them all is settled.
 void FlowForest::repair()
 {
     for (std::int32_t level = orphans_.lowest(); level != kMost; level = orphans_.lowest())
-        detach_or_rehang(orphans_.take(level));
+        adopt_or_detach(orphans_.take(level));
     for (const Index cell : detached_)
         seek_parent(cell);
     reattach();
     for (const Index cell : detached_) {
         if (nodes_[cell].level > 0) {
-            list_to_drain(cell);
+            list_to_augment(cell);
         } else if (!visits_.empty()) {
             list_to_visit_around(cell);
         }
@@ -190,10 +191,10 @@ void FlowForest::repair()
     detached_.clear();
 }
 
-// ---- draining -----------------------------------------------------------------------------------
+// ---- augmenting ---------------------------------------------------------------------------------
 
 /// Pushes the excess of a cell on, by as many parents on the level above as that takes.
-void FlowForest::drain(Index cell)
+void FlowForest::augment(Index cell)
 {
     FlowNode& node = nodes_[cell];
     while (node.excess > 0) {
@@ -204,12 +205,12 @@ void FlowForest::drain(Index cell)
         const auto excess = static_cast<std::uint32_t>(node.excess);
         const std::uint32_t amount = std::min({excess, graph_.capacity_out(cell, slot), room});
         graph_.push(cell, slot, amount);
-        if (!to_root) list_to_drain(parent);
+        if (!to_root) list_to_augment(parent);
 
         const bool filled = to_root && amount == room;
         if (filled && room > 0) orphans_.add(parent, 1);
         if (filled || graph_.capacity_out(cell, slot) == 0) {
-            if (rehang(cell)) continue;
+            if (adopt(cell)) continue;
             node.parent = kNoParent;
             orphans_.add(cell, node.level);
             return;
@@ -221,29 +222,29 @@ void FlowForest::drain(Index cell)
     }
 }
 
-/// Drains from the deepest level up, so that excess gathers on the way; then mends the forest, and
-/// again for what was reattached with excess. Leaves no excess in the forest.
-void FlowForest::drain_all()
+/// Augments from the deepest level up, so that excess gathers on the way; then mends the forest,
+/// and again for what was reattached with excess. Leaves no excess in the forest.
+void FlowForest::augment_all()
 {
     do {
-        for (std::int32_t level = drains_.highest(); level != 0; level = drains_.highest()) {
-            const Index cell = drains_.take(level);
-            nodes_[cell].drains = false;
-            drain(cell);
+        for (std::int32_t level = active_.highest(); level != 0; level = active_.highest()) {
+            const Index cell = active_.take(level);
+            nodes_[cell].is_active = false;
+            augment(cell);
         }
         repair();
         for (const Index cell : late_) {
-            if (nodes_[cell].level > 0) list_to_drain(cell);
+            if (nodes_[cell].level > 0) list_to_augment(cell);
         }
         late_.clear();
-    } while (drains_.highest() != 0);
+    } while (active_.highest() != 0);
 }
 
 // ---- growing ------------------------------------------------------------------------------------
 
-/// Takes in the excess around a cell and hangs on it the cells that have none left. Stops and
+/// Pulls the excess around a cell and makes the cells that have none left its children. Stops and
 /// returns true when the cell has no room.
-bool FlowForest::take_in(Index cell)
+bool FlowForest::activate(Index cell)
 {
     unsigned gains = 0;
     for (int slot = 0; slot < 4; ++slot) {
@@ -274,10 +275,10 @@ void FlowForest::grow_from(Index cell)
     const std::int32_t own = nodes_[cell].level;
     bool full = true;
     while (full && nodes_[cell].level == own) {
-        full = take_in(cell);
-        list_to_drain(cell);
+        full = activate(cell);
+        list_to_augment(cell);
         if (full && own == 1) orphans_.add(cell, 1);
-        if (full) drain_all();
+        if (full) augment_all();
     }
 }
 
@@ -291,7 +292,7 @@ void FlowForest::fetch_ahead(std::size_t at) const
     prefetch(&nodes_[far]);
     for (const Index beyond : graph_.cells[growing_[at + kFetchAhead]].neighbors) {
         prefetch(&nodes_[beyond]);
-        prefetch(&graph_.residuals[beyond]);
+        prefetch(&graph_.arc_capacities[beyond]);
     }
 }
 
@@ -312,14 +313,14 @@ void FlowForest::grow()
         fetch_ahead(k);
         const Index cell = growing_[k];
         if (nodes_[cell].level == level) grow_from(cell);
-        if (++scans % kScansPerDrain == 0) drain_all();
+        if (++scans % kScansPerAugmentation == 0) augment_all();
     }
-    drain_all();
+    augment_all();
 }
 
-FilledRun FlowForest::fill()
+FilledBlock FlowForest::fill()
 {
-    FilledRun filled = {first_, first_ + count_, 0, {}};
+    FilledBlock filled = {first_, first_ + count_, 0, {}};
     for (Index cell = first_; cell - first_ < count_; ++cell) {
         if (nodes_[cell].excess < 0) join(cell, kNoParent, 1);
         if (leaves(cell)) filled.border.push_back(cell);
@@ -329,14 +330,14 @@ FilledRun FlowForest::fill()
     return filled;
 }
 
-void FlowForest::offer(Index cell, std::int32_t flow)
+void FlowForest::add_source_capacity(Index cell, std::int32_t flow)
 {
     FlowNode& node = nodes_[cell];
     const bool was_root = node.excess < 0;
     // Held below the end of 32 bits: so much is more than any cell can pass on.
     node.excess =
         static_cast<std::int32_t>(std::min(std::int64_t{node.excess} + flow, std::int64_t{kMost}));
-    offered_.push_back(cell);
+    changed_.push_back(cell);
     // A root that is filled is one no more.
     if (was_root && node.excess >= 0 && node.level == 1) orphans_.add(cell, 1);
 }
@@ -344,18 +345,18 @@ void FlowForest::offer(Index cell, std::int32_t flow)
 void FlowForest::settle()
 {
     repair();
-    for (const Index cell : offered_) {
-        if (nodes_[cell].level > 0) list_to_drain(cell);
+    for (const Index cell : changed_) {
+        if (nodes_[cell].level > 0) list_to_augment(cell);
     }
-    offered_.clear();
-    drain_all();
+    changed_.clear();
+    augment_all();
     while (!front_.empty())
         grow();
 }
 
 // ---- merging ------------------------------------------------------------------------------------
 
-/// Whether a cell has a neighbour that is not in the run.
+/// Whether a cell has a neighbour that is not in the block.
 bool FlowForest::leaves(Index cell) const
 {
     const std::array<Index, 4>& neighbors = graph_.cells[cell].neighbors;
@@ -386,13 +387,13 @@ void FlowForest::list_to_visit_around(Index cell)
     }
 }
 
-FilledRun FlowForest::merge(std::span<const FilledRun> parts)
+FilledBlock FlowForest::merge(std::span<const FilledBlock> parts)
 {
-    FilledRun merged = {first_, first_ + count_, 1, {}};
-    for (const FilledRun& part : parts)
+    FilledBlock merged = {first_, first_ + count_, 1, {}};
+    for (const FilledBlock& part : parts)
         merged.deepest = std::max(merged.deepest, part.deepest);
     visits_.resize(static_cast<std::size_t>(merged.deepest) + 1);
-    for (const FilledRun& part : parts) {
+    for (const FilledBlock& part : parts) {
         for (const Index cell : part.border) {
             if (leaves(cell)) merged.border.push_back(cell);
             if (lowers(cell)) visits_[static_cast<std::size_t>(nodes_[cell].level)].push_back(cell);

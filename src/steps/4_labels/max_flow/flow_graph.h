@@ -17,7 +17,7 @@ namespace vcarve {
 inline constexpr std::uint8_t kNoParent = 4; ///< of roots and orphans
 inline constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
 
-/// What the solver keeps of a cell besides its residuals.
+/// What the solver keeps of a cell besides the residual capacities of its arcs.
 struct FlowNode {
     std::int32_t level; ///< 1 for roots, 0 for cells outside the forest
     std::int32_t excess;
@@ -25,7 +25,7 @@ struct FlowNode {
     std::uint8_t mirrors;
     std::uint8_t parent; ///< slot towards the parent
     bool waits;          ///< is in the front
-    bool drains;         ///< is in the bucket of cells to drain
+    bool is_active;      ///< is in the bucket of cells to augment
 };
 static_assert(sizeof(FlowNode) == 16);
 static_assert(std::is_trivially_default_constructible_v<FlowNode>); // made without being touched
@@ -33,7 +33,8 @@ static_assert(std::is_trivially_default_constructible_v<FlowNode>); // made with
 /// A flow network while it is solved.
 struct FlowGraph {
     const std::vector<Cell>& cells;
-    std::vector<std::array<std::int32_t, 4>> residuals;
+    std::vector<std::array<std::int32_t, 4>>
+        arc_capacities; ///< what the flow leaves of them ///< what the flow leaves of them
     std::unique_ptr<FlowNode[]> nodes;
 
     Index neighbor(Index cell, int slot) const { return cells[cell].neighbors[slot]; }
@@ -42,7 +43,7 @@ struct FlowGraph {
     /// Of the arc that leaves `cell` by `slot`. Below 2^32: it and its reverse begin below 2^31.
     std::uint32_t capacity_out(Index cell, int slot) const
     {
-        return static_cast<std::uint32_t>(residuals[cell][slot]);
+        return static_cast<std::uint32_t>(arc_capacities[cell][slot]);
     }
 
     /// Of the arc that enters `cell` by `slot`.
@@ -62,8 +63,8 @@ struct FlowGraph {
     void push(Index cell, int slot, std::uint32_t amount)
     {
         const Index beyond = neighbor(cell, slot);
-        std::int32_t& forward = residuals[cell][slot];
-        std::int32_t& reverse = residuals[beyond][mirror(cell, slot)];
+        std::int32_t& forward = arc_capacities[cell][slot];
+        std::int32_t& reverse = arc_capacities[beyond][mirror(cell, slot)];
         forward = static_cast<std::int32_t>(static_cast<std::uint32_t>(forward) - amount);
         reverse = static_cast<std::int32_t>(static_cast<std::uint32_t>(reverse) + amount);
         nodes[cell].excess -= static_cast<std::int32_t>(amount);

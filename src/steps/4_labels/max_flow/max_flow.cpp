@@ -15,12 +15,12 @@ namespace {
 void check_sizes(const TetMesh& cells, const FlowNetwork& network)
 {
     const std::size_t count = cells.cells.size();
-    if (cells.mirrors.size() != count || network.residuals.size() != count ||
-        network.excesses.size() != count)
+    if (cells.mirrors.size() != count || network.arc_capacities.size() != count ||
+        network.terminal_capacities.size() != count)
         throw std::invalid_argument("minimum_cut: cells, mirrors and network differ in size");
 }
 
-/// Makes the node of a cell; `graph` has its residuals.
+/// Makes the node of a cell; `graph` has its arcs.
 void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph& graph)
 {
     graph.nodes[cell] = {.level = 0,
@@ -29,40 +29,41 @@ void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph&
                          .mirrors = cells.mirrors[cell],
                          .parent = kNoParent,
                          .waits = false,
-                         .drains = false};
+                         .is_active = false};
     for (int slot = 0; slot < 4; ++slot) {
-        std::int32_t& residual = graph.residuals[cell][slot];
-        if (residual < 0) throw std::invalid_argument("minimum_cut: a residual is negative");
+        std::int32_t& capacity = graph.arc_capacities[cell][slot];
+        if (capacity < 0) throw std::invalid_argument("minimum_cut: an arc capacity is negative");
         // An arc back to its own cell is in no cut.
-        if (graph.neighbor(cell, slot) == cell) residual = 0;
+        if (graph.neighbor(cell, slot) == cell) capacity = 0;
     }
 }
 
-/// Makes all nodes of the graph and fills runs of so many alone.
-std::vector<FilledRun> fill_runs(const TetMesh& cells, std::vector<std::int32_t> excesses,
-                                 FlowGraph& graph, std::size_t run_size)
+/// Makes all nodes of the graph and fills blocks of so many alone.
+std::vector<FilledBlock> fill_blocks(const TetMesh& cells,
+                                     std::vector<std::int32_t> terminal_capacities,
+                                     FlowGraph& graph, std::size_t block_size)
 {
-    const std::size_t count = excesses.size();
-    std::vector<FilledRun> runs((count + run_size - 1) / run_size);
-    const auto fill = [&](std::size_t run) {
-        const auto first = static_cast<Index>(run * run_size);
-        const auto last = static_cast<Index>(std::min(count, (run + 1) * run_size));
+    const std::size_t count = terminal_capacities.size();
+    std::vector<FilledBlock> blocks((count + block_size - 1) / block_size);
+    const auto fill = [&](std::size_t block) {
+        const auto first = static_cast<Index>(block * block_size);
+        const auto last = static_cast<Index>(std::min(count, (block + 1) * block_size));
         for (Index cell = first; cell < last; ++cell)
-            make_node(cells, cell, excesses[cell], graph);
-        runs[run] = FlowForest(graph, first, last).fill();
+            make_node(cells, cell, terminal_capacities[cell], graph);
+        blocks[block] = FlowForest(graph, first, last).fill();
     };
-    parallel_for(runs.size(), fill, 1);
-    return runs;
+    parallel_for(blocks.size(), fill, 1);
+    return blocks;
 }
 
-/// Merges so many runs at a time.
-std::vector<FilledRun> merge_runs(std::span<const FilledRun> runs, FlowGraph& graph,
-                                  std::size_t at_a_time)
+/// Merges so many blocks at a time.
+std::vector<FilledBlock> merge_blocks(std::span<const FilledBlock> blocks, FlowGraph& graph,
+                                      std::size_t at_a_time)
 {
-    std::vector<FilledRun> merged((runs.size() + at_a_time - 1) / at_a_time);
+    std::vector<FilledBlock> merged((blocks.size() + at_a_time - 1) / at_a_time);
     const auto merge = [&](std::size_t i) {
         const std::size_t begin = i * at_a_time;
-        const auto parts = runs.subspan(begin, std::min(at_a_time, runs.size() - begin));
+        const auto parts = blocks.subspan(begin, std::min(at_a_time, blocks.size() - begin));
         merged[i] = FlowForest(graph, parts.front().first, parts.back().last).merge(parts);
     };
     parallel_for(merged.size(), merge, 1);
@@ -72,8 +73,8 @@ std::vector<FilledRun> merge_runs(std::span<const FilledRun> runs, FlowGraph& gr
 } // namespace
 
 struct MinimumCut::Solver {
-    Solver(const std::vector<Cell>& cells, std::vector<std::array<std::int32_t, 4>> residuals)
-        : graph{cells, std::move(residuals),
+    Solver(const std::vector<Cell>& cells, std::vector<std::array<std::int32_t, 4>> arc_capacities)
+        : graph{cells, std::move(arc_capacities),
                 std::make_unique_for_overwrite<FlowNode[]>(cells.size())},
           forest(graph, 0, static_cast<Index>(cells.size()))
     {
@@ -83,26 +84,26 @@ struct MinimumCut::Solver {
     FlowForest forest;
 };
 
-MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs)
+MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks)
 {
     check_sizes(cells, network);
-    if (runs.cells == 0 || runs.merged < 2)
-        throw std::invalid_argument("minimum_cut: the runs are too small");
-    solver_ = std::make_unique<Solver>(cells.cells, std::move(network.residuals));
+    if (blocks.cells == 0 || blocks.merged < 2)
+        throw std::invalid_argument("minimum_cut: the blocks are too small");
+    solver_ = std::make_unique<Solver>(cells.cells, std::move(network.arc_capacities));
     FlowGraph& graph = solver_->graph;
-    std::vector<FilledRun> filled =
-        fill_runs(cells, std::move(network.excesses), graph, runs.cells);
-    while (filled.size() > runs.merged)
-        filled = merge_runs(filled, graph, runs.merged);
+    std::vector<FilledBlock> filled =
+        fill_blocks(cells, std::move(network.terminal_capacities), graph, blocks.cells);
+    while (filled.size() > blocks.merged)
+        filled = merge_blocks(filled, graph, blocks.merged);
     solver_->forest.merge(filled);
 }
 
 MinimumCut::~MinimumCut() = default;
 
-void MinimumCut::offer(std::span<const Index> cells, std::int32_t flow)
+void MinimumCut::add_source_capacity(std::span<const Index> cells, std::int32_t flow)
 {
     for (const Index cell : cells)
-        solver_->forest.offer(cell, flow);
+        solver_->forest.add_source_capacity(cell, flow);
     solver_->forest.settle();
 }
 
@@ -116,9 +117,9 @@ Labels MinimumCut::labels() const
     return labels;
 }
 
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs)
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks)
 {
-    return MinimumCut(cells, std::move(network), runs).labels();
+    return MinimumCut(cells, std::move(network), blocks).labels();
 }
 
 } // namespace vcarve

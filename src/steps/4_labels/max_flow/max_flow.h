@@ -11,27 +11,27 @@
 
 namespace vcarve {
 
-/// How the cells are solved in parallel: runs of them alone, then so many runs at a time as one,
-/// until few are left, which are merged by one thread. No size changes the labels.
-struct FlowRuns {
+/// How the cells are solved in parallel: blocks of them alone, then so many blocks at a time as
+/// one, until few are left, which are merged by one thread. No size changes the labels.
+struct FlowBlocks {
     std::size_t cells = 16384; ///< at least 1; about 1 MB
     std::size_t merged = 16;   ///< at least 2
 };
 
 /// The minimum cut of a network on the cells of a triangulation, found once and found again, at the
-/// cost of what changes, after more flow was offered. `cells` must outlive it. Throws
-/// std::invalid_argument where the sizes differ, a residual is negative or a size of the runs is
-/// too small. Cost: 36 bytes a cell beside `cells`, the network's own 20 included, and lists of
-/// some of them.
+/// cost of what changes, after source capacity was added. `cells` must outlive it. Throws
+/// std::invalid_argument where the sizes differ, an arc capacity is negative or a size of the
+/// blocks is too small. Cost: 36 bytes a cell beside `cells`, the network's own 20 included, and
+/// lists of some of them.
 class MinimumCut {
   public:
-    MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs = {});
+    MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {});
     ~MinimumCut();
     MinimumCut(MinimumCut&&) = delete;
     MinimumCut& operator=(MinimumCut&&) = delete;
 
-    /// Gives cells more to send: each `flow` steps of excess, for every time it is listed.
-    void offer(std::span<const Index> cells, std::int32_t flow);
+    /// Adds `flow` to the source capacity of each cell, for every time it is listed.
+    void add_source_capacity(std::span<const Index> cells, std::int32_t flow);
 
     /// Inside are exactly the cells from which the sink can still be reached once the flow is
     /// maximal. That set is the same for every maximum flow, so the labels depend on nothing but
@@ -44,6 +44,6 @@ class MinimumCut {
 };
 
 /// The labels of the minimum cut. `network` is used up.
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowRuns& runs = {});
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {});
 
 } // namespace vcarve

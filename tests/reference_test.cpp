@@ -1,5 +1,5 @@
 #include "base/error.h"
-#include "compare/yardstick.h"
+#include "compare/reference.h"
 #include "support/measured_scenes.h"
 
 #include <gmock/gmock.h>
@@ -15,12 +15,12 @@ using testing::scene_above_square;
 using testing::square;
 using ::testing::ThrowsMessage;
 
-Yardstick plain_yardstick()
+Reference plain_reference()
 {
-    return make_yardstick(scene_above_square(21, high_centers()), nullptr, few_samples());
+    return make_reference(scene_above_square(21, high_centers()), nullptr, few_samples());
 }
 
-TEST(Yardstick, KeepsFinitePointsThatTwoViewsSaw)
+TEST(Reference, KeepsFinitePointsThatTwoViewsSaw)
 {
     Scene scene = scene_above_square(3, high_centers());
     scene.positions.emplace_back(0.0, std::numeric_limits<double>::infinity(), 0.0);
@@ -29,34 +29,34 @@ TEST(Yardstick, KeepsFinitePointsThatTwoViewsSaw)
     scene.tracks.push_back(std::vector<std::uint32_t>{2});
     scene.positions.emplace_back(0.5, 0.5, 0.75);
     scene.tracks.push_back(std::vector<std::uint32_t>{1, 3});
-    const Yardstick yardstick = make_yardstick(scene, nullptr, few_samples());
-    ASSERT_EQ(yardstick.scene.num_points(), 10U);
-    EXPECT_EQ(yardstick.scene.positions[9] + yardstick.origin, Eigen::Vector3d(0.5, 0.5, 0.75));
-    EXPECT_THAT(yardstick.scene.tracks[9], ::testing::ElementsAre(1, 3));
-    EXPECT_EQ(yardstick.spacings.size(), 10U);
+    const Reference reference = make_reference(scene, nullptr, few_samples());
+    ASSERT_EQ(reference.scene.num_points(), 10U);
+    EXPECT_EQ(reference.scene.positions[9] + reference.origin, Eigen::Vector3d(0.5, 0.5, 0.75));
+    EXPECT_THAT(reference.scene.tracks[9], ::testing::ElementsAre(1, 3));
+    EXPECT_EQ(reference.spacings.size(), 10U);
 }
 
-TEST(Yardstick, PutsEverythingAroundTheMedianPoint)
+TEST(Reference, PutsEverythingAroundTheMedianPoint)
 {
     Scene scene = scene_above_square(21, high_centers());
     scene.offset = {1000.0, 0.0, 0.0};
-    const Yardstick yardstick = make_yardstick(scene, nullptr, few_samples());
-    EXPECT_TRUE(yardstick.origin.isApprox(Eigen::Vector3d(1000.5, 0.5, 0.0)));
-    EXPECT_TRUE(yardstick.scene.views[0].center.isApprox(Eigen::Vector3d(-0.3, -0.3, 10.0)));
+    const Reference reference = make_reference(scene, nullptr, few_samples());
+    EXPECT_TRUE(reference.origin.isApprox(Eigen::Vector3d(1000.5, 0.5, 0.0)));
+    EXPECT_TRUE(reference.scene.views[0].center.isApprox(Eigen::Vector3d(-0.3, -0.3, 10.0)));
     TriMesh mesh = square();
     mesh.offset = {1000.0, 0.0, 0.0};
-    const MeasuredMesh placed = place_mesh({"a.ply", mesh}, yardstick);
+    const MeasuredMesh placed = place_mesh({"a.ply", mesh}, reference);
     EXPECT_TRUE(placed.mesh.positions[0].isApprox(Eigen::Vector3d(-0.5, -0.5, 0.0)));
 }
 
-TEST(Yardstick, RefusesAModelWithFewerThanTwoPoints)
+TEST(Reference, RefusesAModelWithFewerThanTwoPoints)
 {
     Scene scene = scene_above_square(2, high_centers());
     scene.tracks = {};
     for (int i = 0; i < 4; ++i) {
         scene.tracks.push_back(std::vector<std::uint32_t>{0});
     }
-    EXPECT_THAT([&] { make_yardstick(scene, nullptr, few_samples()); },
+    EXPECT_THAT([&] { make_reference(scene, nullptr, few_samples()); },
                 ThrowsMessage<InputError>("the model has 0 points that at least two views saw, but "
                                           "meshes can be measured only against two or more"));
 }
@@ -67,7 +67,7 @@ TEST(PlaceMesh, RefusesAMeshWithoutFaces)
     mesh.faces.clear();
     EXPECT_THAT(
         [&] {
-            place_mesh({"cloud.ply", mesh}, plain_yardstick());
+            place_mesh({"cloud.ply", mesh}, plain_reference());
         },
         ThrowsMessage<InputError>("cloud.ply: the file has 4 vertices but no faces, so there "
                                   "is no surface to measure"));
@@ -79,7 +79,7 @@ TEST(PlaceMesh, RefusesAMeshWithoutArea)
     mesh.faces = {{0, 1, 1}, {2, 2, 2}};
     EXPECT_THAT(
         [&] {
-            place_mesh({"flat.ply", mesh}, plain_yardstick());
+            place_mesh({"flat.ply", mesh}, plain_reference());
         },
         ThrowsMessage<InputError>("flat.ply: none of the 2 faces has an area, so there is no "
                                   "surface to measure"));
@@ -90,7 +90,7 @@ TEST(PlaceMesh, RefusesAMeshThatLiesElsewhere)
     const TriMesh elsewhere = testing::moved(square(), {100.0, 0.0, 0.0});
     EXPECT_THAT(
         [&] {
-            place_mesh({"utm.ply", elsewhere}, plain_yardstick());
+            place_mesh({"utm.ply", elsewhere}, plain_reference());
         },
         ThrowsMessage<InputError>(
             "utm.ply: the mesh lies in another frame than the model: it spans (100, 0, 0) to "
@@ -102,7 +102,7 @@ TEST(PlaceMesh, RefusesAMeshOfAnotherUnit)
 {
     // Millimetres for metres and the reverse; both still overlap the model.
     const auto place = [](double factor) {
-        place_mesh({"mm.ply", testing::scaled(square(), factor)}, plain_yardstick());
+        place_mesh({"mm.ply", testing::scaled(square(), factor)}, plain_reference());
     };
     EXPECT_THAT(
         [&] { place(1000.0); },
@@ -119,11 +119,11 @@ TEST(PlaceMesh, AcceptsAFewStrayPointsAndFaces)
 {
     Scene scene = scene_above_square(21, high_centers());
     scene.positions[0] = {1e6, 1e6, 1e6};
-    const Yardstick yardstick = make_yardstick(scene, nullptr, few_samples());
+    const Reference reference = make_reference(scene, nullptr, few_samples());
     TriMesh mesh = testing::torus(10);
     mesh.positions.emplace_back(-1e6, 0.0, 0.0);
     mesh.faces.push_back({0, 1, 100});
-    EXPECT_NO_THROW(place_mesh({"a.ply", mesh}, yardstick));
+    EXPECT_NO_THROW(place_mesh({"a.ply", mesh}, reference));
 }
 
 } // namespace

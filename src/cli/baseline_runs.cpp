@@ -1,4 +1,4 @@
-#include "cli/rival_runs.h"
+#include "cli/baseline_runs.h"
 
 #include "base/error.h"
 #include "cli/child_process.h"
@@ -21,7 +21,7 @@ constexpr const char* kColmap = "COLMAP";
 constexpr const char* kOurs = "colmap-vcarve";
 
 /// A program to be run, by its column's name; it writes NAME.ply and prints to NAME.txt.
-struct Rival {
+struct Program {
     std::string name;
     std::string program; ///< for messages
     std::vector<std::string> words;
@@ -38,21 +38,22 @@ fs::path printed_path(const fs::path& folder, const std::string& name)
     return folder / (name + ".txt");
 }
 
-Rival colmap_rival(const RivalRun& run, const fs::path& model, const fs::path& folder)
+Program colmap_baseline(const BaselineRun& run, const fs::path& model, const fs::path& folder)
 {
-    Rival rival{.name = kColmap,
-                .program = run.colmap,
-                .words = {run.colmap, "delaunay_mesher", "--input_type", "sparse", "--input_path",
-                          model.string(), "--output_path", mesh_path(folder, kColmap).string()},
-                .timeout_s = static_cast<double>(run.options.timeout_s)};
+    Program baseline{.name = kColmap,
+                     .program = run.colmap,
+                     .words = {run.colmap, "delaunay_mesher", "--input_type", "sparse",
+                               "--input_path", model.string(), "--output_path",
+                               mesh_path(folder, kColmap).string()},
+                     .timeout_s = static_cast<double>(run.options.timeout_s)};
     if (run.threads > 0) {
-        rival.words.insert(rival.words.end(),
-                           {"--DelaunayMeshing.num_threads", std::to_string(run.threads)});
+        baseline.words.insert(baseline.words.end(),
+                              {"--DelaunayMeshing.num_threads", std::to_string(run.threads)});
     }
-    return rival;
+    return baseline;
 }
 
-Rival our_rival(const RivalRun& run, const fs::path& model, const fs::path& folder)
+Program own_baseline(const BaselineRun& run, const fs::path& model, const fs::path& folder)
 {
     return {.name = kOurs,
             .program = kOurs,
@@ -75,34 +76,36 @@ std::string last_line(const std::string& text)
 }
 
 /// One sentence: why the program made no mesh.
-std::string why_no_mesh(const Rival& rival, const ChildOutcome& outcome, const std::string& printed)
+std::string why_no_mesh(const Program& baseline, const ChildOutcome& outcome,
+                        const std::string& printed)
 {
     if (printed.find("requires CGAL") != std::string::npos) {
         return fmt::format("{} is built without CGAL, so it has no Delaunay mesher; its column is "
                            "left out",
-                           rival.program);
+                           baseline.program);
     }
     const std::string line = last_line(printed);
-    return fmt::format("{} {} and wrote no mesh{}; its column is left out", rival.program,
+    return fmt::format("{} {} and wrote no mesh{}; its column is left out", baseline.program,
                        outcome.description, line.empty() ? "" : ", its last line: " + line);
 }
 
-/// Nothing in `meshes` is read yet: this process has to stay small until all rivals have run.
-void run_rival(const Rival& rival, const fs::path& folder, std::vector<RivalMesh>& meshes, Log& log)
+/// Nothing in `meshes` is read yet: this process has to stay small until all baselines have run.
+void run_program(const Program& baseline, const fs::path& folder, std::vector<BaselineMesh>& meshes,
+                 Log& log)
 {
-    Stage stage(log, rival.name);
-    const fs::path printed = printed_path(folder, rival.name);
-    const ChildOutcome outcome = run_child(rival.words, printed, rival.timeout_s);
+    Stage stage(log, baseline.name);
+    const fs::path printed = printed_path(folder, baseline.name);
+    const ChildOutcome outcome = run_child(baseline.words, printed, baseline.timeout_s);
     stage.end({});
     if (outcome.timed_out) {
-        meshes.push_back({.name = rival.name,
-                          .failure = fmt::format("timed out after {} s", rival.timeout_s),
+        meshes.push_back({.name = baseline.name,
+                          .failure = fmt::format("timed out after {} s", baseline.timeout_s),
                           .mesh = {},
                           .cost = outcome.cost});
-    } else if (outcome.succeeded && fs::exists(mesh_path(folder, rival.name))) {
-        meshes.push_back({.name = rival.name, .failure = "", .mesh = {}, .cost = outcome.cost});
+    } else if (outcome.succeeded && fs::exists(mesh_path(folder, baseline.name))) {
+        meshes.push_back({.name = baseline.name, .failure = "", .mesh = {}, .cost = outcome.cost});
     } else {
-        log.note(why_no_mesh(rival, outcome, bytes_of(printed)));
+        log.note(why_no_mesh(baseline, outcome, bytes_of(printed)));
     }
 }
 
@@ -136,14 +139,16 @@ std::vector<fs::path> ScratchFolder::contents() const
     return paths;
 }
 
-std::vector<RivalMesh> run_rivals(const RivalRun& run, const ScratchFolder& scratch, Log& log)
+std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
+                                        Log& log)
 {
     const fs::path model = find_model(run.model).folder;
-    std::vector<RivalMesh> meshes;
-    run_rival(colmap_rival(run, model, scratch.path()), scratch.path(), meshes, log);
-    run_rival(our_rival(run, model, scratch.path()), scratch.path(), meshes, log);
-    for (RivalMesh& rival : meshes) {
-        if (rival.failure.empty()) rival.mesh = read_ply(mesh_path(scratch.path(), rival.name));
+    std::vector<BaselineMesh> meshes;
+    run_program(colmap_baseline(run, model, scratch.path()), scratch.path(), meshes, log);
+    run_program(own_baseline(run, model, scratch.path()), scratch.path(), meshes, log);
+    for (BaselineMesh& baseline : meshes) {
+        if (baseline.failure.empty())
+            baseline.mesh = read_ply(mesh_path(scratch.path(), baseline.name));
     }
     return meshes;
 }

@@ -1,4 +1,4 @@
-#include "compare/yardstick.h"
+#include "compare/reference.h"
 
 #include "base/error.h"
 #include "base/median.h"
@@ -57,14 +57,14 @@ std::string box_text(const Box& box, const Eigen::Vector3d& origin)
                        low.z(), high.x(), high.y(), high.z());
 }
 
-void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Yardstick& yardstick)
+void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Reference& reference)
 {
     const std::vector<Eigen::Vector3d> corners = face_corners(placed);
     Box whole;
     for (const Eigen::Vector3d& corner : corners) {
         whole.extend(corner);
     }
-    const Box points = middle_box(yardstick.scene.positions, kTail);
+    const Box points = middle_box(reference.scene.positions, kTail);
     const double mesh_size = middle_box(corners, kTail).diagonal().norm();
     const double model_size = points.diagonal().norm();
     const bool same_scale =
@@ -76,7 +76,7 @@ void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Yar
     throw InputError(fmt::format(
         "{}: the mesh lies in another frame than the model: it spans {}, but "
         "most points of the model lie in {}",
-        named.name, box_text(whole, yardstick.origin), box_text(points, yardstick.origin)));
+        named.name, box_text(whole, reference.origin), box_text(points, reference.origin)));
 }
 
 /// The points that count and all views, shifted by `shift`.
@@ -126,7 +126,7 @@ TriMesh in_frame(TriMesh mesh, const Eigen::Vector3d& origin)
     return mesh;
 }
 
-MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick)
+MeasuredMesh place_mesh(const NamedMesh& named, const Reference& reference)
 {
     if (named.mesh.faces.empty()) {
         throw InputError(fmt::format("{}: the file has {} vertices but no faces, so there is no "
@@ -137,37 +137,37 @@ MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick)
     placed.faces = named.mesh.faces;
     placed.positions = named.mesh.positions;
     placed.offset = named.mesh.offset;
-    placed = in_frame(std::move(placed), yardstick.origin);
+    placed = in_frame(std::move(placed), reference.origin);
     if (!has_area(placed)) {
         throw InputError(fmt::format("{}: none of the {} faces has an area, so there is no surface "
                                      "to measure",
                                      named.name, placed.faces.size()));
     }
-    refuse_other_frame(named, placed, yardstick);
+    refuse_other_frame(named, placed, reference);
     SurfaceTree tree(placed);
     return {std::move(placed), std::move(tree)};
 }
 
-Yardstick make_yardstick(const Scene& model, const NamedMesh* truth, const CompareOptions& options)
+Reference make_reference(const Scene& model, const NamedMesh* truth, const CompareOptions& options)
 {
-    Yardstick yardstick;
-    yardstick.options = options;
-    yardstick.scene = countable_part(model);
-    const std::size_t points = yardstick.scene.num_points();
+    Reference reference;
+    reference.options = options;
+    reference.scene = countable_part(model);
+    const std::size_t points = reference.scene.num_points();
     if (points < 2) {
         throw InputError(fmt::format("the model has {} points that at least two views saw, but "
                                      "meshes can be measured only against two or more",
                                      points));
     }
-    center(yardstick.scene);
-    yardstick.origin = yardstick.scene.offset;
-    yardstick.spacings = point_spacings(yardstick.scene.positions);
-    yardstick.median_spacing = median(yardstick.spacings);
-    yardstick.rays = view_rays(yardstick.scene, options);
+    center(reference.scene);
+    reference.origin = reference.scene.offset;
+    reference.spacings = point_spacings(reference.scene.positions);
+    reference.median_spacing = median(reference.spacings);
+    reference.rays = view_rays(reference.scene, options);
     if (truth != nullptr) {
-        yardstick.truth = seen_truth(*truth, yardstick);
+        reference.truth = seen_truth(*truth, reference);
     }
-    return yardstick;
+    return reference;
 }
 
 } // namespace vcarve

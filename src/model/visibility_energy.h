@@ -12,8 +12,9 @@ namespace vcarve {
 /// How many sights cross each facet: entry [cell][slot], the same on both sides of a facet.
 using Crossings = std::vector<std::array<std::uint32_t, 4>>;
 
-/// What all sights say about the cells, in whole steps: `unit` steps are one sight of full weight.
-struct Votes {
+/// The visibility terms of the energy that a labelling minimises (Labatut, Pons, Keriven 2009):
+/// what all sights say about the cells, in whole steps. `unit` steps are one sight of full weight.
+struct VisibilityEnergy {
     /// Each sight's flow is already pushed along its walk; what stays in an infinite cell is left
     /// out, as those are outside anyway.
     FlowNetwork network;

@@ -11,7 +11,7 @@
 namespace vcarve::cli {
 
 /// How COLMAP's mesher is run beside our own program.
-struct RivalOptions {
+struct BaselineRunOptions {
     int timeout_s = 300;
 
     void visit(OptionVisitor& options)
@@ -25,14 +25,14 @@ struct RivalOptions {
 };
 
 /// A mesh that a program made, or why there is none, as a column of the table.
-struct RivalMesh {
+struct BaselineMesh {
     std::string name;
     std::string failure; ///< "timed out after 300 s"; empty where `mesh` was made
     TriMesh mesh;
     RunCost cost;
 };
 
-/// A new folder for what the rivals write, gone with all that is in it at the end.
+/// A new folder for what the baselines write, gone with all that is in it at the end.
 class ScratchFolder {
   public:
     /// Throws UsageError where there is no place for it.
@@ -50,10 +50,10 @@ class ScratchFolder {
 };
 
 /// Where COLMAP is, what it is run on, and how.
-struct RivalRun {
+struct BaselineRun {
     std::string colmap;
     std::filesystem::path model;
-    RivalOptions options;
+    BaselineRunOptions options;
     int threads = 0; ///< limits both programs; 0 leaves them free
 };
 
@@ -61,6 +61,7 @@ struct RivalRun {
 /// after the other, on the model, and measures both alike. A program that fails gives no column but
 /// a note of one sentence; one that runs out of time gives a column without a mesh. Call it before
 /// anything large is in memory (see run_child). Throws InputError where there is no model.
-std::vector<RivalMesh> run_rivals(const RivalRun& run, const ScratchFolder& scratch, Log& log);
+std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
+                                        Log& log);
 
 } // namespace vcarve::cli

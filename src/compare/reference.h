@@ -46,9 +46,9 @@ struct NamedMesh {
     TriMesh mesh;
 };
 
-/// A mesh in the frame of a yardstick, ready to be measured.
+/// A mesh in the frame of a reference, ready to be measured.
 struct MeasuredMesh {
-    TriMesh mesh; ///< offset is the yardstick's origin
+    TriMesh mesh; ///< offset is the reference's origin
     SurfaceTree tree;
 };
 
@@ -83,7 +83,7 @@ struct ViewRay {
 
 /// What meshes are measured against: the points and views of a model, and the truth where it is
 /// known. Everything is in one frame, world minus `origin`, so no precision is lost far from zero.
-struct Yardstick {
+struct Reference {
     CompareOptions options;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
     Scene scene;                  ///< its finite points with at least two views; offset is `origin`
@@ -99,14 +99,14 @@ struct Yardstick {
 /// where the model has fewer than two points that two views saw, or the truth has no faces, lies in
 /// another frame than the model, or is nowhere seen by three views. Cost: with a truth, about
 /// samples / seen share x (lines until 3 views are found, all where unseen).
-Yardstick make_yardstick(const Scene& model, const NamedMesh* truth, const CompareOptions& options);
+Reference make_reference(const Scene& model, const NamedMesh* truth, const CompareOptions& options);
 
 /// The same mesh with `origin` for its offset.
 TriMesh in_frame(TriMesh mesh, const Eigen::Vector3d& origin);
 
-/// A mesh in the yardstick's frame. Throws InputError where it has no face with area, or where it
+/// A mesh in the reference's frame. Throws InputError where it has no face with area, or where it
 /// evidently lies in another frame than the model: where its box lies more than a diagonal beside
 /// the box of the middle nine tenths of the points, or the two differ more than 50 times in size.
-MeasuredMesh place_mesh(const NamedMesh& named, const Yardstick& yardstick);
+MeasuredMesh place_mesh(const NamedMesh& named, const Reference& reference);
 
 } // namespace vcarve
