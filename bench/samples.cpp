@@ -60,8 +60,12 @@ FlowNetwork make_network(std::int64_t points)
     const TetMesh& cells = sample_cells(points);
     Log silent;
     Stage stage(silent, "sights");
-    return cut_network(cells, trace_sights(cells, sample_scene(points), TraceOptions(), stage),
-                       CutOptions());
+    const Scene& scene = sample_scene(points);
+    const TraceOptions options;
+    VisibilityEnergy energy;
+    RayCaster(cells, scene, measure_scales(cells, scene), options)
+        .cast(photographs(scene), energy, stage);
+    return cut_network(cells, std::move(energy), CutOptions());
 }
 
 /// What `make` makes of so many points, made once.

@@ -2,6 +2,7 @@
 #include "steps/2_cells/triangulate.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/4_labels/cut.h"
+#include "support/cast_sights.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -95,7 +96,7 @@ TEST(Cut, NeverPutsAnInfiniteCellInside)
     const TetMesh mesh = triangulate(scene);
     Log silent;
     Stage stage(silent, "");
-    const Labels labels = cut(mesh, trace_sights(mesh, scene, {}, stage), {}).labels();
+    const Labels labels = cut(mesh, energy_of(mesh, scene, {}), {}).labels();
     std::int64_t inside = 0;
     for (Index i = 0; i < mesh.cells.size(); ++i) {
         inside += labels[i] == Label::inside;

@@ -7,6 +7,7 @@
 #include "steps/3_visibility/trace.h"
 #include "steps/4_labels/strict_carving.h"
 #include "steps/5_surface/extract.h"
+#include "support/cast_sights.h"
 
 #include <gtest/gtest.h>
 
@@ -68,7 +69,7 @@ TEST_P(PaperObject, IsCarvedExactly)
     const TetMesh cells = triangulate(scene);
     Log log;
     Stage stage(log, "carve");
-    const Labels labels = carve(cells, count_crossings(cells, scene, stage), 1);
+    const Labels labels = carve(cells, crossings_of(cells, scene), 1);
     const TriMesh carved = extract_surface(cells, labels, scene);
     EXPECT_EQ(sorted_faces(carved), sorted_faces(read_ply(folder() / "solid.ply")));
     EXPECT_NEAR(enclosed_volume(carved), GetParam().volume, 1e-12 * GetParam().volume);

@@ -19,7 +19,7 @@ TEST(SightWeights, CountAMedianPointAsOneAndOthersByTheirViews)
 {
     const Scene scene = points_of_some_views();
     TraceOptions options;
-    const SightWeights weights(scene, options);
+    const SightWeights weights(scene, measure_scales({}, scene), options);
     const auto by_views = [&](double views) {
         return 1.0 - std::exp(-0.5 * views * views / (options.views_sigma * options.views_sigma));
     };
@@ -36,7 +36,7 @@ TEST(SightWeights, CountErrorsBeyondTheMedianOnly)
     TraceOptions options;
     options.views_sigma = 0.0;
     options.error_sigma = 2.0;
-    const SightWeights weights(scene, options);
+    const SightWeights weights(scene, measure_scales({}, scene), options);
     EXPECT_EQ(weights.full_weight(0), SightWeights::kUnit);
     EXPECT_EQ(weights.full_weight(2), SightWeights::kUnit);
     EXPECT_EQ(weights.full_weight(1),
@@ -47,7 +47,7 @@ TEST(SightWeights, KnowNothingOfAnEmptyScene)
 {
     const Scene scene;
     const TraceOptions options;
-    EXPECT_NO_THROW(SightWeights(scene, options));
+    EXPECT_NO_THROW(SightWeights(scene, measure_scales({}, scene), options));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "steps/2_cells/triangulate.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/4_labels/strict_carving.h"
+#include "support/cast_sights.h"
 #include "support/exact_sight.h"
 #include "support/paper_rule.h"
 #include "support/point_sets.h"
@@ -145,7 +146,7 @@ class PaperObjects : public ::testing::TestWithParam<PaperObject> {
     {
         Log log;
         Stage stage(log, "sights");
-        crossings_ = count_crossings(mesh_, scene_, stage);
+        crossings_ = crossings_of(mesh_, scene_);
     }
 
     std::filesystem::path folder_;

@@ -2,6 +2,7 @@
 #include "steps/3_visibility/trace.h"
 #include "steps/3_visibility/walk.h"
 #include "steps/4_labels/cut.h"
+#include "support/cast_sights.h"
 #include "support/exact_sight.h"
 #include "support/paper_rule.h"
 #include "support/point_sets.h"
@@ -23,14 +24,14 @@ VisibilityEnergy traced(const TetMesh& mesh, const Scene& scene, const TraceOpti
 {
     Log log;
     Stage stage(log, "sights");
-    return trace_sights(mesh, scene, options, stage);
+    return energy_of(mesh, scene, options);
 }
 
 Crossings counted(const TetMesh& mesh, const Scene& scene)
 {
     Log log;
     Stage stage(log, "sights");
-    return count_crossings(mesh, scene, stage);
+    return crossings_of(mesh, scene);
 }
 
 template <typename Action>

@@ -6,6 +6,7 @@
 #include "steps/3_visibility/virtual_views.h"
 #include "steps/3_visibility/walk.h"
 #include "steps/4_labels/strict_carving.h"
+#include "support/cast_sights.h"
 #include "support/exact_sight.h"
 #include "support/scenes.h"
 
@@ -96,7 +97,7 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
 {
     const Scene scene = paper_object("cube_with_cavity");
     const TetMesh mesh = triangulate(scene);
-    const Labels truth = carve(mesh, count_crossings(mesh, scene, stage_), 1);
+    const Labels truth = carve(mesh, crossings_of(mesh, scene), 1);
     Faults before;
     Faults after;
     int wrong_pairs = 0;
@@ -104,9 +105,9 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
     for (std::uint32_t a = 0; a < scene.views.size(); ++a) {
         for (std::uint32_t b = 0; b < a; ++b) {
             const Scene two = seen_by_two(scene, a, b);
-            Crossings crossings = count_crossings(mesh, two, stage_);
+            Crossings crossings = crossings_of(mesh, two);
             const Labels first = carve(mesh, crossings, 1);
-            add_crossings(mesh, virtual_sights_of(two, mesh, first, 20), 0.5, crossings, stage_);
+            cast_rays(mesh, virtual_sights_of(two, mesh, first, 20).source(0.5), crossings, stage_);
             const Faults left = faults_of(mesh, first, truth);
             const Faults still_left = faults_of(mesh, carve(mesh, crossings, 1), truth);
             before += left;
@@ -144,7 +145,7 @@ TEST_F(VirtualViews, StandInDifferentCellsThatAreOutsideAndCrossed)
 {
     const Scene scene = seen_by_two(paper_object("desk"), 3, 7);
     const TetMesh mesh = triangulate(scene);
-    const Crossings crossings = count_crossings(mesh, scene, stage_);
+    const Crossings crossings = crossings_of(mesh, scene);
     const Labels labels = carve(mesh, crossings, 2); // leaves cells inside that a sight crosses
     const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
     ASSERT_EQ(sights.centers.size(), 25U);
@@ -191,7 +192,7 @@ TEST_F(VirtualViews, StandNeitherAtTheSurfaceNorFarOff)
     points.push_back({{5, 5, 12}, {0, 1}});
     const Scene scene = make_scene({{4, 5, 100}, {60, 4, 90}}, points);
     const TetMesh mesh = triangulate(scene);
-    const Labels labels = carve(mesh, count_crossings(mesh, scene, stage_), 1);
+    const Labels labels = carve(mesh, crossings_of(mesh, scene), 1);
     const double short_edge = short_edge_length(mesh);
     int free_but_far = 0;
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
@@ -215,7 +216,7 @@ TEST_F(VirtualViews, SeeNothingThroughCellsBehindASeenPoint)
     const Scene scene = paper_object("boissonnat");
     const TetMesh mesh = triangulate(scene);
     // With all views the labels are true, and solid cells without evidence are few.
-    const Labels labels = carve(mesh, count_crossings(mesh, scene, stage_), 1);
+    const Labels labels = carve(mesh, crossings_of(mesh, scene), 1);
     std::set<Index> solid;
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
         for (const std::uint32_t view : scene.tracks[vertex]) {
@@ -246,7 +247,7 @@ TEST_F(VirtualViews, SeeNoPointThatNoViewSaw)
 {
     const Scene scene = seen_by_two(paper_object("desk"), 3, 7);
     const TetMesh mesh = triangulate(scene);
-    const Labels labels = carve(mesh, count_crossings(mesh, scene, stage_), 1);
+    const Labels labels = carve(mesh, crossings_of(mesh, scene), 1);
     const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
         EXPECT_TRUE(!scene.tracks[vertex].empty() || sights.tracks[vertex].empty());
@@ -281,13 +282,13 @@ TEST_F(VirtualViews, CountLikeRealOnesAtFullWeight)
 {
     const Scene scene = bumpy_sphere(500, 4);
     const TetMesh mesh = triangulate(scene);
-    const Crossings before = count_crossings(mesh, scene, stage_);
+    const Crossings before = crossings_of(mesh, scene);
     const VirtualSights sights = virtual_sights_of(scene, mesh, carve(mesh, before, 1), 25);
-    const Crossings own = count_crossings(mesh, as_real(scene, sights), stage_);
+    const Crossings own = crossings_of(mesh, as_real(scene, sights));
     Crossings whole = before;
-    add_crossings(mesh, sights, 1.0, whole, stage_);
+    cast_rays(mesh, sights.source(1.0), whole, stage_);
     Crossings half = before;
-    add_crossings(mesh, sights, 0.5, half, stage_);
+    cast_rays(mesh, sights.source(0.5), half, stage_);
     std::uint32_t most = 0;
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4; ++slot) {
@@ -304,13 +305,14 @@ TEST_F(VirtualViews, VoteForOutsideLikeRealOnesAtFullWeight)
     const Scene scene = bumpy_sphere(500, 4);
     const TetMesh mesh = triangulate(scene);
     const TraceOptions options = {.views_sigma = 0.0};
-    const VisibilityEnergy before = trace_sights(mesh, scene, options, stage_);
-    const Labels labels = carve(mesh, count_crossings(mesh, scene, stage_), 1);
+    const VisibilityEnergy before = energy_of(mesh, scene, options);
+    const Labels labels = carve(mesh, crossings_of(mesh, scene), 1);
     const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
     const Scene real = as_real(scene, sights);
-    const VisibilityEnergy own = trace_sights(mesh, real, options, stage_);
+    const VisibilityEnergy own = energy_of(mesh, real, options);
     VisibilityEnergy energy = before;
-    add_sights(mesh, scene, sights, 1.0, options, energy, stage_);
+    RayCaster(mesh, scene, measure_scales(mesh, scene), options)
+        .cast(sights.source(1.0), energy, stage_);
 
     // What real sights say besides: the cell behind the point is inside.
     std::vector<std::int32_t> sinks(mesh.cells.size(), 0);

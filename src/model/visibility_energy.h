@@ -18,8 +18,8 @@ struct VisibilityEnergy {
     /// Each sight's flow is already pushed along its walk; what stays in an infinite cell is left
     /// out, as those are outside anyway.
     FlowNetwork network;
-    /// The finite cell that holds a view's centre, of several that touch it the first in which a
-    /// sight ended; kInfinite if the view lies out of the hull.
+    /// For each origin of measured rays, source after source, the finite cell that holds it, of
+    /// several that touch it the first in which a ray ended; kInfinite if it lies out of the hull.
     std::vector<Index> cell_of_view;
     std::int32_t unit = 0;
 };

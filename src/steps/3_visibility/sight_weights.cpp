@@ -1,12 +1,7 @@
 #include "steps/3_visibility/sight_weights.h"
 
-#include "base/median.h"
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <iterator>
-#include <vector>
 
 namespace vcarve {
 
@@ -21,34 +16,16 @@ double views_weight(double views, double views_sigma)
     return 1.0 - std::exp(-0.5 * ratio * ratio);
 }
 
-std::vector<double> track_lengths(const Tracks& tracks)
-{
-    std::vector<double> lengths;
-    for (std::size_t point = 0; point < tracks.size(); ++point) {
-        if (!tracks[point].empty()) {
-            lengths.push_back(static_cast<double>(tracks[point].size()));
-        }
-    }
-    return lengths;
-}
-
-std::vector<double> known_errors_px(const Scene& scene)
-{
-    std::vector<double> errors;
-    std::copy_if(scene.errors_px.begin(), scene.errors_px.end(), std::back_inserter(errors),
-                 [](double error) { return error >= 0.0; });
-    return errors;
-}
-
 } // namespace
 
-SightWeights::SightWeights(const Scene& scene, const TraceOptions& options)
-    : scene_(scene), options_(options), median_error_px_(median(known_errors_px(scene)))
+// Full weight is what the median of the points that are seen gets, so that a model of two-view
+// points is not all doubt.
+SightWeights::SightWeights(const Scene& scene, const Scales& scales, const TraceOptions& options)
+    : scene_(scene),
+      options_(options),
+      median_error_px_(scales.median_error_px),
+      full_(views_weight(scales.median_views, options.views_sigma))
 {
-    // Full weight is what the median of the points that are seen gets, so that a model of two-view
-    // points is not all doubt.
-    const std::vector<double> lengths = track_lengths(scene.tracks);
-    full_ = views_weight(lengths.empty() ? 1.0 : median(lengths), options.views_sigma);
 }
 
 std::int32_t SightWeights::full_weight(Index point, double weight) const

@@ -2,6 +2,7 @@
 
 #include "model/scene.h"
 #include "model/tet_mesh.h"
+#include "steps/3_visibility/scales.h"
 #include "steps/3_visibility/trace.h"
 
 #include <cstdint>
@@ -9,12 +10,12 @@
 namespace vcarve {
 
 /// Says what a sight weighs by the point it leads to: more with more views, less with a larger
-/// reprojection error. `scene` and `options` must outlive it. Cost: O(points) once, then O(1).
+/// reprojection error. `scene` and `options` must outlive it. Cost: O(1).
 class SightWeights {
   public:
     static constexpr std::int32_t kUnit = 256; ///< steps of one sight of full weight
 
-    SightWeights(const Scene& scene, const TraceOptions& options);
+    SightWeights(const Scene& scene, const Scales& scales, const TraceOptions& options);
 
     /// `weight` sights to a point, in whole steps.
     std::int32_t full_weight(Index point, double weight = 1.0) const;
@@ -25,7 +26,7 @@ class SightWeights {
     const Scene& scene_;
     const TraceOptions& options_;
     double median_error_px_; ///< 0 where no error is known
-    double full_ = 1.0;
+    double full_;
 };
 
 } // namespace vcarve

@@ -4,7 +4,6 @@
 #include "base/prefetch.h"
 #include "geometry/triangle.h"
 #include "steps/3_visibility/each_vertex.h"
-#include "steps/3_visibility/edge_lengths.h"
 #include "steps/3_visibility/sight_weights.h"
 #include "steps/3_visibility/walk.h"
 
@@ -60,34 +59,25 @@ void count_one(std::uint32_t& count)
     std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
 }
 
-std::vector<Vector3d> centers_of(const std::vector<View>& views)
+/// The rays to a run of vertices.
+std::vector<Sight> rays_to(Index first, Index last, const RaySource& source)
 {
-    std::vector<Vector3d> centers(views.size());
-    std::transform(views.begin(), views.end(), centers.begin(),
-                   [](const View& view) { return view.center; });
-    return centers;
-}
-
-/// The sights of a run of vertices.
-std::vector<Sight> sights_from(Index first, Index last, const Tracks& tracks,
-                               const std::vector<Vector3d>& centers)
-{
+    const Tracks& rays = *source.rays;
     std::vector<Sight> sights;
-    sights.reserve(tracks.begins[last] - tracks.begins[first]);
+    sights.reserve(rays.begins[last] - rays.begins[first]);
     for (Index vertex = first; vertex < last; ++vertex) {
-        for (const std::uint32_t view : tracks[vertex]) {
-            sights.push_back({vertex, centers[view]});
+        for (const std::uint32_t origin : rays[vertex]) {
+            sights.push_back({vertex, source.origins[origin]});
         }
     }
     return sights;
 }
 
-/// Counts the facets that sights cross, on both sides.
-void count_facets(const TetMesh& cells, const Tracks& tracks, const std::vector<Vector3d>& centers,
-                  Crossings& crossings, Stage& stage)
+/// Counts the facets that rays cross, on both sides.
+void count_facets(const TetMesh& cells, const RaySource& source, Crossings& crossings, Stage& stage)
 {
     for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
-        const std::vector<Sight> sights = sights_from(first, last, tracks, centers);
+        const std::vector<Sight> sights = rays_to(first, last, source);
         SightWalk(cells).along_each(
             sights.size(), [&](std::size_t k) { return sights[k]; },
             [&](std::size_t, Index cell, int slot) {
@@ -269,17 +259,17 @@ class SightTerms {
     double sigma_;
 };
 
-/// Finds the cells of the views to which no sight led, as when none of their points passed the
+/// Finds the cells of the origins to which no ray led, as when none of a view's points passed the
 /// filter: a camera stands in free space all the same.
-void locate_other_views(const TetMesh& cells, const std::vector<Vector3d>& centers,
-                        std::vector<Index>& cell_of_view)
+void locate_other_origins(const TetMesh& cells, const std::vector<Vector3d>& origins,
+                          std::span<Index> cell_of_origin)
 {
     if (cells.positions.empty()) return;
     SightWalk walk(cells, 0);
-    for (std::size_t view = 0; view < centers.size(); ++view) {
-        if (cell_of_view[view] != kInfinite) continue;
-        const Index last = walk.to(centers[view], [](Index, int) {}).last;
-        if (last != kInfinite && !cells.cells[last].is_infinite()) cell_of_view[view] = last;
+    for (std::size_t origin = 0; origin < origins.size(); ++origin) {
+        if (cell_of_origin[origin] != kInfinite) continue;
+        const Index last = walk.to(origins[origin], [](Index, int) {}).last;
+        if (last != kInfinite && !cells.cells[last].is_infinite()) cell_of_origin[origin] = last;
     }
 }
 
@@ -294,81 +284,54 @@ void require_exact(const EnergySums& sums, const Scene& scene)
 
 } // namespace
 
-Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage)
+void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings, Stage& stage)
 {
-    Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
-    const std::vector<Vector3d> centers = centers_of(scene.views);
-    count_facets(cells, scene.tracks, centers, crossings, stage);
-    return crossings;
-}
-
-void add_crossings(const TetMesh& cells, const VirtualSights& sights, double weight,
-                   Crossings& crossings, Stage& stage)
-{
+    crossings.resize(cells.cells.size(), {0, 0, 0, 0});
+    if (source.weight == 1.0) return count_facets(cells, source, crossings, stage);
     Crossings more(cells.cells.size(), {0, 0, 0, 0});
-    count_facets(cells, sights.tracks, sights.centers, more, stage);
+    count_facets(cells, source, more, stage);
     parallel_for(more.size(), [&](std::size_t cell) {
         for (int slot = 0; slot < 4; ++slot) {
-            crossings[cell][slot] += static_cast<std::uint32_t>(weight * more[cell][slot]);
+            crossings[cell][slot] += static_cast<std::uint32_t>(source.weight * more[cell][slot]);
         }
     });
 }
 
-VisibilityEnergy trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
-                              Stage& stage)
+void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy, Stage& stage) const
 {
-    VisibilityEnergy energy;
     energy.unit = SightWeights::kUnit;
-    energy.network.arc_capacities.assign(cells.cells.size(), {0, 0, 0, 0});
-    energy.network.terminal_capacities.assign(cells.cells.size(), 0);
-    energy.cell_of_view.assign(scene.views.size(), kInfinite);
+    energy.network.arc_capacities.resize(cells_.cells.size(), {0, 0, 0, 0});
+    energy.network.terminal_capacities.resize(cells_.cells.size(), 0);
+    const std::size_t known_origins = energy.cell_of_view.size();
+    if (source.is_measured) {
+        energy.cell_of_view.resize(known_origins + source.origins.size(), kInfinite);
+    }
+    const std::span<Index> cell_of_origin = std::span(energy.cell_of_view).subspan(known_origins);
     EnergySums sums(energy.network);
-    const double sigma = options.distance_sigma * short_edge_length(cells);
-    const SightTerms terms(cells, sums, sigma);
-    const SightWeights weights(scene, options);
-    const std::vector<Vector3d> centers = centers_of(scene.views);
+    const SightTerms terms(cells_, sums, options_.distance_sigma * scales_.short_edge);
+    const SightWeights weights(scene_, scales_, options_);
 
-    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
-        SightWalk walk(cells);
+    for_each_run_of_vertices(cells_, stage, [&](Index first, Index last) {
+        SightWalk walk(cells_);
         std::vector<OutwardSight> sights;
         for (Index vertex = first; vertex < last; ++vertex) {
-            walk.stand_at(vertex);
-            const std::int32_t full = weights.full_weight(vertex);
-            for (const std::uint32_t view : scene.tracks[vertex]) {
-                terms.add_inside_terms(walk, cells.positions[vertex], centers[view], full,
-                                       options.sink_depth);
-                sights.push_back(terms.outward(vertex, view, centers[view], full));
+            if (source.is_measured) walk.stand_at(vertex);
+            const std::int32_t full = weights.full_weight(vertex, source.weight);
+            for (const std::uint32_t view : (*source.rays)[vertex]) {
+                const Vector3d& origin = source.origins[view];
+                if (source.is_measured) {
+                    terms.add_inside_terms(walk, cells_.positions[vertex], origin, full,
+                                           options_.sink_depth);
+                }
+                sights.push_back(terms.outward(vertex, view, origin, full));
             }
         }
         terms.add_outside_terms(walk, sights, [&](std::uint32_t view, Index cell) {
-            lower(energy.cell_of_view[view], cell);
+            if (source.is_measured) lower(cell_of_origin[view], cell);
         });
     });
-    require_exact(sums, scene);
-    locate_other_views(cells, centers, energy.cell_of_view);
-    return energy;
-}
-
-// NOLINTNEXTLINE(readability-function-size): the pass has that many inputs
-void add_sights(const TetMesh& cells, const Scene& scene, const VirtualSights& sights,
-                double weight, const TraceOptions& options, VisibilityEnergy& energy, Stage& stage)
-{
-    EnergySums sums(energy.network);
-    const double sigma = options.distance_sigma * short_edge_length(cells);
-    const SightWeights weights(scene, options);
-    const SightTerms terms(cells, sums, sigma);
-    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
-        SightWalk walk(cells);
-        std::vector<OutwardSight> outward;
-        for (Index vertex = first; vertex < last; ++vertex) {
-            const std::int32_t full = weights.full_weight(vertex, weight);
-            for (const std::uint32_t view : sights.tracks[vertex]) {
-                outward.push_back(terms.outward(vertex, view, sights.centers[view], full));
-            }
-        }
-        terms.add_outside_terms(walk, outward, [](std::uint32_t, Index) {});
-    });
-    require_exact(sums, scene);
+    require_exact(sums, scene_);
+    if (source.is_measured) locate_other_origins(cells_, source.origins, cell_of_origin);
 }
 
 } // namespace vcarve

@@ -2,10 +2,11 @@
 
 #include "base/log.h"
 #include "base/options.h"
+#include "model/ray_source.h"
 #include "model/scene.h"
 #include "model/tet_mesh.h"
-#include "model/virtual_sights.h"
 #include "model/visibility_energy.h"
+#include "steps/3_visibility/scales.h"
 
 namespace vcarve {
 
@@ -49,28 +50,39 @@ struct TraceOptions {
     }
 };
 
-/// How many sights cross each facet (Akgunduz, Zetu, Banerjee 2000, section 4.2).
-/// Cost: one walk a sight, in parallel; 16 bytes a cell.
-Crossings count_crossings(const TetMesh& cells, const Scene& scene, Stage& stage);
+/// Adds to each facet how many rays of a source cross it (Akgunduz, Zetu, Banerjee 2000, section
+/// 4.2), times the weight of the source and rounded down. Crossings that are empty begin at zero.
+/// Cost: one walk a ray, in parallel; 16 bytes a cell, and as many more for a weight other than 1.
+void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings, Stage& stage);
 
-/// Adds virtual sights, each `weight` of a real one, rounded down facet by facet.
-void add_crossings(const TetMesh& cells, const VirtualSights& sights, double weight,
-                   Crossings& crossings, Stage& stage);
+/// Adds the visibility terms of sources to an energy. `cells`, `scene` and `options` must outlive
+/// it; `scene` has the points of the cells, which weigh their rays.
+///
+/// Each ray asks for the cells before its point to be outside and, if it was measured, for the cell
+/// behind it to be inside (Labatut, Pons, Keriven 2009), softly near the point. The terms are
+/// integers, so their sums do not depend on the number of threads. The flow of each ray is pushed
+/// along its walk at once, which leaves the minimum cut as it is (docs/algorithm.md). Where a ray
+/// meets an edge or a vertex no facet leads its flow on: each stretch between such places ends in a
+/// source (behind the point a sink) of its own, as strong as the term of the ray for what comes
+/// next.
+class RayCaster {
+  public:
+    RayCaster(const TetMesh& cells, const Scene& scene, const Scales& scales,
+              const TraceOptions& options)
+        : cells_(cells), scene_(scene), scales_(scales), options_(options)
+    {
+    }
 
-/// Each sight asks for the cells before its point to be outside and for the cell behind it to be
-/// inside (Labatut, Pons, Keriven 2009), softly near the point. The terms are integers, so their
-/// sums do not depend on the number of threads. Each sight's own flow is pushed along its walk at
-/// once, which leaves the minimum cut as it is (algorithm: docs/algorithm.md). Where a sight meets
-/// an edge or a vertex no facet leads its flow on: each stretch between such places ends in a
-/// source (behind the point a sink) of its own, as strong as the term of the sight for what comes
-/// next. Throws InputError if a sum leaves 32 bits. Cost: one walk a sight, in parallel; 20 bytes a
-/// cell.
-VisibilityEnergy trace_sights(const TetMesh& cells, const Scene& scene, const TraceOptions& options,
-                              Stage& stage);
+    /// An energy that is empty begins at zero. The cells of the origins of measured rays are
+    /// appended to VisibilityEnergy::cell_of_view. Throws InputError if a sum leaves 32 bits. Cost:
+    /// one walk a ray, in parallel; 20 bytes a cell.
+    void cast(const RaySource& source, VisibilityEnergy& energy, Stage& stage) const;
 
-/// Adds the terms of virtual sights, each `weight` times that of a real sight of its point. They
-/// speak for outside only, because the real sights know more of what lies behind a point.
-void add_sights(const TetMesh& cells, const Scene& scene, const VirtualSights& sights,
-                double weight, const TraceOptions& options, VisibilityEnergy& energy, Stage& stage);
+  private:
+    const TetMesh& cells_;
+    const Scene& scene_;
+    Scales scales_;
+    const TraceOptions& options_;
+};
 
 } // namespace vcarve

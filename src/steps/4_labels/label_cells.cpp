@@ -31,7 +31,8 @@ Labels carve(const TetMesh& cells, const Crossings& crossings, const LabelOption
 Labels carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
 {
     Stage trace(log, "sights");
-    Crossings crossings = count_crossings(cells, scene, trace);
+    Crossings crossings;
+    cast_rays(cells, photographs(scene), crossings, trace);
     trace.end({{"sights", size_of(scene.num_sights())}});
     Labels labels = carve(cells, crossings, options, log);
     if (options.virtual_views.count == 0) {
@@ -39,7 +40,7 @@ Labels carve(const TetMesh& cells, const Scene& scene, const LabelOptions& optio
     }
     const VirtualSights more = place_virtual_views(cells, scene, labels, options, log);
     Stage trace_more(log, "sights");
-    add_crossings(cells, more, options.virtual_views.weight, crossings, trace_more);
+    cast_rays(cells, more.source(options.virtual_views.weight), crossings, trace_more);
     trace_more.end({{"sights", size_of(more.tracks.views.size())}});
     return carve(cells, crossings, options, log);
 }
@@ -64,7 +65,9 @@ Labels cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
 Labels cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
 {
     Stage trace(log, "sights");
-    VisibilityEnergy energy = trace_sights(cells, scene, options.trace, trace);
+    const RayCaster caster(cells, scene, measure_scales(cells, scene), options.trace);
+    VisibilityEnergy energy;
+    caster.cast(photographs(scene), energy, trace);
     trace.end({{"sights", size_of(scene.num_sights())}});
     if (options.virtual_views.count == 0) {
         return cut(cells, scene, std::move(energy), options, log);
@@ -72,7 +75,7 @@ Labels cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options
     const Labels first = cut(cells, scene, energy, options, log);
     const VirtualSights more = place_virtual_views(cells, scene, first, options, log);
     Stage trace_more(log, "sights");
-    add_sights(cells, scene, more, options.virtual_views.weight, options.trace, energy, trace_more);
+    caster.cast(more.source(options.virtual_views.weight), energy, trace_more);
     trace_more.end({{"sights", size_of(more.tracks.views.size())}});
     return cut(cells, scene, std::move(energy), options, log);
 }

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "model/ray_source.h"
+#include "steps/3_visibility/trace.h"
+
+namespace vcarve {
+
+/// The crossings of the sights of a scene.
+inline Crossings crossings_of(const TetMesh& cells, const Scene& scene)
+{
+    Log silent;
+    Stage stage(silent, "sights");
+    Crossings crossings;
+    cast_rays(cells, photographs(scene), crossings, stage);
+    return crossings;
+}
+
+/// The visibility energy of the sights of a scene.
+inline VisibilityEnergy energy_of(const TetMesh& cells, const Scene& scene,
+                                  const TraceOptions& options = {})
+{
+    Log silent;
+    Stage stage(silent, "sights");
+    VisibilityEnergy energy;
+    RayCaster(cells, scene, measure_scales(cells, scene), options)
+        .cast(photographs(scene), energy, stage);
+    return energy;
+}
+
+} // namespace vcarve
