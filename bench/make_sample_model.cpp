@@ -1,5 +1,5 @@
-#include "base/error.h"
 #include "sample_scene.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

@@ -6,11 +6,12 @@
 #include "cli/run_record.h"
 #include "io/colmap/colmap_model.h"
 #include "io/files/mapped_file.h"
-#include "io/ply/ply.h"
 #include "pipeline/memory.h"
-#include "pipeline/reconstruct.h"
 #include "steps/1_points/center.h"
+#include "steps/1_points/filter.h"
 #include "steps/1_points/spatial_sort.h"
+#include "vcarve/io.h"
+#include "vcarve/reconstruct.h"
 
 #include <tbb/global_control.h>
 

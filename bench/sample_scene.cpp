@@ -1,9 +1,9 @@
 #include "sample_scene.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "random.h"
 #include "sample_shapes.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

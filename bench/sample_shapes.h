@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/scene.h"
 #include "random.h"
+#include "vcarve/scene.h"
 
 #include <memory>
 

@@ -2,8 +2,8 @@
 
 #include "model/flow_network.h"
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
+#include "vcarve/scene.h"
 
 #include <benchmark/benchmark.h>
 

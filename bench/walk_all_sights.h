@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/scene.h"
 #include "steps/3_visibility/walk.h"
+#include "vcarve/scene.h"
 
 #include <benchmark/benchmark.h>
 

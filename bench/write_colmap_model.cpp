@@ -1,8 +1,8 @@
 // The layout is documented at https://colmap.github.io/format.html.
 
-#include "base/error.h"
 #include "sample_scene.h"
 #include "sample_shapes.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
-#include "base/error.h"
 #include "baselines/baseline_surface.h"
 #include "io/colmap/colmap_model.h"
 #include "mesh/check.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "cli/option_table.h"
-#include "pipeline/reconstruct.h"
 #include "support/ball_model.h"
 #include "support/subprocess.h"
 #include "support/temporary_folder.h"
+#include "vcarve/reconstruct.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -195,12 +195,6 @@ TEST(Program, RefusesWrongOptionsInOneSentence)
 {
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--min-vews", "3"}),
               "colmap-vcarve: there is no option --min-vews; did you mean --min-views?" + kSeeHelp);
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--web-edge=0"}),
-              "colmap-vcarve: there is no option --web-edge; did you mean --bridging-edge?" +
-                  kSeeHelp);
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--softness", "1"}),
-              "colmap-vcarve: there is no option --softness; did you mean --distance-sigma?" +
-                  kSeeHelp);
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--web-edge=0"}),
               "colmap-vcarve: there is no option --web-edge; did you mean --bridging-edge?" +
                   kSeeHelp);

@@ -1,8 +1,8 @@
 #include "compare/closed_surface.h"
 #include "compare/view_rays.h"
-#include "pipeline/reconstruct.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
+#include "vcarve/reconstruct.h"
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
-#include "base/error.h"
 #include "io/colmap/colmap_model.h"
 #include "support/scene_checks.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "base/error.h"
 #include "io/colmap/find_model.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

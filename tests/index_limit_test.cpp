@@ -1,6 +1,6 @@
-#include "base/error.h"
 #include "base/index_limit.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <gtest/gtest.h>
 

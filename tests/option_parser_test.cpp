@@ -1,7 +1,7 @@
-#include "base/error.h"
 #include "baselines/alpha_shape.h"
 #include "cli/option_parser.h"
 #include "support/sample_options.h"
+#include "vcarve/error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

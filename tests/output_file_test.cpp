@@ -1,6 +1,6 @@
-#include "base/error.h"
 #include "io/files/output_file.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -4,8 +4,8 @@
 #include "baselines/circumsphere.h"
 #include "baselines/sculpt.h"
 #include "io/colmap/colmap_model.h"
-#include "io/ply/ply.h"
 #include "steps/2_cells/triangulate.h"
+#include "vcarve/io.h"
 
 #include <gmock/gmock.h>
 

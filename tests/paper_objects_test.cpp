@@ -2,12 +2,12 @@
 // no less. fixtures/README.md says what the fixtures guarantee.
 #include "base/log.h"
 #include "io/colmap/colmap_model.h"
-#include "io/ply/ply.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/4_labels/strict_carving.h"
 #include "steps/5_surface/extract.h"
 #include "support/cast_sights.h"
+#include "vcarve/io.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "base/error.h"
-#include "io/ply/ply.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
+#include "vcarve/io.h"
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

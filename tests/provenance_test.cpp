@@ -1,8 +1,8 @@
-#include "base/error.h"
 #include "steps/5_surface/provenance.h"
 #include "support/scenes.h"
 #include "support/subprocess.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "compare/compare.h"
 #include "io/colmap/colmap_model.h"
-#include "io/ply/ply.h"
-#include "pipeline/reconstruct.h"
+#include "vcarve/io.h"
+#include "vcarve/reconstruct.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
-#include "base/error.h"
 #include "io/colmap/colmap_model.h"
 #include "mesh/check.h"
-#include "pipeline/reconstruct.h"
 #include "steps/5_surface/orient.h"
 #include "support/half_edges.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
+#include "vcarve/reconstruct.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "base/error.h"
 #include "compare/reference.h"
 #include "support/measured_scenes.h"
+#include "vcarve/error.h"
 
 #include <gmock/gmock.h>
 

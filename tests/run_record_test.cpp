@@ -79,19 +79,24 @@ TEST(StageRecorder, HandsEverythingOn)
     struct Listener : Log {
         std::string heard;
         void stage_begins(std::string_view name) override { heard += "begin " + std::string(name); }
-        void stage_progresses(double share) override { heard += share == 0.5 ? ", half" : "?"; }
+        void stage_progresses(double share) override { heard += share == 0.5 ? ", half" : ", all"; }
         void stage_ends(std::string_view name, const Counts& counts) override
         {
             heard += ", end " + std::string(name) + " " + counts.at(0).first;
         }
         void note(std::string_view sentence) override { heard += ", " + std::string(sentence); }
+        bool wants_stop() const override { return stops; }
+        bool stops = false;
     } listener;
     StageRecorder recorder(listener);
     Stage stage(recorder, "cut");
     stage.progress(0.5);
     recorder.note("hm");
     stage.end({{"cells", 1}});
-    EXPECT_EQ(listener.heard, "begin cut, half, hm, end cut cells");
+    EXPECT_EQ(listener.heard, "begin cut, half, hm, all, end cut cells");
+    EXPECT_FALSE(recorder.wants_stop());
+    listener.stops = true;
+    EXPECT_TRUE(recorder.wants_stop());
 }
 
 TEST(JsonText, ReplacesBytesThatAreNotUtf8)

@@ -1,10 +1,10 @@
 #include "mesh/check.h"
-#include "pipeline/reconstruct.h"
 #include "steps/6_refine/simplify.h"
 #include "support/blocked_sights.h"
 #include "support/half_edges.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
+#include "vcarve/reconstruct.h"
 
 #include <gtest/gtest.h>
 

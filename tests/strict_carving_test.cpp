@@ -1,5 +1,4 @@
 #include "io/colmap/colmap_model.h"
-#include "io/ply/ply.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/4_labels/strict_carving.h"
@@ -7,6 +6,7 @@
 #include "support/exact_sight.h"
 #include "support/paper_rule.h"
 #include "support/point_sets.h"
+#include "vcarve/io.h"
 
 #include <gtest/gtest.h>
 

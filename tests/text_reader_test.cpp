@@ -1,6 +1,6 @@
-#include "base/error.h"
 #include "io/colmap/text_reader.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <gtest/gtest.h>
 

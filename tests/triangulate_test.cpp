@@ -1,9 +1,9 @@
-#include "base/error.h"
 #include "geometry/predicates.h"
 #include "steps/1_points/spatial_sort.h"
 #include "steps/2_cells/triangulate.h"
 #include "support/point_sets.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <gtest/gtest.h>

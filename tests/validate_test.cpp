@@ -1,6 +1,6 @@
-#include "base/error.h"
 #include "base/validate.h"
 #include "support/sample_options.h"
+#include "vcarve/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,16 +1,16 @@
 #pragma once
 
+#include "vcarve/error.h"
+#include "vcarve/log.h"
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace vcarve {
-
-/// Named counts of what a stage did, in the order they are to be read: {"points", 3012}.
-using Counts = std::vector<std::pair<std::string, std::int64_t>>;
 
 /// The size of a container, as a count.
 inline std::int64_t size_of(std::size_t count)
@@ -18,34 +18,46 @@ inline std::int64_t size_of(std::size_t count)
     return static_cast<std::int64_t>(count);
 }
 
-/// Where a run tells what it does. The library prints nothing itself; the program, or whoever uses
-/// the library, decides what to show. The default shows nothing.
-class Log {
-  public:
-    virtual ~Log() = default;
-
-    virtual void stage_begins(std::string_view /*name*/) {}
-    /// Share of the running stage that is done, 0 to 1. May be called from any thread.
-    virtual void stage_progresses(double /*share*/) {}
-    virtual void stage_ends(std::string_view /*name*/, const Counts& /*counts*/) {}
-    /// One sentence the user should read, though the run goes on.
-    virtual void note(std::string_view /*sentence*/) {}
-};
-
 /// One stage of a run: tells the log when it begins and, unless it failed, when it ends.
 class Stage {
   public:
-    Stage(Log& log, std::string_view name) : log_(log), name_(name) { log_.stage_begins(name_); }
+    Stage(Log& log, std::string_view name) : log_(log), name_(name)
+    {
+        log_.stage_begins(name_);
+        stop_where_wanted();
+    }
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    void progress(double share) { log_.stage_progresses(share); }
+    /// Tells the log this share, where it is larger by a thousandth than the one told before.
+    /// Throws Cancelled where the log wants the run stopped.
+    void progress(double share)
+    {
+        stop_where_wanted();
+        // Another thread tells about the same just now.
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock.owns_lock() || share < told_ + 0.001) return;
+        told_ = std::min(share, 1.0);
+        log_.stage_progresses(told_);
+    }
     /// Ends the stage with what it counted. Call it once, when the work is done.
-    void end(const Counts& counts) { log_.stage_ends(name_, counts); }
+    void end(const Counts& counts)
+    {
+        stop_where_wanted();
+        if (told_ > 0.0 && told_ < 1.0) log_.stage_progresses(1.0);
+        log_.stage_ends(name_, counts);
+    }
 
   private:
+    void stop_where_wanted() const
+    {
+        if (log_.wants_stop()) throw Cancelled(name_);
+    }
+
     Log& log_;
     std::string name_;
+    std::mutex mutex_; ///< guards told_
+    double told_ = 0.0;
 };
 
 } // namespace vcarve

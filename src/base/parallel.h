@@ -1,26 +1,94 @@
 #pragma once
 
+#include "base/progress.h"
+
+#ifdef __SANITIZE_THREAD__
+#include "base/watched_loops.h"
+#else
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
 namespace vcarve {
+
+/// Calls body(first, last) for ranges [first, last) that make up [0, count), each of `grain` or a
+/// few more, from as many threads as the surrounding tbb arena has. The body must not depend on how
+/// the ranges are cut.
+template <typename Body>
+void parallel_for_ranges(std::size_t count, const Body& body, std::size_t grain = 1024)
+{
+#ifdef __SANITIZE_THREAD__
+    watched::for_ranges(count, body, grain);
+#else
+    using Range = tbb::blocked_range<std::size_t>;
+    tbb::parallel_for(Range(0, count, grain),
+                      [&](const Range& range) { body(range.begin(), range.end()); });
+#endif
+}
 
 /// Calls body(i) for every i in [0, count), from as many threads as the surrounding tbb arena has.
 /// The body must not depend on the order of the calls.
 template <typename Body>
 void parallel_for(std::size_t count, const Body& body, std::size_t grain = 1024)
 {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              body(i);
-                          }
-                      });
+    const auto run = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            body(i);
+        }
+    };
+    parallel_for_ranges(count, run, grain);
+}
+
+/// As parallel_for_ranges, with ranges of at most `grain`, after each of which `progress` is told
+/// how many are done. It ends early, by throwing Cancelled, where the run is to stop.
+template <typename Body>
+void parallel_for_ranges(std::size_t count, const Progress& progress, const Body& body,
+                         std::size_t grain = 1024)
+{
+    ProgressCount done(progress, count);
+    const auto run = [&](std::size_t first, std::size_t last) {
+        for (std::size_t begin = first; begin < last; begin += grain) {
+            const std::size_t end = std::min(last, begin + grain);
+            body(begin, end);
+            done.add(end - begin);
+        }
+    };
+    parallel_for_ranges(count, run, grain);
+}
+
+/// As parallel_for, and tells `progress` how many are done. It ends early, by throwing Cancelled,
+/// where the run is to stop.
+template <typename Body>
+void parallel_for(std::size_t count, const Progress& progress, const Body& body,
+                  std::size_t grain = 1024)
+{
+    const auto run = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i != last; ++i) {
+            body(i);
+        }
+    };
+    parallel_for_ranges(count, progress, run, grain);
+}
+
+/// Calls body(i, items) for every i in [0, count) with an empty list, which is allocated once a
+/// range of `grain`. The body must not depend on the order of the calls.
+template <typename Item, typename Body>
+void parallel_for_with_list(std::size_t count, const Body& body, std::size_t grain = 1024)
+{
+    const auto run = [&](std::size_t first, std::size_t last) {
+        std::vector<Item> items;
+        for (std::size_t i = first; i != last; ++i) {
+            items.clear();
+            body(i, items);
+        }
+    };
+    parallel_for_ranges(count, run, grain);
 }
 
 /// What visit(i, items) appends to `items` for the i in [0, count), in the order of i, from as many
@@ -55,6 +123,29 @@ std::vector<Item> parallel_collect(std::size_t count, const Visit& visit, std::s
         },
         1);
     return all;
+}
+
+/// The sum over i in [0, count) of value(i), by `plus` from `zero`: within runs of 1024 in the
+/// order of i, then over the runs. So it is the same for any number of threads, also where it
+/// depends on the order.
+template <typename Sum, typename Value, typename Plus = std::plus<>>
+Sum parallel_sum(std::size_t count, const Sum& zero, const Value& value, const Plus& plus = {})
+{
+    constexpr std::size_t kRun = 1024;
+    std::vector<Sum> runs((count + kRun - 1) / kRun, zero);
+    parallel_for(
+        runs.size(),
+        [&](std::size_t run) {
+            for (std::size_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
+                runs[run] = plus(runs[run], value(i));
+            }
+        },
+        1);
+    Sum sum = zero;
+    for (const Sum& run : runs) {
+        sum = plus(sum, run);
+    }
+    return sum;
 }
 
 } // namespace vcarve

@@ -1,6 +1,6 @@
 #include "base/validate.h"
 
-#include "base/error.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "base/options.h"
 #include "model/labels.h"
 #include "model/tet_mesh.h"
+#include "vcarve/option_visitor.h"
 
 namespace vcarve {
 

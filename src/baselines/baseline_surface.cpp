@@ -1,6 +1,5 @@
 #include "baselines/baseline_surface.h"
 
-#include "base/error.h"
 #include "baselines/sculpt.h"
 #include "mesh/half_edge_mesh.h"
 #include "steps/1_points/center.h"
@@ -9,6 +8,7 @@
 #include "steps/2_cells/triangulate.h"
 #include "steps/5_surface/cleanup.h"
 #include "steps/5_surface/extract.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "cli/baseline_runs.h"
 
-#include "base/error.h"
 #include "cli/child_process.h"
 #include "io/colmap/find_model.h"
-#include "io/ply/ply.h"
+#include "vcarve/error.h"
+#include "vcarve/io.h"
 
 #include <fmt/format.h>
 

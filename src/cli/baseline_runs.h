@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/log.h"
-#include "base/options.h"
 #include "compare/compare.h"
+#include "vcarve/option_visitor.h"
 
 #include <filesystem>
 #include <string>

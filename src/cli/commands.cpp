@@ -1,11 +1,11 @@
 #include "cli/commands.h"
 
-#include "base/error.h"
 #include "base/version.h"
 #include "cli/compare_command.h"
 #include "cli/manual.h"
 #include "cli/mesh_command.h"
 #include "cli/option_parser.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

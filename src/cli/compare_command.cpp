@@ -1,6 +1,5 @@
 #include "cli/compare_command.h"
 
-#include "base/error.h"
 #include "base/threads.h"
 #include "baselines/baseline_surface.h"
 #include "cli/baseline_runs.h"
@@ -9,8 +8,9 @@
 #include "compare/closed_surface.h"
 #include "io/files/mapped_file.h"
 #include "io/files/output_file.h"
-#include "io/ply/ply.h"
 #include "report/report.h"
+#include "vcarve/error.h"
+#include "vcarve/io.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -1,5 +1,5 @@
-#include "base/error.h"
 #include "cli/commands.h"
+#include "vcarve/error.h"
 
 #include <cstdio>
 #include <exception>

@@ -1,17 +1,17 @@
 #include "cli/mesh_command.h"
 
-#include "base/error.h"
 #include "base/threads.h"
 #include "base/version.h"
 #include "cli/interruption.h"
 #include "cli/model_input.h"
 #include "cli/run_record.h"
 #include "io/files/output_file.h"
-#include "io/ply/ply.h"
 #include "mesh/check.h"
 #include "pipeline/memory.h"
-#include "pipeline/reconstruct.h"
 #include "steps/5_surface/provenance.h"
+#include "vcarve/error.h"
+#include "vcarve/io.h"
+#include "vcarve/reconstruct.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>

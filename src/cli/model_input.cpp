@@ -1,31 +1,23 @@
 #include "cli/model_input.h"
 
 #include "cli/console_log.h"
-#include "io/colmap/model_size.h"
+
+#include <utility>
 
 namespace vcarve::cli {
 
 ModelInput read_model_input(const std::filesystem::path& model, Log& log, const SizeCheck& check)
 {
-    Stage stage(log, "read");
-    const FoundModel found = find_model(model);
-    for (const std::string& note : found.notes) {
-        log.note(note);
-    }
-    const auto size = size_before_reading(found.folder, found.format);
-    if (check && size) check(*size);
+    ReadModel read = read_found_model(model, log, check);
+    const FoundModel& found = read.found;
     ModelInput input;
-    input.scene = read_colmap_model(found.folder, found.format);
-    const Counts counts = {{"points", input.scene.num_points()},
-                           {"views", input.scene.views.size()},
-                           {"sights", input.scene.num_sights()}};
     input.record = {{"model", model.string()},
                     {"folder", found.folder.string()},
-                    {"format", found.format == ModelFormat::binary ? "binary" : "text"}};
-    for (const auto& [name, count] : counts) {
-        input.record[name] = count;
-    }
-    stage.end(counts);
+                    {"format", found.format == ModelFormat::binary ? "binary" : "text"},
+                    {"points", read.scene.num_points()},
+                    {"views", read.scene.views.size()},
+                    {"sights", read.scene.num_sights()}};
+    input.scene = std::move(read.scene);
     return input;
 }
 

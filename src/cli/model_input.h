@@ -2,11 +2,9 @@
 
 #include "base/log.h"
 #include "cli/run_record.h"
-#include "io/colmap/find_model.h"
-#include "model/scene_size.h"
+#include "io/colmap/read_model.h"
 
 #include <filesystem>
-#include <functional>
 #include <memory>
 
 namespace vcarve::cli {
@@ -16,9 +14,6 @@ struct ModelInput {
     Scene scene;
     Json record; ///< "model", "folder", "format", "points", "views", "sights"
 };
-
-/// What is to be checked of a model before it is read; may throw.
-using SizeCheck = std::function<void(const SceneSize&)>;
 
 /// Finds and reads the model the user means, as the stage "read". Throws InputError. `check` is
 /// called before reading, where the size of the model shows before.

@@ -1,8 +1,8 @@
 #include "cli/option_parser.h"
 
 #include "base/byte_size.h"
-#include "base/error.h"
 #include "base/validate.h"
+#include "vcarve/error.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/options.h"
 #include "cli/option_table.h"
+#include "vcarve/option_visitor.h"
 
 #include <map>
 #include <span>

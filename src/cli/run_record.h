@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/log.h"
-#include "base/options.h"
 #include "cli/process_usage.h"
+#include "vcarve/option_visitor.h"
 
 #include <nlohmann/json.hpp>
 
@@ -21,6 +21,7 @@ class StageRecorder final : public Log {
     void stage_progresses(double share) override { shown_.stage_progresses(share); }
     void stage_ends(std::string_view name, const Counts& counts) override;
     void note(std::string_view sentence) override;
+    bool wants_stop() const override { return shown_.wants_stop(); }
 
     /// {"stages": [{"name", "seconds", "cpu_seconds", "peak_memory_bytes", "counts"}], "notes": [],
     /// "total": {"seconds", "cpu_seconds", "peak_memory_bytes"}, "peak_memory_is_per_stage"}.

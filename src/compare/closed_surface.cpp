@@ -1,8 +1,8 @@
 #include "compare/closed_surface.h"
 
-#include "base/error.h"
 #include "compare/view_rays.h"
-#include "pipeline/reconstruct.h"
+#include "vcarve/error.h"
+#include "vcarve/reconstruct.h"
 
 #include <fmt/format.h>
 

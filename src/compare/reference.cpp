@@ -1,12 +1,12 @@
 #include "compare/reference.h"
 
-#include "base/error.h"
 #include "base/median.h"
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"
 #include "geometry/triangle.h"
 #include "steps/1_points/middle_box.h"
+#include "vcarve/error.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "base/options.h"
 #include "compare/surface_tree.h"
-#include "model/scene.h"
-#include "model/tri_mesh.h"
+#include "vcarve/compare.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>
 
@@ -16,35 +16,6 @@
 #include <vector>
 
 namespace vcarve {
-
-/// How meshes are measured. No length is in scene units.
-struct CompareOptions {
-    int samples = 400000;
-    int seed = 1;
-    double spacings = 3.0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.count(samples,
-                      {.name = "samples",
-                       .help = "Points sampled on each mesh and on the seen part of the truth.",
-                       .min = 1000,
-                       .max = 100000000});
-        options.count(seed, {.name = "seed", .help = "Where the sampling starts; any number."});
-        options.number(spacings,
-                       {.name = "spacings",
-                        .unit = "x spacing",
-                        .help =
-                            "How far from a point, in spacings of the points around it, a mesh may "
-                            "pass and still count as passing through it."});
-    }
-};
-
-/// A mesh and what to call it: the file's name in tables and messages.
-struct NamedMesh {
-    std::string name;
-    TriMesh mesh;
-};
 
 /// A mesh in the frame of a reference, ready to be measured.
 struct MeasuredMesh {

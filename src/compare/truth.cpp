@@ -1,10 +1,10 @@
 #include "compare/truth.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "compare/sample.h"
 #include "geometry/triangle.h"
 #include "model/camera.h"
+#include "vcarve/error.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

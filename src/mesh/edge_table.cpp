@@ -58,17 +58,16 @@ EdgeTable gather_edges(std::span<const Face> faces, std::size_t num_vertices)
 
     // ends[v] is now where the sides of v end. Each vertex sorts its few sides by the higher end.
     std::vector<char> begins_edge(edges.sides.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, num_vertices, 1024),
-                      [&](const auto& vertices) {
-                          std::vector<std::uint64_t> keys;
-                          for (std::size_t v = vertices.begin(); v != vertices.end(); ++v) {
-                              const std::size_t begin = v == 0 ? 0 : ends[v - 1];
-                              const std::size_t count = ends[v] - begin;
-                              if (count == 0) continue;
-                              sort_sides(faces, std::span(edges.sides).subspan(begin, count),
-                                         std::span(begins_edge).subspan(begin, count), keys);
-                          }
-                      });
+    parallel_for_ranges(num_vertices, [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint64_t> keys;
+        for (std::size_t v = first; v != last; ++v) {
+            const std::size_t begin = v == 0 ? 0 : ends[v - 1];
+            const std::size_t count = ends[v] - begin;
+            if (count == 0) continue;
+            sort_sides(faces, std::span(edges.sides).subspan(begin, count),
+                       std::span(begins_edge).subspan(begin, count), keys);
+        }
+    });
     edges.begins =
         parallel_collect<std::uint32_t>(begins_edge.size(), [&](std::size_t i, auto& begins) {
             if (begins_edge[i] != 0) begins.push_back(static_cast<std::uint32_t>(i));

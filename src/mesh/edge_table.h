@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/tri_mesh.h"
+#include "vcarve/tri_mesh.h"
 
 #include <span>
 #include <vector>

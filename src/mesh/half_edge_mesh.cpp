@@ -206,20 +206,14 @@ void set_vertex_normals(HalfEdgeMesh& mesh)
 std::vector<double> vertex_spacings(const HalfEdgeMesh& mesh)
 {
     std::vector<double> spacings(mesh.n_vertices(), 0.0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, spacings.size(), 1024),
-                      [&](const tbb::blocked_range<std::size_t>& vertices) {
-                          std::vector<double> lengths;
-                          for (std::size_t v = vertices.begin(); v != vertices.end(); ++v) {
-                              lengths.clear();
-                              for (const auto edge : mesh.ve_range(handle_at<VertexHandle>(v))) {
-                                  const double length = mesh.calc_edge_length(edge);
-                                  lengths.push_back(length);
-                                  // Each face counts its own.
-                                  if (!mesh.is_boundary(edge)) lengths.push_back(length);
-                              }
-                              spacings[v] = median_in_place(lengths);
-                          }
-                      });
+    parallel_for_with_list<double>(spacings.size(), [&](std::size_t v, auto& lengths) {
+        for (const auto edge : mesh.ve_range(handle_at<VertexHandle>(v))) {
+            const double length = mesh.calc_edge_length(edge);
+            lengths.push_back(length);
+            if (!mesh.is_boundary(edge)) lengths.push_back(length); // each face counts its own
+        }
+        spacings[v] = median_in_place(lengths);
+    });
     return spacings;
 }
 

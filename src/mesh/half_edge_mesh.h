@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesh/edge_table.h"
-#include "model/tri_mesh.h"
+#include "vcarve/tri_mesh.h"
 
 // The second needs the first.
 // clang-format off

@@ -9,26 +9,8 @@
 #include <cmath>
 
 namespace vcarve {
-namespace {
 
 using Eigen::Vector3d;
-
-/// Calls body(vertex, values) for every vertex in parallel, with an empty list of its own.
-template <typename Body>
-void for_each_vertex_with_values(std::size_t num_vertices, const Body& body)
-{
-    tbb::parallel_for(
-        tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(num_vertices), 1024),
-        [&](const tbb::blocked_range<std::uint32_t>& range) {
-            std::vector<double> values;
-            for (std::uint32_t v = range.begin(); v != range.end(); ++v) {
-                values.clear();
-                body(v, values);
-            }
-        });
-}
-
-} // namespace
 
 LocalEdges::LocalEdges(std::span<const Vector3d> positions, std::span<const Face> faces,
                        const FaceFlags& measured)
@@ -81,8 +63,8 @@ std::vector<std::uint8_t> LocalEdges::uneven_vertices(double size) const
 {
     constexpr double kRounding = 1.0 + 1e-9;
     std::vector<std::uint8_t> uneven(positions_.size(), 0);
-    for_each_vertex_with_values(uneven.size(), [&](std::uint32_t v, std::vector<double>& values) {
-        collect_squared_lengths(v, values);
+    parallel_for_with_list<double>(uneven.size(), [&](std::size_t v, auto& values) {
+        collect_squared_lengths(static_cast<std::uint32_t>(v), values);
         if (values.empty()) return;
         const double short_sq = kRounding * *std::ranges::max_element(values) / (size * size);
         const auto num_short =

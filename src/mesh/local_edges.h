@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesh/vertex_faces.h"
-#include "model/tri_mesh.h"
+#include "vcarve/tri_mesh.h"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesh/local_edges.h"
-#include "model/tri_mesh.h"
+#include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/lens_model.h"
-#include "model/scene.h"
+#include "vcarve/scene.h"
 
 #include <Eigen/Core>
 

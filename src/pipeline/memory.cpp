@@ -1,10 +1,10 @@
 #include "pipeline/memory.h"
 
 #include "base/byte_size.h"
-#include "base/error.h"
 #include "model/tet_mesh.h"
-#include "model/tri_mesh.h"
 #include "steps/2_cells/triangulate.h"
+#include "vcarve/error.h"
+#include "vcarve/tri_mesh.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ constexpr double kFileSight = 8;
 
 /// CGAL: a cell holds 4 vertices, 4 neighbours, its state and index; a vertex its point, a cell and
 /// its index; both with some room to grow.
-constexpr double kCgalCell = 76;
+constexpr double kCgalCell = 73;
 constexpr double kCgalVertex = 48;
 /// What oneTBB's allocator keeps of CGAL's memory that was freed, after a parallel triangulation,
 /// which triangulate() makes of kParallelFromPoints points or more.
@@ -84,24 +84,23 @@ double filtering(const Sizes& n)
     return 2 * n.scene() + 64 * n.points;
 }
 
-/// The points as CGAL wants them, CGAL's triangulation, the handles of its cells, and the cells
-/// before they are numbered.
+/// CGAL's triangulation, the handles of its cells, and the cells before they are numbered. The
+/// points as CGAL wants them are gone by then.
 double triangulating(const Sizes& n)
 {
-    constexpr double kNumberedPoint = 32;
     constexpr double kCell = 8 + sizeof(Cell);
-    return n.scene() + kNumberedPoint * n.points + n.cgal() + kCell * n.cells;
+    return n.scene() + n.cgal() + kCell * n.cells;
 }
 
-/// The network; beside it first the edges that the distance sigma is measured by, up to six a cell
-/// of a choice of cells, in lists that grow; then the sights that each thread walks, those of 512
+/// First the edges that the distance sigma is measured by, up to six a cell of a choice of cells,
+/// in lists that grow; then the network, and the sights that each thread walks, those of 512
 /// points.
 double tracing(const Sizes& n)
 {
     const double edges = 6 * std::min(n.cells, 5e4);
     const double walked = std::min(n.sights, n.threads * 512 * n.sights / std::max(n.points, 1.0));
     constexpr double kSight = 96;
-    return n.after_triangulation() + n.cells * kNetworkCell + std::max(24 * edges, kSight * walked);
+    return n.after_triangulation() + std::max(24 * edges, n.cells * kNetworkCell + kSight * walked);
 }
 
 /// The network, the solver, and the labels before and after; and for bridging facets the facets

@@ -1,11 +1,17 @@
-#include "pipeline/reconstruct.h"
+#include "vcarve/reconstruct.h"
 
+#include "base/validate.h"
 #include "mesh/half_edge_mesh.h"
+#include "model/scene_check.h"
 #include "pipeline/memory.h"
 #include "steps/1_points/center.h"
+#include "steps/1_points/filter.h"
 #include "steps/1_points/spatial_sort.h"
 #include "steps/2_cells/triangulate.h"
+#include "steps/4_labels/label_cells.h"
+#include "steps/5_surface/make_surface.h"
 #include "steps/5_surface/orient.h"
+#include "steps/6_refine/refine.h"
 
 #include <tbb/task_arena.h>
 
@@ -27,8 +33,10 @@ void foresee_memory(const Scene& scene, const Options& options, Log& log)
 Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
 {
     Stage stage(log, "filter");
-    FilteredPoints filtered = filter_points(scene, options);
-    Scene sorted = spatial_sort(std::move(filtered.scene));
+    const Progress progress(stage);
+    FilteredPoints filtered = filter_points(scene, options, progress.part(0.0, 0.6));
+    progress.tell(0.6);
+    Scene sorted = spatial_sort(std::move(filtered.scene), progress.part(0.6, 1.0));
     const FilterReport& dropped = filtered.report;
     stage.end({{"points", size_of(sorted.num_points())},
                {"of", size_of(scene.num_points())},
@@ -43,7 +51,7 @@ Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
 TetMesh triangulate(const Scene& scene, Log& log)
 {
     Stage stage(log, "triangulate");
-    TetMesh cells = triangulate(scene);
+    TetMesh cells = triangulate(scene, stage);
     stage.end({{"cells", size_of(cells.cells.size())}});
     return cells;
 }
@@ -75,6 +83,8 @@ Reconstruction run_steps(Scene input, const Options& options, Log& log)
 
 Reconstruction reconstruct(Scene input, const Options& options, Log& log)
 {
+    validate(options);
+    require_consistent(input);
     tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
     return arena.execute([&] { return run_steps(std::move(input), options, log); });
 }

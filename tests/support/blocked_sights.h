@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/scene.h"
-#include "model/tri_mesh.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
 
 #include <array>
 #include <set>

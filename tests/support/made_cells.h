@@ -1,14 +1,14 @@
 #pragma once
 
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
-#include "model/tri_mesh.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/4_labels/boundary.h"
 #include "steps/5_surface/extract.h"
 #include "support/point_sets.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
 
 #include <tbb/task_arena.h>
 

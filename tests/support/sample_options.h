@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/options.h"
+#include "vcarve/option_visitor.h"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/scene.h"
+#include "vcarve/scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "io/colmap/byte_reader.h"
 
-#include "base/error.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

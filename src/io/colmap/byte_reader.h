@@ -22,6 +22,11 @@ class ByteReader {
     }
 
     std::size_t offset() const { return offset_; }
+    /// How much of the file is read, 0 to 1.
+    double share_read() const
+    {
+        return static_cast<double>(offset_) / static_cast<double>(bytes_.size());
+    }
     std::size_t left() const { return bytes_.size() - offset_; }
 
     template <typename T>

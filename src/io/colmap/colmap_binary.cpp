@@ -1,12 +1,12 @@
 // The layout is documented at https://colmap.github.io/format.html and has not changed since 2016:
 // every file is a count (uint64) and that many records, without padding.
 
-#include "base/error.h"
 #include "io/colmap/byte_reader.h"
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/model_files.h"
 #include "io/files/mapped_file.h"
 #include "model/lens_model.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 
@@ -68,13 +68,14 @@ ImageRecord read_image(ByteReader& reader)
     return image;
 }
 
-void read_images(const std::filesystem::path& path, SceneBuilder& builder)
+void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
 {
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
     const std::uint64_t count = reader.read_count(kImageBytes, "images");
     for (std::uint64_t i = 0; i < count; ++i) {
         builder.add_image(read_image(reader));
+        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
     reader.expect_end("the last image");
     builder.close_images();
@@ -92,7 +93,7 @@ PointRecord read_point(ByteReader& reader)
     return point;
 }
 
-void read_points(const std::filesystem::path& path, SceneBuilder& builder)
+void read_points(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
 {
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
@@ -107,17 +108,20 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder)
             reader.read<std::uint32_t>("the track of a point");
         }
         builder.add_point(point, image_ids);
+        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
     reader.expect_end("the last point");
 }
 
 } // namespace
 
-void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder)
+void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder,
+                       const Progress& progress)
 {
+    const ReadingShares shares = shares_of(folder, ModelFormat::binary, progress);
     read_cameras(folder / model_file("cameras", ModelFormat::binary), builder);
-    read_images(folder / model_file("images", ModelFormat::binary), builder);
-    read_points(folder / model_file("points3D", ModelFormat::binary), builder);
+    read_images(folder / model_file("images", ModelFormat::binary), builder, shares.images);
+    read_points(folder / model_file("points3D", ModelFormat::binary), builder, shares.points);
 }
 
 } // namespace vcarve

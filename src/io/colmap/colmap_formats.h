@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "io/colmap/scene_builder.h"
 
 #include <filesystem>
@@ -7,9 +8,22 @@
 namespace vcarve {
 
 /// Read cameras.bin, images.bin and points3D.bin of a folder into a builder, in that order.
-void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder);
+void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder,
+                       const Progress& progress);
 
 /// Read cameras.txt, images.txt and points3D.txt of a folder into a builder, in that order.
-void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder);
+void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder,
+                     const Progress& progress);
+
+/// Shares of reading a model: images before points by the sizes of their files.
+struct ReadingShares {
+    Progress images;
+    Progress points;
+};
+ReadingShares shares_of(const std::filesystem::path& folder, ModelFormat format,
+                        const Progress& progress);
+
+/// So many records are read between two calls of Progress::tell.
+inline constexpr std::uint64_t kRecordsBetweenTells = 256;
 
 } // namespace vcarve

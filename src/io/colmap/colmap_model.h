@@ -1,6 +1,7 @@
 #pragma once
 
-#include "model/scene.h"
+#include "base/progress.h"
+#include "vcarve/scene.h"
 
 #include <filesystem>
 
@@ -16,6 +17,7 @@ enum class ModelFormat { binary, text };
 /// poses. Throws InputError naming file and place where a file is missing, broken or contradicts
 /// another. Cost: linear in the size of the files, which are mapped; allocations never exceed a
 /// small multiple of the bytes that are there.
-Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format);
+Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
+                        const Progress& progress = {});
 
 } // namespace vcarve

@@ -80,12 +80,13 @@ ImageRecord read_image(TextReader& reader)
     return image;
 }
 
-void read_images(const std::filesystem::path& path, SceneBuilder& builder)
+void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
-    while (reader.next_record()) {
+    for (std::uint64_t i = 0; reader.next_record(); ++i) {
         builder.add_image(read_image(reader));
+        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
     builder.close_images();
 }
@@ -104,12 +105,12 @@ PointRecord read_point(TextReader& reader)
     return point;
 }
 
-void read_points(const std::filesystem::path& path, SceneBuilder& builder)
+void read_points(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
     std::vector<std::uint32_t> image_ids;
-    while (reader.next_record()) {
+    for (std::uint64_t i = 0; reader.next_record(); ++i) {
         const PointRecord point = read_point(reader);
         image_ids.clear();
         while (!reader.at_line_end()) {
@@ -117,16 +118,19 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder)
             reader.read_uint32("the index of a 2D point in the track");
         }
         builder.add_point(point, image_ids);
+        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
 }
 
 } // namespace
 
-void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder)
+void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder,
+                     const Progress& progress)
 {
+    const ReadingShares shares = shares_of(folder, ModelFormat::text, progress);
     read_cameras(folder / model_file("cameras", ModelFormat::text), builder);
-    read_images(folder / model_file("images", ModelFormat::text), builder);
-    read_points(folder / model_file("points3D", ModelFormat::text), builder);
+    read_images(folder / model_file("images", ModelFormat::text), builder, shares.images);
+    read_points(folder / model_file("points3D", ModelFormat::text), builder, shares.points);
 }
 
 } // namespace vcarve

@@ -1,10 +1,10 @@
 #include "io/colmap/find_model.h"
 
-#include "base/error.h"
 #include "io/colmap/byte_reader.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

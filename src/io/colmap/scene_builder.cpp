@@ -1,12 +1,12 @@
 #include "io/colmap/scene_builder.h"
 
-#include "base/error.h"
+#include "base/parallel_sort.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
+#include "vcarve/error.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +134,7 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
 void SceneBuilder::refuse_point_ids_twice() const
 {
     std::vector<std::uint64_t> ids = scene_.point_ids;
-    tbb::parallel_sort(ids.begin(), ids.end());
+    parallel_sort(ids);
     const auto twice = std::adjacent_find(ids.begin(), ids.end());
     if (twice == ids.end()) return;
     throw InputError(fmt::format("{}: point {} occurs twice",

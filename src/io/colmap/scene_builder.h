@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/colmap/colmap_model.h"
-#include "model/scene.h"
+#include "vcarve/scene.h"
 
 #include <Eigen/Core>
 

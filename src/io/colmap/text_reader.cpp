@@ -1,6 +1,6 @@
 #include "io/colmap/text_reader.h"
 
-#include "base/error.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 
@@ -50,7 +50,7 @@ std::string printable(std::string_view text)
 }
 
 TextReader::TextReader(std::span<const char> bytes, std::string name)
-    : unread_(bytes.data(), bytes.size()), name_(std::move(name))
+    : unread_(bytes.data(), bytes.size()), size_(bytes.size()), name_(std::move(name))
 {
     if (unread_.starts_with(kByteOrderMark)) unread_.remove_prefix(kByteOrderMark.size());
 }

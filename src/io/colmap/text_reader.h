@@ -24,6 +24,12 @@ class TextReader {
     /// Goes to the next line that is neither a comment nor blank. False: there is none.
     bool next_record();
 
+    /// How much of the file is read, 0 to 1.
+    double share_read() const
+    {
+        return 1.0 - static_cast<double>(unread_.size()) / static_cast<double>(size_);
+    }
+
     /// Whether all words of the line are read.
     bool at_line_end();
     /// The words of the line not read yet, as they stand, without the blanks around them.
@@ -44,6 +50,7 @@ class TextReader {
 
     std::string_view unread_; ///< the file after the current line
     std::string_view line_;   ///< what is left of the current line
+    std::size_t size_;
     std::size_t line_number_ = 0;
     std::string name_;
 };

@@ -1,6 +1,6 @@
 #include "io/files/mapped_file.h"
 
-#include "base/error.h"
+#include "vcarve/error.h"
 
 #include <boost/interprocess/exceptions.hpp>
 #include <boost/interprocess/file_mapping.hpp>

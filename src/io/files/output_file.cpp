@@ -1,6 +1,6 @@
 #include "io/files/output_file.h"
 
-#include "base/error.h"
+#include "vcarve/error.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/ply/ply_header.h"
 
-#include "base/error.h"
+#include "vcarve/error.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "base/error.h"
 #include "io/files/mapped_file.h"
-#include "io/ply/ply.h"
 #include "io/ply/ply_header.h"
+#include "vcarve/error.h"
+#include "vcarve/io.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 #include "io/files/output_file.h"
-#include "io/ply/ply.h"
+#include "vcarve/error.h"
+#include "vcarve/io.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/scene.h"
+#include "vcarve/scene.h"
 
 namespace vcarve {
 

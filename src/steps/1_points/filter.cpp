@@ -127,11 +127,14 @@ void count(Verdict verdict, FilterReport& report)
 
 } // namespace
 
-FilteredPoints filter_points(const Scene& scene, const FilterOptions& options)
+FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
+                             const Progress& progress)
 {
     require_indexable(scene.num_points(), kMostIndices, "points");
     const PointIndices finite = lexicographic_sort(scene.positions);
+    progress.tell(0.4);
     const Merged merged = merge_duplicates(scene, finite);
+    progress.tell(0.6);
     std::vector<std::vector<std::uint32_t>> united(merged.members.size());
     parallel_for(united.size(),
                  [&](std::size_t i) { united[i] = united_views(scene, merged.members[i]); });
@@ -144,6 +147,7 @@ FilteredPoints filter_points(const Scene& scene, const FilterOptions& options)
     parallel_for(verdicts.size(), [&](std::size_t place) {
         verdicts[place] = judge(scene, merged.best[place], track_of(place), options);
     });
+    progress.tell(0.8);
 
     FilteredPoints result;
     result.report.non_finite = static_cast<std::int64_t>(scene.num_points() - finite.size());

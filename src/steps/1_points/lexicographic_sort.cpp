@@ -1,6 +1,6 @@
 #include "steps/1_points/lexicographic_sort.h"
 
-#include <tbb/parallel_sort.h>
+#include "base/parallel_sort.h"
 
 #include <algorithm>
 #include <tuple>
@@ -21,7 +21,7 @@ std::vector<std::uint32_t> lexicographic_sort(const std::vector<Eigen::Vector3d>
             entries.push_back({positions[i].x(), i});
         }
     }
-    tbb::parallel_sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) {
+    parallel_sort(entries, [&](const Entry& a, const Entry& b) {
         if (a.x != b.x) {
             return a.x < b.x;
         }

@@ -62,9 +62,10 @@ Tracks reordered(const Tracks& tracks, const std::vector<std::size_t>& order)
 
 } // namespace
 
-Scene spatial_sort(Scene scene)
+Scene spatial_sort(Scene scene, const Progress& progress)
 {
     const std::vector<std::size_t> order = hilbert_order(scene.positions);
+    progress.tell(0.8);
     scene.positions = reordered(scene.positions, order);
     scene.colors = reordered(scene.colors, order);
     scene.errors_px = reordered(scene.errors_px, order);

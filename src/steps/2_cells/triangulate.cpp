@@ -1,19 +1,24 @@
 #include "steps/2_cells/triangulate.h"
 
-#include "base/error.h"
 #include "base/index_limit.h"
 #include "base/parallel.h"
+#include "vcarve/error.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
 #include <fmt/core.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 
 namespace vcarve {
@@ -30,15 +35,31 @@ template <typename Concurrency>
 using Delaunay = CGAL::Delaunay_triangulation_3<
     Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase, Concurrency>>;
 
-std::vector<std::pair<Kernel::Point_3, Index>> numbered_points(const Scene& scene)
+/// The share of the time that the insertion of points takes; the rest is copying cells.
+constexpr double kInsertion = 0.8;
+
+std::vector<Kernel::Point_3> points_of(const Scene& scene)
 {
-    std::vector<std::pair<Kernel::Point_3, Index>> points;
+    std::vector<Kernel::Point_3> points;
     points.reserve(scene.num_points());
     for (const Eigen::Vector3d& p : scene.positions) {
-        points.emplace_back(Kernel::Point_3(p.x(), p.y(), p.z()),
-                            static_cast<Index>(points.size()));
+        points.emplace_back(p.x(), p.y(), p.z());
     }
     return points;
+}
+
+/// The numbers of the points in the order that suits CGAL: random at large, near each other in the
+/// small (Amenta, Choi, Rote, "Incremental constructions con BRIO", 2003).
+template <typename Concurrency>
+std::vector<std::size_t> insertion_order(const std::vector<Kernel::Point_3>& points)
+{
+    using Map = CGAL::Pointer_property_map<Kernel::Point_3>::const_type;
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    CGAL::spatial_sort<Concurrency>(
+        order.begin(), order.end(),
+        CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(CGAL::make_property_map(points)));
+    return order;
 }
 
 CGAL::Bbox_3 box_of(const Scene& scene)
@@ -80,7 +101,7 @@ Cell unnumbered_cell(CellHandle cell)
 
 /// All cells, in the order CGAL keeps them, which may differ from run to run.
 template <typename Triangulation>
-std::vector<Cell> unnumbered_cells(const Triangulation& triangulation)
+std::vector<Cell> unnumbered_cells(const Triangulation& triangulation, const Progress& progress)
 {
     using CellHandle = typename Triangulation::Cell_handle;
     std::vector<CellHandle> handles;
@@ -89,6 +110,7 @@ std::vector<Cell> unnumbered_cells(const Triangulation& triangulation)
         cell->info() = static_cast<Index>(handles.size());
         handles.push_back(cell);
     }
+    progress.tell(0.5);
     std::vector<Cell> cells(handles.size());
     parallel_for(handles.size(), [&](std::size_t i) { cells[i] = unnumbered_cell(handles[i]); });
     return cells;
@@ -138,9 +160,11 @@ int slot_of_neighbor(const Cell& cell, Index neighbor)
 }
 
 /// Puts the cells in canonical order.
-void fill_cells(const std::vector<Cell>& unnumbered, TetMesh& mesh, std::size_t num_vertices)
+void fill_cells(const std::vector<Cell>& unnumbered, TetMesh& mesh, std::size_t num_vertices,
+                const Progress& progress)
 {
     const std::vector<Index> order = canonical_order(unnumbered, num_vertices);
+    progress.tell(0.5);
     std::vector<Index> numbers(order.size());
     parallel_for(order.size(), [&](std::size_t i) { numbers[order[i]] = static_cast<Index>(i); });
     mesh.cells.resize(order.size());
@@ -151,6 +175,7 @@ void fill_cells(const std::vector<Cell>& unnumbered, TetMesh& mesh, std::size_t 
         }
         mesh.cells[i] = cell;
     });
+    progress.tell(0.7);
     mesh.mirrors.resize(order.size());
     parallel_for(order.size(), [&](std::size_t i) {
         unsigned mirrors = 0;
@@ -178,7 +203,7 @@ void find_cells_of_vertices(TetMesh& mesh)
 /// Copies the cells of a triangulation to flat arrays and clears it on the way, so that only one
 /// copy of the cells lives beside it.
 template <typename Triangulation>
-TetMesh flatten(Triangulation& triangulation, const Scene& scene)
+TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress& progress)
 {
     if (triangulation.dimension() < 3) {
         throw InputError(fmt::format("the {} points that passed the filter all lie in one plane; a "
@@ -190,36 +215,97 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene)
         throw std::logic_error("two points to triangulate lie at one place");
     }
     triangulation.infinite_vertex()->info() = kInfinite;
-    const std::vector<Cell> unnumbered = unnumbered_cells(triangulation);
+    const std::vector<Cell> unnumbered = unnumbered_cells(triangulation, progress.part(0.0, 0.4));
+    progress.tell(0.4);
     triangulation.clear();
+    progress.tell(0.6);
     TetMesh mesh;
-    fill_cells(unnumbered, mesh, scene.num_points());
+    fill_cells(unnumbered, mesh, scene.num_points(), progress.part(0.6, 0.9));
+    progress.tell(0.9);
     mesh.positions = scene.positions;
     find_cells_of_vertices(mesh);
     return mesh;
 }
 
-TetMesh triangulate_sequentially(const Scene& scene)
+/// Inserts point after point. CGAL's insertion of many at once does the same, but does not tell how
+/// far it is.
+TetMesh triangulate_sequentially(const Scene& scene, const Progress& progress)
 {
-    auto points = numbered_points(scene);
-    Delaunay<CGAL::Sequential_tag> triangulation(points.begin(), points.end());
-    return flatten(triangulation, scene);
+    using Triangulation = Delaunay<CGAL::Sequential_tag>;
+    constexpr std::size_t kToldEvery = 256;
+    Triangulation triangulation;
+    {
+        const std::vector<Kernel::Point_3> points = points_of(scene);
+        const std::vector<std::size_t> order = insertion_order<CGAL::Sequential_tag>(points);
+        Triangulation::Vertex_handle hint;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            hint = triangulation.insert(points[order[i]], hint);
+            hint->info() = static_cast<Index>(order[i]);
+            if (i % kToldEvery == 0) progress.part(0.0, kInsertion).tell(i, order.size());
+        }
+    }
+    return flatten(triangulation, scene, progress.part(kInsertion, 1.0));
 }
 
-TetMesh triangulate_in_parallel(const Scene& scene)
+/// Inserts points from many threads. A thread that does not get hold of all cells it would change
+/// lets go of them and tries again, as in CGAL's own insertion of many points at once.
+template <typename Triangulation>
+void insert_in_parallel(Triangulation& triangulation, const std::vector<Kernel::Point_3>& points,
+                        std::span<const std::size_t> order, const Progress& progress)
+{
+    using VertexHandle = typename Triangulation::Vertex_handle;
+    const auto try_insert = [&](std::size_t number, VertexHandle& hint) {
+        const Kernel::Point_3& point = points[number];
+        bool has_all_cells = false;
+        VertexHandle vertex;
+        if (triangulation.try_lock_vertex(hint) && triangulation.try_lock_point(point)) {
+            vertex = triangulation.insert(point, hint, &has_all_cells);
+        }
+        triangulation.unlock_all_elements();
+        if (!has_all_cells) return false;
+        vertex->info() = static_cast<Index>(number);
+        hint = vertex;
+        return true;
+    };
+    tbb::enumerable_thread_specific<VertexHandle> hints(triangulation.finite_vertices_begin());
+    parallel_for_ranges(
+        order.size(), progress,
+        [&](std::size_t first, std::size_t last) {
+            VertexHandle& hint = hints.local();
+            for (std::size_t i = first; i < last; ++i) {
+                while (!try_insert(order[i], hint)) {
+                }
+            }
+        },
+        256);
+}
+
+TetMesh triangulate_in_parallel(const Scene& scene, const Progress& progress)
 {
     using Triangulation = Delaunay<CGAL::Parallel_tag>;
-    constexpr int kLockCellsPerAxis = 50; // CGAL's own choice in its manual
+    constexpr int kLockCellsPerAxis = 50;     // CGAL's own choice in its manual
+    constexpr std::size_t kFirstPoints = 100; // so many, and until they span space, by one thread
     Triangulation::Lock_data_structure locks(box_of(scene), kLockCellsPerAxis);
-    auto points = numbered_points(scene);
-    Triangulation triangulation(points.begin(), points.end(), &locks);
-    points = {};
-    return flatten(triangulation, scene);
+    Triangulation triangulation(Kernel(), &locks);
+    {
+        const std::vector<Kernel::Point_3> points = points_of(scene);
+        const std::vector<std::size_t> order = insertion_order<CGAL::Parallel_tag>(points);
+        std::size_t first = 0;
+        Triangulation::Vertex_handle hint;
+        for (; first < order.size() && (first < kFirstPoints || triangulation.dimension() < 3);
+             ++first) {
+            hint = triangulation.insert(points[order[first]], hint);
+            hint->info() = static_cast<Index>(order[first]);
+        }
+        insert_in_parallel(triangulation, points, std::span(order).subspan(first),
+                           progress.part(0.0, kInsertion));
+    }
+    return flatten(triangulation, scene, progress.part(kInsertion, 1.0));
 }
 
 } // namespace
 
-TetMesh triangulate(const Scene& scene)
+TetMesh triangulate(const Scene& scene, const Progress& progress)
 {
     if (scene.num_points() < 4) {
         throw InputError(fmt::format("{} point{} passed the filter; a surface needs at least four "
@@ -228,7 +314,8 @@ TetMesh triangulate(const Scene& scene)
     }
     const bool pays =
         scene.num_points() >= kParallelFromPoints && tbb::this_task_arena::max_concurrency() > 1;
-    return pays ? triangulate_in_parallel(scene) : triangulate_sequentially(scene);
+    return pays ? triangulate_in_parallel(scene, progress)
+                : triangulate_sequentially(scene, progress);
 }
 
 } // namespace vcarve

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "model/scene.h"
+#include "base/progress.h"
 #include "model/tet_mesh.h"
+#include "vcarve/scene.h"
 
 #include <cstddef>
 
@@ -16,6 +17,6 @@ inline constexpr std::size_t kParallelFromPoints = 50'000;
 /// where there are fewer than four points or all lie in one plane, and where there are too many
 /// cells for 32-bit indices. Cost: O(points log points) on surfaces; CGAL's structure, about 600
 /// bytes a point, lives beside the result only while that is filled.
-TetMesh triangulate(const Scene& scene);
+TetMesh triangulate(const Scene& scene, const Progress& progress = {});
 
 } // namespace vcarve

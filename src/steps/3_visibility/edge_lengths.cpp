@@ -1,8 +1,7 @@
 #include "steps/3_visibility/edge_lengths.h"
 
 #include "base/parallel.h"
-
-#include <tbb/parallel_sort.h>
+#include "base/parallel_sort.h"
 
 #include <algorithm>
 #include <array>
@@ -46,7 +45,7 @@ std::vector<Edge> sampled_edges(const TetMesh& mesh)
     auto edges = parallel_collect<Edge>(mesh.cells.size(), [&](std::size_t cell, auto& found) {
         add_sampled_edges(mesh.cells[cell], one_in, found);
     });
-    tbb::parallel_sort(edges.begin(), edges.end());
+    parallel_sort(edges);
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "mesh/vertex_faces.h"
-#include "model/scene.h"
-#include "model/tri_mesh.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
+#include "vcarve/scene.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/scene.h"
 #include "model/tet_mesh.h"
+#include "vcarve/scene.h"
 
 namespace vcarve {
 

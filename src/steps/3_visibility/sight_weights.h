@@ -1,9 +1,9 @@
 #pragma once
 
-#include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "steps/3_visibility/scales.h"
 #include "steps/3_visibility/trace.h"
+#include "vcarve/scene.h"
 
 #include <cstdint>
 

@@ -1,11 +1,11 @@
 #include "steps/3_visibility/trace.h"
 
-#include "base/error.h"
 #include "base/prefetch.h"
 #include "geometry/triangle.h"
 #include "steps/3_visibility/each_vertex.h"
 #include "steps/3_visibility/sight_weights.h"
 #include "steps/3_visibility/walk.h"
+#include "vcarve/error.h"
 
 #include <fmt/core.h>
 
@@ -74,9 +74,10 @@ std::vector<Sight> rays_to(Index first, Index last, const RaySource& source)
 }
 
 /// Counts the facets that rays cross, on both sides.
-void count_facets(const TetMesh& cells, const RaySource& source, Crossings& crossings, Stage& stage)
+void count_facets(const TetMesh& cells, const RaySource& source, Crossings& crossings,
+                  const Progress& progress)
 {
-    for_each_run_of_vertices(cells, stage, [&](Index first, Index last) {
+    for_each_run_of_vertices(cells, progress, [&](Index first, Index last) {
         const std::vector<Sight> sights = rays_to(first, last, source);
         SightWalk(cells).along_each(
             sights.size(), [&](std::size_t k) { return sights[k]; },
@@ -284,12 +285,13 @@ void require_exact(const EnergySums& sums, const Scene& scene)
 
 } // namespace
 
-void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings, Stage& stage)
+void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings,
+               const Progress& progress)
 {
     crossings.resize(cells.cells.size(), {0, 0, 0, 0});
-    if (source.weight == 1.0) return count_facets(cells, source, crossings, stage);
+    if (source.weight == 1.0) return count_facets(cells, source, crossings, progress);
     Crossings more(cells.cells.size(), {0, 0, 0, 0});
-    count_facets(cells, source, more, stage);
+    count_facets(cells, source, more, progress);
     parallel_for(more.size(), [&](std::size_t cell) {
         for (int slot = 0; slot < 4; ++slot) {
             crossings[cell][slot] += static_cast<std::uint32_t>(source.weight * more[cell][slot]);
@@ -297,7 +299,8 @@ void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossin
     });
 }
 
-void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy, Stage& stage) const
+void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
+                     const Progress& progress) const
 {
     energy.unit = SightWeights::kUnit;
     energy.network.arc_capacities.resize(cells_.cells.size(), {0, 0, 0, 0});
@@ -311,7 +314,7 @@ void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy, Stage& s
     const SightTerms terms(cells_, sums, options_.distance_sigma * scales_.short_edge);
     const SightWeights weights(scene_, scales_, options_);
 
-    for_each_run_of_vertices(cells_, stage, [&](Index first, Index last) {
+    for_each_run_of_vertices(cells_, progress, [&](Index first, Index last) {
         SightWalk walk(cells_);
         std::vector<OutwardSight> sights;
         for (Index vertex = first; vertex < last; ++vertex) {

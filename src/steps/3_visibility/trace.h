@@ -1,59 +1,20 @@
 #pragma once
 
-#include "base/log.h"
-#include "base/options.h"
+#include "base/progress.h"
 #include "model/ray_source.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "model/visibility_energy.h"
 #include "steps/3_visibility/scales.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
 
 namespace vcarve {
-
-/// How much a sight says, and how far behind its point.
-struct TraceOptions {
-    double views_sigma = 1.5;
-    double distance_sigma = 0.5;
-    double sink_depth = 0.0;
-    double error_sigma = 3.0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Sights");
-        options.number(
-            views_sigma,
-            {.name = "views-sigma",
-             .unit = "views",
-             .help = "A sight weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
-                     "median point; 0 gives every sight the same weight.",
-             .max = 100.0});
-        options.number(
-            error_sigma,
-            {.name = "error-sigma",
-             .unit = "x median error",
-             .help =
-                 "A sight weighs exp(-(e^2 - 1) / 2 s^2) of that for a point whose reprojection "
-                 "error is e > 1 medians; 0 takes no account of errors.",
-             .max = 1000.0});
-        options.number(distance_sigma,
-                       {.name = "distance-sigma",
-                        .unit = "x short edge",
-                        .help = "Uncertainty of a point along its sights, as a multiple of the "
-                                "25th percentile of edge lengths; 0 trusts every point fully.",
-                        .max = 1000.0});
-        options.number(sink_depth,
-                       {.name = "sink-depth",
-                        .unit = "x distance sigma",
-                        .help = "How far behind a point its sights call the space inside; "
-                                "0 means the cell that begins at the point.",
-                        .max = 1000.0});
-    }
-};
 
 /// Adds to each facet how many rays of a source cross it (Akgunduz, Zetu, Banerjee 2000, section
 /// 4.2), times the weight of the source and rounded down. Crossings that are empty begin at zero.
 /// Cost: one walk a ray, in parallel; 16 bytes a cell, and as many more for a weight other than 1.
-void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings, Stage& stage);
+void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings,
+               const Progress& progress);
 
 /// Adds the visibility terms of sources to an energy. `cells`, `scene` and `options` must outlive
 /// it; `scene` has the points of the cells, which weigh their rays.
@@ -76,7 +37,7 @@ class RayCaster {
     /// An energy that is empty begins at zero. The cells of the origins of measured rays are
     /// appended to VisibilityEnergy::cell_of_view. Throws InputError if a sum leaves 32 bits. Cost:
     /// one walk a ray, in parallel; 20 bytes a cell.
-    void cast(const RaySource& source, VisibilityEnergy& energy, Stage& stage) const;
+    void cast(const RaySource& source, VisibilityEnergy& energy, const Progress& progress) const;
 
   private:
     const TetMesh& cells_;

@@ -26,10 +26,10 @@ void set_bit(Evidence& evidence, Index cell, std::uint8_t bit)
     std::atomic_ref<std::uint8_t>(evidence[cell]).fetch_or(bit, std::memory_order_relaxed);
 }
 
-Evidence gather_evidence(const TetMesh& cells, const Scene& scene, Stage& stage)
+Evidence gather_evidence(const TetMesh& cells, const Scene& scene, const Progress& progress)
 {
     Evidence evidence(cells.cells.size(), 0);
-    for_each_vertex(cells, stage, [&](Index vertex) {
+    for_each_vertex(cells, progress, [&](Index vertex) {
         SightWalk outward(cells, vertex);
         SightWalk inward(cells, vertex);
         const Vector3d& point = cells.positions[vertex];
@@ -97,7 +97,8 @@ std::vector<Place> free_places(const TetMesh& mesh, const Labels& labels, const 
 }
 
 /// Some of the places, each the farthest from those before it; the first is the one with most room.
-std::vector<Place> spread(const std::vector<Place>& places, std::size_t count)
+std::vector<Place> spread(const std::vector<Place>& places, std::size_t count,
+                          const Progress& progress)
 {
     std::vector<Place> chosen;
     if (places.empty()) {
@@ -110,6 +111,7 @@ std::vector<Place> spread(const std::vector<Place>& places, std::size_t count)
     std::vector<double> distances_sq(places.size(), kUnlimited);
     while (chosen.size() < count && distances_sq[next] > 0.0) {
         const Vector3d center = places[next].center;
+        progress.tell(chosen.size(), count);
         chosen.push_back(places[next]);
         parallel_for(places.size(), [&](std::size_t i) {
             distances_sq[i] = std::min(distances_sq[i], (places[i].center - center).squaredNorm());
@@ -213,14 +215,15 @@ Tracks tracks_of(const std::vector<std::vector<Index>>& points_of_views, std::si
 } // namespace
 
 VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, const Labels& labels,
-                                  const VirtualViewOptions& options, Stage& stage)
+                                  const VirtualViewOptions& options, const Progress& progress)
 {
     const Known known = {.mesh = cells,
                          .labels = labels,
-                         .evidence = gather_evidence(cells, scene, stage),
+                         .evidence = gather_evidence(cells, scene, progress.part(0.0, 0.5)),
                          .normals = outward_normals(cells, labels)};
     const std::vector<Place> places =
-        spread(free_places(cells, labels, known.evidence), static_cast<std::size_t>(options.count));
+        spread(free_places(cells, labels, known.evidence), static_cast<std::size_t>(options.count),
+               progress.part(0.5, 0.8));
     VirtualSights sights;
     sights.centers.reserve(places.size());
     for (const Place& place : places) {
@@ -228,7 +231,8 @@ VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, cons
     }
     std::vector<std::vector<Index>> seen(places.size());
     parallel_for(
-        seen.size(), [&](std::size_t i) { seen[i] = seen_points(known, scene, places[i]); }, 1);
+        seen.size(), progress.part(0.8, 1.0),
+        [&](std::size_t i) { seen[i] = seen_points(known, scene, places[i]); }, 1);
     sights.tracks = tracks_of(seen, cells.positions.size());
     return sights;
 }

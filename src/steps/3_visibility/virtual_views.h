@@ -1,35 +1,13 @@
 #pragma once
 
-#include "base/log.h"
-#include "base/options.h"
+#include "base/progress.h"
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "model/virtual_sights.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
 
 namespace vcarve {
-
-/// How many more viewpoints are tried, and how much they count.
-struct VirtualViewOptions {
-    int count = 0;
-    double weight = 0.5;
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Virtual views");
-        options.count(count, {.name = "virtual-views",
-                              .unit = "views",
-                              .help = "How many viewpoints to place in space that sights have "
-                                      "shown to be free, to look from there at the points around "
-                                      "and label the cells again; 100 suit some thousand points, 0 "
-                                      "places none."});
-        options.number(weight, {.name = "virtual-weight",
-                                .unit = "sights",
-                                .help = "What a sight of such a viewpoint counts, relative to a "
-                                        "real sight of the same point.",
-                                .max = 100.0});
-    }
-};
 
 /// More viewpoints (Akgunduz, Zetu, Banerjee 2000, who leave them to the future). They stand in
 /// cells that are labelled outside and crossed by a real sight, near the points but not at them,
@@ -40,6 +18,6 @@ struct VirtualViewOptions {
 /// The result does not depend on the number of threads. Cost: two walks a real sight, up to 1000 a
 /// viewpoint, and O(cells x viewpoints) to spread them, all in parallel.
 VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, const Labels& labels,
-                                  const VirtualViewOptions& options, Stage& stage);
+                                  const VirtualViewOptions& options, const Progress& progress);
 
 } // namespace vcarve

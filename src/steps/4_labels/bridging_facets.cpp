@@ -64,25 +64,31 @@ std::vector<Index> cells_behind_bridging_facets(const TetMesh& cells, const Boun
 }
 
 DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
-                                    std::int32_t one_sight, const BridgingOptions& options)
+                                    std::int32_t one_sight, const BridgingOptions& options,
+                                    const Progress& progress)
 {
     constexpr int kRounds = 3; // behind a bridging facet there may be another
     DoubtedLabels result{.labels = cut.labels()};
     std::unique_ptr<Boundary> boundary; // of result.labels, once it was asked for
     for (int round = 0; round < kRounds; ++round) {
+        progress.tell(round, kRounds);
         if (!boundary) boundary = std::make_unique<Boundary>(cells, result.labels);
         const std::vector<Index> doubted =
             cells_behind_bridging_facets(cells, *boundary, scene, options);
         if (doubted.empty()) break;
+        progress.tell(round + 0.3, kRounds);
         cut.add_source_capacity(doubted, one_sight);
+        progress.tell(round + 0.6, kRounds);
         result.doubts += static_cast<std::int64_t>(doubted.size());
         Labels next = cut.labels();
+        progress.tell(round + 0.7, kRounds);
         FreedPieces pieces(cells, scene, result.labels, next);
         if (pieces.empty())
             continue; // more source capacity only frees cells, so the labels are the same
         pieces.take_away(*boundary);
         boundary.reset(); // one at a time is enough to hold
         boundary = std::make_unique<Boundary>(cells, next);
+        progress.tell(round + 0.8, kRounds);
         pieces.lay_open(*boundary);
         const std::vector<Index> unpaid = pieces.unpaid();
         for (const Index cell : unpaid) {

@@ -1,30 +1,17 @@
 #pragma once
 
-#include "base/options.h"
+#include "base/progress.h"
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "steps/4_labels/boundary.h"
 #include "steps/4_labels/max_flow/max_flow.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace vcarve {
-
-struct BridgingOptions {
-    double bridging_edge = 3.0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.number(bridging_edge,
-                       {.name = "bridging-edge",
-                        .unit = "x local edge",
-                        .help = "Doubt seen faces with an edge this many times longer than the "
-                                "median around them that stand across the surface at their "
-                                "corners; 0 doubts none."});
-    }
-};
 
 /// The cells behind bridging facets. The cut leaves such facets between things that stand close to
 /// each other, where no sight happens to pass: they bridge the gap. A face is taken for one if it
@@ -47,6 +34,7 @@ struct DoubtedLabels {
 /// behind a bridging facet, and keeps what becomes free where that pays (see FreedPieces). Cost:
 /// that of cells_behind_bridging_facets and of what changes in the cut, a few times.
 DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
-                                    std::int32_t one_sight, const BridgingOptions& options);
+                                    std::int32_t one_sight, const BridgingOptions& options,
+                                    const Progress& progress = {});
 
 } // namespace vcarve

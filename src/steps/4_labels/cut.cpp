@@ -138,9 +138,12 @@ FlowNetwork cut_network(const TetMesh& cells, VisibilityEnergy energy, const Cut
     return std::move(energy.network);
 }
 
-MinimumCut cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options)
+MinimumCut cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options,
+               const Progress& progress)
 {
-    return MinimumCut(cells, cut_network(cells, std::move(energy), options));
+    FlowNetwork network = cut_network(cells, std::move(energy), options);
+    progress.tell(0.2);
+    return MinimumCut(cells, std::move(network), {}, progress.part(0.2, 1.0));
 }
 
 } // namespace vcarve

@@ -2,10 +2,10 @@
 
 #include "base/union_find.h"
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/4_labels/boundary.h"
+#include "vcarve/scene.h"
 
 #include <cstdint>
 #include <vector>

@@ -50,9 +50,10 @@ Labels cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
 {
     Stage label(log, "cut");
     const std::int32_t one_sight = energy.unit;
-    MinimumCut minimum = cut(cells, std::move(energy), options.cut);
-    DoubtedLabels doubted =
-        doubt_bridging_facets(cells, scene, minimum, one_sight, options.bridging);
+    const Progress progress(label);
+    MinimumCut minimum = cut(cells, std::move(energy), options.cut, progress.part(0.0, 0.6));
+    DoubtedLabels doubted = doubt_bridging_facets(cells, scene, minimum, one_sight,
+                                                  options.bridging, progress.part(0.6, 0.9));
     Labels& labels = doubted.labels;
     const std::int64_t needles = take_back_needles(cells, scene, options.needles, labels);
     label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)},

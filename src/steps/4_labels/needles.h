@@ -1,27 +1,13 @@
 #pragma once
 
-#include "base/options.h"
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
 
 #include <cstdint>
 
 namespace vcarve {
-
-struct NeedleOptions {
-    double needle_edge = 4.0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.number(needle_edge,
-                       {.name = "needle-edge",
-                        .unit = "x local edge",
-                        .help = "Take back the tips of needles that stand this many times the "
-                                "median edge around their feet out of the surface, to a point that "
-                                "few views saw; 0 takes back none."});
-    }
-};
 
 /// Takes back needles: thin spikes of inside cells to a stray point, such as a false match makes
 /// far before the surface. A vertex is the tip of one if the inside cells there fill less than a

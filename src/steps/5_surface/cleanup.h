@@ -1,30 +1,12 @@
 #pragma once
 
-#include "base/options.h"
-#include "model/tri_mesh.h"
+#include "vcarve/options.h"
+#include "vcarve/tri_mesh.h"
 
 #include <cstdint>
 #include <memory>
 
 namespace vcarve {
-
-/// What is mended, and what is thrown away. Switched off value by value.
-struct CleanupOptions {
-    int min_component_faces = 6;
-    int max_hole_edges = 12;
-
-    void visit(OptionVisitor& options)
-    {
-        options.count(min_component_faces,
-                      {.name = "min-component",
-                       .unit = "faces",
-                       .help = "Remove pieces of the surface with fewer faces; 0 keeps all."});
-        options.count(max_hole_edges,
-                      {.name = "max-hole",
-                       .unit = "edges",
-                       .help = "Fill holes with at most this many boundary edges; 0 fills none."});
-    }
-};
 
 struct CleanupCounts {
     std::int64_t vertices = 0; ///< of the clean surface

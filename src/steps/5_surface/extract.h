@@ -1,9 +1,9 @@
 #pragma once
 
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
-#include "model/tri_mesh.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
 
 #include <vector>
 

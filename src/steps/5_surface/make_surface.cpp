@@ -1,10 +1,10 @@
 #include "steps/5_surface/make_surface.h"
 
-#include "base/error.h"
 #include "mesh/half_edge_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/4_labels/boundary.h"
 #include "steps/5_surface/extract.h"
+#include "vcarve/error.h"
 
 #include <utility>
 #include <vector>
@@ -19,11 +19,14 @@ TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
     Stage stage(log, "surface");
     const std::vector<CellFacet> facets = boundary_facets(cells, labels);
     TriMesh surface = extract_surface(cells, facets, scene);
+    stage.progress(0.2);
     FaceFlags keep(facets.size(), 1);
     std::int64_t sheets = 0;
     if (!options.closed) {
         const FaceVisibility visibility(cells, labels, scene);
+        stage.progress(0.4);
         keep = supported_faces(surface, facets, visibility, scene, options.support);
+        stage.progress(0.7);
         sheets = peel_sheets(surface, facets, visibility, options.sheets, keep);
     }
     surface = with_faces(std::move(surface), keep);

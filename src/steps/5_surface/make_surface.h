@@ -1,36 +1,18 @@
 #pragma once
 
 #include "base/log.h"
-#include "base/options.h"
 #include "model/labels.h"
-#include "model/scene.h"
 #include "model/tet_mesh.h"
 #include "steps/5_surface/cleanup.h"
 #include "steps/5_surface/sheets.h"
 #include "steps/5_surface/support.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
 
 #include <memory>
 
 namespace vcarve {
-
-/// Which faces of the boundary are kept, and how the surface is mended.
-struct SurfaceOptions {
-    bool closed = false;
-    SupportOptions support;
-    SheetOptions sheets;
-    CleanupOptions cleanup;
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Surface");
-        options.flag(closed,
-                     {.name = "closed",
-                      .help = "Keep faces that no view supports, so that the surface is closed."});
-        support.visit(options);
-        sheets.visit(options);
-        cleanup.visit(options);
-    }
-};
 
 /// The surface of a labelling: the boundary of the inside (extract.h), of which only the faces are
 /// kept that views support (support.h, sheets.h) unless it is to be closed, mended into a manifold

@@ -1,11 +1,10 @@
 #include "steps/5_surface/orient.h"
 
+#include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
 
 #include <Eigen/Geometry>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
 
 namespace vcarve {
 
@@ -41,16 +40,11 @@ ViewAgreement sum(const ViewAgreement& a, const ViewAgreement& b)
 
 ViewAgreement view_agreement(const HalfEdgeMesh& mesh, const Scene& scene)
 {
-    using Range = tbb::blocked_range<std::size_t>;
-    return tbb::parallel_reduce(
-        Range(0, mesh.n_faces(), 1024), ViewAgreement(),
-        [&](const Range& range, ViewAgreement agreement) {
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                const auto face = handle_at<OpenMesh::FaceHandle>(i);
-                if (mesh.is_deleted(face)) continue;
-                agreement = sum(agreement, agreement_of_face(mesh, scene, face));
-            }
-            return agreement;
+    return parallel_sum(
+        mesh.n_faces(), ViewAgreement(),
+        [&](std::size_t i) {
+            const auto face = handle_at<OpenMesh::FaceHandle>(i);
+            return mesh.is_deleted(face) ? ViewAgreement() : agreement_of_face(mesh, scene, face);
         },
         sum);
 }

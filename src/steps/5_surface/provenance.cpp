@@ -1,8 +1,8 @@
 #include "steps/5_surface/provenance.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "steps/3_visibility/face_evidence.h"
+#include "vcarve/error.h"
 
 #include <fmt/core.h>
 

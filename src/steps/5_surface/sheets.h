@@ -1,29 +1,13 @@
 #pragma once
 
-#include "base/options.h"
 #include "mesh/vertex_faces.h"
-#include "model/tri_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
+#include "vcarve/options.h"
+#include "vcarve/tri_mesh.h"
 
 #include <vector>
 
 namespace vcarve {
-
-struct SheetOptions {
-    double max_sheet = 0.13;
-
-    void visit(OptionVisitor& options)
-    {
-        options.number(max_sheet,
-                       {.name = "max-sheet",
-                        .unit = "x extent",
-                        .help = "Take off faces from the rim with an edge longer than this share "
-                                "of what was looked at, if they go on with the surface at no "
-                                "corner or are hardly seen, and no back of a face comes to light "
-                                "behind them; 0 takes off none.",
-                        .max = 1.0});
-    }
-};
 
 /// Takes off the sheets with which the cut closes what was looked at towards its rim: the lid over
 /// a hall without a ceiling, skirts from the edge of the ground, faces between far walls. They are

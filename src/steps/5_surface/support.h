@@ -1,27 +1,14 @@
 #pragma once
 
-#include "base/options.h"
 #include "mesh/vertex_faces.h"
-#include "model/scene.h"
-#include "model/tri_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
 
 #include <vector>
 
 namespace vcarve {
-
-struct SupportOptions {
-    double max_gap_edge = 3.0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.number(max_gap_edge,
-                       {.name = "max-gap-edge",
-                        .unit = "x local edge",
-                        .help = "Keep a few faces that no view sees amid seen ones if no edge is "
-                                "this many times longer than the median around; 0 keeps none."});
-    }
-};
 
 /// Which faces of a boundary to keep by what the views see. A face is kept if each of its corners
 /// was seen from the front of the face by some view of the corner's point, or if some view sees a

@@ -9,7 +9,7 @@ namespace {
 SightGuard guard_sights(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 {
     Stage stage(log, "guard");
-    SightGuard guard(scene, mesh);
+    SightGuard guard(scene, mesh, stage);
     stage.end({{"free sights", guard.num_free()}, {"of", guard.num_sights()}});
     return guard;
 }
@@ -17,7 +17,7 @@ SightGuard guard_sights(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 void smooth(HalfEdgeMesh& mesh, const SightGuard& guard, const SmoothOptions& options, Log& log)
 {
     Stage stage(log, "smooth");
-    const SmoothCounts counts = smooth_surface(mesh, guard, options);
+    const SmoothCounts counts = smooth_surface(mesh, guard, options, stage);
     stage.end({{"vertices moved", counts.moved},
                {"of", counts.vertices},
                {"held by sights", counts.held}});
@@ -26,7 +26,7 @@ void smooth(HalfEdgeMesh& mesh, const SightGuard& guard, const SmoothOptions& op
 void simplify(HalfEdgeMesh& mesh, const SightGuard& guard, const SimplifyOptions& options, Log& log)
 {
     Stage stage(log, "simplify");
-    const SimplifyCounts counts = simplify_surface(mesh, guard, options);
+    const SimplifyCounts counts = simplify_surface(mesh, guard, options, stage);
     stage.end({{"faces", counts.faces}, {"of", counts.faces_before}});
     if (counts.faces > options.faces) {
         log.note(fmt::format("{} faces are left, not {}: merging more vertices would hide what was "

@@ -11,6 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// The share of the time that building the tree takes.
+constexpr double kTreeShare = 0.3;
+
 /// Per point, how much of its sights does not count; of two vertices at a point the lesser.
 std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& surface)
 {
@@ -28,11 +31,12 @@ std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& su
 
 } // namespace
 
-SightGuard::SightGuard(const Scene& scene, const HalfEdgeMesh& surface)
+SightGuard::SightGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress)
     : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)
 {
+    progress.tell(kTreeShare);
     parallel_for(
-        surface.n_faces(),
+        surface.n_faces(), progress.part(kTreeShare, 1.0),
         [&](std::size_t f) {
             const auto face = handle_at<OpenMesh::FaceHandle>(f);
             if (surface.is_deleted(face)) return;

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "model/scene.h"
+#include "base/progress.h"
 #include "steps/6_refine/sight_tree.h"
+#include "vcarve/scene.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,9 +18,8 @@ class HalfEdgeMesh;
 /// faces in that block no free sight leaves every free sight free.
 class SightGuard {
   public:
-    /// Finds the free sights. Cost: O(sights log sights + faces x
-    /// sights near them), in parallel.
-    SightGuard(const Scene& scene, const HalfEdgeMesh& surface);
+    /// Finds the free sights. Cost: O(sights log sights + faces x sights near them), in parallel.
+    SightGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress = {});
 
     /// Whether a triangle meets a free sight, its border included; decided exactly. A triangle
     /// without area meets none. Safe from many threads.

@@ -1,9 +1,8 @@
 #include "steps/6_refine/sight_tree.h"
 
+#include "base/parallel_invoke.h"
 #include "geometry/predicates.h"
 #include "geometry/triangle.h"
-
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <utility>
@@ -148,7 +147,7 @@ void SightTree::build(std::size_t node, std::size_t first, std::size_t last)
     const auto build_first = [&] { build(2 * node + 1, first, middle); };
     const auto build_rest = [&] { build(2 * node + 2, middle, last); };
     if (last - first > kParallelSights) {
-        tbb::parallel_invoke(build_first, build_rest);
+        parallel_invoke(build_first, build_rest);
     } else {
         build_first();
         build_rest();

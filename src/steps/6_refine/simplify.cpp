@@ -201,6 +201,28 @@ class NoBlockedSights : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
     std::vector<Verdict> verdicts_; ///< by hash, the last one at each place
 };
 
+/// Tells how far collapsing has come. A collapse takes two faces, one at a rim.
+class CollapseProgress final : public OpenMesh::Decimater::Observer {
+  public:
+    CollapseProgress(const Progress& progress, std::size_t faces, std::size_t wanted)
+        : Observer(kToldEvery),
+          progress_(progress),
+          collapses_(faces > wanted ? static_cast<double>(faces - wanted) / 2.0 : 0.0)
+    {
+    }
+
+    void notify(std::size_t collapses) override
+    {
+        progress_.tell(std::min(1.0, static_cast<double>(collapses) / collapses_));
+    }
+
+  private:
+    static constexpr std::size_t kToldEvery = 128;
+
+    Progress progress_;
+    double collapses_;
+};
+
 /// The power of two next to the mean length of an edge; 1 where that is none.
 double usual_length(const HalfEdgeMesh& mesh)
 {
@@ -218,7 +240,8 @@ void scale(HalfEdgeMesh& mesh, double factor)
                  [&](std::size_t v) { mesh.point(handle_at<VertexHandle>(v)) *= factor; });
 }
 
-void decimate(HalfEdgeMesh& mesh, const SightGuard& guard, double unit, std::size_t num_faces)
+void decimate(HalfEdgeMesh& mesh, const SightGuard& guard, double unit, std::size_t num_faces,
+              const Progress& progress)
 {
     constexpr double kMostTurnDeg = 60.0;
     mesh.request_face_normals();
@@ -236,8 +259,11 @@ void decimate(HalfEdgeMesh& mesh, const SightGuard& guard, double unit, std::siz
     decimater.module(sights).set_guard(guard, unit);
     decimater.module(sights).set_costs(decimater.module(quadrics));
     decimater.initialize();
+    const auto num_left = static_cast<std::size_t>(num_faces_left(mesh));
+    CollapseProgress told(progress, num_left, num_faces);
+    decimater.set_observer(&told);
     // The decimater counts deleted faces as well.
-    const std::size_t num_deleted = mesh.n_faces() - static_cast<std::size_t>(num_faces_left(mesh));
+    const std::size_t num_deleted = mesh.n_faces() - num_left;
     decimater.decimate_to_faces(0, num_faces + num_deleted);
     mesh.release_face_normals();
 }
@@ -245,14 +271,14 @@ void decimate(HalfEdgeMesh& mesh, const SightGuard& guard, double unit, std::siz
 } // namespace
 
 SimplifyCounts simplify_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
-                                const SimplifyOptions& options)
+                                const SimplifyOptions& options, const Progress& progress)
 {
     SimplifyCounts counts{.faces_before = num_faces_left(mesh)};
     // OpenMesh's costs are floats: edges of about 1 keep them in range. Powers of two scale
     // exactly.
     const double unit = usual_length(mesh);
     scale(mesh, 1.0 / unit);
-    decimate(mesh, guard, unit, static_cast<std::size_t>(options.faces));
+    decimate(mesh, guard, unit, static_cast<std::size_t>(options.faces), progress);
     scale(mesh, unit);
     set_vertex_normals(mesh);
     counts.faces = num_faces_left(mesh);

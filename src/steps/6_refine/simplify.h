@@ -1,24 +1,13 @@
 #pragma once
 
-#include "base/options.h"
+#include "base/progress.h"
 #include "steps/6_refine/sight_guard.h"
+#include "vcarve/options.h"
+#include "vcarve/tri_mesh.h"
 
 #include <cstdint>
 
 namespace vcarve {
-
-struct SimplifyOptions {
-    int faces = 0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.count(faces, {.name = "simplify",
-                              .unit = "faces",
-                              .help = "Merge vertices until so many faces are left, never so that "
-                                      "a face hides a point from a view that it did not hide; 0 "
-                                      "keeps all."});
-    }
-};
 
 struct SimplifyCounts {
     std::int64_t faces_before = 0;
@@ -38,6 +27,6 @@ class HalfEdgeMesh;
 /// manifold; a closed surface stays closed, and no piece vanishes.
 /// Cost: O(vertices log vertices + collapses x sights near them), on one thread.
 SimplifyCounts simplify_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
-                                const SimplifyOptions& options);
+                                const SimplifyOptions& options, const Progress& progress = {});
 
 } // namespace vcarve

@@ -136,13 +136,16 @@ std::vector<std::vector<VertexHandle>> independent_sets(const HalfEdgeMesh& mesh
 /// edges (docs/algorithm.md has figures), and with sights held free. Vertices at rims stay.
 class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> {
   public:
-    SightGuardedSmoother(HalfEdgeMesh& mesh, const SightGuard& guard)
+    SightGuardedSmoother(HalfEdgeMesh& mesh, const SightGuard& guard, int iterations,
+                         const Progress& progress)
         : SmootherT(mesh),
           guard_(guard),
           sets_(independent_sets(mesh)),
           spacings_(vertex_spacings(mesh)),
           positions_(mesh.n_vertices()),
-          held_(mesh.n_vertices(), 0)
+          held_(mesh.n_vertices(), 0),
+          to_move_(static_cast<double>(num_vertices_left(mesh)) * iterations),
+          progress_(progress)
     {
         initialize(Tangential_and_Normal, C0);
     }
@@ -166,8 +169,11 @@ class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> 
         });
         const Positions goals = targets(mesh_, positions_);
         for (const std::vector<VertexHandle>& set : sets_) {
+            const auto size = static_cast<double>(set.size());
             parallel_for(
-                set.size(), [&](std::size_t i) { move(set[i], goals[index(set[i])]); }, 64);
+                set.size(), progress_.part(tried_ / to_move_, (tried_ + size) / to_move_),
+                [&](std::size_t i) { move(set[i], goals[index(set[i])]); }, 64);
+            tried_ += size;
         }
         for (const auto vertex : mesh_.vertices()) {
             set_new_position(vertex, positions_[index(vertex)]);
@@ -223,14 +229,17 @@ class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> 
     std::vector<double> spacings_;
     Positions positions_; ///< on the way
     std::vector<char> held_;
+    double tried_ = 0.0; ///< vertices, over all iterations, out of to_move_
+    double to_move_;
+    Progress progress_;
 };
 
 } // namespace
 
 SmoothCounts smooth_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
-                            const SmoothOptions& options)
+                            const SmoothOptions& options, const Progress& progress)
 {
-    SightGuardedSmoother smoother(mesh, guard);
+    SightGuardedSmoother smoother(mesh, guard, options.iterations, progress);
     smoother.smooth(static_cast<unsigned>(options.iterations));
     set_vertex_normals(mesh);
     return smoother.counts();

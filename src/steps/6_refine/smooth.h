@@ -1,25 +1,13 @@
 #pragma once
 
-#include "base/options.h"
+#include "base/progress.h"
 #include "steps/6_refine/sight_guard.h"
+#include "vcarve/options.h"
+#include "vcarve/tri_mesh.h"
 
 #include <cstdint>
 
 namespace vcarve {
-
-struct SmoothOptions {
-    int iterations = 0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.count(iterations,
-                      {.name = "smooth",
-                       .unit = "iterations",
-                       .help = "Smooth the surface so often, never so that a face hides a point "
-                               "from a view that it did not hide; 0 leaves it as it is.",
-                       .max = 1000});
-    }
-};
 
 struct SmoothCounts {
     std::int64_t vertices = 0; ///< of the surface
@@ -40,6 +28,6 @@ class HalfEdgeMesh;
 /// `guard`. Rims stay, faces and colours too; normals are made anew. Cost: O(iterations x faces x
 /// sights near them), in parallel; the result does not depend on the number of threads.
 SmoothCounts smooth_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
-                            const SmoothOptions& options);
+                            const SmoothOptions& options, const Progress& progress = {});
 
 } // namespace vcarve

@@ -41,7 +41,8 @@ void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph&
 /// Makes all nodes of the graph and fills blocks of so many alone.
 std::vector<FilledBlock> fill_blocks(const TetMesh& cells,
                                      std::vector<std::int32_t> terminal_capacities,
-                                     FlowGraph& graph, std::size_t block_size)
+                                     FlowGraph& graph, std::size_t block_size,
+                                     const Progress& progress)
 {
     const std::size_t count = terminal_capacities.size();
     std::vector<FilledBlock> blocks((count + block_size - 1) / block_size);
@@ -52,13 +53,13 @@ std::vector<FilledBlock> fill_blocks(const TetMesh& cells,
             make_node(cells, cell, terminal_capacities[cell], graph);
         blocks[block] = FlowForest(graph, first, last).fill();
     };
-    parallel_for(blocks.size(), fill, 1);
+    parallel_for(blocks.size(), progress, fill, 1);
     return blocks;
 }
 
 /// Merges so many blocks at a time.
 std::vector<FilledBlock> merge_blocks(std::span<const FilledBlock> blocks, FlowGraph& graph,
-                                      std::size_t at_a_time)
+                                      std::size_t at_a_time, const Progress& progress)
 {
     std::vector<FilledBlock> merged((blocks.size() + at_a_time - 1) / at_a_time);
     const auto merge = [&](std::size_t i) {
@@ -66,7 +67,7 @@ std::vector<FilledBlock> merge_blocks(std::span<const FilledBlock> blocks, FlowG
         const auto parts = blocks.subspan(begin, std::min(at_a_time, blocks.size() - begin));
         merged[i] = FlowForest(graph, parts.front().first, parts.back().last).merge(parts);
     };
-    parallel_for(merged.size(), merge, 1);
+    parallel_for(merged.size(), progress, merge, 1);
     return merged;
 }
 
@@ -84,17 +85,18 @@ struct MinimumCut::Solver {
     FlowForest forest;
 };
 
-MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks)
+MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks,
+                       const Progress& progress)
 {
     check_sizes(cells, network);
     if (blocks.cells == 0 || blocks.merged < 2)
         throw std::invalid_argument("minimum_cut: the blocks are too small");
     solver_ = std::make_unique<Solver>(cells.cells, std::move(network.arc_capacities));
     FlowGraph& graph = solver_->graph;
-    std::vector<FilledBlock> filled =
-        fill_blocks(cells, std::move(network.terminal_capacities), graph, blocks.cells);
+    std::vector<FilledBlock> filled = fill_blocks(cells, std::move(network.terminal_capacities),
+                                                  graph, blocks.cells, progress.part(0.0, 0.7));
     while (filled.size() > blocks.merged)
-        filled = merge_blocks(filled, graph, blocks.merged);
+        filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));
     solver_->forest.merge(filled);
 }
 
@@ -117,7 +119,8 @@ Labels MinimumCut::labels() const
     return labels;
 }
 
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks)
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks,
+                   const Progress& progress)
 {
     return MinimumCut(cells, std::move(network), blocks).labels();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "model/flow_network.h"
 #include "model/labels.h"
 #include "model/tet_mesh.h"
@@ -25,7 +26,8 @@ struct FlowBlocks {
 /// lists of some of them.
 class MinimumCut {
   public:
-    MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {});
+    MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {},
+               const Progress& progress = {});
     ~MinimumCut();
     MinimumCut(MinimumCut&&) = delete;
     MinimumCut& operator=(MinimumCut&&) = delete;
@@ -44,6 +46,7 @@ class MinimumCut {
 };
 
 /// The labels of the minimum cut. `network` is used up.
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {});
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {},
+                   const Progress& progress = {});
 
 } // namespace vcarve

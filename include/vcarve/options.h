@@ -1,0 +1,334 @@
+#pragma once
+
+#include "vcarve/option_visitor.h"
+
+#include <array>
+#include <cstdint>
+
+namespace vcarve {
+
+/// Which points are good enough to carve with.
+struct FilterOptions {
+    int min_views = 2;          ///< --min-views
+    double max_error_px = 4.0;  ///< --max-error
+    double min_angle_deg = 1.0; ///< --min-angle
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Points");
+        options.count(min_views, {.name = "min-views",
+                                  .unit = "views",
+                                  .help = "Drop points seen by fewer views.",
+                                  .min = 1});
+        options.number(
+            max_error_px,
+            {.name = "max-error",
+             .unit = "px",
+             .help = "Drop points whose mean reprojection error is larger; 0 keeps all."});
+        options.number(
+            min_angle_deg,
+            {.name = "min-angle",
+             .unit = "deg",
+             .help = "Drop points whose sights all meet at a smaller angle; 0 keeps all.",
+             .max = 180.0});
+    }
+};
+
+/// How much a sight says, and how far behind its point.
+struct TraceOptions {
+    double views_sigma = 1.5;    ///< --views-sigma
+    double distance_sigma = 0.5; ///< --distance-sigma
+    double sink_depth = 0.0;     ///< --sink-depth
+    double error_sigma = 3.0;    ///< --error-sigma
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Sights");
+        options.number(
+            views_sigma,
+            {.name = "views-sigma",
+             .unit = "views",
+             .help = "A sight weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
+                     "median point; 0 gives every sight the same weight.",
+             .max = 100.0});
+        options.number(
+            error_sigma,
+            {.name = "error-sigma",
+             .unit = "x median error",
+             .help =
+                 "A sight weighs exp(-(e^2 - 1) / 2 s^2) of that for a point whose reprojection "
+                 "error is e > 1 medians; 0 takes no account of errors.",
+             .max = 1000.0});
+        options.number(distance_sigma,
+                       {.name = "distance-sigma",
+                        .unit = "x short edge",
+                        .help = "Uncertainty of a point along its sights, as a multiple of the "
+                                "25th percentile of edge lengths; 0 trusts every point fully.",
+                        .max = 1000.0});
+        options.number(sink_depth,
+                       {.name = "sink-depth",
+                        .unit = "x distance sigma",
+                        .help = "How far behind a point its sights call the space inside; "
+                                "0 means the cell that begins at the point.",
+                        .max = 1000.0});
+    }
+};
+
+/// How the minimum cut weighs shapes against sights.
+struct CutOptions {
+    double quality = 1.0; ///< --quality
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Cut");
+        options.number(quality,
+                       {.name = "quality",
+                        .unit = "sights",
+                        .help = "What a badly shaped facet costs in the cut, in sights of full "
+                                "weight; 0 lets only the sights decide.",
+                        .max = 100'000.0});
+    }
+};
+
+/// Which faces are doubted.
+struct BridgingOptions {
+    double bridging_edge = 3.0; ///< --bridging-edge
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.number(bridging_edge,
+                       {.name = "bridging-edge",
+                        .unit = "x local edge",
+                        .help = "Doubt seen faces with an edge this many times longer than the "
+                                "median around them that stand across the surface at their "
+                                "corners; 0 doubts none."});
+    }
+};
+
+/// Which spikes are taken back.
+struct NeedleOptions {
+    double needle_edge = 4.0; ///< --needle-edge
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.number(needle_edge,
+                       {.name = "needle-edge",
+                        .unit = "x local edge",
+                        .help = "Take back the tips of needles that stand this many times the "
+                                "median edge around their feet out of the surface, to a point that "
+                                "few views saw; 0 takes back none."});
+    }
+};
+
+/// How many more viewpoints are tried, and how much they count.
+struct VirtualViewOptions {
+    int count = 0;       ///< --virtual-views
+    double weight = 0.5; ///< --virtual-weight
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Virtual views");
+        options.count(count, {.name = "virtual-views",
+                              .unit = "views",
+                              .help = "How many viewpoints to place in space that sights have "
+                                      "shown to be free, to look from there at the points around "
+                                      "and label the cells again; 100 suit some thousand points, 0 "
+                                      "places none."});
+        options.number(weight, {.name = "virtual-weight",
+                                .unit = "sights",
+                                .help = "What a sight of such a viewpoint counts, relative to a "
+                                        "real sight of the same point.",
+                                .max = 100.0});
+    }
+};
+
+/// How cells are told outside from inside.
+enum class Method { cut, strict };
+
+/// Everything that decides which cells are inside.
+struct LabelOptions {
+    Method method = Method::cut;      ///< --method
+    int min_crossings = 1;            ///< --min-crossings
+    TraceOptions trace;               ///< what a sight says
+    CutOptions cut;                   ///< the minimum cut
+    BridgingOptions bridging;         ///< faces across gaps
+    NeedleOptions needles;            ///< spikes to stray points
+    VirtualViewOptions virtual_views; ///< viewpoints beside the model's
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        static constexpr std::array<const char*, 2> kMethods = {"cut", "strict"};
+        options.stage("Method");
+        options.choice(
+            method, kMethods,
+            {.name = "method",
+             .help = "cut: the labelling that contradicts the sights least. strict: every cell "
+                     "a sight crosses is outside (for points without noise)."});
+        options.count(min_crossings,
+                      {.name = "min-crossings",
+                       .unit = "sights",
+                       .help = "With --method strict: how many sights must cross a facet "
+                               "to carve the cells beside it.",
+                       .min = 1});
+        trace.visit(options);
+        cut.visit(options);
+        bridging.visit(options);
+        needles.visit(options);
+        virtual_views.visit(options);
+    }
+};
+
+/// Which faces that no view sees are kept.
+struct SupportOptions {
+    double max_gap_edge = 3.0; ///< --max-gap-edge
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.number(max_gap_edge,
+                       {.name = "max-gap-edge",
+                        .unit = "x local edge",
+                        .help = "Keep a few faces that no view sees amid seen ones if no edge is "
+                                "this many times longer than the median around; 0 keeps none."});
+    }
+};
+
+/// Which faces at the rim are taken off.
+struct SheetOptions {
+    double max_sheet = 0.13; ///< --max-sheet
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.number(max_sheet,
+                       {.name = "max-sheet",
+                        .unit = "x extent",
+                        .help = "Take off faces from the rim with an edge longer than this share "
+                                "of what was looked at, if they go on with the surface at no "
+                                "corner or are hardly seen, and no back of a face comes to light "
+                                "behind them; 0 takes off none.",
+                        .max = 1.0});
+    }
+};
+
+/// What is mended, and what is thrown away. Switched off value by value.
+struct CleanupOptions {
+    int min_component_faces = 6; ///< --min-component
+    int max_hole_edges = 12;     ///< --max-hole
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.count(min_component_faces,
+                      {.name = "min-component",
+                       .unit = "faces",
+                       .help = "Remove pieces of the surface with fewer faces; 0 keeps all."});
+        options.count(max_hole_edges,
+                      {.name = "max-hole",
+                       .unit = "edges",
+                       .help = "Fill holes with at most this many boundary edges; 0 fills none."});
+    }
+};
+
+/// Which faces of the boundary are kept, and how the surface is mended.
+struct SurfaceOptions {
+    bool closed = false;    ///< --closed
+    SupportOptions support; ///< faces in gaps
+    SheetOptions sheets;    ///< faces at the rim
+    CleanupOptions cleanup; ///< mending
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.stage("Surface");
+        options.flag(closed,
+                     {.name = "closed",
+                      .help = "Keep faces that no view supports, so that the surface is closed."});
+        support.visit(options);
+        sheets.visit(options);
+        cleanup.visit(options);
+    }
+};
+
+/// How far vertices are moved.
+struct SmoothOptions {
+    int iterations = 0; ///< --smooth
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.count(iterations,
+                      {.name = "smooth",
+                       .unit = "iterations",
+                       .help = "Smooth the surface so often, never so that a face hides a point "
+                               "from a view that it did not hide; 0 leaves it as it is.",
+                       .max = 1000});
+    }
+};
+
+/// How far vertices are merged.
+struct SimplifyOptions {
+    int faces = 0; ///< --simplify
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.count(faces, {.name = "simplify",
+                              .unit = "faces",
+                              .help = "Merge vertices until so many faces are left, never so that "
+                                      "a face hides a point from a view that it did not hide; 0 "
+                                      "keeps all."});
+    }
+};
+
+/// How vertices are moved and merged; by default neither is done.
+struct RefineOptions {
+    SmoothOptions smooth;     ///< moving vertices
+    SimplifyOptions simplify; ///< merging vertices
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        smooth.visit(options);
+        simplify.visit(options);
+    }
+};
+
+/// Everything a run can be told, step by step.
+struct Options {
+    FilterOptions points;        ///< which points are kept
+    LabelOptions labels;         ///< which cells are inside
+    SurfaceOptions surface;      ///< which faces are kept
+    RefineOptions refine;        ///< what is done to the surface
+    int threads = 0;             ///< --threads
+    std::int64_t max_memory = 0; ///< --max-memory, bytes
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        points.visit(options);
+        labels.visit(options);
+        surface.visit(options);
+        refine.visit(options);
+        options.stage("Run");
+        options.count(threads,
+                      {.name = "threads",
+                       .unit = "threads",
+                       .help = "How many to use; 0 uses all. The surface is the same for any.",
+                       .max = 1024});
+        options.bytes(max_memory,
+                      {.name = "max-memory",
+                       .help = "Refuse a model that is likely to need more memory, judging by its "
+                               "points and sights, before work starts: bytes, or with K, M or G; 0 "
+                               "refuses none."});
+    }
+};
+
+} // namespace vcarve

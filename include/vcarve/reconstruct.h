@@ -1,0 +1,26 @@
+#pragma once
+
+#include "vcarve/log.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
+
+namespace vcarve {
+
+/// A surface and what of the scene it was made from, centred.
+struct Reconstruction {
+    Scene scene;  ///< the points that passed the filter, in the order TriMesh::points counts them
+    TriMesh mesh; ///< in the frame of `scene`: both have the same offset
+};
+
+/// From a scene to its surface: the steps in order, on `options.threads` threads; the result does
+/// not depend on how many. `log` is told of every stage, and asked all the time whether to stop.
+///
+/// Throws, before any work, UsageError where an option is out of its range (naming it, what was
+/// found and what is accepted) or the arrays of the scene do not fit each other, and InputError
+/// where the run would need more than `options.max_memory`; later InputError where the scene holds
+/// too little for a surface. Throws Cancelled within a fraction of a second after Log::wants_stop
+/// says so. Holds no globals: several runs may go on side by side.
+Reconstruction reconstruct(Scene input, const Options& options, Log& log);
+
+} // namespace vcarve

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "base/log.h"
+
+#include <atomic>
+#include <cstddef>
+
+namespace vcarve {
+
+/// How far a piece of work is, told to the stage it is a part of. A copy tells the same stage. One
+/// made of nothing tells nobody and never stops.
+class Progress {
+  public:
+    Progress() = default;
+    /// All of a stage.
+    // NOLINTNEXTLINE(google-explicit-constructor): a stage is its own progress, from 0 to 1
+    Progress(Stage& stage) : stage_(&stage) {}
+
+    /// The piece from share `from` to share `to` of this one.
+    Progress part(double from, double to) const
+    {
+        Progress result = *this;
+        result.from_ = from_ + from * (to_ - from_);
+        result.to_ = from_ + to * (to_ - from_);
+        return result;
+    }
+
+    /// Tells that this share is done, 0 to 1. Throws Cancelled where the run is to stop, so it must
+    /// be called some ten times a second. From any thread.
+    void tell(double share) const
+    {
+        if (stage_ != nullptr) stage_->progress(from_ + share * (to_ - from_));
+    }
+    /// The same for so many of all.
+    void tell(double done, double all) const { tell(all > 0.0 ? done / all : 1.0); }
+
+  private:
+    Stage* stage_ = nullptr;
+    double from_ = 0.0;
+    double to_ = 1.0;
+};
+
+/// Counts what many threads have done of a known number of things.
+class ProgressCount {
+  public:
+    ProgressCount(const Progress& progress, std::size_t all)
+        : progress_(progress), all_(static_cast<double>(all))
+    {
+    }
+
+    void add(std::size_t done)
+    {
+        const std::size_t before = done_.fetch_add(done, std::memory_order_relaxed);
+        progress_.tell(static_cast<double>(before + done), all_);
+    }
+
+  private:
+    Progress progress_;
+    double all_;
+    std::atomic<std::size_t> done_ = 0;
+};
+
+} // namespace vcarve

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "io/colmap/find_model.h"
+#include "vcarve/io.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace vcarve {
+
+struct SceneSize;
+
+/// A model that was read, and where it was found.
+struct ReadModel {
+    Scene scene;
+    FoundModel found;
+};
+
+/// What is to be checked of a model before it is read; may throw.
+using SizeCheck = std::function<void(const SceneSize&)>;
+
+/// As the public one; tells where the model was found, too. `check` is called before reading, where
+/// the size of the model shows before.
+ReadModel read_found_model(const std::filesystem::path& input, Log& log,
+                           const SizeCheck& check = {});
+
+} // namespace vcarve

@@ -1,0 +1,43 @@
+#include "paper/objects.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace vcarve::paper {
+
+namespace {
+
+class EveryPaperObject : public testing::TestWithParam<Object> {};
+
+} // namespace
+
+TEST_P(EveryPaperObject, IsMadeAgainByteForByteAndCarvedExactly)
+{
+    const Fixture fixture = make_fixture(GetParam());
+    EXPECT_NO_THROW(check_carving(fixture));
+
+    const TemporaryFolder folder;
+    write_fixture(folder / "made", fixture);
+    const std::filesystem::path committed =
+        std::filesystem::path(VCARVE_FIXTURES) / "paper" / GetParam().name;
+    for (const char* file : {"cameras.txt", "images.txt", "points3D.txt", "solid.ply"}) {
+        EXPECT_FALSE(bytes_of(committed / file).empty()) << committed / file;
+        EXPECT_EQ(bytes_of(folder / "made" / file), bytes_of(committed / file)) << file;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryPaperObject, testing::ValuesIn(objects()),
+                         [](const auto& object) { return object.param.name; });
+
+TEST(PaperObject, CarvingIsRefusedWhereTheTrueSolidIsAnother)
+{
+    Fixture fixture = make_fixture(objects().front());
+    // A solid cell that is called empty is one that no sight crosses.
+    fixture.cells.empty.push_back(fixture.cells.solid.back());
+    fixture.cells.solid.pop_back();
+    EXPECT_THROW(check_carving(fixture), std::logic_error);
+}
+
+} // namespace vcarve::paper

@@ -1,0 +1,82 @@
+#include "model/scene_check.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace vcarve {
+
+namespace {
+
+/// Two views of one camera, three points; the last was seen by none.
+Scene small_scene()
+{
+    Scene scene;
+    scene.cameras.resize(1);
+    scene.views.resize(2);
+    scene.views[1].id = 7;
+    scene.positions.resize(3);
+    scene.colors.resize(3);
+    scene.errors_px.resize(3);
+    scene.point_ids.resize(3);
+    scene.tracks.push_back(std::array{0U, 1U});
+    scene.tracks.push_back(std::array{1U});
+    scene.tracks.push_back({});
+    return scene;
+}
+
+template <typename Change>
+std::string refusal_after(const Change& change)
+{
+    Scene scene = small_scene();
+    change(scene);
+    return refusal<UsageError>([&] { require_consistent(scene); });
+}
+
+} // namespace
+
+TEST(SceneCheck, AcceptsWhatFits)
+{
+    EXPECT_NO_THROW(require_consistent(small_scene()));
+    EXPECT_NO_THROW(require_consistent(Scene()));
+}
+
+TEST(SceneCheck, NamesAnArrayThatHasNotAnEntryAPoint)
+{
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.colors.resize(2); }),
+              "the scene's colors have 2 entries, not one for each of its 3 points");
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.errors_px.clear(); }),
+              "the scene's errors_px have 0 entries, not one for each of its 3 points");
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.point_ids.resize(4); }),
+              "the scene's point_ids have 4 entries, not one for each of its 3 points");
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.push_back({}); }),
+              "the scene's tracks have 4 entries, not one for each of its 3 points");
+}
+
+TEST(SceneCheck, NamesAViewWithoutItsCamera)
+{
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.views[1].camera = 1; }),
+              "view 7 of the scene has camera number 1, but there are 1 cameras, counted from 0");
+}
+
+TEST(SceneCheck, RefusesTracksThatAreNoRowsOfAscendingViews)
+{
+    const std::string rows = "the scene's tracks do not begin at 0, ascend, and end where their "
+                             "views do";
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.begins.clear(); }), rows);
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.begins.front() = 1; }), rows);
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.begins[1] = 4; }), rows);
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views.push_back(0); }), rows);
+    const auto of_point = [](int point) {
+        return "the track of point " + std::to_string(point) +
+               " of the scene is not a row of ascending numbers of views below 2";
+    };
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views = {1, 0, 1}; }), of_point(0));
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views = {1, 1, 1}; }), of_point(0));
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views = {0, 1, 2}; }), of_point(1));
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views = {1, 0, 2}; }), of_point(0));
+}
+
+} // namespace vcarve

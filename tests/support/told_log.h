@@ -1,0 +1,63 @@
+#pragma once
+
+#include "base/log.h"
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+
+/// Keeps what it is told, and wants the run stopped from stop() on.
+class ToldLog : public Log {
+  public:
+    void stage_begins(std::string_view name) override
+    {
+        const std::lock_guard lock(mutex_);
+        stage_ = name;
+        shares_[stage_];
+        if (on_stage) on_stage(stage_);
+    }
+    void stage_progresses(double share) override
+    {
+        const std::lock_guard lock(mutex_);
+        shares_[stage_].push_back(share);
+        if (on_share) on_share(stage_);
+    }
+    void stage_ends(std::string_view name, const Counts& /*counts*/) override
+    {
+        const std::lock_guard lock(mutex_);
+        ended_.emplace_back(name);
+    }
+    bool wants_stop() const override { return stops_; }
+
+    void stop() { stops_ = true; }
+
+    /// The shares of each stage, in the order they were told. A stage that comes twice goes on.
+    std::map<std::string, std::vector<double>> shares() const
+    {
+        const std::lock_guard lock(mutex_);
+        return shares_;
+    }
+    std::vector<std::string> ended() const
+    {
+        const std::lock_guard lock(mutex_);
+        return ended_;
+    }
+
+    std::function<void(const std::string&)> on_stage; ///< called with the stage that begins
+    std::function<void(const std::string&)> on_share; ///< called with the stage that progresses
+
+  private:
+    mutable std::mutex mutex_;
+    std::string stage_;
+    std::map<std::string, std::vector<double>> shares_;
+    std::vector<std::string> ended_;
+    std::atomic<bool> stops_ = false;
+};
+
+} // namespace vcarve

@@ -1,0 +1,63 @@
+// Makes fixtures/paper: the objects of figures 15-18 of Akgunduz, Zetu, Banerjee,
+// "Viewpoint-centered shape recovery from multiple views" (2000), as exact models. Usage:
+// make_paper_fixtures FOLDER
+#include "paper/objects.h"
+#include "paper/write_fixture.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace vcarve::paper {
+
+namespace {
+
+std::size_t count_sights(const Fixture& fixture)
+{
+    std::size_t sum = 0;
+    for (const ExactView& view : fixture.views) {
+        sum += view.sees.size();
+    }
+    return sum;
+}
+
+/// Handles of a closed surface in one piece, from Euler's formula.
+long genus(const Fixture& fixture)
+{
+    const long faces = static_cast<long>(fixture.cells.boundary.size());
+    const long vertices = static_cast<long>(fixture.samples.size());
+    return (2 - (vertices - faces * 3 / 2 + faces)) / 2;
+}
+
+void make_all(const std::filesystem::path& folder)
+{
+    for (const Object& object : objects()) {
+        const Fixture fixture = make_fixture(object);
+        check_carving(fixture);
+        write_fixture(folder / object.name, fixture);
+        fmt::print("{}: {} points, {} views, {} sights, {} solid and {} empty cells, {} faces, "
+                   "genus {}\n",
+                   object.name, fixture.samples.size(), fixture.views.size(), count_sights(fixture),
+                   fixture.cells.solid.size(), fixture.cells.empty.size(),
+                   fixture.cells.boundary.size(), genus(fixture));
+    }
+}
+
+} // namespace
+
+} // namespace vcarve::paper
+
+int main(int argc, char** argv)
+{
+    if (argc != 2) {
+        fmt::print(stderr, "usage: make_paper_fixtures FOLDER\n");
+        return 2;
+    }
+    try {
+        vcarve::paper::make_all(argv[1]);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "make_paper_fixtures: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}

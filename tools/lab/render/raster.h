@@ -1,0 +1,52 @@
+#pragma once
+
+#include "vcarve/tri_mesh.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace vcarve::render {
+
+/// A lens without distortion at a place in the mesh's frame. Pixel (x, y) is centred at x + 0.5, y
+/// + 0.5.
+struct Pinhole {
+    Eigen::Matrix3d cam_from_world =
+        Eigen::Matrix3d::Identity(); ///< rotation; z looks ahead, y down
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    Eigen::Vector2d focal_px = Eigen::Vector2d::Ones();
+    Eigen::Vector2d principal_px = Eigen::Vector2d::Zero();
+    int width_px = 0;
+    int height_px = 0;
+
+    /// The direction in the world of the ray through a place in the image; its z in the camera
+    /// is 1.
+    Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
+};
+
+/// The same image with `factor` times the pixels a side.
+Pinhole enlarged(const Pinhole& view, int factor);
+
+/// What a pixel shows: the nearest face, or kNoFace.
+struct Hit {
+    static constexpr std::uint32_t kNoFace = 0xffffffffU;
+    std::uint32_t face = kNoFace;
+    bool front = false; ///< seen from the side its vertices run counter-clockwise on
+    double depth = 0.0; ///< along the camera's z
+};
+
+/// Renders a mesh with a depth buffer: one Hit a pixel, row by row. Exact up to rounding: depth
+/// comes from the face's plane, nothing is left out but what lies behind the camera. Cost: linear
+/// in faces plus pixels covered.
+std::vector<Hit> rasterize(const TriMesh& mesh, const Pinhole& view);
+
+/// Unit normal of a face on the side its vertices run counter-clockwise on; zero for a face without
+/// area.
+Eigen::Vector3d face_normal(const TriMesh& mesh, std::uint32_t face);
+
+/// Shares of a face's three vertices at a place in its plane; they add up to 1.
+Eigen::Vector3d vertex_shares(const TriMesh& mesh, std::uint32_t face,
+                              const Eigen::Vector3d& place);
+
+} // namespace vcarve::render
