@@ -103,7 +103,7 @@ TEST(HalfEdgeMesh, IsAsOpenMeshMakesItFaceByFace)
             std::erase_if(mesh.faces, [&](const Face&) { return random() % 10 == 0; });
         }
         const ManifoldSurface manifold = split_nonmanifold(mesh);
-        const HalfEdgeMesh made(manifold.mesh, manifold.mates);
+        const HalfEdgeMesh made(manifold.mesh, manifold.twins);
         ASSERT_NO_FATAL_FAILURE(
             expect_same_connections(made, testing::half_edges_face_by_face(manifold.mesh)))
             << "round " << round;

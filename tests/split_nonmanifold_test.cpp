@@ -49,15 +49,15 @@ TriMesh two_wedges()
 void expect_mates(const ManifoldSurface& split)
 {
     const std::vector<Face>& faces = split.mesh.faces;
-    ASSERT_EQ(split.mates.size(), 3 * faces.size());
-    for (Side side = 0; side < split.mates.size(); ++side) {
-        const Side mate = split.mates[side];
-        if (mate == kNoSide) continue;
-        ASSERT_EQ(split.mates[mate], side);
-        ASSERT_EQ(tail(faces, mate), head(faces, side));
-        ASSERT_EQ(head(faces, mate), tail(faces, side));
+    ASSERT_EQ(split.twins.size(), 3 * faces.size());
+    for (HalfEdge half_edge = 0; half_edge < split.twins.size(); ++half_edge) {
+        const HalfEdge twin = split.twins[half_edge];
+        if (twin == kNoHalfEdge) continue;
+        ASSERT_EQ(split.twins[twin], half_edge);
+        ASSERT_EQ(tail(faces, twin), head(faces, half_edge));
+        ASSERT_EQ(head(faces, twin), tail(faces, half_edge));
     }
-    ASSERT_EQ(std::ranges::count(split.mates, kNoSide), check_mesh(split.mesh).boundary_edges);
+    ASSERT_EQ(std::ranges::count(split.twins, kNoHalfEdge), check_mesh(split.mesh).boundary_edges);
 }
 
 TEST(SplitNonmanifold, LeavesAManifoldSurfaceAsItIs)

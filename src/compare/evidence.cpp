@@ -130,9 +130,9 @@ std::vector<Eigen::Vector3d> rim_of(const TriMesh& mesh)
     std::vector<Eigen::Vector3d> middles;
     for (std::size_t e = 0; e < edges.size(); ++e) {
         if (edges[e].size() != 1) continue;
-        const Side side = edges[e][0];
-        middles.push_back(0.5 * (mesh.positions[tail(mesh.faces, side)] +
-                                 mesh.positions[head(mesh.faces, side)]));
+        const HalfEdge half_edge = edges[e][0];
+        middles.push_back(0.5 * (mesh.positions[tail(mesh.faces, half_edge)] +
+                                 mesh.positions[head(mesh.faces, half_edge)]));
     }
     return middles;
 }

@@ -15,10 +15,10 @@ namespace {
 void count_edges(std::span<const Face> faces, const EdgeTable& edges, MeshCheck& check)
 {
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        const std::span<const Side> sides = edges[e];
-        if (sides.size() == 1) ++check.boundary_edges;
-        if (sides.size() > 2) ++check.nonmanifold_edges;
-        if (sides.size() == 2 && tail(faces, sides[0]) == tail(faces, sides[1])) {
+        const std::span<const HalfEdge> half_edges = edges[e];
+        if (half_edges.size() == 1) ++check.boundary_edges;
+        if (half_edges.size() > 2) ++check.nonmanifold_edges;
+        if (half_edges.size() == 2 && tail(faces, half_edges[0]) == tail(faces, half_edges[1])) {
             ++check.orientation_faults;
         }
     }
@@ -28,8 +28,8 @@ std::int64_t num_components(std::span<const Face> faces, const EdgeTable& edges)
 {
     UnionFind connected(faces.size());
     for (std::size_t e = 0; e < edges.size(); ++e) {
-        for (const Side side : edges[e]) {
-            connected.join(edges[e][0] / 3, side / 3);
+        for (const HalfEdge half_edge : edges[e]) {
+            connected.join(edges[e][0] / 3, half_edge / 3);
         }
     }
     std::int64_t count = 0;
@@ -39,10 +39,10 @@ std::int64_t num_components(std::span<const Face> faces, const EdgeTable& edges)
     return count;
 }
 
-/// The corner of a side's face at `vertex`, which is one of the side's ends.
-Side corner_at(std::span<const Face> faces, Side side, std::uint32_t vertex)
+/// The corner of a half-edge's face at `vertex`, which is one of the half-edge's ends.
+HalfEdge corner_at(std::span<const Face> faces, HalfEdge half_edge, std::uint32_t vertex)
 {
-    return tail(faces, side) == vertex ? side : next_side(side);
+    return tail(faces, half_edge) == vertex ? half_edge : next_half_edge(half_edge);
 }
 
 /// A vertex is fine if its corners hang together through edges and none of these has three faces:
@@ -54,16 +54,16 @@ void count_vertices(const TriMesh& mesh, const EdgeTable& edges, MeshCheck& chec
     std::vector<char> crowded(mesh.positions.size(), 0);
     for (std::size_t e = 0; e < edges.size(); ++e) {
         for (const std::uint32_t v : {tail(faces, edges[e][0]), head(faces, edges[e][0])}) {
-            const Side first = corner_at(faces, edges[e][0], v);
-            for (const Side side : edges[e]) {
-                around.join(first, corner_at(faces, side, v));
+            const HalfEdge first = corner_at(faces, edges[e][0], v);
+            for (const HalfEdge half_edge : edges[e]) {
+                around.join(first, corner_at(faces, half_edge, v));
             }
             if (edges[e].size() > 2) crowded[v] = 1;
         }
     }
 
     std::vector<std::uint32_t> fans(mesh.positions.size(), 0);
-    for (Side corner = 0; corner < 3 * faces.size(); ++corner) {
+    for (HalfEdge corner = 0; corner < 3 * faces.size(); ++corner) {
         const bool counts = !is_degenerate(faces[corner / 3]) && around.root(corner) == corner;
         if (counts) ++fans[tail(faces, corner)];
     }

@@ -8,37 +8,37 @@
 namespace vcarve {
 namespace {
 
-std::uint32_t higher_end(std::span<const Face> faces, Side side)
+std::uint32_t higher_end(std::span<const Face> faces, HalfEdge half_edge)
 {
-    return std::max(tail(faces, side), head(faces, side));
+    return std::max(tail(faces, half_edge), head(faces, half_edge));
 }
 
-/// Calls visit(lower end, side) for the sides of faces that are not degenerate.
+/// Calls visit(lower end, half-edge) for the half-edges of faces that are not degenerate.
 template <typename Visit>
-void for_each_side(std::span<const Face> faces, const Visit& visit)
+void for_each_half_edge(std::span<const Face> faces, const Visit& visit)
 {
     for (std::size_t face = 0; face < faces.size(); ++face) {
         const auto& [a, b, c] = faces[face];
         if (is_degenerate(faces[face])) continue;
-        const Side first = static_cast<Side>(3 * face);
+        const HalfEdge first = static_cast<HalfEdge>(3 * face);
         visit(std::min(a, b), first);
         visit(std::min(b, c), first + 1);
         visit(std::min(c, a), first + 2);
     }
 }
 
-/// Sorts the sides with one lower end by the higher one, then by number, and flags the first of
-/// each edge.
-void sort_sides(std::span<const Face> faces, std::span<Side> sides, std::span<char> begins_edge,
-                std::vector<std::uint64_t>& keys)
+/// Sorts the half-edges with one lower end by the higher one, then by number, and flags the first
+/// of each edge.
+void sort_half_edges(std::span<const Face> faces, std::span<HalfEdge> half_edges,
+                     std::span<char> begins_edge, std::vector<std::uint64_t>& keys)
 {
     keys.clear();
-    for (const Side side : sides) {
-        keys.push_back((std::uint64_t{higher_end(faces, side)} << 32U) | side);
+    for (const HalfEdge half_edge : half_edges) {
+        keys.push_back((std::uint64_t{higher_end(faces, half_edge)} << 32U) | half_edge);
     }
     std::ranges::sort(keys);
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        sides[i] = static_cast<Side>(keys[i]);
+        half_edges[i] = static_cast<HalfEdge>(keys[i]);
         begins_edge[i] = i == 0 || (keys[i - 1] >> 32U) != (keys[i] >> 32U) ? 1 : 0;
     }
 }
@@ -49,30 +49,32 @@ EdgeTable gather_edges(std::span<const Face> faces, std::size_t num_vertices)
 {
     // Counting sort by the lower end.
     std::vector<std::uint32_t> ends(num_vertices + 1, 0);
-    for_each_side(faces, [&](std::uint32_t lower, Side) { ++ends[lower + 1]; });
+    for_each_half_edge(faces, [&](std::uint32_t lower, HalfEdge) { ++ends[lower + 1]; });
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     EdgeTable edges;
-    edges.sides.resize(ends.back());
-    for_each_side(faces,
-                  [&](std::uint32_t lower, Side side) { edges.sides[ends[lower]++] = side; });
+    edges.half_edges.resize(ends.back());
+    for_each_half_edge(faces, [&](std::uint32_t lower, HalfEdge half_edge) {
+        edges.half_edges[ends[lower]++] = half_edge;
+    });
 
-    // ends[v] is now where the sides of v end. Each vertex sorts its few sides by the higher end.
-    std::vector<char> begins_edge(edges.sides.size());
+    // ends[v] is now where the half-edges of v end. Each vertex sorts its few half-edges by the
+    // higher end.
+    std::vector<char> begins_edge(edges.half_edges.size());
     parallel_for_ranges(num_vertices, [&](std::size_t first, std::size_t last) {
         std::vector<std::uint64_t> keys;
         for (std::size_t v = first; v != last; ++v) {
             const std::size_t begin = v == 0 ? 0 : ends[v - 1];
             const std::size_t count = ends[v] - begin;
             if (count == 0) continue;
-            sort_sides(faces, std::span(edges.sides).subspan(begin, count),
-                       std::span(begins_edge).subspan(begin, count), keys);
+            sort_half_edges(faces, std::span(edges.half_edges).subspan(begin, count),
+                            std::span(begins_edge).subspan(begin, count), keys);
         }
     });
     edges.begins =
         parallel_collect<std::uint32_t>(begins_edge.size(), [&](std::size_t i, auto& begins) {
             if (begins_edge[i] != 0) begins.push_back(static_cast<std::uint32_t>(i));
         });
-    edges.begins.push_back(static_cast<std::uint32_t>(edges.sides.size()));
+    edges.begins.push_back(static_cast<std::uint32_t>(edges.half_edges.size()));
     return edges;
 }
 

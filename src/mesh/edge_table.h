@@ -7,34 +7,35 @@
 
 namespace vcarve {
 
-/// Side i of face f runs from its corner i to its corner (i + 1) % 3 and has the number 3 f + i;
-/// corner i has the same number. So a number names a half-edge and the corner it starts at.
+/// Half-edge i of face f runs from its corner i to its corner (i + 1) % 3 and has the number
+/// 3 f + i; corner i has the same number. So a number names a half-edge and the corner it starts
+/// at.
 ///
 ///        2
-///       / \          side 0: 0 -> 1
-///   s2 /   \ s1      side 1: 1 -> 2
-///     /_____\        side 2: 2 -> 0
-///    0  s0   1
-using Side = std::uint32_t;
-inline constexpr Side kNoSide = 0xffffffffU;
+///       / \          half-edge 0: 0 -> 1
+///   h2 /   \ h1      half-edge 1: 1 -> 2
+///     /_____\        half-edge 2: 2 -> 0
+///    0  h0   1
+using HalfEdge = std::uint32_t;
+inline constexpr HalfEdge kNoHalfEdge = 0xffffffffU;
 
-inline Side next_side(Side side)
+inline HalfEdge next_half_edge(HalfEdge half_edge)
 {
-    return side % 3 == 2 ? side - 2 : side + 1;
+    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
 }
-inline Side previous_side(Side side)
+inline HalfEdge previous_half_edge(HalfEdge half_edge)
 {
-    return side % 3 == 0 ? side + 2 : side - 1;
+    return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
 }
 
-/// The vertex a side starts at, and the one it ends at.
-inline std::uint32_t tail(std::span<const Face> faces, Side side)
+/// The vertex a half-edge starts at, and the one it ends at.
+inline std::uint32_t tail(std::span<const Face> faces, HalfEdge half_edge)
 {
-    return faces[side / 3][side % 3];
+    return faces[half_edge / 3][half_edge % 3];
 }
-inline std::uint32_t head(std::span<const Face> faces, Side side)
+inline std::uint32_t head(std::span<const Face> faces, HalfEdge half_edge)
 {
-    return tail(faces, next_side(side));
+    return tail(faces, next_half_edge(half_edge));
 }
 
 inline bool is_degenerate(const Face& face)
@@ -42,16 +43,17 @@ inline bool is_degenerate(const Face& face)
     return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
 }
 
-/// The sides of all faces, gathered by the edge they run along. Edges are in ascending order of
-/// (lower, higher vertex), the sides of an edge ascend.
+/// The half-edges of all faces, gathered by the edge they run along. Edges are in ascending order
+/// of (lower, higher vertex), the half-edges of an edge ascend.
 struct EdgeTable {
-    std::vector<Side> sides;
-    std::vector<std::uint32_t> begins; ///< edge e has sides[begins[e]] up to sides[begins[e + 1]]
+    std::vector<HalfEdge> half_edges;
+    /// Edge e has half_edges[begins[e]] up to half_edges[begins[e + 1]].
+    std::vector<std::uint32_t> begins;
 
     std::size_t size() const { return begins.size() - 1; }
-    std::span<const Side> operator[](std::size_t edge) const
+    std::span<const HalfEdge> operator[](std::size_t edge) const
     {
-        return {sides.data() + begins[edge], sides.data() + begins[edge + 1]};
+        return {half_edges.data() + begins[edge], half_edges.data() + begins[edge + 1]};
     }
 };
 

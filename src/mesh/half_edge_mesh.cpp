@@ -11,62 +11,67 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-/// Numbers the edges of a surface by their first sides, as add_face() would, and lays half-edge
-/// 2 e along the first side of edge e and half-edge 2 e + 1 against it.
+/// Numbers the edges of a surface by their first half-edges, as add_face() would, and lays
+/// OpenMesh's half-edge 2 e along the first half-edge of edge e and 2 e + 1 against it.
 class EdgeNumbers {
   public:
-    explicit EdgeNumbers(std::span<const Side> twins)
+    explicit EdgeNumbers(std::span<const HalfEdge> twins)
         : twins_(twins),
-          first_sides_(parallel_collect<Side>(twins.size(),
-                                              [&](std::size_t i, auto& firsts) {
-                                                  const Side side = static_cast<Side>(i);
-                                                  if (side < twins[side])
-                                                      firsts.push_back(
-                                                          side); // none is greater than all
-                                              })),
-          half_edges_(twins.size())
+          first_half_edges_(parallel_collect<HalfEdge>(
+              twins.size(),
+              [&](std::size_t i, auto& firsts) {
+                  const HalfEdge half_edge = static_cast<HalfEdge>(i);
+                  if (half_edge < twins[half_edge])
+                      firsts.push_back(half_edge); // none is greater than all
+              })),
+          numbers_(twins.size())
     {
-        parallel_for(first_sides_.size(), [&](std::size_t edge) {
-            const Side side = first_sides_[edge];
-            half_edges_[side] = static_cast<std::uint32_t>(2 * edge);
-            if (twins[side] != kNoSide) half_edges_[twins[side]] = half_edges_[side] + 1;
+        parallel_for(first_half_edges_.size(), [&](std::size_t edge) {
+            const HalfEdge half_edge = first_half_edges_[edge];
+            numbers_[half_edge] = static_cast<std::uint32_t>(2 * edge);
+            if (twins[half_edge] != kNoHalfEdge)
+                numbers_[twins[half_edge]] = numbers_[half_edge] + 1;
         });
     }
 
-    const std::vector<Side>& first_sides() const { return first_sides_; }
-    bool is_border(Side side) const { return twins_[side] == kNoSide; }
+    const std::vector<HalfEdge>& first_half_edges() const { return first_half_edges_; }
+    bool is_border(HalfEdge half_edge) const { return twins_[half_edge] == kNoHalfEdge; }
 
-    HalfedgeHandle along(Side side) const { return handle_at<HalfedgeHandle>(half_edges_[side]); }
-    /// Outside of a border.
-    HalfedgeHandle against(Side side) const
+    HalfedgeHandle along(HalfEdge half_edge) const
     {
-        return handle_at<HalfedgeHandle>(half_edges_[side] ^ 1U);
+        return handle_at<HalfedgeHandle>(numbers_[half_edge]);
+    }
+    /// Outside of a border.
+    HalfedgeHandle against(HalfEdge half_edge) const
+    {
+        return handle_at<HalfedgeHandle>(numbers_[half_edge] ^ 1U);
     }
 
     /// The border that begins where the half-edge against `border` ends.
-    Side next_border(Side border) const
+    HalfEdge next_border(HalfEdge border) const
     {
-        Side side = previous_side(border);
-        while (!is_border(side)) {
-            side = previous_side(twins_[side]);
+        HalfEdge half_edge = previous_half_edge(border);
+        while (!is_border(half_edge)) {
+            half_edge = previous_half_edge(twins_[half_edge]);
         }
-        return side;
+        return half_edge;
     }
 
   private:
-    std::span<const Side> twins_;
-    std::vector<Side> first_sides_; ///< one an edge
-    std::vector<std::uint32_t> half_edges_;
+    std::span<const HalfEdge> twins_;
+    std::vector<HalfEdge> first_half_edges_; ///< one an edge
+    std::vector<std::uint32_t> numbers_;     ///< of OpenMesh's half-edges, one a half-edge
 };
 
 void connect_faces(const EdgeNumbers& edges, HalfEdgeMesh& mesh)
 {
     parallel_for(mesh.n_faces(), [&](std::size_t f) {
         const auto face = handle_at<FaceHandle>(f);
-        const Side first = static_cast<Side>(3 * f);
-        for (Side side = first; side < first + 3; ++side) {
-            mesh.set_face_handle(edges.along(side), face);
-            mesh.set_next_halfedge_handle(edges.along(side), edges.along(next_side(side)));
+        const HalfEdge first = static_cast<HalfEdge>(3 * f);
+        for (HalfEdge half_edge = first; half_edge < first + 3; ++half_edge) {
+            mesh.set_face_handle(edges.along(half_edge), face);
+            mesh.set_next_halfedge_handle(edges.along(half_edge),
+                                          edges.along(next_half_edge(half_edge)));
         }
         mesh.set_halfedge_handle(face, edges.along(first + 2)); // which ends at the first corner
     });
@@ -75,37 +80,42 @@ void connect_faces(const EdgeNumbers& edges, HalfEdgeMesh& mesh)
 /// Edges get their ends, and borders a way on along the border.
 void connect_edges(const std::vector<Face>& faces, const EdgeNumbers& edges, HalfEdgeMesh& mesh)
 {
-    parallel_for(edges.first_sides().size(), [&](std::size_t edge) {
-        const Side side = edges.first_sides()[edge];
-        mesh.set_vertex_handle(edges.along(side), handle_at<VertexHandle>(head(faces, side)));
-        mesh.set_vertex_handle(edges.against(side), handle_at<VertexHandle>(tail(faces, side)));
-        if (!edges.is_border(side)) return;
-        mesh.set_next_halfedge_handle(edges.against(side), edges.against(edges.next_border(side)));
+    parallel_for(edges.first_half_edges().size(), [&](std::size_t edge) {
+        const HalfEdge half_edge = edges.first_half_edges()[edge];
+        mesh.set_vertex_handle(edges.along(half_edge),
+                               handle_at<VertexHandle>(head(faces, half_edge)));
+        mesh.set_vertex_handle(edges.against(half_edge),
+                               handle_at<VertexHandle>(tail(faces, half_edge)));
+        if (!edges.is_border(half_edge)) return;
+        mesh.set_next_halfedge_handle(edges.against(half_edge),
+                                      edges.against(edges.next_border(half_edge)));
     });
 }
 
-/// A vertex gets the half-edge along its last side, or the border if it is on one: OpenMesh relies
-/// on that. Not in parallel, so that the last side is the last for sure.
+/// A vertex gets the last half-edge that leaves it, or the border if it is on one: OpenMesh relies
+/// on that. Not in parallel, so that the last one is the last for sure.
 void connect_vertices(const std::vector<Face>& faces, const EdgeNumbers& edges, HalfEdgeMesh& mesh)
 {
-    for (Side side = 0; side < 3 * faces.size(); ++side) {
-        mesh.set_halfedge_handle(handle_at<VertexHandle>(tail(faces, side)), edges.along(side));
+    for (HalfEdge half_edge = 0; half_edge < 3 * faces.size(); ++half_edge) {
+        mesh.set_halfedge_handle(handle_at<VertexHandle>(tail(faces, half_edge)),
+                                 edges.along(half_edge));
     }
-    for (const Side side : edges.first_sides()) {
-        if (!edges.is_border(side)) continue;
-        mesh.set_halfedge_handle(handle_at<VertexHandle>(head(faces, side)), edges.against(side));
+    for (const HalfEdge half_edge : edges.first_half_edges()) {
+        if (!edges.is_border(half_edge)) continue;
+        mesh.set_halfedge_handle(handle_at<VertexHandle>(head(faces, half_edge)),
+                                 edges.against(half_edge));
     }
 }
 
 } // namespace
 
-HalfEdgeMesh::HalfEdgeMesh(const TriMesh& mesh, std::span<const Side> twins)
+HalfEdgeMesh::HalfEdgeMesh(const TriMesh& mesh, std::span<const HalfEdge> twins)
     : offset_(mesh.offset),
       has_colors_(!mesh.colors.empty()),
       has_scene_points_(!mesh.points.empty())
 {
     const EdgeNumbers edges(twins);
-    resize(mesh.positions.size(), edges.first_sides().size(), mesh.faces.size());
+    resize(mesh.positions.size(), edges.first_half_edges().size(), mesh.faces.size());
     parallel_for(mesh.positions.size(), [&](std::size_t v) {
         const auto vertex = handle_at<VertexHandle>(v);
         set_point(vertex, mesh.positions[v]);

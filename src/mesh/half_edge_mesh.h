@@ -35,12 +35,12 @@ class HalfEdgeMesh : public OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {
   public:
     using OpenMeshBase = OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits>; ///< as CGAL knows it
 
-    /// Vertices and faces keep their numbers. `twins` has for each side of a face the one it shares
-    /// an edge with, or kNoSide at a border; every vertex must have one fan or one disk of faces,
-    /// as split_nonmanifold() makes it. The mesh is the same as if add_face() had been called for
-    /// each face, which takes ten times as long. Normals are zero. Cost: O(faces),
+    /// Vertices and faces keep their numbers. `twins` has for each half-edge of a face the one it
+    /// shares an edge with, or kNoHalfEdge at a border; every vertex must have one fan or one disk
+    /// of faces, as split_nonmanifold() makes it. The mesh is the same as if add_face() had been
+    /// called for each face, which takes ten times as long. Normals are zero. Cost: O(faces),
     /// mostly in parallel.
-    HalfEdgeMesh(const TriMesh& mesh, std::span<const Side> twins);
+    HalfEdgeMesh(const TriMesh& mesh, std::span<const HalfEdge> twins);
     HalfEdgeMesh(const HalfEdgeMesh&) = delete;
     HalfEdgeMesh& operator=(const HalfEdgeMesh&) = delete;
 

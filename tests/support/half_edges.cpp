@@ -9,7 +9,7 @@ namespace vcarve::testing {
 HalfEdgeMesh half_edges(const TriMesh& mesh)
 {
     const ManifoldSurface manifold = split_nonmanifold(mesh);
-    return HalfEdgeMesh(manifold.mesh, manifold.mates);
+    return HalfEdgeMesh(manifold.mesh, manifold.twins);
 }
 
 HalfEdgeMesh::OpenMeshBase half_edges_face_by_face(const TriMesh& mesh)

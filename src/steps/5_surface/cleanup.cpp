@@ -64,7 +64,7 @@ CleanSurface clean_surface(TriMesh soup, const CleanupOptions& options)
     // OpenMesh cannot hold what is not manifold, and CGAL would cut it open along every such edge.
     ManifoldSurface manifold = split_nonmanifold(std::move(soup));
     CleanSurface result;
-    result.mesh = std::make_unique<HalfEdgeMesh>(manifold.mesh, manifold.mates);
+    result.mesh = std::make_unique<HalfEdgeMesh>(manifold.mesh, manifold.twins);
     result.counts.split_edges = manifold.split_edges;
     result.counts.split_vertices = manifold.split_vertices;
 

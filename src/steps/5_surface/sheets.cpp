@@ -93,10 +93,10 @@ std::vector<std::uint32_t> rim_faces(const EdgeTable& table, const std::vector<C
         if (keep[face] != 0 && visibility.is_on_hull(facets[face])) rim.push_back(face);
     }
     for (std::size_t edge = 0; edge < table.size(); ++edge) {
-        const auto is_gone = [&](Side side) { return keep[side / 3] == 0; };
+        const auto is_gone = [&](HalfEdge half_edge) { return keep[half_edge / 3] == 0; };
         if (std::ranges::none_of(table[edge], is_gone)) continue;
-        for (const Side side : table[edge]) {
-            if (!is_gone(side)) rim.push_back(side / 3);
+        for (const HalfEdge half_edge : table[edge]) {
+            if (!is_gone(half_edge)) rim.push_back(half_edge / 3);
         }
     }
     std::ranges::sort(rim);

@@ -15,16 +15,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A soup and, for every side, the side it is sewn to, or kNoSide at a border. Sewn sides run along
-/// the same two vertices in opposite directions.
+/// A soup and, for every half-edge, the half-edge it is sewn to, or kNoHalfEdge at a border. Twins
+/// run along the same two vertices in opposite directions.
 struct SewnSoup {
     TriMesh mesh;
-    std::vector<Side> mates;
+    std::vector<HalfEdge> twins;
 
-    void sew(Side a, Side b)
+    void sew(HalfEdge a, HalfEdge b)
     {
-        mates[a] = b;
-        mates[b] = a;
+        twins[a] = b;
+        twins[b] = a;
     }
 };
 
@@ -61,43 +61,47 @@ class AngleAroundEdge {
     const Vector3d& reference_;
 };
 
-/// The sides of one edge in the order of their faces around it, seen along lower -> higher vertex.
-std::vector<Side> sorted_by_angle(const TriMesh& mesh, std::span<const Side> sides)
+/// The half-edges of one edge in the order of their faces around it, seen along lower -> higher
+/// vertex.
+std::vector<HalfEdge> sorted_by_angle(const TriMesh& mesh, std::span<const HalfEdge> half_edges)
 {
     const auto [lower, higher] =
-        std::minmax({tail(mesh.faces, sides[0]), head(mesh.faces, sides[0])});
+        std::minmax({tail(mesh.faces, half_edges[0]), head(mesh.faces, half_edges[0])});
     const Vector3d& u = mesh.positions[lower];
     const Vector3d& v = mesh.positions[higher];
-    const auto apex = [&](Side side) -> const Vector3d& {
-        return mesh.positions[tail(mesh.faces, previous_side(side))];
+    const auto apex = [&](HalfEdge half_edge) -> const Vector3d& {
+        return mesh.positions[tail(mesh.faces, previous_half_edge(half_edge))];
     };
 
-    std::vector<Side> sorted(sides.begin(), sides.end());
-    const auto reference =
-        std::ranges::find_if(sides, [&](Side side) { return !collinear(u, v, apex(side)); });
-    if (reference == sides.end()) return sorted; // no face spans an angle
+    std::vector<HalfEdge> sorted(half_edges.begin(), half_edges.end());
+    const auto reference = std::ranges::find_if(
+        half_edges, [&](HalfEdge half_edge) { return !collinear(u, v, apex(half_edge)); });
+    if (reference == half_edges.end()) return sorted; // no face spans an angle
     const AngleAroundEdge angle(u, v, apex(*reference));
-    std::ranges::stable_sort(sorted, [&](Side a, Side b) { return angle.less(apex(a), apex(b)); });
+    std::ranges::stable_sort(sorted,
+                             [&](HalfEdge a, HalfEdge b) { return angle.less(apex(a), apex(b)); });
     return sorted;
 }
 
 /// Sews the faces of an edge in pairs that bound one solid sector each. Going round, a face that
 /// runs against lower -> higher opens a sector and one that runs along closes it; they nest like
 /// brackets where faces of sectors in between are missing.
-void sew_sectors(std::span<const Side> sides, SewnSoup& soup)
+void sew_sectors(std::span<const HalfEdge> half_edges, SewnSoup& soup)
 {
     const std::span<const Face> faces(soup.mesh.faces);
-    const auto opens = [&](Side side) { return tail(faces, side) > head(faces, side); };
-    const std::vector<Side> around = sorted_by_angle(soup.mesh, sides);
-    std::vector<Side> open;
+    const auto opens = [&](HalfEdge half_edge) {
+        return tail(faces, half_edge) > head(faces, half_edge);
+    };
+    const std::vector<HalfEdge> around = sorted_by_angle(soup.mesh, half_edges);
+    std::vector<HalfEdge> open;
     // The second turn closes what the first left open at its end.
     for (std::size_t i = 0; i < 2 * around.size(); ++i) {
-        const Side side = around[i % around.size()];
+        const HalfEdge half_edge = around[i % around.size()];
         const bool first_turn = i < around.size();
-        if (opens(side) && first_turn) {
-            open.push_back(side);
-        } else if (!opens(side) && soup.mates[side] == kNoSide && !open.empty()) {
-            soup.sew(open.back(), side);
+        if (opens(half_edge) && first_turn) {
+            open.push_back(half_edge);
+        } else if (!opens(half_edge) && soup.twins[half_edge] == kNoHalfEdge && !open.empty()) {
+            soup.sew(open.back(), half_edge);
             open.pop_back();
         }
     }
@@ -113,15 +117,15 @@ Crowd sew_edges(SewnSoup& soup)
 {
     const std::span<const Face> faces(soup.mesh.faces);
     const EdgeTable edges = gather_edges(faces, soup.mesh.positions.size());
-    const auto crowded =
-        parallel_collect<std::uint32_t>(edges.size(), [&](std::size_t e, auto& found) {
-            const std::span<const Side> sides = edges[e];
-            if (sides.size() == 2 && tail(faces, sides[0]) != tail(faces, sides[1])) {
-                soup.sew(sides[0], sides[1]);
-            } else if (sides.size() > 1) {
-                found.push_back(static_cast<std::uint32_t>(e));
-            }
-        });
+    const auto crowded = parallel_collect<std::uint32_t>(edges.size(), [&](std::size_t e,
+                                                                           auto& found) {
+        const std::span<const HalfEdge> half_edges = edges[e];
+        if (half_edges.size() == 2 && tail(faces, half_edges[0]) != tail(faces, half_edges[1])) {
+            soup.sew(half_edges[0], half_edges[1]);
+        } else if (half_edges.size() > 1) {
+            found.push_back(static_cast<std::uint32_t>(e));
+        }
+    });
 
     Crowd crowd;
     for (const std::uint32_t e : crowded) {
@@ -129,8 +133,8 @@ Crowd sew_edges(SewnSoup& soup)
             ++crowd.num_edges;
             sew_sectors(edges[e], soup);
         }
-        for (const Side side : edges[e]) {
-            crowd.faces.push_back(side / 3);
+        for (const HalfEdge half_edge : edges[e]) {
+            crowd.faces.push_back(half_edge / 3);
         }
     }
     return crowd;
@@ -147,21 +151,22 @@ std::uint32_t add_copy(TriMesh& mesh, std::uint32_t original)
 }
 
 /// The corners of vertices whose corners do not all hang together through seams, ascending.
-std::vector<Side> corners_to_separate(const SewnSoup& soup)
+std::vector<HalfEdge> corners_to_separate(const SewnSoup& soup)
 {
     const std::span<const Face> faces(soup.mesh.faces);
-    const std::vector<Side> starts = corners_of_vertices(faces, soup.mesh.positions.size());
+    const std::vector<HalfEdge> starts = corners_of_vertices(faces, soup.mesh.positions.size());
     std::vector<char> reached(3 * faces.size(), 0);
     parallel_for(starts.size(), [&](std::size_t v) {
-        for_each_corner_of_fan(soup.mates, starts[v], [&](Side corner) { reached[corner] = 1; });
+        for_each_corner_of_fan(soup.twins, starts[v],
+                               [&](HalfEdge corner) { reached[corner] = 1; });
     });
     std::vector<char> separate(starts.size(), 0);
     for (std::size_t corner = 0; corner < reached.size(); ++corner) {
-        if (reached[corner] == 0) separate[tail(faces, static_cast<Side>(corner))] = 1;
+        if (reached[corner] == 0) separate[tail(faces, static_cast<HalfEdge>(corner))] = 1;
     }
-    return parallel_collect<Side>(faces.size(), [&](std::size_t face, auto& found) {
+    return parallel_collect<HalfEdge>(faces.size(), [&](std::size_t face, auto& found) {
         for (std::size_t i = 0; i < 3; ++i) {
-            if (separate[faces[face][i]] != 0) found.push_back(static_cast<Side>(3 * face + i));
+            if (separate[faces[face][i]] != 0) found.push_back(static_cast<HalfEdge>(3 * face + i));
         }
     });
 }
@@ -172,13 +177,13 @@ std::int64_t separate_vertices(SewnSoup& soup)
 {
     std::vector<Face>& faces = soup.mesh.faces;
     std::set<std::uint32_t> split; // few
-    std::set<Side> done;
-    for (const Side corner : corners_to_separate(soup)) {
+    std::set<HalfEdge> done;
+    for (const HalfEdge corner : corners_to_separate(soup)) {
         if (done.contains(corner)) continue;
         const std::uint32_t original = tail(faces, corner);
         const bool keeps = split.insert(original).second;
         const std::uint32_t vertex = keeps ? original : add_copy(soup.mesh, original);
-        for_each_corner_of_fan(soup.mates, corner, [&](Side other) {
+        for_each_corner_of_fan(soup.twins, corner, [&](HalfEdge other) {
             done.insert(other);
             faces[other / 3][other % 3] = vertex;
         });
@@ -198,83 +203,85 @@ std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b)
     return middle;
 }
 
-/// Splits a face a b c at `middle`, a point of its side a b, into a middle c, which keeps number
-/// and sides, and middle b c. Returns the side middle -> b; that one and a -> middle are left to be
-/// sewn.
-Side split_face(SewnSoup& soup, Side side, std::uint32_t middle)
+/// Splits a face a b c at `middle`, a point of its half-edge a -> b, into a middle c, which keeps
+/// the numbers, and middle b c. Returns the half-edge middle -> b; that one and a -> middle are
+/// left to be sewn.
+HalfEdge split_face(SewnSoup& soup, HalfEdge half_edge, std::uint32_t middle)
 {
     std::vector<Face>& faces = soup.mesh.faces;
-    const Side far = next_side(side); // was b -> c, becomes middle -> c
-    const Side added = static_cast<Side>(3 * faces.size());
-    faces.push_back({middle, head(faces, side), head(faces, far)});
+    const HalfEdge far = next_half_edge(half_edge); // was b -> c, becomes middle -> c
+    const HalfEdge added = static_cast<HalfEdge>(3 * faces.size());
+    faces.push_back({middle, head(faces, half_edge), head(faces, far)});
     faces[far / 3][far % 3] = middle;
 
-    soup.mates.resize(3 * faces.size(), kNoSide);
-    if (soup.mates[far] != kNoSide) soup.sew(added + 1, soup.mates[far]);
+    soup.twins.resize(3 * faces.size(), kNoHalfEdge);
+    if (soup.twins[far] != kNoHalfEdge) soup.sew(added + 1, soup.twins[far]);
     soup.sew(far, added + 2);
-    soup.mates[side] = kNoSide;
+    soup.twins[half_edge] = kNoHalfEdge;
     return added;
 }
 
 /// One border or one seam of an edge gets a vertex of its own in the middle.
-void split_seam(SewnSoup& soup, Side side)
+void split_seam(SewnSoup& soup, HalfEdge half_edge)
 {
-    const Side mate = soup.mates[side];
+    const HalfEdge twin = soup.twins[half_edge];
     const std::uint32_t middle =
-        add_midpoint(soup.mesh, tail(soup.mesh.faces, side), head(soup.mesh.faces, side));
-    const Side added = split_face(soup, side, middle);
-    if (mate == kNoSide) return;
-    const Side added_to_mate = split_face(soup, mate, middle);
-    soup.sew(side, added_to_mate);
-    soup.sew(mate, added);
+        add_midpoint(soup.mesh, tail(soup.mesh.faces, half_edge), head(soup.mesh.faces, half_edge));
+    const HalfEdge added = split_face(soup, half_edge, middle);
+    if (twin == kNoHalfEdge) return;
+    const HalfEdge added_to_twin = split_face(soup, twin, middle);
+    soup.sew(half_edge, added_to_twin);
+    soup.sew(twin, added);
 }
 
-/// The sides of some faces that share their two ends with others of these, edge by edge.
-std::vector<std::vector<Side>> shared_edges(const SewnSoup& soup,
-                                            const std::set<std::uint32_t>& some_faces)
+/// The half-edges of some faces that share their two ends with others of these, edge by edge.
+std::vector<std::vector<HalfEdge>> shared_edges(const SewnSoup& soup,
+                                                const std::set<std::uint32_t>& some_faces)
 {
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, Side>> sides;
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, HalfEdge>> half_edges;
     for (const std::uint32_t face : some_faces) {
-        for (Side side = 3 * face; side < 3 * face + 3; ++side) {
+        for (HalfEdge half_edge = 3 * face; half_edge < 3 * face + 3; ++half_edge) {
             const auto ends =
-                std::minmax({tail(soup.mesh.faces, side), head(soup.mesh.faces, side)});
-            sides.emplace_back(ends.first, ends.second, side);
+                std::minmax({tail(soup.mesh.faces, half_edge), head(soup.mesh.faces, half_edge)});
+            half_edges.emplace_back(ends.first, ends.second, half_edge);
         }
     }
-    std::ranges::sort(sides);
-    std::vector<std::vector<Side>> edges;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-        const auto [lower, higher, side] = sides[i];
-        const bool begins =
-            i == 0 || std::get<0>(sides[i - 1]) != lower || std::get<1>(sides[i - 1]) != higher;
+    std::ranges::sort(half_edges);
+    std::vector<std::vector<HalfEdge>> edges;
+    for (std::size_t i = 0; i < half_edges.size(); ++i) {
+        const auto [lower, higher, half_edge] = half_edges[i];
+        const bool begins = i == 0 || std::get<0>(half_edges[i - 1]) != lower ||
+                            std::get<1>(half_edges[i - 1]) != higher;
         if (begins) edges.emplace_back();
-        edges.back().push_back(side);
+        edges.back().push_back(half_edge);
     }
     return edges;
 }
 
 /// One round of separate_seams over the edges of `crowd`. A face takes part in one split at most,
-/// because splitting renumbers its sides. Returns the faces to look at again.
+/// because splitting renumbers its half-edges. Returns the faces to look at again.
 std::set<std::uint32_t> separate_seams_once(SewnSoup& soup, const std::set<std::uint32_t>& crowd)
 {
     std::set<std::uint32_t> touched;
     std::set<std::uint32_t> again;
-    for (const std::vector<Side>& sides : shared_edges(soup, crowd)) {
-        const Side first_mate = soup.mates[sides[0]];
-        const bool sound = sides.size() == 1 || (sides.size() == 2 && first_mate == sides[1]);
+    for (const std::vector<HalfEdge>& half_edges : shared_edges(soup, crowd)) {
+        const HalfEdge first_twin = soup.twins[half_edges[0]];
+        const bool sound =
+            half_edges.size() == 1 || (half_edges.size() == 2 && first_twin == half_edges[1]);
         if (sound) continue;
-        for (const Side side : sides) {
-            again.insert(side / 3);
-            const Side mate = soup.mates[side];
-            // The first seam stays as it is; the others are met at their lower side.
-            const bool stays = side == sides[0] || side == first_mate || mate < side;
-            const bool free =
-                !touched.contains(side / 3) && (mate == kNoSide || !touched.contains(mate / 3));
+        for (const HalfEdge half_edge : half_edges) {
+            again.insert(half_edge / 3);
+            const HalfEdge twin = soup.twins[half_edge];
+            // The first seam stays as it is; the others are met at their lower half-edge.
+            const bool stays =
+                half_edge == half_edges[0] || half_edge == first_twin || twin < half_edge;
+            const bool free = !touched.contains(half_edge / 3) &&
+                              (twin == kNoHalfEdge || !touched.contains(twin / 3));
             if (stays || !free) continue;
-            touched.insert(side / 3);
-            if (mate != kNoSide) touched.insert(mate / 3);
+            touched.insert(half_edge / 3);
+            if (twin != kNoHalfEdge) touched.insert(twin / 3);
             const auto num_before = static_cast<std::uint32_t>(soup.mesh.faces.size());
-            split_seam(soup, side);
+            split_seam(soup, half_edge);
             for (std::uint32_t f = num_before; f < soup.mesh.faces.size(); ++f) {
                 again.insert(f);
                 touched.insert(f);
@@ -298,15 +305,15 @@ void separate_seams(SewnSoup& soup, const std::vector<std::uint32_t>& crowd)
 
 ManifoldSurface split_nonmanifold(TriMesh mesh)
 {
-    SewnSoup soup{.mesh = std::move(mesh), .mates = {}};
+    SewnSoup soup{.mesh = std::move(mesh), .twins = {}};
     soup.mesh.normals.clear();
     std::erase_if(soup.mesh.faces, is_degenerate);
-    soup.mates.resize(3 * soup.mesh.faces.size(), kNoSide);
+    soup.twins.resize(3 * soup.mesh.faces.size(), kNoHalfEdge);
 
     const Crowd crowd = sew_edges(soup);
     const std::int64_t split_vertices = separate_vertices(soup);
     separate_seams(soup, crowd.faces);
-    return {std::move(soup.mesh), std::move(soup.mates), crowd.num_edges, split_vertices};
+    return {std::move(soup.mesh), std::move(soup.twins), crowd.num_edges, split_vertices};
 }
 
 } // namespace vcarve

@@ -10,8 +10,8 @@ namespace vcarve {
 
 struct ManifoldSurface {
     TriMesh mesh;
-    std::vector<Side> mates;         ///< per side the one it shares an edge with, or kNoSide
-    std::int64_t split_edges = 0;    ///< edges that had three or more faces
+    std::vector<HalfEdge> twins;  ///< per half-edge the one it shares an edge with, or kNoHalfEdge
+    std::int64_t split_edges = 0; ///< edges that had three or more faces
     std::int64_t split_vertices = 0; ///< vertices that became several
 };
 

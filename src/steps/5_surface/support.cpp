@@ -29,8 +29,8 @@ FaceNumbers small_patches(const TriMesh& mesh, const FaceNumbers& some, const Is
     const EdgeTable edges = gather_edges(faces, mesh.positions.size());
     UnionFind patches(faces.size());
     for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-        for (const Side side : edges[edge]) {
-            patches.join(edges[edge][0] / 3, side / 3);
+        for (const HalfEdge half_edge : edges[edge]) {
+            patches.join(edges[edge][0] / 3, half_edge / 3);
         }
     }
 
