@@ -234,7 +234,7 @@ TEST(DoubtBridgingFacets, TakesBackWhatDoesNotPay)
 
     MinimumCut cut(mesh, wishes(mesh, before, loose));
     const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, {});
-    EXPECT_EQ(result.labels, before);
+    EXPECT_EQ(result.labelling.labels(), before);
     EXPECT_GT(result.taken_back, 0);
     EXPECT_EQ(result.doubts, static_cast<std::int64_t>(doubted.size()) * result.taken_back)
         << "each time again";
@@ -301,12 +301,13 @@ TEST(DoubtBridgingFacets, FreesWhatPaysOneBehindTheOther)
     const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, {});
     EXPECT_EQ(result.taken_back, 0);
     EXPECT_GT(result.doubts, 0);
-    EXPECT_TRUE(cells_behind_bridging_facets(mesh, {mesh, result.labels}, scene, {}).empty());
+    EXPECT_TRUE(
+        cells_behind_bridging_facets(mesh, {mesh, result.labelling.labels()}, scene, {}).empty());
     for (std::size_t i = 0; i < before.size(); ++i) {
         const bool stays = loose[i] == Label::outside || middle(mesh, mesh.cells[i]).z() < 1.75;
-        EXPECT_TRUE(!stays || result.labels[i] == before[i]) << "cell " << i;
+        EXPECT_TRUE(!stays || result.labelling.labels()[i] == before[i]) << "cell " << i;
     }
-    EXPECT_EQ(result.labels, cut.labels());
+    EXPECT_EQ(result.labelling.labels(), cut.labels());
 }
 
 TEST(DoubtBridgingFacets, LeavesTheCutAsItIsWhereNotAsked)
@@ -318,7 +319,7 @@ TEST(DoubtBridgingFacets, LeavesTheCutAsItIsWhereNotAsked)
     MinimumCut cut(mesh, wishes(mesh, before, before));
     const DoubtedLabels result =
         doubt_bridging_facets(mesh, scene, cut, kOneSight, {.bridging_edge = 0.0});
-    EXPECT_EQ(result.labels, before);
+    EXPECT_EQ(result.labelling.labels(), before);
     EXPECT_EQ(result.doubts, 0);
     EXPECT_EQ(result.taken_back, 0);
 }

@@ -88,7 +88,10 @@ struct Plate {
     /// Takes needles back, and says how many.
     std::int64_t take_back(const NeedleOptions& options = {})
     {
-        return take_back_needles(mesh, scene, options, labels);
+        Labelling labelling(mesh, labels);
+        const std::int64_t count = take_back_needles(scene, options, labelling);
+        labels = labelling.labels();
+        return count;
     }
 
     Scene scene;
@@ -199,13 +202,13 @@ TEST(Needles, AreTheSameFromOneThreadAndTwo)
     const TetMesh mesh = triangulate(scene);
     const auto by = [&](int threads) {
         std::mt19937_64 random(92);
-        Labels labels = labels_where(mesh, [&](Index cell) {
-            return (middle(mesh, cell).norm() < 1.0) != (pick(random, 100) < 5);
-        });
+        Labelling labelling(mesh, labels_where(mesh, [&](Index cell) {
+                                return (middle(mesh, cell).norm() < 1.0) != (pick(random, 100) < 5);
+                            }));
         const auto count = testing::with_threads(
-            threads, [&] { return take_back_needles(mesh, scene, {.needle_edge = 2.0}, labels); });
+            threads, [&] { return take_back_needles(scene, {.needle_edge = 2.0}, labelling); });
         EXPECT_GT(count, 0);
-        return std::pair(labels, count);
+        return std::pair(labelling.labels(), count);
     };
     EXPECT_EQ(by(1), by(2));
 }

@@ -71,9 +71,9 @@ Reconstruction run_steps(Scene input, const Options& options, Log& log)
     foresee_memory(input, options, log);
     Scene scene = filter(center_points(std::move(input)), options.points, log);
     const TetMesh cells = triangulate(scene, log);
-    const Labels labels = label_cells(cells, scene, options.labels, log);
+    Labelling labelling = label_cells(cells, scene, options.labels, log);
     const std::unique_ptr<HalfEdgeMesh> mesh =
-        make_surface(cells, labels, scene, options.surface, log);
+        make_surface(std::move(labelling), scene, options.surface, log);
     refine(*mesh, scene, options.refine, log);
     TriMesh surface = orient(*mesh, scene, log);
     return {std::move(scene), std::move(surface)};

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 namespace vcarve {
@@ -68,35 +67,30 @@ DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, Mi
                                     const Progress& progress)
 {
     constexpr int kRounds = 3; // behind a bridging facet there may be another
-    DoubtedLabels result{.labels = cut.labels()};
-    std::unique_ptr<Boundary> boundary; // of result.labels, once it was asked for
+    DoubtedLabels result{.labelling = {cells, cut.labels()}};
+    Labelling& labelling = result.labelling;
     for (int round = 0; round < kRounds; ++round) {
         progress.tell(round, kRounds);
-        if (!boundary) boundary = std::make_unique<Boundary>(cells, result.labels);
         const std::vector<Index> doubted =
-            cells_behind_bridging_facets(cells, *boundary, scene, options);
+            cells_behind_bridging_facets(cells, labelling.boundary(), scene, options);
         if (doubted.empty()) break;
         progress.tell(round + 0.3, kRounds);
         cut.add_source_capacity(doubted, one_sight);
         progress.tell(round + 0.6, kRounds);
         result.doubts += static_cast<std::int64_t>(doubted.size());
-        Labels next = cut.labels();
+        Labelling next(cells, cut.labels());
         progress.tell(round + 0.7, kRounds);
-        FreedPieces pieces(cells, scene, result.labels, next);
+        FreedPieces pieces(cells, scene, labelling.labels(), next.labels());
         if (pieces.empty())
             continue; // more source capacity only frees cells, so the labels are the same
-        pieces.take_away(*boundary);
-        boundary.reset(); // one at a time is enough to hold
-        boundary = std::make_unique<Boundary>(cells, next);
-        progress.tell(round + 0.8, kRounds);
-        pieces.lay_open(*boundary);
+        pieces.take_away(labelling.boundary());
+        labelling.forget_boundary(); // one at a time is enough to hold
+        pieces.lay_open(next.boundary());
+        progress.tell(round + 0.9, kRounds);
         const std::vector<Index> unpaid = pieces.unpaid();
-        for (const Index cell : unpaid) {
-            next[cell] = Label::inside;
-        }
+        next.set(unpaid, Label::inside);
         result.taken_back += static_cast<std::int64_t>(unpaid.size());
-        result.labels = std::move(next);
-        if (!unpaid.empty()) boundary.reset();
+        labelling = std::move(next);
     }
     return result;
 }

@@ -1,9 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/labels.h"
 #include "model/tet_mesh.h"
-#include "steps/4_labels/boundary.h"
+#include "steps/4_labels/labelling.h"
 #include "steps/4_labels/max_flow/max_flow.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
@@ -23,9 +22,9 @@ namespace vcarve {
 std::vector<Index> cells_behind_bridging_facets(const TetMesh& cells, const Boundary& boundary,
                                                 const Scene& scene, const BridgingOptions& options);
 
-/// Labels of the cut, and how many bridging facets were doubted on the way.
+/// Labels after doubts, and how many bridging facets were doubted on the way.
 struct DoubtedLabels {
-    Labels labels;
+    Labelling labelling;
     std::int64_t doubts = 0;
     std::int64_t taken_back = 0; ///< cells whose freeing did not pay, summed over the rounds
 };

@@ -1,89 +1,101 @@
 #include "steps/4_labels/label_cells.h"
 
+#include "steps/3_visibility/trace.h"
+#include "steps/3_visibility/virtual_views.h"
+#include "steps/4_labels/bridging_facets.h"
+#include "steps/4_labels/cut.h"
+#include "steps/4_labels/needles.h"
 #include "steps/4_labels/strict_carving.h"
 
-#include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace vcarve {
 
 namespace {
 
-VirtualSights place_virtual_views(const TetMesh& cells, const Scene& scene, const Labels& labels,
-                                  const LabelOptions& options, Log& log)
+VirtualSights place_virtual_views(const Labelling& labelling, const Scene& scene,
+                                  const VirtualViewOptions& options, Log& log)
 {
     Stage stage(log, "virtual");
-    VirtualSights sights = find_virtual_sights(cells, scene, labels, options.virtual_views, stage);
+    VirtualSights sights =
+        find_virtual_sights(labelling.cells(), scene, labelling.labels(), options, stage);
     stage.end({{"views", size_of(sights.centers.size())},
                {"sights", size_of(sights.tracks.views.size())}});
     return sights;
 }
 
-Labels carve(const TetMesh& cells, const Crossings& crossings, const LabelOptions& options,
-             Log& log)
+/// Labels by the photographs and, where virtual views are asked for, once more with these.
+/// `cast(source, progress)` adds what a source knows, `label(is_last)` labels by all that was
+/// added.
+template <typename Cast, typename Label>
+Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options, Log& log,
+                           const Cast& cast, const Label& label)
 {
-    Stage stage(log, "carve");
-    Labels labels = carve(cells, crossings, options.min_crossings);
-    stage.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)}});
-    return labels;
+    const auto add = [&](const RaySource& source) {
+        Stage stage(log, "sights");
+        cast(source, stage);
+        stage.end({{"sights", size_of(source.rays->views.size())}});
+    };
+    add(photographs(scene));
+    const bool is_last = options.count == 0;
+    Labelling first = label(is_last);
+    if (is_last) return first;
+    const VirtualSights more = place_virtual_views(first, scene, options, log);
+    add(more.source(options.weight));
+    return label(true);
 }
 
-Labels carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
+Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
 {
-    Stage trace(log, "sights");
     Crossings crossings;
-    cast_rays(cells, photographs(scene), crossings, trace);
-    trace.end({{"sights", size_of(scene.num_sights())}});
-    Labels labels = carve(cells, crossings, options, log);
-    if (options.virtual_views.count == 0) {
-        return labels;
-    }
-    const VirtualSights more = place_virtual_views(cells, scene, labels, options, log);
-    Stage trace_more(log, "sights");
-    cast_rays(cells, more.source(options.virtual_views.weight), crossings, trace_more);
-    trace_more.end({{"sights", size_of(more.tracks.views.size())}});
-    return carve(cells, crossings, options, log);
+    const auto cast = [&](const RaySource& source, const Progress& progress) {
+        cast_rays(cells, source, crossings, progress);
+    };
+    const auto label = [&](bool /*is_last*/) {
+        Stage stage(log, "carve");
+        Labelling carved(cells, carve(cells, crossings, options.min_crossings));
+        stage.end({{"inside", carved.num_inside()}});
+        return carved;
+    };
+    return label_by_sources(scene, options.virtual_views, log, cast, label);
 }
 
-Labels cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
-           const LabelOptions& options, Log& log)
+Labelling cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
+              const LabelOptions& options, Log& log)
 {
-    Stage label(log, "cut");
+    Stage stage(log, "cut");
     const std::int32_t one_sight = energy.unit;
-    const Progress progress(label);
+    const Progress progress(stage);
     MinimumCut minimum = cut(cells, std::move(energy), options.cut, progress.part(0.0, 0.6));
     DoubtedLabels doubted = doubt_bridging_facets(cells, scene, minimum, one_sight,
                                                   options.bridging, progress.part(0.6, 0.9));
-    Labels& labels = doubted.labels;
-    const std::int64_t needles = take_back_needles(cells, scene, options.needles, labels);
-    label.end({{"inside", std::count(labels.begin(), labels.end(), Label::inside)},
+    const std::int64_t needles = take_back_needles(scene, options.needles, doubted.labelling);
+    stage.end({{"inside", doubted.labelling.num_inside()},
                {"bridging facets doubted", doubted.doubts},
                {"cells taken back", doubted.taken_back},
                {"needles", needles}});
-    return std::move(labels);
+    return std::move(doubted.labelling);
 }
 
-Labels cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
+Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
 {
-    Stage trace(log, "sights");
-    const RayCaster caster(cells, scene, measure_scales(cells, scene), options.trace);
     VisibilityEnergy energy;
-    caster.cast(photographs(scene), energy, trace);
-    trace.end({{"sights", size_of(scene.num_sights())}});
-    if (options.virtual_views.count == 0) {
-        return cut(cells, scene, std::move(energy), options, log);
-    }
-    const Labels first = cut(cells, scene, energy, options, log);
-    const VirtualSights more = place_virtual_views(cells, scene, first, options, log);
-    Stage trace_more(log, "sights");
-    caster.cast(more.source(options.virtual_views.weight), energy, trace_more);
-    trace_more.end({{"sights", size_of(more.tracks.views.size())}});
-    return cut(cells, scene, std::move(energy), options, log);
+    std::optional<Scales> scales; // measured once, as a part of the first stage
+    const auto cast = [&](const RaySource& source, const Progress& progress) {
+        if (!scales) scales = measure_scales(cells, scene);
+        RayCaster(cells, scene, *scales, options.trace).cast(source, energy, progress);
+    };
+    const auto label = [&](bool is_last) {
+        return cut(cells, scene, is_last ? std::move(energy) : energy, options, log);
+    };
+    return label_by_sources(scene, options.virtual_views, log, cast, label);
 }
 
 } // namespace
 
-Labels label_cells(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
+Labelling label_cells(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
+                      Log& log)
 {
     return options.method == Method::strict ? carve(cells, scene, options, log)
                                             : cut(cells, scene, options, log);

@@ -1,17 +1,9 @@
 #pragma once
 
 #include "base/log.h"
-#include "model/labels.h"
-#include "model/tet_mesh.h"
-#include "steps/3_visibility/trace.h"
-#include "steps/3_visibility/virtual_views.h"
-#include "steps/4_labels/bridging_facets.h"
-#include "steps/4_labels/cut.h"
-#include "steps/4_labels/needles.h"
+#include "steps/4_labels/labelling.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
-
-#include <array>
 
 namespace vcarve {
 
@@ -20,6 +12,7 @@ namespace vcarve {
 /// known to be free, and the cells are labelled again with the sights of both. The labels do not
 /// depend on the number of threads. Cost: a walk for each sight, and that of the labelling (see
 /// strict_carving.h, cut.h, bridging_facets.h and needles.h).
-Labels label_cells(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log);
+Labelling label_cells(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
+                      Log& log);
 
 } // namespace vcarve

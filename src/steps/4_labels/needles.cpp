@@ -3,12 +3,12 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "steps/3_visibility/exact_walk.h"
-#include "steps/4_labels/boundary.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -74,15 +74,17 @@ bool is_thin(const TetMesh& mesh, const Labels& labels, Index vertex)
 
 } // namespace
 
-std::int64_t take_back_needles(const TetMesh& cells, const Scene& scene,
-                               const NeedleOptions& options, Labels& labels)
+std::int64_t take_back_needles(const Scene& scene, const NeedleOptions& options,
+                               Labelling& labelling)
 {
     constexpr int kRounds = 4;
     if (options.needle_edge == 0.0) return 0;
     const double enough = enough_views(scene);
     std::int64_t taken_back = 0;
     for (int round = 0; round < kRounds; ++round) {
-        const Boundary boundary(cells, labels);
+        const TetMesh& cells = labelling.cells();
+        const Labels& labels = labelling.labels();
+        const Boundary& boundary = labelling.boundary();
         const auto tips =
             parallel_collect<Index>(scene.num_points(), [&](std::size_t i, auto& found) {
                 const auto vertex = static_cast<Index>(i);
@@ -91,11 +93,11 @@ std::int64_t take_back_needles(const TetMesh& cells, const Scene& scene,
                 if (!stands_out(cells, boundary, vertex, options.needle_edge)) return;
                 if (is_thin(cells, labels, vertex)) found.push_back(vertex);
             });
+        std::vector<Index> at_tips;
         for (const Index tip : tips) {
-            for (const Index cell : inside_cells_at(cells, labels, tip)) {
-                labels[cell] = Label::outside;
-            }
+            std::ranges::copy(inside_cells_at(cells, labels, tip), std::back_inserter(at_tips));
         }
+        labelling.set(at_tips, Label::outside);
         taken_back += static_cast<std::int64_t>(tips.size());
         if (tips.empty()) break;
     }

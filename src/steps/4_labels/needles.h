@@ -1,7 +1,6 @@
 #pragma once
 
-#include "model/labels.h"
-#include "model/tet_mesh.h"
+#include "steps/4_labels/labelling.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
@@ -17,7 +16,7 @@ namespace vcarve {
 /// since a needle may have more than one tip. Returns how many tips were taken back. Does not touch
 /// pits, tunnels of outside cells to a stray point behind the surface. Cost: O(cells) a round,
 /// mostly in parallel.
-std::int64_t take_back_needles(const TetMesh& cells, const Scene& scene,
-                               const NeedleOptions& options, Labels& labels);
+std::int64_t take_back_needles(const Scene& scene, const NeedleOptions& options,
+                               Labelling& labelling);
 
 } // namespace vcarve

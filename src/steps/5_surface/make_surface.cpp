@@ -2,7 +2,6 @@
 
 #include "mesh/half_edge_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
-#include "steps/4_labels/boundary.h"
 #include "steps/5_surface/extract.h"
 #include "vcarve/error.h"
 
@@ -13,17 +12,17 @@ namespace vcarve {
 
 namespace {
 
-TriMesh extract(const TetMesh& cells, const Labels& labels, const Scene& scene,
-                const SurfaceOptions& options, Log& log)
+TriMesh extract(Labelling labelling, const Scene& scene, const SurfaceOptions& options, Log& log)
 {
     Stage stage(log, "surface");
-    const std::vector<CellFacet> facets = boundary_facets(cells, labels);
-    TriMesh surface = extract_surface(cells, facets, scene);
+    const std::vector<CellFacet> facets = labelling.facets();
+    labelling.forget_boundary(); // the surface is numbered and measured anew
+    TriMesh surface = extract_surface(labelling.cells(), facets, scene);
     stage.progress(0.2);
     FaceFlags keep(facets.size(), 1);
     std::int64_t sheets = 0;
     if (!options.closed) {
-        const FaceVisibility visibility(cells, labels, scene);
+        const FaceVisibility visibility(labelling.cells(), labelling.labels(), scene);
         stage.progress(0.4);
         keep = supported_faces(surface, facets, visibility, scene, options.support);
         stage.progress(0.7);
@@ -57,11 +56,10 @@ std::unique_ptr<HalfEdgeMesh> clean(TriMesh surface, const SurfaceOptions& optio
 
 } // namespace
 
-std::unique_ptr<HalfEdgeMesh> make_surface(const TetMesh& cells, const Labels& labels,
-                                           const Scene& scene, const SurfaceOptions& options,
-                                           Log& log)
+std::unique_ptr<HalfEdgeMesh> make_surface(Labelling labelling, const Scene& scene,
+                                           const SurfaceOptions& options, Log& log)
 {
-    return clean(extract(cells, labels, scene, options, log), options, log);
+    return clean(extract(std::move(labelling), scene, options, log), options, log);
 }
 
 } // namespace vcarve

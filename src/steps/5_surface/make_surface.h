@@ -1,8 +1,7 @@
 #pragma once
 
 #include "base/log.h"
-#include "model/labels.h"
-#include "model/tet_mesh.h"
+#include "steps/4_labels/labelling.h"
 #include "steps/5_surface/cleanup.h"
 #include "steps/5_surface/sheets.h"
 #include "steps/5_surface/support.h"
@@ -18,8 +17,7 @@ namespace vcarve {
 /// kept that views support (support.h, sheets.h) unless it is to be closed, mended into a manifold
 /// (cleanup.h), as the one mesh that is worked on from then on. Throws InputError where no face is
 /// left.
-std::unique_ptr<HalfEdgeMesh> make_surface(const TetMesh& cells, const Labels& labels,
-                                           const Scene& scene, const SurfaceOptions& options,
-                                           Log& log);
+std::unique_ptr<HalfEdgeMesh> make_surface(Labelling labelling, const Scene& scene,
+                                           const SurfaceOptions& options, Log& log);
 
 } // namespace vcarve
