@@ -4,9 +4,10 @@
 #include "base/validate.h"
 #include "compare/closed_surface.h"
 #include "compare/compare.h"
+#include "report/figures.h"
 #include "report/report.h"
 
-#include <nlohmann/json.hpp>
+#include <optional>
 
 namespace vcarve {
 
@@ -23,15 +24,16 @@ Reference reference_of(const Scene& model, const NamedMesh* truth, const Compare
     return reference;
 }
 
-/// The numbers in an entry of the JSON text, by their place in it.
-std::map<std::string, double> figures_in(const nlohmann::json& entry)
+/// The figures of a mesh that are known, by their places in the JSON text.
+std::map<std::string, double> known_figures(const Comparison& comparison,
+                                            const std::vector<Figure>& figures)
 {
-    std::map<std::string, double> figures;
-    const nlohmann::json flat = entry.flatten();
-    for (const auto& [place, value] : flat.items()) {
-        if (value.is_number()) figures[place] = value.get<double>();
+    std::map<std::string, double> known;
+    for (const Figure& figure : figures) {
+        const std::optional<double> number = figure.number(comparison);
+        if (number) known[figure.place] = *number;
     }
-    return figures;
+    return known;
 }
 
 } // namespace
@@ -51,9 +53,9 @@ ComparisonReport compare(const Scene& model, std::span<const NamedMesh> meshes,
     ComparisonReport report;
     report.table = comparison_table(comparisons, reference);
     report.json = comparison_json(comparisons, reference);
-    const nlohmann::json record = nlohmann::json::parse(report.json);
-    for (const nlohmann::json& entry : record.at("meshes")) {
-        report.figures.push_back(figures_in(entry));
+    const std::vector<Figure> judged_by = figures(reference, false);
+    for (const Comparison& comparison : comparisons) {
+        report.figures.push_back(known_figures(comparison, judged_by));
     }
     return report;
 }

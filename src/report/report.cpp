@@ -1,12 +1,12 @@
 #include "report/report.h"
 
-#include "report/definitions.h"
-#include "report/report_rows.h"
+#include "report/figures.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <variant>
 #include <vector>
 
 namespace vcarve {
@@ -15,13 +15,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A column without a mesh says why in its first row.
-std::string figure_of(const Row& row, const Comparison& comparison, bool is_first)
+std::string shown(const Figure& figure, const Comparison& comparison, bool is_first)
 {
-    if (comparison.failure.empty()) return row.figure(comparison);
+    if (comparison.failure.empty()) return figure.shown(comparison);
     return is_first ? comparison.failure : "-";
 }
 
-std::string table(std::span<const Comparison> comparisons, const std::vector<Row>& rows)
+std::string table(std::span<const Comparison> comparisons, const std::vector<Figure>& rows)
 {
     // The cells, the first row being the head.
     std::vector<std::vector<std::string>> cells(rows.size() + 1);
@@ -32,7 +32,7 @@ std::string table(std::span<const Comparison> comparisons, const std::vector<Row
     for (std::size_t row = 0; row < rows.size(); ++row) {
         cells[row + 1].push_back(rows[row].title);
         for (const Comparison& comparison : comparisons) {
-            cells[row + 1].push_back(figure_of(rows[row], comparison, row == 0));
+            cells[row + 1].push_back(shown(rows[row], comparison, row == 0));
         }
     }
     std::vector<std::size_t> widths(cells[0].size(), 3);
@@ -59,73 +59,28 @@ std::string table(std::span<const Comparison> comparisons, const std::vector<Row
     return text;
 }
 
-Json size_json(const Comparison& comparison)
+void put(Json& mesh, const std::string& place, std::monostate /*unknown*/)
 {
-    const MeshCheck& size = comparison.size;
-    return {{"vertices", size.vertices},
-            {"faces", size.faces},
-            {"area", size.area},
-            {"components", size.components},
-            {"boundary_edges", size.boundary_edges},
-            {"nonmanifold_edges", size.nonmanifold_edges},
-            {"nonmanifold_vertices", size.nonmanifold_vertices},
-            {"orientation_faults", size.orientation_faults},
-            {"degenerate_faces", size.degenerate_faces},
-            {"unreferenced_vertices", size.unreferenced_vertices},
-            {"genus", comparison.genus ? Json(*comparison.genus) : Json(nullptr)}};
+    mesh[Json::json_pointer(place)] = nullptr;
 }
 
-Json line_json(const TruthFigures& figures, double LineFigures::*member)
+template <typename Number>
+void put(Json& mesh, const std::string& place, Number number)
 {
-    return figures.lines ? Json((*figures.lines).*member) : Json(nullptr);
+    mesh[Json::json_pointer(place)] = number;
 }
 
-Json truth_json(const TruthFigures& figures)
-{
-    Json agreements = Json::array();
-    for (const Agreement& agreement : figures.agreements) {
-        agreements.push_back({{"tolerance", agreement.tolerance},
-                              {"f", agreement.f_score},
-                              {"precision", agreement.precision},
-                              {"recall", agreement.recall}});
-    }
-    return {{"agreement", agreements},
-            {"mean_accuracy", figures.mean_accuracy},
-            {"mean_completeness", figures.mean_completeness},
-            {"blocked", figures.blocked},
-            {"seen_right", line_json(figures, &LineFigures::seen_right)},
-            {"torn", line_json(figures, &LineFigures::torn)},
-            {"open", line_json(figures, &LineFigures::open)}};
-}
-
-Json views_json(const EvidenceFigures& evidence)
-{
-    Json json = {{"hidden_sights", evidence.hidden_sights},
-                 {"missed_points", evidence.missed_points},
-                 {"unsupported_area", evidence.unsupported_area},
-                 {"median_distance", evidence.median_distance},
-                 {"seen_boundary_edges", evidence.seen_boundary_edges},
-                 {"back_faces_seen", nullptr},
-                 {"nothing_seen", nullptr}};
-    if (!evidence.rays) return json;
-    json["back_faces_seen"] = evidence.rays->back_faces_seen;
-    if (evidence.rays->nothing_seen) json["nothing_seen"] = *evidence.rays->nothing_seen;
-    return json;
-}
-
-Json mesh_json(const Comparison& comparison)
+Json mesh_json(const Comparison& comparison, const std::vector<Figure>& figures)
 {
     if (!comparison.failure.empty()) {
         return {{"name", comparison.name}, {"failure", comparison.failure}};
     }
-    Json mesh = {{"name", comparison.name},
-                 {"size", size_json(comparison)},
-                 {"views", views_json(comparison.evidence)}};
-    if (comparison.truth) mesh["truth"] = truth_json(*comparison.truth);
-    if (comparison.cost) {
-        mesh["cost"] = {{"seconds", comparison.cost->seconds},
-                        {"cpu_seconds", comparison.cost->cpu_seconds},
-                        {"peak_memory_bytes", comparison.cost->peak_memory_bytes}};
+    Json mesh = {{"name", comparison.name}};
+    for (const Figure& figure : figures) {
+        const bool is_of_truth = figure.place.starts_with("/truth/");
+        const bool is_of_run = figure.place.starts_with("/cost/");
+        if ((is_of_truth && !comparison.truth) || (is_of_run && !comparison.cost)) continue;
+        std::visit([&](auto number) { put(mesh, figure.place, number); }, figure.value(comparison));
     }
     return mesh;
 }
@@ -134,8 +89,9 @@ Json mesh_json(const Comparison& comparison)
 
 std::string comparison_json(std::span<const Comparison> comparisons, const Reference& reference)
 {
+    const std::vector<Figure> judged_by = figures(reference, has_costs(comparisons));
     Json report;
-    report["definitions"] = definitions(reference, has_costs(comparisons));
+    report["definitions"] = definitions(reference, judged_by);
     report["options"] = {{"samples", reference.options.samples},
                          {"seed", reference.options.seed},
                          {"spacings", reference.options.spacings}};
@@ -153,7 +109,7 @@ std::string comparison_json(std::span<const Comparison> comparisons, const Refer
     }
     report["meshes"] = Json::array();
     for (const Comparison& comparison : comparisons) {
-        report["meshes"].push_back(mesh_json(comparison));
+        report["meshes"].push_back(mesh_json(comparison, judged_by));
     }
     // A file's name may be any bytes; what is not UTF-8 is replaced, not fatal.
     return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -161,10 +117,12 @@ std::string comparison_json(std::span<const Comparison> comparisons, const Refer
 
 std::string comparison_table(std::span<const Comparison> comparisons, const Reference& reference)
 {
-    const std::vector<Row> rows = report_rows(comparisons, reference.truth.has_value());
+    const std::vector<Figure> judged_by = figures(reference, has_costs(comparisons));
+    std::vector<Figure> rows = judged_by;
+    std::erase_if(rows, [](const Figure& figure) { return figure.title.empty(); });
     std::string text = table(comparisons, rows);
     text += '\n';
-    for (const std::string& line : definitions(reference, has_costs(comparisons))) {
+    for (const std::string& line : definitions(reference, judged_by)) {
         text += line + '\n';
     }
     return text;
