@@ -119,8 +119,7 @@ Labels MinimumCut::labels() const
     return labels;
 }
 
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks,
-                   const Progress& progress)
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks)
 {
     return MinimumCut(cells, std::move(network), blocks).labels();
 }

@@ -46,7 +46,6 @@ class MinimumCut {
 };
 
 /// The labels of the minimum cut. `network` is used up.
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {},
-                   const Progress& progress = {});
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {});
 
 } // namespace vcarve
