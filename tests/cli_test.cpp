@@ -19,6 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
 using testing::Not;
+using testing::StartsWith;
 
 const std::string kSeeHelp = " (see colmap-vcarve --help)\n";
 
@@ -184,11 +185,33 @@ TEST(Program, RecognisesASwappedInputAndOutput)
               "out.ply\n");
 }
 
-TEST(Program, WritesOnlyPly)
+TEST(Program, NamesTheEndsOfTheFilesItWrites)
 {
-    EXPECT_EQ(sentence_of(2, {"sparse", "a/out.obj"}),
-              "colmap-vcarve: cannot write a/out.obj: surfaces are written as PLY, so name it "
-              "a/out.ply\n");
+    const std::string ends = ": the name of a surface must end with .ply, .obj, .off, .stl or .glb";
+    for (const std::string out : {"a/out.gltf", "a/out", "a/obj", "out.ply.gz"}) {
+        EXPECT_EQ(sentence_of(2, {"sparse", out}),
+                  "colmap-vcarve: cannot write " + out + ends + "\n");
+    }
+}
+
+TEST(Program, RefusesWhatOnlyPlyHolds)
+{
+    EXPECT_EQ(sentence_of(2, {"sparse", "out.obj", "--ascii"}),
+              "colmap-vcarve: cannot write out.obj with --ascii, which is for PLY files only\n");
+    EXPECT_EQ(sentence_of(2, {"sparse", "out.GLB", "--attributes"}),
+              "colmap-vcarve: cannot write out.GLB with --attributes, which is for PLY files "
+              "only\n");
+}
+
+TEST_F(ProgramOnBall, WritesTheFormatThatTheNameMeans)
+{
+    const std::string obj = folder / "out.obj";
+    const std::string glb = folder / "out.glb";
+    EXPECT_EQ(run({ball, obj}).exit_code, 0);
+    EXPECT_EQ(run({ball, glb}).exit_code, 0);
+    EXPECT_THAT(bytes_of(obj), StartsWith("# made by colmap-vcarve "));
+    EXPECT_THAT(bytes_of(glb), StartsWith("glTF"));
+    EXPECT_EQ(folder.num_entries(), 3U);
 }
 
 TEST(Program, RefusesWrongOptionsInOneSentence)

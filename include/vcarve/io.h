@@ -22,11 +22,32 @@ namespace vcarve {
 Scene read_model(const std::filesystem::path& input, Log& log);
 
 /// How a mesh is written.
-struct PlyFormat {
-    bool ascii = false;                     ///< numbers as text instead of binary
-    std::vector<std::string> comments;      ///< header lines: program version, options, offset
-    const Provenance* provenance = nullptr; ///< written as well where there is one
+struct MeshFormat {
+    bool ascii = false;                     ///< PLY only: numbers as text instead of binary
+    std::vector<std::string> comments = {}; ///< said in the file: program version, options
+    const Provenance* provenance = nullptr; ///< PLY only: written as well where there is one
 };
+
+/// Writes a surface in the format that the end of the file's name means, in large or small letters.
+/// Vertices and faces keep their order, faces are written as they stand, manifold or not, and
+/// `offset` is added to every position.
+///
+/// - `.ply`: as write_ply() does.
+/// - `.obj`: positions with the fewest digits that read back as the same double, colours behind
+///   them, from 0 to 1 with four decimals, and normals.
+/// - `.off`: positions and colours in the same way.
+/// - `.stl`: binary, positions as floats; neither colours nor which faces meet.
+/// - `.glb`: glTF 2.0 in one file, with normals and colours. Positions are floats relative to the
+///   middle of their box, which is the node's translation and a double; so they are right to 1e-7
+///   of the box wherever it lies. Colours are linear with 16 bits, as glTF wants them. Axes are
+///   those of the mesh, though glTF takes y to point up: COLMAP does not know what is up. No more
+///   than 4 GiB; a surface without faces is an empty asset.
+///
+/// The bytes depend on the arguments alone. The file appears whole or not at all. Throws UsageError
+/// where it cannot be written, its name ends otherwise, or `format` asks for what is for PLY only.
+/// OpenMesh's writers are not used: they round positions to floats in all these formats, write no
+/// colours into OBJ, and print through streams that are global.
+void write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const MeshFormat& format);
 
 /// Writes a surface as PLY: per vertex x y z (double, `offset` added), nx ny nz (float) and red
 /// green blue (uchar) where the mesh has them; per face vertex_indices (uchar, int). Binary little
@@ -46,7 +67,7 @@ struct PlyFormat {
 /// num_views (int) and error_px (float) to the vertices. The faces' support (int) is an element
 /// `face_support` of its own behind the faces, one entry a face: COLMAP's reader of binary meshes
 /// skips what it does not know of a vertex, but takes a face to be its list of corners only.
-void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const PlyFormat& format);
+void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const MeshFormat& format);
 
 /// Reads a triangle surface from ascii, little endian or big endian PLY, numbers of any type.
 /// Polygons are fanned into triangles, faces are kept as they stand in the file however

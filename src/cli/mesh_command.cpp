@@ -6,6 +6,7 @@
 #include "cli/model_input.h"
 #include "cli/run_record.h"
 #include "io/files/output_file.h"
+#include "io/formats/mesh_file.h"
 #include "mesh/check.h"
 #include "pipeline/memory.h"
 #include "steps/5_surface/provenance.h"
@@ -16,7 +17,6 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -35,11 +35,12 @@ struct OutputOptions {
     void visit(OptionVisitor& options)
     {
         options.stage("Output");
-        options.flag(ascii, {.name = "ascii", .help = "Write numbers as text instead of binary."});
+        options.flag(
+            ascii, {.name = "ascii", .help = "Write numbers as text instead of binary; PLY only."});
         options.flag(attributes,
                      {.name = "attributes",
                       .help = "Write what vertices and faces come from: point3d_id, num_views and "
-                              "error_px of each vertex, support of each face."});
+                              "error_px of each vertex, support of each face; PLY only."});
         options.flag(quiet, {.name = "quiet", .help = "Print nothing but errors."});
     }
 };
@@ -72,14 +73,6 @@ std::vector<OptionRow> mesh_options()
     return table.rows();
 }
 
-std::string lower_extension(const fs::path& path)
-{
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char letter) { return std::tolower(letter); });
-    return extension;
-}
-
 void check_operands(const std::vector<std::string>& operands)
 {
     if (operands.size() != 2) {
@@ -92,18 +85,20 @@ void check_operands(const std::vector<std::string>& operands)
     }
     const fs::path model = operands[0];
     const fs::path out = operands[1];
-    if (lower_extension(model) == ".ply" && lower_extension(out) != ".ply") {
+    if (is_mesh_name(model) && !is_mesh_name(out)) {
         throw UsageError(fmt::format("the model comes first and the output second: colmap-vcarve "
                                      "{} {}",
                                      out.string(), model.string()));
     }
+}
+
+void check_output(const fs::path& out, const OutputOptions& options)
+{
     // What is a folder is refused as such later.
-    const bool is_file_name = out.has_filename() && !fs::is_directory(out);
-    if (is_file_name && lower_extension(out) != ".ply") {
-        throw UsageError(fmt::format("cannot write {}: surfaces are written as PLY, so name it {}",
-                                     out.string(),
-                                     fs::path(out).replace_extension("ply").string()));
-    }
+    if (!out.has_filename() || fs::is_directory(out)) return;
+    require_mesh_name(out);
+    if (options.ascii) require_ply(out, "--ascii");
+    if (options.attributes) require_ply(out, "--attributes");
 }
 
 MeshArguments read_arguments(const ParsedArguments& given)
@@ -115,6 +110,7 @@ MeshArguments read_arguments(const ParsedArguments& given)
     check_operands(given.operands);
     arguments.model = given.operands[0];
     arguments.out = given.operands[1];
+    check_output(arguments.out, arguments.output);
     if (given.has("stats")) arguments.stats = given.options.at("stats");
     if (given.has("stats") && arguments.stats == arguments.out) {
         throw UsageError(fmt::format("--stats and the surface cannot both be written to {}",
@@ -148,11 +144,11 @@ struct Surface {
 void write_surface(const MeshArguments& arguments, const Surface& surface, Log& log)
 {
     Stage stage(log, "write");
-    const PlyFormat format = {.ascii = arguments.output.ascii,
-                              .comments = {"made by colmap-vcarve " + versions().program},
-                              .provenance =
-                                  surface.provenance.has_value() ? &*surface.provenance : nullptr};
-    write_ply(arguments.out, surface.mesh, format);
+    const MeshFormat format = {.ascii = arguments.output.ascii,
+                               .comments = {"made by colmap-vcarve " + versions().program},
+                               .provenance =
+                                   surface.provenance.has_value() ? &*surface.provenance : nullptr};
+    write_mesh(arguments.out, surface.mesh, format);
     stage.end({{"faces", surface.mesh.faces.size()}, {"vertices", surface.mesh.positions.size()}});
 }
 
@@ -239,11 +235,15 @@ Manual mesh_manual()
     manual.examples = {
         {"colmap-vcarve sparse/0 mesh.ply", "the default: a surface from any sparse model"},
         {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
+        {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
     };
     manual.operand_meanings = {
         {"MODEL", "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
                   "models, or a workspace that holds sparse/0 or sparse."},
-        {"OUT.ply", "The surface: triangles with colours and normals, in the model's frame."},
+        {"OUT.ply",
+         "The surface: triangles with colours and normals, in the model's frame. The end "
+         "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "
+         "colours nor normals of vertices) or .glb (binary glTF)."},
     };
     manual.footnotes = {
         {"colmap-vcarve compare",

@@ -1,50 +1,13 @@
+#include "io/files/block_writer.h"
 #include "io/files/output_file.h"
-#include "vcarve/error.h"
 #include "vcarve/io.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
 #include <ostream>
 
 namespace vcarve {
 namespace {
-
-/// Gathers bytes and hands them to the stream in large blocks.
-class BlockWriter {
-  public:
-    explicit BlockWriter(std::ostream& out) : out_(out) {}
-    ~BlockWriter() { out_.write(block_.data(), static_cast<std::streamsize>(block_.size())); }
-    BlockWriter(const BlockWriter&) = delete;
-    BlockWriter& operator=(const BlockWriter&) = delete;
-
-    fmt::memory_buffer& block()
-    {
-        if (block_.size() > kBlockBytes) {
-            out_.write(block_.data(), static_cast<std::streamsize>(block_.size()));
-            block_.clear();
-        }
-        return block_;
-    }
-
-  private:
-    static constexpr std::size_t kBlockBytes = 1 << 20;
-
-    std::ostream& out_;
-    fmt::memory_buffer block_;
-};
-
-template <typename Number>
-void put_little_endian(fmt::memory_buffer& block, Number number)
-{
-    std::array<char, sizeof(Number)> bytes;
-    std::memcpy(bytes.data(), &number, sizeof(Number));
-    if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
-    block.append(bytes.data(), bytes.data() + bytes.size());
-}
 
 /// One number, by memory layout or as text.
 template <typename Number>
@@ -72,15 +35,7 @@ void end_line(fmt::memory_buffer& block, bool binary)
     if (!binary) block[block.size() - 1] = '\n';
 }
 
-/// A comment is one line: what would break it becomes a blank.
-std::string one_line(std::string text)
-{
-    std::ranges::replace_if(
-        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
-}
-
-void write_header(std::ostream& out, const TriMesh& mesh, const PlyFormat& format)
+void write_header(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
     out << "ply\nformat " << (format.ascii ? "ascii" : "binary_little_endian") << " 1.0\n";
     for (const std::string& comment : format.comments) {
@@ -113,7 +68,7 @@ void put_provenance(fmt::memory_buffer& block, const Provenance& provenance, std
     put_one(block, provenance.errors_px[vertex], binary);
 }
 
-void write_vertices(std::ostream& out, const TriMesh& mesh, const PlyFormat& format)
+void write_vertices(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
     const bool binary = !format.ascii;
     BlockWriter writer(out);
@@ -151,7 +106,7 @@ void write_supports(std::ostream& out, const Provenance& provenance, bool binary
 
 } // namespace
 
-void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const PlyFormat& format)
+void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const MeshFormat& format)
 {
     OutputFile file(path);
     write_header(file.stream(), mesh, format);

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <ostream>
+#include <string>
+
+namespace vcarve {
+
+/// Gathers bytes and hands them to the stream in large blocks.
+class BlockWriter {
+  public:
+    explicit BlockWriter(std::ostream& out) : out_(out) {}
+    ~BlockWriter() { out_.write(block_.data(), static_cast<std::streamsize>(block_.size())); }
+    BlockWriter(const BlockWriter&) = delete;
+    BlockWriter& operator=(const BlockWriter&) = delete;
+
+    /// What bytes are added to, a few at a time.
+    fmt::memory_buffer& block()
+    {
+        if (block_.size() > kBlockBytes) {
+            out_.write(block_.data(), static_cast<std::streamsize>(block_.size()));
+            block_.clear();
+        }
+        return block_;
+    }
+
+  private:
+    static constexpr std::size_t kBlockBytes = 1 << 20;
+
+    std::ostream& out_;
+    fmt::memory_buffer block_;
+};
+
+/// A number as it lies in the memory of a machine that puts the lowest byte first.
+template <typename Number>
+std::array<char, sizeof(Number)> little_endian(Number number)
+{
+    std::array<char, sizeof(Number)> bytes;
+    std::memcpy(bytes.data(), &number, sizeof(Number));
+    if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
+    return bytes;
+}
+
+template <typename Number>
+void put_little_endian(fmt::memory_buffer& block, Number number)
+{
+    const auto bytes = little_endian(number);
+    block.append(bytes.data(), bytes.data() + bytes.size());
+}
+
+/// A comment is one line: what would break it becomes a blank.
+inline std::string one_line(std::string text)
+{
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+} // namespace vcarve

@@ -1,0 +1,84 @@
+#include "io/formats/mesh_file.h"
+
+#include "io/files/output_file.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+#include <string_view>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A format and the end of its files' names.
+struct Kind {
+    std::string_view end;
+    void (*write)(std::ostream&, const TriMesh&, const MeshFormat&); ///< null for PLY
+};
+
+constexpr std::array<Kind, 5> kKinds = {{{".ply", nullptr},
+                                         {".obj", write_obj},
+                                         {".off", write_off},
+                                         {".stl", write_stl},
+                                         {".glb", write_glb}}};
+
+/// Null where there is no such format.
+const Kind* find_kind(const fs::path& path)
+{
+    std::string end = path.extension().string();
+    std::ranges::transform(end, end.begin(),
+                           [](unsigned char letter) { return std::tolower(letter); });
+    const auto* const kind = std::ranges::find(kKinds, end, &Kind::end);
+    return kind == kKinds.end() ? nullptr : kind;
+}
+
+const Kind& kind_of(const fs::path& path)
+{
+    const Kind* const kind = find_kind(path);
+    if (kind != nullptr) return *kind;
+    throw UsageError(fmt::format("cannot write {}: the name of a surface must end with .ply, "
+                                 ".obj, .off, .stl or .glb",
+                                 path.string()));
+}
+
+} // namespace
+
+bool is_mesh_name(const fs::path& path)
+{
+    return find_kind(path) != nullptr;
+}
+
+void require_mesh_name(const fs::path& path)
+{
+    kind_of(path);
+}
+
+void require_ply(const fs::path& path, const char* option)
+{
+    if (kind_of(path).write == nullptr) return;
+    throw UsageError(
+        fmt::format("cannot write {} with {}, which is for PLY files only", path.string(), option));
+}
+
+void write_mesh(const fs::path& path, const TriMesh& mesh, const MeshFormat& format)
+{
+    const Kind& kind = kind_of(path);
+    if (kind.write == nullptr) return write_ply(path, mesh, format);
+    if (format.ascii) require_ply(path, "--ascii");
+    if (format.provenance != nullptr) require_ply(path, "--attributes");
+    OutputFile file(path);
+    try {
+        kind.write(file.stream(), mesh, format);
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("cannot write {}: {}", path.string(), error.what()));
+    }
+    file.commit();
+}
+
+} // namespace vcarve

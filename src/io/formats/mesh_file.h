@@ -1,0 +1,30 @@
+#pragma once
+
+#include "vcarve/io.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+
+namespace vcarve {
+
+/// Whether the name of a file ends as one that write_mesh() writes.
+bool is_mesh_name(const std::filesystem::path& path);
+
+/// Throws UsageError, naming the ends there are, where it does not.
+void require_mesh_name(const std::filesystem::path& path);
+
+/// Throws UsageError where such a file is no PLY file, which `option` is for.
+void require_ply(const std::filesystem::path& path, const char* option);
+
+/// Writers of the other formats, for write_mesh(), which says what they write. Errors of the stream
+/// are left to whoever owns it.
+void write_obj(std::ostream& out, const TriMesh& mesh, const MeshFormat& format);
+void write_off(std::ostream& out, const TriMesh& mesh, const MeshFormat& format);
+void write_stl(std::ostream& out, const TriMesh& mesh, const MeshFormat& format);
+void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format);
+
+/// Throws UsageError where the numbers of a surface take more bytes than binary glTF holds.
+void require_glb_room(std::uint64_t bytes);
+
+} // namespace vcarve

@@ -1,0 +1,93 @@
+#include "io/files/block_writer.h"
+#include "io/formats/mesh_file.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+namespace vcarve {
+namespace {
+
+template <typename Vector>
+void put_triple(fmt::memory_buffer& block, const char* before, const Vector& triple)
+{
+    fmt::format_to(fmt::appender(block), "{}{} {} {}", before, triple[0], triple[1], triple[2]);
+}
+
+void put_comments(fmt::memory_buffer& block, const MeshFormat& format)
+{
+    for (const std::string& comment : format.comments) {
+        fmt::format_to(fmt::appender(block), "# {}\n", one_line(comment));
+    }
+}
+
+/// A colour from 0 to 1. Rounded up in the fourth decimal, so that a reader finds the same byte
+/// again whether it rounds or cuts off.
+void put_color(fmt::memory_buffer& block, const Color& color)
+{
+    constexpr int kOne = 10000;
+    for (const std::uint8_t channel : color) {
+        const int share = (kOne * channel + 254) / 255;
+        fmt::format_to(fmt::appender(block), " {}.{:04}", share / kOne, share % kOne);
+    }
+}
+
+void put_corner(fmt::memory_buffer& block, std::uint32_t vertex, bool has_normals)
+{
+    const std::uint64_t number = std::uint64_t{vertex} + 1;
+    fmt::format_to(fmt::appender(block), " {}", number);
+    if (has_normals) fmt::format_to(fmt::appender(block), "//{}", number);
+}
+
+} // namespace
+
+void write_obj(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
+{
+    BlockWriter writer(out);
+    put_comments(writer.block(), format);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        fmt::memory_buffer& block = writer.block();
+        const Eigen::Vector3d position = mesh.positions[v] + mesh.offset;
+        put_triple(block, "v ", position);
+        if (!mesh.colors.empty()) put_color(block, mesh.colors[v]);
+        block.push_back('\n');
+    }
+    for (const Eigen::Vector3f& normal : mesh.normals) {
+        fmt::memory_buffer& block = writer.block();
+        put_triple(block, "vn ", normal);
+        block.push_back('\n');
+    }
+    for (const Face& face : mesh.faces) {
+        fmt::memory_buffer& block = writer.block();
+        block.push_back('f');
+        for (const std::uint32_t vertex : face) {
+            put_corner(block, vertex, !mesh.normals.empty());
+        }
+        block.push_back('\n');
+    }
+}
+
+void write_off(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
+{
+    BlockWriter writer(out);
+    fmt::format_to(fmt::appender(writer.block()), "{}\n{} {} 0\n",
+                   mesh.colors.empty() ? "OFF" : "COFF", mesh.positions.size(), mesh.faces.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        fmt::memory_buffer& block = writer.block();
+        const Eigen::Vector3d position = mesh.positions[v] + mesh.offset;
+        put_triple(block, "", position);
+        if (!mesh.colors.empty()) {
+            put_color(block, mesh.colors[v]);
+            fmt::format_to(fmt::appender(block), " 1.0000"); // opaque
+        }
+        block.push_back('\n');
+    }
+    for (const Face& face : mesh.faces) {
+        fmt::memory_buffer& block = writer.block();
+        put_triple(block, "3 ", face);
+        block.push_back('\n');
+    }
+    put_comments(writer.block(), format); // at the end, since some readers know no comments
+}
+
+} // namespace vcarve

@@ -1,0 +1,95 @@
+#include "io/formats/mesh_file.h"
+#include "support/read_back.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gtest/gtest.h>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kNames[] = {"a.ply", "a.obj", "a.off", "a.stl", "a.glb"};
+
+TEST(WriteMesh, PicksTheFormatByTheEndOfTheName)
+{
+    const TemporaryFolder folder;
+    const TriMesh mesh = sample_sheet();
+    const MeshFormat format = {.comments = {"made here"}};
+    write_ply(folder / "as.ply", mesh, format);
+    write_mesh(folder / "a.ply", mesh, format);
+    EXPECT_EQ(bytes_of(folder / "a.ply"), bytes_of(folder / "as.ply"));
+    const auto beginning = [&](const char* name) {
+        write_mesh(folder / name, mesh, format);
+        return bytes_of(folder / name).substr(0, 4);
+    };
+    EXPECT_EQ(beginning("A.PLY"), "ply\n");
+    EXPECT_EQ(beginning("a.b.Obj"), "# ma");
+    EXPECT_EQ(beginning("a.OFF"), "COFF");
+    EXPECT_EQ(beginning("a.stl"), "STL,");
+    EXPECT_EQ(beginning("a.glb"), "glTF");
+}
+
+TEST(WriteMesh, RefusesOtherNames)
+{
+    const TemporaryFolder folder;
+    for (const char* name : {"a.gltf", "ply", ".ply", "a.ply.gz", "a."}) {
+        const fs::path path = folder / name;
+        EXPECT_EQ(refusal<UsageError>([&] { write_mesh(path, sample_sheet(), {}); }),
+                  "cannot write " + path.string() +
+                      ": the name of a surface must end with .ply, .obj, .off, .stl or .glb");
+        EXPECT_FALSE(is_mesh_name(path));
+    }
+    EXPECT_EQ(folder.num_entries(), 0U);
+}
+
+TEST(WriteMesh, RefusesWhatOnlyPlyHolds)
+{
+    const TemporaryFolder folder;
+    const Provenance provenance;
+    for (const std::string& name : kNames) {
+        const fs::path path = folder / name;
+        const bool is_ply = name == "a.ply";
+        const std::string refused = is_ply ? "no exception" : "cannot write " + path.string();
+        const std::string why = is_ply ? "" : ", which is for PLY files only";
+        const auto message = [&](const MeshFormat& format) {
+            return refusal<UsageError>([&] { write_mesh(path, {}, format); });
+        };
+        EXPECT_EQ(message({.ascii = true}), refused + (is_ply ? "" : " with --ascii") + why);
+        EXPECT_EQ(message({.provenance = &provenance}),
+                  refused + (is_ply ? "" : " with --attributes") + why);
+    }
+    EXPECT_EQ(folder.num_entries(), 1U);
+}
+
+TEST(WriteMesh, LeavesTheFileAsItWasWhereItFails)
+{
+    const TemporaryFolder folder;
+    for (const std::string& name : kNames) {
+        const fs::path path = folder / name;
+        fs::create_symlink("/dev/full", path); // a disk without room
+        EXPECT_EQ(refusal<UsageError>([&] { write_mesh(path, sample_sheet(), {}); }),
+                  "cannot write " + path.string() + ": No space left on device");
+    }
+    EXPECT_EQ(folder.num_entries(), std::size(kNames));
+}
+
+TEST(WriteMesh, WritesFacesThatAreNotManifold)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh = sample_sheet();
+    mesh.faces = {{0, 1, 9}, {0, 1, 10}, {1, 0, 11}, {2, 2, 3}};
+    const std::vector<Corner> expected = corners_of(mesh);
+    for (const char* name : {"a.obj", "a.off", "a.stl", "a.glb"}) {
+        write_mesh(folder / name, mesh, {});
+        const std::vector<Corner> back = corners_of(read_by_assimp(folder / name));
+        ASSERT_EQ(back.size(), expected.size()) << name;
+        for (std::size_t i = 0; i < back.size(); ++i) {
+            ASSERT_LT((back[i].position - expected[i].position).norm(), 4e-6) << name;
+        }
+    }
+}
+
+} // namespace
+} // namespace vcarve

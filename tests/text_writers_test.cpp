@@ -1,0 +1,194 @@
+#include "support/read_back.h"
+#include "support/temporary_folder.h"
+#include "vcarve/io.h"
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+TriMesh two_triangles()
+{
+    TriMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.1, 1.0 / 3.0, 0}, {-2.5, 1e-7, 12}};
+    mesh.faces = {{0, 1, 2}, {2, 1, 3}};
+    return mesh;
+}
+
+TriMesh adorned_triangles()
+{
+    TriMesh mesh = two_triangles();
+    mesh.colors = {{255, 0, 128}, {1, 2, 3}, {51, 102, 153}, {254, 127, 126}};
+    mesh.normals = {{0, 0, 1}, {0, 1, 0}, {0.6F, 0, 0.8F}, {-1, 0, 0}};
+    return mesh;
+}
+
+std::string written(const TriMesh& mesh, const std::string& name, const MeshFormat& format = {})
+{
+    const TemporaryFolder folder;
+    write_mesh(folder / name, mesh, format);
+    return bytes_of(folder / name);
+}
+
+TEST(WriteObj, WritesExactlyThisText)
+{
+    EXPECT_EQ(written(adorned_triangles(), "a.obj", {.comments = {"made here", "two\nlines"}}),
+              "# made here\n"
+              "# two lines\n"
+              "v 0 0 0 1.0000 0.0000 0.5020\n"
+              "v 1 0 0 0.0040 0.0079 0.0118\n"
+              "v 0.1 0.3333333333333333 0 0.2000 0.4000 0.6000\n"
+              "v -2.5 1e-07 12 0.9961 0.4981 0.4942\n"
+              "vn 0 0 1\n"
+              "vn 0 1 0\n"
+              "vn 0.6 0 0.8\n"
+              "vn -1 0 0\n"
+              "f 1//1 2//2 3//3\n"
+              "f 3//3 2//2 4//4\n");
+    EXPECT_EQ(written(two_triangles(), "a.obj"), "v 0 0 0\n"
+                                                 "v 1 0 0\n"
+                                                 "v 0.1 0.3333333333333333 0\n"
+                                                 "v -2.5 1e-07 12\n"
+                                                 "f 1 2 3\n"
+                                                 "f 3 2 4\n");
+}
+
+TEST(WriteOff, WritesExactlyThisText)
+{
+    EXPECT_EQ(written(adorned_triangles(), "a.off", {.comments = {"made here"}}),
+              "COFF\n"
+              "4 2 0\n"
+              "0 0 0 1.0000 0.0000 0.5020 1.0000\n"
+              "1 0 0 0.0040 0.0079 0.0118 1.0000\n"
+              "0.1 0.3333333333333333 0 0.2000 0.4000 0.6000 1.0000\n"
+              "-2.5 1e-07 12 0.9961 0.4981 0.4942 1.0000\n"
+              "3 0 1 2\n"
+              "3 2 1 3\n"
+              "# made here\n");
+    EXPECT_EQ(written(two_triangles(), "a.off"), "OFF\n"
+                                                 "4 2 0\n"
+                                                 "0 0 0\n"
+                                                 "1 0 0\n"
+                                                 "0.1 0.3333333333333333 0\n"
+                                                 "-2.5 1e-07 12\n"
+                                                 "3 0 1 2\n"
+                                                 "3 2 1 3\n");
+}
+
+/// The positions of OBJ or, without a word before them, of OFF.
+std::vector<Vector3d> positions_in(const std::string& text, std::size_t count, bool is_obj)
+{
+    std::istringstream lines(text);
+    std::string line;
+    std::vector<Vector3d> positions;
+    if (!is_obj) {
+        std::getline(lines, line);
+        std::getline(lines, line);
+    }
+    while (positions.size() < count && std::getline(lines, line)) {
+        std::istringstream words(is_obj ? line.substr(2) : line);
+        Vector3d& position = positions.emplace_back();
+        words >> position.x() >> position.y() >> position.z();
+    }
+    return positions;
+}
+
+TEST(TextFormats, KeepDoublesFarFromTheOrigin)
+{
+    TriMesh mesh = sample_sheet();
+    mesh.offset = {500000.123, 4600000.456, 100.789};
+    for (const std::string name : {"a.obj", "a.off"}) {
+        const std::vector<Vector3d> back =
+            positions_in(written(mesh, name), mesh.positions.size(), name == "a.obj");
+        ASSERT_EQ(back.size(), mesh.positions.size());
+        for (std::size_t v = 0; v < back.size(); ++v) {
+            EXPECT_EQ(back[v], mesh.positions[v] + mesh.offset) << name;
+        }
+    }
+}
+
+TEST(TextFormats, AreReadByAssimp)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh = sample_sheet();
+    mesh.offset = {2.5, -1.0, 8.0};
+    const std::vector<Corner> expected = corners_of(mesh);
+    for (const std::string name : {"a.obj", "a.off"}) {
+        write_mesh(folder / name, mesh, {.comments = {"made here"}});
+        const std::vector<Corner> back = corners_of(read_by_assimp(folder / name));
+        ASSERT_EQ(back.size(), expected.size()) << name;
+        for (std::size_t i = 0; i < back.size(); ++i) {
+            ASSERT_LT((back[i].position - expected[i].position).norm(), 2e-6) << name;
+            ASSERT_EQ(back[i].color, expected[i].color) << name;
+            if (name == "a.obj") {
+                ASSERT_LT((back[i].normal - expected[i].normal).norm(), 1e-6F);
+            }
+        }
+    }
+}
+
+struct ColoredTraits : OpenMesh::DefaultTraits {
+    using Color = OpenMesh::Vec3uc;
+    VertexAttributes(OpenMesh::Attributes::Normal | OpenMesh::Attributes::Color);
+};
+
+TEST(TextFormats, AreReadByOpenMesh)
+{
+    const TemporaryFolder folder;
+    const TriMesh mesh = sample_sheet();
+    using OpenMesh::IO::Options;
+    for (const std::string name : {"a.obj", "a.off"}) {
+        write_mesh(folder / name, mesh, {.comments = {"made here"}});
+        OpenMesh::TriMesh_ArrayKernelT<ColoredTraits> back;
+        Options found(Options::VertexColor | Options::VertexNormal);
+        ASSERT_TRUE(OpenMesh::IO::read_mesh(back, (folder / name).string(), found));
+        EXPECT_TRUE(found.vertex_has_color());
+        EXPECT_EQ(found.vertex_has_normal(), name == "a.obj");
+        ASSERT_EQ(back.n_vertices(), mesh.positions.size());
+        ASSERT_EQ(back.n_faces(), mesh.faces.size());
+        for (const auto vertex : back.vertices()) {
+            const auto v = static_cast<std::size_t>(vertex.idx());
+            for (int i = 0; i < 3; ++i) {
+                ASSERT_EQ(back.point(vertex)[static_cast<std::size_t>(i)],
+                          static_cast<float>(mesh.positions[v][i]));
+            }
+            ASSERT_EQ(back.color(vertex), OpenMesh::Vec3uc(mesh.colors[v].data()));
+        }
+        for (const auto face : back.faces()) {
+            std::vector<std::uint32_t> corners;
+            for (const auto vertex : face.vertices()) {
+                corners.push_back(static_cast<std::uint32_t>(vertex.idx()));
+            }
+            const Face& expected = mesh.faces[static_cast<std::size_t>(face.idx())];
+            ASSERT_EQ(corners, std::vector<std::uint32_t>(expected.begin(), expected.end()));
+        }
+    }
+}
+
+TEST(TextFormats, KeepEveryColourWhetherReadersRoundOrCutOff)
+{
+    TriMesh mesh;
+    for (int i = 0; i < 256; ++i) {
+        mesh.positions.emplace_back(i, 0, 0);
+        mesh.colors.push_back({static_cast<std::uint8_t>(i), 0, 0});
+    }
+    std::istringstream lines(written(mesh, "a.obj"));
+    for (int i = 0; i < 256; ++i) {
+        char v = 0;
+        double x = 0, y = 0, z = 0, red = 0, green = 0, blue = 0;
+        lines >> v >> x >> y >> z >> red >> green >> blue;
+        EXPECT_EQ(std::lround(255.0 * red), i);
+        EXPECT_EQ(static_cast<int>(255.0 * red), i);
+        EXPECT_EQ(static_cast<int>(255.0F * static_cast<float>(red)), i);
+    }
+}
+
+} // namespace
+} // namespace vcarve
