@@ -89,6 +89,16 @@ TEST(Filter, JudgesTheAngleByTheWidestPairOfSights)
     EXPECT_EQ(filter_points(scene, options).scene.num_points(), 0U);
 }
 
+TEST(Filter, KeepsTheNormalsOfThePointsItKeeps)
+{
+    Scene scene =
+        make_scene(kCenters, {{{1, 0, 0}, {0, 1}}, {{2, 0, 0}, {0}}, {{3, 0, 0}, {0, 1}}});
+    EXPECT_TRUE(filter_points(scene, {}).scene.normals.empty());
+    scene.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    EXPECT_EQ(filter_points(scene, {}).scene.normals,
+              (std::vector<Eigen::Vector3f>{{1, 0, 0}, {0, 0, 1}}));
+}
+
 TEST(CenterPoints, MovesTheMedianToTheOriginAndRecordsTheMove)
 {
     const Scene scene = make_scene(
@@ -116,7 +126,10 @@ TEST(SpatialSortPoints, GivesOneOrderForAnyOrderOfTheInput)
 
 TEST(SpatialSortPoints, KeepsWhatBelongsToAPointTogether)
 {
-    const Scene scene = bumpy_sphere(500, 12);
+    Scene scene = bumpy_sphere(500, 12);
+    for (const Vector3d& position : scene.positions) {
+        scene.normals.emplace_back(position.cast<float>());
+    }
     const Scene sorted = spatial_sort(scene);
     ASSERT_EQ(sorted.num_points(), scene.num_points());
     for (std::size_t i = 0; i < sorted.num_points(); ++i) {
@@ -124,6 +137,7 @@ TEST(SpatialSortPoints, KeepsWhatBelongsToAPointTogether)
         ASSERT_EQ(sorted.positions[i], scene.positions[from]);
         ASSERT_EQ(sorted.colors[i], scene.colors[from]);
         ASSERT_EQ(sorted.errors_px[i], scene.errors_px[from]);
+        ASSERT_EQ(sorted.normals[i], scene.normals[from]);
         const auto row = sorted.tracks[i];
         const auto expected = scene.tracks[from];
         ASSERT_TRUE(std::equal(row.begin(), row.end(), expected.begin(), expected.end()));

@@ -45,6 +45,9 @@ TEST(PredictedMemory, GrowsWithPointsAndSightsAndThreads)
     more.sights += 1000;
     EXPECT_GT(predicted_peak(more, 1), peak);
     EXPECT_GE(predicted_peak(kMillion, 2), peak);
+    more = kMillion;
+    more.has_normals = true;
+    EXPECT_GE(predicted_peak(more, 1), peak + 12'000'000);
     // Ten times the model takes ten times what a run takes beside the program itself.
     const SceneSize ten = {.points = 10'000'000, .sights = 37'000'000, .views = 3'000};
     const std::int64_t program = predicted_peak({}, 1);

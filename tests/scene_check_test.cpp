@@ -41,6 +41,9 @@ TEST(SceneCheck, AcceptsWhatFits)
 {
     EXPECT_NO_THROW(require_consistent(small_scene()));
     EXPECT_NO_THROW(require_consistent(Scene()));
+    Scene with_normals = small_scene();
+    with_normals.normals.resize(3);
+    EXPECT_NO_THROW(require_consistent(with_normals));
 }
 
 TEST(SceneCheck, NamesAnArrayThatHasNotAnEntryAPoint)
@@ -53,6 +56,8 @@ TEST(SceneCheck, NamesAnArrayThatHasNotAnEntryAPoint)
               "the scene's point_ids have 4 entries, not one for each of its 3 points");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.push_back({}); }),
               "the scene's tracks have 4 entries, not one for each of its 3 points");
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.normals.resize(2); }),
+              "the scene's normals have 2 entries, not one for each of its 3 points");
 }
 
 TEST(SceneCheck, NamesAViewWithoutItsCamera)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Writes fixtures/broken, fixtures/degenerate and fixtures/formats: small COLMAP models by name.
+"""Writes fixtures/broken, fixtures/broken_dense, fixtures/degenerate and fixtures/formats: small
+COLMAP models and dense workspaces by name.
 
 Usage: tools/make_broken_fixtures.py [FIXTURES]
 
@@ -119,6 +120,7 @@ def text_files(model):
 def write_model(folder, files):
     folder.mkdir(parents=True, exist_ok=True)
     for name, data in files.items():
+        (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
 
 
@@ -195,6 +197,120 @@ def broken_text():
         assert old in good[file], broken
         models[broken] = {**good, file: good[file].replace(old, new, 1)}
     return models
+
+
+# ---- dense workspaces ----------------------------------------------------------------------------
+
+# The numbers of PLY by the names they may have in a header.
+PLY_NUMBERS = {"uchar": "B", "uint8": "B", "ushort": "H", "int": "i", "float": "f",
+               "float32": "f", "double": "d", "float64": "d"}
+FUSED_PROPERTIES = ("float x", "float y", "float z", "float nx", "float ny", "float nz",
+                    "uchar red", "uchar green", "uchar blue")
+
+
+def fused_header(encoding, count, properties, before=""):
+    return ("ply\nformat %s 1.0\n%selement vertex %d\n%send_header\n"
+            % (encoding, before, count, "".join("property %s\n" % p for p in properties))).encode()
+
+
+def ply_entry(encoding, properties, values):
+    """One vertex; the value of a list is a list."""
+    numbers = []
+    for declared, value in zip(properties, values):
+        kinds = declared.split()[:-1]
+        if kinds[0] == "list":
+            numbers += [(PLY_NUMBERS[kinds[1]], len(value))]
+            numbers += [(PLY_NUMBERS[kinds[2]], v) for v in value]
+        else:
+            numbers.append((PLY_NUMBERS[kinds[0]], value))
+    if encoding == "ascii":
+        return (" ".join("%.9g" % v for _, v in numbers) + "\n").encode()
+    order = "<" if encoding == "binary_little_endian" else ">"
+    return struct.pack(order + "".join(k for k, _ in numbers), *[v for _, v in numbers])
+
+
+def fused_ply(vertices, encoding="binary_little_endian", properties=FUSED_PROPERTIES):
+    return fused_header(encoding, len(vertices), properties) + b"".join(
+        ply_entry(encoding, properties, vertex) for vertex in vertices)
+
+
+def fused_vis(tracks):
+    return struct.pack("<Q", len(tracks)) + b"".join(
+        struct.pack("<%dI" % (len(track) + 1), len(track), *track) for track in tracks)
+
+
+# What rich_model's views saw, by places in its images.bin; the second names an image twice.
+FUSED_VERTICES = [(0.5, 0.25, 4.0, 0.0, 0.0, -1.0, 200, 150, 100),
+                  (-0.125, 3.0, 5.0, 0.0, 3.0, -4.0, 0, 128, 255),
+                  (1.5, -2.0, 6.0, 0.0, 0.0, 0.0, 1, 2, 3)]
+FUSED_TRACKS = [[0, 2], [2, 1, 2], [0]]
+
+
+def broken_dense():
+    """Name -> files; every one must be refused with a sentence of its own."""
+    ply = fused_ply(FUSED_VERTICES)
+    vis = fused_vis(FUSED_TRACKS)
+    header = fused_header("binary_little_endian", 3, FUSED_PROPERTIES)
+    ascii_ply = fused_ply(FUSED_VERTICES, "ascii")
+    with_list = FUSED_PROPERTIES[:3] + ("list uchar float samples",)
+    faces = b"ply\nformat ascii 1.0\nelement face 0\nproperty list uchar int vertex_index\n"
+    changes = {
+        "ply_ascii_ends": {"fused.ply": ascii_ply[:-20]},
+        "ply_ascii_word": {"fused.ply": ascii_ply.replace(b"0.25", b"0,25")},
+        "ply_count_huge": {"fused.ply": header.replace(b"x 3", b"x %d" % 10 ** 18)
+                                        + ply[len(header):]},
+        "ply_empty": {"fused.ply": b""},
+        "ply_header_open": {"fused.ply": header.replace(b"end_header\n", b"")},
+        "ply_list_long": {"fused.ply": fused_ply([(0.5, 0.25, 4.0, [1.0])] * 3,
+                                                 properties=with_list)[:-5] + b"\x09" + bytes(4)},
+        "ply_no_vertices": {"fused.ply": faces + b"end_header\n"},
+        "ply_no_z": {"fused.ply": fused_ply([v[:2] for v in FUSED_VERTICES],
+                                            properties=FUSED_PROPERTIES[:2])},
+        "ply_truncated": {"fused.ply": ply[:-5]},
+        "vis_count_huge": {"fused.ply.vis": patched(vis, 0, struct.pack("<Q", 2 ** 60))},
+        "vis_count_less": {"fused.ply.vis": fused_vis(FUSED_TRACKS[:2])},
+        "vis_count_more": {"fused.ply.vis": fused_vis(FUSED_TRACKS + [[0]])},
+        "vis_empty": {"fused.ply.vis": b""},
+        "vis_image_unknown": {"fused.ply.vis": fused_vis([[0, 2], [2, 3, 7], [3]])},
+        "vis_no_points": {"fused.ply.vis": fused_vis([])},
+        "vis_track_huge": {"fused.ply.vis": patched(vis, 8, struct.pack("<I", 2 ** 31))},
+        "vis_trailing": {"fused.ply.vis": vis + bytes(4)},
+        "vis_truncated": {"fused.ply.vis": vis[:-2]},
+        "vis_truncated_between": {"fused.ply.vis": vis[:-8]},
+    }
+    good = dense_files(ply, vis)
+    workspaces = {broken: {**good, **change} for broken, change in changes.items()}
+    workspaces["no_model"] = {"fused.ply": ply, "fused.ply.vis": vis}
+    return workspaces
+
+
+def dense_files(ply, vis):
+    """A workspace as stereo_fusion leaves it, with what is no concern of ours."""
+    model = {"sparse/" + name: data for name, data in binary_files(rich_model()).items()}
+    return {**model, "fused.ply": ply, "fused.ply.vis": vis, "meshed-poisson.ply": b"not read",
+            "stereo/patch-match.cfg": b"not read"}
+
+
+def dense_formats():
+    """The same points in four ways."""
+    vis = fused_vis(FUSED_TRACKS)
+    doubles = ("double z", "double y", "uchar quality", "float64 x", "list uchar ushort samples",
+               "uint8 diffuse_red", "uint8 diffuse_green", "uint8 diffuse_blue",
+               "float32 nx", "float32 ny", "float32 nz")
+    shuffled = [(z, y, 7, x, list(range(k)), r, g, b, *normal)
+                for k, (x, y, z, *normal, r, g, b) in enumerate(FUSED_VERTICES)]
+    others = b"element camera 2\nproperty float fx\nproperty list uchar int ids\n"
+    big = fused_ply(shuffled, "binary_big_endian", doubles)
+    big = big.replace(b"element vertex", others + b"element vertex")
+    camera_data = struct.pack(">fB2i", 1.5, 2, 3, 4) + struct.pack(">fB", 2.5, 0)
+    return {
+        "dense_little": dense_files(fused_ply(FUSED_VERTICES), vis),
+        "dense_ascii": dense_files(fused_ply(FUSED_VERTICES, "ascii"), vis),
+        "dense_big_lists": dense_files(big.replace(b"end_header\n", b"end_header\n" + camera_data),
+                                       vis),
+        "dense_bare": dense_files(fused_ply([v[:3] for v in FUSED_VERTICES],
+                                            properties=FUSED_PROPERTIES[:3]), vis),
+    }
 
 
 # ---- degenerate ----------------------------------------------------------------------------------
@@ -373,9 +489,11 @@ def main():
     fixtures = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else default
     for name, files in {**broken_binary(), **broken_text()}.items():
         write_model(fixtures / "broken" / name, files)
+    for name, files in broken_dense().items():
+        write_model(fixtures / "broken_dense" / name, files)
     for name, model in degenerate().items():
         write_model(fixtures / "degenerate" / name, text_files(model))
-    for name, files in formats().items():
+    for name, files in {**formats(), **dense_formats()}.items():
         write_model(fixtures / "formats" / name, files)
 
 

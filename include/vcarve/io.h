@@ -11,14 +11,29 @@
 
 namespace vcarve {
 
+/// Which points are read with the views of a model.
+struct PointsOptions {
+    /// "sparse": those of the model. "dense": those of fused.ply in the folder, which stereo_fusion
+    /// wrote. Else the path of a PLY file with points in the model's frame. Empty: the dense ones
+    /// where the folder has fused.ply and fused.ply.vis, the sparse ones where it has not.
+    std::string points;
+    /// Which views saw the points of a PLY file; empty: the file that is called like it and .vis.
+    std::filesystem::path visibility;
+};
+
 /// Reads the COLMAP model that `input` means: a folder with cameras, images and points3D (.bin or
 /// .txt), a `sparse` folder with such components (the one with most points is taken), or a
 /// workspace that holds `sparse/0` or `sparse`. Where a folder has both formats, .bin is taken.
-/// Runs as the stage "read" of `log`, which also gets a note on what was not taken. Views and
-/// cameras are sorted by COLMAP's ids, points keep the order of the file, and Scene::offset is
-/// zero. Throws InputError naming file and place where a file is missing, broken or contradicts
-/// another, and Cancelled. Cost: linear in the size of the files; allocations never exceed a small
-/// multiple of it.
+/// A dense workspace, which holds fused.ply, fused.ply.vis and sparse, gives its dense points; so
+/// does the PLY file itself. Runs as the stage "read" of `log`, which also gets a note on what was
+/// taken and what not. Views and cameras are sorted by COLMAP's ids, points keep the order of the
+/// file, and Scene::offset is zero. Throws UsageError where the options contradict each other, and
+/// InputError naming file and place where a file is missing, broken or contradicts another, and
+/// Cancelled. Cost: linear in the size of the files; allocations never exceed a small multiple of
+/// it.
+Scene read_model(const std::filesystem::path& input, const PointsOptions& options, Log& log);
+
+/// The same, of points found by looking.
 Scene read_model(const std::filesystem::path& input, Log& log);
 
 /// How a mesh is written.

@@ -54,14 +54,16 @@ struct Tracks {
 };
 
 /// What COLMAP reconstructed: views, points, and the sights between them.
-/// The arrays positions, colors, errors_px, point_ids and tracks run parallel, one entry a point.
+/// The arrays positions, colors, errors_px, point_ids and tracks run parallel, one entry a point;
+/// so do the normals, where there are any.
 struct Scene {
     std::vector<Camera> cameras;            ///< what the views were taken with
     std::vector<View> views;                ///< from where points were seen
     std::vector<Eigen::Vector3d> positions; ///< in world minus `offset`
     std::vector<Color> colors;              ///< of the points
     std::vector<double> errors_px;          ///< mean reprojection error; negative where unknown
-    std::vector<std::uint64_t> point_ids;   ///< COLMAP's point3D ids
+    std::vector<std::uint64_t> point_ids;   ///< COLMAP's point3D ids, or places in a cloud's file
+    std::vector<Eigen::Vector3f> normals;   ///< optional: unit, or zero where unknown
     Tracks tracks;                          ///< which views saw which point
     Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the file's
 

@@ -1,7 +1,7 @@
 #include "cli/baseline_runs.h"
 
 #include "cli/child_process.h"
-#include "io/colmap/find_model.h"
+#include "io/input/find_input.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -38,12 +38,30 @@ fs::path printed_path(const fs::path& folder, const std::string& name)
     return folder / (name + ".txt");
 }
 
-Program colmap_baseline(const BaselineRun& run, const fs::path& model, const fs::path& folder)
+/// The folder that COLMAP's mesher is to read. It knows dense points by names in one folder only.
+fs::path colmap_input(const FoundInput& input)
+{
+    if (!input.dense) return input.model.folder;
+    const fs::path workspace = "." / input.dense->cloud.parent_path();
+    const auto is_at = [&](const fs::path& path, const char* name) {
+        return path.lexically_normal() == (workspace / name).lexically_normal();
+    };
+    const bool is_workspace = is_at(input.dense->cloud, "fused.ply") &&
+                              is_at(input.dense->visibility, "fused.ply.vis") &&
+                              is_at(input.dense->model, "sparse");
+    if (is_workspace) return workspace;
+    throw UsageError(fmt::format("--colmap cannot be told to take the points of {}: COLMAP's "
+                                 "mesher reads fused.ply, fused.ply.vis and sparse in one folder",
+                                 input.dense->cloud.string()));
+}
+
+Program colmap_baseline(const BaselineRun& run, const FoundInput& input, const fs::path& folder)
 {
     Program baseline{.name = kColmap,
                      .program = run.colmap,
-                     .words = {run.colmap, "delaunay_mesher", "--input_type", "sparse",
-                               "--input_path", model.string(), "--output_path",
+                     .words = {run.colmap, "delaunay_mesher", "--input_type",
+                               input.dense ? "dense" : "sparse", "--input_path",
+                               colmap_input(input).string(), "--output_path",
                                mesh_path(folder, kColmap).string()},
                      .timeout_s = static_cast<double>(run.options.timeout_s)};
     if (run.threads > 0) {
@@ -53,12 +71,21 @@ Program colmap_baseline(const BaselineRun& run, const fs::path& model, const fs:
     return baseline;
 }
 
-Program own_baseline(const BaselineRun& run, const fs::path& model, const fs::path& folder)
+Program own_baseline(const BaselineRun& run, const FoundInput& input, const fs::path& folder)
 {
-    return {.name = kOurs,
-            .program = kOurs,
-            .words = {"/proc/self/exe", "--quiet", "--threads", std::to_string(run.threads), "--",
-                      model.string(), mesh_path(folder, kOurs).string()}};
+    Program baseline{.name = kOurs,
+                     .program = kOurs,
+                     .words = {"/proc/self/exe", "--quiet", "--threads",
+                               std::to_string(run.threads), "--points"}};
+    if (input.dense) {
+        baseline.words.insert(baseline.words.end(), {input.dense->cloud.string(), "--visibility",
+                                                     input.dense->visibility.string()});
+    } else {
+        baseline.words.emplace_back("sparse");
+    }
+    baseline.words.insert(baseline.words.end(),
+                          {"--", input.model.folder.string(), mesh_path(folder, kOurs).string()});
+    return baseline;
 }
 
 std::string bytes_of(const fs::path& path)
@@ -142,10 +169,10 @@ std::vector<fs::path> ScratchFolder::contents() const
 std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
                                         Log& log)
 {
-    const fs::path model = find_model(run.model).folder;
+    const FoundInput input = find_input(run.model.path, run.model.points);
     std::vector<BaselineMesh> meshes;
-    run_program(colmap_baseline(run, model, scratch.path()), scratch.path(), meshes, log);
-    run_program(own_baseline(run, model, scratch.path()), scratch.path(), meshes, log);
+    run_program(colmap_baseline(run, input, scratch.path()), scratch.path(), meshes, log);
+    run_program(own_baseline(run, input, scratch.path()), scratch.path(), meshes, log);
     for (BaselineMesh& baseline : meshes) {
         if (baseline.failure.empty())
             baseline.mesh = read_ply(mesh_path(scratch.path(), baseline.name));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/log.h"
+#include "cli/model_input.h"
 #include "compare/compare.h"
 #include "vcarve/option_visitor.h"
 
@@ -52,15 +53,17 @@ class ScratchFolder {
 /// Where COLMAP is, what it is run on, and how.
 struct BaselineRun {
     std::string colmap;
-    std::filesystem::path model;
+    ModelArguments model;
     BaselineRunOptions options;
     int threads = 0; ///< limits both programs; 0 leaves them free
 };
 
-/// Runs `colmap delaunay_mesher --input_type sparse` and this program itself with its defaults, one
-/// after the other, on the model, and measures both alike. A program that fails gives no column but
-/// a note of one sentence; one that runs out of time gives a column without a mesh. Call it before
-/// anything large is in memory (see run_child). Throws InputError where there is no model.
+/// Runs `colmap delaunay_mesher` and this program itself with its defaults, one after the other, on
+/// the points the model means, sparse or dense, and measures both alike. A program that fails gives
+/// no column but a note of one sentence; one that runs out of time gives a column without a mesh.
+/// Call it before anything large is in memory (see run_child). Throws InputError where there is no
+/// model, and UsageError where COLMAP could not be told of its points: it reads dense ones from
+/// fused.ply, fused.ply.vis and sparse in one folder.
 std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
                                         Log& log);
 

@@ -64,7 +64,7 @@ struct PointBaselineOptions {
 
 /// Everything the command line says.
 struct CompareArguments {
-    fs::path model;
+    ModelArguments model;
     std::vector<fs::path> meshes;
     fs::path truth; ///< empty: none
     fs::path json;  ///< empty: none
@@ -83,6 +83,7 @@ std::vector<OptionRow> compare_options()
     CompareRunOptions run;
     bool off = false;
     OptionTable table;
+    list_points_options(table);
     table.stage("Measure");
     table.path({.name = "truth",
                 .help = "The true surface as PLY, in the model's frame: adds precision, recall, "
@@ -119,7 +120,7 @@ CompareArguments read_arguments(const ParsedArguments& given)
                                      given.operands.empty() ? "nothing" : given.operands[0],
                                      kSeeCompareHelp));
     }
-    arguments.model = given.operands[0];
+    arguments.model = {given.operands[0], read_points_options(given)};
     arguments.meshes.assign(given.operands.begin() + 1, given.operands.end());
     if (given.has("truth")) arguments.truth = given.options.at("truth");
     if (given.has("json")) arguments.json = given.options.at("json");
@@ -291,7 +292,7 @@ void run_compare(const ParsedArguments& given)
     remove_on_signals(arguments, nullptr);
     if (baselines.empty() && arguments.meshes.empty() && !arguments.point_baselines.baselines) {
         throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
-                                     arguments.model.string()));
+                                     arguments.model.path.string()));
     }
     ModelInput model = read_model_input(arguments.model, *log);
     const std::vector<NamedMesh> point_baselines = point_baselines_of(arguments, model.scene, *log);

@@ -47,7 +47,7 @@ struct OutputOptions {
 
 /// Everything the command line says.
 struct MeshArguments {
-    fs::path model;
+    ModelArguments model;
     fs::path out;
     fs::path stats; ///< empty: none
     OutputOptions output;
@@ -60,6 +60,7 @@ std::vector<OptionRow> mesh_options()
     OutputOptions output;
     bool off = false;
     OptionTable table;
+    list_points_options(table);
     options.visit(table);
     output.visit(table);
     table.path({.name = "stats",
@@ -108,7 +109,7 @@ MeshArguments read_arguments(const ParsedArguments& given)
     arguments.options.visit(reader);
     arguments.output.visit(reader);
     check_operands(given.operands);
-    arguments.model = given.operands[0];
+    arguments.model = {given.operands[0], read_points_options(given)};
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
     if (given.has("stats")) arguments.stats = given.options.at("stats");
@@ -193,7 +194,7 @@ void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
         require_memory(size, wanted == 0 ? available_threads() : wanted,
                        arguments.options.max_memory);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", arguments.model.string(), error.what()));
+        throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
     }
 }
 
@@ -209,7 +210,7 @@ Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
         surface.mesh = std::move(made.mesh);
         return surface;
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", arguments.model.string(), error.what()));
+        throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
     }
 }
 
@@ -234,12 +235,14 @@ Manual mesh_manual()
     manual.summary = "Turns a COLMAP model into a surface.";
     manual.examples = {
         {"colmap-vcarve sparse/0 mesh.ply", "the default: a surface from any sparse model"},
+        {"colmap-vcarve dense mesh.ply", "from the dense points that stereo_fusion made"},
         {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
         {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
     };
     manual.operand_meanings = {
         {"MODEL", "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
-                  "models, or a workspace that holds sparse/0 or sparse."},
+                  "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
+                  "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken."},
         {"OUT.ply",
          "The surface: triangles with colours and normals, in the model's frame. The end "
          "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "

@@ -6,17 +6,40 @@
 
 namespace vcarve::cli {
 
-ModelInput read_model_input(const std::filesystem::path& model, Log& log, const SizeCheck& check)
+void list_points_options(OptionTable& table)
 {
-    ReadModel read = read_found_model(model, log, check);
-    const FoundModel& found = read.found;
+    table.stage("Input");
+    table.path({.name = "points",
+                .help = "Which points to take: sparse, those of the model; dense, those of "
+                        "fused.ply in a dense workspace; or a PLY file with points in the model's "
+                        "frame. By default the dense ones where fused.ply and fused.ply.vis are "
+                        "there."});
+    table.path({.name = "visibility",
+                .help = "Which views saw the points of a PLY file, as COLMAP's stereo_fusion "
+                        "writes it; by default the file called like it and .vis."});
+}
+
+PointsOptions read_points_options(const ParsedArguments& given)
+{
+    PointsOptions options;
+    if (given.has("points")) options.points = given.options.at("points");
+    if (given.has("visibility")) options.visibility = given.options.at("visibility");
+    return options;
+}
+
+ModelInput read_model_input(const ModelArguments& model, Log& log, const SizeCheck& check)
+{
+    ReadModel read = read_found_model(model.path, model.points, log, check);
+    const FoundModel& found = read.found.model;
     ModelInput input;
-    input.record = {{"model", model.string()},
+    input.record = {{"model", model.path.string()},
                     {"folder", found.folder.string()},
                     {"format", found.format == ModelFormat::binary ? "binary" : "text"},
+                    {"cloud", nullptr},
                     {"points", read.scene.num_points()},
                     {"views", read.scene.views.size()},
                     {"sights", read.scene.num_sights()}};
+    if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
     input.scene = std::move(read.scene);
     return input;
 }

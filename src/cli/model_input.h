@@ -1,8 +1,9 @@
 #pragma once
 
 #include "base/log.h"
+#include "cli/option_parser.h"
 #include "cli/run_record.h"
-#include "io/colmap/read_model.h"
+#include "io/input/read_model.h"
 
 #include <filesystem>
 #include <memory>
@@ -12,13 +13,22 @@ namespace vcarve::cli {
 /// A model that was read, and what a record says of it.
 struct ModelInput {
     Scene scene;
-    Json record; ///< "model", "folder", "format", "points", "views", "sights"
+    Json record; ///< "model", "folder", "format", "cloud", "points", "views", "sights"
 };
+
+/// What the command line says of a model: the operand and the options beside it.
+struct ModelArguments {
+    std::filesystem::path path;
+    PointsOptions points;
+};
+
+/// Declares the options that choose points, under a heading of their own.
+void list_points_options(OptionTable& table);
+PointsOptions read_points_options(const ParsedArguments& given);
 
 /// Finds and reads the model the user means, as the stage "read". Throws InputError. `check` is
 /// called before reading, where the size of the model shows before.
-ModelInput read_model_input(const std::filesystem::path& model, Log& log,
-                            const SizeCheck& check = {});
+ModelInput read_model_input(const ModelArguments& model, Log& log, const SizeCheck& check = {});
 
 /// What console a command shows its stages on: none where it is to be quiet.
 std::unique_ptr<Log> shown_log(bool quiet);

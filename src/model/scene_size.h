@@ -11,12 +11,15 @@ struct SceneSize {
     std::uint64_t points = 0;
     std::uint64_t sights = 0;
     std::uint64_t views = 0;
+    bool has_normals = false;
 };
 
 inline SceneSize size_of(const Scene& scene)
 {
-    return {
-        .points = scene.num_points(), .sights = scene.num_sights(), .views = scene.views.size()};
+    return {.points = scene.num_points(),
+            .sights = scene.num_sights(),
+            .views = scene.views.size(),
+            .has_normals = !scene.normals.empty()};
 }
 
 } // namespace vcarve

@@ -22,9 +22,10 @@ constexpr double kThread = 0.5e6;
 constexpr double kCellsPerPoint = 6.8;
 constexpr double kFacesPerPoint = 2.0; ///< of a closed surface through all points
 
-/// Scene: position, colour, error, id and begin of the track; index of a view; a view with its
-/// name.
+/// Scene: position, colour, error, id and begin of the track; a normal, where there are any; index
+/// of a view; a view with its name.
 constexpr double kScenePoint = 24 + 3 + 8 + 8 + 8;
+constexpr double kSceneNormal = 12;
 constexpr double kSceneSight = 4;
 constexpr double kSceneView = 256;
 
@@ -56,10 +57,11 @@ struct Sizes {
     double cells;
     double faces;
     double threads;
+    double point_bytes; ///< of the scene
 
     double scene() const
     {
-        return points * kScenePoint + sights * kSceneSight + views * kSceneView;
+        return points * point_bytes + sights * kSceneSight + views * kSceneView;
     }
     double cgal() const { return cells * kCgalCell + points * kCgalVertex; }
     double flat() const { return cells * kFlatCell + points * kFlatVertex; }
@@ -140,7 +142,8 @@ std::vector<StageMemory> predicted_memory(const SceneSize& size, int threads)
                      .views = static_cast<double>(size.views),
                      .cells = kCellsPerPoint * points,
                      .faces = kFacesPerPoint * points,
-                     .threads = static_cast<double>(threads)};
+                     .threads = static_cast<double>(threads),
+                     .point_bytes = kScenePoint + (size.has_normals ? kSceneNormal : 0.0)};
     const auto stage = [&](const char* name, double bytes) {
         const double program = kProgram + kThread * n.threads;
         return StageMemory{name, std::llround(std::min(program + bytes, 0x1p62))};

@@ -7,9 +7,17 @@
 
 namespace vcarve {
 
+/// Read cameras.bin and images.bin of a folder into a builder, in that order.
+void read_binary_views(const std::filesystem::path& folder, SceneBuilder& builder,
+                       const Progress& progress);
+
 /// Read cameras.bin, images.bin and points3D.bin of a folder into a builder, in that order.
 void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder,
                        const Progress& progress);
+
+/// Read cameras.txt and images.txt of a folder into a builder, in that order.
+void read_text_views(const std::filesystem::path& folder, SceneBuilder& builder,
+                     const Progress& progress);
 
 /// Read cameras.txt, images.txt and points3D.txt of a folder into a builder, in that order.
 void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder,

@@ -41,4 +41,16 @@ Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
     return builder.finish();
 }
 
+ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,
+                              const Progress& progress)
+{
+    SceneBuilder builder(folder, format);
+    if (format == ModelFormat::binary) {
+        read_binary_views(folder, builder, progress);
+    } else {
+        read_text_views(folder, builder, progress);
+    }
+    return builder.finish_views();
+}
+
 } // namespace vcarve

@@ -3,11 +3,22 @@
 #include "base/progress.h"
 #include "vcarve/scene.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace vcarve {
 
 enum class ModelFormat { binary, text };
+
+/// The cameras and views of a model, sorted by COLMAP's ids.
+struct ColmapViews {
+    std::vector<Camera> cameras;
+    std::vector<View> views;
+    /// The views as the images stand in their file: indices into `views`. What COLMAP writes beside
+    /// a model counts images so.
+    std::vector<std::uint32_t> file_order;
+};
 
 /// Reads cameras, images and points3D (.bin or .txt) of a COLMAP model, of any version since 2016.
 /// Views and cameras are sorted by COLMAP's ids. Points keep the order of the file and all of them
@@ -19,5 +30,9 @@ enum class ModelFormat { binary, text };
 /// small multiple of the bytes that are there.
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
                         const Progress& progress = {});
+
+/// The same without the points, whose file is not read.
+ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,
+                              const Progress& progress = {});
 
 } // namespace vcarve

@@ -124,12 +124,18 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 
 } // namespace
 
+void read_text_views(const std::filesystem::path& folder, SceneBuilder& builder,
+                     const Progress& progress)
+{
+    read_cameras(folder / model_file("cameras", ModelFormat::text), builder);
+    read_images(folder / model_file("images", ModelFormat::text), builder, progress);
+}
+
 void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder,
                      const Progress& progress)
 {
     const ReadingShares shares = shares_of(folder, ModelFormat::text, progress);
-    read_cameras(folder / model_file("cameras", ModelFormat::text), builder);
-    read_images(folder / model_file("images", ModelFormat::text), builder, shares.images);
+    read_text_views(folder, builder, shares.images);
     read_points(folder / model_file("points3D", ModelFormat::text), builder, shares.points);
 }
 

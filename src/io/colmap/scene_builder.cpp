@@ -65,6 +65,7 @@ void SceneBuilder::add_image(const ImageRecord& image)
     const Eigen::Vector4d rotation = image.rotation_wxyz.stableNormalized();
     if (!(rotation.squaredNorm() > 0.5)) fail("has a rotation quaternion of length zero");
 
+    file_ids_.push_back(image.id);
     View view;
     view.id = image.id;
     view.camera = static_cast<std::uint32_t>(camera - scene_.cameras.begin());
@@ -145,6 +146,18 @@ Scene SceneBuilder::finish()
 {
     refuse_point_ids_twice();
     return std::move(scene_);
+}
+
+ColmapViews SceneBuilder::finish_views()
+{
+    ColmapViews found;
+    for (const std::uint32_t id : file_ids_) {
+        const auto view = std::lower_bound(image_ids_.begin(), image_ids_.end(), id);
+        found.file_order.push_back(static_cast<std::uint32_t>(view - image_ids_.begin()));
+    }
+    found.cameras = std::move(scene_.cameras);
+    found.views = std::move(scene_.views);
+    return found;
 }
 
 } // namespace vcarve

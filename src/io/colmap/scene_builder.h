@@ -53,6 +53,8 @@ class SceneBuilder {
 
     /// The scene, its cameras and views sorted by COLMAP's ids; the builder is spent.
     Scene finish();
+    /// Only what belongs to the images; the builder is spent.
+    ColmapViews finish_views();
 
   private:
     std::uint32_t view_index(std::uint32_t image_id, std::uint64_t point_id) const;
@@ -61,6 +63,7 @@ class SceneBuilder {
     std::filesystem::path folder_;
     ModelFormat format_;
     Scene scene_;
+    std::vector<std::uint32_t> file_ids_;  ///< of the images, as they were added
     std::vector<std::uint32_t> image_ids_; ///< ascending, parallel to the views
     std::vector<std::uint32_t> row_;       ///< view indices of the point being added
 };

@@ -1,4 +1,4 @@
-#include "io/colmap/read_model.h"
+#include "io/input/read_model.h"
 
 #include "base/log.h"
 #include "io/colmap/model_size.h"
@@ -7,25 +7,47 @@
 
 namespace vcarve {
 
-ReadModel read_found_model(const std::filesystem::path& input, Log& log, const SizeCheck& check)
+namespace {
+
+std::optional<SceneSize> expected_size(const FoundInput& found)
+{
+    if (found.dense) return dense_size_before_reading(*found.dense);
+    return size_before_reading(found.model.folder, found.model.format);
+}
+
+Scene scene_of(const FoundInput& found, const Progress& progress)
+{
+    if (found.dense) return read_dense_scene(*found.dense, progress);
+    return read_colmap_model(found.model.folder, found.model.format, progress);
+}
+
+} // namespace
+
+ReadModel read_found_model(const std::filesystem::path& input, const PointsOptions& options,
+                           Log& log, const SizeCheck& check)
 {
     Stage stage(log, "read");
-    FoundModel found = find_model(input);
+    FoundInput found = find_input(input, options);
     for (const std::string& note : found.notes) {
         log.note(note);
     }
-    const auto size = size_before_reading(found.folder, found.format);
+    const auto size = expected_size(found);
     if (check && size) check(*size);
-    Scene scene = read_colmap_model(found.folder, found.format, stage);
+    Scene scene = scene_of(found, stage);
     stage.end({{"points", size_of(scene.num_points())},
                {"views", size_of(scene.views.size())},
                {"sights", size_of(scene.num_sights())}});
     return {std::move(scene), std::move(found)};
 }
 
+Scene read_model(const std::filesystem::path& input, const PointsOptions& options, Log& log)
+{
+    return read_found_model(input, options, log).scene;
+}
+
 Scene read_model(const std::filesystem::path& input, Log& log)
 {
-    return read_found_model(input, log).scene;
+    return read_model(input, {}, log);
 }
 
 } // namespace vcarve

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/colmap/find_model.h"
+#include "io/input/find_input.h"
 #include "vcarve/io.h"
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct SceneSize;
 /// A model that was read, and where it was found.
 struct ReadModel {
     Scene scene;
-    FoundModel found;
+    FoundInput found;
 };
 
 /// What is to be checked of a model before it is read; may throw.
@@ -21,7 +21,7 @@ using SizeCheck = std::function<void(const SceneSize&)>;
 
 /// As the public one; tells where the model was found, too. `check` is called before reading, where
 /// the size of the model shows before.
-ReadModel read_found_model(const std::filesystem::path& input, Log& log,
-                           const SizeCheck& check = {});
+ReadModel read_found_model(const std::filesystem::path& input, const PointsOptions& options,
+                           Log& log, const SizeCheck& check = {});
 
 } // namespace vcarve

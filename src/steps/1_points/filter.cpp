@@ -164,6 +164,7 @@ FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
             kept.colors.push_back(scene.colors[point]);
             kept.errors_px.push_back(scene.errors_px[point]);
             kept.point_ids.push_back(scene.point_ids[point]);
+            if (!scene.normals.empty()) kept.normals.push_back(scene.normals[point]);
             kept.tracks.push_back(track_of(place));
         }
     }

@@ -70,6 +70,7 @@ Scene spatial_sort(Scene scene, const Progress& progress)
     scene.colors = reordered(scene.colors, order);
     scene.errors_px = reordered(scene.errors_px, order);
     scene.point_ids = reordered(scene.point_ids, order);
+    if (!scene.normals.empty()) scene.normals = reordered(scene.normals, order);
     scene.tracks = reordered(scene.tracks, order);
     return scene;
 }

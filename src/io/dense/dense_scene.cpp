@@ -1,0 +1,70 @@
+#include "io/dense/dense_scene.h"
+
+#include "base/parallel.h"
+#include "io/colmap/model_size.h"
+#include "io/dense/visibility.h"
+#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_vertex.h"
+
+#include <cmath>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+constexpr Color kGrey{128, 128, 128};
+
+/// Of unit length, or zero where it is no direction.
+void make_unit(Eigen::Vector3f& normal)
+{
+    const Eigen::Vector3d exact = normal.cast<double>();
+    const double length = exact.norm();
+    normal.setZero();
+    if (length > 0.0 && std::isfinite(length)) normal = (exact / length).cast<float>();
+}
+
+} // namespace
+
+Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
+{
+    ColmapViews model = read_colmap_views(files.model, files.format, progress.part(0.0, 0.1));
+    PointCloud cloud = read_ply_cloud(files.cloud, progress.part(0.1, 0.5));
+    const std::size_t num_points = cloud.positions.size();
+    Scene scene;
+    scene.tracks = read_visibility(files.visibility, {num_points, files.cloud}, model.file_order,
+                                   progress.part(0.5, 1.0));
+    scene.cameras = std::move(model.cameras);
+    scene.views = std::move(model.views);
+    scene.positions = std::move(cloud.positions);
+    scene.normals = std::move(cloud.normals);
+    parallel_for(scene.normals.size(), [&](std::size_t i) { make_unit(scene.normals[i]); });
+    scene.colors = std::move(cloud.colors);
+    scene.colors.resize(num_points, kGrey);
+    scene.errors_px.assign(num_points, -1.0);
+    scene.point_ids.resize(num_points);
+    std::iota(scene.point_ids.begin(), scene.point_ids.end(), 0U);
+    return scene;
+}
+
+std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files)
+{
+    constexpr std::uint64_t kCountBytes = 8;
+    constexpr std::uint64_t kNumberBytes = 4;
+    const PlyHeader header = read_ply_header(files.cloud);
+    const PlyElement* const vertices = header.find("vertex");
+    std::error_code error;
+    const std::uint64_t bytes = std::filesystem::file_size(files.visibility, error);
+    if (vertices == nullptr || error || bytes < kCountBytes) return std::nullopt;
+    const std::uint64_t numbers = (bytes - kCountBytes) / kNumberBytes;
+    if (vertices->count > numbers) return std::nullopt;
+    const auto model = size_before_reading(files.model, files.format);
+    return SceneSize{.points = vertices->count,
+                     .sights = numbers - vertices->count,
+                     .views = model ? model->views : 0,
+                     .has_normals = PlyVertexLayout(*vertices).has_normals()};
+}
+
+} // namespace vcarve

@@ -1,0 +1,160 @@
+#include "io/dense/visibility.h"
+
+#include "base/parallel.h"
+#include "io/colmap/byte_reader.h"
+#include "io/files/mapped_file.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <limits>
+
+namespace vcarve {
+
+namespace {
+
+constexpr std::size_t kNumberBytes = 4; ///< of a point's count of views, and of each view
+constexpr std::size_t kCountBytes = 8;  ///< of the number of points
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+/// So many points are found between two calls of Progress::tell.
+constexpr std::uint64_t kPointsBetweenTells = 65536;
+
+/// Where the rows of all points begin, by their lengths.
+std::vector<std::uint64_t> begins_of_rows(ByteReader& reader, const std::filesystem::path& path,
+                                          const CloudSize& cloud, const Progress& progress)
+{
+    const std::uint64_t count = reader.read_count(kNumberBytes, "points");
+    if (count != cloud.num_points) {
+        throw InputError(fmt::format("{}: tells of {} points, but {} has {}", path.string(), count,
+                                     cloud.path.string(), cloud.num_points));
+    }
+    std::vector<std::uint64_t> begins{0};
+    begins.reserve(count + 1);
+    for (std::uint64_t point = 0; point < count; ++point) {
+        const std::size_t begin = reader.offset();
+        const auto length = reader.read<std::uint32_t>("the number of views of a point");
+        const std::size_t most = reader.left() / kNumberBytes;
+        if (length > most) {
+            throw InputError(fmt::format("{}: byte {}: found a count of {} views of point {}, but "
+                                         "the rest of the file can hold {} at most",
+                                         path.string(), begin, length, point, most));
+        }
+        reader.skip(length, kNumberBytes);
+        begins.push_back(begins.back() + length);
+        if (point % kPointsBetweenTells == 0) progress.tell(reader.share_read());
+    }
+    reader.expect_end("the views of the last point");
+    return begins;
+}
+
+/// Lowers a number that several threads know.
+void lower_to(std::atomic<std::size_t>& least, std::size_t value)
+{
+    std::size_t before = least;
+    while (value < before && !least.compare_exchange_weak(before, value)) {
+    }
+}
+
+/// Fills the rows of tracks, whose begins are known, in parallel.
+class RowFiller {
+  public:
+    RowFiller(std::span<const char> bytes, std::span<const std::uint32_t> file_order,
+              Tracks& tracks)
+        : bytes_(bytes), file_order_(file_order), tracks_(tracks)
+    {
+    }
+
+    void fill(const Progress& progress)
+    {
+        parallel_for(tracks_.size(), progress, [&](std::size_t point) { fill_row(point); });
+    }
+
+    /// The first point with an image that is not there, or kNone.
+    std::size_t first_wrong() const { return first_wrong_; }
+    bool has_repeated_views() const { return repeats_; }
+
+    /// The first number of an image that is not there, of the first point that has one.
+    std::uint32_t wrong_image() const
+    {
+        const std::uint64_t first = tracks_.begins[first_wrong_];
+        for (std::uint64_t i = first;; ++i) {
+            const std::uint32_t image = image_at(first_wrong_, i);
+            if (image >= file_order_.size()) return image;
+        }
+    }
+
+  private:
+    /// What the file has for entry `i` of all rows, which is one of `point`'s: before it stand the
+    /// count of points, the lengths of the rows so far, and the entries so far.
+    std::uint32_t image_at(std::size_t point, std::uint64_t i) const
+    {
+        std::uint32_t image = 0;
+        const std::size_t place = kCountBytes + kNumberBytes * (point + 1 + i);
+        std::memcpy(&image, bytes_.data() + place, sizeof(image));
+        return image;
+    }
+
+    void fill_row(std::size_t point)
+    {
+        const auto begin = static_cast<std::ptrdiff_t>(tracks_.begins[point]);
+        const auto end = static_cast<std::ptrdiff_t>(tracks_.begins[point + 1]);
+        const std::span row(tracks_.views.begin() + begin, tracks_.views.begin() + end);
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const std::uint32_t image = image_at(point, tracks_.begins[point] + i);
+            if (image >= file_order_.size()) {
+                lower_to(first_wrong_, point);
+                return;
+            }
+            row[i] = file_order_[image];
+        }
+        std::ranges::sort(row);
+        if (std::ranges::adjacent_find(row) != row.end()) repeats_ = true;
+    }
+
+    std::span<const char> bytes_;
+    std::span<const std::uint32_t> file_order_;
+    Tracks& tracks_;
+    std::atomic<std::size_t> first_wrong_ = kNone;
+    std::atomic<bool> repeats_ = false;
+};
+
+/// Leaves each view of a sorted row once, and moves the rows together.
+void merge_repeated_views(Tracks& tracks)
+{
+    std::uint64_t begin = 0; // of the row in the file
+    auto end = tracks.views.begin();
+    for (std::size_t point = 0; point < tracks.size(); ++point) {
+        const auto row = tracks.views.begin() + static_cast<std::ptrdiff_t>(begin);
+        begin = tracks.begins[point + 1];
+        end = std::unique_copy(row, tracks.views.begin() + static_cast<std::ptrdiff_t>(begin), end);
+        tracks.begins[point + 1] = static_cast<std::uint64_t>(end - tracks.views.begin());
+    }
+    tracks.views.erase(end, tracks.views.end());
+}
+
+} // namespace
+
+Tracks read_visibility(const std::filesystem::path& path, const CloudSize& cloud,
+                       std::span<const std::uint32_t> file_order, const Progress& progress)
+{
+    const MappedFile file(path);
+    ByteReader reader(file.bytes(), path.string());
+    Tracks tracks;
+    tracks.begins = begins_of_rows(reader, path, cloud, progress.part(0.0, 0.5));
+    tracks.views.resize(tracks.begins.back());
+    RowFiller rows(file.bytes(), file_order, tracks);
+    rows.fill(progress.part(0.5, 1.0));
+    if (rows.first_wrong() != kNone) {
+        throw InputError(fmt::format("{}: point {} of {} was seen by image {}, but the model has "
+                                     "{} images, counted from 0",
+                                     path.string(), rows.first_wrong(), tracks.size(),
+                                     rows.wrong_image(), file_order.size()));
+    }
+    if (rows.has_repeated_views()) merge_repeated_views(tracks);
+    return tracks;
+}
+
+} // namespace vcarve

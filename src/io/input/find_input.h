@@ -1,0 +1,25 @@
+#pragma once
+
+#include "io/colmap/find_model.h"
+#include "io/dense/dense_scene.h"
+#include "vcarve/io.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+
+/// What is read: a model with its own points, or its views with the points of a cloud.
+struct FoundInput {
+    FoundModel model;
+    std::optional<DenseFiles> dense;
+    std::vector<std::string> notes; ///< sentences: what was taken and what not
+};
+
+/// Finds what `input` and the options mean, see read_model. Throws UsageError where they contradict
+/// each other, and InputError where there is no model, or no cloud or visibility that they ask for.
+FoundInput find_input(const std::filesystem::path& input, const PointsOptions& options);
+
+} // namespace vcarve

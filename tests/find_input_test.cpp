@@ -1,0 +1,139 @@
+#include "io/input/find_input.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const fs::path kWorkspace = fs::path(VCARVE_FIXTURES) / "formats/dense_little";
+
+/// A folder with a dense workspace in "dense".
+class FindInput : public testing::Test {
+  protected:
+    FindInput() { folder.copy(kWorkspace, "dense"); }
+
+    std::string refused(const fs::path& input, const PointsOptions& options) const
+    {
+        return refusal<InputError>([&] { find_input(input, options); });
+    }
+    std::string misused(const fs::path& input, const PointsOptions& options) const
+    {
+        return refusal<UsageError>([&] { find_input(input, options); });
+    }
+    std::string taken() const
+    {
+        return "the points are those of " + fused.string() + ", seen by the views of " +
+               (dense / "sparse").string();
+    }
+
+    TemporaryFolder folder;
+    fs::path dense = folder / "dense";
+    fs::path fused = dense / "fused.ply";
+    fs::path visibility = dense / "fused.ply.vis";
+};
+
+TEST_F(FindInput, TakesTheCloudOfADenseWorkspaceAndSaysSo)
+{
+    const FoundInput found = find_input(dense, {});
+    ASSERT_TRUE(found.dense);
+    EXPECT_EQ(found.model.folder, dense / "sparse");
+    EXPECT_EQ(found.dense->model, dense / "sparse");
+    EXPECT_EQ(found.dense->format, ModelFormat::binary);
+    EXPECT_EQ(found.dense->cloud, fused);
+    EXPECT_EQ(found.dense->visibility, visibility);
+    EXPECT_THAT(found.notes, ElementsAre(taken() + "; --points sparse takes the sparse ones"));
+}
+
+TEST_F(FindInput, TakesTheModelItselfWhereThatIsNamed)
+{
+    const FoundInput found = find_input(dense / "sparse", {});
+    EXPECT_FALSE(found.dense);
+    EXPECT_EQ(found.model.folder, dense / "sparse");
+    EXPECT_THAT(found.notes, IsEmpty());
+}
+
+TEST_F(FindInput, TakesTheCloudThatIsNamed)
+{
+    const FoundInput found = find_input(fused, {});
+    ASSERT_TRUE(found.dense);
+    EXPECT_EQ(found.dense->model, dense / "sparse");
+    EXPECT_EQ(found.dense->cloud, fused);
+    EXPECT_THAT(found.notes, ElementsAre(taken()));
+}
+
+TEST_F(FindInput, TakesWhatTheOptionsChoose)
+{
+    EXPECT_FALSE(find_input(dense, {.points = "sparse"}).dense);
+    EXPECT_EQ(find_input(dense, {.points = "dense"}).dense->cloud, fused);
+    folder.write("other.ply", "");
+    folder.write("other.ply.vis", "");
+    folder.write("mine.vis", "");
+    const auto other = find_input(dense, {.points = folder / "other.ply"});
+    EXPECT_EQ(other.dense->cloud, folder / "other.ply");
+    EXPECT_EQ(other.dense->visibility, folder / "other.ply.vis");
+    const auto mine = find_input(dense, {.points = {}, .visibility = folder / "mine.vis"});
+    EXPECT_EQ(mine.dense->cloud, fused);
+    EXPECT_EQ(mine.dense->visibility, folder / "mine.vis");
+}
+
+TEST_F(FindInput, LeavesACloudWithoutItsViewsOutAndSaysSo)
+{
+    fs::remove(visibility);
+    const FoundInput found = find_input(dense, {});
+    EXPECT_FALSE(found.dense);
+    EXPECT_THAT(found.notes, ElementsAre("the sparse points are taken and " + fused.string() +
+                                         " is left out, for there is no " + visibility.string() +
+                                         " to tell which views saw its points"));
+}
+
+TEST_F(FindInput, MentionsACloudFartherDown)
+{
+    folder.copy(dense / "sparse", "sparse/0");
+    FoundInput found = find_input(folder.path(), {});
+    EXPECT_FALSE(found.dense);
+    EXPECT_EQ(found.model.folder, folder.path() / "sparse/0");
+    EXPECT_THAT(found.notes, ElementsAre("the sparse points are taken; " + dense.string() +
+                                         " means those of " + fused.string()));
+    fs::rename(dense, folder / "other");
+    EXPECT_THAT(find_input(folder.path(), {}).notes, IsEmpty());
+}
+
+TEST_F(FindInput, RefusesACloudOrViewsThatAreNotThere)
+{
+    EXPECT_EQ(refused(dense / "sparse", {.points = "dense"}),
+              (dense / "sparse/fused.ply").string() +
+                  ": the file does not exist, so there are no dense points to take with the views "
+                  "of " +
+                  (dense / "sparse").string());
+    fs::remove(visibility);
+    const std::string missing =
+        visibility.string() +
+        ": the file does not exist, which tells which views saw the points "
+        "of " +
+        fused.string() + ", as COLMAP's stereo_fusion writes it (--visibility names another)";
+    EXPECT_EQ(refused(dense, {.points = "dense"}), missing);
+    EXPECT_EQ(refused(fused, {}), missing);
+}
+
+TEST_F(FindInput, RefusesOptionsThatContradictEachOther)
+{
+    EXPECT_EQ(misused(fused, {.points = "sparse"}), "--points sparse chooses points for a model, "
+                                                    "but " +
+                                                        fused.string() + " is a cloud itself");
+    EXPECT_EQ(misused(dense, {.points = "sparse", .visibility = "a.vis"}),
+              "--visibility a.vis tells which views saw the points of a cloud, but the sparse "
+              "points of " +
+                  (dense / "sparse").string() + " are taken");
+}
+
+} // namespace
+} // namespace vcarve
