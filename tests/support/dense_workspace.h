@@ -34,13 +34,13 @@ std::string visibility_bytes(const Rows& rows)
 
 enum class CloudEncoding { binary, ascii };
 
-/// The points of a scene as stereo_fusion writes them, in floats; without normals where the scene
-/// has none.
+/// The points of a scene as stereo_fusion writes them, in floats, as text with all their digits;
+/// without normals where the scene has none.
 inline std::string cloud_bytes(const Scene& scene, CloudEncoding encoding)
 {
     const bool is_ascii = encoding == CloudEncoding::ascii;
     const auto number = [&](auto value) {
-        return is_ascii ? fmt::format("{} ", value) : raw(value);
+        return is_ascii ? fmt::format("{} ", static_cast<double>(value)) : raw(value);
     };
     std::string bytes = fmt::format(
         "ply\nformat {} 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float "
