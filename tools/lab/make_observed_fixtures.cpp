@@ -1,5 +1,7 @@
 // Makes fixtures/air and fixtures/room: models of scenes whose geometry is known, as COLMAP would
-// reconstruct them, without pictures. Usage: make_observed_fixtures FOLDER
+// reconstruct them, without pictures; and fixtures/dense_room, the room as dense stereo would see
+// it. Usage: make_observed_fixtures FOLDER
+#include "observed/dense.h"
 #include "observed/observe.h"
 #include "observed/observed_scene.h"
 #include "observed/write_model.h"
@@ -24,6 +26,15 @@ void make(const std::filesystem::path& folder, const ObservedScene& observed)
                observed.parts.mesh.faces.size());
 }
 
+void make_dense(const std::filesystem::path& folder, const ObservedScene& observed)
+{
+    constexpr std::size_t kPoints = 8000;
+    const vcarve::Scene scene = vcarve::observed::observe_densely(observed, kPoints);
+    vcarve::observed::write_workspace(folder, scene);
+    fmt::print("dense_{}: {} points, {} views, {} sights\n", observed.name, scene.num_points(),
+               scene.views.size(), scene.num_sights());
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -37,6 +48,8 @@ int main(int argc, char** argv)
              {vcarve::observed::from_the_air(), vcarve::observed::inside_a_room()}) {
             make(std::filesystem::path(argv[1]) / observed.name, observed);
         }
+        make_dense(std::filesystem::path(argv[1]) / "dense_room",
+                   vcarve::observed::inside_a_room());
     } catch (const std::exception& error) {
         fmt::print(stderr, "make_observed_fixtures: {}\n", error.what());
         return 1;

@@ -1,12 +1,12 @@
 #include "observed/observe.h"
 
-#include "compare/surface_tree.h"
 #include "model/camera.h"
+#include "observed/onlookers.h"
+#include "observed/spots.h"
 #include "random.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,72 +27,6 @@ constexpr double kNoisePx = 0.7;
 constexpr double kFalse = 1.0 / 100.0;
 constexpr double kFoundAgain = 2.0 / 3.0;
 
-Camera camera_of(const render::Pinhole& view)
-{
-    return {.id = 1,
-            .model = 1, // PINHOLE
-            .width_px = static_cast<std::uint64_t>(view.width_px),
-            .height_px = static_cast<std::uint64_t>(view.height_px),
-            .params = {view.focal_px.x(), view.focal_px.y(), view.principal_px.x(),
-                       view.principal_px.y()}};
-}
-
-/// A place on the true surface.
-struct Spot {
-    Vector3d position;
-    Vector3d normal;
-    render::Paint paint;
-};
-
-/// Draws places on a surface by area and contrast.
-class Spots {
-  public:
-    explicit Spots(const render::Parts& parts) : parts_(parts)
-    {
-        double sum = 0.0;
-        for (std::size_t face = 0; face < parts.mesh.faces.size(); ++face) {
-            sum += normal_of(face).norm() * paint_of(face).contrast;
-            sums_.push_back(sum);
-        }
-    }
-
-    Spot draw(Random& random) const
-    {
-        const double sum = random.uniform(0.0, sums_.back());
-        const auto found = std::ranges::upper_bound(sums_, sum);
-        const auto face = static_cast<std::size_t>(found - sums_.begin());
-        double to_second = random.uniform();
-        double to_third = random.uniform();
-        if (to_second + to_third > 1.0) {
-            to_second = 1.0 - to_second;
-            to_third = 1.0 - to_third;
-        }
-        const auto& [a, b, c] = corners_of(face);
-        return {a + to_second * (b - a) + to_third * (c - a), normal_of(face).normalized(),
-                paint_of(face)};
-    }
-
-  private:
-    std::array<Vector3d, 3> corners_of(std::size_t face) const
-    {
-        const auto& [a, b, c] = parts_.mesh.faces[face];
-        const auto& positions = parts_.mesh.positions;
-        return {positions[a], positions[b], positions[c]};
-    }
-    Vector3d normal_of(std::size_t face) const
-    {
-        const auto [a, b, c] = corners_of(face);
-        return (b - a).cross(c - a);
-    }
-    const render::Paint& paint_of(std::size_t face) const
-    {
-        return parts_.paint_of_part[parts_.part_of_face[face]];
-    }
-
-    const render::Parts& parts_;
-    std::vector<double> sums_; ///< of area and contrast, up to each face
-};
-
 /// A point as one view or more have it in their images.
 struct Match {
     std::vector<std::uint32_t> views; ///< ascending
@@ -103,19 +37,11 @@ struct Match {
 class Matcher {
   public:
     explicit Matcher(const ObservedScene& observed)
-        : camera_(camera_of(observed.views.front())),
-          spots_(observed.parts),
-          tree_(closed(observed))
+        : onlookers_(observed),
+          views_(onlookers_.views()),
+          spots_(observed.parts, Spread::area_and_contrast)
     {
-        for (const render::Pinhole& pinhole : observed.views) {
-            View view;
-            view.id = static_cast<std::uint32_t>(views_.size() + 1);
-            view.name = fmt::format("{}_{:02}.png", observed.name, view.id);
-            view.cam_from_world = Eigen::Quaterniond(pinhole.cam_from_world).normalized();
-            view.center = pinhole.center;
-            views_.push_back(view);
-        }
-        model_.scene.cameras = {camera_};
+        model_.scene.cameras = {onlookers_.camera()};
         model_.scene.views = views_;
         model_.observations.resize(views_.size());
     }
@@ -123,7 +49,7 @@ class Matcher {
     void add_point(Random& random)
     {
         const Spot spot = spots_.draw(random);
-        std::vector<std::uint32_t> seeing = views_seeing(spot);
+        std::vector<std::uint32_t> seeing = onlookers_.seeing(spot);
         if (seeing.size() < 2) return;
         const std::uint32_t first = seeing[random.below(seeing.size())];
         const bool is_false = random.uniform() < kFalse;
@@ -134,25 +60,6 @@ class Matcher {
     ObservedModel take() { return std::move(model_); }
 
   private:
-    static SurfaceTree closed(const ObservedScene& observed)
-    {
-        return SurfaceTree(observed.parts.mesh);
-    }
-
-    std::vector<std::uint32_t> views_seeing(const Spot& spot) const
-    {
-        constexpr double kLeastCosine = 0.26; // 75 degrees
-        constexpr double kTouch = 1e-4;       // of the way, nearer is the spot's own face
-        std::vector<std::uint32_t> seeing;
-        for (std::uint32_t i = 0; i < views_.size(); ++i) {
-            const Vector3d way = views_[i].center - spot.position;
-            if (spot.normal.dot(way) < kLeastCosine * way.norm()) continue;
-            if (!view_shows(views_[i], camera_, spot.position)) continue;
-            if (!tree_.blocks(spot.position + kTouch * way, views_[i].center)) seeing.push_back(i);
-        }
-        return seeing;
-    }
-
     void add_match(const Spot& spot, std::uint32_t first, const std::vector<std::uint32_t>& seeing,
                    Random& random)
     {
@@ -180,7 +87,7 @@ class Matcher {
         std::size_t others = 1 + random.below(2);
         for (std::uint32_t view = 0; view < views_.size(); ++view) {
             const bool joins = view == first || (others > 0 && random.uniform() < 0.2);
-            if (!joins || !view_shows(views_[view], camera_, position)) continue;
+            if (!joins || !view_shows(views_[view], onlookers_.camera(), position)) continue;
             if (view != first) --others;
             add_to(match, view, position, random);
         }
@@ -193,31 +100,21 @@ class Matcher {
         const double x = random.normal();
         const Vector2d noise(kNoisePx * x, kNoisePx * random.normal());
         match.views.push_back(view);
-        match.places_px.push_back(*place_px(view, position) + noise);
-    }
-
-    Vector3d in_camera(std::uint32_t view, const Vector3d& position) const
-    {
-        return views_[view].cam_from_world * (position - views_[view].center);
-    }
-
-    std::optional<Vector2d> place_px(std::uint32_t view, const Vector3d& position) const
-    {
-        return project(camera_, in_camera(view, position));
+        match.places_px.push_back(*onlookers_.place_px(view, position) + noise);
     }
 
     /// Where the sum of squared reprojection errors is least, by Gauss and Newton.
     Vector3d best_fit(const Match& match, Vector3d position) const
     {
         constexpr int kSteps = 8;
-        const Vector2d focal_px(camera_.params[0], camera_.params[1]);
+        const Vector2d focal_px(onlookers_.camera().params[0], onlookers_.camera().params[1]);
         for (int step = 0; step < kSteps && match.views.size() > 1; ++step) {
             Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
             Vector3d right_side = Vector3d::Zero();
             for (std::size_t i = 0; i < match.views.size(); ++i) {
                 const std::uint32_t view = match.views[i];
-                const Vector3d x = in_camera(view, position);
-                const auto place = place_px(view, position);
+                const Vector3d x = onlookers_.in_camera(view, position);
+                const auto place = onlookers_.place_px(view, position);
                 if (!place) return position;
                 Eigen::Matrix<double, 2, 3> slope;
                 slope << focal_px.x() / x.z(), 0.0, -focal_px.x() * x.x() / (x.z() * x.z()), 0.0,
@@ -236,7 +133,7 @@ class Matcher {
     {
         double sum = 0.0;
         for (std::size_t i = 0; i < match.views.size(); ++i) {
-            const auto place = place_px(match.views[i], position);
+            const auto place = onlookers_.place_px(match.views[i], position);
             if (!place) return std::nullopt;
             sum += (*place - match.places_px[i]).norm();
         }
@@ -274,10 +171,9 @@ class Matcher {
         scene.tracks.push_back(match.views);
     }
 
-    Camera camera_;
+    Onlookers onlookers_;
+    const std::vector<View>& views_;
     Spots spots_;
-    SurfaceTree tree_;
-    std::vector<View> views_;
     ObservedModel model_;
 };
 

@@ -1,0 +1,63 @@
+#include "observed/onlookers.h"
+
+#include "model/camera.h"
+
+#include <fmt/format.h>
+
+namespace vcarve::observed {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Camera camera_of(const render::Pinhole& view)
+{
+    return {.id = 1,
+            .model = 1, // PINHOLE
+            .width_px = static_cast<std::uint64_t>(view.width_px),
+            .height_px = static_cast<std::uint64_t>(view.height_px),
+            .params = {view.focal_px.x(), view.focal_px.y(), view.principal_px.x(),
+                       view.principal_px.y()}};
+}
+
+} // namespace
+
+Onlookers::Onlookers(const ObservedScene& observed)
+    : camera_(camera_of(observed.views.front())), tree_(observed.parts.mesh)
+{
+    for (const render::Pinhole& pinhole : observed.views) {
+        View view;
+        view.id = static_cast<std::uint32_t>(views_.size() + 1);
+        view.name = fmt::format("{}_{:02}.png", observed.name, view.id);
+        view.cam_from_world = Eigen::Quaterniond(pinhole.cam_from_world).normalized();
+        view.center = pinhole.center;
+        views_.push_back(view);
+    }
+}
+
+std::vector<std::uint32_t> Onlookers::seeing(const Spot& spot) const
+{
+    constexpr double kLeastCosine = 0.26; // 75 degrees
+    constexpr double kTouch = 1e-4;       // of the way, nearer is the spot's own face
+    std::vector<std::uint32_t> seeing;
+    for (std::uint32_t i = 0; i < views_.size(); ++i) {
+        const Vector3d way = views_[i].center - spot.position;
+        if (spot.normal.dot(way) < kLeastCosine * way.norm()) continue;
+        if (!view_shows(views_[i], camera_, spot.position)) continue;
+        if (!tree_.blocks(spot.position + kTouch * way, views_[i].center)) seeing.push_back(i);
+    }
+    return seeing;
+}
+
+Vector3d Onlookers::in_camera(std::uint32_t view, const Vector3d& position) const
+{
+    return views_[view].cam_from_world * (position - views_[view].center);
+}
+
+std::optional<Vector2d> Onlookers::place_px(std::uint32_t view, const Vector3d& position) const
+{
+    return project(camera_, in_camera(view, position));
+}
+
+} // namespace vcarve::observed
