@@ -45,6 +45,7 @@ Second:
   --no-smooth                 Leave corners as they are.
   --shape round|flat          What it is like. [default round]
   --memory <size>             Take no more. [default 3M]
+  --place here|there|x,y,z    Where it is. [default here, -10 to 10]
 
   Exit code                   0 done.
 )");
@@ -84,6 +85,7 @@ TEST(MarkdownOptions, IsATableAStage)
 | `--no-smooth` | on |  | Leave corners as they are. |
 | `--shape round\|flat` | round |  | What it is like. |
 | `--memory <size>` | 3M |  | Take no more. |
+| `--place here\|there\|x,y,z` | here | -10 to 10 | Where it is. |
 )");
 }
 

@@ -122,6 +122,30 @@ TEST(OptionReader, TakesAWordWhereTheOptionHasOne)
     EXPECT_THROW(read("automatic"), UsageError);
 }
 
+TEST(OptionReader, TakesWordsOrThreeNumbers)
+{
+    EXPECT_EQ(options_of({}).place.word, 0);
+    EXPECT_EQ(options_of({"--place", "there"}).place.word, 1);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--place", "-1,2.5,1e-3"}, {"--place=-1,2.5,0.001"}}) {
+        const WordOrVector place = options_of(words).place;
+        EXPECT_EQ(place.word, WordOrVector::kNoWord);
+        EXPECT_EQ(place.vector, Eigen::Vector3d(-1.0, 2.5, 1e-3));
+    }
+}
+
+TEST(OptionReader, RefusesWhatIsNeitherAWordNorThreeNumbers)
+{
+    const std::string expected = "--place takes here, there or x,y,z from -10 to 10, not ";
+    for (const std::string text :
+         {"nowhere", "1", "1,2", "1,2,", "1,2,3,4", "1, 2,3", "1,x,3", "1;2;3", "1e999,0,0"}) {
+        EXPECT_EQ(refusal_of({"--place", text}), expected + '"' + text + '"');
+    }
+    EXPECT_EQ(refusal_of({"--place", "1,inf,3"}), expected + "inf");
+    EXPECT_EQ(refusal_of({"--place", "1,2,nan"}), expected + "nan");
+    EXPECT_EQ(refusal_of({"--place", "1,2,10.5"}), expected + "10.5");
+}
+
 TEST(OptionReader, RefusesValuesOfTheWrongKind)
 {
     EXPECT_EQ(refusal_of({"--angle", "wide"}),

@@ -25,7 +25,7 @@ TEST(OptionTable, ListsEveryOptionInTheOrderOfItsDeclaration)
     }
     EXPECT_THAT(names,
                 ElementsAre("First/angle", "First/spacing", "Second/min-views", "Second/closed",
-                            "Second/no-smooth", "Second/shape", "Second/memory"));
+                            "Second/no-smooth", "Second/shape", "Second/memory", "Second/place"));
 }
 
 TEST(OptionTable, TakesThePresentValuesForDefaults)
@@ -34,7 +34,7 @@ TEST(OptionTable, TakesThePresentValuesForDefaults)
     for (const OptionRow& row : sample_rows()) {
         defaults.push_back(row.initial);
     }
-    EXPECT_THAT(defaults, ElementsAre("10.5", "2", "3", "", "", "round", "3M"));
+    EXPECT_THAT(defaults, ElementsAre("10.5", "2", "3", "", "", "round", "3M", "here"));
 }
 
 TEST(OptionTable, GivesARangeOnlyWhereMoreThanTheSignIsRestricted)
@@ -43,7 +43,7 @@ TEST(OptionTable, GivesARangeOnlyWhereMoreThanTheSignIsRestricted)
     for (const OptionRow& row : sample_rows()) {
         ranges.push_back(row.range);
     }
-    EXPECT_THAT(ranges, ElementsAre("0 to 180", "", "2 or more", "", "", "", ""));
+    EXPECT_THAT(ranges, ElementsAre("0 to 180", "", "2 or more", "", "", "", "", "-10 to 10"));
 }
 
 TEST(Placeholder, ShowsTheUnitOrTheChoices)
@@ -52,8 +52,8 @@ TEST(Placeholder, ShowsTheUnitOrTheChoices)
     for (const OptionRow& row : sample_rows()) {
         placeholders.push_back(placeholder(row));
     }
-    EXPECT_THAT(placeholders,
-                ElementsAre("<deg>", "<number>", "<views>", "", "", "round|flat", "<size>"));
+    EXPECT_THAT(placeholders, ElementsAre("<deg>", "<number>", "<views>", "", "", "round|flat",
+                                          "<size>", "here|there|x,y,z"));
 }
 
 } // namespace

@@ -16,7 +16,10 @@ TEST(OptionRecorder, RecordsEveryOptionUnderItsNameOnTheCommandLine)
 {
     EXPECT_EQ(options_json(SampleOptions{.spacing = kUnlimited}).dump(),
               R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,"smooth":true,)"
-              R"("shape":"round","memory":3145728})");
+              R"("shape":"round","memory":3145728,"place":"here"})");
+    SampleOptions options;
+    options.place = {.word = WordOrVector::kNoWord, .vector = {1.5, -2.0, 0.1}};
+    EXPECT_EQ(options_json(options)["place"].dump(), "[1.5,-2.0,0.1]");
 }
 
 TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)

@@ -41,6 +41,9 @@ TEST(Validate, NamesTheOptionTheRangeAndTheValue)
               "--memory takes a size in bytes, or with K, M or G as in 8G, not -1");
     EXPECT_EQ(refusal_of({.shape = static_cast<Shape>(3)}),
               "--shape has 2 choices, and 3 is none of them");
+    EXPECT_EQ(refusal_of({.place = {.word = 2}}), "--place has 2 choices, and 2 is none of them");
+    EXPECT_EQ(refusal_of({.place = {.word = WordOrVector::kNoWord, .vector = {0, 0, -11}}}),
+              "--place takes here, there or x,y,z from -10 to 10, not -11");
 }
 
 TEST(Validate, RefusesWhatIsNotANumber)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -22,6 +24,14 @@ struct OptionInfo {
     double word_value = 0.0; ///< what the word stands for
 };
 
+/// One of an option's words, or three numbers instead.
+struct WordOrVector {
+    static constexpr int kNoWord = -1; ///< the numbers count
+
+    int word = 0;                                     ///< index into the words, or kNoWord
+    Eigen::Vector3d vector = Eigen::Vector3d::Zero(); ///< where there is no word
+};
+
 /// Shown every option of an options struct, in order. An options struct has a member
 /// `void visit(OptionVisitor&)`; the parser writes through the references, everybody else reads.
 class OptionVisitor {
@@ -40,6 +50,9 @@ class OptionVisitor {
     virtual void flag(bool& value, const OptionInfo& info) = 0;
     /// `value` is an index into `names`.
     virtual void choice(int& value, std::span<const char* const> names, const OptionInfo& info) = 0;
+    /// One of `words`, or three finite numbers in the range of `info`, typed as "1,2.5,-3".
+    virtual void word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                                const OptionInfo& info) = 0;
 
     /// A choice whose value is an enum numbered from 0 in the order of `names`.
     template <typename Enum>

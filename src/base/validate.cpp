@@ -3,14 +3,16 @@
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
 
 namespace vcarve {
 
 namespace {
 
-std::string accepted(const char* kind, const OptionInfo& info)
+std::string accepted(std::string text, const OptionInfo& info)
 {
-    std::string text = kind;
     if (info.min > -kUnlimited && info.max < kUnlimited) {
         text += fmt::format(" from {} to {}", info.min, info.max);
     } else if (info.min > -kUnlimited) {
@@ -32,6 +34,11 @@ std::string accepted_numbers(const OptionInfo& info)
 std::string accepted_counts(const OptionInfo& info)
 {
     return accepted("a whole number", info);
+}
+
+std::string accepted_vectors(std::span<const char* const> words, const OptionInfo& info)
+{
+    return accepted(fmt::format("{} or x,y,z", fmt::join(words, ", ")), info);
 }
 
 void RangeCheck::number(double& value, const OptionInfo& info)
@@ -63,6 +70,17 @@ void RangeCheck::choice(int& value, std::span<const char* const> names, const Op
     if (value < 0 || static_cast<std::size_t>(value) >= names.size()) {
         throw UsageError(fmt::format("--{} has {} choices, and {} is none of them", info.name,
                                      names.size(), value));
+    }
+}
+
+void RangeCheck::word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                                const OptionInfo& info)
+{
+    if (value.word != WordOrVector::kNoWord) return choice(value.word, words, info);
+    for (const double coordinate : value.vector) {
+        if (std::isfinite(coordinate) && coordinate >= info.min && coordinate <= info.max) continue;
+        throw UsageError(fmt::format("--{} takes {}, not {}", info.name,
+                                     accepted_vectors(words, info), coordinate));
     }
 }
 

@@ -10,6 +10,8 @@ namespace vcarve {
 /// from 0 to 180 (deg)".
 std::string accepted_numbers(const OptionInfo& info);
 std::string accepted_counts(const OptionInfo& info);
+/// "none, auto or x,y,z".
+std::string accepted_vectors(std::span<const char* const> words, const OptionInfo& info);
 inline constexpr const char* kAcceptedBytes = "a size in bytes, or with K, M or G as in 8G";
 
 /// Throws UsageError where a value of an option lies outside its range, or is not a number.
@@ -21,6 +23,8 @@ class RangeCheck final : public OptionVisitor {
     void bytes(std::int64_t& value, const OptionInfo& info) override;
     void flag(bool&, const OptionInfo&) override {}
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
+    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                        const OptionInfo& info) override;
 };
 
 /// Throws UsageError naming the first option of `options` whose value is not accepted. For those

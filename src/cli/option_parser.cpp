@@ -118,6 +118,18 @@ bool parse(std::string_view text, Number& number)
     return error == std::errc() && end == text.data() + text.size();
 }
 
+/// Three numbers with commas between them, and nothing else.
+bool parse_vector(std::string_view text, Eigen::Vector3d& vector)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t end = axis < 2 ? text.find(',') : text.size();
+        if (end == std::string_view::npos || !parse(text.substr(0, end), vector[axis]))
+            return false;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return true;
+}
+
 [[noreturn]] void refuse_value(const char* name, std::string_view accepted, std::string_view text)
 {
     throw UsageError(fmt::format("--{} takes {}, not \"{}\"", name, accepted, text));
@@ -189,6 +201,20 @@ void OptionReader::choice(int& value, std::span<const char* const> names, const 
         refuse_value(info.name, fmt::format("{}", fmt::join(names, " or ")), given->second);
     }
     value = static_cast<int>(name - names.begin());
+}
+
+void OptionReader::word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                                  const OptionInfo& info)
+{
+    const auto given = given_.find(info.name);
+    if (given == given_.end()) return;
+    const auto word = std::ranges::find(words, given->second);
+    value.word =
+        word == words.end() ? WordOrVector::kNoWord : static_cast<int>(word - words.begin());
+    if (word == words.end() && !parse_vector(given->second, value.vector)) {
+        refuse_value(info.name, accepted_vectors(words, info), given->second);
+    }
+    RangeCheck().word_or_vector(value, words, info);
 }
 
 ParsedArguments parse_arguments(std::span<const std::string> arguments,

@@ -39,6 +39,8 @@ class OptionReader final : public OptionVisitor {
     void bytes(std::int64_t& value, const OptionInfo& info) override;
     void flag(bool& value, const OptionInfo& info) override;
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
+    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                        const OptionInfo& info) override;
 
   private:
     const std::map<std::string, std::string>& given_;

@@ -69,6 +69,18 @@ void OptionTable::choice(int& value, std::span<const char* const> names, const O
     row.initial = row.choices.at(static_cast<std::size_t>(value));
 }
 
+void OptionTable::word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                                 const OptionInfo& info)
+{
+    OptionRow& row = add(OptionKind::vector, info);
+    row.choices.assign(words.begin(), words.end());
+    row.accepted = accepted_vectors(words, info);
+    row.range = range(info);
+    row.initial = value.word == WordOrVector::kNoWord
+                      ? fmt::format("{}", fmt::join(value.vector, ","))
+                      : row.choices.at(static_cast<std::size_t>(value.word));
+}
+
 void OptionTable::path(const OptionInfo& info)
 {
     add(OptionKind::path, info).accepted = "a path";
@@ -84,6 +96,8 @@ std::string placeholder(const OptionRow& row)
         return "<size>";
     case OptionKind::choice:
         return fmt::format("{}", fmt::join(row.choices, "|"));
+    case OptionKind::vector:
+        return fmt::format("{}|x,y,z", fmt::join(row.choices, "|"));
     case OptionKind::path:
         return "<file>";
     case OptionKind::flag:

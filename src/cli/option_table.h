@@ -7,7 +7,7 @@
 
 namespace vcarve::cli {
 
-enum class OptionKind { number, count, bytes, flag, choice, path };
+enum class OptionKind { number, count, bytes, flag, choice, vector, path };
 
 /// One option as the user meets it.
 struct OptionRow {
@@ -19,7 +19,7 @@ struct OptionRow {
     std::string accepted; ///< to be read after "takes"; empty for a flag
     std::string range;    ///< "1 to 64", "2 or more"; empty where only the sign is restricted
     std::string initial;  ///< the default as one would type it; empty where there is none
-    std::vector<std::string> choices;
+    std::vector<std::string> choices; ///< words that may stand for the value
 };
 
 /// Lists the options of options structs, in order, with their present values as the defaults.
@@ -31,6 +31,8 @@ class OptionTable final : public OptionVisitor {
     void bytes(std::int64_t& value, const OptionInfo& info) override;
     void flag(bool& value, const OptionInfo& info) override;
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
+    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                        const OptionInfo& info) override;
 
     /// An option whose value is a path.
     void path(const OptionInfo& info);

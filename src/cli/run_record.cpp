@@ -81,6 +81,16 @@ void OptionRecorder::number(double& value, const OptionInfo& info)
     }
 }
 
+void OptionRecorder::word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                                    const OptionInfo& info)
+{
+    if (value.word == WordOrVector::kNoWord) {
+        json_[info.name] = {value.vector.x(), value.vector.y(), value.vector.z()};
+    } else {
+        json_[info.name] = words[static_cast<std::size_t>(value.word)];
+    }
+}
+
 std::string json_text(const Json& json)
 {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -50,6 +50,8 @@ class OptionRecorder final : public OptionVisitor {
     {
         json_[info.name] = names[static_cast<std::size_t>(value)];
     }
+    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                        const OptionInfo& info) override;
     const Json& json() const { return json_; }
 
   private:

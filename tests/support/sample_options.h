@@ -8,6 +8,7 @@ namespace vcarve {
 
 enum class Shape { round, flat };
 inline constexpr const char* kShapeNames[] = {"round", "flat"};
+inline constexpr const char* kPlaceWords[] = {"here", "there"};
 
 /// Options with one of every kind, for tests of what is made from declarations.
 struct SampleOptions {
@@ -18,6 +19,7 @@ struct SampleOptions {
     bool smooth = true;
     Shape shape = Shape::round;
     std::int64_t memory = 3 << 20;
+    WordOrVector place;
 
     void visit(OptionVisitor& options)
     {
@@ -34,6 +36,9 @@ struct SampleOptions {
         options.flag(smooth, {.name = "smooth", .help = "Leave corners as they are."});
         options.choice(shape, kShapeNames, {.name = "shape", .help = "What it is like."});
         options.bytes(memory, {.name = "memory", .help = "Take no more."});
+        options.word_or_vector(
+            place, kPlaceWords,
+            {.name = "place", .help = "Where it is.", .min = -10.0, .max = 10.0});
     }
 };
 
