@@ -24,7 +24,7 @@ int main(int count, char** words)
         options.surface.cleanup.max_hole_edges = 20;
         vcarve::Scene scene = vcarve::read_model(words[1], log);
         const auto made = vcarve::reconstruct(std::move(scene), options, log);
-        vcarve::write_ply(words[2], made.mesh, {});
+        vcarve::write_mesh(words[2], made.mesh, {});
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return 1;

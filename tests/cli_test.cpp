@@ -15,6 +15,7 @@ namespace vcarve {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
@@ -183,6 +184,44 @@ TEST(Program, RecognisesASwappedInputAndOutput)
     EXPECT_EQ(sentence_of(2, {"out.ply", "sparse"}),
               "colmap-vcarve: the model comes first and the output second: colmap-vcarve sparse "
               "out.ply\n");
+}
+
+TEST_F(ProgramOnBall, LeavesModelsNearTheOriginWhereTheyAre)
+{
+    EXPECT_EQ(run({ball, out}).exit_code, 0);
+    const std::string before = bytes_of(out);
+    const Outcome outcome = run({ball, out, "--offset", "auto", "--stats", stats});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(bytes_of(out), before);
+    EXPECT_THAT(outcome.err, Not(HasSubstr("minus")));
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    EXPECT_EQ(record["offset"], nlohmann::json::parse("[0.0, 0.0, 0.0]"));
+    EXPECT_EQ(record["options"]["offset"], "auto");
+}
+
+TEST_F(ProgramOnBall, SaysWhichOffsetItSubtracts)
+{
+    write_ball_model(ball, 400, {5e5, 4.6e6, 1.0});
+    const Outcome outcome = run({ball, out, "--offset", "auto", "--stats", stats});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("the coordinates written are those of the model minus 500000, 4600000, "
+                          "0\n"));
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    EXPECT_EQ(record["offset"], nlohmann::json::parse("[500000.0, 4600000.0, 0.0]"));
+    EXPECT_EQ(sentence_of(2, {ball, out, "--offset", "5e5,4.6e6"}),
+              "colmap-vcarve: --offset takes none, auto or x,y,z, not \"5e5,4.6e6\"\n");
+}
+
+TEST_F(ProgramOnBall, WarnsOfFloatsFarFromTheOrigin)
+{
+    write_ball_model(ball, 400, {5e5, 4.6e6, 1.0});
+    const std::string stl = folder / "out.stl";
+    EXPECT_THAT(run({ball, stl}).err,
+                ContainsRegex("the floats of [^ ]*out.stl move vertices by up "
+                              "to [0-9.]+e-02 of the surface's size; "
+                              "--offset auto avoids that\n"));
+    EXPECT_THAT(run({ball, stl, "--offset", "auto"}).err, Not(HasSubstr("floats")));
 }
 
 TEST(Program, NamesTheEndsOfTheFilesItWrites)

@@ -112,6 +112,31 @@ TEST_F(CompareOnBall, FindsAMeshEqualToItself)
     EXPECT_EQ(record["meshes"][0]["size"]["orientation_faults"], 0);
 }
 
+TEST_F(CompareOnBall, UnderstandsTheOffsetOfAFile)
+{
+    const std::string far_ball = folder / "far";
+    write_ball_model(far_ball, 400, {5e5, 4.6e6, 100.0});
+    const auto figures_of = [&](const std::string& offset) {
+        const std::string written = folder / (offset + ".ply");
+        EXPECT_EQ(run({"--quiet", far_ball, written, "--offset", offset}).exit_code, 0);
+        EXPECT_EQ(run({"compare", "--quiet", far_ball, written, "--truth", written, "--samples",
+                       "2000", "--json", json})
+                      .exit_code,
+                  0);
+        nlohmann::json record = nlohmann::json::parse(bytes_of(json))["meshes"][0];
+        record.erase("name");
+        return record;
+    };
+    const nlohmann::json expected = figures_of("none");
+    EXPECT_EQ(expected["truth"]["agreement"][0]["f"], 1.0);
+    EXPECT_EQ(figures_of("auto"), expected);
+    EXPECT_EQ(figures_of("499000,4.5e6,-7"), expected);
+    EXPECT_THAT(bytes_of(folder / "none.ply"), Not(HasSubstr("offset")));
+    EXPECT_THAT(bytes_of(folder / "auto.ply"), HasSubstr("comment offset 500000 4600000 100\n"));
+    EXPECT_THAT(bytes_of(folder / "499000,4.5e6,-7.ply"),
+                HasSubstr("comment offset 499000 4500000 -7\n"));
+}
+
 TEST_F(CompareOnBall, GivesTheSameFiguresForAnyNumberOfThreads)
 {
     const Outcome one = compare({mesh, "--truth", mesh, "--threads", "1"});

@@ -116,6 +116,20 @@ TEST(WriteGlb, KeepsPositionsFarFromTheOrigin)
     }
 }
 
+TEST(WriteGlb, SaysTheOffsetThatWasSubtracted)
+{
+    const TriMesh mesh = sheet_far_away();
+    const Json whole = chunks_of(written(mesh)).json;
+    const Json rest = chunks_of(written(mesh, {.offset = {5e5, 4.6e6, 0.1}})).json;
+    EXPECT_FALSE(whole["asset"].contains("extras"));
+    EXPECT_EQ(rest["asset"]["extras"], Json::parse(R"({"offset": [500000.0, 4600000.0, 0.1]})"));
+    const auto before = whole["nodes"][0]["translation"].get<std::vector<double>>();
+    const auto after = rest["nodes"][0]["translation"].get<std::vector<double>>();
+    EXPECT_NEAR(before[0] - after[0], 5e5, 1e-9);
+    EXPECT_NEAR(before[1] - after[1], 4.6e6, 1e-9);
+    EXPECT_NEAR(before[2] - after[2], 0.1, 1e-9);
+}
+
 TEST(WriteGlb, SaysTheBoxOfItsPositions)
 {
     const Chunks chunks = chunks_of(written(sheet_far_away()));

@@ -75,6 +75,18 @@ TEST(WriteMesh, LeavesTheFileAsItWasWhereItFails)
     EXPECT_EQ(folder.num_entries(), std::size(kNames));
 }
 
+TEST(RoundingShare, IsWhatFloatsMoveTheVerticesOfStl)
+{
+    TriMesh mesh;
+    mesh.positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+    mesh.faces = {{0, 1, 2}};
+    EXPECT_EQ(rounding_share("a.stl", mesh, {}), 0.0);
+    mesh.offset = {0, 4600000.2, 0}; // floats are half a metre apart there
+    EXPECT_NEAR(rounding_share("a.stl", mesh, {}), 0.2 / 5.0, 1e-9);
+    EXPECT_EQ(rounding_share("a.obj", mesh, {}), 0.0);
+    EXPECT_LT(rounding_share("a.stl", mesh, {.offset = {0, 4600000, 0}}), 1e-7);
+}
+
 TEST(WriteMesh, WritesFacesThatAreNotManifold)
 {
     const TemporaryFolder folder;

@@ -306,6 +306,36 @@ TEST(ReadPly, ReadsBackWhatWasWritten)
     }
 }
 
+TEST(ReadPly, AddsBackTheOffsetThatWasSubtracted)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh = two_triangles();
+    mesh.offset = {500000.5, 4.6e6, 100.1};
+    for (const bool ascii : {false, true}) {
+        write_ply(folder / "out.ply", mesh, {.ascii = ascii, .offset = {5e5, 4.6e6, 0.1}});
+        EXPECT_EQ(read_plainly(bytes_of(folder / "out.ply")).comments,
+                  std::vector<std::string>{"offset 500000 4600000 0.1"});
+        const TriMesh back = read_ply(folder / "out.ply");
+        EXPECT_EQ(back.offset, Vector3d(5e5, 4.6e6, 0.1));
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            EXPECT_EQ(back.positions[v], mesh.positions[v] + Vector3d(0.5, 0.0, 100.1 - 0.1));
+        }
+    }
+}
+
+TEST(ReadPly, TakesOtherCommentsForWords)
+{
+    const TemporaryFolder folder;
+    for (const std::string comment :
+         {"offset", "offset 1 2", "offset 1 2 3 4", "offset 1 2 x", "offset 1 2 inf",
+          "offsets 1 2 3", "the offset 1 2 3", "offset 1,2,3", "offset 1 2 3m"}) {
+        write_ply(folder / "out.ply", two_triangles(), {.comments = {comment}});
+        EXPECT_EQ(read_ply(folder / "out.ply").offset, Vector3d(0, 0, 0)) << comment;
+    }
+    write_ply(folder / "out.ply", two_triangles(), {.comments = {"offset -1.5  2e3 3"}});
+    EXPECT_EQ(read_ply(folder / "out.ply").offset, Vector3d(-1.5, 2000, 3));
+}
+
 TEST(ReadPly, ReadsAnEmptySurface)
 {
     const TemporaryFolder folder;

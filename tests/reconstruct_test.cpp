@@ -1,4 +1,5 @@
 #include "io/colmap/colmap_model.h"
+#include "io/formats/mesh_file.h"
 #include "mesh/check.h"
 #include "steps/5_surface/orient.h"
 #include "support/half_edges.h"
@@ -128,6 +129,49 @@ TEST(Reconstruct, KeepsItsFacesInOtherUnitsTurnedAndFarFromTheOrigin)
     EXPECT_EQ(faces_by_id(run(moved(scene, 1e6, none, Vector3d::Zero()))), faces);
     EXPECT_EQ(faces_by_id(run(moved(scene, 1.0, turn, Vector3d::Zero()))), faces);
     EXPECT_EQ(faces_by_id(run(moved(scene, 1.0, none, utm))), faces);
+}
+
+/// The same mesh, vertex for vertex, but for the rounding of coordinates far from the origin.
+void expect_moved(const TriMesh& far, const TriMesh& near, double scale, const Vector3d& shift)
+{
+    ASSERT_EQ(far.faces, near.faces);
+    ASSERT_EQ(far.points, near.points);
+    EXPECT_EQ(far.colors, near.colors);
+    const double rounding = shift.cwiseAbs().maxCoeff() * std::numeric_limits<double>::epsilon();
+    for (std::size_t v = 0; v < near.positions.size(); ++v) {
+        const Vector3d moved = scale * (near.positions[v] + near.offset) + shift;
+        ASSERT_LE((far.positions[v] + far.offset - moved).cwiseAbs().maxCoeff(), rounding);
+    }
+}
+
+TEST(Reconstruct, GivesTheSameMeshVertexForVertexInMapCoordinates)
+{
+    const Vector3d utm(5e5, 4.6e6, 100.0);
+    const double metres = 37.3;
+    const Scene fixture = read_colmap_model(VCARVE_FIXTURES "/scene/sparse/0", ModelFormat::binary);
+    for (const Scene& near : {bumpy_sphere(kPoints, 6), fixture}) {
+        const Quaterniond none = Quaterniond::Identity();
+        const Scene far = moved(near, metres, none, utm);
+        const TriMesh mesh = run(far).mesh;
+        // What doubles so large can tell apart, near the origin again
+        const Scene back = moved(moved(far, 1.0, none, -utm), 1.0 / metres, none, Vector3d::Zero());
+        expect_moved(mesh, run(back).mesh, metres, utm);
+
+        // Written and read back, as it is and with the offset taken off
+        const TemporaryFolder folder;
+        for (const Vector3d& offset : {Vector3d(0, 0, 0), round_offset(far)}) {
+            write_mesh(folder / "out.ply", mesh, {.offset = offset});
+            const TriMesh copy = read_ply(folder / "out.ply");
+            EXPECT_EQ(copy.offset, offset);
+            for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+                ASSERT_LT(
+                    (copy.positions[v] + copy.offset - mesh.positions[v] - mesh.offset).norm(),
+                    2e-9);
+            }
+        }
+        EXPECT_LT(rounding_share("out.stl", mesh, {.offset = round_offset(far)}), 1e-6);
+        EXPECT_GT(rounding_share("out.stl", mesh, {}), 1e-6);
+    }
 }
 
 void expect_watertight(const Scene& scene, const Options& options, const std::string& name)

@@ -49,6 +49,20 @@ TEST(WriteStl, IsReadByAssimp)
     }
 }
 
+TEST(WriteStl, SaysTheOffsetThatWasSubtracted)
+{
+    TriMesh mesh;
+    mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 0, -3}};
+    mesh.faces = {{0, 1, 2}};
+    mesh.offset = {5e5, 4.6e6, 107};
+    const TemporaryFolder folder;
+    write_mesh(folder / "a.stl", mesh,
+               {.comments = {"made here"}, .offset = {499999.5, 4.6e6, 100}});
+    const std::string bytes = bytes_of(folder / "a.stl");
+    EXPECT_EQ(bytes.substr(0, 40), "STL, offset 499999.5 4600000 100, made h");
+    EXPECT_EQ(bytes.substr(96, 12), bytes_of_numbers<float>({0.5F, 0.0F, 7.0F}));
+}
+
 TEST(WriteStl, CutsLongCommentsOff)
 {
     const TemporaryFolder folder;

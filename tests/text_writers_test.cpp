@@ -4,6 +4,7 @@
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +14,8 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
+using testing::EndsWith;
+using testing::StartsWith;
 
 TriMesh two_triangles()
 {
@@ -80,6 +83,19 @@ TEST(WriteOff, WritesExactlyThisText)
                                                  "-2.5 1e-07 12\n"
                                                  "3 0 1 2\n"
                                                  "3 2 1 3\n");
+}
+
+TEST(TextFormats, SayTheOffsetThatWasSubtracted)
+{
+    TriMesh mesh = two_triangles();
+    mesh.offset = {5e5, 4.6e6, 100.25};
+    const MeshFormat format = {.comments = {"made here"}, .offset = {5e5, 4.6e6, -0.1}};
+    EXPECT_THAT(
+        written(mesh, "a.obj", format),
+        StartsWith("# offset 500000 4600000 -0.1\n# made here\nv 0 0 100.35\nv 1 0 100.35"));
+    EXPECT_THAT(written(mesh, "a.off", format), StartsWith("OFF\n4 2 0\n0 0 100.35\n"));
+    EXPECT_THAT(written(mesh, "a.off", format),
+                EndsWith("# offset 500000 4600000 -0.1\n# made here\n"));
 }
 
 /// The positions of OBJ or, without a word before them, of OFF.

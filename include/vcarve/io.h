@@ -41,22 +41,27 @@ struct MeshFormat {
     bool ascii = false;                     ///< PLY only: numbers as text instead of binary
     std::vector<std::string> comments = {}; ///< said in the file: program version, options
     const Provenance* provenance = nullptr; ///< PLY only: written as well where there is one
+    /// Subtracted from every position that is written, and said in the file unless it is zero.
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
 
 /// Writes a surface in the format that the end of the file's name means, in large or small letters.
 /// Vertices and faces keep their order, faces are written as they stand, manifold or not, and
-/// `offset` is added to every position.
+/// positions in the frame of the model, which is what TriMesh::offset leads to, minus the offset of
+/// `format`.
 ///
-/// - `.ply`: as write_ply() does.
+/// - `.ply`: as write_ply() does, and so are comments in `.obj` and, at its end, in `.off`.
 /// - `.obj`: positions with the fewest digits that read back as the same double, colours behind
 ///   them, from 0 to 1 with four decimals, and normals.
 /// - `.off`: positions and colours in the same way.
-/// - `.stl`: binary, positions as floats; neither colours nor which faces meet.
+/// - `.stl`: binary, positions as floats; neither colours nor which faces meet. Comments are cut
+///   off after 75 bytes.
 /// - `.glb`: glTF 2.0 in one file, with normals and colours. Positions are floats relative to the
 ///   middle of their box, which is the node's translation and a double; so they are right to 1e-7
-///   of the box wherever it lies. Colours are linear with 16 bits, as glTF wants them. Axes are
-///   those of the mesh, though glTF takes y to point up: COLMAP does not know what is up. No more
-///   than 4 GiB; a surface without faces is an empty asset.
+///   of the box wherever it lies. The offset is the asset's extra `offset`. Colours are linear with
+///   16 bits, as glTF wants them. Axes are those of the mesh, though glTF takes y to point up:
+///   COLMAP does not know what is up. No more than 4 GiB; a surface without faces is an empty
+///   asset.
 ///
 /// The bytes depend on the arguments alone. The file appears whole or not at all. Throws UsageError
 /// where it cannot be written, its name ends otherwise, or `format` asks for what is for PLY only.
@@ -64,14 +69,21 @@ struct MeshFormat {
 /// colours into OBJ, and print through streams that are global.
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh, const MeshFormat& format);
 
-/// Writes a surface as PLY: per vertex x y z (double, `offset` added), nx ny nz (float) and red
-/// green blue (uchar) where the mesh has them; per face vertex_indices (uchar, int). Binary little
-/// endian, or ascii with the fewest digits that read back as the same number. Faces are written as
-/// they stand, manifold or not. The bytes depend on the arguments alone. The file appears whole or
-/// not at all. Throws UsageError where it cannot be written. OpenMesh's own writer is not used
-/// because it rounds coordinates to float, writes no comments and takes no faces that are not
-/// manifold; a writer of ours behind its IOManager would be found or not by the order of addresses,
-/// since two would then write PLY.
+/// Where positions of a model far from the origin are written with digits to spare for float: along
+/// each axis on which the median of its points lies more than ten times their size from zero, that
+/// median, rounded to the power of ten next above the size; zero along the others. The size is the
+/// diagonal of a box that leaves out a twentieth at each end. What is left keeps 1e-6 of the size
+/// as a float. Cost: O(points).
+Eigen::Vector3d round_offset(const Scene& model);
+
+/// Writes a surface as PLY: per vertex x y z (double, as write_mesh() says), nx ny nz (float) and
+/// red green blue (uchar) where the mesh has them; per face vertex_indices (uchar, int). Binary
+/// little endian, or ascii with the fewest digits that read back as the same number. Faces are
+/// written as they stand, manifold or not. The bytes depend on the arguments alone. The file
+/// appears whole or not at all. Throws UsageError where it cannot be written. OpenMesh's own writer
+/// is not used because it rounds coordinates to float, writes no comments and takes no faces that
+/// are not manifold; a writer of ours behind its IOManager would be found or not by the order of
+/// addresses, since two would then write PLY.
 ///
 /// Why so: MeshLab, CloudCompare, Open3D, trimesh and COLMAP's mesh_simplifier and mesh_texturer
 /// take double coordinates (some round them to float themselves, which is then their loss and not
@@ -87,10 +99,11 @@ void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const Mes
 /// Reads a triangle surface from ascii, little endian or big endian PLY, numbers of any type.
 /// Polygons are fanned into triangles, faces are kept as they stand in the file however
 /// non-manifold they are; colours and normals are kept where present, other properties and elements
-/// are skipped. Throws InputError: no such file, not PLY, cut off, no faces element, a coordinate
-/// that is no finite number, a vertex index out of range, a face of fewer than three corners. Cost:
-/// linear in the size of the file; allocations never exceed a small multiple of it. OpenMesh's own
-/// reader is not used because it rounds coordinates to float and trusts the header's counts.
+/// are skipped. A comment `offset X Y Z`, as the writers leave it, becomes TriMesh::offset. Throws
+/// InputError: no such file, not PLY, cut off, no faces element, a coordinate that is no finite
+/// number, a vertex index out of range, a face of fewer than three corners. Cost: linear in the
+/// size of the file; allocations never exceed a small multiple of it. OpenMesh's own reader is not
+/// used because it rounds coordinates to float and trusts the header's counts.
 TriMesh read_ply(const std::filesystem::path& path);
 
 } // namespace vcarve

@@ -22,7 +22,7 @@ struct TriMesh {
     std::vector<Color> colors;              ///< optional
     std::vector<Eigen::Vector3f> normals;   ///< optional, unit, pointing outside
     std::vector<std::uint32_t> points; ///< optional: the scene's point a vertex was, or kNoPoint
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the file's
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the model's
 };
 
 } // namespace vcarve

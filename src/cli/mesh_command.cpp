@@ -15,6 +15,7 @@
 #include "vcarve/reconstruct.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
 #include <memory>
@@ -26,11 +27,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+enum class OffsetWord { none, automatic };
+constexpr const char* kOffsetWords[] = {"none", "auto"};
+
 /// What the program writes, whatever it computes.
 struct OutputOptions {
     bool ascii = false;
     bool attributes = false;
     bool quiet = false;
+    WordOrVector offset; ///< one of kOffsetWords
 
     void visit(OptionVisitor& options)
     {
@@ -41,6 +46,13 @@ struct OutputOptions {
                      {.name = "attributes",
                       .help = "Write what vertices and faces come from: point3d_id, num_views and "
                               "error_px of each vertex, support of each face; PLY only."});
+        options.word_or_vector(
+            offset, kOffsetWords,
+            {.name = "offset",
+             .help = "What is subtracted from the coordinates that are written, and said in the "
+                     "file: none; x,y,z; or auto, round numbers for a model that lies far from the "
+                     "origin, so that programs that compute with floats lose nothing.",
+             .min = -kUnlimited});
         options.flag(quiet, {.name = "quiet", .help = "Print nothing but errors."});
     }
 };
@@ -142,14 +154,35 @@ struct Surface {
     std::optional<Provenance> provenance;
 };
 
-void write_surface(const MeshArguments& arguments, const Surface& surface, Log& log)
+Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted)
 {
+    if (wanted.word == WordOrVector::kNoWord) return wanted.vector;
+    const bool automatic = static_cast<OffsetWord>(wanted.word) == OffsetWord::automatic;
+    return automatic ? round_offset(model) : Eigen::Vector3d::Zero();
+}
+
+void write_surface(const MeshArguments& arguments, const Surface& surface,
+                   const Eigen::Vector3d& offset, Log& log)
+{
+    if (!offset.isZero(0.0)) {
+        log.note(fmt::format("the coordinates written are those of the model minus {}",
+                             fmt::join(offset, ", ")));
+    }
     Stage stage(log, "write");
     const MeshFormat format = {.ascii = arguments.output.ascii,
                                .comments = {"made by colmap-vcarve " + versions().program},
                                .provenance =
-                                   surface.provenance.has_value() ? &*surface.provenance : nullptr};
+                                   surface.provenance.has_value() ? &*surface.provenance : nullptr,
+                               .offset = offset};
     write_mesh(arguments.out, surface.mesh, format);
+    const double share = rounding_share(arguments.out, surface.mesh, format);
+    constexpr double kSeen = 1e-6;
+    if (share > kSeen) {
+        log.note(
+            fmt::format("the floats of {} move vertices by up to {:.1e} of the surface's size; "
+                        "--offset auto avoids that",
+                        arguments.out.string(), share));
+    }
     stage.end({{"faces", surface.mesh.faces.size()}, {"vertices", surface.mesh.positions.size()}});
 }
 
@@ -220,8 +253,10 @@ void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& reco
     ModelInput input = read_model_input(
         arguments.model, log, [&](const SceneSize& size) { require_memory_of(arguments, size); });
     record["input"] = input.record;
+    const Eigen::Vector3d offset = offset_for(input.scene, arguments.output.offset);
+    record["offset"] = {offset.x(), offset.y(), offset.z()};
     const Surface surface = surface_of(std::move(input), arguments, log);
-    write_surface(arguments, surface, log);
+    write_surface(arguments, surface, offset, log);
     if (!arguments.stats.empty()) record["mesh"] = check_json(check_mesh(surface.mesh));
 }
 
@@ -274,6 +309,7 @@ void run_mesh(const ParsedArguments& given)
     Json record = {{"program", program_json()},
                    {"input", nullptr},
                    {"output", arguments.out.string()},
+                   {"offset", nullptr},
                    {"options", options_json(arguments.options)},
                    {"threads_used", threads}};
     record["options"].update(options_json(arguments.output));

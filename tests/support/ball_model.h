@@ -3,7 +3,9 @@
 #include "support/temporary_folder.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <iterator>
@@ -12,9 +14,11 @@
 
 namespace vcarve {
 
-/// Writes a COLMAP model in text into `folder`: points on the unit ball, along a spiral and so
-/// without chance, each seen by those of six views, four away along the axes, that face it.
-inline void write_ball_model(const std::filesystem::path& folder, int num_points)
+/// Writes a COLMAP model in text into `folder`: points on the unit ball around `middle`, along a
+/// spiral and so without chance, each seen by those of six views, four away along the axes, that
+/// face it.
+inline void write_ball_model(const std::filesystem::path& folder, int num_points,
+                             const Eigen::Vector3d& middle = Eigen::Vector3d::Zero())
 {
     // Rotations that take the axis of a view to the camera's z, as w x y z; the centre is -4 times
     // it.
@@ -33,8 +37,10 @@ inline void write_ball_model(const std::filesystem::path& folder, int num_points
     std::ofstream images(folder / "images.txt");
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const Eigen::Vector4d& q = rotations[i];
-        images << fmt::format("{} {} {} {} {} 0 0 4 1 {}.jpg\n\n", i + 1, q[0], q[1], q[2], q[3],
-                              kNames[i]);
+        const Eigen::Vector3d moved =
+            Eigen::Vector3d(0, 0, 4) - Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * middle;
+        images << fmt::format("{} {} {} {} {} {} 1 {}.jpg\n\n", i + 1, q[0], q[1], q[2], q[3],
+                              fmt::join(moved, " "), kNames[i]);
     }
     std::string points;
     for (int i = 0; i < num_points; ++i) {
@@ -42,8 +48,9 @@ inline void write_ball_model(const std::filesystem::path& folder, int num_points
         const double angle = std::numbers::pi * (3.0 - std::sqrt(5.0)) * i;
         const double radius = std::sqrt(1.0 - z * z);
         const Eigen::Vector3d p(radius * std::cos(angle), radius * std::sin(angle), z);
-        fmt::format_to(std::back_inserter(points), "{} {} {} {} 200 100 50 0.5", i + 1, p.x(),
-                       p.y(), p.z());
+        const Eigen::Vector3d place = p + middle;
+        fmt::format_to(std::back_inserter(points), "{} {} 200 100 50 0.5", i + 1,
+                       fmt::join(place, " "));
         // The face towards an axis is seen from there: unit ball, view at 4, so from 1/4 on.
         for (std::size_t view = 0; view < axes.size(); ++view) {
             if (p.dot(axes[view]) > 0.3)

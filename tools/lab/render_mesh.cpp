@@ -1,5 +1,6 @@
 // Renders a mesh to a PNG, from the pose of a model's image or from a direction, to look at it.
 // Back faces are magenta.
+#include "compare/reference.h"
 #include "io/colmap/colmap_model.h"
 #include "io/colmap/find_model.h"
 #include "model/camera.h"
@@ -102,7 +103,7 @@ void declare(CLI::App& app, Request& request)
 
 void run(const Request& request)
 {
-    const TriMesh mesh = read_ply(request.mesh);
+    const TriMesh mesh = in_frame(read_ply(request.mesh), Eigen::Vector3d::Zero());
     const render::Look look{to_vector(request.from), to_vector(request.up)};
     const render::Pinhole view = request.model.empty()
                                      ? render::view_of_whole(mesh, look, request.width_px)

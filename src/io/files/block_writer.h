@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstring>
 #include <ostream>
-#include <string>
 
 namespace vcarve {
 
@@ -51,14 +50,6 @@ void put_little_endian(fmt::memory_buffer& block, Number number)
 {
     const auto bytes = little_endian(number);
     block.append(bytes.data(), bytes.data() + bytes.size());
-}
-
-/// A comment is one line: what would break it becomes a blank.
-inline std::string one_line(std::string text)
-{
-    std::ranges::replace_if(
-        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
 }
 
 } // namespace vcarve

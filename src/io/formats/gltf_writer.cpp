@@ -1,5 +1,6 @@
 // glTF 2.0: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 #include "io/files/block_writer.h"
+#include "io/files/comment_lines.h"
 #include "io/formats/mesh_file.h"
 #include "vcarve/error.h"
 
@@ -166,8 +167,18 @@ tinygltf::Material matt()
     return material;
 }
 
-/// One mesh in one node, which moves the mesh back to where it belongs.
-void add_mesh(ModelBuilder& builder, const TriMesh& mesh)
+/// What was subtracted: {"offset": [x, y, z]}.
+tinygltf::Value offset_json(const Vector3d& offset)
+{
+    tinygltf::Value::Array numbers;
+    for (const double coordinate : offset) {
+        numbers.emplace_back(coordinate);
+    }
+    return tinygltf::Value({{kOffsetWord, tinygltf::Value(std::move(numbers))}});
+}
+
+/// One mesh in one node, which moves the mesh back to where it belongs minus `offset`.
+void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const Vector3d& offset)
 {
     Eigen::AlignedBox3d box;
     for (const Vector3d& position : mesh.positions) {
@@ -188,7 +199,7 @@ void add_mesh(ModelBuilder& builder, const TriMesh& mesh)
     model.materials.push_back(matt());
     model.meshes.emplace_back().primitives.push_back(std::move(triangles));
     tinygltf::Node& node = model.nodes.emplace_back();
-    const Vector3d translation = mesh.offset + center;
+    const Vector3d translation = mesh.offset - offset + center;
     node.translation.assign(translation.begin(), translation.end());
     node.mesh = 0;
     model.scenes.emplace_back().nodes.push_back(0);
@@ -212,10 +223,11 @@ void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
     tinygltf::Model& model = builder.model();
     model.asset.version = "2.0";
     model.asset.generator = fmt::to_string(fmt::join(format.comments, ", "));
+    if (!format.offset.isZero(0.0)) model.asset.extras = offset_json(format.offset);
     if (mesh.faces.empty()) {
         model.buffers.clear(); // glTF knows no empty buffers, meshes or scenes
     } else {
-        add_mesh(builder, mesh);
+        add_mesh(builder, mesh, format.offset);
     }
     constexpr bool kIndented = false;
     constexpr bool kBinary = true;

@@ -3,6 +3,7 @@
 #include "io/files/output_file.h"
 #include "vcarve/error.h"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,6 +65,21 @@ void require_ply(const fs::path& path, const char* option)
     if (kind_of(path).write == nullptr) return;
     throw UsageError(
         fmt::format("cannot write {} with {}, which is for PLY files only", path.string(), option));
+}
+
+double rounding_share(const fs::path& path, const TriMesh& mesh, const MeshFormat& format)
+{
+    if (kind_of(path).write != write_stl) return 0.0;
+    const Eigen::Vector3d shift = mesh.offset - format.offset;
+    Eigen::AlignedBox3d box;
+    double most = 0.0;
+    for (const Eigen::Vector3d& position : mesh.positions) {
+        const Eigen::Vector3d exact = position + shift;
+        most =
+            std::max(most, (exact.cast<float>().cast<double>() - exact).lpNorm<Eigen::Infinity>());
+        box.extend(position);
+    }
+    return most > 0.0 ? most / box.diagonal().norm() : 0.0;
 }
 
 void write_mesh(const fs::path& path, const TriMesh& mesh, const MeshFormat& format)

@@ -17,6 +17,12 @@ void require_mesh_name(const std::filesystem::path& path);
 /// Throws UsageError where such a file is no PLY file, which `option` is for.
 void require_ply(const std::filesystem::path& path, const char* option);
 
+/// How far rounding to floats moves the vertices of a surface that write_mesh() writes to `path`,
+/// as a share of the diagonal of its box: the largest change of a coordinate, where the format is
+/// STL, and zero for all others, which lose nothing that could be seen.
+double rounding_share(const std::filesystem::path& path, const TriMesh& mesh,
+                      const MeshFormat& format);
+
 /// Writers of the other formats, for write_mesh(), which says what they write. Errors of the stream
 /// are left to whoever owns it.
 void write_obj(std::ostream& out, const TriMesh& mesh, const MeshFormat& format);

@@ -1,5 +1,6 @@
 #include "geometry/triangle.h"
 #include "io/files/block_writer.h"
+#include "io/files/comment_lines.h"
 #include "io/formats/mesh_file.h"
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ constexpr std::size_t kHeaderBytes = 80;
 /// Free text, which must not begin with "solid", the first word of an STL file that is text.
 std::string header_of(const MeshFormat& format)
 {
-    std::string header = fmt::format("STL, {}", fmt::join(format.comments, ", "));
+    std::string header = fmt::format("STL, {}", fmt::join(comment_lines(format), ", "));
     header.resize(kHeaderBytes);
     return header;
 }
@@ -31,6 +32,7 @@ void put_floats(fmt::memory_buffer& block, const Eigen::Vector3d& triple)
 
 void write_stl(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
+    const Eigen::Vector3d shift = mesh.offset - format.offset;
     BlockWriter writer(out);
     writer.block().append(header_of(format));
     put_little_endian(writer.block(), static_cast<std::uint32_t>(mesh.faces.size()));
@@ -38,7 +40,7 @@ void write_stl(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
         fmt::memory_buffer& block = writer.block();
         put_floats(block, face_normal(mesh.positions, face));
         for (const std::uint32_t vertex : face) {
-            put_floats(block, mesh.positions[vertex] + mesh.offset);
+            put_floats(block, mesh.positions[vertex] + shift);
         }
         put_little_endian(block, std::uint16_t{0}); // what follows a triangle has no meaning
     }

@@ -1,4 +1,5 @@
 #include "io/files/block_writer.h"
+#include "io/files/comment_lines.h"
 #include "io/formats/mesh_file.h"
 
 #include <fmt/format.h>
@@ -16,8 +17,8 @@ void put_triple(fmt::memory_buffer& block, const char* before, const Vector& tri
 
 void put_comments(fmt::memory_buffer& block, const MeshFormat& format)
 {
-    for (const std::string& comment : format.comments) {
-        fmt::format_to(fmt::appender(block), "# {}\n", one_line(comment));
+    for (const std::string& comment : comment_lines(format)) {
+        fmt::format_to(fmt::appender(block), "# {}\n", comment);
     }
 }
 
@@ -43,11 +44,12 @@ void put_corner(fmt::memory_buffer& block, std::uint32_t vertex, bool has_normal
 
 void write_obj(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
+    const Eigen::Vector3d shift = mesh.offset - format.offset;
     BlockWriter writer(out);
     put_comments(writer.block(), format);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         fmt::memory_buffer& block = writer.block();
-        const Eigen::Vector3d position = mesh.positions[v] + mesh.offset;
+        const Eigen::Vector3d position = mesh.positions[v] + shift;
         put_triple(block, "v ", position);
         if (!mesh.colors.empty()) put_color(block, mesh.colors[v]);
         block.push_back('\n');
@@ -69,12 +71,13 @@ void write_obj(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 
 void write_off(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
+    const Eigen::Vector3d shift = mesh.offset - format.offset;
     BlockWriter writer(out);
     fmt::format_to(fmt::appender(writer.block()), "{}\n{} {} 0\n",
                    mesh.colors.empty() ? "OFF" : "COFF", mesh.positions.size(), mesh.faces.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         fmt::memory_buffer& block = writer.block();
-        const Eigen::Vector3d position = mesh.positions[v] + mesh.offset;
+        const Eigen::Vector3d position = mesh.positions[v] + shift;
         put_triple(block, "", position);
         if (!mesh.colors.empty()) {
             put_color(block, mesh.colors[v]);

@@ -1,5 +1,6 @@
 #include "io/ply/ply_header.h"
 
+#include "io/files/comment_lines.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -116,10 +117,28 @@ PlyProperty parse_property(const std::vector<std::string>& words, const HeaderLi
     return property;
 }
 
+/// What "comment offset X Y Z" says; any other comment says nothing.
+void take_comment(const std::vector<std::string>& words, PlyHeader& header)
+{
+    if (words.size() != 5 || words[1] != kOffsetWord) return;
+    Eigen::Vector3d offset;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string& word = words[static_cast<std::size_t>(axis) + 2];
+        const char* const end = word.data() + word.size();
+        const auto [stop, error] = std::from_chars(word.data(), end, offset[axis]);
+        if (error != std::errc() || stop != end) return;
+    }
+    if (offset.allFinite()) header.offset = offset;
+}
+
 /// Takes one line; false at the last.
 bool take_line(const std::vector<std::string>& words, const HeaderLines& lines, PlyHeader& header)
 {
-    if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
+    if (words.empty() || words[0] == "obj_info") return true;
+    if (words[0] == "comment") {
+        take_comment(words, header);
+        return true;
+    }
     if (words[0] == "end_header") return false;
     if (words[0] == "element") {
         header.elements.push_back(parse_element(words, lines));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -35,7 +37,8 @@ struct PlyElement {
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
-    std::size_t size_bytes = 0; ///< where the data begins
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< of a comment "offset X Y Z"
+    std::size_t size_bytes = 0;                       ///< where the data begins
 
     const PlyElement* find(std::string_view name) const;
 };

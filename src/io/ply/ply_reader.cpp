@@ -23,6 +23,7 @@ class SurfaceReader {
 
     TriMesh read()
     {
+        mesh_.offset = header_.offset;
         if (header_.find("vertex") == nullptr) entries_.refuse("has no element \"vertex\"");
         num_vertices_ = header_.find("vertex")->count;
         if (header_.find("face") == nullptr) {

@@ -1,4 +1,5 @@
 #include "io/files/block_writer.h"
+#include "io/files/comment_lines.h"
 #include "io/files/output_file.h"
 #include "vcarve/io.h"
 
@@ -38,8 +39,8 @@ void end_line(fmt::memory_buffer& block, bool binary)
 void write_header(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
     out << "ply\nformat " << (format.ascii ? "ascii" : "binary_little_endian") << " 1.0\n";
-    for (const std::string& comment : format.comments) {
-        out << "comment " << one_line(comment) << '\n';
+    for (const std::string& comment : comment_lines(format)) {
+        out << "comment " << comment << '\n';
     }
     out << "element vertex " << mesh.positions.size() << '\n'
         << "property double x\nproperty double y\nproperty double z\n";
@@ -71,10 +72,11 @@ void put_provenance(fmt::memory_buffer& block, const Provenance& provenance, std
 void write_vertices(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
     const bool binary = !format.ascii;
+    const Eigen::Vector3d shift = mesh.offset - format.offset;
     BlockWriter writer(out);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         fmt::memory_buffer& block = writer.block();
-        const Eigen::Vector3d position = mesh.positions[i] + mesh.offset;
+        const Eigen::Vector3d position = mesh.positions[i] + shift;
         put_triple(block, position, binary);
         if (!mesh.normals.empty()) put_triple(block, mesh.normals[i], binary);
         if (!mesh.colors.empty()) put_triple(block, mesh.colors[i], binary);
