@@ -104,6 +104,17 @@ TEST_F(ProgramOnDenseBall, MakesTheSameBytesOfTextAndOfTheCloudNamedAnyWay)
     EXPECT_TRUE(bytes_made_of({dense}) == made);
 }
 
+TEST_F(ProgramOnDenseBall, MeshesACloudWithoutAFileByTheNearestViews)
+{
+    std::filesystem::remove(fused + ".vis");
+    const Outcome outcome = run({dense, out, "--sights", "nearest"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("no file tells which views saw them"));
+    EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points (6 views, "));
+    EXPECT_EQ(run({fused, out}).exit_code, 3);
+    EXPECT_EQ(run({dense, out, "--sights", "nearest", "--points", "sparse"}).exit_code, 2);
+}
+
 TEST_F(ProgramOnDenseBall, DropsAPointThatIsNotFinite)
 {
     cloud.positions[7].y() = std::numeric_limits<double>::quiet_NaN();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 namespace vcarve {
 namespace {
@@ -90,9 +91,29 @@ TEST_F(FindInput, LeavesACloudWithoutItsViewsOutAndSaysSo)
     fs::remove(visibility);
     const FoundInput found = find_input(dense, {});
     EXPECT_FALSE(found.dense);
-    EXPECT_THAT(found.notes, ElementsAre("the sparse points are taken and " + fused.string() +
-                                         " is left out, for there is no " + visibility.string() +
-                                         " to tell which views saw its points"));
+    EXPECT_THAT(found.notes,
+                ElementsAre("the sparse points are taken and " + fused.string() +
+                            " is left out, for there is no " + visibility.string() +
+                            " to tell which views saw its points; --sights nearest does without"));
+}
+
+TEST_F(FindInput, NeedsNoFileForTheNearestViewsAndSaysSo)
+{
+    fs::remove(visibility);
+    for (const auto& [input, points] :
+         {std::pair{dense, ""}, std::pair{dense, "dense"}, std::pair{fused, ""}}) {
+        const FoundInput found =
+            find_input(input, {.points = points, .visibility = {}, .sights = SightsFrom::nearest});
+        ASSERT_TRUE(found.dense);
+        EXPECT_EQ(found.dense->cloud, fused);
+        EXPECT_TRUE(found.dense->visibility.empty());
+        EXPECT_THAT(
+            found.notes,
+            ElementsAre(testing::StartsWith(
+                "the points are those of " + fused.string() +
+                "; no file tells which views saw them, so the nearest views of " +
+                (dense / "sparse").string() + " are taken before which no other point stands")));
+    }
 }
 
 TEST_F(FindInput, MentionsACloudFartherDown)
@@ -119,7 +140,9 @@ TEST_F(FindInput, RefusesACloudOrViewsThatAreNotThere)
         visibility.string() +
         ": the file does not exist, which tells which views saw the points "
         "of " +
-        fused.string() + ", as COLMAP's stereo_fusion writes it (--visibility names another)";
+        fused.string() +
+        ", as COLMAP's stereo_fusion writes it (--visibility names another, "
+        "--sights nearest does without)";
     EXPECT_EQ(refused(dense, {.points = "dense"}), missing);
     EXPECT_EQ(refused(fused, {}), missing);
 }
@@ -133,6 +156,11 @@ TEST_F(FindInput, RefusesOptionsThatContradictEachOther)
               "--visibility a.vis tells which views saw the points of a cloud, but the sparse "
               "points of " +
                   (dense / "sparse").string() + " are taken");
+    EXPECT_EQ(misused(dense, {.points = "sparse", .visibility = {}, .sights = SightsFrom::nearest}),
+              "--sights nearest is for the points of a cloud, but the sparse points of " +
+                  (dense / "sparse").string() + " are taken");
+    EXPECT_EQ(misused(dense, {.points = {}, .visibility = "a.vis", .sights = SightsFrom::nearest}),
+              "--sights nearest reads no file, so it cannot go with --visibility a.vis");
 }
 
 } // namespace

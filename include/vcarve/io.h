@@ -11,6 +11,12 @@
 
 namespace vcarve {
 
+/// From where it is known which views saw the points of a cloud.
+enum class SightsFrom {
+    file,    ///< from the file that COLMAP's stereo_fusion writes
+    nearest, ///< from nowhere: the nearest views are taken before which no other point stands
+};
+
 /// Which points are read with the views of a model.
 struct PointsOptions {
     /// "sparse": those of the model. "dense": those of fused.ply in the folder, which stereo_fusion
@@ -19,6 +25,7 @@ struct PointsOptions {
     std::string points;
     /// Which views saw the points of a PLY file; empty: the file that is called like it and .vis.
     std::filesystem::path visibility;
+    SightsFrom sights = SightsFrom::file;
 };
 
 /// Reads the COLMAP model that `input` means: a folder with cameras, images and points3D (.bin or

@@ -42,7 +42,7 @@ fs::path printed_path(const fs::path& folder, const std::string& name)
 fs::path colmap_input(const FoundInput& input)
 {
     if (!input.dense) return input.model.folder;
-    const fs::path workspace = "." / input.dense->cloud.parent_path();
+    fs::path workspace = "." / input.dense->cloud.parent_path();
     const auto is_at = [&](const fs::path& path, const char* name) {
         return path.lexically_normal() == (workspace / name).lexically_normal();
     };
@@ -78,8 +78,10 @@ Program own_baseline(const BaselineRun& run, const FoundInput& input, const fs::
                      .words = {"/proc/self/exe", "--quiet", "--threads",
                                std::to_string(run.threads), "--points"}};
     if (input.dense) {
-        baseline.words.insert(baseline.words.end(), {input.dense->cloud.string(), "--visibility",
-                                                     input.dense->visibility.string()});
+        const fs::path& visibility = input.dense->visibility;
+        baseline.words.push_back(input.dense->cloud.string());
+        baseline.words.emplace_back(visibility.empty() ? "--sights" : "--visibility");
+        baseline.words.push_back(visibility.empty() ? "nearest" : visibility.string());
     } else {
         baseline.words.emplace_back("sparse");
     }

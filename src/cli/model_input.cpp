@@ -2,9 +2,24 @@
 
 #include "cli/console_log.h"
 
+#include <array>
 #include <utility>
 
 namespace vcarve::cli {
+
+namespace {
+
+void visit(SightsFrom& sights, OptionVisitor& options)
+{
+    static constexpr std::array<const char*, 2> kNames = {"file", "nearest"};
+    options.choice(sights, kNames,
+                   {.name = "sights",
+                    .help = "Where it is known from which views saw the points of a PLY file. "
+                            "file: from the file of --visibility. nearest: from nowhere; the "
+                            "nearest views are taken before which no other point stands."});
+}
+
+} // namespace
 
 void list_points_options(OptionTable& table)
 {
@@ -17,6 +32,8 @@ void list_points_options(OptionTable& table)
     table.path({.name = "visibility",
                 .help = "Which views saw the points of a PLY file, as COLMAP's stereo_fusion "
                         "writes it; by default the file called like it and .vis."});
+    SightsFrom sights = SightsFrom::file;
+    visit(sights, table);
 }
 
 PointsOptions read_points_options(const ParsedArguments& given)
@@ -24,6 +41,8 @@ PointsOptions read_points_options(const ParsedArguments& given)
     PointsOptions options;
     if (given.has("points")) options.points = given.options.at("points");
     if (given.has("visibility")) options.visibility = given.options.at("visibility");
+    OptionReader reader(given);
+    visit(options.sights, reader);
     return options;
 }
 

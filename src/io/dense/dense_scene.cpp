@@ -1,7 +1,9 @@
 #include "io/dense/dense_scene.h"
 
+#include "base/index_limit.h"
 #include "base/parallel.h"
 #include "io/colmap/model_size.h"
+#include "io/dense/nearest_sights.h"
 #include "io/dense/visibility.h"
 #include "io/ply/ply_cloud.h"
 #include "io/ply/ply_vertex.h"
@@ -26,6 +28,20 @@ void make_unit(Eigen::Vector3f& normal)
     if (length > 0.0 && std::isfinite(length)) normal = (exact / length).cast<float>();
 }
 
+/// How many sights a file has room for beside the lengths of so many rows.
+std::optional<std::uint64_t> sights_in(const std::filesystem::path& visibility,
+                                       std::uint64_t num_points)
+{
+    constexpr std::uint64_t kCountBytes = 8;
+    constexpr std::uint64_t kNumberBytes = 4;
+    std::error_code error;
+    const std::uint64_t bytes = std::filesystem::file_size(visibility, error);
+    if (error || bytes < kCountBytes) return std::nullopt;
+    const std::uint64_t numbers = (bytes - kCountBytes) / kNumberBytes;
+    if (num_points > numbers) return std::nullopt;
+    return numbers - num_points;
+}
+
 } // namespace
 
 Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
@@ -34,11 +50,14 @@ Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
     PointCloud cloud = read_ply_cloud(files.cloud, progress.part(0.1, 0.5));
     const std::size_t num_points = cloud.positions.size();
     Scene scene;
-    scene.tracks = read_visibility(files.visibility, {num_points, files.cloud}, model.file_order,
-                                   progress.part(0.5, 1.0));
+    const Progress last = progress.part(0.5, 1.0);
     scene.cameras = std::move(model.cameras);
     scene.views = std::move(model.views);
     scene.positions = std::move(cloud.positions);
+    scene.tracks =
+        files.visibility.empty()
+            ? nearest_sights(scene, last)
+            : read_visibility(files.visibility, {num_points, files.cloud}, model.file_order, last);
     scene.normals = std::move(cloud.normals);
     parallel_for(scene.normals.size(), [&](std::size_t i) { make_unit(scene.normals[i]); });
     scene.colors = std::move(cloud.colors);
@@ -51,18 +70,16 @@ Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
 
 std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files)
 {
-    constexpr std::uint64_t kCountBytes = 8;
-    constexpr std::uint64_t kNumberBytes = 4;
     const PlyHeader header = read_ply_header(files.cloud);
     const PlyElement* const vertices = header.find("vertex");
-    std::error_code error;
-    const std::uint64_t bytes = std::filesystem::file_size(files.visibility, error);
-    if (vertices == nullptr || error || bytes < kCountBytes) return std::nullopt;
-    const std::uint64_t numbers = (bytes - kCountBytes) / kNumberBytes;
-    if (vertices->count > numbers) return std::nullopt;
+    if (vertices == nullptr || vertices->count > kMostIndices) return std::nullopt;
+    const auto sights = files.visibility.empty()
+                            ? std::optional(kMostNearestViews * vertices->count)
+                            : sights_in(files.visibility, vertices->count);
+    if (!sights) return std::nullopt;
     const auto model = size_before_reading(files.model, files.format);
     return SceneSize{.points = vertices->count,
-                     .sights = numbers - vertices->count,
+                     .sights = *sights,
                      .views = model ? model->views : 0,
                      .has_normals = PlyVertexLayout(*vertices).has_normals()};
 }

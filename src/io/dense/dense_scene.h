@@ -14,18 +14,20 @@ namespace vcarve {
 struct DenseFiles {
     std::filesystem::path model; ///< the folder with cameras and images
     ModelFormat format = ModelFormat::binary;
-    std::filesystem::path cloud;      ///< PLY
-    std::filesystem::path visibility; ///< which views saw its points, as stereo_fusion writes it
+    std::filesystem::path cloud; ///< PLY
+    /// Which views saw its points, as stereo_fusion writes it; empty: the nearest ones that can.
+    std::filesystem::path visibility;
 };
 
 /// A scene of the views of a model and the points of a cloud in its frame, all of them and in their
 /// order: point_ids are places in the file from 0, errors are unknown, a colour that the file lacks
 /// is grey, normals are of unit length, or zero where the file's is no direction. Views and cameras
 /// are sorted by COLMAP's ids. Throws InputError naming file and place, and Cancelled. Cost: as
-/// read_ply_cloud and read_visibility.
+/// read_ply_cloud and read_visibility, or nearest_sights.
 Scene read_dense_scene(const DenseFiles& files, const Progress& progress = {});
 
-/// How large the scene will be, by the cloud's header and the bytes of the files; nothing where
+/// How large the scene will be, by the cloud's header and the bytes of the files, at most where
+/// these do not tell the number of sights; nothing where
 /// these contradict each other, which reading will tell of. Throws InputError where the header is
 /// broken. Cost: none.
 std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files);

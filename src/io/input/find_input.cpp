@@ -26,9 +26,10 @@ bool is_ply_file(const fs::path& path)
     return path.extension() == ".ply" && is_file(path);
 }
 
-/// The file of --visibility, or the one beside the cloud.
+/// The file of --visibility, or the one beside the cloud; none where none is to be read.
 fs::path visibility_of(const fs::path& cloud, const PointsOptions& options)
 {
+    if (options.sights == SightsFrom::nearest) return {};
     if (!options.visibility.empty()) return options.visibility;
     fs::path beside = cloud;
     return beside += ".vis";
@@ -41,28 +42,50 @@ FoundInput sparse_input(FoundModel model, const PointsOptions& options)
                                      "but the sparse points of {} are taken",
                                      options.visibility.string(), model.folder.string()));
     }
+    if (options.sights == SightsFrom::nearest) {
+        throw UsageError(
+            fmt::format("--sights nearest is for the points of a cloud, but the sparse "
+                        "points of {} are taken",
+                        model.folder.string()));
+    }
     std::vector<std::string> notes = model.notes;
     return {std::move(model), std::nullopt, std::move(notes)};
 }
 
+/// Which cloud was taken, as a sentence.
+std::string note_on(const DenseFiles& files)
+{
+    if (files.visibility.empty()) {
+        return fmt::format("the points are those of {}; no file tells which views saw them, so the "
+                           "nearest views of {} are taken before which no other point stands",
+                           files.cloud.string(), files.model.string());
+    }
+    return fmt::format("the points are those of {}, seen by the views of {}", files.cloud.string(),
+                       files.model.string());
+}
+
 FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOptions& options)
 {
+    if (options.sights == SightsFrom::nearest && !options.visibility.empty()) {
+        throw UsageError(fmt::format("--sights nearest reads no file, so it cannot go with "
+                                     "--visibility {}",
+                                     options.visibility.string()));
+    }
     const fs::path visibility = visibility_of(cloud, options);
     if (!is_file(cloud)) {
         throw InputError(fmt::format("{}: the file does not exist, so there are no dense points to "
                                      "take with the views of {}",
                                      cloud.string(), model.folder.string()));
     }
-    if (!is_file(visibility)) {
+    if (options.sights == SightsFrom::file && !is_file(visibility)) {
         throw InputError(fmt::format("{}: the file does not exist, which tells which views saw the "
                                      "points of {}, as COLMAP's stereo_fusion writes it "
-                                     "(--visibility names another)",
+                                     "(--visibility names another, --sights nearest does without)",
                                      visibility.string(), cloud.string()));
     }
     std::vector<std::string> notes = model.notes;
-    notes.push_back(fmt::format("the points are those of {}, seen by the views of {}",
-                                cloud.string(), model.folder.string()));
     DenseFiles files{model.folder, model.format, cloud, visibility};
+    notes.push_back(note_on(files));
     return {std::move(model), std::move(files), std::move(notes)};
 }
 
@@ -86,14 +109,16 @@ FoundInput look_for_points(FoundModel model, const fs::path& input, const Points
         mention_other_cloud(input, found);
         return found;
     }
-    if (!options.visibility.empty() || is_file(visibility_of(fused, options))) {
+    const bool is_told = !options.visibility.empty() || options.sights == SightsFrom::nearest;
+    if (is_told || is_file(visibility_of(fused, options))) {
         FoundInput found = dense_input(std::move(model), fused, options);
         found.notes.back() += "; --points sparse takes the sparse ones";
         return found;
     }
     FoundInput found = sparse_input(std::move(model), options);
     found.notes.push_back(fmt::format("the sparse points are taken and {} is left out, for there "
-                                      "is no {} to tell which views saw its points",
+                                      "is no {} to tell which views saw its points; --sights "
+                                      "nearest does without",
                                       fused.string(), visibility_of(fused, options).string()));
     return found;
 }

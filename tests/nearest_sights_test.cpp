@@ -1,0 +1,124 @@
+#include "io/dense/nearest_sights.h"
+#include "support/scene_checks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// A grid of 41 x 41 points, 4 by 4 wide, at height z.
+void add_square(Scene& scene, double z)
+{
+    for (int row = 0; row <= 40; ++row) {
+        for (int column = 0; column <= 40; ++column) {
+            scene.positions.emplace_back(0.1 * column - 2.0, 0.1 * row - 2.0, z);
+        }
+    }
+}
+
+/// Two squares, at heights 0 and 1, and views that look at them from below and from above.
+Scene two_squares()
+{
+    Scene scene;
+    scene.cameras.push_back({.id = 1,
+                             .model = 1, // PINHOLE
+                             .width_px = 1000,
+                             .height_px = 1000,
+                             .params = {800, 800, 500, 500}});
+    const Eigen::Quaterniond up = Eigen::Quaterniond::Identity();
+    const Eigen::Quaterniond down(0, 1, 0, 0);
+    scene.views.push_back(
+        {.id = 1, .camera = 0, .name = "", .cam_from_world = up, .center = {0, 0, -5}});
+    scene.views.push_back(
+        {.id = 2, .camera = 0, .name = "", .cam_from_world = down, .center = {0, 0, 6}});
+    scene.views.push_back(
+        {.id = 3, .camera = 0, .name = "", .cam_from_world = down, .center = {0.2, 0, 6.5}});
+    add_square(scene, 0.0);
+    add_square(scene, 1.0);
+    return scene;
+}
+
+std::vector<std::uint32_t> row(const Tracks& tracks, std::size_t point)
+{
+    return {tracks[point].begin(), tracks[point].end()};
+}
+
+TEST(NearestSights, DoNotGoThroughAnotherSurface)
+{
+    const Scene scene = two_squares();
+    const Tracks tracks = nearest_sights(scene);
+    ASSERT_EQ(tracks.size(), 2U * 41 * 41);
+    // What lies on the rim of the square behind shows beside the one before.
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        if (scene.positions[i].head<2>().cwiseAbs().maxCoeff() > 1.5) continue;
+        if (scene.positions[i].z() == 0.0) {
+            EXPECT_THAT(row(tracks, i), ElementsAre(0)) << i;
+        } else {
+            EXPECT_THAT(row(tracks, i), ElementsAre(1, 2)) << i;
+        }
+    }
+}
+
+TEST(NearestSights, HideNoPointOfASurfaceThatStandsAskew)
+{
+    Scene scene = two_squares();
+    scene.positions.clear();
+    add_square(scene, 0.0);
+    const Eigen::AngleAxisd turn(60.0 / 180.0 * M_PI, Vector3d::UnitX());
+    for (Vector3d& position : scene.positions) {
+        position = turn * position;
+    }
+    const Tracks tracks = nearest_sights(scene);
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+        EXPECT_THAT(row(tracks, i), ElementsAre(0, 1, 2)) << i;
+    }
+}
+
+TEST(NearestSights, AreInTheImage)
+{
+    Scene scene = two_squares();
+    scene.positions = {{0, 0, 0}, {0, 0, 5.5}, {40, 0, 0}, {0, 0, 7}};
+    const Tracks tracks = nearest_sights(scene);
+    EXPECT_THAT(row(tracks, 2), IsEmpty());
+    EXPECT_THAT(row(tracks, 3), ElementsAre(0)); // behind the two that look down
+}
+
+TEST(NearestSights, AreThoseOfTheNearestViews)
+{
+    Scene scene = two_squares();
+    scene.positions = {{0, 0, 0}};
+    scene.views.resize(1);
+    for (std::uint32_t i = 1; i < 12; ++i) {
+        scene.views.push_back(scene.views.front());
+        scene.views.back().id = i + 1;
+        scene.views.back().center = {0, 0, i % 2 == 0 ? -5.0 - i : -5.0 + 0.1 * i};
+    }
+    // At 5 - 0.1 i for odd i, at 5 + i for even ones: 1 3 5 7 9 11 and 0 2 are the nearest.
+    EXPECT_THAT(row(nearest_sights(scene), 0), ElementsAre(0, 1, 2, 3, 5, 7, 9, 11));
+}
+
+TEST(NearestSights, AreNoneOfPointsThatAreNotFiniteAndOfCamerasWithoutSize)
+{
+    Scene scene = two_squares();
+    scene.positions = {{0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}};
+    EXPECT_THAT(row(nearest_sights(scene), 1), IsEmpty());
+    scene.cameras.front().width_px = 0;
+    EXPECT_THAT(nearest_sights(scene).views, IsEmpty());
+    // An image of a size nobody has takes no memory of that size.
+    scene.cameras.front().width_px = std::uint64_t{1} << 62;
+    EXPECT_EQ(nearest_sights(scene).size(), 2U);
+    scene.views.clear();
+    EXPECT_EQ(nearest_sights(scene).size(), 2U);
+}
+
+} // namespace
+} // namespace vcarve
