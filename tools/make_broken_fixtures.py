@@ -271,7 +271,7 @@ def broken_dense():
         "vis_count_less": {"fused.ply.vis": fused_vis(FUSED_TRACKS[:2])},
         "vis_count_more": {"fused.ply.vis": fused_vis(FUSED_TRACKS + [[0]])},
         "vis_empty": {"fused.ply.vis": b""},
-        "vis_image_unknown": {"fused.ply.vis": fused_vis([[0, 2], [2, 3, 7], [3]])},
+        "vis_image_unknown": {"fused.ply.vis": fused_vis([[0, 2], [2, 3], [0]])},
         "vis_no_points": {"fused.ply.vis": fused_vis([])},
         "vis_track_huge": {"fused.ply.vis": patched(vis, 8, struct.pack("<I", 2 ** 31))},
         "vis_trailing": {"fused.ply.vis": vis + bytes(4)},
