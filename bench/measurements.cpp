@@ -84,7 +84,7 @@ SceneSize make_surface(const Sample& sample, int threads, Log& log)
 {
     Options options;
     options.threads = threads;
-    cli::ModelInput input = cli::read_model_input(sample.folder, log);
+    cli::ModelInput input = cli::read_model_input({.path = sample.folder, .points = {}}, log);
     const SceneSize size = size_of(input.scene);
     const TriMesh mesh = reconstruct(std::move(input.scene), options, log).mesh;
     Stage stage(log, "write");

@@ -25,7 +25,7 @@ struct PointsOptions {
     std::string points;
     /// Which views saw the points of a PLY file; empty: the file that is called like it and .vis.
     std::filesystem::path visibility;
-    SightsFrom sights = SightsFrom::file;
+    SightsFrom sights = SightsFrom::file; ///< which views saw the points of a PLY file
 };
 
 /// Reads the COLMAP model that `input` means: a folder with cameras, images and points3D (.bin or
