@@ -83,6 +83,18 @@ TEST(PlyCloud, IsReadInParallelInTheOrderOfTheFile)
     EXPECT_EQ(cloud.colors, scene.colors);
 }
 
+TEST(PlyCloud, AddsTheOffsetOfItsComment)
+{
+    Scene scene;
+    scene.positions = {{0.5, 1, 2}};
+    scene.colors.resize(1);
+    std::string bytes = cloud_bytes(scene, CloudEncoding::binary);
+    bytes.insert(bytes.find("element"), "comment offset 500000 4600000 -3\n");
+    const TemporaryFolder folder;
+    EXPECT_THAT(read_ply_cloud(folder.write("a.ply", bytes)).positions,
+                ElementsAre(Vector3d(500000.5, 4600001, -1)));
+}
+
 TEST(PlyCloud, OfNoPointsIsEmpty)
 {
     const TemporaryFolder folder;

@@ -79,7 +79,7 @@ class CloudReader {
 
     void put(std::size_t i, const PlyVertex& vertex)
     {
-        cloud_.positions[i] = vertex.position;
+        cloud_.positions[i] = vertex.position + header_.offset;
         if (!cloud_.normals.empty()) cloud_.normals[i] = vertex.normal;
         if (!cloud_.colors.empty()) cloud_.colors[i] = vertex.color;
     }

@@ -13,7 +13,7 @@ namespace vcarve {
 
 /// The points of a PLY file, in its order. The optional arrays are empty or have one entry a point.
 struct PointCloud {
-    std::vector<Eigen::Vector3d> positions; ///< also those that are not finite
+    std::vector<Eigen::Vector3d> positions; ///< offset added; also those that are not finite
     std::vector<Eigen::Vector3f> normals;   ///< optional: as they stand in the file
     std::vector<Color> colors;              ///< optional
 };
