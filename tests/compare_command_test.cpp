@@ -100,7 +100,7 @@ TEST_F(CompareOnBall, FindsAMeshEqualToItself)
 {
     const nlohmann::json record = figures({mesh, "--truth", mesh});
     const nlohmann::json& truth = record["meshes"][0]["truth"];
-    ASSERT_EQ(truth["agreement"].size(), 3U);
+    ASSERT_EQ(truth["agreement"].size(), 4U);
     for (const auto& agreement : truth["agreement"]) {
         EXPECT_EQ(agreement["precision"], 1.0);
         EXPECT_EQ(agreement["recall"], 1.0);

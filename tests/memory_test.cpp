@@ -71,7 +71,7 @@ TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
     EXPECT_GT(predicted_peak(most, 2), std::int64_t{1} << 60);
 }
 
-#ifndef __SANITIZE_ADDRESS__ // which needs memory of its own
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need memory of their own
 TEST(PredictedMemory, IsWhatTheProgramNeeds)
 {
     const TemporaryFolder folder;

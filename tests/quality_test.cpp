@@ -28,7 +28,7 @@ struct Held {
     double margin; ///< how much worse it may become: less than what the passes it guards gain
 };
 constexpr std::array kHeld = {
-    Held{"/truth/agreement/0/f", 0.01}, // at 0.25 % of the diagonal
+    Held{"/truth/agreement/1/f", 0.01}, // at 0.25 % of the diagonal
     Held{"/truth/blocked", 0.01},       Held{"/views/unsupported_area", 0.01},
     Held{"/truth/seen_right", 0.01},    Held{"/truth/torn", 0.0005},
     Held{"/truth/open", 0.01},

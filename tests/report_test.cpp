@@ -105,7 +105,8 @@ TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
     const Reference reference = square_reference();
     const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, reference)};
     const std::string table = comparison_table(one, reference);
-    for (const char* row : {"| F 0.25 %                   |   1.0000 |\n",
+    for (const char* row : {"| F 0.1 %                    |   1.0000 |\n",
+                            "| F 0.25 %                   |   1.0000 |\n",
                             "| precision 0.5 %            |   1.0000 |\n",
                             "| recall 1 %                 |   1.0000 |\n",
                             "| mean accuracy [%]          |   0.0000 |\n",
@@ -192,7 +193,7 @@ TEST(ComparisonJson, HoldsTheTruth)
 {
     const Reference reference = square_reference();
     std::vector<Comparison> meshes = two_meshes();
-    meshes[0].truth = TruthFigures{.agreements = {{{0.0025, 0.5, 1.0, 0.75}, {}, {}}},
+    meshes[0].truth = TruthFigures{.agreements = {{{0.001, 0.5, 1.0, 0.75}, {}, {}, {}}},
                                    .mean_accuracy = 0.1,
                                    .mean_completeness = 0.2,
                                    .blocked = 0.3,
@@ -203,7 +204,7 @@ TEST(ComparisonJson, HoldsTheTruth)
     EXPECT_EQ(report["truth"]["seen_share"], 1.0);
     const auto& truth = report["meshes"][0]["truth"];
     EXPECT_EQ(truth["agreement"][0], nlohmann::json::parse(R"(
-        {"tolerance": 0.0025, "f": 0.75, "precision": 0.5, "recall": 1.0})"));
+        {"tolerance": 0.001, "f": 0.75, "precision": 0.5, "recall": 1.0})"));
     EXPECT_EQ(truth["mean_accuracy"], 0.1);
     EXPECT_EQ(truth["mean_completeness"], 0.2);
     EXPECT_EQ(truth["blocked"], 0.3);

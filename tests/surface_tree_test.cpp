@@ -55,6 +55,22 @@ bool crosses_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& 
     return side == orientation(p, q, b, c) && side == orientation(p, q, c, a);
 }
 
+TEST(SurfaceTree, KnowsTheNearestFace)
+{
+    // A floor and a wall at its edge x = 1.
+    TriMesh corner = testing::square();
+    const auto first = static_cast<std::uint32_t>(corner.positions.size());
+    corner.positions.insert(corner.positions.end(), {{1, 0, 0}, {1, 1, 0}, {1, 0, 1}});
+    corner.faces.push_back({first, first + 1, first + 2});
+    const SurfaceTree tree(corner);
+    const NearestFace floor = tree.nearest({0.5, 0.5, 0.25});
+    EXPECT_DOUBLE_EQ(floor.distance, 0.25);
+    EXPECT_TRUE(floor.normal.isApprox(Eigen::Vector3d::UnitZ()));
+    const NearestFace wall = tree.nearest({0.875, 0.25, 0.25});
+    EXPECT_DOUBLE_EQ(wall.distance, 0.125);
+    EXPECT_TRUE(wall.normal.isApprox(Eigen::Vector3d::UnitX()));
+}
+
 TEST(SurfaceTree, MeasuresDistancesByHand)
 {
     const SurfaceTree tree(testing::square());

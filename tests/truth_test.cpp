@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace vcarve {
 namespace {
@@ -51,11 +52,11 @@ TEST(Truth, MeasuresAMoveAlongTheNormal)
     const Reference reference = reference_of(square(), high_centers());
     const double height = 0.004 * std::numbers::sqrt2;
     const TruthFigures figures = figures_of(square(height), reference);
-    EXPECT_EQ(figures.agreements[0].precision, 0.0);
-    EXPECT_EQ(figures.agreements[0].recall, 0.0);
-    EXPECT_EQ(figures.agreements[0].f_score, 0.0);
-    EXPECT_EQ(figures.agreements[1].precision, 1.0);
-    EXPECT_EQ(figures.agreements[1].recall, 1.0);
+    EXPECT_EQ(figures.agreements[1].precision, 0.0);
+    EXPECT_EQ(figures.agreements[1].recall, 0.0);
+    EXPECT_EQ(figures.agreements[1].f_score, 0.0);
+    EXPECT_EQ(figures.agreements[2].precision, 1.0);
+    EXPECT_EQ(figures.agreements[2].recall, 1.0);
     // The samples do not quite reach the corners, so the diagonal is a little short.
     EXPECT_NEAR(figures.mean_accuracy, 0.004, 4e-5);
     EXPECT_NEAR(figures.mean_completeness, 0.004, 4e-5);
@@ -80,10 +81,57 @@ TEST(Truth, TellsPrecisionFromRecall)
 {
     const Reference reference = reference_of(square(), high_centers());
     const TruthFigures half = figures_of(strip(0.0, 0.5, 0.0), reference);
-    EXPECT_EQ(half.agreements[2].precision, 1.0);
-    EXPECT_NEAR(half.agreements[2].recall, 0.5 + 0.01 * std::numbers::sqrt2, kFourDeviations);
-    const double recall = half.agreements[2].recall;
-    EXPECT_DOUBLE_EQ(half.agreements[2].f_score, 2.0 * recall / (1.0 + recall));
+    EXPECT_EQ(half.agreements[3].precision, 1.0);
+    EXPECT_NEAR(half.agreements[3].recall, 0.5 + 0.01 * std::numbers::sqrt2, kFourDeviations);
+    const double recall = half.agreements[3].recall;
+    EXPECT_DOUBLE_EQ(half.agreements[3].f_score, 2.0 * recall / (1.0 + recall));
+}
+
+/// A roof of so many ridges over part of the square, each flank `rise` high.
+TriMesh ridges(double from, double to, int count, double rise)
+{
+    TriMesh mesh;
+    const double step = (to - from) / (2.0 * count);
+    for (int i = 0; i <= 2 * count; ++i) {
+        const double x = from + i * step;
+        const double z = i % 2 == 0 ? 0.0 : rise;
+        mesh.positions.emplace_back(x, 0.0, z);
+        mesh.positions.emplace_back(x, 1.0, z);
+        if (i == 0) continue;
+        const auto last = static_cast<std::uint32_t>(2 * i);
+        mesh.faces.push_back({last - 2, last, last + 1});
+        mesh.faces.push_back({last - 2, last + 1, last - 1});
+    }
+    return mesh;
+}
+
+TEST(Truth, MeasuresAnglesBetweenNormals)
+{
+    const Reference reference = reference_of(square(), high_centers());
+    const NormalFigures flat = *figures_of(square(0.004), reference).normals;
+    EXPECT_EQ(flat.median_deg, 0.0);
+    EXPECT_EQ(flat.most_deg, 0.0);
+    // Flanks that rise one in ten.
+    const double slope = std::atan(0.1) * 180.0 / std::numbers::pi;
+    const TriMesh third = testing::together(strip(0.0, 0.7, 0.0), ridges(0.7, 1.0, 3, 0.005));
+    const NormalFigures some = *figures_of(third, reference).normals;
+    EXPECT_EQ(some.median_deg, 0.0);
+    EXPECT_NEAR(some.most_deg, slope, 1e-9);
+    TriMesh inverted = ridges(0.0, 1.0, 10, 0.005);
+    for (Face& face : inverted.faces) {
+        std::swap(face[0], face[1]);
+    }
+    EXPECT_NEAR(figures_of(inverted, reference).normals->median_deg, slope, 1e-9);
+}
+
+TEST(Truth, HasNormalsOnlyNearTheTruth)
+{
+    const Reference reference = reference_of(square(), high_centers());
+    // Two samples in three are too far away.
+    const TriMesh far =
+        testing::together(square(), testing::together(ridges(0.0, 1.0, 2, 0.3), square(0.4)));
+    EXPECT_EQ(figures_of(far, reference).normals->median_deg, 0.0);
+    EXPECT_FALSE(figures_of(square(0.4), reference).normals);
 }
 
 /// Four views so high that their lines are upright.
@@ -288,7 +336,7 @@ TEST(Truth, FiguresAreTheSameForAnyNumberOfThreads)
     const TruthFigures many = figures_of(mesh, reference_of(square(), high_centers()));
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const TruthFigures alone = figures_of(mesh, reference_of(square(), high_centers()));
-    EXPECT_EQ(alone.agreements[2].f_score, many.agreements[2].f_score);
+    EXPECT_EQ(alone.agreements[3].f_score, many.agreements[3].f_score);
     EXPECT_EQ(alone.mean_accuracy, many.mean_accuracy);
     EXPECT_EQ(alone.mean_completeness, many.mean_completeness);
     EXPECT_EQ(alone.blocked, many.blocked);

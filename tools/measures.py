@@ -27,10 +27,10 @@ def run(words, timeout):
 def figures_of(mesh):
     """Name -> figure for one entry of compare's JSON; None where it is not known."""
     size, views, truth = mesh["size"], mesh["views"], mesh.get("truth")
-    at = truth["agreement"] if truth else [{"f": None, "precision": None, "recall": None}] * 3
+    at = truth["agreement"] if truth else [{"f": None, "precision": None, "recall": None}] * 4
     return {
-        "F 0.25 %": at[0]["f"], "F 0.5 %": at[1]["f"], "F 1 %": at[2]["f"],
-        "P 0.25 %": at[0]["precision"], "R 0.25 %": at[0]["recall"],
+        "F 0.1 %": at[0]["f"], "F 0.25 %": at[1]["f"], "F 0.5 %": at[2]["f"], "F 1 %": at[3]["f"],
+        "P 0.25 %": at[1]["precision"], "R 0.25 %": at[1]["recall"],
         "blocked": truth["blocked"] if truth else None,
         "seen right": truth["seen_right"] if truth else None,
         "torn": truth["torn"] if truth else None, "open": truth["open"] if truth else None,

@@ -1,6 +1,7 @@
 #include "compare/surface_tree.h"
 
 #include "geometry/predicates.h"
+#include "geometry/triangle.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -185,6 +186,15 @@ SurfaceTree& SurfaceTree::operator=(SurfaceTree&&) noexcept = default;
 double SurfaceTree::distance(const Vector3d& point) const
 {
     return std::sqrt(tree_->aabb.squared_distance(to_point(point)));
+}
+
+NearestFace SurfaceTree::nearest(const Vector3d& point) const
+{
+    const auto [place, face] = tree_->aabb.closest_point_and_primitive(to_point(point));
+    const Vector3d normal =
+        scaled_normal(to_vector((*face)[0]), to_vector((*face)[1]), to_vector((*face)[2]));
+    return {.distance = std::sqrt(CGAL::squared_distance(to_point(point), place)),
+            .normal = normal.normalized()};
 }
 
 bool SurfaceTree::blocks(const Vector3d& from, const Vector3d& to) const

@@ -15,6 +15,12 @@ struct FirstHit {
     bool front = false; ///< from the side its face's normal looks to
 };
 
+/// Where a surface is nearest to a point.
+struct NearestFace {
+    double distance = 0.0;
+    Eigen::Vector3d normal; ///< of the face, unit
+};
+
 /// A surface made ready for three questions: how far is it, does it stand in the way, and where
 /// does a ray first meet it. All may be asked from any number of threads; answers are in doubles
 /// and do not depend on their order.
@@ -31,6 +37,8 @@ class SurfaceTree {
 
     /// From a point to the nearest point of the surface.
     double distance(const Eigen::Vector3d& point) const;
+    /// The same, with the face that is nearest; of several equally near, any one.
+    NearestFace nearest(const Eigen::Vector3d& point) const;
 
     /// Whether the closed segment meets the surface, from whichever side.
     bool blocks(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;

@@ -140,6 +140,55 @@ void sample_truth(Truth& truth, const Reference& reference, std::size_t count, S
     truth.seen_share = static_cast<double>(truth.samples.size()) / static_cast<double>(count);
 }
 
+/// The distances of samples of a mesh to the truth, and the angles between their normals.
+struct Deviations {
+    std::vector<double> distances;
+    std::vector<double> angles_deg;
+};
+
+double angle_between_lines_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180.0 / std::numbers::pi;
+}
+
+Deviations deviations(const TriMesh& mesh, const SurfaceSamples& samples, const SurfaceTree& truth)
+{
+    const std::size_t count = samples.positions.size();
+    Deviations result{std::vector<double>(count), std::vector<double>(count)};
+    parallel_for(
+        count,
+        [&](std::size_t i) {
+            const NearestFace nearest = truth.nearest(samples.positions[i]);
+            const Eigen::Vector3d normal =
+                face_normal(mesh.positions, mesh.faces[samples.faces[i]]);
+            result.distances[i] = nearest.distance;
+            result.angles_deg[i] = angle_between_lines_deg(normal, nearest.normal);
+        },
+        64);
+    return result;
+}
+
+/// The value that so large a share of the values does not exceed. Changes their order.
+double percentile(std::vector<double>& values, double share)
+{
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[static_cast<std::size_t>(rank)];
+}
+
+/// Nothing where no sample is near the truth.
+std::optional<NormalFigures> normal_figures(const Deviations& deviations, const Truth& truth)
+{
+    std::vector<double> angles;
+    for (std::size_t i = 0; i < deviations.distances.size(); ++i) {
+        if (deviations.distances[i] <= kTolerances.back() * truth.diagonal)
+            angles.push_back(deviations.angles_deg[i]);
+    }
+    if (angles.empty()) return std::nullopt;
+    return NormalFigures{.median_deg = percentile(angles, 0.5),
+                         .most_deg = percentile(angles, 0.9)};
+}
+
 std::vector<double> distances(const SurfaceTree& tree, std::span<const Eigen::Vector3d> points)
 {
     std::vector<double> result(points.size());
@@ -247,7 +296,8 @@ TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Reference& re
     const auto count = static_cast<std::size_t>(reference.options.samples);
     const SurfaceSamples samples =
         sample_surface(mesh.mesh, count, stream_seed(reference, mesh_stream));
-    const std::vector<double> to_truth = distances(truth.surface.tree, samples.positions);
+    const Deviations from_truth = deviations(mesh.mesh, samples, truth.surface.tree);
+    const std::vector<double>& to_truth = from_truth.distances;
     const std::vector<double> to_mesh = distances(mesh.tree, truth.samples);
 
     TruthFigures figures;
@@ -263,6 +313,7 @@ TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Reference& re
     figures.mean_completeness = mean(to_mesh) / truth.diagonal;
     figures.blocked = blocked_share(mesh, truth, reference.scene.views);
     figures.lines = line_figures(mesh, truth, reference.scene.views);
+    figures.normals = normal_figures(from_truth, truth);
     return figures;
 }
 

@@ -8,7 +8,7 @@
 namespace vcarve {
 
 /// The tolerances of precision and recall, as shares of the truth's diagonal.
-inline constexpr std::array<double, 3> kTolerances = {0.0025, 0.005, 0.01};
+inline constexpr std::array<double, 4> kTolerances = {0.001, 0.0025, 0.005, 0.01};
 
 /// Precision and recall within one tolerance.
 struct Agreement {
@@ -29,6 +29,14 @@ struct LineFigures {
     double open = 0.0;       ///< does not meet the mesh
 };
 
+/// Angles, in degrees from 0 to 90, between the normals of faces of the mesh and of the nearest
+/// face of the truth, whichever way these look: over the mesh's samples at most 1 % of the diagonal
+/// from the truth, since elsewhere there is no face of the truth that they stand for.
+struct NormalFigures {
+    double median_deg = 0.0;
+    double most_deg = 0.0; ///< 90th percentile
+};
+
 /// A mesh against the truth.
 struct TruthFigures {
     std::array<Agreement, kTolerances.size()> agreements;
@@ -38,7 +46,8 @@ struct TruthFigures {
     /// Share of the truth's samples whose line to a view that sees them (one a sample, picked at
     /// random) meets the mesh farther than 1 % of the diagonal from the sample.
     double blocked = 0.0;
-    std::optional<LineFigures> lines; ///< where some view sees a sample within its image
+    std::optional<LineFigures> lines;     ///< where some view sees a sample within its image
+    std::optional<NormalFigures> normals; ///< where a sample of the mesh is near the truth
 };
 
 /// Samples the truth until at least options.samples of its samples count. Throws like

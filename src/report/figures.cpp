@@ -154,6 +154,18 @@ Figure line_figure(const char* name, const char* key, Better better, double Line
             .format = kShare};
 }
 
+Figure normal_figure(const char* key, const char* title, double NormalFigures::*member)
+{
+    return {.place = fmt::format("/truth/{}", key),
+            .title = title,
+            .better = Better::lower,
+            .value =
+                [member](const Comparison& c) {
+                    return c.truth ? known(c.truth->normals, member) : Value();
+                },
+            .format = "{:.2f}"};
+}
+
 std::vector<Figure> truth_figures(const Reference& reference)
 {
     std::vector<Figure> all;
@@ -188,6 +200,14 @@ std::vector<Figure> truth_figures(const Reference& reference)
         reference.truth->image_samples(), reference.truth->samples.size());
     all.push_back(line_figure("torn", "torn", Better::lower, &LineFigures::torn));
     all.push_back(line_figure("open", "open", Better::lower, &LineFigures::open));
+    all.push_back(normal_figure("median_normal_error_deg", "median normal error [deg]",
+                                &NormalFigures::median_deg));
+    all.back().meaning =
+        "normal error: angle between the normals of the mesh and of the nearest face "
+        "of the truth, whichever way these look, over the mesh's samples at most 1 % "
+        "of the diagonal from the truth.";
+    all.push_back(normal_figure("p90_normal_error_deg", "90th percentile of it [deg]",
+                                &NormalFigures::most_deg));
     return all;
 }
 

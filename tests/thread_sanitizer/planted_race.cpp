@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <latch>
 #include <numeric>
 #include <string_view>
 #include <vector>
@@ -42,12 +43,19 @@ std::int64_t without_a_race()
     return halves[0] + halves[1] + sorted.front() + sums.back();
 }
 
-/// Every body adds to the same number, without an atomic.
+/// Two bodies, which wait for each other so that one thread cannot run both, add to the same number
+/// without an atomic.
 std::int64_t with_a_race()
 {
     std::int64_t sum = 0;
+    std::latch both(2);
     parallel_for(
-        kCount, [&](std::size_t i) { sum += static_cast<std::int64_t>(i); }, 64);
+        2,
+        [&](std::size_t i) {
+            both.arrive_and_wait();
+            sum += static_cast<std::int64_t>(i);
+        },
+        1);
     return sum;
 }
 
