@@ -22,9 +22,9 @@ struct PointsOptions {
     /// "sparse": those of the model. "dense": those of fused.ply in the folder, which stereo_fusion
     /// wrote. Else the path of a PLY file with points in the model's frame. Empty: the dense ones
     /// where the folder has fused.ply and fused.ply.vis, the sparse ones where it has not.
-    std::string points;
+    std::string points = {};
     /// Which views saw the points of a PLY file; empty: the file that is called like it and .vis.
-    std::filesystem::path visibility;
+    std::filesystem::path visibility = {};
     SightsFrom sights = SightsFrom::file; ///< which views saw the points of a PLY file
 };
 

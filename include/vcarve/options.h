@@ -35,6 +35,23 @@ struct FilterOptions {
     }
 };
 
+/// Which points of a dense cloud become one.
+struct ThinOptions {
+    double merge_px = 2.0; ///< --merge-px
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.number(
+            merge_px,
+            {.name = "merge-px",
+             .unit = "px",
+             .help = "Merge points of a dense cloud, those without a reprojection error, that lie "
+                     "within so many pixels of the images that show them largest; 0 merges none.",
+             .max = 1000.0});
+    }
+};
+
 /// How much a sight says, and how far behind its point.
 struct TraceOptions {
     double views_sigma = 1.5;    ///< --views-sigma
@@ -304,6 +321,7 @@ struct RefineOptions {
 /// Everything a run can be told, step by step.
 struct Options {
     FilterOptions points;        ///< which points are kept
+    ThinOptions thin;            ///< which points become one
     LabelOptions labels;         ///< which cells are inside
     SurfaceOptions surface;      ///< which faces are kept
     RefineOptions refine;        ///< what is done to the surface
@@ -314,6 +332,7 @@ struct Options {
     void visit(OptionVisitor& options)
     {
         points.visit(options);
+        thin.visit(options);
         labels.visit(options);
         surface.visit(options);
         refine.visit(options);

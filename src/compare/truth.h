@@ -46,8 +46,8 @@ struct TruthFigures {
     /// Share of the truth's samples whose line to a view that sees them (one a sample, picked at
     /// random) meets the mesh farther than 1 % of the diagonal from the sample.
     double blocked = 0.0;
-    std::optional<LineFigures> lines;     ///< where some view sees a sample within its image
-    std::optional<NormalFigures> normals; ///< where a sample of the mesh is near the truth
+    std::optional<LineFigures> lines;          ///< where some view sees a sample within its image
+    std::optional<NormalFigures> normals = {}; ///< where a sample of the mesh is near the truth
 };
 
 /// Samples the truth until at least options.samples of its samples count. Throws like

@@ -7,6 +7,7 @@
 #include "steps/1_points/center.h"
 #include "steps/1_points/filter.h"
 #include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/thin.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/4_labels/label_cells.h"
 #include "steps/5_surface/make_surface.h"
@@ -15,6 +16,7 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace vcarve {
@@ -28,6 +30,18 @@ void foresee_memory(const Scene& scene, const Options& options, Log& log)
     require_memory(size_of(scene), threads, options.max_memory);
     const std::int64_t peak = predicted_peak(size_of(scene), threads);
     stage.end({{"MiB expected", (peak >> 20) + 1}});
+}
+
+/// The scene itself where there is nothing to merge.
+Scene thin(Scene scene, const ThinOptions& options, Log& log)
+{
+    const bool has_dense =
+        std::ranges::any_of(scene.errors_px, [](double error) { return error < 0.0; });
+    if (options.merge_px == 0.0 || !has_dense) return scene;
+    Stage stage(log, "thin");
+    Scene thinned = thin_points(scene, options, stage);
+    stage.end({{"points", size_of(thinned.num_points())}, {"of", size_of(scene.num_points())}});
+    return thinned;
 }
 
 Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
@@ -69,7 +83,8 @@ TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 Reconstruction run_steps(Scene input, const Options& options, Log& log)
 {
     foresee_memory(input, options, log);
-    Scene scene = filter(center_points(std::move(input)), options.points, log);
+    Scene scene =
+        filter(thin(center_points(std::move(input)), options.thin, log), options.points, log);
     const TetMesh cells = triangulate(scene, log);
     Labelling labelling = label_cells(cells, scene, options.labels, log);
     const std::unique_ptr<HalfEdgeMesh> mesh =

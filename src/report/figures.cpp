@@ -206,8 +206,8 @@ std::vector<Figure> truth_figures(const Reference& reference)
         "normal error: angle between the normals of the mesh and of the nearest face "
         "of the truth, whichever way these look, over the mesh's samples at most 1 % "
         "of the diagonal from the truth.";
-    all.push_back(normal_figure("p90_normal_error_deg", "90th percentile of it [deg]",
-                                &NormalFigures::most_deg));
+    all.push_back(
+        normal_figure("p90_normal_error_deg", "90 % normal error [deg]", &NormalFigures::most_deg));
     return all;
 }
 

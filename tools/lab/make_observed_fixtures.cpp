@@ -5,6 +5,7 @@
 #include "observed/observe.h"
 #include "observed/observed_scene.h"
 #include "observed/write_model.h"
+#include "observed/write_workspace.h"
 
 #include <fmt/format.h>
 
@@ -29,8 +30,9 @@ void make(const std::filesystem::path& folder, const ObservedScene& observed)
 void make_dense(const std::filesystem::path& folder, const ObservedScene& observed)
 {
     constexpr std::size_t kPoints = 8000;
+    constexpr double kStep = 1e-4; // so that the last bits of sine and cosine do not show
     const vcarve::Scene scene = vcarve::observed::observe_densely(observed, kPoints);
-    vcarve::observed::write_workspace(folder, scene);
+    vcarve::observed::write_workspace(folder, scene, kStep);
     fmt::print("dense_{}: {} points, {} views, {} sights\n", observed.name, scene.num_points(),
                scene.views.size(), scene.num_sights());
 }

@@ -4,7 +4,6 @@
 #include "vcarve/scene.h"
 
 #include <cstddef>
-#include <filesystem>
 
 namespace vcarve::observed {
 
@@ -16,9 +15,5 @@ namespace vcarve::observed {
 /// by some degrees. One point in two hundred is false, up to a tenth of the depth before or behind
 /// the surface. The same on every machine, up to the rounding of sine and cosine in `observed`.
 Scene observe_densely(const ObservedScene& observed, std::size_t num_points);
-
-/// Writes a workspace as stereo_fusion leaves it: fused.ply, fused.ply.vis, and in sparse the model
-/// as text, without points, its images in no order of their ids.
-void write_workspace(const std::filesystem::path& folder, const Scene& scene);
 
 } // namespace vcarve::observed

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "base/progress.h"
+#include "vcarve/options.h"
+#include "vcarve/scene.h"
+
+namespace vcarve {
+
+/// Merges points that lie nearer to each other than the images they were seen in can tell, so that
+/// a dense cloud has one point where it had many and none of its sights is lost. A point's
+/// footprint is what `merge_px` pixels of the view that shows it largest cover at its distance.
+/// Space is cut into cubes whose sides are halves and doubles of the median footprint; points whose
+/// footprint is the side of a cube or up to twice that, and which lie in the same cube, become one,
+/// finer points first, and coarser points join finer ones in their cube. Points whose normals look
+/// away from each other stay apart, as the two sides of a board. Then clusters that stand nearer
+/// than half a cube to each other across a border are merged alike in cubes shifted by half.
+///
+/// A cluster stands at the mean of its points and has the mean of their colours and normals and all
+/// views that saw any; error and id are those of the point with most views, the first of several.
+/// The order is that of these points. The result does not depend on the number of threads, and not
+/// on where and how large the scene is, but on how it is turned.
+/// (COLMAP's delaunay_mesher drops points by their distance in pixels and depth, one by one in
+/// random order, and keeps the dropped points' sights with a corner of the cell they lie in.)
+/// Points that no view saw stay as they are, and so do those whose reprojection error is known: a
+/// matcher found them one by one. Cost: O(points log points + sights), in parallel.
+Scene thin_points(const Scene& scene, const ThinOptions& options, const Progress& progress = {});
+
+} // namespace vcarve

@@ -1,0 +1,110 @@
+// Makes the dense workspace that stereo would leave of a scene whose geometry is known. Usage:
+// render_dense FOLDER SCENE [SIZE], where SIZE scales the sides of the images, by default 1;
+// render_views --list prints the scenes' names. Writes FOLDER/fused.ply, FOLDER/fused.ply.vis,
+// FOLDER/sparse and FOLDER/gt.ply, the truth.
+#include "dense/fuse.h"
+#include "observed/write_workspace.h"
+#include "vcarve/io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <string>
+
+namespace vcarve::dense {
+
+namespace {
+
+render::Pinhole scaled(const render::Pinhole& view, double size)
+{
+    render::Pinhole result = view;
+    result.width_px = static_cast<int>(std::lround(size * view.width_px));
+    result.height_px = static_cast<int>(std::lround(size * view.height_px));
+    result.focal_px *= size;
+    result.principal_px *= size;
+    return result;
+}
+
+/// A view that stands within something, or close before it, would never have been matched.
+bool shows_much(const DepthMap& map)
+{
+    constexpr double kLeastShare = 0.1;
+    const auto without = static_cast<double>(std::ranges::count(map.depths, 0.0));
+    return without < (1.0 - kLeastShare) * static_cast<double>(map.depths.size());
+}
+
+/// The views and the cloud in the frame of the truth.
+Scene in_frame(const render::PhotoScene& scene, const FusedCloud& cloud)
+{
+    const render::Pinhole& lens = scene.views.front();
+    const auto size_px = [](int size) { return static_cast<std::uint64_t>(size); };
+    Scene result;
+    result.cameras = {{.id = 1,
+                       .model = 1,
+                       .width_px = size_px(lens.width_px),
+                       .height_px = size_px(lens.height_px),
+                       .params = {lens.focal_px.x(), lens.focal_px.y(), lens.principal_px.x(),
+                                  lens.principal_px.y()}}};
+    for (const render::Pinhole& view : scene.views) {
+        const auto id = static_cast<std::uint32_t>(result.views.size() + 1);
+        result.views.push_back(
+            {.id = id,
+             .name = fmt::format("view_{:03}.png", id),
+             .cam_from_world = Eigen::Quaterniond(view.cam_from_world) * scene.frame.turn.inverse(),
+             .center = scene.frame(view.center)});
+    }
+    for (std::size_t i = 0; i < cloud.positions.size(); ++i) {
+        result.positions.push_back(scene.frame(cloud.positions[i]));
+        result.normals.emplace_back((scene.frame.turn * cloud.normals[i]).cast<float>());
+        result.tracks.push_back(cloud.views[i]);
+    }
+    result.colors = cloud.colors;
+    return result;
+}
+
+void write_all(const std::filesystem::path& folder, const std::string& name, double size)
+{
+    constexpr std::uint64_t kSeed = 11;
+    render::PhotoScene scene = render::photo_scene(name);
+    for (render::Pinhole& view : scene.views) {
+        view = scaled(view, size);
+    }
+    std::vector<render::Pinhole> views;
+    std::vector<DepthMap> maps;
+    for (std::size_t view = 0; view < scene.views.size(); ++view) {
+        DepthMap map = stereo_depths(scene, view, {}, kSeed);
+        if (!shows_much(map)) continue;
+        views.push_back(scene.views[view]);
+        maps.push_back(std::move(map));
+    }
+    scene.views = views;
+    const FusedCloud cloud = fuse(scene.views, std::move(maps), {});
+    observed::write_workspace(folder, in_frame(scene, cloud), 0.0);
+    TriMesh truth = scene.parts.mesh;
+    for (Eigen::Vector3d& position : truth.positions) {
+        position = scene.frame(position);
+    }
+    write_ply(folder / "gt.ply", truth, {.comments = {"the geometry behind " + name}});
+    fmt::print("{}: {} points from {} views\n", name, cloud.positions.size(), scene.views.size());
+}
+
+} // namespace
+
+} // namespace vcarve::dense
+
+int main(int argc, char** argv)
+{
+    if (argc < 3 || argc > 4) {
+        fmt::print(stderr, "usage: render_dense FOLDER SCENE [SIZE]\n");
+        return 2;
+    }
+    try {
+        vcarve::dense::write_all(argv[1], argv[2], argc == 4 ? std::stod(argv[3]) : 1.0);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "render_dense: {}\n", error.what());
+        return 1;
+    }
+    return 0;
+}
