@@ -123,9 +123,11 @@ bool can_show(const Camera& camera)
     return camera.width_px > 0 && camera.height_px > 0;
 }
 
+constexpr std::uint32_t kNoView = 0xffffffffU; ///< stands in a place that is left
+
 /// The views of a point, ascending; the rest of the places stay empty.
 struct Row {
-    std::array<std::uint32_t, kMostNearestViews> views{};
+    std::array<std::uint32_t, kMostNearestViews> views;
     std::uint32_t count = 0;
 };
 
@@ -145,6 +147,7 @@ class NearestViews {
     Row of_point(std::size_t point, std::vector<std::pair<double, std::uint32_t>>& order) const
     {
         Row row;
+        row.views.fill(kNoView);
         const Vector3d& position = scene_.positions[point];
         if (!position.allFinite()) return row;
         for (std::uint32_t view = 0; view < scene_.views.size(); ++view) {
@@ -159,7 +162,7 @@ class NearestViews {
             std::ranges::pop_heap(order, std::greater<>());
             order.pop_back();
         }
-        std::sort(row.views.begin(), row.views.begin() + row.count);
+        std::ranges::sort(row.views); // those that are left come last
         return row;
     }
 
