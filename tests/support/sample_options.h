@@ -19,7 +19,7 @@ struct SampleOptions {
     bool smooth = true;
     Shape shape = Shape::round;
     std::int64_t memory = 3 << 20;
-    WordOrVector place;
+    WordOrVector place = {};
 
     void visit(OptionVisitor& options)
     {
