@@ -132,8 +132,10 @@ class Clustering {
                 const std::span<const Placed> own(dots.data() + begins[cube],
                                                   dots.data() + begins[cube + 1]);
                 const auto key = [&](const Placed& placed) { return placed.cube(level); };
-                const auto known = std::ranges::equal_range(leaders_, own[0].cube(level), {}, key);
-                join(own, {known.begin(), known.end()}, level, fresh);
+                const std::uint64_t number = own[0].cube(level);
+                const auto first = std::ranges::lower_bound(leaders_, number, {}, key);
+                const auto last = std::ranges::upper_bound(leaders_, number, {}, key);
+                join(own, {first, last}, level, fresh);
             },
             256);
         std::vector<Placed> all(leaders_.size() + found.size());

@@ -25,8 +25,9 @@ struct Found {
 Vector3d place_of(const Pinhole& view, const DepthMap& map, std::size_t pixel)
 {
     const auto width = static_cast<std::size_t>(view.width_px);
-    const Vector2d middle(static_cast<double>(pixel % width) + 0.5,
-                          static_cast<double>(pixel / width) + 0.5);
+    const std::size_t column = pixel % width;
+    const std::size_t row = pixel / width;
+    const Vector2d middle(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     return view.center + map.depths[pixel] * view.ray(middle);
 }
 
@@ -125,10 +126,9 @@ class Fusion {
         Vector3d normal = Vector3d::Zero();
         std::vector<std::uint32_t> views;
         for (int axis = 0; axis < 3; ++axis) {
-            std::vector<double> values;
-            for (const Found& one : found) {
-                values.push_back(one.place[axis]);
-            }
+            std::vector<double> values(found.size());
+            std::ranges::transform(found, values.begin(),
+                                   [&](const Found& one) { return one.place[axis]; });
             position[axis] = median(values);
         }
         for (const Found& one : found) {

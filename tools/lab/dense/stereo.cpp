@@ -29,20 +29,20 @@ double normal_number(std::uint64_t seed, std::uint64_t index)
 /// Numbers of a normal distribution, each the mean of a window of 5 x 5 of others.
 std::vector<double> smooth_numbers(int width, int height, std::uint64_t seed)
 {
-    constexpr int kReach = 2;
-    constexpr double kSide = 2.0 * kReach + 1.0;
+    constexpr std::uint64_t kSide = 5;
     std::vector<double> result(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    const auto padded = static_cast<std::uint64_t>(width + 2 * kReach);
+    const std::uint64_t padded = static_cast<std::uint64_t>(width) + kSide - 1;
     parallel_for(result.size(), [&](std::size_t i) {
         const std::uint64_t x = i % static_cast<std::size_t>(width);
         const std::uint64_t y = i / static_cast<std::size_t>(width);
         double sum = 0.0;
-        for (std::uint64_t dy = 0; dy <= 2 * kReach; ++dy) {
-            for (std::uint64_t dx = 0; dx <= 2 * kReach; ++dx) {
+        for (std::uint64_t dy = 0; dy < kSide; ++dy) {
+            for (std::uint64_t dx = 0; dx < kSide; ++dx) {
                 sum += normal_number(seed, (y + dy) * padded + x + dx);
             }
         }
-        result[i] = sum / kSide; // of 25 numbers: a standard deviation of 1 again
+        result[i] =
+            sum / static_cast<double>(kSide); // of 25 numbers: a standard deviation of 1 again
     });
     return result;
 }
@@ -62,10 +62,14 @@ double baseline(const std::vector<Pinhole>& views, std::size_t view)
 bool is_at_jump(const std::vector<Hit>& hits, const Pinhole& view, int x, int y)
 {
     constexpr double kJump = 0.03;
-    const double depth = hits[static_cast<std::size_t>(y * view.width_px + x)].depth;
+    const auto hit_at = [&](int u, int v) -> const Hit& {
+        return hits[static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width_px) +
+                    static_cast<std::size_t>(u)];
+    };
+    const double depth = hit_at(x, y).depth;
     for (int v = std::max(0, y - 2); v <= std::min(view.height_px - 1, y + 2); ++v) {
         for (int u = std::max(0, x - 2); u <= std::min(view.width_px - 1, x + 2); ++u) {
-            const Hit& hit = hits[static_cast<std::size_t>(v * view.width_px + u)];
+            const Hit& hit = hit_at(u, v);
             if (hit.face == Hit::kNoFace || std::abs(hit.depth - depth) > kJump * depth)
                 return true;
         }
