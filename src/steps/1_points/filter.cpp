@@ -2,6 +2,7 @@
 
 #include "base/index_limit.h"
 #include "base/parallel.h"
+#include "model/united_views.h"
 #include "steps/1_points/lexicographic_sort.h"
 
 #include <algorithm>
@@ -63,19 +64,6 @@ Merged merge_duplicates(const Scene& scene, const PointIndices& by_place)
         }
     }
     return merged;
-}
-
-/// The views that saw any of the points, ascending, each once.
-std::vector<std::uint32_t> united_views(const Scene& scene, const PointIndices& points)
-{
-    std::vector<std::uint32_t> views;
-    for (const std::uint32_t point : points) {
-        const auto track = scene.tracks[point];
-        views.insert(views.end(), track.begin(), track.end());
-    }
-    std::sort(views.begin(), views.end());
-    views.erase(std::unique(views.begin(), views.end()), views.end());
-    return views;
 }
 
 /// Whether two of the sights of a point meet at `min_angle_rad` or more.

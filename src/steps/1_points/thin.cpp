@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "model/camera.h"
+#include "model/united_views.h"
 
 #include <algorithm>
 #include <array>
@@ -285,19 +286,6 @@ Dots dots_of(const Scene& scene, const Dots& dots, const Members& clusters)
     parallel_for(clusters.size(),
                  [&](std::size_t i) { result.positions[i] = mean_position(scene, clusters[i]); });
     return result;
-}
-
-/// All views that saw one of the points, ascending.
-std::vector<std::uint32_t> united_views(const Scene& scene, std::span<const std::uint32_t> members)
-{
-    std::vector<std::uint32_t> views;
-    for (const std::uint32_t member : members) {
-        const auto track = scene.tracks[member];
-        views.insert(views.end(), track.begin(), track.end());
-    }
-    std::ranges::sort(views);
-    views.erase(std::unique(views.begin(), views.end()), views.end());
-    return views;
 }
 
 Color mean_color(const Scene& scene, std::span<const std::uint32_t> members)
