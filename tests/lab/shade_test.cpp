@@ -1,3 +1,4 @@
+#include "lab/box_ahead.h"
 #include "render/shade.h"
 #include "render/shapes.h"
 
@@ -9,24 +10,6 @@
 namespace vcarve::render {
 
 namespace {
-
-/// The near side of a box fills the middle 4 x 4 of 8 x 6 pixels.
-TriMesh box_ahead()
-{
-    PartBuilder builder;
-    add_box(builder, {{0.0, 0.0, 4.0}, {2.0, 2.0, 2.0}}, {});
-    return builder.take().mesh;
-}
-
-Pinhole view_ahead()
-{
-    Pinhole view;
-    view.focal_px = {8.0, 8.0};
-    view.principal_px = {4.0, 3.0};
-    view.width_px = 8;
-    view.height_px = 6;
-    return view;
-}
 
 bool is_on_box(int x, int y)
 {
