@@ -46,6 +46,8 @@ Second:
   --shape round|flat          What it is like. [default round]
   --memory <size>             Take no more. [default 3M]
   --place here|there|x,y,z    Where it is. [default here, -10 to 10]
+  --part none|auto|box|<file>
+                              How much. [default none]
 
   Exit code                   0 done.
 )");
@@ -86,6 +88,7 @@ TEST(MarkdownOptions, IsATableAStage)
 | `--shape round\|flat` | round |  | What it is like. |
 | `--memory <size>` | 3M |  | Take no more. |
 | `--place here\|there\|x,y,z` | here | -10 to 10 | Where it is. |
+| `--part none\|auto\|box\|<file>` | none |  | How much. |
 )");
 }
 

@@ -146,6 +146,34 @@ TEST(OptionReader, RefusesWhatIsNeitherAWordNorThreeNumbers)
     EXPECT_EQ(refusal_of({"--place", "1,2,10.5"}), expected + "10.5");
 }
 
+TEST(OptionReader, TakesAWordABoxOrAFileForARegion)
+{
+    using Kind = RegionChoice::Kind;
+    EXPECT_EQ(options_of({}).part.kind, Kind::everything);
+    EXPECT_EQ(options_of({"--part", "auto"}).part.kind, Kind::looked_at);
+    EXPECT_EQ(options_of({"--part", "auto", "--part", "none"}).part.kind, Kind::everything);
+    const RegionChoice box = options_of({"--part", "-1,0,1e-3,2,0.5,7"}).part;
+    EXPECT_EQ(box.kind, Kind::box);
+    EXPECT_EQ(box.low, Eigen::Vector3d(-1, 0, 1e-3));
+    EXPECT_EQ(box.high, Eigen::Vector3d(2, 0.5, 7));
+    for (const std::string path : {"a/part.ply", "corners.txt", "5", "a,b", "./1,2"}) {
+        EXPECT_EQ(options_of({"--part", path}).part.kind, Kind::file);
+        EXPECT_EQ(options_of({"--part", path}).part.file, path);
+    }
+}
+
+TEST(OptionReader, RefusesListsThatAreNoBox)
+{
+    const std::string expected = "--part takes none, auto, x0,y0,z0,x1,y1,z1 or a file, not ";
+    for (const std::string text :
+         {"1,2", "0,0,0,1,1", "0,0,0,1,1,1,1", "0,0,0,1,1,x", "0,0,0,1,1,", "0, 0,0,1,1,1"}) {
+        EXPECT_EQ(refusal_of({"--part", text}), expected + '"' + text + '"');
+    }
+    EXPECT_EQ(refusal_of({"--part", "0,0,0,1,-1,1"}),
+              "--part takes a box x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1 and z0 < z1, not "
+              "0,0,0,1,-1,1");
+}
+
 TEST(OptionReader, RefusesValuesOfTheWrongKind)
 {
     EXPECT_EQ(refusal_of({"--angle", "wide"}),

@@ -23,9 +23,9 @@ TEST(OptionTable, ListsEveryOptionInTheOrderOfItsDeclaration)
     for (const OptionRow& row : sample_rows()) {
         names.push_back(row.stage + "/" + row.name);
     }
-    EXPECT_THAT(names,
-                ElementsAre("First/angle", "First/spacing", "Second/min-views", "Second/closed",
-                            "Second/no-smooth", "Second/shape", "Second/memory", "Second/place"));
+    EXPECT_THAT(names, ElementsAre("First/angle", "First/spacing", "Second/min-views",
+                                   "Second/closed", "Second/no-smooth", "Second/shape",
+                                   "Second/memory", "Second/place", "Second/part"));
 }
 
 TEST(OptionTable, TakesThePresentValuesForDefaults)
@@ -34,7 +34,7 @@ TEST(OptionTable, TakesThePresentValuesForDefaults)
     for (const OptionRow& row : sample_rows()) {
         defaults.push_back(row.initial);
     }
-    EXPECT_THAT(defaults, ElementsAre("10.5", "2", "3", "", "", "round", "3M", "here"));
+    EXPECT_THAT(defaults, ElementsAre("10.5", "2", "3", "", "", "round", "3M", "here", "none"));
 }
 
 TEST(OptionTable, GivesARangeOnlyWhereMoreThanTheSignIsRestricted)
@@ -43,7 +43,7 @@ TEST(OptionTable, GivesARangeOnlyWhereMoreThanTheSignIsRestricted)
     for (const OptionRow& row : sample_rows()) {
         ranges.push_back(row.range);
     }
-    EXPECT_THAT(ranges, ElementsAre("0 to 180", "", "2 or more", "", "", "", "", "-10 to 10"));
+    EXPECT_THAT(ranges, ElementsAre("0 to 180", "", "2 or more", "", "", "", "", "-10 to 10", ""));
 }
 
 TEST(Placeholder, ShowsTheUnitOrTheChoices)
@@ -53,7 +53,7 @@ TEST(Placeholder, ShowsTheUnitOrTheChoices)
         placeholders.push_back(placeholder(row));
     }
     EXPECT_THAT(placeholders, ElementsAre("<deg>", "<number>", "<views>", "", "", "round|flat",
-                                          "<size>", "here|there|x,y,z"));
+                                          "<size>", "here|there|x,y,z", "none|auto|box|<file>"));
 }
 
 } // namespace

@@ -16,10 +16,21 @@ TEST(OptionRecorder, RecordsEveryOptionUnderItsNameOnTheCommandLine)
 {
     EXPECT_EQ(options_json(SampleOptions{.spacing = kUnlimited}).dump(),
               R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,"smooth":true,)"
-              R"("shape":"round","memory":3145728,"place":"here"})");
+              R"("shape":"round","memory":3145728,"place":"here","part":"none"})");
     SampleOptions options;
     options.place = {.word = WordOrVector::kNoWord, .vector = {1.5, -2.0, 0.1}};
     EXPECT_EQ(options_json(options)["place"].dump(), "[1.5,-2.0,0.1]");
+}
+
+TEST(OptionRecorder, RecordsRegionsAsWordsNumbersOrPaths)
+{
+    const auto recorded = [](const RegionChoice& part) {
+        return options_json(SampleOptions{.part = part})["part"].dump();
+    };
+    EXPECT_EQ(recorded({.kind = RegionChoice::Kind::looked_at}), R"("auto")");
+    EXPECT_EQ(recorded({.kind = RegionChoice::Kind::box, .low = {0, -1, 0.5}, .high = {1, 2, 3}}),
+              "[0.0,-1.0,0.5,1.0,2.0,3.0]");
+    EXPECT_EQ(recorded({.kind = RegionChoice::Kind::file, .file = "a/b.ply"}), R"("a/b.ply")");
 }
 
 TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)

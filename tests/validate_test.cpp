@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace vcarve {
 namespace {
@@ -44,6 +45,23 @@ TEST(Validate, NamesTheOptionTheRangeAndTheValue)
     EXPECT_EQ(refusal_of({.place = {.word = 2}}), "--place has 2 choices, and 2 is none of them");
     EXPECT_EQ(refusal_of({.place = {.word = WordOrVector::kNoWord, .vector = {0, 0, -11}}}),
               "--place takes here, there or x,y,z from -10 to 10, not -11");
+}
+
+TEST(Validate, RefusesRegionsThatHoldNothing)
+{
+    const double nan = std::nan("");
+    const auto refusal_of_box = [](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+        return refusal_of({.part = {.kind = RegionChoice::Kind::box, .low = low, .high = high}});
+    };
+    const std::string expected =
+        "--part takes a box x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1 and z0 < z1, not ";
+    EXPECT_EQ(refusal_of_box({0, 0, 0}, {1, 1, 1}), "accepted");
+    EXPECT_EQ(refusal_of_box({0, 0, 0}, {1, 1, 0}), expected + "0,0,0,1,1,0");
+    EXPECT_EQ(refusal_of_box({2, 0, 0}, {1.5, 1, 1}), expected + "2,0,0,1.5,1,1");
+    EXPECT_EQ(refusal_of_box({0, nan, 0}, {1, 1, 1}), expected + "0,nan,0,1,1,1");
+    EXPECT_EQ(refusal_of_box({0, 0, 0}, {1, 1, kUnlimited}), expected + "0,0,0,1,1,inf");
+    EXPECT_EQ(refusal_of({.part = {.kind = RegionChoice::Kind::file, .file = ""}}),
+              "--part takes none, auto, x0,y0,z0,x1,y1,z1 or a file, not \"\"");
 }
 
 TEST(Validate, RefusesWhatIsNotANumber)

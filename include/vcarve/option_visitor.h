@@ -1,5 +1,7 @@
 #pragma once
 
+#include "vcarve/region.h"
+
 #include <Eigen/Core>
 
 #include <cstdint>
@@ -53,6 +55,8 @@ class OptionVisitor {
     /// One of `words`, or three finite numbers in the range of `info`, typed as "1,2.5,-3".
     virtual void word_or_vector(WordOrVector& value, std::span<const char* const> words,
                                 const OptionInfo& info) = 0;
+    /// A part of space, typed as "none", "auto", "0,0,0,1,2.5,1" or the name of a file.
+    virtual void region(RegionChoice& value, const OptionInfo& info) = 0;
 
     /// A choice whose value is an enum numbered from 0 in the order of `names`.
     template <typename Enum>

@@ -9,5 +9,6 @@
 #include "vcarve/log.h"
 #include "vcarve/options.h"
 #include "vcarve/reconstruct.h"
+#include "vcarve/region.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"

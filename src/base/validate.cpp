@@ -41,6 +41,21 @@ std::string accepted_vectors(std::span<const char* const> words, const OptionInf
     return accepted(fmt::format("{} or x,y,z", fmt::join(words, ", ")), info);
 }
 
+std::string region_text(const RegionChoice& region)
+{
+    switch (region.kind) {
+    case RegionChoice::Kind::everything:
+        return "none";
+    case RegionChoice::Kind::looked_at:
+        return "auto";
+    case RegionChoice::Kind::box:
+        return fmt::format("{},{}", fmt::join(region.low, ","), fmt::join(region.high, ","));
+    case RegionChoice::Kind::file:
+        break;
+    }
+    return region.file.string();
+}
+
 void RangeCheck::number(double& value, const OptionInfo& info)
 {
     // Not a number fails both comparisons.
@@ -81,6 +96,20 @@ void RangeCheck::word_or_vector(WordOrVector& value, std::span<const char* const
         if (std::isfinite(coordinate) && coordinate >= info.min && coordinate <= info.max) continue;
         throw UsageError(fmt::format("--{} takes {}, not {}", info.name,
                                      accepted_vectors(words, info), coordinate));
+    }
+}
+
+void RangeCheck::region(RegionChoice& value, const OptionInfo& info)
+{
+    const bool is_box = value.low.allFinite() && value.high.allFinite() &&
+                        (value.low.array() < value.high.array()).all();
+    if (value.kind == RegionChoice::Kind::box && !is_box) {
+        throw UsageError(fmt::format("--{} takes a box x0,y0,z0,x1,y1,z1 with x0 < x1, y0 < y1 and "
+                                     "z0 < z1, not {}",
+                                     info.name, region_text(value)));
+    }
+    if (value.kind == RegionChoice::Kind::file && value.file.empty()) {
+        throw UsageError(fmt::format("--{} takes {}, not \"\"", info.name, kAcceptedRegions));
     }
 }
 

@@ -12,7 +12,11 @@ std::string accepted_numbers(const OptionInfo& info);
 std::string accepted_counts(const OptionInfo& info);
 /// "none, auto or x,y,z".
 std::string accepted_vectors(std::span<const char* const> words, const OptionInfo& info);
+inline constexpr const char* kAcceptedRegions = "none, auto, x0,y0,z0,x1,y1,z1 or a file";
 inline constexpr const char* kAcceptedBytes = "a size in bytes, or with K, M or G as in 8G";
+
+/// A region as one would type it.
+std::string region_text(const RegionChoice& region);
 
 /// Throws UsageError where a value of an option lies outside its range, or is not a number.
 class RangeCheck final : public OptionVisitor {
@@ -25,6 +29,7 @@ class RangeCheck final : public OptionVisitor {
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
     void word_or_vector(WordOrVector& value, std::span<const char* const> words,
                         const OptionInfo& info) override;
+    void region(RegionChoice& value, const OptionInfo& info) override;
 };
 
 /// Throws UsageError naming the first option of `options` whose value is not accepted. For those

@@ -29,9 +29,10 @@ std::string value_cases(const Manual& manual)
     std::string cases;
     for (const OptionRow& row : manual.options) {
         if (row.kind == OptionKind::flag || row.kind == OptionKind::path) continue;
+        const bool takes_file = row.kind == OptionKind::region;
         cases += fmt::format(
-            "        --{}) COMPREPLY=($(compgen -W \"{}\" -- \"$current\")); return ;;\n", row.name,
-            fmt::join(row.choices, " "));
+            "        --{}) COMPREPLY=($(compgen {}-W \"{}\" -- \"$current\")); return ;;\n",
+            row.name, takes_file ? "-f " : "", fmt::join(row.choices, " "));
     }
     return cases;
 }

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <numeric>
 
@@ -118,16 +119,23 @@ bool parse(std::string_view text, Number& number)
     return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Three numbers with commas between them, and nothing else.
-bool parse_vector(std::string_view text, Eigen::Vector3d& vector)
+/// Numbers with commas between them, and nothing else.
+bool parse_list(std::string_view text, std::span<double> numbers)
 {
-    for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t end = axis < 2 ? text.find(',') : text.size();
-        if (end == std::string_view::npos || !parse(text.substr(0, end), vector[axis]))
-            return false;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::size_t end = i + 1 < numbers.size() ? text.find(',') : text.size();
+        if (end == std::string_view::npos || !parse(text.substr(0, end), numbers[i])) return false;
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return true;
+}
+
+/// Whether a text is meant to be a list of numbers: it begins with one and a comma.
+bool begins_a_list(std::string_view text)
+{
+    double number = 0.0;
+    const std::size_t end = text.find(',');
+    return end != std::string_view::npos && parse(text.substr(0, end), number);
 }
 
 [[noreturn]] void refuse_value(const char* name, std::string_view accepted, std::string_view text)
@@ -211,10 +219,32 @@ void OptionReader::word_or_vector(WordOrVector& value, std::span<const char* con
     const auto word = std::ranges::find(words, given->second);
     value.word =
         word == words.end() ? WordOrVector::kNoWord : static_cast<int>(word - words.begin());
-    if (word == words.end() && !parse_vector(given->second, value.vector)) {
+    if (word == words.end() && !parse_list(given->second, {value.vector.data(), 3})) {
         refuse_value(info.name, accepted_vectors(words, info), given->second);
     }
     RangeCheck().word_or_vector(value, words, info);
+}
+
+void OptionReader::region(RegionChoice& value, const OptionInfo& info)
+{
+    const auto given = given_.find(info.name);
+    if (given == given_.end()) return;
+    const std::string& text = given->second;
+    value = {};
+    if (text == "none") return;
+    if (text == "auto") {
+        value.kind = RegionChoice::Kind::looked_at;
+    } else if (begins_a_list(text)) {
+        std::array<double, 6> numbers{};
+        if (!parse_list(text, numbers)) refuse_value(info.name, kAcceptedRegions, text);
+        value.kind = RegionChoice::Kind::box;
+        value.low = Eigen::Vector3d(numbers.data());
+        value.high = Eigen::Vector3d(numbers.data() + 3);
+    } else {
+        value.kind = RegionChoice::Kind::file;
+        value.file = text;
+    }
+    RangeCheck().region(value, info);
 }
 
 ParsedArguments parse_arguments(std::span<const std::string> arguments,

@@ -41,6 +41,7 @@ class OptionReader final : public OptionVisitor {
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
     void word_or_vector(WordOrVector& value, std::span<const char* const> words,
                         const OptionInfo& info) override;
+    void region(RegionChoice& value, const OptionInfo& info) override;
 
   private:
     const std::map<std::string, std::string>& given_;

@@ -81,6 +81,14 @@ void OptionTable::word_or_vector(WordOrVector& value, std::span<const char* cons
                       : row.choices.at(static_cast<std::size_t>(value.word));
 }
 
+void OptionTable::region(RegionChoice& value, const OptionInfo& info)
+{
+    OptionRow& row = add(OptionKind::region, info);
+    row.choices = {"none", "auto"};
+    row.accepted = kAcceptedRegions;
+    row.initial = region_text(value);
+}
+
 void OptionTable::path(const OptionInfo& info)
 {
     add(OptionKind::path, info).accepted = "a path";
@@ -98,6 +106,8 @@ std::string placeholder(const OptionRow& row)
         return fmt::format("{}", fmt::join(row.choices, "|"));
     case OptionKind::vector:
         return fmt::format("{}|x,y,z", fmt::join(row.choices, "|"));
+    case OptionKind::region:
+        return fmt::format("{}|box|<file>", fmt::join(row.choices, "|"));
     case OptionKind::path:
         return "<file>";
     case OptionKind::flag:

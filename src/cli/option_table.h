@@ -7,7 +7,7 @@
 
 namespace vcarve::cli {
 
-enum class OptionKind { number, count, bytes, flag, choice, vector, path };
+enum class OptionKind { number, count, bytes, flag, choice, vector, region, path };
 
 /// One option as the user meets it.
 struct OptionRow {
@@ -33,6 +33,7 @@ class OptionTable final : public OptionVisitor {
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
     void word_or_vector(WordOrVector& value, std::span<const char* const> words,
                         const OptionInfo& info) override;
+    void region(RegionChoice& value, const OptionInfo& info) override;
 
     /// An option whose value is a path.
     void path(const OptionInfo& info);

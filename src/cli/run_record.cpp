@@ -1,5 +1,7 @@
 #include "cli/run_record.h"
 
+#include "base/validate.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -88,6 +90,16 @@ void OptionRecorder::word_or_vector(WordOrVector& value, std::span<const char* c
         json_[info.name] = {value.vector.x(), value.vector.y(), value.vector.z()};
     } else {
         json_[info.name] = words[static_cast<std::size_t>(value.word)];
+    }
+}
+
+void OptionRecorder::region(RegionChoice& value, const OptionInfo& info)
+{
+    if (value.kind == RegionChoice::Kind::box) {
+        json_[info.name] = {value.low.x(),  value.low.y(),  value.low.z(),
+                            value.high.x(), value.high.y(), value.high.z()};
+    } else {
+        json_[info.name] = region_text(value);
     }
 }
 

@@ -52,6 +52,7 @@ class OptionRecorder final : public OptionVisitor {
     }
     void word_or_vector(WordOrVector& value, std::span<const char* const> words,
                         const OptionInfo& info) override;
+    void region(RegionChoice& value, const OptionInfo& info) override;
     const Json& json() const { return json_; }
 
   private:

@@ -20,6 +20,7 @@ struct SampleOptions {
     Shape shape = Shape::round;
     std::int64_t memory = 3 << 20;
     WordOrVector place = {};
+    RegionChoice part = {};
 
     void visit(OptionVisitor& options)
     {
@@ -39,6 +40,7 @@ struct SampleOptions {
         options.word_or_vector(
             place, kPlaceWords,
             {.name = "place", .help = "Where it is.", .min = -10.0, .max = 10.0});
+        options.region(part, {.name = "part", .help = "How much."});
     }
 };
 
