@@ -1,6 +1,7 @@
 #pragma once
 
 #include "vcarve/option_visitor.h"
+#include "vcarve/region.h"
 
 #include <array>
 #include <cstdint>
@@ -49,6 +50,25 @@ struct ThinOptions {
              .help = "Merge points of a dense cloud, those without a reprojection error, that lie "
                      "within so many pixels of the images that show them largest; 0 merges none.",
              .max = 1000.0});
+    }
+};
+
+/// Which part of space the surface is wanted of.
+struct CropOptions {
+    RegionChoice region; ///< --crop
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.region(
+            region,
+            {.name = "crop",
+             .help =
+                 "Make the surface of a region only, given in the model's coordinates: auto, "
+                 "the ball in which 94 % of the sights end; a box x0,y0,z0,x1,y1,z1; a PLY file "
+                 "with a closed surface; or a text file with the x and y of a corner of a "
+                 "polygon a line, for all z. What looks through the region still carves it; "
+                 "none takes all."});
     }
 };
 
@@ -322,6 +342,7 @@ struct RefineOptions {
 struct Options {
     FilterOptions points;        ///< which points are kept
     ThinOptions thin;            ///< which points become one
+    CropOptions crop;            ///< which part of space counts
     LabelOptions labels;         ///< which cells are inside
     SurfaceOptions surface;      ///< which faces are kept
     RefineOptions refine;        ///< what is done to the surface
@@ -333,6 +354,7 @@ struct Options {
     {
         points.visit(options);
         thin.visit(options);
+        crop.visit(options);
         labels.visit(options);
         surface.visit(options);
         refine.visit(options);

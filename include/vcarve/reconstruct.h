@@ -19,8 +19,9 @@ struct Reconstruction {
 /// Throws, before any work, UsageError where an option is out of its range (naming it, what was
 /// found and what is accepted) or the arrays of the scene do not fit each other, and InputError
 /// where the run would need more than `options.max_memory`; later InputError where the scene holds
-/// too little for a surface. Throws Cancelled within a fraction of a second after Log::wants_stop
-/// says so. Holds no globals: several runs may go on side by side.
+/// too little for a surface, or the file of a region is wrong. Throws Cancelled within a fraction
+/// of a second after Log::wants_stop says so. Holds no globals: several runs may go on side by
+/// side.
 Reconstruction reconstruct(Scene input, const Options& options, Log& log);
 
 } // namespace vcarve

@@ -9,6 +9,7 @@
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
 #include "pipeline/memory.h"
+#include "steps/1_points/region.h"
 #include "steps/5_surface/provenance.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
@@ -273,6 +274,7 @@ Manual mesh_manual()
         {"colmap-vcarve dense mesh.ply", "from the dense points that stereo_fusion made"},
         {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
         {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
+        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "of what was looked at, without the rest"},
     };
     manual.operand_meanings = {
         {"MODEL", "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
@@ -298,6 +300,10 @@ void run_mesh(const ParsedArguments& given)
     const MeshArguments arguments = read_arguments(given);
     const bool with_stats = given.has("stats");
     prepare_outputs(arguments, with_stats);
+    // What is wrong with the file of a region is said before the work starts.
+    if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
+        make_region(arguments.options.crop.region, Scene());
+    }
 
     // The passes ask for as many threads as they are told; no more than this limit ever run.
     const int wanted = arguments.options.threads;

@@ -5,7 +5,9 @@
 #include "model/scene_check.h"
 #include "pipeline/memory.h"
 #include "steps/1_points/center.h"
+#include "steps/1_points/crop.h"
 #include "steps/1_points/filter.h"
+#include "steps/1_points/region.h"
 #include "steps/1_points/spatial_sort.h"
 #include "steps/1_points/thin.h"
 #include "steps/2_cells/triangulate.h"
@@ -17,6 +19,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace vcarve {
@@ -62,6 +65,18 @@ Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
     return sorted;
 }
 
+/// The scene itself where there is no region.
+Scene crop(Scene scene, const Region* region, Log& log)
+{
+    if (region == nullptr) return scene;
+    Stage stage(log, "crop");
+    CroppedPoints cropped = crop_points(scene, *region, stage);
+    stage.end({{"points", cropped.inside},
+               {"of", size_of(scene.num_points())},
+               {"outside but seen through it", cropped.witnesses}});
+    return std::move(cropped.scene);
+}
+
 TetMesh triangulate(const Scene& scene, Log& log)
 {
     Stage stage(log, "triangulate");
@@ -85,10 +100,12 @@ Reconstruction run_steps(Scene input, const Options& options, Log& log)
     foresee_memory(input, options, log);
     Scene scene =
         filter(thin(center_points(std::move(input)), options.thin, log), options.points, log);
+    const std::unique_ptr<Region> region = make_region(options.crop.region, scene);
+    scene = crop(std::move(scene), region.get(), log);
     const TetMesh cells = triangulate(scene, log);
     Labelling labelling = label_cells(cells, scene, options.labels, log);
     const std::unique_ptr<HalfEdgeMesh> mesh =
-        make_surface(std::move(labelling), scene, options.surface, log);
+        make_surface(std::move(labelling), scene, region.get(), options.surface, log);
     refine(*mesh, scene, options.refine, log);
     TriMesh surface = orient(*mesh, scene, log);
     return {std::move(scene), std::move(surface)};

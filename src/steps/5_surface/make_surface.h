@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/log.h"
+#include "steps/1_points/region.h"
 #include "steps/4_labels/labelling.h"
 #include "steps/5_surface/cleanup.h"
 #include "steps/5_surface/sheets.h"
@@ -14,10 +15,11 @@
 namespace vcarve {
 
 /// The surface of a labelling: the boundary of the inside (extract.h), of which only the faces are
-/// kept that views support (support.h, sheets.h) unless it is to be closed, mended into a manifold
-/// (cleanup.h), as the one mesh that is worked on from then on. Throws InputError where no face is
-/// left.
+/// kept that views support (support.h, sheets.h) unless it is to be closed, and of these, where
+/// there is a region, those whose corners all lie within it; mended into a manifold (cleanup.h), as
+/// the one mesh that is worked on from then on. Throws InputError where no face is left.
 std::unique_ptr<HalfEdgeMesh> make_surface(Labelling labelling, const Scene& scene,
-                                           const SurfaceOptions& options, Log& log);
+                                           const Region* region, const SurfaceOptions& options,
+                                           Log& log);
 
 } // namespace vcarve

@@ -1,0 +1,83 @@
+#include "steps/1_points/crop.h"
+
+#include "base/parallel.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::AlignedBox3d;
+using Flags = std::vector<std::uint8_t>; ///< 0 or 1
+
+std::string box_text(const AlignedBox3d& box)
+{
+    return fmt::format("x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g}", box.min().x(),
+                       box.max().x(), box.min().y(), box.max().y(), box.min().z(), box.max().z());
+}
+
+[[noreturn]] void refuse_empty(const Scene& scene, const Region& region)
+{
+    AlignedBox3d points;
+    for (const Eigen::Vector3d& position : scene.positions) {
+        points.extend(position);
+    }
+    throw InputError(fmt::format("no point lies within the region of --crop ({}); the points lie "
+                                 "in {}",
+                                 box_text(region.bounds().translated(scene.offset)),
+                                 box_text(points.translated(scene.offset))));
+}
+
+/// Adds a point with some of its views.
+void add_point(const Scene& from, std::size_t point, std::span<const std::uint32_t> views,
+               Scene& to)
+{
+    to.positions.push_back(from.positions[point]);
+    to.colors.push_back(from.colors[point]);
+    to.errors_px.push_back(from.errors_px[point]);
+    to.point_ids.push_back(from.point_ids[point]);
+    if (!from.normals.empty()) to.normals.push_back(from.normals[point]);
+    to.tracks.push_back(views);
+}
+
+} // namespace
+
+CroppedPoints crop_points(const Scene& scene, const Region& region, const Progress& progress)
+{
+    const Tracks& tracks = scene.tracks;
+    Flags is_inside(scene.num_points());
+    Flags says_something(scene.num_sights(), 1);
+    const auto judge = [&](std::size_t point) {
+        const Eigen::Vector3d& place = scene.positions[point];
+        is_inside[point] = region.contains(place) ? 1 : 0;
+        if (is_inside[point] != 0) return;
+        for (std::size_t sight = tracks.begins[point]; sight < tracks.begins[point + 1]; ++sight) {
+            const View& view = scene.views[tracks.views[sight]];
+            says_something[sight] = region.meets(place, view.center) ? 1 : 0;
+        }
+    };
+    parallel_for(scene.num_points(), progress.part(0.0, 0.9), judge);
+
+    CroppedPoints result;
+    result.scene.cameras = scene.cameras;
+    result.scene.views = scene.views;
+    result.scene.offset = scene.offset;
+    std::vector<std::uint32_t> views;
+    for (std::size_t point = 0; point < scene.num_points(); ++point) {
+        views.clear();
+        for (std::size_t sight = tracks.begins[point]; sight < tracks.begins[point + 1]; ++sight) {
+            if (says_something[sight] != 0) views.push_back(tracks.views[sight]);
+        }
+        if (is_inside[point] == 0 && views.empty()) continue;
+        (is_inside[point] != 0 ? result.inside : result.witnesses) += 1;
+        add_point(scene, point, views, result.scene);
+    }
+    if (result.inside == 0 && scene.num_points() > 0) refuse_empty(scene, region);
+    return result;
+}
+
+} // namespace vcarve
