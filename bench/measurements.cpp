@@ -97,7 +97,7 @@ SceneSize make_surface(const Sample& sample, int threads, Log& log)
 Json stages_of(const cli::Json& recorded, const Meter& meter, const SceneSize& size, int threads)
 {
     Json stages = Json::array();
-    const std::vector<StageMemory> predicted = predicted_memory(size, threads);
+    const std::vector<StageMemory> predicted = predicted_memory(size, size, threads);
     for (const cli::Json& stage : recorded) {
         stages.push_back({{"name", stage["name"]},
                           {"seconds", stage["seconds"]},
@@ -162,7 +162,7 @@ Json measure_run(const Sample& sample, int threads)
     const SceneSize size = make_surface(sample, threads, recorder);
     Json result = meter.json();
     result["base_bytes"] = meter.base_bytes();
-    result["predicted_bytes"] = predicted_peak(size, threads);
+    result["predicted_bytes"] = predicted_peak(size, size, threads);
     // Each stage began a new peak
     const cli::Json recorded = recorder.json();
     result["peak_bytes"] = meter.above_base(recorded["total"]["peak_memory_bytes"]);

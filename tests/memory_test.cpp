@@ -29,7 +29,7 @@ TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
     const Scene scene = bumpy_sphere(300, 1);
     reconstruct(scene, Options(), log);
     auto at = log.heard.begin();
-    for (const StageMemory& stage : predicted_memory(size_of(scene), 1)) {
+    for (const StageMemory& stage : predicted_memory(size_of(scene), size_of(scene), 1)) {
         at = std::find(at, log.heard.end(), stage.stage);
         ASSERT_NE(at, log.heard.end()) << stage.stage;
     }
@@ -37,21 +37,21 @@ TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
 
 TEST(PredictedMemory, GrowsWithPointsAndSightsAndThreads)
 {
-    const std::int64_t peak = predicted_peak(kMillion, 1);
+    const std::int64_t peak = predicted_peak(kMillion, kMillion, 1);
     SceneSize more = kMillion;
     more.points += 1000;
-    EXPECT_GT(predicted_peak(more, 1), peak);
+    EXPECT_GT(predicted_peak(more, more, 1), peak);
     more = kMillion;
     more.sights += 1000;
-    EXPECT_GT(predicted_peak(more, 1), peak);
-    EXPECT_GE(predicted_peak(kMillion, 2), peak);
+    EXPECT_GT(predicted_peak(more, more, 1), peak);
+    EXPECT_GE(predicted_peak(kMillion, kMillion, 2), peak);
     more = kMillion;
     more.has_normals = true;
-    EXPECT_GE(predicted_peak(more, 1), peak + 12'000'000);
+    EXPECT_GE(predicted_peak(more, more, 1), peak + 12'000'000);
     // Ten times the model takes ten times what a run takes beside the program itself.
     const SceneSize ten = {.points = 10'000'000, .sights = 37'000'000, .views = 3'000};
-    const std::int64_t program = predicted_peak({}, 1);
-    EXPECT_NEAR(static_cast<double>(predicted_peak(ten, 1) - program),
+    const std::int64_t program = predicted_peak({}, {}, 1);
+    EXPECT_NEAR(static_cast<double>(predicted_peak(ten, ten, 1) - program),
                 10.0 * static_cast<double>(peak - program), 1e3);
 }
 
@@ -59,8 +59,8 @@ TEST(PredictedMemory, OfReadingHoldsASightInTheFileInTheSceneAndInTheTrackThatGr
 {
     SceneSize more = kMillion;
     more.sights += 1000;
-    const StageMemory before = predicted_memory(kMillion, 1).front();
-    const StageMemory after = predicted_memory(more, 1).front();
+    const StageMemory before = predicted_memory(kMillion, kMillion, 1).front();
+    const StageMemory after = predicted_memory(more, more, 1).front();
     EXPECT_STREQ(before.stage, "read");
     EXPECT_EQ(after.bytes - before.bytes, 1000 * (8 + 4 + 4));
 }
@@ -68,7 +68,7 @@ TEST(PredictedMemory, OfReadingHoldsASightInTheFileInTheSceneAndInTheTrackThatGr
 TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
 {
     const SceneSize most = {.points = ~0ULL, .sights = ~0ULL, .views = ~0ULL};
-    EXPECT_GT(predicted_peak(most, 2), std::int64_t{1} << 60);
+    EXPECT_GT(predicted_peak(most, most, 2), std::int64_t{1} << 60);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need memory of their own
@@ -94,12 +94,12 @@ TEST(PredictedMemory, IsWhatTheProgramNeeds)
     const std::map<std::string, double> expected = {
         {"read", 1.00}, {"filter", 1.02},  {"triangulate", 1.34}, {"sights", 1.28},
         {"cut", 1.32},  {"surface", 1.06}, {"clean", 1.20}}; // as measured
-    for (const StageMemory& stage : predicted_memory(size, 1)) {
+    for (const StageMemory& stage : predicted_memory(size, size, 1)) {
         EXPECT_NEAR(static_cast<double>(stage.bytes) / measured.at(stage.stage),
                     expected.at(stage.stage), 0.1)
             << stage.stage;
     }
-    const double ratio = static_cast<double>(predicted_peak(size, 1)) /
+    const double ratio = static_cast<double>(predicted_peak(size, size, 1)) /
                          record["total"]["peak_memory_bytes"].get<double>();
     EXPECT_GE(ratio, kLeastPredicted);
     EXPECT_LE(ratio, kMostPredicted);
@@ -108,11 +108,11 @@ TEST(PredictedMemory, IsWhatTheProgramNeeds)
 
 TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
 {
-    const std::int64_t peak = predicted_peak(kMillion, 1);
-    EXPECT_NO_THROW(require_memory(kMillion, 1, peak));
-    EXPECT_NO_THROW(require_memory(kMillion, 1, 0));
-    EXPECT_THROW(require_memory(kMillion, 1, peak - 1), InputError);
-    EXPECT_THAT(refusal<InputError>([] { require_memory(kMillion, 1, 4 << 20); }),
+    const std::int64_t peak = predicted_peak(kMillion, kMillion, 1);
+    EXPECT_NO_THROW(require_memory(kMillion, kMillion, 1, peak));
+    EXPECT_NO_THROW(require_memory(kMillion, kMillion, 1, 0));
+    EXPECT_THROW(require_memory(kMillion, kMillion, 1, peak - 1), InputError);
+    EXPECT_THAT(refusal<InputError>([] { require_memory(kMillion, kMillion, 1, 4 << 20); }),
                 testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
                                       "memory, and --max-memory allows 4M"));
 }

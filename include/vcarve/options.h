@@ -72,6 +72,24 @@ struct CropOptions {
     }
 };
 
+/// How far the points of a dense cloud are moved.
+struct DenoiseOptions {
+    double denoise = 2.0; ///< --denoise
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.number(
+            denoise,
+            {.name = "denoise",
+             .unit = "sigma",
+             .help = "Move points of a dense cloud, those without a reprojection error, within so "
+                     "many standard deviations of their own to the surface that the points around "
+                     "agree on; 0 moves none.",
+             .max = 100.0});
+    }
+};
+
 /// How much a sight says, and how far behind its point.
 struct TraceOptions {
     double views_sigma = 1.5;    ///< --views-sigma
@@ -343,6 +361,7 @@ struct Options {
     FilterOptions points;        ///< which points are kept
     ThinOptions thin;            ///< which points become one
     CropOptions crop;            ///< which part of space counts
+    DenoiseOptions denoise;      ///< how far points move
     LabelOptions labels;         ///< which cells are inside
     SurfaceOptions surface;      ///< which faces are kept
     RefineOptions refine;        ///< what is done to the surface
@@ -355,6 +374,7 @@ struct Options {
         points.visit(options);
         thin.visit(options);
         crop.visit(options);
+        denoise.visit(options);
         labels.visit(options);
         surface.visit(options);
         refine.visit(options);

@@ -225,7 +225,7 @@ void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
 {
     const int wanted = arguments.options.threads;
     try {
-        require_memory(size, wanted == 0 ? available_threads() : wanted,
+        require_memory(size, least_thinned(size), wanted == 0 ? available_threads() : wanted,
                        arguments.options.max_memory);
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));

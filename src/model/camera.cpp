@@ -282,6 +282,13 @@ std::optional<Intrinsics> intrinsics(const Camera& camera)
     return intrinsics_of(*lens, camera);
 }
 
+double mean_focal_px(const Camera& camera)
+{
+    const std::optional<Intrinsics> known = intrinsics(camera);
+    return known ? known->focal_px.mean()
+                 : static_cast<double>(std::max(camera.width_px, camera.height_px));
+}
+
 std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& x_in_cam)
 {
     const LensModel* lens = usable_lens(camera);

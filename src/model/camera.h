@@ -19,6 +19,10 @@ struct Intrinsics {
 /// Nothing for a lens that is not known, has too few parameters, or has no focal length.
 std::optional<Intrinsics> intrinsics(const Camera& camera);
 
+/// The mean of its two focal lengths in pixels; the larger side of its images where the lens is not
+/// known.
+double mean_focal_px(const Camera& camera);
+
 /// The pixel that shows a point given in the camera's frame (x right, y down, z forward), by the
 /// exact formula of the lens. The image's upper left corner is (0, 0), the middle of its first
 /// pixel (0.5, 0.5); whether the pixel lies in the image is not asked. Nothing for a lens that is

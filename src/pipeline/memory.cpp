@@ -74,6 +74,22 @@ struct Sizes {
     }
 };
 
+/// What the scene of a dense cloud becomes clusters of: places, footprints, leaders, cubes by code,
+/// and members; then the scene of those.
+double thinning(const Sizes& read, const Sizes& thinned)
+{
+    constexpr double kThinnedPoint = 150;
+    return read.scene() + kThinnedPoint * read.points + thinned.scene();
+}
+
+/// The points around each point, 24 of them, normals, variances, and places before and after.
+double denoising(const Sizes& n)
+{
+    constexpr double kAround = 24 * 4 + 8;
+    constexpr double kPlaced = 5 * 24 + 2 * 8;
+    return n.scene() + n.points * (kAround + kPlaced);
+}
+
 /// The file, the scene with its growing tracks, and the ids once more to find doubles.
 double reading(const Sizes& n)
 {
@@ -132,44 +148,60 @@ double cleaning(const Sizes& n)
     return n.after_triangulation() + n.cells + n.faces * kFace;
 }
 
-} // namespace
-
-std::vector<StageMemory> predicted_memory(const SceneSize& size, int threads)
+Sizes sizes(const SceneSize& size, int threads)
 {
     const auto points = static_cast<double>(size.points);
-    const Sizes n = {.points = points,
-                     .sights = static_cast<double>(size.sights),
-                     .views = static_cast<double>(size.views),
-                     .cells = kCellsPerPoint * points,
-                     .faces = kFacesPerPoint * points,
-                     .threads = static_cast<double>(threads),
-                     .point_bytes = kScenePoint + (size.has_normals ? kSceneNormal : 0.0)};
-    const auto stage = [&](const char* name, double bytes) {
-        const double program = kProgram + kThread * n.threads;
-        return StageMemory{name, std::llround(std::min(program + bytes, 0x1p62))};
-    };
-    return {stage("read", reading(n)),
-            stage("filter", filtering(n)),
-            stage("triangulate", triangulating(n)),
-            stage("sights", tracing(n)),
-            stage("cut", cutting(n)),
-            stage("surface", extracting(n)),
-            stage("clean", cleaning(n))};
+    return {.points = points,
+            .sights = static_cast<double>(size.sights),
+            .views = static_cast<double>(size.views),
+            .cells = kCellsPerPoint * points,
+            .faces = kFacesPerPoint * points,
+            .threads = static_cast<double>(threads),
+            .point_bytes = kScenePoint + (size.has_normals ? kSceneNormal : 0.0)};
 }
 
-std::int64_t predicted_peak(const SceneSize& size, int threads)
+} // namespace
+
+SceneSize least_thinned(const SceneSize& read)
 {
-    const std::vector<StageMemory> stages = predicted_memory(size, threads);
+    return read.is_dense ? SceneSize{} : read;
+}
+
+std::vector<StageMemory> predicted_memory(const SceneSize& read, const SceneSize& thinned,
+                                          int threads)
+{
+    const Sizes all = sizes(read, threads);
+    const Sizes n = sizes(thinned, threads);
+    std::vector<StageMemory> stages;
+    const auto add = [&](const char* name, double bytes) {
+        const double program = kProgram + kThread * n.threads;
+        stages.push_back({name, std::llround(std::min(program + bytes, 0x1p62))});
+    };
+    add("read", reading(all));
+    if (read.is_dense) add("thin", thinning(all, n));
+    add("filter", filtering(n));
+    if (read.is_dense) add("denoise", denoising(n));
+    add("triangulate", triangulating(n));
+    add("sights", tracing(n));
+    add("cut", cutting(n));
+    add("surface", extracting(n));
+    add("clean", cleaning(n));
+    return stages;
+}
+
+std::int64_t predicted_peak(const SceneSize& read, const SceneSize& thinned, int threads)
+{
+    const std::vector<StageMemory> stages = predicted_memory(read, thinned, threads);
     return std::ranges::max(stages, {}, &StageMemory::bytes).bytes;
 }
 
-void require_memory(const SceneSize& size, int threads, std::int64_t most)
+void require_memory(const SceneSize& read, const SceneSize& thinned, int threads, std::int64_t most)
 {
-    const std::int64_t needed = predicted_peak(size, threads);
+    const std::int64_t needed = predicted_peak(read, thinned, threads);
     if (most == 0 || needed <= most) return;
     throw InputError(
         fmt::format("{} points with {} sights need about {} of memory, and --max-memory allows {}",
-                    size.points, size.sights, byte_size_text(needed), byte_size_text(most)));
+                    read.points, read.sights, byte_size_text(needed), byte_size_text(most)));
 }
 
 } // namespace vcarve

@@ -14,15 +14,20 @@ struct StageMemory {
     std::int64_t bytes;
 };
 
-/// What a run will need, stage by stage, by the size of what it reads. Made of the sizes of the
-/// arrays that are alive at once (pipeline_memory.cpp says which), for the method `cut`, which of
-/// all needs most, and for points as they usually are: 6.8 cells a point, where points at random
-/// in space have 6.77 and points near a surface about 6. Points in rare positions (on two curves,
-/// say) can have many more cells, and need more.
-std::vector<StageMemory> predicted_memory(const SceneSize& size, int threads);
+/// What a run will need, stage by stage, by the size of what it reads and of what is left when a
+/// dense cloud is thinned. Made of the sizes of the arrays that are alive at once (memory.cpp says
+/// which), for the method `cut`, which of all needs most, and for points as they usually are: 6.8
+/// cells a point, where points at random in space have 6.77 and points near a surface about 6.
+/// Points in rare positions (on two curves, say) can have many more cells, and need more.
+std::vector<StageMemory> predicted_memory(const SceneSize& read, const SceneSize& thinned,
+                                          int threads);
 
 /// The most of these, in bytes.
-std::int64_t predicted_peak(const SceneSize& size, int threads);
+std::int64_t predicted_peak(const SceneSize& read, const SceneSize& thinned, int threads);
+
+/// What is left of a scene, as far as is known before it is thinned: of a dense one nothing for
+/// certain.
+SceneSize least_thinned(const SceneSize& read);
 
 /// The predicted peak over the one measured lies between these: 1.04 (a million points on two
 /// threads) to 1.34 (30 thousand on one) on sample models. A test holds the program to it, and
@@ -31,6 +36,7 @@ inline constexpr double kLeastPredicted = 1.0;
 inline constexpr double kMostPredicted = 1.4;
 
 /// Throws InputError where the prediction is above `most` bytes, naming both; 0 allows all.
-void require_memory(const SceneSize& size, int threads, std::int64_t most);
+void require_memory(const SceneSize& read, const SceneSize& thinned, int threads,
+                    std::int64_t most);
 
 } // namespace vcarve

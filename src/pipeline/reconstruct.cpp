@@ -3,9 +3,11 @@
 #include "base/validate.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/scene_check.h"
+#include "model/scene_size.h"
 #include "pipeline/memory.h"
 #include "steps/1_points/center.h"
 #include "steps/1_points/crop.h"
+#include "steps/1_points/denoise.h"
 #include "steps/1_points/filter.h"
 #include "steps/1_points/region.h"
 #include "steps/1_points/spatial_sort.h"
@@ -18,7 +20,7 @@
 
 #include <tbb/task_arena.h>
 
-#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -26,25 +28,34 @@ namespace vcarve {
 
 namespace {
 
-void foresee_memory(const Scene& scene, const Options& options, Log& log)
+void foresee_memory(const SceneSize& read, const SceneSize& thinned, const Options& options,
+                    Log& log)
 {
     Stage stage(log, "memory");
     const int threads = tbb::this_task_arena::max_concurrency();
-    require_memory(size_of(scene), threads, options.max_memory);
-    const std::int64_t peak = predicted_peak(size_of(scene), threads);
+    require_memory(read, thinned, threads, options.max_memory);
+    const std::int64_t peak = predicted_peak(read, thinned, threads);
     stage.end({{"MiB expected", (peak >> 20) + 1}});
 }
 
 /// The scene itself where there is nothing to merge.
 Scene thin(Scene scene, const ThinOptions& options, Log& log)
 {
-    const bool has_dense =
-        std::ranges::any_of(scene.errors_px, [](double error) { return error < 0.0; });
-    if (options.merge_px == 0.0 || !has_dense) return scene;
+    if (options.merge_px == 0.0 || !has_dense_points(scene)) return scene;
     Stage stage(log, "thin");
     Scene thinned = thin_points(scene, options, stage);
     stage.end({{"points", size_of(thinned.num_points())}, {"of", size_of(scene.num_points())}});
     return thinned;
+}
+
+void denoise(Scene& scene, const DenoiseOptions& options, Log& log)
+{
+    if (options.denoise == 0.0 || !has_dense_points(scene)) return;
+    Stage stage(log, "denoise");
+    const DenoiseReport report = denoise_points(scene, options, stage);
+    stage.end({{"points moved", report.moved},
+               {"of", size_of(scene.num_points())},
+               {"thousandths of a pixel of noise", std::llround(1000.0 * report.noise_px)}});
 }
 
 Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
@@ -97,11 +108,15 @@ TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 
 Reconstruction run_steps(Scene input, const Options& options, Log& log)
 {
-    foresee_memory(input, options, log);
-    Scene scene =
-        filter(thin(center_points(std::move(input)), options.thin, log), options.points, log);
+    const SceneSize read = size_of(input);
+    require_memory(read, least_thinned(read), tbb::this_task_arena::max_concurrency(),
+                   options.max_memory);
+    Scene scene = thin(center_points(std::move(input)), options.thin, log);
+    foresee_memory(read, size_of(scene), options, log);
+    scene = filter(scene, options.points, log);
     const std::unique_ptr<Region> region = make_region(options.crop.region, scene);
     scene = crop(std::move(scene), region.get(), log);
+    denoise(scene, options.denoise, log);
     const TetMesh cells = triangulate(scene, log);
     Labelling labelling = label_cells(cells, scene, options.labels, log);
     const std::unique_ptr<HalfEdgeMesh> mesh =

@@ -81,7 +81,8 @@ std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files)
     return SceneSize{.points = vertices->count,
                      .sights = *sights,
                      .views = model ? model->views : 0,
-                     .has_normals = PlyVertexLayout(*vertices).has_normals()};
+                     .has_normals = PlyVertexLayout(*vertices).has_normals(),
+                     .is_dense = true};
 }
 
 } // namespace vcarve

@@ -188,18 +188,6 @@ class Clustering {
     std::vector<std::uint32_t> leader_of_;
 };
 
-/// Mean focal length in pixels of the cameras; 1 where it is not known.
-std::vector<double> focals_px(const std::vector<Camera>& cameras)
-{
-    std::vector<double> focals;
-    for (const Camera& camera : cameras) {
-        const std::optional<Intrinsics> known = intrinsics(camera);
-        focals.push_back(known ? known->focal_px.mean()
-                               : static_cast<double>(std::max(camera.width_px, camera.height_px)));
-    }
-    return focals;
-}
-
 /// What so many pixels cover at a point's distance, in the view that shows it largest;
 /// infinite for a point that is not to be merged.
 double footprint(const Scene& scene, std::size_t point, double pixels,
@@ -217,7 +205,10 @@ double footprint(const Scene& scene, std::size_t point, double pixels,
 
 Dots dots_of(const Scene& scene, double merge_px)
 {
-    const std::vector<double> focals = focals_px(scene.cameras);
+    std::vector<double> focals;
+    for (const Camera& camera : scene.cameras) {
+        focals.push_back(mean_focal_px(camera));
+    }
     Dots dots{scene.positions, scene.normals, std::vector<double>(scene.num_points()),
               std::vector<std::uint32_t>(scene.num_points())};
     parallel_for(scene.num_points(), [&](std::size_t i) {

@@ -28,7 +28,7 @@ struct DepthMap {
 
 /// The depth map of view number `view` of a scene: the true depths with errors of the matcher,
 /// which grow with the square of the depth over focal length times baseline (the distance to the
-/// second nearest view). Pixels beside a jump of the depth have none, since windows hold both sides
+/// sixth nearest view). Pixels beside a jump of the depth have none, since windows hold both sides
 /// there. The same for the same seed and view. Cost: a rendering of the scene.
 DepthMap stereo_depths(const render::PhotoScene& scene, std::size_t view, const StereoNoise& noise,
                        std::uint64_t seed);

@@ -1,0 +1,57 @@
+#include "geometry/nearest_neighbors.h"
+
+#include <CGAL/Orthogonal_k_neighbor_search.h>
+#include <CGAL/Search_traits_3.h>
+#include <CGAL/Search_traits_adapter.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/property_map.h>
+
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point = Kernel::Point_3;
+
+Point to_point(const Eigen::Vector3d& position)
+{
+    return {position.x(), position.y(), position.z()};
+}
+
+using Numbered = std::pair<Point, std::uint32_t>;
+using Traits = CGAL::Search_traits_adapter<Numbered, CGAL::First_of_pair_property_map<Numbered>,
+                                           CGAL::Search_traits_3<Kernel>>;
+using Nearest = CGAL::Orthogonal_k_neighbor_search<Traits>;
+
+} // namespace
+
+struct NearestNeighbors::Search {
+    Nearest::Tree tree;
+};
+
+NearestNeighbors::NearestNeighbors(const std::vector<Eigen::Vector3d>& points)
+    : search_(std::make_unique<Search>())
+{
+    search_->tree.reserve(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        search_->tree.insert({to_point(points[i]), i});
+    }
+    search_->tree.build<CGAL::Parallel_if_available_tag>();
+}
+
+NearestNeighbors::~NearestNeighbors() = default;
+
+void NearestNeighbors::find(const Eigen::Vector3d& place, std::size_t count,
+                            std::vector<Neighbor>& nearest) const
+{
+    nearest.clear();
+    if (search_->tree.empty()) return;
+    for (const auto& [numbered, distance_sq] :
+         Nearest(search_->tree, to_point(place), static_cast<unsigned>(count))) {
+        nearest.push_back({numbered.second, distance_sq});
+    }
+}
+
+} // namespace vcarve

@@ -1,0 +1,287 @@
+#include "compare/sample.h"
+#include "steps/1_points/denoise.h"
+#include "support/made_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr double kFocalPx = 1000.0;
+constexpr double kHeight = 10.0;      ///< of the views above the ground
+constexpr double kHalfBaseline = 2.0; ///< between them
+
+/// Two views beside each other that look down.
+Scene two_views()
+{
+    Scene scene;
+    scene.cameras = {{.id = 1,
+                      .model = 0,
+                      .width_px = 1000,
+                      .height_px = 1000,
+                      .params = {kFocalPx, 500.0, 500.0}}};
+    scene.views = {
+        {.id = 1, .camera = 0, .name = "left", .center = {-kHalfBaseline, 0.0, kHeight}},
+        {.id = 2, .camera = 0, .name = "right", .center = {kHalfBaseline, 0.0, kHeight}}};
+    return scene;
+}
+
+void add(Scene& scene, const Vector3d& position)
+{
+    scene.positions.push_back(position);
+    scene.colors.push_back({0, 0, 0});
+    scene.errors_px.push_back(-1.0);
+    scene.point_ids.push_back(scene.num_points() - 1);
+    scene.tracks.push_back(std::array<std::uint32_t, 2>{0, 1});
+}
+
+/// How far up a point is off at the middle between the views if its places in the two images are
+/// off by a pixel: what of a pixel's way goes up at the angle of the sights, over both.
+const double kUpOfAPixel = std::hypot(kHeight, kHalfBaseline) / kFocalPx *
+                           std::hypot(kHeight, kHalfBaseline) / kHalfBaseline / std::sqrt(2.0);
+
+/// Numbers of a normal distribution (Box and Muller).
+double normal_number(std::uint64_t index)
+{
+    return std::sqrt(-2.0 * std::log(1.0 - random_number(5, 2 * index))) *
+           std::cos(2.0 * std::numbers::pi * random_number(5, 2 * index + 1));
+}
+
+/// A square of ground between the views with points a fiftieth apart, which lie `rise(x, y)` up
+/// and are in error by so many pixels.
+Scene ground(double noise_px, const std::function<double(double, double)>& rise)
+{
+    Scene scene = two_views();
+    std::uint64_t index = 0;
+    for (double x = -0.5; x < 0.5; x += 0.02) {
+        for (double y = -0.5; y < 0.5; y += 0.02) {
+            const double at_x = x + 0.005 * random_number(9, 2 * index);
+            const double at_y = y + 0.005 * random_number(9, 2 * index + 1);
+            const double error = noise_px * kUpOfAPixel * normal_number(index++);
+            add(scene, {at_x, at_y, rise(at_x, at_y) + error});
+        }
+    }
+    return scene;
+}
+
+double flat(double /*x*/, double /*y*/)
+{
+    return 0.0;
+}
+
+/// Root of the mean square height of points above the ground where it is known.
+double rms(const Scene& scene, const std::function<double(double, double)>& rise = flat)
+{
+    double sum = 0.0;
+    for (const Vector3d& position : scene.positions) {
+        sum += std::pow(position.z() - rise(position.x(), position.y()), 2);
+    }
+    return std::sqrt(sum / static_cast<double>(scene.num_points()));
+}
+
+TEST(DenoisePoints, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
+{
+    Scene scene = ground(0.4, flat);
+    const double before = rms(scene);
+    const DenoiseReport report = denoise_points(scene, {});
+    EXPECT_LT(rms(scene), 0.45 * before);
+    EXPECT_NEAR(report.noise_px, 0.4, 0.06);
+    EXPECT_EQ(report.moved, static_cast<std::int64_t>(scene.num_points()));
+}
+
+TEST(DenoisePoints, TakesTheNormalsOfTheCloud)
+{
+    Scene scene = ground(0.4, flat);
+    Scene known = scene;
+    known.normals.assign(known.num_points(), Vector3f::UnitZ());
+    denoise_points(scene, {});
+    denoise_points(known, {});
+    EXPECT_LT(rms(known), 0.9 * rms(scene)) << "fitted normals are noisy themselves";
+    EXPECT_EQ(known.normals, std::vector<Vector3f>(known.num_points(), Vector3f::UnitZ()));
+}
+
+TEST(DenoisePoints, FitsTheNormalsThatTheCloudDoesNotKnow)
+{
+    Scene scene = ground(0.4, flat);
+    Scene unknown = scene;
+    unknown.normals.assign(unknown.num_points(), Vector3f::Zero());
+    denoise_points(scene, {});
+    denoise_points(unknown, {});
+    EXPECT_EQ(unknown.positions, scene.positions);
+}
+
+TEST(DenoisePoints, KeepsEdges)
+{
+    // A roof: averaging without regard to normals cuts its ridge off.
+    const auto roof = [](double x, double) { return -std::abs(x); };
+    Scene scene = ground(0.2, roof);
+    const double before = rms(scene, roof);
+    denoise_points(scene, {});
+    EXPECT_LT(rms(scene, roof), 0.6 * before);
+    double lowered = 0.0;
+    double near_ridge = 0.0;
+    for (const Vector3d& position : scene.positions) {
+        if (std::abs(position.x()) > 0.02) continue;
+        lowered += roof(position.x(), position.y()) - position.z();
+        near_ridge += 1.0;
+    }
+    EXPECT_LT(lowered / near_ridge, 0.35 * before);
+}
+
+TEST(DenoisePoints, LeavesExactPointsWhereTheyAre)
+{
+    Scene scene = ground(0.0, flat);
+    const Scene before = scene;
+    const DenoiseReport report = denoise_points(scene, {});
+    EXPECT_EQ(report.moved, 0);
+    EXPECT_EQ(report.noise_px, 0.0);
+    EXPECT_EQ(scene.positions, before.positions);
+}
+
+TEST(DenoisePoints, LeavesPointsOfAKnownErrorAndThoseWhoseSightsDoNotCross)
+{
+    Scene scene = ground(0.4, flat);
+    const Scene before = scene;
+    scene.errors_px[1234] = 0.5;
+    scene.tracks = {};
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        if (i == 1235) {
+            scene.tracks.push_back(std::array<std::uint32_t, 1>{0});
+        } else {
+            scene.tracks.push_back(std::array<std::uint32_t, 2>{0, 1});
+        }
+    }
+    const DenoiseReport report = denoise_points(scene, {});
+    EXPECT_EQ(report.moved, static_cast<std::int64_t>(scene.num_points()) - 2);
+    EXPECT_EQ(scene.positions[1234], before.positions[1234]);
+    EXPECT_EQ(scene.positions[1235], before.positions[1235]);
+}
+
+TEST(DenoisePoints, DoesNotPullOutliersIn)
+{
+    Scene scene = ground(0.2, flat);
+    scene.normals.assign(scene.num_points(), Vector3f::UnitZ());
+    const std::size_t outlier = 1234;
+    const std::size_t far_outlier = 2000;
+    scene.positions[outlier].z() += 1.5 * kUpOfAPixel;
+    scene.positions[far_outlier].z() += 30.0 * kUpOfAPixel;
+    const Vector3d before = scene.positions[outlier];
+    const Vector3d far_before = scene.positions[far_outlier];
+    const DenoiseReport report = denoise_points(scene, {.denoise = 3.0});
+    const double way = before.z() - scene.positions[outlier].z();
+    EXPECT_GT(way, 0.0);
+    EXPECT_LE(way, 3.0 * report.noise_px * kUpOfAPixel);
+    EXPECT_EQ(scene.positions[far_outlier], far_before);
+}
+
+TEST(DenoisePoints, MovesPointsAlongWhatIsUncertain)
+{
+    // The views are far above the ground, and so it is up and down where a point is uncertain; a
+    // steep slope is left by that way, not across.
+    const auto slope = [](double x, double) { return 2.0 * x; };
+    Scene scene = ground(0.3, slope);
+    const Scene before = scene;
+    denoise_points(scene, {});
+    double up = 0.0;
+    double across = 0.0;
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        const Vector3d way = scene.positions[i] - before.positions[i];
+        up += std::abs(way.z());
+        across += way.head<2>().norm();
+    }
+    EXPECT_GT(up, 4.0 * across);
+}
+
+TEST(DenoisePoints, KeepsTheTwoSidesOfABoardApart)
+{
+    // Two sheets nearer to each other than the noise allows to tell, seen from above and below.
+    constexpr double kThickness = 0.01;
+    Scene scene = two_views();
+    scene.views.push_back(
+        {.id = 3, .camera = 0, .name = "low left", .center = {-kHalfBaseline, 0.0, -kHeight}});
+    scene.views.push_back(
+        {.id = 4, .camera = 0, .name = "low right", .center = {kHalfBaseline, 0.0, -kHeight}});
+    const Scene above = ground(0.2, flat);
+    const std::array<std::uint32_t, 2> low = {2, 3};
+    for (const Vector3d& position : above.positions) {
+        add(scene, position);
+        scene.normals.emplace_back(Vector3f::UnitZ());
+    }
+    for (const Vector3d& position : above.positions) {
+        scene.positions.emplace_back(position.x() + 0.01, position.y(), -kThickness - position.z());
+        scene.colors.push_back({0, 0, 0});
+        scene.errors_px.push_back(-1.0);
+        scene.point_ids.push_back(scene.num_points() - 1);
+        scene.tracks.push_back(low);
+        scene.normals.emplace_back(-Vector3f::UnitZ());
+    }
+    denoise_points(scene, {});
+    double upper = 0.0;
+    double lower = 0.0;
+    for (std::size_t i = 0; i < above.num_points(); ++i) {
+        upper += scene.positions[i].z() / static_cast<double>(above.num_points());
+        lower +=
+            scene.positions[above.num_points() + i].z() / static_cast<double>(above.num_points());
+    }
+    EXPECT_NEAR(upper, 0.0, 0.1 * kThickness);
+    EXPECT_NEAR(lower, -kThickness, 0.1 * kThickness);
+}
+
+TEST(DenoisePoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
+{
+    const Scene scene = ground(0.4, [](double x, double y) { return 0.2 * std::sin(9.0 * x) * y; });
+    const auto by = [&](int threads) {
+        return testing::with_threads(threads, [&] {
+            Scene copy = scene;
+            denoise_points(copy, {});
+            return copy.positions;
+        });
+    };
+    const std::vector<Vector3d> one = by(1);
+    EXPECT_NE(one, scene.positions);
+    EXPECT_EQ(one, by(2));
+    EXPECT_EQ(one, by(3));
+    Scene larger = scene;
+    for (Vector3d& position : larger.positions) {
+        position *= 1024.0;
+    }
+    for (View& view : larger.views) {
+        view.center *= 1024.0;
+    }
+    denoise_points(larger, {});
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_LT((larger.positions[i] - 1024.0 * one[i]).norm(), 1e-9 * 1024.0);
+    }
+}
+
+TEST(DenoisePoints, LeavesTooFewPoints)
+{
+    for (std::size_t count = 0; count < 6; ++count) {
+        Scene scene = two_views();
+        for (std::size_t i = 0; i < count; ++i) {
+            add(scene, {0.1 * static_cast<double>(i * i), 0.1 * static_cast<double>(i), 0.0});
+        }
+        const Scene before = scene;
+        denoise_points(scene, {});
+        EXPECT_EQ(scene.positions, before.positions) << "they lie in a plane";
+    }
+}
+
+TEST(KeepApart, PutsBackWhatCameToOnePlace)
+{
+    const std::vector<Vector3d> before = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+    // The first two meet where the third was, which meets the fourth there once it is put back.
+    std::vector<Vector3d> positions = {{5, 0, 0}, {5, 0, 0}, {4, 0, 0}, {0, 0, 0}};
+    keep_apart(positions, before);
+    EXPECT_EQ(positions, (std::vector<Vector3d>{{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {3, 0, 0}}));
+}
+
+} // namespace
+} // namespace vcarve
