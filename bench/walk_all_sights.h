@@ -22,7 +22,11 @@ inline std::size_t walk_all_sights(const TetMesh& cells, const Scene& scene)
     std::size_t crossings = 0;
     SightWalk(cells).along_each(
         sights.size(), [&](std::size_t k) { return sights[k]; },
-        [&](std::size_t, Index, int) { ++crossings; }, [](std::size_t, const WalkEnds&) {});
+        [&](std::size_t, Index, int) {
+            ++crossings;
+            return true;
+        },
+        [](std::size_t, const WalkEnds&) {});
     return crossings;
 }
 

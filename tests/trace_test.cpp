@@ -1,3 +1,4 @@
+#include "compare/sample.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/3_visibility/walk.h"
@@ -74,6 +75,70 @@ constexpr TraceOptions kFullWeight = {.views_sigma = 0.0, .distance_sigma = 0.0,
 std::vector<Four> no_arc_capacities()
 {
     return {8, Four{0, 0, 0, 0}};
+}
+
+// ---- bundles of sights -------------------------------------------------------------------------
+
+/// Points in a long tube of a dense cloud, the first ten of which are seen from beyond its end.
+Scene tube()
+{
+    std::vector<MadePoint> points;
+    for (std::uint64_t i = 0; i < 500; ++i) {
+        const double x = i < 10 ? random_number(1, 3 * i) : 40.0 * random_number(1, 3 * i);
+        points.push_back({{x, random_number(1, 3 * i + 1), random_number(1, 3 * i + 2)}, {}});
+        if (i < 10) points.back().views = {0, 1, 2};
+    }
+    Scene scene = make_scene({{50, 0.4, 0.4}, {50, 0.5, 0.6}, {50, 0.6, 0.5}}, points);
+    scene.errors_px.assign(points.size(), -1.0);
+    return scene;
+}
+
+TEST(TraceSights, LetsOneSightOfADenseCloudGoOnForAll)
+{
+    const Scene scene = tube();
+    const TetMesh mesh = triangulate(scene);
+    TraceOptions options = kFullWeight;
+    options.bundle_sights = 4;
+    const VisibilityEnergy energy = traced(mesh, scene, options);
+    std::vector<Four> arcs(mesh.cells.size(), Four{0, 0, 0, 0});
+    std::vector<std::int32_t> terminals(mesh.cells.size(), 0);
+    int gone_on = 0;
+    for (Index vertex = 0; vertex < 10; ++vertex) {
+        SightWalk walk(mesh, vertex);
+        for (const std::uint32_t view : scene.tracks[vertex]) {
+            const Vector3d& center = scene.views[view].center;
+            const bool leads = (vertex + view) % 4 == 0;
+            int crossed = 0;
+            walk.to(center, [&](Index cell, int slot) {
+                ++crossed;
+                if (crossed <= kFacetsAlone) arcs[cell][slot] += 256;
+                if (crossed > kFacetsAlone && leads) arcs[cell][slot] += 4 * 256;
+                if (crossed == 1) terminals[cell] += 256;
+                if (crossed == kFacetsAlone + 1 && leads) terminals[cell] += 3 * 256;
+            });
+            ASSERT_GT(crossed, kFacetsAlone);
+            gone_on += leads ? 1 : 0;
+            const Index behind = walk.first_cell(2.0 * mesh.positions[vertex] - center);
+            if (behind != kInfinite) terminals[behind] -= 256;
+        }
+    }
+    ASSERT_GT(gone_on, 4);
+    EXPECT_EQ(energy.network.arc_capacities, arcs);
+    EXPECT_EQ(energy.network.terminal_capacities, terminals);
+    options.bundle_sights = 1;
+    EXPECT_EQ(energy.cell_of_view, traced(mesh, scene, options).cell_of_view);
+}
+
+TEST(TraceSights, WalksAllSightsOfPointsThatAMatcherFoundOneByOne)
+{
+    Scene scene = tube();
+    scene.errors_px.assign(scene.num_points(), 0.5);
+    const TetMesh mesh = triangulate(scene);
+    TraceOptions options = kFullWeight;
+    options.bundle_sights = 4;
+    const VisibilityEnergy bundled = traced(mesh, scene, options);
+    options.bundle_sights = 1;
+    expect_equal(bundled, traced(mesh, scene, options));
 }
 
 // ---- by hand ------------------------------------------------------------------------------------

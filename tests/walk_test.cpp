@@ -176,6 +176,7 @@ TEST(SightWalk, CrossesTheSameSideBySideAsAlone)
                 sights.size(), [&](std::size_t k) { return sights[k]; },
                 [&](std::size_t k, Index cell, int slot) {
                     found[k].crossed.emplace_back(cell, slot);
+                    return true;
                 },
                 [&](std::size_t k, const WalkEnds& ends) {
                     found[k].ends = ends;

@@ -96,6 +96,7 @@ struct TraceOptions {
     double distance_sigma = 0.5; ///< --distance-sigma
     double sink_depth = 0.0;     ///< --sink-depth
     double error_sigma = 3.0;    ///< --error-sigma
+    int bundle_sights = 4;       ///< --bundle-sights
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
@@ -128,6 +129,13 @@ struct TraceOptions {
                         .help = "How far behind a point its sights call the space inside; "
                                 "0 means the cell that begins at the point.",
                         .max = 1000.0});
+        options.count(bundle_sights,
+                      {.name = "bundle-sights",
+                       .unit = "sights",
+                       .help = "How many near sights of a dense cloud's points go on as one where "
+                               "they are far from their points; 1 walks each to its view.",
+                       .min = 1,
+                       .max = 1024});
     }
 };
 

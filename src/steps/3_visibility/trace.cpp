@@ -85,6 +85,7 @@ void count_facets(const TetMesh& cells, const RaySource& source, Crossings& cros
                 const Index beyond = cells.cells[cell].neighbors[slot];
                 count_one(crossings[cell][slot]);
                 count_one(crossings[beyond][cells.mirror(cell, slot)]);
+                return true;
             },
             [](std::size_t, const WalkEnds&) {});
     });
@@ -165,9 +166,21 @@ class Push {
 struct OutwardSight {
     Sight sight;
     std::uint32_t view;
-    std::int32_t full; ///< its weight where the distance sigma is zero
+    std::int32_t full;   ///< its weight where the distance sigma is zero
+    std::int32_t bundle; ///< how many sights go on as one, far from their points
     Vector3d direction;
     Push push;
+    int crossed = 0; ///< facets
+
+    /// Whether it goes through one more facet, and with what weight: one sight of a bundle goes on
+    /// for all. Points follow each other in space, and so each of those near takes its turn.
+    bool goes_on()
+    {
+        if (++crossed <= kFacetsAlone) return true;
+        if ((sight.vertex + view) % static_cast<std::uint32_t>(bundle) != 0) return false;
+        if (crossed == kFacetsAlone + 1) full *= bundle;
+        return true;
+    }
 };
 
 /// Adds the terms of sights to the network.
@@ -180,11 +193,12 @@ class SightTerms {
 
     /// The sight from a vertex to a view.
     OutwardSight outward(Index vertex, std::uint32_t view, const Vector3d& center,
-                         std::int32_t full) const
+                         std::int32_t full, std::int32_t bundle) const
     {
         return {{vertex, center},
                 view,
                 full,
+                bundle,
                 (center - mesh_.positions[vertex]).normalized(),
                 Push(mesh_, sums_, Push::Sign::source)};
     }
@@ -202,14 +216,18 @@ class SightTerms {
                 sums_.fetch(beyond);
                 // The sight's flow comes from the view and falls towards the point: it fills the
                 // arc inwards, opens the one outwards, and what the next facet will not take stays
-                // here.
-                auto& [sight, view, full, direction, push] = sights[k];
+                // here. Where a bundle begins, the sights that end there leave theirs to the one
+                // that goes on, and ask for that cell to be outside.
+                OutwardSight& on = sights[k];
+                if (!on.goes_on()) return false;
                 const std::int32_t weight =
-                    push.carried() == full
-                        ? full
-                        : soft_weight({cell, slot}, mesh_.positions[sight.vertex], direction, full);
+                    on.push.carried() == on.full
+                        ? on.full
+                        : soft_weight({cell, slot}, mesh_.positions[on.sight.vertex], on.direction,
+                                      on.full);
                 sums_.add_arc_capacity(cell, slot, weight);
-                push.cross(cell, beyond, weight);
+                on.push.cross(cell, beyond, weight);
+                return true;
             },
             [&](std::size_t k, const WalkEnds& ends) {
                 sights[k].push.end(ends.last, sights[k].full);
@@ -320,13 +338,15 @@ void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
         for (Index vertex = first; vertex < last; ++vertex) {
             if (source.is_measured) walk.stand_at(vertex);
             const std::int32_t full = weights.full_weight(vertex, source.weight);
+            const std::int32_t bundle =
+                source.is_measured && scene_.errors_px[vertex] < 0.0 ? options_.bundle_sights : 1;
             for (const std::uint32_t view : (*source.rays)[vertex]) {
                 const Vector3d& origin = source.origins[view];
                 if (source.is_measured) {
                     terms.add_inside_terms(walk, cells_.positions[vertex], origin, full,
                                            options_.sink_depth);
                 }
-                sights.push_back(terms.outward(vertex, view, origin, full));
+                sights.push_back(terms.outward(vertex, view, origin, full, bundle));
             }
         }
         terms.add_outside_terms(walk, sights, [&](std::uint32_t view, Index cell) {

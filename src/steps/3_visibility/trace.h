@@ -16,6 +16,9 @@ namespace vcarve {
 void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings,
                const Progress& progress);
 
+/// How many facets a measured ray to a point of a dense cloud crosses on its own.
+inline constexpr int kFacetsAlone = 32;
+
 /// Adds the visibility terms of sources to an energy. `cells`, `scene` and `options` must outlive
 /// it; `scene` has the points of the cells, which weigh their rays.
 ///
@@ -26,6 +29,10 @@ void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossin
 /// meets an edge or a vertex no facet leads its flow on: each stretch between such places ends in a
 /// source (behind the point a sink) of its own, as strong as the term of the ray for what comes
 /// next.
+///
+/// Near sights of a dense cloud say the same far from their points. So beyond kFacetsAlone facets
+/// only one of `bundle_sights` walks on, with the weight of all; the others end there and ask for
+/// the cell they reached to be outside.
 class RayCaster {
   public:
     RayCaster(const TetMesh& cells, const Scene& scene, const Scales& scales,

@@ -79,8 +79,10 @@ class SightWalk {
 
     /// Walks along sight_at(k) for all k below `count`, several at a time, a step each in turn: a
     /// walk mostly waits for memory and for its own last step, and so the others go on meanwhile.
-    /// Calls on_crossing(k, cell, slot) as to() does, for each k in order of its walk, and
-    /// on_end(k, ends) at its end. Sights of one vertex should follow each other.
+    /// Calls on_crossing(k, cell, slot) as to() does, for each k in order of its walk, which goes
+    /// on as long as that says so, and on_end(k, ends) at the end of those that were not stopped. A
+    /// walk that the exact one took over may still call on_crossing after it was stopped. Sights of
+    /// one vertex should follow each other.
     template <typename SightAt, typename OnCrossing, typename OnEnd>
     void along_each(std::size_t count, const SightAt& sight_at, const OnCrossing& on_crossing,
                     const OnEnd& on_end)
@@ -92,10 +94,13 @@ class SightWalk {
             for (; active < kAbreast && next < count; ++next) {
                 Walker& walker = walkers[active];
                 walker.k = next;
-                const auto cross = [&](Index cell, int slot) { on_crossing(next, cell, slot); };
+                bool goes_on = true;
+                const auto cross = [&](Index cell, int slot) {
+                    goes_on = on_crossing(next, cell, slot);
+                };
                 if (start(sight_at(next), walker, cross)) {
                     ++active;
-                } else {
+                } else if (goes_on) {
                     on_end(next, walker.ends);
                 }
             }
@@ -104,11 +109,13 @@ class SightWalk {
             }
             for (std::size_t i = active; i-- > 0;) {
                 Walker& walker = walkers[i];
-                const auto cross = [&](Index cell, int slot) { on_crossing(walker.k, cell, slot); };
-                if (!step(walker, cross)) {
-                    on_end(walker.k, walker.ends);
-                    walkers[i] = walkers[--active];
-                }
+                bool goes_on = true;
+                const auto cross = [&](Index cell, int slot) {
+                    goes_on = on_crossing(walker.k, cell, slot);
+                };
+                const bool ended = !step(walker, cross);
+                if (ended && goes_on) on_end(walker.k, walker.ends);
+                if (ended || !goes_on) walkers[i] = walkers[--active];
             }
         }
     }
