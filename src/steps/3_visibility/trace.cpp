@@ -237,8 +237,20 @@ class SightTerms {
             });
     }
 
-    /// Inside, from the point where the walk stands away from the view, down to a depth of
-    /// `sink_depth` sigmas.
+    /// Inside, from a vertex away from the origins of its rays, down to a depth of `sink_depth`
+    /// sigmas.
+    void add_inside_terms(SightWalk& walk, Index vertex, const RaySource& source, std::int32_t full,
+                          double sink_depth) const
+    {
+        walk.stand_at(vertex);
+        for (const std::uint32_t origin : (*source.rays)[vertex]) {
+            add_inside_terms(walk, mesh_.positions[vertex], source.origins[origin], full,
+                             sink_depth);
+        }
+    }
+
+  private:
+    /// The same of one ray, from the point where the walk stands.
     void add_inside_terms(SightWalk& walk, const Vector3d& point, const Vector3d& center,
                           std::int32_t full, double sink_depth) const
     {
@@ -261,7 +273,6 @@ class SightTerms {
         push.end(ends.last, full);
     }
 
-  private:
     std::int32_t soft_weight(CellFacet facet, const Vector3d& point, const Vector3d& direction,
                              std::int32_t full) const
     {
@@ -336,17 +347,13 @@ void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
         SightWalk walk(cells_);
         std::vector<OutwardSight> sights;
         for (Index vertex = first; vertex < last; ++vertex) {
-            if (source.is_measured) walk.stand_at(vertex);
             const std::int32_t full = weights.full_weight(vertex, source.weight);
             const std::int32_t bundle =
                 source.is_measured && scene_.errors_px[vertex] < 0.0 ? options_.bundle_sights : 1;
+            if (source.is_measured)
+                terms.add_inside_terms(walk, vertex, source, full, options_.sink_depth);
             for (const std::uint32_t view : (*source.rays)[vertex]) {
-                const Vector3d& origin = source.origins[view];
-                if (source.is_measured) {
-                    terms.add_inside_terms(walk, cells_.positions[vertex], origin, full,
-                                           options_.sink_depth);
-                }
-                sights.push_back(terms.outward(vertex, view, origin, full, bundle));
+                sights.push_back(terms.outward(vertex, view, source.origins[view], full, bundle));
             }
         }
         terms.add_outside_terms(walk, sights, [&](std::uint32_t view, Index cell) {
