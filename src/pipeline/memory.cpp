@@ -2,7 +2,6 @@
 
 #include "base/byte_size.h"
 #include "model/tet_mesh.h"
-#include "steps/2_cells/triangulate.h"
 #include "vcarve/error.h"
 #include "vcarve/tri_mesh.h"
 
@@ -37,10 +36,6 @@ constexpr double kFileSight = 8;
 /// its index; both with some room to grow.
 constexpr double kCgalCell = 73;
 constexpr double kCgalVertex = 48;
-/// What oneTBB's allocator keeps of CGAL's memory that was freed, after a parallel triangulation,
-/// which triangulate() makes of kParallelFromPoints points or more.
-constexpr double kMostKept = 128e6;
-
 /// TetMesh.
 constexpr double kFlatCell = sizeof(Cell) + 1;
 constexpr double kFlatVertex = 24 + 4;
@@ -66,12 +61,7 @@ struct Sizes {
     double cgal() const { return cells * kCgalCell + points * kCgalVertex; }
     double flat() const { return cells * kFlatCell + points * kFlatVertex; }
 
-    /// The scene, the cells, and what was freed but not given back.
-    double after_triangulation() const
-    {
-        const bool keeps = threads > 1 && points >= static_cast<double>(kParallelFromPoints);
-        return scene() + flat() + (keeps ? std::min(cgal(), kMostKept) : 0.0);
-    }
+    double after_triangulation() const { return scene() + flat(); }
 };
 
 /// What the scene of a dense cloud becomes clusters of: places, footprints, leaders, cubes by code,

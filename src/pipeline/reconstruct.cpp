@@ -1,5 +1,6 @@
 #include "vcarve/reconstruct.h"
 
+#include "base/freed_memory.h"
 #include "base/validate.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/scene_check.h"
@@ -112,11 +113,13 @@ Reconstruction run_steps(Scene input, const Options& options, Log& log)
     require_memory(read, least_thinned(read), tbb::this_task_arena::max_concurrency(),
                    options.max_memory);
     Scene scene = thin(center_points(std::move(input)), options.thin, log);
+    return_freed_memory();
     foresee_memory(read, size_of(scene), options, log);
     scene = filter(scene, options.points, log);
     const std::unique_ptr<Region> region = make_region(options.crop.region, scene);
     scene = crop(std::move(scene), region.get(), log);
     denoise(scene, options.denoise, log);
+    return_freed_memory();
     const TetMesh cells = triangulate(scene, log);
     Labelling labelling = label_cells(cells, scene, options.labels, log);
     const std::unique_ptr<HalfEdgeMesh> mesh =

@@ -4,12 +4,7 @@
 #include "model/tet_mesh.h"
 #include "vcarve/scene.h"
 
-#include <cstddef>
-
 namespace vcarve {
-
-/// Below this many points CGAL's parallel insertion loses against its sequential one (measured).
-inline constexpr std::size_t kParallelFromPoints = 50'000;
 
 /// The Delaunay triangulation of the points of a scene. Points on one sphere are told apart by
 /// CGAL's symbolic perturbation, so the triangulation depends on the points alone, not on their
