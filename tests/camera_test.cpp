@@ -91,6 +91,14 @@ TEST(LensModel, TellsItsIntrinsics)
     EXPECT_FALSE(intrinsics(camera_of(-1, {100, 100, 50, 40})));
 }
 
+TEST(MeanFocals, AreTheMeansOrTheLargerSideOfTheImage)
+{
+    const Camera simple = {.model = 0, .width_px = 8, .height_px = 6, .params = {100, 4, 3}};
+    const Camera pinhole = {.model = 1, .width_px = 8, .height_px = 6, .params = {100, 200, 4, 3}};
+    const Camera unknown = {.model = -1, .width_px = 80, .height_px = 60, .params = {}};
+    EXPECT_EQ(mean_focals_px({simple, pinhole, unknown}), (std::vector<double>{100, 150, 80}));
+}
+
 // ---- by hand
 // ---------------------------------------------------------------------------------------
 

@@ -282,11 +282,15 @@ std::optional<Intrinsics> intrinsics(const Camera& camera)
     return intrinsics_of(*lens, camera);
 }
 
-double mean_focal_px(const Camera& camera)
+std::vector<double> mean_focals_px(const std::vector<Camera>& cameras)
 {
-    const std::optional<Intrinsics> known = intrinsics(camera);
-    return known ? known->focal_px.mean()
-                 : static_cast<double>(std::max(camera.width_px, camera.height_px));
+    std::vector<double> focals;
+    for (const Camera& camera : cameras) {
+        const std::optional<Intrinsics> known = intrinsics(camera);
+        focals.push_back(known ? known->focal_px.mean()
+                               : static_cast<double>(std::max(camera.width_px, camera.height_px)));
+    }
+    return focals;
 }
 
 std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& x_in_cam)

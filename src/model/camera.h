@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <vector>
 
 namespace vcarve {
 
@@ -19,9 +20,9 @@ struct Intrinsics {
 /// Nothing for a lens that is not known, has too few parameters, or has no focal length.
 std::optional<Intrinsics> intrinsics(const Camera& camera);
 
-/// The mean of its two focal lengths in pixels; the larger side of its images where the lens is not
-/// known.
-double mean_focal_px(const Camera& camera);
+/// Of each camera the mean of its two focal lengths in pixels; the larger side of its images where
+/// the lens is not known.
+std::vector<double> mean_focals_px(const std::vector<Camera>& cameras);
 
 /// The pixel that shows a point given in the camera's frame (x right, y down, z forward), by the
 /// exact formula of the lens. The image's upper left corner is (0, 0), the middle of its first

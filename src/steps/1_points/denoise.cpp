@@ -160,10 +160,7 @@ class Denoiser {
           spreads_(scene.num_points()),
           variances_(scene.num_points())
     {
-        std::vector<double> focals_px;
-        for (const Camera& camera : scene.cameras) {
-            focals_px.push_back(mean_focal_px(camera));
-        }
+        const std::vector<double> focals_px = mean_focals_px(scene.cameras);
         parallel_for(variances_.size(), [&](std::size_t i) {
             spreads_[i] = covariance_of_a_pixel(scene, i, focals_px) * normals_[i];
             variances_[i] = normals_[i].dot(spreads_[i]);

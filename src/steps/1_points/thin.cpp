@@ -205,10 +205,7 @@ double footprint(const Scene& scene, std::size_t point, double pixels,
 
 Dots dots_of(const Scene& scene, double merge_px)
 {
-    std::vector<double> focals;
-    for (const Camera& camera : scene.cameras) {
-        focals.push_back(mean_focal_px(camera));
-    }
+    const std::vector<double> focals = mean_focals_px(scene.cameras);
     Dots dots{scene.positions, scene.normals, std::vector<double>(scene.num_points()),
               std::vector<std::uint32_t>(scene.num_points())};
     parallel_for(scene.num_points(), [&](std::size_t i) {
