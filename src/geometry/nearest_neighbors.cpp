@@ -34,6 +34,7 @@ struct NearestNeighbors::Search {
 NearestNeighbors::NearestNeighbors(const std::vector<Eigen::Vector3d>& points)
     : search_(std::make_unique<Search>())
 {
+    if (points.empty()) return; // CGAL's tree is not to be built then
     search_->tree.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         search_->tree.insert({to_point(points[i]), i});
