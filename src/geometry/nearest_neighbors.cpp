@@ -25,6 +25,12 @@ using Traits = CGAL::Search_traits_adapter<Numbered, CGAL::First_of_pair_propert
                                            CGAL::Search_traits_3<Kernel>>;
 using Nearest = CGAL::Orthogonal_k_neighbor_search<Traits>;
 
+#ifdef __SANITIZE_THREAD__
+using BuildTag = CGAL::Sequential_tag; // it does not see how oneTBB's tasks hand work over
+#else
+using BuildTag = CGAL::Parallel_if_available_tag;
+#endif
+
 } // namespace
 
 struct NearestNeighbors::Search {
@@ -39,7 +45,7 @@ NearestNeighbors::NearestNeighbors(const std::vector<Eigen::Vector3d>& points)
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         search_->tree.insert({to_point(points[i]), i});
     }
-    search_->tree.build<CGAL::Parallel_if_available_tag>();
+    search_->tree.build<BuildTag>();
 }
 
 NearestNeighbors::~NearestNeighbors() = default;
