@@ -1,6 +1,7 @@
 #include "compare/sample.h"
 #include "steps/1_points/denoise.h"
 #include "support/made_cells.h"
+#include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -248,13 +249,7 @@ TEST(DenoisePoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
     EXPECT_NE(one, scene.positions);
     EXPECT_EQ(one, by(2));
     EXPECT_EQ(one, by(3));
-    Scene larger = scene;
-    for (Vector3d& position : larger.positions) {
-        position *= 1024.0;
-    }
-    for (View& view : larger.views) {
-        view.center *= 1024.0;
-    }
+    Scene larger = moved(scene, 1024.0, Eigen::Quaterniond::Identity(), Vector3d::Zero());
     denoise_points(larger, {});
     for (std::size_t i = 0; i < one.size(); ++i) {
         EXPECT_LT((larger.positions[i] - 1024.0 * one[i]).norm(), 1e-9 * 1024.0);

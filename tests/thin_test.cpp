@@ -167,13 +167,7 @@ TEST(ThinPoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
     const std::vector<Vector3d> one = by(1);
     EXPECT_EQ(one, by(2));
     EXPECT_EQ(one, by(3));
-    Scene larger = scene;
-    for (Vector3d& position : larger.positions) {
-        position *= 1024.0;
-    }
-    for (View& view : larger.views) {
-        view.center *= 1024.0;
-    }
+    const Scene larger = moved(scene, 1024.0, Eigen::Quaterniond::Identity(), Vector3d::Zero());
     const Scene thin = thin_points(larger, {.merge_px = 1.0});
     ASSERT_EQ(thin.num_points(), one.size());
     for (std::size_t i = 0; i < one.size(); ++i) {
