@@ -1,6 +1,7 @@
 #include "steps/1_points/crop.h"
 
 #include "base/parallel.h"
+#include "model/scene_points.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -32,18 +33,6 @@ std::string box_text(const AlignedBox3d& box)
                                  box_text(points.translated(scene.offset))));
 }
 
-/// Adds a point with some of its views.
-void add_point(const Scene& from, std::size_t point, std::span<const std::uint32_t> views,
-               Scene& to)
-{
-    to.positions.push_back(from.positions[point]);
-    to.colors.push_back(from.colors[point]);
-    to.errors_px.push_back(from.errors_px[point]);
-    to.point_ids.push_back(from.point_ids[point]);
-    if (!from.normals.empty()) to.normals.push_back(from.normals[point]);
-    to.tracks.push_back(views);
-}
-
 } // namespace
 
 CroppedPoints crop_points(const Scene& scene, const Region& region, const Progress& progress)
@@ -63,9 +52,7 @@ CroppedPoints crop_points(const Scene& scene, const Region& region, const Progre
     parallel_for(scene.num_points(), progress.part(0.0, 0.9), judge);
 
     CroppedPoints result;
-    result.scene.cameras = scene.cameras;
-    result.scene.views = scene.views;
-    result.scene.offset = scene.offset;
+    result.scene = without_points(scene);
     std::vector<std::uint32_t> views;
     for (std::size_t point = 0; point < scene.num_points(); ++point) {
         views.clear();

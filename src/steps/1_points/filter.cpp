@@ -2,6 +2,7 @@
 
 #include "base/index_limit.h"
 #include "base/parallel.h"
+#include "model/scene_points.h"
 #include "model/united_views.h"
 #include "steps/1_points/lexicographic_sort.h"
 
@@ -140,20 +141,11 @@ FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
     FilteredPoints result;
     result.report.non_finite = static_cast<std::int64_t>(scene.num_points() - finite.size());
     result.report.duplicate = static_cast<std::int64_t>(finite.size() - merged.best.size());
-    Scene& kept = result.scene;
-    kept.cameras = scene.cameras;
-    kept.views = scene.views;
-    kept.offset = scene.offset;
+    result.scene = without_points(scene);
     for (std::size_t place = 0; place < merged.best.size(); ++place) {
         count(verdicts[place], result.report);
         if (verdicts[place] == Verdict::keep) {
-            const std::uint32_t point = merged.best[place];
-            kept.positions.push_back(scene.positions[point]);
-            kept.colors.push_back(scene.colors[point]);
-            kept.errors_px.push_back(scene.errors_px[point]);
-            kept.point_ids.push_back(scene.point_ids[point]);
-            if (!scene.normals.empty()) kept.normals.push_back(scene.normals[point]);
-            kept.tracks.push_back(track_of(place));
+            add_point(scene, merged.best[place], track_of(place), result.scene);
         }
     }
     return result;

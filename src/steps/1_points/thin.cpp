@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "model/camera.h"
+#include "model/scene_points.h"
 #include "model/united_views.h"
 
 #include <algorithm>
@@ -302,10 +303,7 @@ Vector3f mean_normal(const Scene& scene, std::span<const std::uint32_t> members)
 
 Scene merged(const Scene& scene, const Members& clusters)
 {
-    Scene result;
-    result.cameras = scene.cameras;
-    result.views = scene.views;
-    result.offset = scene.offset;
+    Scene result = without_points(scene);
     result.positions.resize(clusters.size());
     result.colors.resize(clusters.size());
     if (!scene.normals.empty()) result.normals.resize(clusters.size());
