@@ -21,6 +21,8 @@ struct Camera {
     std::uint64_t width_px = 0;  ///< of its images
     std::uint64_t height_px = 0; ///< of its images
     std::vector<double> params;  ///< in COLMAP's order for the lens model
+    /// A scanner: its sights end where it measured, so a point needs no other view to be known.
+    bool measures_range = false;
 };
 
 /// A registered image: the pose of its camera and the centre all its sights meet in.

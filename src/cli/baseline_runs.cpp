@@ -41,6 +41,11 @@ fs::path printed_path(const fs::path& folder, const std::string& name)
 /// The folder that COLMAP's mesher is to read. It knows dense points by names in one folder only.
 fs::path colmap_input(const FoundInput& input)
 {
+    if (input.scan) {
+        throw UsageError(fmt::format("--colmap cannot be told to take the points of {}: COLMAP's "
+                                     "mesher knows no scanners",
+                                     input.scan->cloud.string()));
+    }
     if (!input.dense) return input.model.folder;
     fs::path workspace = "." / input.dense->cloud.parent_path();
     const auto is_at = [&](const fs::path& path, const char* name) {

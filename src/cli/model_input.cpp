@@ -19,6 +19,18 @@ void visit(SightsFrom& sights, OptionVisitor& options)
                             "nearest views are taken before which no other point stands."});
 }
 
+void visit_scanner(WordOrVector& scanner, OptionVisitor& options)
+{
+    static constexpr std::array<const char*, 1> kWords = {"file"};
+    options.word_or_vector(
+        scanner, kWords,
+        {.name = "scanner",
+         .help = "Where the laser scanner stood that measured all points of a PLY file, in its "
+                 "coordinates; then no model is needed. file: as it tells itself, for every point "
+                 "(x_origin, y_origin, z_origin, or scanner_x ...) or once (PCL's element camera).",
+         .min = -kUnlimited});
+}
+
 } // namespace
 
 void list_points_options(OptionTable& table)
@@ -34,6 +46,8 @@ void list_points_options(OptionTable& table)
                         "writes it; by default the file called like it and .vis."});
     SightsFrom sights = SightsFrom::file;
     visit(sights, table);
+    WordOrVector scanner;
+    visit_scanner(scanner, table);
 }
 
 PointsOptions read_points_options(const ParsedArguments& given)
@@ -43,6 +57,9 @@ PointsOptions read_points_options(const ParsedArguments& given)
     if (given.has("visibility")) options.visibility = given.options.at("visibility");
     OptionReader reader(given);
     visit(options.sights, reader);
+    WordOrVector scanner;
+    visit_scanner(scanner, reader);
+    if (scanner.word == WordOrVector::kNoWord) options.scanner = scanner.vector;
     return options;
 }
 
@@ -58,6 +75,11 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const SizeChe
                     {"points", read.scene.num_points()},
                     {"views", read.scene.views.size()},
                     {"sights", read.scene.num_sights()}};
+    if (read.found.scan) input.record["cloud"] = read.found.scan->cloud.string();
+    if (read.found.scan && found.folder.empty()) {
+        input.record["folder"] = nullptr;
+        input.record["format"] = nullptr;
+    }
     if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
     input.scene = std::move(read.scene);
     return input;

@@ -5,6 +5,7 @@
 #include "compare/truth.h"
 #include "compare/view_rays.h"
 #include "geometry/triangle.h"
+#include "model/measured_range.h"
 #include "steps/1_points/middle_box.h"
 #include "vcarve/error.h"
 
@@ -88,7 +89,8 @@ Scene countable_part(const Scene& model)
     scene.offset = model.offset;
     for (std::size_t point = 0; point < model.num_points(); ++point) {
         const auto track = model.tracks[point];
-        if (track.size() < kLeastViews || !model.positions[point].allFinite()) continue;
+        if (!model.positions[point].allFinite()) continue;
+        if (track.size() < kLeastViews && !has_measured_range(model, track)) continue;
         scene.positions.push_back(model.positions[point]);
         scene.tracks.push_back(track);
     }

@@ -4,6 +4,7 @@
 #include "compare/sample.h"
 #include "geometry/triangle.h"
 #include "model/camera.h"
+#include "model/measured_range.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>
@@ -19,7 +20,6 @@
 namespace vcarve {
 namespace {
 
-constexpr int kLeastViews = 3;
 constexpr double kMaxIncidenceDeg = 80.0;
 constexpr double kTouchShare = 1e-6; ///< of the truth's size: nearer hits are the sample's own face
 constexpr double kBlockedShare = 0.01;    ///< of the diagonal
@@ -49,13 +49,22 @@ double length_of_box(const std::vector<Eigen::Vector3d>& positions)
     return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
+/// By how many views a sample of the truth must be seen that a mesh of these views should show: one
+/// that measures the range is enough.
+int least_views(const Scene& scene)
+{
+    constexpr int kOfPhotographs = 3;
+    return has_scanners(scene) ? 1 : kOfPhotographs;
+}
+
 /// What is to be known of the views that see a sample of the truth.
 struct SeeingViews {
+    int wanted = 0; ///< how many are enough
     int count = 0;
     std::uint32_t first = kNoView;          ///< that was asked
     std::uint32_t first_in_image = kNoView; ///< of those whose image holds the sample
 
-    bool enough() const { return count >= kLeastViews; }
+    bool enough() const { return wanted > 0 && count >= wanted; }
     bool complete() const { return enough() && first_in_image != kNoView; }
     void add(std::uint32_t view, bool shows)
     {
@@ -71,7 +80,8 @@ class TruthSight {
     TruthSight(const MeasuredMesh& surface, const Reference& reference)
         : surface_(surface),
           reference_(reference),
-          touch_(kTouchShare * length_of_box(surface.mesh.positions))
+          touch_(kTouchShare * length_of_box(surface.mesh.positions)),
+          least_views_(least_views(reference.scene))
     {
     }
 
@@ -85,7 +95,7 @@ class TruthSight {
             face_normal(mesh.positions, mesh.faces[samples.faces[index]]);
         std::vector<std::uint32_t> order(views.size());
         std::iota(order.begin(), order.end(), 0U);
-        SeeingViews seeing;
+        SeeingViews seeing{.wanted = least_views_};
         for (std::size_t k = 0; k < order.size() && !seeing.complete(); ++k) {
             // The next of a random order (Fisher and Yates).
             const auto left = static_cast<double>(order.size() - k);
@@ -117,6 +127,7 @@ class TruthSight {
     const MeasuredMesh& surface_;
     const Reference& reference_;
     double touch_;
+    int least_views_;
 };
 
 /// Replaces truth.samples by those of `count` samples of the whole surface that count.
@@ -277,11 +288,11 @@ Truth seen_truth(const NamedMesh& named, const Reference& reference)
     do {
         surplus *= 1.02;
         if (truth.seen_share < kLeastSeenShare) {
-            throw InputError(
-                fmt::format("{}: less than a thousandth of its area is seen by at least "
-                            "{} of the model's {} views, so it cannot tell how good a "
-                            "mesh is",
-                            named.name, kLeastViews, reference.scene.views.size()));
+            throw InputError(fmt::format(
+                "{}: less than a thousandth of its area is seen by at least "
+                "{} of the model's {} views, so it cannot tell how good a "
+                "mesh is",
+                named.name, least_views(reference.scene), reference.scene.views.size()));
         }
         const double draws = surplus * static_cast<double>(wanted) / truth.seen_share;
         sample_truth(truth, reference, static_cast<std::size_t>(draws), truth_stream);

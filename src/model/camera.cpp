@@ -268,6 +268,17 @@ std::optional<Placed> place(const LensModel& lens, const Camera& camera, const E
     return Placed{*on_plane, x_px};
 }
 
+double mean_focal_px(const Camera& camera)
+{
+    const LensModel* lens = usable_lens(camera);
+    if (lens != nullptr && lens->num_focals > 0)
+        return intrinsics_of(*lens, camera).focal_px.mean();
+    if (lens != nullptr && lens->geometry == equirectangular) {
+        return camera.params[0] / (2.0 * std::numbers::pi);
+    }
+    return static_cast<double>(std::max(camera.width_px, camera.height_px));
+}
+
 bool turned(const LensModel& lens, const Camera& camera, const Placed& placed)
 {
     return lens.polynomial && !before_turn(distortion_of(lens, camera), placed.on_plane);
@@ -286,9 +297,7 @@ std::vector<double> mean_focals_px(const std::vector<Camera>& cameras)
 {
     std::vector<double> focals;
     for (const Camera& camera : cameras) {
-        const std::optional<Intrinsics> known = intrinsics(camera);
-        focals.push_back(known ? known->focal_px.mean()
-                               : static_cast<double>(std::max(camera.width_px, camera.height_px)));
+        focals.push_back(mean_focal_px(camera));
     }
     return focals;
 }

@@ -20,8 +20,8 @@ struct Intrinsics {
 /// Nothing for a lens that is not known, has too few parameters, or has no focal length.
 std::optional<Intrinsics> intrinsics(const Camera& camera);
 
-/// Of each camera the mean of its two focal lengths in pixels; the larger side of its images where
-/// the lens is not known.
+/// Of each camera the mean of its two focal lengths in pixels; of a panorama the pixels a radian of
+/// its horizon; the larger side of its images where the lens is not known.
 std::vector<double> mean_focals_px(const std::vector<Camera>& cameras);
 
 /// The pixel that shows a point given in the camera's frame (x right, y down, z forward), by the

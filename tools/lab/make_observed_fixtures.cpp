@@ -1,9 +1,10 @@
 // Makes fixtures/air and fixtures/room: models of scenes whose geometry is known, as COLMAP would
-// reconstruct them, without pictures; and fixtures/dense_room, the room as dense stereo would see
-// it. Usage: make_observed_fixtures FOLDER
+// reconstruct them, without pictures; fixtures/dense_room, the room as dense stereo would see it;
+// and fixtures/scanned_room, as laser scanners would. Usage: make_observed_fixtures FOLDER
 #include "observed/dense.h"
 #include "observed/observe.h"
 #include "observed/observed_scene.h"
+#include "observed/scan.h"
 #include "observed/write_model.h"
 #include "observed/write_workspace.h"
 
@@ -11,6 +12,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <vector>
 
 namespace {
 
@@ -37,6 +39,24 @@ void make_dense(const std::filesystem::path& folder, const ObservedScene& observ
                scene.views.size(), scene.num_sights());
 }
 
+/// Four tripods about the middle of the room.
+void make_scan(const std::filesystem::path& folder, const ObservedScene& observed)
+{
+    constexpr std::size_t kPointsAScan = 2000;
+    constexpr double kStep = 1e-4;
+    std::vector<vcarve::observed::Beam> beams;
+    for (const Eigen::Vector3d& place :
+         {Eigen::Vector3d(-1.2, -1.3, 1.5), Eigen::Vector3d(1.9, -0.7, 1.4),
+          Eigen::Vector3d(0.1, 1.5, 1.6), Eigen::Vector3d(-0.2, 0.4, 1.2)}) {
+        const auto more = vcarve::observed::tripod_beams(place, kPointsAScan);
+        beams.insert(beams.end(), more.begin(), more.end());
+    }
+    const vcarve::observed::Scan scan = vcarve::observed::scan(observed.parts.mesh, beams);
+    std::filesystem::create_directories(folder);
+    vcarve::observed::write_scan(folder / "scan.ply", scan, kStep);
+    fmt::print("scanned_{}: {} points\n", observed.name, scan.positions.size());
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -52,6 +72,8 @@ int main(int argc, char** argv)
         }
         make_dense(std::filesystem::path(argv[1]) / "dense_room",
                    vcarve::observed::inside_a_room());
+        make_scan(std::filesystem::path(argv[1]) / "scanned_room",
+                  vcarve::observed::inside_a_room());
     } catch (const std::exception& error) {
         fmt::print(stderr, "make_observed_fixtures: {}\n", error.what());
         return 1;

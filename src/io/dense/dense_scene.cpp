@@ -1,32 +1,19 @@
 #include "io/dense/dense_scene.h"
 
 #include "base/index_limit.h"
-#include "base/parallel.h"
 #include "io/colmap/model_size.h"
+#include "io/dense/cloud_points.h"
 #include "io/dense/nearest_sights.h"
 #include "io/dense/visibility.h"
 #include "io/ply/ply_cloud.h"
 #include "io/ply/ply_vertex.h"
 
-#include <cmath>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
 namespace vcarve {
 
 namespace {
-
-constexpr Color kGrey{128, 128, 128};
-
-/// Of unit length, or zero where it is no direction.
-void make_unit(Eigen::Vector3f& normal)
-{
-    const Eigen::Vector3d exact = normal.cast<double>();
-    const double length = exact.norm();
-    normal.setZero();
-    if (length > 0.0 && std::isfinite(length)) normal = (exact / length).cast<float>();
-}
 
 /// How many sights a file has room for beside the lengths of so many rows.
 std::optional<std::uint64_t> sights_in(const std::filesystem::path& visibility,
@@ -58,13 +45,7 @@ Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
         files.visibility.empty()
             ? nearest_sights(scene, last)
             : read_visibility(files.visibility, {num_points, files.cloud}, model.file_order, last);
-    scene.normals = std::move(cloud.normals);
-    parallel_for(scene.normals.size(), [&](std::size_t i) { make_unit(scene.normals[i]); });
-    scene.colors = std::move(cloud.colors);
-    scene.colors.resize(num_points, kGrey);
-    scene.errors_px.assign(num_points, -1.0);
-    scene.point_ids.resize(num_points);
-    std::iota(scene.point_ids.begin(), scene.point_ids.end(), 0U);
+    take_attributes(std::move(cloud), scene);
     return scene;
 }
 

@@ -1,8 +1,11 @@
 #include "io/input/find_input.h"
 
+#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_scanners.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <system_error>
 #include <utility>
@@ -35,8 +38,99 @@ fs::path visibility_of(const fs::path& cloud, const PointsOptions& options)
     return beside += ".vis";
 }
 
+/// What a file tells of scanners; nothing of one that cannot be read, which reading tells of.
+PlyScanners scanners_of(const fs::path& cloud)
+{
+    try {
+        return scanners_in(read_ply_header(cloud));
+    } catch (const InputError&) {
+        return PlyScanners::none;
+    }
+}
+
+/// Whether a cloud is a scan: its scanners are known, and the user asks for no other sights. PCL
+/// writes a camera into every cloud, so that one counts only where no file tells of views.
+bool is_scan(const fs::path& cloud, const PointsOptions& options)
+{
+    if (options.scanner) return true;
+    if (!options.visibility.empty() || options.sights == SightsFrom::nearest) return false;
+    const PlyScanners scanners = scanners_of(cloud);
+    return scanners == PlyScanners::each ||
+           (scanners == PlyScanners::one_for_all && !is_file(visibility_of(cloud, options)));
+}
+
+/// Refuses options that cannot go with --scanner.
+void check_scanner(const fs::path& cloud, const PointsOptions& options)
+{
+    if (!options.scanner) return;
+    const std::string given = fmt::format("--scanner {}", fmt::join(*options.scanner, ","));
+    if (!options.visibility.empty() || options.sights == SightsFrom::nearest) {
+        throw UsageError(fmt::format(
+            "{} says from where the points were measured, so it cannot go with {}", given,
+            options.visibility.empty() ? "--sights nearest"
+                                       : "--visibility " + options.visibility.string()));
+    }
+    if (scanners_of(cloud) == PlyScanners::each) {
+        throw UsageError(fmt::format("{} is one place for all points, but {} tells itself where "
+                                     "the scanner of each stood",
+                                     given, cloud.string()));
+    }
+}
+
+/// Which scanners are taken, as a sentence.
+std::string note_on_scan(const fs::path& cloud, const PointsOptions& options)
+{
+    const std::string points = fmt::format("the points are those of {}, ", cloud.string());
+    if (options.scanner) {
+        return points +
+               fmt::format("measured by a scanner at {}", fmt::join(*options.scanner, ", "));
+    }
+    if (scanners_of(cloud) == PlyScanners::each) {
+        return points + "measured by the scanners of which it tells at every point";
+    }
+    return points + "measured by a scanner where its element camera stands";
+}
+
+FoundInput scan_input(FoundModel model, const fs::path& cloud, const PointsOptions& options)
+{
+    check_scanner(cloud, options);
+    if (!is_file(cloud)) {
+        throw InputError(fmt::format("{}: the file does not exist, so there are no points of a "
+                                     "scanner to take",
+                                     cloud.string()));
+    }
+    std::string note = note_on_scan(cloud, options);
+    const fs::path visibility = visibility_of(cloud, options);
+    if (!model.folder.empty()) {
+        note += fmt::format("; the views of {} are left out", model.folder.string());
+    } else if (is_file(visibility)) {
+        note += fmt::format("; {} is left out, --visibility takes it", visibility.string());
+    }
+    std::vector<std::string> notes = model.notes;
+    notes.push_back(note);
+    return {std::move(model), std::nullopt, ScanFile{cloud, options.scanner}, std::move(notes)};
+}
+
+/// The model that a cloud lies in.
+FoundModel model_around(const fs::path& cloud)
+{
+    try {
+        return find_model(cloud.has_parent_path() ? cloud.parent_path() : fs::path("."));
+    } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("{}; {} tells of no scanner's places either, where it could do "
+                        "without a model (--scanner x,y,z tells of one)",
+                        error.what(), cloud.string()));
+    }
+}
+
 FoundInput sparse_input(FoundModel model, const PointsOptions& options)
 {
+    if (options.scanner) {
+        throw UsageError(fmt::format("--scanner {} says from where the points of a PLY file were "
+                                     "measured, but the sparse points of {} are taken",
+                                     fmt::join(*options.scanner, ","), model.folder.string()));
+    }
     if (!options.visibility.empty()) {
         throw UsageError(fmt::format("--visibility {} tells which views saw the points of a cloud, "
                                      "but the sparse points of {} are taken",
@@ -49,7 +143,7 @@ FoundInput sparse_input(FoundModel model, const PointsOptions& options)
                         model.folder.string()));
     }
     std::vector<std::string> notes = model.notes;
-    return {std::move(model), std::nullopt, std::move(notes)};
+    return {std::move(model), std::nullopt, std::nullopt, std::move(notes)};
 }
 
 /// Which cloud was taken, as a sentence.
@@ -66,6 +160,7 @@ std::string note_on(const DenseFiles& files)
 
 FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOptions& options)
 {
+    if (is_scan(cloud, options)) return scan_input(std::move(model), cloud, options);
     if (options.sights == SightsFrom::nearest && !options.visibility.empty()) {
         throw UsageError(fmt::format("--sights nearest reads no file, so it cannot go with "
                                      "--visibility {}",
@@ -86,7 +181,7 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
     std::vector<std::string> notes = model.notes;
     DenseFiles files{model.folder, model.format, cloud, visibility};
     notes.push_back(note_on(files));
-    return {std::move(model), std::move(files), std::move(notes)};
+    return {std::move(model), std::move(files), std::nullopt, std::move(notes)};
 }
 
 /// A cloud of the workspace around a model, for which the user could have asked.
@@ -109,7 +204,8 @@ FoundInput look_for_points(FoundModel model, const fs::path& input, const Points
         mention_other_cloud(input, found);
         return found;
     }
-    const bool is_told = !options.visibility.empty() || options.sights == SightsFrom::nearest;
+    const bool is_told = !options.visibility.empty() || options.sights == SightsFrom::nearest ||
+                         is_scan(fused, options);
     if (is_told || is_file(visibility_of(fused, options))) {
         FoundInput found = dense_input(std::move(model), fused, options);
         found.notes.back() += "; --points sparse takes the sparse ones";
@@ -133,8 +229,8 @@ FoundInput find_input(const fs::path& input, const PointsOptions& options)
                                          "cloud itself",
                                          options.points, input.string()));
         }
-        const fs::path folder = input.has_parent_path() ? input.parent_path() : fs::path(".");
-        return dense_input(find_model(folder), input, options);
+        if (is_scan(input, options)) return scan_input({}, input, options);
+        return dense_input(model_around(input), input, options);
     }
     FoundModel model = find_model(input);
     if (options.points.empty()) return look_for_points(std::move(model), input, options);

@@ -2,6 +2,7 @@
 
 #include "io/colmap/find_model.h"
 #include "io/dense/dense_scene.h"
+#include "io/dense/scan_scene.h"
 #include "vcarve/io.h"
 
 #include <filesystem>
@@ -11,10 +12,12 @@
 
 namespace vcarve {
 
-/// What is read: a model with its own points, or its views with the points of a cloud.
+/// What is read: a model with its own points, or its views with the points of a cloud, or a scan,
+/// which needs no model.
 struct FoundInput {
-    FoundModel model;
+    FoundModel model; ///< without a folder where there is none beside a scan
     std::optional<DenseFiles> dense;
+    std::optional<ScanFile> scan;
     std::vector<std::string> notes; ///< sentences: what was taken and what not
 };
 

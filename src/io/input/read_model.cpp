@@ -11,12 +11,14 @@ namespace {
 
 std::optional<SceneSize> expected_size(const FoundInput& found)
 {
+    if (found.scan) return scan_size_before_reading(*found.scan);
     if (found.dense) return dense_size_before_reading(*found.dense);
     return size_before_reading(found.model.folder, found.model.format);
 }
 
 Scene scene_of(const FoundInput& found, const Progress& progress)
 {
+    if (found.scan) return read_scan_scene(*found.scan, progress);
     if (found.dense) return read_dense_scene(*found.dense, progress);
     return read_colmap_model(found.model.folder, found.model.format, progress);
 }

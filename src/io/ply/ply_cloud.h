@@ -16,15 +16,24 @@ struct PointCloud {
     std::vector<Eigen::Vector3d> positions; ///< offset added; also those that are not finite
     std::vector<Eigen::Vector3f> normals;   ///< optional: as they stand in the file
     std::vector<Color> colors;              ///< optional
+    /// Where the scanners stood, offset added: one a point, or one for all of them. Finite, but of
+    /// points that are not.
+    std::vector<Eigen::Vector3d> scanners;
 };
+
+/// What is read of where the scanners stood.
+enum class ReadScanners { no, yes };
 
 /// Reads the vertices of an ascii, little endian or big endian PLY file, numbers of any type; text
 /// is read with all its digits, also where the header calls it float. Other properties and elements
-/// before them are skipped; what follows them is not read. Throws InputError: no such file, not
-/// PLY, cut off, no vertices with x, y and z; and Cancelled. Cost: linear in the size of the file,
-/// which is mapped, and in parallel where every vertex takes as many bytes, in binary files without
-/// lists; allocations never exceed a small multiple of it.
-PointCloud read_ply_cloud(const std::filesystem::path& path, const Progress& progress = {});
+/// before them are skipped; what follows all that is asked for is not read. Throws InputError: no
+/// such file, not PLY, cut off, no vertices with x, y and z; where the scanners are asked for and
+/// the file has some (see scanners_in), less than three coordinates of them, or one that is no
+/// finite number, or not one camera; and Cancelled. Cost: linear in the size of the file, which is
+/// mapped, and in parallel where every vertex takes as many bytes, in binary files without lists;
+/// allocations never exceed a small multiple of it.
+PointCloud read_ply_cloud(const std::filesystem::path& path, const Progress& progress = {},
+                          ReadScanners scanners = ReadScanners::no);
 
 /// Only the header of a file. Throws InputError. Cost: none.
 PlyHeader read_ply_header(const std::filesystem::path& path);

@@ -21,8 +21,9 @@ std::uint8_t channel(double value, PlyType type)
 
 PlyVertexLayout::PlyVertexLayout(const PlyElement& vertices)
 {
+    const PlyNames& scanner = names_of_scanner(vertices);
     for (const PlyProperty& property : vertices.properties) {
-        const Slot slot = slot_of(property);
+        const Slot slot = slot_of(property, scanner);
         properties_.push_back({property, slot});
         if (slot >= Slot::red && slot <= Slot::blue) {
             channel_types_[static_cast<std::size_t>(slot) - static_cast<std::size_t>(Slot::red)] =
@@ -31,15 +32,20 @@ PlyVertexLayout::PlyVertexLayout(const PlyElement& vertices)
     }
 }
 
-PlyVertexLayout::Slot PlyVertexLayout::slot_of(const PlyProperty& property)
+PlyVertexLayout::Slot PlyVertexLayout::slot_of(const PlyProperty& property, const PlyNames& scanner)
 {
+    if (property.length_type) return Slot::none;
+    const auto* const place = std::ranges::find(scanner, property.name);
+    if (place != scanner.end()) {
+        return static_cast<Slot>(static_cast<int>(Slot::scanner_x) + (place - scanner.begin()));
+    }
     constexpr std::array<std::string_view, 9> kNames{"x",  "y",   "z",     "nx",  "ny",
                                                      "nz", "red", "green", "blue"};
     constexpr std::string_view kDiffuse = "diffuse_";
     std::string_view name = property.name;
     if (name.starts_with(kDiffuse)) name.remove_prefix(kDiffuse.size());
     const auto* const found = std::ranges::find(kNames, name);
-    return property.length_type ? Slot::none : static_cast<Slot>(found - kNames.begin());
+    return found == kNames.end() ? Slot::none : static_cast<Slot>(found - kNames.begin());
 }
 
 bool PlyVertexLayout::has_three_from(Slot first) const
@@ -55,6 +61,7 @@ PlyVertex PlyVertexLayout::vertex_of(const Values& values) const
 {
     PlyVertex vertex;
     vertex.position = {values[0], values[1], values[2]};
+    vertex.scanner = {values[9], values[10], values[11]};
     vertex.normal = Eigen::Vector3d(values[3], values[4], values[5]).cast<float>();
     for (std::size_t i = 0; i < vertex.color.size(); ++i) {
         vertex.color[i] = channel(values[6 + i], channel_types_[i]);

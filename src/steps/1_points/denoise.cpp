@@ -85,7 +85,7 @@ class Neighborhoods {
 };
 
 /// How uncertain a point is if each of its sights is in error by one pixel; zero where they do not
-/// cross.
+/// cross. Of a scanner's sight the range is in error, too, by as much as a pixel covers there.
 Matrix3d covariance_of_a_pixel(const Scene& scene, std::size_t point,
                                const std::vector<double>& focals_px)
 {
@@ -95,6 +95,10 @@ Matrix3d covariance_of_a_pixel(const Scene& scene, std::size_t point,
         const Vector3d sight = scene.positions[point] - view.center;
         const double distance_sq = sight.squaredNorm();
         const double pixels_sq = focals_px[view.camera] * focals_px[view.camera] / distance_sq;
+        if (scene.cameras[view.camera].measures_range) {
+            information += pixels_sq * Matrix3d::Identity();
+            continue;
+        }
         information += pixels_sq * (Matrix3d::Identity() - sight * sight.transpose() / distance_sq);
     }
     const double scale = information.trace() / 3.0;

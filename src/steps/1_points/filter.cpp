@@ -2,6 +2,7 @@
 
 #include "base/index_limit.h"
 #include "base/parallel.h"
+#include "model/measured_range.h"
 #include "model/scene_points.h"
 #include "model/united_views.h"
 #include "steps/1_points/lexicographic_sort.h"
@@ -93,14 +94,15 @@ enum class Verdict : std::uint8_t { keep, few_views, high_error, low_angle };
 Verdict judge(const Scene& scene, std::uint32_t point, std::span<const std::uint32_t> track,
               const FilterOptions& options)
 {
-    if (track.size() < static_cast<std::size_t>(options.min_views)) {
+    const bool has_range = has_measured_range(scene, track);
+    if (!has_range && track.size() < static_cast<std::size_t>(options.min_views)) {
         return Verdict::few_views;
     }
     if (options.max_error_px > 0.0 && scene.errors_px[point] > options.max_error_px) {
         return Verdict::high_error;
     }
     const double min_angle_rad = options.min_angle_deg * std::numbers::pi / 180.0;
-    if (min_angle_rad > 0.0 &&
+    if (min_angle_rad > 0.0 && !has_range &&
         !sees_from_wide_enough(scene, scene.positions[point], track, min_angle_rad)) {
         return Verdict::low_angle;
     }

@@ -1,5 +1,7 @@
 #include "steps/3_visibility/sight_weights.h"
 
+#include "model/measured_range.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -30,10 +32,17 @@ SightWeights::SightWeights(const Scene& scene, const Scales& scales, const Trace
 
 std::int32_t SightWeights::full_weight(Index point, double weight) const
 {
-    const auto views = static_cast<double>(scene_.tracks[point].size());
-    const double by_views = views_weight(views, options_.views_sigma);
-    weight *= by_views / full_ * by_error(scene_.errors_px[point]);
+    weight *= by_views(scene_.tracks[point]) * by_error(scene_.errors_px[point]);
     return static_cast<std::int32_t>(std::lround(kUnit * weight));
+}
+
+/// A measured range needs no second view that agrees.
+double SightWeights::by_views(std::span<const std::uint32_t> track) const
+{
+    if (has_measured_range(scene_, track)) {
+        return 1.0;
+    }
+    return views_weight(static_cast<double>(track.size()), options_.views_sigma) / full_;
 }
 
 /// Errors up to the median one, and unknown ones, take nothing away.

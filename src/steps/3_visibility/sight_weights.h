@@ -6,11 +6,13 @@
 #include "vcarve/scene.h"
 
 #include <cstdint>
+#include <span>
 
 namespace vcarve {
 
 /// Says what a sight weighs by the point it leads to: more with more views, less with a larger
-/// reprojection error. `scene` and `options` must outlive it. Cost: O(1).
+/// reprojection error; to a point that a scanner measured, as much as to one of the median of
+/// views. `scene` and `options` must outlive it. Cost: O(1).
 class SightWeights {
   public:
     static constexpr std::int32_t kUnit = 256; ///< steps of one sight of full weight
@@ -21,6 +23,7 @@ class SightWeights {
     std::int32_t full_weight(Index point, double weight = 1.0) const;
 
   private:
+    double by_views(std::span<const std::uint32_t> track) const;
     double by_error(double error_px) const;
 
     const Scene& scene_;

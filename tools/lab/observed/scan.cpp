@@ -1,0 +1,133 @@
+#include "observed/scan.h"
+
+#include "compare/surface_tree.h"
+#include "random.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+namespace vcarve::observed {
+
+namespace {
+
+using bench::Random;
+using Eigen::Vector3d;
+
+Vector3d direction(double turn_rad, double elevation_rad)
+{
+    return {std::cos(elevation_rad) * std::cos(turn_rad),
+            std::cos(elevation_rad) * std::sin(turn_rad), std::sin(elevation_rad)};
+}
+
+/// Measures along one beam after the other.
+class Scanner {
+  public:
+    explicit Scanner(const TriMesh& surface) : tree_(surface) {}
+
+    void measure(const Beam& beam, Scan& scan)
+    {
+        constexpr double kHalfWidth = 0.0015;
+        constexpr double kNoise = 0.003;
+        constexpr double kFalse = 1.0 / 200.0;
+        constexpr double kShortest = 0.3;
+        // As many random numbers a beam, whatever it meets.
+        const Vector3d aside = kHalfWidth * random_.direction();
+        const double noise = kNoise * random_.normal();
+        const double mix = random_.uniform();
+        const double false_share = random_.uniform(kShortest, 1.0);
+        const bool is_false = random_.uniform() < kFalse;
+        const auto middle = tree_.first_hit(beam.from, beam.from + beam.way);
+        const auto edge = tree_.first_hit(beam.from, beam.from + beam.way + aside);
+        if (!middle) return;
+        double range = middle->along + noise;
+        if (edge && is_another(middle->along, edge->along)) {
+            range = (1.0 - mix) * middle->along + mix * edge->along;
+        }
+        if (is_false) range *= false_share;
+        scan.positions.push_back(beam.from + range * beam.way);
+        scan.scanners.push_back(beam.from);
+    }
+
+  private:
+    static bool is_another(double a, double b)
+    {
+        constexpr double kStep = 0.03; // of the range
+        return std::abs(a - b) > kStep * std::max(a, b);
+    }
+
+    SurfaceTree tree_;
+    Random random_{3};
+};
+
+} // namespace
+
+std::vector<Beam> tripod_beams(const Vector3d& place, std::size_t count)
+{
+    constexpr double kLowest = -std::numbers::pi / 3.0;
+    constexpr double kHeight = std::numbers::pi / 2.0 - kLowest;
+    const double step = std::sqrt(2.0 * std::numbers::pi * kHeight / static_cast<double>(count));
+    const auto rows = static_cast<int>(kHeight / step);
+    const auto columns = static_cast<int>(2.0 * std::numbers::pi / step);
+    std::vector<Beam> beams;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const double turn = 2.0 * std::numbers::pi * column / columns;
+            beams.push_back({place, direction(turn, kLowest + kHeight * (row + 0.5) / rows)});
+        }
+    }
+    return beams;
+}
+
+std::vector<Beam> carried_beams(const std::vector<Vector3d>& path, std::size_t count)
+{
+    constexpr double kBeamsARound = 1000.0;
+    const Vector3d ahead = (path[1] - path[0]).normalized();
+    const Vector3d up = Vector3d::UnitZ();
+    const Vector3d askew = (ahead + ahead.cross(up)).normalized();
+    std::vector<Beam> beams;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double along =
+            static_cast<double>(i * (path.size() - 1)) / static_cast<double>(count);
+        const auto stretch = static_cast<std::size_t>(along);
+        const double share = along - static_cast<double>(stretch);
+        const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / kBeamsARound;
+        beams.push_back({(1.0 - share) * path[stretch] + share * path[stretch + 1],
+                         std::cos(turn) * askew + std::sin(turn) * up});
+    }
+    return beams;
+}
+
+Scan scan(const TriMesh& surface, const std::vector<Beam>& beams)
+{
+    Scanner scanner(surface);
+    Scan result;
+    for (const Beam& beam : beams) {
+        scanner.measure(beam, result);
+    }
+    return result;
+}
+
+void write_scan(const std::filesystem::path& path, const Scan& scan, double step)
+{
+    std::ofstream file(path, std::ios::binary);
+    file << "ply\nformat binary_little_endian 1.0\nelement vertex " << scan.positions.size();
+    for (const char* name : {"x", "y", "z", "x_origin", "y_origin", "z_origin"}) {
+        file << "\nproperty float " << name;
+    }
+    file << "\nend_header\n";
+    const auto put = [&](double value) {
+        const auto number =
+            static_cast<float>(step > 0.0 ? step * std::round(value / step) : value);
+        file.write(reinterpret_cast<const char*>(&number), sizeof(number));
+    };
+    for (std::size_t i = 0; i < scan.positions.size(); ++i) {
+        std::ranges::for_each(scan.positions[i], put);
+        std::ranges::for_each(scan.scanners[i], put);
+    }
+}
+
+} // namespace vcarve::observed
