@@ -51,19 +51,20 @@ int main(int count, char** words)
     if (count != 2) return 2;
     try {
         vcarve::Scene scene;
-        // It looks all round: COLMAP's equirectangular lens.
-        scene.cameras.push_back(
-            {.id = 1, .model = 17, .width_px = 4000, .height_px = 2000, .params = {4000, 2000}});
+        // It looks all round, COLMAP's equirectangular lens, and one view tells where a point is.
+        scene.cameras.push_back({.id = 1,
+                                 .model = 17,
+                                 .width_px = 4000,
+                                 .height_px = 2000,
+                                 .params = {4000, 2000},
+                                 .measures_range = true});
         for (const Eigen::Vector3d& place :
              {Eigen::Vector3d(0.8, 0.7, 1.4), Eigen::Vector3d(3.2, 0.6, 1.2),
               Eigen::Vector3d(3.1, 2.3, 1.6), Eigen::Vector3d(0.7, 2.4, 1.1)}) {
             add_scan(place, scene);
         }
-        vcarve::Options options;
-        options.points.min_views = 1; // each point is measured from one place
-        options.points.min_angle_deg = 0.0;
         vcarve::Log silent;
-        const vcarve::TriMesh mesh = vcarve::reconstruct(std::move(scene), options, silent).mesh;
+        const vcarve::TriMesh mesh = vcarve::reconstruct(std::move(scene), {}, silent).mesh;
         vcarve::write_ply(words[1], mesh, {});
         std::cout << mesh.faces.size() << " faces\n";
     } catch (const std::exception& error) {

@@ -97,6 +97,8 @@ TEST(MeanFocals, AreTheMeansOrTheLargerSideOfTheImage)
     const Camera pinhole = {.model = 1, .width_px = 8, .height_px = 6, .params = {100, 200, 4, 3}};
     const Camera unknown = {.model = -1, .width_px = 80, .height_px = 60, .params = {}};
     EXPECT_EQ(mean_focals_px({simple, pinhole, unknown}), (std::vector<double>{100, 150, 80}));
+    const Camera panorama{.model = 17, .width_px = 400, .height_px = 200, .params = {400, 200}};
+    EXPECT_EQ(mean_focals_px({panorama})[0], 400 / (2.0 * std::numbers::pi));
 }
 
 // ---- by hand

@@ -97,6 +97,23 @@ TEST(DenoisePoints, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
     EXPECT_EQ(report.moved, static_cast<std::int64_t>(scene.num_points()));
 }
 
+TEST(DenoisePoints, NeedsNoSecondViewWhereTheRangeWasMeasured)
+{
+    Scene scene = ground(0.4, flat);
+    Scene scanned = scene;
+    scanned.cameras[0].measures_range = true;
+    scanned.tracks = {};
+    for (std::uint32_t i = 0; i < scene.num_points(); ++i) {
+        scanned.tracks.push_back(std::array<std::uint32_t, 1>{0});
+    }
+    Scene photographed = scanned;
+    photographed.cameras[0].measures_range = false;
+    const double before = rms(scene);
+    EXPECT_GT(denoise_points(scanned, {}).moved, 2000);
+    EXPECT_LT(rms(scanned), 0.5 * before);
+    EXPECT_EQ(denoise_points(photographed, {}).moved, 0);
+}
+
 TEST(DenoisePoints, TakesTheNormalsOfTheCloud)
 {
     Scene scene = ground(0.4, flat);

@@ -49,6 +49,20 @@ TEST(Filter, DropsEachBadPointForItsOwnReason)
     EXPECT_EQ(result.report.duplicate, 0);
 }
 
+TEST(Filter, AsksForNoSecondViewWhereTheRangeWasMeasured)
+{
+    Scene scene = make_scene(kCenters, {{{2, 0, 0}, {0}}, {{3, 0, 0}, {0, 2}}, {{4, 0, 0}, {1}}});
+    scene.cameras.push_back(scene.cameras.front());
+    scene.cameras.back().measures_range = true;
+    scene.views[0].camera = static_cast<std::uint32_t>(scene.cameras.size() - 1);
+    FilterOptions strict;
+    strict.min_views = 3;
+    strict.min_angle_deg = 45.0;
+    const FilteredPoints result = filter_points(scene, strict);
+    EXPECT_EQ(result.scene.point_ids, (std::vector<std::uint64_t>{1, 2}));
+    EXPECT_EQ(result.report.few_views, 1);
+}
+
 TEST(Filter, DropsNothingButNonFinitePointsWhenSwitchedOff)
 {
     Scene scene =

@@ -163,5 +163,89 @@ TEST_F(FindInput, RefusesOptionsThatContradictEachOther)
               "--sights nearest reads no file, so it cannot go with --visibility a.vis");
 }
 
+/// A scan in the workspace, with views beside it that saw its points.
+class FindScan : public FindInput {
+  protected:
+    /// A fixture as the cloud scan.ply of the workspace.
+    void take(const char* format)
+    {
+        fs::copy(fs::path(VCARVE_FIXTURES) / "formats" / format / "scan.ply", scan);
+    }
+    std::string taken_scan() const { return "the points are those of " + scan.string() + ", "; }
+
+    fs::path scan = dense / "scan.ply";
+};
+
+TEST_F(FindScan, TakesTheScannersOfThePointsBeforeAnyViews)
+{
+    take("scan_origin");
+    const fs::path views = folder.write("dense/scan.ply.vis", "");
+    const FoundInput found = find_input(scan, {});
+    ASSERT_TRUE(found.scan);
+    EXPECT_EQ(found.scan->cloud, scan);
+    EXPECT_FALSE(found.scan->scanner);
+    const std::string by_each = "measured by the scanners of which it tells at every point; ";
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() + by_each + views.string() +
+                                         " is left out, --visibility takes it"));
+    const FoundInput beside = find_input(dense, {.points = scan});
+    EXPECT_TRUE(beside.scan);
+    EXPECT_THAT(beside.notes, ElementsAre(taken_scan() + by_each + "the views of " +
+                                          (dense / "sparse").string() + " are left out"));
+}
+
+TEST_F(FindScan, TakesTheViewsThatAreAskedFor)
+{
+    take("scan_origin");
+    const FoundInput nearest =
+        find_input(scan, {.points = {}, .visibility = {}, .sights = SightsFrom::nearest});
+    EXPECT_FALSE(nearest.scan);
+    EXPECT_TRUE(nearest.dense);
+    EXPECT_EQ(find_input(scan, {.points = {}, .visibility = visibility}).dense->visibility,
+              visibility);
+}
+
+TEST_F(FindScan, TakesPclsCameraWhereNoFileTellsOfViews)
+{
+    take("scan_camera");
+    const FoundInput found = find_input(scan, {});
+    EXPECT_TRUE(found.scan);
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() +
+                                         "measured by a scanner where its element camera stands"));
+    folder.write("dense/scan.ply.vis", "");
+    EXPECT_TRUE(find_input(scan, {}).dense);
+}
+
+TEST_F(FindScan, TakesTheScannerThatIsGiven)
+{
+    take("scan_camera");
+    const FoundInput found = find_input(scan, {.scanner = Eigen::Vector3d(1, 2.5, -3)});
+    EXPECT_EQ(found.scan->scanner, Eigen::Vector3d(1, 2.5, -3));
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() + "measured by a scanner at 1, 2.5, -3"));
+    EXPECT_TRUE(find_input(dense, {.points = "dense", .scanner = Eigen::Vector3d::Zero()}).scan);
+}
+
+TEST_F(FindScan, RefusesAScannerThatCannotBeMeant)
+{
+    take("scan_origin");
+    const Eigen::Vector3d place(1, 2.5, -3);
+    EXPECT_EQ(misused(scan, {.scanner = place}),
+              "--scanner 1,2.5,-3 is one place for all points, but " + scan.string() +
+                  " tells itself where the scanner of each stood");
+    EXPECT_EQ(
+        misused(scan,
+                {.points = {}, .visibility = {}, .sights = SightsFrom::nearest, .scanner = place}),
+        "--scanner 1,2.5,-3 says from where the points were measured, so it cannot go with "
+        "--sights nearest");
+    EXPECT_EQ(misused(scan, {.points = {}, .visibility = "a.vis", .scanner = place}),
+              "--scanner 1,2.5,-3 says from where the points were measured, so it cannot go with "
+              "--visibility a.vis");
+    EXPECT_EQ(misused(dense / "sparse", {.scanner = place}),
+              "--scanner 1,2.5,-3 says from where the points of a PLY file were measured, but the "
+              "sparse points of " +
+                  (dense / "sparse").string() + " are taken");
+    EXPECT_EQ(refused(dense, {.points = "none.ply", .scanner = place}),
+              "none.ply: the file does not exist, so there are no points of a scanner to take");
+}
+
 } // namespace
 } // namespace vcarve

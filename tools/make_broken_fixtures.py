@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Writes fixtures/broken, fixtures/broken_dense, fixtures/degenerate and fixtures/formats: small
-COLMAP models and dense workspaces by name.
+"""Writes fixtures/broken, fixtures/broken_dense, fixtures/broken_scans, fixtures/degenerate and
+fixtures/formats: small COLMAP models, dense workspaces and laser scans by name.
 
 Usage: tools/make_broken_fixtures.py [FIXTURES]
 
@@ -313,6 +313,69 @@ def dense_formats():
     }
 
 
+# ---- laser scans ---------------------------------------------------------------------------------
+
+PLACE = ("float x", "float y", "float z")
+ORIGIN = ("float x_origin", "float y_origin", "float z_origin")
+SCAN = PLACE + ORIGIN
+# Two scanners, at (0, 0, 1) and (8, 0, 1); three points of the first, one of the second.
+SCAN_VERTICES = [(2.0, 0.5, 1.0, 0.0, 0.0, 1.0), (2.0, -0.5, 1.25, 0.0, 0.0, 1.0),
+                 (6.0, 0.5, 0.75, 8.0, 0.0, 1.0), (2.0, 0.0, 3.0, 0.0, 0.0, 1.0)]
+PCL_CAMERA = ("float view_px", "float view_py", "float view_pz", "float x_axisx", "int viewportx")
+PCL_ENTRY = (0.0, 0.0, 1.0, 1.0, 4)
+
+
+def with_camera(encoding="binary_little_endian", properties=PCL_CAMERA, entries=(PCL_ENTRY,)):
+    """The points of SCAN_VERTICES and where their scanner stood, as PCL writes it behind them."""
+    points = fused_ply([v[:3] for v in SCAN_VERTICES], encoding, PLACE)
+    declared = ("element camera %d\n" % len(entries)
+                + "".join("property %s\n" % p for p in properties)).encode()
+    return points.replace(b"end_header\n", declared + b"end_header\n") + b"".join(
+        ply_entry(encoding, properties, entry) for entry in entries)
+
+
+def broken_scans():
+    """Name -> file; every one must be refused with a sentence of its own."""
+    def at_third(place):
+        return fused_ply([(*v[:3], *place) if k == 2 else v
+                          for k, v in enumerate(SCAN_VERTICES)], properties=SCAN)
+    return {
+        "camera_ends": with_camera()[:-6],
+        "camera_infinite": with_camera(entries=((0.0, math.inf, 1.0, 1.0, 4),)),
+        "camera_twice": with_camera(entries=(PCL_ENTRY, PCL_ENTRY)),
+        "camera_x_only": with_camera(properties=("float view_px",), entries=((0.0,),)),
+        "origin_infinite": at_third((8.0, 0.0, -math.inf)),
+        "origin_nan": at_third((math.nan, 0.0, 1.0)),
+        "origin_without_z": fused_ply([v[:5] for v in SCAN_VERTICES], properties=SCAN[:5]),
+        "scanner_y_only": fused_ply([v[:4] for v in SCAN_VERTICES],
+                                    properties=PLACE + ("float scanner_y",)),
+        "vertices_end": fused_ply(SCAN_VERTICES, properties=SCAN)[:-4],
+    }
+
+
+def scan_formats():
+    """The same points in several ways, measured by two scanners or by the first alone."""
+    words = PLACE + ("double scanner_x", "double scanner_y", "double scanner_z")
+    shuffled = ("double z_origin", "list uchar ushort samples", "float x", "double x_origin",
+                "float64 z", "double y_origin", "float32 y")
+    lists = [(sz, [1] * k, x, sx, z, sy, y)
+             for k, (x, y, z, sx, sy, sz) in enumerate(SCAN_VERTICES)]
+    before = with_camera("ascii").split(b"end_header\n")
+    camera = before[1].splitlines(True)[-1]
+    header = before[0].replace(b"element vertex", b"@").split(b"@")
+    vertex, declared = header[1].split(b"element camera")
+    return {
+        "scan_camera": with_camera(),
+        "scan_camera_ascii_first": header[0] + b"element camera" + declared + b"element vertex"
+                                   + vertex + b"end_header\n" + camera
+                                   + before[1][:-len(camera)],
+        "scan_camera_big": with_camera("binary_big_endian"),
+        "scan_origin": fused_ply(SCAN_VERTICES, properties=SCAN),
+        "scan_origin_big_lists": fused_ply(lists, "binary_big_endian", shuffled),
+        "scan_scanner_ascii": fused_ply(SCAN_VERTICES, "ascii", words),
+    }
+
+
 # ---- degenerate ----------------------------------------------------------------------------------
 
 def cross(a, b):
@@ -493,7 +556,10 @@ def main():
         write_model(fixtures / "broken_dense" / name, files)
     for name, model in degenerate().items():
         write_model(fixtures / "degenerate" / name, text_files(model))
-    for name, files in {**formats(), **dense_formats()}.items():
+    for name, ply in broken_scans().items():
+        write_model(fixtures / "broken_scans" / name, {"scan.ply": ply})
+    scans = {name: {"scan.ply": ply} for name, ply in scan_formats().items()}
+    for name, files in {**formats(), **dense_formats(), **scans}.items():
         write_model(fixtures / "formats" / name, files)
 
 

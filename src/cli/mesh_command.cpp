@@ -272,14 +272,17 @@ Manual mesh_manual()
     manual.examples = {
         {"colmap-vcarve sparse/0 mesh.ply", "the default: a surface from any sparse model"},
         {"colmap-vcarve dense mesh.ply", "from the dense points that stereo_fusion made"},
+        {"colmap-vcarve scan.ply mesh.ply", "from a laser scan that tells of its scanners"},
         {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
         {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
         {"colmap-vcarve --crop auto sparse/0 mesh.ply", "of what was looked at, without the rest"},
     };
     manual.operand_meanings = {
-        {"MODEL", "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
-                  "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
-                  "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken."},
+        {"MODEL",
+         "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
+         "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
+         "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken. Or a PLY file: "
+         "of a dense workspace, or of a laser scan with the places of its scanners."},
         {"OUT.ply",
          "The surface: triangles with colours and normals, in the model's frame. The end "
          "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "

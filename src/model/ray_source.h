@@ -10,8 +10,8 @@
 namespace vcarve {
 
 /// Where rays come from that show space to be free, and which point each of them reaches. The
-/// photographs of a scene are one source and virtual viewpoints another; the positions of a laser
-/// scanner or the pixels of depth maps would be more.
+/// photographs and scanners of a scene are one source and virtual viewpoints another; the pixels of
+/// depth maps would be one more.
 struct RaySource {
     std::vector<Eigen::Vector3d> origins; ///< in the frame of the points
     const Tracks* rays = nullptr;         ///< per point, indices into `origins`; not owned

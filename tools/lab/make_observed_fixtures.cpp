@@ -42,7 +42,7 @@ void make_dense(const std::filesystem::path& folder, const ObservedScene& observ
 /// Four tripods about the middle of the room.
 void make_scan(const std::filesystem::path& folder, const ObservedScene& observed)
 {
-    constexpr std::size_t kPointsAScan = 2000;
+    constexpr std::size_t kPointsAScan = 2500;
     constexpr double kStep = 1e-4;
     std::vector<vcarve::observed::Beam> beams;
     for (const Eigen::Vector3d& place :

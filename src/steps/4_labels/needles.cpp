@@ -40,7 +40,8 @@ std::vector<Index> inside_cells_at(const TetMesh& mesh, const Labels& labels, In
     return cells;
 }
 
-/// How many views a point must have to be held for a good one.
+/// How many views a point must have to be held for a good one. Those that a scanner measured have
+/// fewer, so that they are judged by their shape alone: false echoes are single points, too.
 double enough_views(const Scene& scene)
 {
     constexpr double kFew = 4.0;

@@ -30,9 +30,9 @@ class Scanner {
 
     void measure(const Beam& beam, Scan& scan)
     {
-        constexpr double kHalfWidth = 0.0015;
+        constexpr double kHalfWidth = 0.0003;
         constexpr double kNoise = 0.003;
-        constexpr double kFalse = 1.0 / 200.0;
+        constexpr double kFalse = 1.0 / 400.0;
         constexpr double kShortest = 0.3;
         // As many random numbers a beam, whatever it meets.
         const Vector3d aside = kHalfWidth * random_.direction();
@@ -69,14 +69,17 @@ std::vector<Beam> tripod_beams(const Vector3d& place, std::size_t count)
 {
     constexpr double kLowest = -std::numbers::pi / 3.0;
     constexpr double kHeight = std::numbers::pi / 2.0 - kLowest;
-    const double step = std::sqrt(2.0 * std::numbers::pi * kHeight / static_cast<double>(count));
-    const auto rows = static_cast<int>(kHeight / step);
-    const auto columns = static_cast<int>(2.0 * std::numbers::pi / step);
+    const double area = 2.0 * std::numbers::pi * (1.0 - std::sin(kLowest));
+    const double step = std::sqrt(area / static_cast<double>(count));
+    const auto rows = static_cast<int>(std::lround(kHeight / step));
     std::vector<Beam> beams;
     for (int row = 0; row < rows; ++row) {
+        const double elevation = kLowest + kHeight * (row + 0.5) / rows;
+        const double around = 2.0 * std::numbers::pi * std::cos(elevation);
+        const auto columns = static_cast<int>(std::ceil(around / step));
         for (int column = 0; column < columns; ++column) {
             const double turn = 2.0 * std::numbers::pi * column / columns;
-            beams.push_back({place, direction(turn, kLowest + kHeight * (row + 0.5) / rows)});
+            beams.push_back({place, direction(turn, elevation)});
         }
     }
     return beams;

@@ -16,8 +16,8 @@ struct Beam {
     Eigen::Vector3d way; ///< unit
 };
 
-/// About `count` beams of a scanner on a tripod: rows and columns of equal angles all round, from
-/// 60 degrees down to straight up.
+/// About `count` beams of a scanner on a tripod: rows all round from 60 degrees down to straight
+/// up, the beams of a row as far apart as the rows.
 std::vector<Beam> tripod_beams(const Eigen::Vector3d& place, std::size_t count);
 
 /// `count` beams of a scanner that is carried along a path, once and evenly, turning a thousand
@@ -31,8 +31,8 @@ struct Scan {
 };
 
 /// The points that beams meet. Ranges are off by 3 thousandths (a normal distribution, in the
-/// units of the surface, about metres). A beam is a milliradian and a half wide each way: where its
-/// edge meets something else than its middle, the range is somewhere in between. One range in two
+/// units of the surface, about metres). A beam is 0.3 milliradians wide each way: where its
+/// edge meets something else than its middle, the range is somewhere in between. One range in four
 /// hundred is false, shorter than it should be. The same on every machine, up to rounding.
 Scan scan(const TriMesh& surface, const std::vector<Beam>& beams);
 
