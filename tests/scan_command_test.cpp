@@ -114,8 +114,10 @@ TEST_F(ProgramOnScannedBall, RefusesTwoOpinionsOnWhereTheScannerStood)
 TEST_F(ProgramOnScannedBall, MeasuresMeshesByTheScan)
 {
     EXPECT_EQ(run({scan, out, "--quiet"}).exit_code, 0);
-    EXPECT_THAT(run({"compare", "--quiet", scan, out}).out,
-                HasSubstr("Measured against 650 points "));
+    EXPECT_THAT(
+        run({"compare", "--quiet", scan, out}).out,
+        HasSubstr("Measured against 650 points with at least 2 views or a measured range and 2 "
+                  "views; "));
     const Outcome colmap = run({"compare", "--quiet", scan, "--colmap", "colmap"});
     EXPECT_EQ(colmap.exit_code, 2);
     EXPECT_EQ(colmap.err, "colmap-vcarve: --colmap cannot be told to take the points of " + scan +

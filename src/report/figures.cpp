@@ -1,5 +1,7 @@
 #include "report/figures.h"
 
+#include "model/measured_range.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -274,16 +276,19 @@ bool has_costs(std::span<const Comparison> comparisons)
 
 std::vector<std::string> definitions(const Reference& reference, const std::vector<Figure>& figures)
 {
-    std::vector<std::string> lines = {
-        fmt::format("Measured against {} points with at least 2 views and {} views; spacing of a "
-                    "point = distance to its 6th nearest point.",
-                    reference.scene.num_points(), reference.scene.views.size())};
+    const bool is_scan = has_scanners(reference.scene);
+    std::vector<std::string> lines = {fmt::format(
+        "Measured against {} points with at least {} and {} views; spacing of a "
+        "point = distance to its 6th nearest point.",
+        reference.scene.num_points(), is_scan ? "2 views or a measured range" : "2 views",
+        reference.scene.views.size())};
     if (reference.truth) {
-        lines.push_back(fmt::format("truth: {} samples by area of what at least 3 views see "
+        lines.push_back(fmt::format("truth: {} samples by area of what at least {} see "
                                     "(nothing of the truth between, under 80 degrees from the "
                                     "normal, wherever its image ends; {:.1f} % of its area), seed "
                                     "{}; diagonal = of their box = {:.6g}.",
                                     reference.truth->samples.size(),
+                                    is_scan ? "one view" : "3 views",
                                     100.0 * reference.truth->seen_share, reference.options.seed,
                                     reference.truth->diagonal));
     }
