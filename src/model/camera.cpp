@@ -296,6 +296,7 @@ std::optional<Intrinsics> intrinsics(const Camera& camera)
 std::vector<double> mean_focals_px(const std::vector<Camera>& cameras)
 {
     std::vector<double> focals;
+    focals.reserve(cameras.size());
     for (const Camera& camera : cameras) {
         focals.push_back(mean_focal_px(camera));
     }
