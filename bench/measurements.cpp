@@ -4,12 +4,8 @@
 #include "cli/model_input.h"
 #include "cli/process_usage.h"
 #include "cli/run_record.h"
-#include "io/colmap/colmap_model.h"
 #include "io/files/mapped_file.h"
 #include "pipeline/memory.h"
-#include "steps/1_points/center.h"
-#include "steps/1_points/filter.h"
-#include "steps/1_points/spatial_sort.h"
 #include "vcarve/io.h"
 #include "vcarve/reconstruct.h"
 
@@ -79,25 +75,31 @@ tbb::global_control limit_of(int threads)
                                static_cast<std::size_t>(threads));
 }
 
-/// Returns the size that predictions are made from.
-SceneSize make_surface(const Sample& sample, int threads, Log& log)
+/// What a run read, what predictions of its memory are made from, and the points it triangulated.
+struct Run {
+    SceneSize read;
+    SceneSize thinned;
+    std::vector<Vector3d> triangulated;
+};
+
+Run make_surface(const Sample& sample, int threads, Log& log)
 {
     Options options;
     options.threads = threads;
-    cli::ModelInput input = cli::read_model_input({.path = sample.folder, .points = {}}, log);
-    const SceneSize size = size_of(input.scene);
-    const TriMesh mesh = reconstruct(std::move(input.scene), options, log).mesh;
+    cli::ModelInput input = cli::read_model_input({.path = sample.model, .points = {}}, log);
+    const SceneSize read = size_of(input.scene);
+    Reconstruction made = reconstruct(std::move(input.scene), options, log);
     Stage stage(log, "write");
-    write_ply(sample.folder / "surface.ply", mesh, {});
-    stage.end({{"faces", mesh.faces.size()}});
-    return size;
+    write_ply(sample.scratch / "surface.ply", made.mesh, {});
+    stage.end({{"faces", made.mesh.faces.size()}});
+    return {read, read.is_dense ? size_of(made.scene) : read, std::move(made.scene.positions)};
 }
 
 /// The stages recorded, with their peaks above the base and what was foretold of them.
-Json stages_of(const cli::Json& recorded, const Meter& meter, const SceneSize& size, int threads)
+Json stages_of(const cli::Json& recorded, const Meter& meter, const Run& run, int threads)
 {
     Json stages = Json::array();
-    const std::vector<StageMemory> predicted = predicted_memory(size, size, threads);
+    const std::vector<StageMemory> predicted = predicted_memory(run.read, run.thinned, threads);
     for (const cli::Json& stage : recorded) {
         stages.push_back({{"name", stage["name"]},
                           {"seconds", stage["seconds"]},
@@ -112,21 +114,23 @@ Json stages_of(const cli::Json& recorded, const Meter& meter, const SceneSize& s
 
 } // namespace
 
+void make_model(const std::filesystem::path& folder, Shape shape, std::size_t points)
+{
+    if (std::filesystem::exists(folder)) return;
+    write_colmap_model(folder, make_sample_scene(shape, points, usual_views(points)));
+}
+
 Json prepare(const Sample& sample)
 {
-    if (!std::filesystem::exists(sample.folder)) {
-        write_colmap_model(sample.folder, make_sample_scene(sample.shape, sample.points,
-                                                            usual_views(sample.points)));
-    }
-    const Scene read = read_colmap_model(sample.folder, ModelFormat::binary);
-    const Json sizes = {
-        {"points", read.num_points()}, {"views", read.views.size()}, {"sights", read.num_sights()}};
-    const Scene scene = spatial_sort(filter_points(center_points(read), FilterOptions()).scene);
-    write_raw_points(sample.triangulated(), scene.positions);
-    Json record = {{"shape", name_of(sample.shape)}};
-    record.update(sizes);
-    record["triangulated"] = scene.num_points();
-    return record;
+    std::filesystem::create_directories(sample.scratch);
+    Log silent;
+    const Run run = make_surface(sample, 0, silent);
+    write_raw_points(sample.triangulated(), run.triangulated);
+    return {{"model", sample.model.filename().string()},
+            {"points", run.read.points},
+            {"triangulated", run.triangulated.size()},
+            {"views", run.read.views},
+            {"sights", run.read.sights}};
 }
 
 Json measure_sequential_triangulation(const Sample& sample)
@@ -159,14 +163,14 @@ Json measure_run(const Sample& sample, int threads)
     Log silent;
     const Meter meter;
     cli::StageRecorder recorder(silent);
-    const SceneSize size = make_surface(sample, threads, recorder);
+    const Run run = make_surface(sample, threads, recorder);
     Json result = meter.json();
     result["base_bytes"] = meter.base_bytes();
-    result["predicted_bytes"] = predicted_peak(size, size, threads);
+    result["predicted_bytes"] = predicted_peak(run.read, run.thinned, threads);
     // Each stage began a new peak
     const cli::Json recorded = recorder.json();
     result["peak_bytes"] = meter.above_base(recorded["total"]["peak_memory_bytes"]);
-    result["stages"] = stages_of(recorded["stages"], meter, size, threads);
+    result["stages"] = stages_of(recorded["stages"], meter, run, threads);
     return result;
 }
 

@@ -5,22 +5,23 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
 
 namespace vcarve::bench {
 
-/// A sample model on disk, and the points of it that are triangulated.
+/// A model or dense workspace on disk, and where what is made of it goes.
 struct Sample {
-    Shape shape = Shape::surface;
-    std::size_t points = 0;
-    std::filesystem::path folder; ///< of the model
+    std::filesystem::path model;
+    std::filesystem::path scratch;
 
-    /// The points that pass the filter, as the triangulation gets them: raw doubles.
-    std::filesystem::path triangulated() const { return folder / "triangulated.raw"; }
+    /// The points that a run triangulates, as CGAL gets them: raw doubles.
+    std::filesystem::path triangulated() const { return scratch / "triangulated.raw"; }
 };
 
-/// Makes the model, unless it is there, and the file of its triangulated points. Returns
-/// {"shape", "points", "triangulated", "views", "sights"}.
+/// Writes a model of a sampled surface, unless its folder is there.
+void make_model(const std::filesystem::path& folder, Shape shape, std::size_t points);
+
+/// Runs once and writes the file of triangulated points. Returns {"model", "points",
+/// "triangulated", "views", "sights"}.
 Json prepare(const Sample& sample);
 
 /// Measurements, to be called in a process of their own: {"seconds", "cpu_seconds", "peak_bytes",

@@ -23,6 +23,7 @@ namespace {
 
 struct Arguments {
     std::filesystem::path folder; ///< for models and surfaces
+    std::vector<std::filesystem::path> models; ///< to measure; none: samples are made
     std::string shape = "surface";
     std::vector<std::uint64_t> points = {10'000, 100'000};
     std::vector<int> threads = {1, 2};
@@ -76,16 +77,31 @@ std::string machine_line()
                        known ? loads[0] : -1.0);
 }
 
+/// The models given, or models made of as many points as asked for.
+std::vector<Sample> samples(const Arguments& arguments)
+{
+    std::vector<Sample> result;
+    for (const std::filesystem::path& model : arguments.models) {
+        result.push_back({model, arguments.folder / std::to_string(result.size())});
+    }
+    if (!result.empty()) return result;
+    const Shape shape = shape_named(arguments.shape);
+    for (const std::uint64_t points : arguments.points) {
+        const auto folder = arguments.folder / fmt::format("{}_{}", arguments.shape, points);
+        in_own_process([&] {
+            make_model(folder, shape, points);
+            return Json();
+        });
+        result.push_back({folder, folder});
+    }
+    return result;
+}
+
 void run(const Arguments& arguments)
 {
-    const Shape shape = shape_named(arguments.shape);
     fmt::print("{}\n\n", machine_line());
     Json record = Json::array();
-    for (const std::uint64_t points : arguments.points) {
-        const Sample sample = {.shape = shape,
-                               .points = points,
-                               .folder = arguments.folder /
-                                         fmt::format("{}_{}", arguments.shape, points)};
+    for (const Sample& sample : samples(arguments)) {
         const Json sizes = in_own_process([&] { return prepare(sample); });
         SampleResult result = measure(sample, arguments);
         result.sizes = sizes;
@@ -106,6 +122,8 @@ int main(int count, char** words)
         vcarve::bench::Arguments arguments;
         CLI::App app("Measures colmap-vcarve on sample models.");
         app.add_option("--folder", arguments.folder, "where models are, or are made")->required();
+        app.add_option("--model", arguments.models, "models or dense workspaces, instead of samples")
+            ->check(CLI::ExistingDirectory);
         app.add_option("--shape", arguments.shape, "surface or terrain");
         app.add_option("--points", arguments.points, "sizes of models: 10k,1M")
             ->delimiter(',')

@@ -125,7 +125,7 @@ std::string report(const SampleResult& result)
         "| what | threads | seconds | CPU seconds | peak MB | bytes a point | "
         "predicted / measured | x sequential | x parallel |\n"
         "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-        result.sizes["shape"].get<std::string>(), result.sizes["points"].get<std::size_t>(),
+        result.sizes["model"].get<std::string>(), result.sizes["points"].get<std::size_t>(),
         result.sizes["triangulated"].get<std::size_t>(), result.sizes["sights"].get<std::size_t>(),
         result.sizes["views"].get<std::size_t>());
     text += rows_of_runs(result, points) + '\n';
