@@ -22,7 +22,7 @@ namespace vcarve::bench {
 namespace {
 
 struct Arguments {
-    std::filesystem::path folder; ///< for models and surfaces
+    std::filesystem::path folder;              ///< for models and surfaces
     std::vector<std::filesystem::path> models; ///< to measure; none: samples are made
     std::string shape = "surface";
     std::vector<std::uint64_t> points = {10'000, 100'000};
@@ -122,7 +122,8 @@ int main(int count, char** words)
         vcarve::bench::Arguments arguments;
         CLI::App app("Measures colmap-vcarve on sample models.");
         app.add_option("--folder", arguments.folder, "where models are, or are made")->required();
-        app.add_option("--model", arguments.models, "models or dense workspaces, instead of samples")
+        app.add_option("--model", arguments.models,
+                       "models or dense workspaces, instead of samples")
             ->check(CLI::ExistingDirectory);
         app.add_option("--shape", arguments.shape, "surface or terrain");
         app.add_option("--points", arguments.points, "sizes of models: 10k,1M")

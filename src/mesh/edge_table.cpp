@@ -1,9 +1,10 @@
 #include "mesh/edge_table.h"
 
 #include "base/parallel.h"
+#include "base/row_table.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace vcarve {
 namespace {
@@ -13,18 +14,17 @@ std::uint32_t higher_end(std::span<const Face> faces, HalfEdge half_edge)
     return std::max(tail(faces, half_edge), head(faces, half_edge));
 }
 
-/// Calls visit(lower end, half-edge) for the half-edges of faces that are not degenerate.
-template <typename Visit>
-void for_each_half_edge(std::span<const Face> faces, const Visit& visit)
+/// The half-edges of faces that are not degenerate, by their lower ends.
+RowTable half_edges_by_lower_end(std::span<const Face> faces, std::size_t num_vertices)
 {
-    for (std::size_t face = 0; face < faces.size(); ++face) {
+    return gather_rows(faces.size(), num_vertices, [&](std::size_t face, const auto& visit) {
+        if (is_degenerate(faces[face])) return;
         const auto& [a, b, c] = faces[face];
-        if (is_degenerate(faces[face])) continue;
         const HalfEdge first = static_cast<HalfEdge>(3 * face);
         visit(std::min(a, b), first);
         visit(std::min(b, c), first + 1);
         visit(std::min(c, a), first + 2);
-    }
+    });
 }
 
 /// Sorts the half-edges with one lower end by the higher one, then by number, and flags the first
@@ -47,20 +47,13 @@ void sort_half_edges(std::span<const Face> faces, std::span<HalfEdge> half_edges
 
 EdgeTable gather_edges(std::span<const Face> faces, std::size_t num_vertices)
 {
-    // Counting sort by the lower end.
-    std::vector<std::uint32_t> ends(num_vertices + 1, 0);
-    for_each_half_edge(faces, [&](std::uint32_t lower, HalfEdge) { ++ends[lower + 1]; });
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    auto [ends, half_edges] = half_edges_by_lower_end(faces, num_vertices);
     EdgeTable edges;
-    edges.half_edges.resize(ends.back());
-    for_each_half_edge(faces, [&](std::uint32_t lower, HalfEdge half_edge) {
-        edges.half_edges[ends[lower]++] = half_edge;
-    });
+    edges.half_edges = std::move(half_edges);
 
-    // ends[v] is now where the half-edges of v end. Each vertex sorts its few half-edges by the
-    // higher end.
+    // Each vertex sorts its few half-edges by the higher end.
     std::vector<char> begins_edge(edges.half_edges.size());
-    parallel_for_ranges(num_vertices, [&](std::size_t first, std::size_t last) {
+    parallel_for_ranges(num_vertices, [&, &ends = ends](std::size_t first, std::size_t last) {
         std::vector<std::uint64_t> keys;
         for (std::size_t v = first; v != last; ++v) {
             const std::size_t begin = v == 0 ? 0 : ends[v - 1];

@@ -14,7 +14,7 @@ struct Ball {
 /// The ball that holds what was looked at, whatever lies far behind: 94 % of the sights end in it.
 /// Its centre is the mean of where those end, found in four rounds from the mean of all. It turns
 /// with the scene, unlike a box along the axes. Of radius 0 where there are no sights.
-/// Cost: O(points log points).
+/// Cost: O(points).
 Ball looked_at_ball(const Scene& scene);
 
 } // namespace vcarve

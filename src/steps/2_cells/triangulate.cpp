@@ -3,6 +3,7 @@
 #include "base/freed_memory.h"
 #include "base/index_limit.h"
 #include "base/parallel.h"
+#include "base/row_table.h"
 #include "vcarve/error.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -138,21 +139,15 @@ bool comes_before(const Cell& a, const Cell& b)
 /// The cells in canonical order: binned by smallest vertex, each bin sorted.
 std::vector<Index> canonical_order(const std::vector<Cell>& cells, std::size_t num_vertices)
 {
-    std::vector<Index> ends(num_vertices + 1, 0);
-    for (const Cell& cell : cells) {
-        ++ends[smallest_vertex(cell) + 1];
-    }
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Index> order(cells.size());
-    for (Index i = 0; i < cells.size(); ++i) {
-        order[ends[smallest_vertex(cells[i])]++] = i;
-    }
+    RowTable bins = gather_rows(cells.size(), num_vertices, [&](std::size_t i, const auto& visit) {
+        visit(smallest_vertex(cells[i]), static_cast<Index>(i));
+    });
     parallel_for(num_vertices, [&](std::size_t vertex) {
-        const Index begin = vertex == 0 ? 0 : ends[vertex - 1];
-        std::sort(order.begin() + begin, order.begin() + ends[vertex],
+        const Index begin = vertex == 0 ? 0 : bins.ends[vertex - 1];
+        std::sort(bins.items.begin() + begin, bins.items.begin() + bins.ends[vertex],
                   [&](Index a, Index b) { return comes_before(cells[a], cells[b]); });
     });
-    return order;
+    return std::move(bins.items);
 }
 
 /// Where a cell has another one as neighbour, which is in one place only: cells that shared two

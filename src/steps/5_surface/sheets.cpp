@@ -1,7 +1,6 @@
 #include "steps/5_surface/sheets.h"
 
 #include "base/parallel.h"
-#include "mesh/edge_table.h"
 #include "mesh/local_edges.h"
 #include "mesh/surface_normals.h"
 #include "steps/1_points/looked_at_ball.h"
@@ -83,43 +82,33 @@ bool goes_on(std::size_t face, const SurfaceNormals& normals)
     return normals.cosines(face, kNotKnown)[2] >= kGoesOn;
 }
 
-/// The kept faces at the rim of what is kept, ascending: those with an edge at which a face is not
-/// kept, and those on the hull.
-std::vector<std::uint32_t> rim_faces(const EdgeTable& table, const std::vector<CellFacet>& facets,
-                                     const FaceVisibility& visibility, const FaceFlags& keep)
+/// Whether a face has an edge at which another one is not kept.
+bool is_at_rim(std::uint32_t face, const std::vector<Face>& faces, const VertexFaces& faces_at,
+               const FaceFlags& keep)
 {
-    std::vector<std::uint32_t> rim;
-    for (std::uint32_t face = 0; face < keep.size(); ++face) {
-        if (keep[face] != 0 && visibility.is_on_hull(facets[face])) rim.push_back(face);
-    }
-    for (std::size_t edge = 0; edge < table.size(); ++edge) {
-        const auto is_gone = [&](HalfEdge half_edge) { return keep[half_edge / 3] == 0; };
-        if (std::ranges::none_of(table[edge], is_gone)) continue;
-        for (const HalfEdge half_edge : table[edge]) {
-            if (!is_gone(half_edge)) rim.push_back(half_edge / 3);
-        }
-    }
-    std::ranges::sort(rim);
-    rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
-    return rim;
+    const auto is_gone_at = [&](std::uint32_t from, std::uint32_t to) {
+        return std::ranges::any_of(faces_at[from], [&](std::uint32_t other) {
+            return keep[other] == 0 && std::ranges::count(faces[other], to) > 0;
+        });
+    };
+    const auto& [a, b, c] = faces[face];
+    return is_gone_at(a, b) || is_gone_at(b, c) || is_gone_at(c, a);
 }
 
-/// Whether a kept face has an edge so long.
-bool has_large_face(const TriMesh& boundary, const FaceFlags& keep, double longest)
+/// The kept faces with an edge so long, ascending.
+std::vector<std::uint32_t> large_faces(const TriMesh& boundary, const FaceFlags& keep,
+                                       double longest)
 {
     const auto is_long = [&](std::uint32_t from, std::uint32_t to) {
-        return (boundary.positions[to] - boundary.positions[from]).squaredNorm() >=
-               longest * longest;
+        return (boundary.positions[to] - boundary.positions[from]).norm() >= longest;
     };
-    const auto large =
-        parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t i, auto& found) {
-            const auto& [a, b, c] = boundary.faces[i];
-            if (keep[i] == 0 || !found.empty()) return; // one is enough
-            if (is_long(a, b) || is_long(b, c) || is_long(c, a)) {
-                found.push_back(static_cast<std::uint32_t>(i));
-            }
-        });
-    return !large.empty();
+    return parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t i, auto& large) {
+        const auto& [a, b, c] = boundary.faces[i];
+        if (keep[i] == 0) return;
+        if (is_long(a, b) || is_long(b, c) || is_long(c, a)) {
+            large.push_back(static_cast<std::uint32_t>(i));
+        }
+    });
 }
 
 /// Of some faces those that a question is answered with yes for.
@@ -143,10 +132,9 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
     constexpr int kRounds = 20;
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
-    // A thousandth less, so that no rounding leaves out what is asked more exactly below.
-    constexpr double kSpare = 0.999;
-    if (!has_large_face(boundary, keep, kSpare * long_edge)) return 0;
-    const EdgeTable table = gather_edges(boundary.faces, boundary.positions.size());
+    const std::vector<std::uint32_t> large = large_faces(boundary, keep, long_edge);
+    if (large.empty()) return 0;
+    const VertexFaces faces_at(boundary.faces, boundary.positions.size());
     const KeptFacets is_kept(facets, keep);
     const Onlookers onlookers{visibility, is_kept};
     std::int64_t peeled = 0;
@@ -154,13 +142,14 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
         const LocalEdges edges(boundary.positions, boundary.faces, keep);
         const SurfaceNormals normals(boundary.positions, boundary.faces, edges);
         const auto is_sheet = [&](std::uint32_t face) {
-            if (edges.longest_edge(face) < long_edge) return false;
             const CellFacet& facet = facets[face];
+            if (keep[face] == 0) return false;
+            if (!visibility.is_on_hull(facet) && !is_at_rim(face, boundary.faces, faces_at, keep))
+                return false;
             return (!goes_on(face, normals) || is_mostly_unseen(facet, onlookers)) &&
                    !hides_a_back(facet, onlookers);
         };
-        std::vector<std::uint32_t> sheets = rim_faces(table, facets, visibility, keep);
-        sheets = those_that(sheets, is_sheet);
+        const std::vector<std::uint32_t> sheets = those_that(large, is_sheet);
         for (const std::uint32_t face : sheets) {
             keep[face] = 0;
         }
