@@ -1,10 +1,12 @@
 #pragma once
 
+#include "base/parallel.h"
 #include "vcarve/scene.h"
 
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace vcarve {
 
@@ -18,16 +20,46 @@ inline Scene without_points(const Scene& scene)
     return result;
 }
 
-/// Adds a point of one scene to another with the same views, seen by `views`.
-inline void add_point(const Scene& from, std::size_t point, std::span<const std::uint32_t> views,
-                      Scene& to)
+/// The values at some places, in their order; none where there are no values.
+template <typename Value, typename Places>
+std::vector<Value> values_at(const Places& places, const std::vector<Value>& values)
 {
-    to.positions.push_back(from.positions[point]);
-    to.colors.push_back(from.colors[point]);
-    to.errors_px.push_back(from.errors_px[point]);
-    to.point_ids.push_back(from.point_ids[point]);
-    if (!from.normals.empty()) to.normals.push_back(from.normals[point]);
-    to.tracks.push_back(views);
+    if (values.empty()) return {};
+    std::vector<Value> result(places.size());
+    parallel_for(places.size(), [&](std::size_t i) { result[i] = values[places[i]]; });
+    return result;
+}
+
+/// Tracks of which row i is row_of(i), a span of views.
+template <typename RowOf>
+Tracks make_tracks(std::size_t count, const RowOf& row_of)
+{
+    Tracks tracks;
+    tracks.begins.reserve(count + 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        tracks.begins.push_back(tracks.begins.back() + row_of(i).size());
+    }
+    tracks.views.resize(tracks.begins.back());
+    parallel_for(count, [&](std::size_t i) {
+        std::ranges::copy(row_of(i),
+                          tracks.views.begin() + static_cast<std::ptrdiff_t>(tracks.begins[i]));
+    });
+    return tracks;
+}
+
+/// Some points of a scene in the order given, with all its views; the i-th of them was seen by
+/// track_of(i). Cost: O(points + sights), in parallel.
+template <typename Points, typename TrackOf>
+Scene select_points(const Scene& scene, const Points& points, const TrackOf& track_of)
+{
+    Scene result = without_points(scene);
+    result.positions = values_at(points, scene.positions);
+    result.colors = values_at(points, scene.colors);
+    result.errors_px = values_at(points, scene.errors_px);
+    result.point_ids = values_at(points, scene.point_ids);
+    result.normals = values_at(points, scene.normals);
+    result.tracks = make_tracks(points.size(), track_of);
+    return result;
 }
 
 } // namespace vcarve

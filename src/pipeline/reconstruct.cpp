@@ -59,16 +59,18 @@ void denoise(Scene& scene, const DenoiseOptions& options, Log& log)
                {"thousandths of a pixel of noise", std::llround(1000.0 * report.noise_px)}});
 }
 
-Scene filter(const Scene& scene, const FilterOptions& options, Log& log)
+Scene filter(Scene scene, const FilterOptions& options, Log& log)
 {
     Stage stage(log, "filter");
+    const std::int64_t num_points = size_of(scene.num_points());
     const Progress progress(stage);
     FilteredPoints filtered = filter_points(scene, options, progress.part(0.0, 0.6));
+    scene = Scene(); // two are enough at a time
     progress.tell(0.6);
-    Scene sorted = spatial_sort(std::move(filtered.scene), progress.part(0.6, 1.0));
+    Scene sorted = spatial_sort(filtered.scene, progress.part(0.6, 1.0));
     const FilterReport& dropped = filtered.report;
     stage.end({{"points", size_of(sorted.num_points())},
-               {"of", size_of(scene.num_points())},
+               {"of", num_points},
                {"non-finite", dropped.non_finite},
                {"duplicate", dropped.duplicate},
                {"few views", dropped.few_views},
@@ -115,7 +117,7 @@ Reconstruction run_steps(Scene input, const Options& options, Log& log)
     Scene scene = thin(center_points(std::move(input)), options.thin, log);
     return_freed_memory();
     foresee_memory(read, size_of(scene), options, log);
-    scene = filter(scene, options.points, log);
+    scene = filter(std::move(scene), options.points, log);
     const std::unique_ptr<Region> region = make_region(options.crop.region, scene);
     scene = crop(std::move(scene), region.get(), log);
     denoise(scene, options.denoise, log);

@@ -52,18 +52,21 @@ CroppedPoints crop_points(const Scene& scene, const Region& region, const Progre
     parallel_for(scene.num_points(), progress.part(0.0, 0.9), judge);
 
     CroppedPoints result;
-    result.scene = without_points(scene);
+    std::vector<std::uint32_t> kept;
+    Tracks kept_tracks;
     std::vector<std::uint32_t> views;
-    for (std::size_t point = 0; point < scene.num_points(); ++point) {
+    for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
         views.clear();
         for (std::size_t sight = tracks.begins[point]; sight < tracks.begins[point + 1]; ++sight) {
             if (says_something[sight] != 0) views.push_back(tracks.views[sight]);
         }
         if (is_inside[point] == 0 && views.empty()) continue;
         (is_inside[point] != 0 ? result.inside : result.witnesses) += 1;
-        add_point(scene, point, views, result.scene);
+        kept.push_back(point);
+        kept_tracks.push_back(views);
     }
     if (result.inside == 0 && scene.num_points() > 0) refuse_empty(scene, region);
+    result.scene = select_points(scene, kept, [&](std::size_t i) { return kept_tracks[i]; });
     return result;
 }
 

@@ -143,13 +143,15 @@ FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
     FilteredPoints result;
     result.report.non_finite = static_cast<std::int64_t>(scene.num_points() - finite.size());
     result.report.duplicate = static_cast<std::int64_t>(finite.size() - merged.best.size());
-    result.scene = without_points(scene);
-    for (std::size_t place = 0; place < merged.best.size(); ++place) {
+    PointIndices kept;
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t place = 0; place < merged.best.size(); ++place) {
         count(verdicts[place], result.report);
-        if (verdicts[place] == Verdict::keep) {
-            add_point(scene, merged.best[place], track_of(place), result.scene);
-        }
+        if (verdicts[place] != Verdict::keep) continue;
+        kept.push_back(merged.best[place]);
+        places.push_back(place);
     }
+    result.scene = select_points(scene, kept, [&](std::size_t i) { return track_of(places[i]); });
     return result;
 }
 

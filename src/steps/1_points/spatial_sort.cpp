@@ -1,6 +1,6 @@
 #include "steps/1_points/spatial_sort.h"
 
-#include "base/parallel.h"
+#include "model/scene_points.h"
 #include "steps/1_points/lexicographic_sort.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -8,7 +8,6 @@
 #include <CGAL/hilbert_sort.h>
 #include <CGAL/property_map.h>
 
-#include <algorithm>
 #include <cstdint>
 
 namespace vcarve {
@@ -36,43 +35,13 @@ std::vector<std::size_t> hilbert_order(const std::vector<Vector3d>& positions)
     return order;
 }
 
-template <typename T>
-std::vector<T> reordered(const std::vector<T>& values, const std::vector<std::size_t>& order)
-{
-    std::vector<T> result(order.size());
-    parallel_for(order.size(), [&](std::size_t i) { result[i] = values[order[i]]; });
-    return result;
-}
-
-Tracks reordered(const Tracks& tracks, const std::vector<std::size_t>& order)
-{
-    Tracks result;
-    result.begins.reserve(order.size() + 1);
-    for (const std::size_t point : order) {
-        result.begins.push_back(result.begins.back() + tracks[point].size());
-    }
-    result.views.resize(result.begins.back());
-    parallel_for(order.size(), [&](std::size_t i) {
-        const auto track = tracks[order[i]];
-        std::copy(track.begin(), track.end(),
-                  result.views.begin() + static_cast<std::ptrdiff_t>(result.begins[i]));
-    });
-    return result;
-}
-
 } // namespace
 
-Scene spatial_sort(Scene scene, const Progress& progress)
+Scene spatial_sort(const Scene& scene, const Progress& progress)
 {
     const std::vector<std::size_t> order = hilbert_order(scene.positions);
     progress.tell(0.8);
-    scene.positions = reordered(scene.positions, order);
-    scene.colors = reordered(scene.colors, order);
-    scene.errors_px = reordered(scene.errors_px, order);
-    scene.point_ids = reordered(scene.point_ids, order);
-    if (!scene.normals.empty()) scene.normals = reordered(scene.normals, order);
-    scene.tracks = reordered(scene.tracks, order);
-    return scene;
+    return select_points(scene, order, [&](std::size_t i) { return scene.tracks[order[i]]; });
 }
 
 } // namespace vcarve

@@ -317,8 +317,8 @@ Scene merged(const Scene& scene, const Members& clusters)
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         result.errors_px.push_back(scene.errors_px[clusters.leader(i)]);
         result.point_ids.push_back(scene.point_ids[clusters.leader(i)]);
-        result.tracks.push_back(tracks[i]);
     }
+    result.tracks = make_tracks(tracks.size(), [&](std::size_t i) { return std::span(tracks[i]); });
     return result;
 }
 
