@@ -93,6 +93,43 @@ Scene tube()
     return scene;
 }
 
+/// The energy of sights that are walked one by one and go on as the header says: one in four after
+/// 16 facets and one in 16 after 64.
+struct BundledByHand {
+    std::vector<Four> arcs;
+    std::vector<std::int32_t> terminals;
+    int gone_on = 0; ///< sights that go on for 16
+
+    BundledByHand(const TetMesh& mesh, const Scene& scene)
+        : arcs(mesh.cells.size(), Four{0, 0, 0, 0}), terminals(mesh.cells.size(), 0)
+    {
+        for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
+            for (const std::uint32_t view : scene.tracks[vertex]) {
+                add(mesh, vertex, view, scene.views[view].center);
+            }
+        }
+    }
+
+    void add(const TetMesh& mesh, Index vertex, std::uint32_t view, const Vector3d& center)
+    {
+        int crossed = 0;
+        std::int32_t carried = 0;
+        SightWalk walk(mesh, vertex);
+        walk.to(center, [&](Index cell, int slot) {
+            ++crossed;
+            const std::uint32_t lead = crossed <= 16 ? 1 : crossed <= 64 ? 4 : 16;
+            if ((vertex + view) % lead != 0) return;
+            const auto weight = static_cast<std::int32_t>(lead * 256);
+            arcs[cell][slot] += weight;
+            terminals[cell] += weight - carried;
+            carried = weight;
+        });
+        gone_on += carried == 16 * 256 ? 1 : 0;
+        const Index behind = walk.first_cell(2.0 * mesh.positions[vertex] - center);
+        if (behind != kInfinite) terminals[behind] -= 256;
+    }
+};
+
 TEST(TraceSights, LetsOneSightOfADenseCloudGoOnForAll)
 {
     const Scene scene = tube();
@@ -100,33 +137,32 @@ TEST(TraceSights, LetsOneSightOfADenseCloudGoOnForAll)
     TraceOptions options = kFullWeight;
     options.bundle_sights = 4;
     const VisibilityEnergy energy = traced(mesh, scene, options);
-    std::vector<Four> arcs(mesh.cells.size(), Four{0, 0, 0, 0});
-    std::vector<std::int32_t> terminals(mesh.cells.size(), 0);
-    int gone_on = 0;
-    for (Index vertex = 0; vertex < 10; ++vertex) {
-        SightWalk walk(mesh, vertex);
-        for (const std::uint32_t view : scene.tracks[vertex]) {
-            const Vector3d& center = scene.views[view].center;
-            const bool leads = (vertex + view) % 4 == 0;
-            int crossed = 0;
-            walk.to(center, [&](Index cell, int slot) {
-                ++crossed;
-                if (crossed <= kFacetsAlone) arcs[cell][slot] += 256;
-                if (crossed > kFacetsAlone && leads) arcs[cell][slot] += 4 * 256;
-                if (crossed == 1) terminals[cell] += 256;
-                if (crossed == kFacetsAlone + 1 && leads) terminals[cell] += 3 * 256;
-            });
-            ASSERT_GT(crossed, kFacetsAlone);
-            gone_on += leads ? 1 : 0;
-            const Index behind = walk.first_cell(2.0 * mesh.positions[vertex] - center);
-            if (behind != kInfinite) terminals[behind] -= 256;
-        }
-    }
-    ASSERT_GT(gone_on, 4);
-    EXPECT_EQ(energy.network.arc_capacities, arcs);
-    EXPECT_EQ(energy.network.terminal_capacities, terminals);
+    const BundledByHand expected(mesh, scene);
+    ASSERT_GT(expected.gone_on, 0);
+    EXPECT_EQ(energy.network.arc_capacities, expected.arcs);
+    EXPECT_EQ(energy.network.terminal_capacities, expected.terminals);
     options.bundle_sights = 1;
     EXPECT_EQ(energy.cell_of_view, traced(mesh, scene, options).cell_of_view);
+}
+
+TEST(TraceSights, LetsOneSightGoOnForAllThroughEdgesAndVertices)
+{
+    // A beam of lattice points, from whose first square sights run through edges and vertices,
+    // where the exact walk takes over.
+    std::vector<MadePoint> points;
+    for (int i = 0; i < 60 * 3 * 3; ++i) {
+        const Vector3d place(i / 9, i / 3 % 3, i % 3);
+        points.push_back({place, {}});
+        if (place.x() == 0.0) points.back().views = {0, 1, 2};
+    }
+    Scene scene = make_scene({{118, 3, 2}, {118, 1, 0.5}, {118, 2, 1.5}}, points);
+    scene.errors_px.assign(points.size(), -1.0);
+    const TetMesh mesh = triangulate(scene);
+    TraceOptions options = kFullWeight;
+    options.bundle_sights = 4;
+    const BundledByHand expected(mesh, scene);
+    ASSERT_GT(expected.gone_on, 0);
+    EXPECT_EQ(traced(mesh, scene, options).network.arc_capacities, expected.arcs);
 }
 
 TEST(TraceSights, WalksAllSightsOfPointsThatAMatcherFoundOneByOne)

@@ -135,7 +135,7 @@ struct TraceOptions {
                        .help = "How many near sights of a dense cloud's points go on as one where "
                                "they are far from their points; 1 walks each to its view.",
                        .min = 1,
-                       .max = 1024});
+                       .max = 64});
     }
 };
 

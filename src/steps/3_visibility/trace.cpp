@@ -170,16 +170,21 @@ struct OutwardSight {
     std::int32_t bundle; ///< how many sights go on as one, far from their points
     Vector3d direction;
     Push push;
-    int crossed = 0; ///< facets
+    int crossed = 0;        ///< facets
+    std::uint32_t lead = 1; ///< for how many one goes on
+    bool leads = true;
 
     /// Whether it goes through one more facet, and with what weight: one sight of a bundle goes on
     /// for all. Points follow each other in space, and so each of those near takes its turn.
     bool goes_on()
     {
-        if (++crossed <= kFacetsAlone) return true;
-        if ((sight.vertex + view) % static_cast<std::uint32_t>(bundle) != 0) return false;
-        if (crossed == kFacetsAlone + 1) full *= bundle;
-        return true;
+        ++crossed;
+        if (crossed == kBundledAfter[0] + 1 || crossed == kBundledAfter[1] + 1) {
+            lead *= static_cast<std::uint32_t>(bundle);
+            full *= bundle;
+            leads = (sight.vertex + view) % lead == 0;
+        }
+        return leads; // asked again where the exact walk reports all its facets
     }
 };
 

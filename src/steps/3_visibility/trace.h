@@ -8,6 +8,8 @@
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
+#include <array>
+
 namespace vcarve {
 
 /// Adds to each facet how many rays of a source cross it (Akgunduz, Zetu, Banerjee 2000, section
@@ -16,8 +18,9 @@ namespace vcarve {
 void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings,
                const Progress& progress);
 
-/// How many facets a measured ray to a point of a dense cloud crosses on its own.
-inline constexpr int kFacetsAlone = 32;
+/// After how many facets measured rays to points of a dense cloud become bundles, and after how
+/// many these become bundles of bundles.
+inline constexpr std::array<int, 2> kBundledAfter = {16, 64};
 
 /// Adds the visibility terms of sources to an energy. `cells`, `scene` and `options` must outlive
 /// it; `scene` has the points of the cells, which weigh their rays.
@@ -30,9 +33,10 @@ inline constexpr int kFacetsAlone = 32;
 /// source (behind the point a sink) of its own, as strong as the term of the ray for what comes
 /// next.
 ///
-/// Near sights of a dense cloud say the same far from their points. So beyond kFacetsAlone facets
-/// only one of `bundle_sights` walks on, with the weight of all; the others end there and ask for
-/// the cell they reached to be outside.
+/// Near sights of a dense cloud say the same far from their points. So after kBundledAfter[0]
+/// facets only one of `bundle_sights` walks on, with the weight of all, and after kBundledAfter[1]
+/// only one of as many of these; the others end there and ask for the cell they reached to be
+/// outside.
 class RayCaster {
   public:
     RayCaster(const TetMesh& cells, const Scene& scene, const Scales& scales,
