@@ -21,7 +21,7 @@ SampleResult sample(double predicted_mb)
         {"name", "write"}, {"seconds", 0.1}, {"cpu_seconds", 0.1}, {"peak_bytes", 20e6}};
     SampleResult result;
     result.sizes = {
-        {"shape", "surface"}, {"points", 100}, {"triangulated", 90}, {"sights", 300}, {"views", 4}};
+        {"model", "surface"}, {"points", 100}, {"triangulated", 90}, {"sights", 300}, {"views", 4}};
     result.sequential = {{"seconds", 0.5}, {"cpu_seconds", 0.5}, {"peak_bytes", 20e6}};
     result.runs[1] = {{"seconds", 1.0},
                       {"cpu_seconds", 1.0},

@@ -1,7 +1,7 @@
 #include "mesh/edge_table.h"
 
 #include "base/parallel.h"
-#include "base/row_table.h"
+#include "base/parallel_rows.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/row_table.h"
+#include "base/parallel_rows.h"
 #include "vcarve/tri_mesh.h"
 
 #include <cstdint>

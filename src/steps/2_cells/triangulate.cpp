@@ -3,7 +3,7 @@
 #include "base/freed_memory.h"
 #include "base/index_limit.h"
 #include "base/parallel.h"
-#include "base/row_table.h"
+#include "base/parallel_rows.h"
 #include "vcarve/error.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
