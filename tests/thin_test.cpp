@@ -82,6 +82,31 @@ TEST(ThinPoints, LeavesTheTwoSidesOfABoardApart)
     EXPECT_NEAR(thin.positions[1].z(), 0.035, 1e-15);
 }
 
+TEST(ThinPoints, LeavesTheTwoSidesOfAnEdgeApartButMergesRoundABend)
+{
+    constexpr double kPi = 3.14159265358979323846;
+    const auto merged_at = [&](double degrees) {
+        Scene scene = two_views();
+        add(scene, {0.01, 0.01, 0.01}, {0, 1});
+        add(scene, {0.01, 0.01, 0.03}, {0, 1});
+        const Vector3d turned(std::sin(degrees * kPi / 180.0), 0.0,
+                              std::cos(degrees * kPi / 180.0));
+        scene.normals = {Vector3f::UnitZ(), turned.cast<float>()};
+        return thin_points(scene, {.merge_px = 1.0}).num_points();
+    };
+    EXPECT_EQ(merged_at(55.0), 1U);
+    EXPECT_EQ(merged_at(65.0), 2U);
+}
+
+TEST(ThinPoints, MergesPointsWhoseNormalsAreNotKnown)
+{
+    Scene scene = two_views();
+    add(scene, {0.01, 0.01, 0.01}, {0, 1});
+    add(scene, {0.01, 0.01, 0.03}, {0, 1});
+    scene.normals = {Vector3f::UnitZ(), Vector3f::Zero()};
+    EXPECT_EQ(thin_points(scene, {.merge_px = 1.0}).num_points(), 1U);
+}
+
 TEST(ThinPoints, LetsCoarsePointsJoinFineOnes)
 {
     // One seen from below 10, and one in the next fine cube that only the far view saw. Many more

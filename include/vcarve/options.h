@@ -38,7 +38,7 @@ struct FilterOptions {
 
 /// Which points of a dense cloud become one.
 struct ThinOptions {
-    double merge_px = 1.75; ///< --merge-px
+    double merge_px = 1.8; ///< --merge-px
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)

@@ -38,7 +38,9 @@ struct Dots {
     /// Whether two dots may be the same piece of surface.
     bool agree(std::uint32_t a, std::uint32_t b) const
     {
-        return normals.empty() || normals[a].dot(normals[b]) >= 0.0F;
+        constexpr float kAgreement = 0.5F; // cosine
+        return normals.empty() || normals[a].dot(normals[b]) >= kAgreement || normals[a].isZero() ||
+               normals[b].isZero();
     }
 };
 

@@ -11,9 +11,10 @@ namespace vcarve {
 /// footprint is what `merge_px` pixels of the view that shows it largest cover at its distance.
 /// Space is cut into cubes whose sides are halves and doubles of the median footprint; points whose
 /// footprint is the side of a cube or up to twice that, and which lie in the same cube, become one,
-/// finer points first, and coarser points join finer ones in their cube. Points whose normals look
-/// away from each other stay apart, as the two sides of a board. Then clusters that stand nearer
-/// than half a cube to each other across a border are merged alike in cubes shifted by half.
+/// finer points first, and coarser points join finer ones in their cube. Points whose normals
+/// differ by more than 60 degrees stay apart, as the two sides of a board or of an edge. Then
+/// clusters that stand nearer than half a cube to each other across a border are merged alike in
+/// cubes shifted by half.
 ///
 /// A cluster stands at the mean of its points and has the mean of their colours and normals and all
 /// views that saw any; error and id are those of the point with most views, the first of several.
