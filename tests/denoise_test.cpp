@@ -114,6 +114,24 @@ TEST(DenoisePoints, NeedsNoSecondViewWhereTheRangeWasMeasured)
     EXPECT_EQ(denoise_points(photographed, {}).moved, 0);
 }
 
+TEST(DenoisePoints, LeavesAScanThatIsExactForTheDistancesOfItsPoints)
+{
+    // The 24th of the points around is about 2.8 spacings away.
+    const double spacing = 1.0 / 50.0;
+    const double pixel = kHeight / kFocalPx; // of a range, as of a place in an image
+    for (const double share : {0.02, 0.05}) {
+        Scene scanned = ground(share * 2.8 * spacing / kUpOfAPixel, flat);
+        scanned.cameras[0].measures_range = true;
+        scanned.tracks = {};
+        for (std::uint32_t i = 0; i < scanned.num_points(); ++i) {
+            scanned.tracks.push_back(std::array<std::uint32_t, 1>{0});
+        }
+        const DenoiseReport report = denoise_points(scanned, {});
+        EXPECT_GT(report.noise_px, 0.5 * share * 2.8 * spacing / pixel);
+        EXPECT_EQ(report.moved > 0, share > 0.03) << share;
+    }
+}
+
 TEST(DenoisePoints, TakesTheNormalsOfTheCloud)
 {
     Scene scene = ground(0.4, flat);

@@ -43,7 +43,7 @@ TEST(SightWeights, CountErrorsBeyondTheMedianOnly)
               std::lround(SightWeights::kUnit * std::exp(-0.5 * 8.0 / 4.0)));
 }
 
-TEST(SightWeights, CountAMeasuredRangeAsAMedianPointWhateverItsViews)
+TEST(SightWeights, CountAMeasuredRangeAsTwoSightsOfAMedianPointWhateverItsViews)
 {
     Scene scene = points_of_some_views();
     scene.cameras.push_back(scene.cameras.front());
@@ -51,8 +51,8 @@ TEST(SightWeights, CountAMeasuredRangeAsAMedianPointWhateverItsViews)
     scene.views[3].camera = static_cast<std::uint32_t>(scene.cameras.size() - 1);
     const TraceOptions options;
     const SightWeights weights(scene, measure_scales({}, scene), options);
-    EXPECT_EQ(weights.full_weight(2), SightWeights::kUnit); // of four views
-    EXPECT_LT(weights.full_weight(0), SightWeights::kUnit); // of photographs
+    EXPECT_EQ(weights.full_weight(2), 2 * SightWeights::kUnit); // of four views
+    EXPECT_LT(weights.full_weight(0), SightWeights::kUnit);     // of photographs
 }
 
 TEST(SightWeights, KnowNothingOfAnEmptyScene)

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "geometry/nearest_neighbors.h"
 #include "model/camera.h"
+#include "model/measured_range.h"
 #include "steps/1_points/lexicographic_sort.h"
 
 #include <Eigen/Eigenvalues>
@@ -184,6 +185,17 @@ class Denoiser {
         return kSigmaOfMedian * median_in_place(heights);
     }
 
+    /// The height of a point that is off by one pixel, over the distance to the farthest of the
+    /// points around: the median.
+    double share_of_a_pixel() const
+    {
+        std::vector<double> shares(variances_.size());
+        parallel_for(shares.size(), [&](std::size_t i) {
+            shares[i] = std::sqrt(variances_[i] / neighborhoods_.reach_sq(i));
+        });
+        return median_in_place(shares);
+    }
+
     /// Where a point is, if planes farther than `gate` times what a pixel makes of its uncertainty
     /// are others, and it is so much from where it was at most.
     Vector3d estimate(std::size_t point, double gate) const
@@ -237,6 +249,14 @@ class Denoiser {
     std::vector<double> variances_; ///< the same along the normal
 };
 
+/// Whether a scan is so exact that its points stand out of the surface by next to nothing beside
+/// the distances between them. What is taken for noise there is what the surface is like.
+bool is_exact_scan(const Scene& scene, const Denoiser& denoiser, double noise_px)
+{
+    constexpr double kExact = 0.03;
+    return has_scanners(scene) && noise_px * denoiser.share_of_a_pixel() < kExact;
+}
+
 } // namespace
 
 void keep_apart(std::vector<Vector3d>& positions, const std::vector<Vector3d>& before)
@@ -264,7 +284,7 @@ DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const 
     progress.tell(0.8);
     report.noise_px = denoiser.noise_px();
     const double gate = options.denoise * report.noise_px;
-    if (!(gate > 0.0)) return report;
+    if (!(gate > 0.0) || is_exact_scan(scene, denoiser, report.noise_px)) return report;
     Vectors estimates(scene.num_points());
     parallel_for(estimates.size(), progress.part(0.85, 1.0),
                  [&](std::size_t i) { estimates[i] = denoiser.estimate(i, gate); });

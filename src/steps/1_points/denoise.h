@@ -32,10 +32,11 @@ struct DenoiseReport {
 /// 2003, with variances known.)
 ///
 /// Points whose reprojection error is known stay, since a matcher found them one by one, and so do
-/// those whose sights do not cross. Normals of the scene stay as they are. Points are finite and no
-/// two at one place, before and after. The result is the same for any number of threads and any
-/// scale of the scene. Cost: O(points log points + sights), in parallel but for a k-d tree; 250
-/// bytes a point.
+/// those whose sights do not cross, and all of a scan whose noise is less than 3 % of the distance
+/// to the 24th of the points around, in the median. Normals of the scene stay as they are. Points
+/// are finite and no two at one place, before and after. The result is the same for any number of
+/// threads and any scale of the scene. Cost: O(points log points + sights), in parallel but for a
+/// k-d tree; 250 bytes a point.
 DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options,
                              const Progress& progress = {});
 

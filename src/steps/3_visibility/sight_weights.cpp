@@ -36,11 +36,12 @@ std::int32_t SightWeights::full_weight(Index point, double weight) const
     return static_cast<std::int32_t>(std::lround(kUnit * weight));
 }
 
-/// A measured range needs no second view that agrees.
+/// A measured range needs no second view that agrees, and so its sight stands for two.
 double SightWeights::by_views(std::span<const std::uint32_t> track) const
 {
+    constexpr double kOfARange = 2.0;
     if (has_measured_range(scene_, track)) {
-        return 1.0;
+        return kOfARange;
     }
     return views_weight(static_cast<double>(track.size()), options_.views_sigma) / full_;
 }

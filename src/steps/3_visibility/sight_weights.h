@@ -11,8 +11,8 @@
 namespace vcarve {
 
 /// Says what a sight weighs by the point it leads to: more with more views, less with a larger
-/// reprojection error; to a point that a scanner measured, as much as to one of the median of
-/// views. `scene` and `options` must outlive it. Cost: O(1).
+/// reprojection error; to a point that a scanner measured, twice as much as to one of the median
+/// of views. `scene` and `options` must outlive it. Cost: O(1).
 class SightWeights {
   public:
     static constexpr std::int32_t kUnit = 256; ///< steps of one sight of full weight
