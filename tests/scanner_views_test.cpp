@@ -65,13 +65,13 @@ TEST(ScannerViews, ShowAllThatIsAroundThem)
     }
 }
 
-TEST(ScannerViews, HavePixelsHalfAsWideAsPointsStandApart)
+TEST(ScannerViews, HavePixelsAQuarterAsWideAsPointsStandApart)
 {
     // Eight others lie around within sqrt 2 tenths, so that each has pi / 4 hundredths.
     const Scene scene = with_scanners(wall(101), {Vector3d::Zero()});
     const double pixel_rad = 1.0 / mean_focals_px(scene.cameras)[0];
     // Farther points at the border of the wall stand nearer to each other in angle.
-    EXPECT_NEAR(pixel_rad, 0.5 * 0.01 * std::sqrt(std::numbers::pi / 4.0), 0.001);
+    EXPECT_NEAR(pixel_rad, 0.25 * 0.01 * std::sqrt(std::numbers::pi / 4.0), 0.001);
     const Scene larger = [] {
         std::vector<Vector3d> points = wall(101);
         for (Vector3d& point : points) {

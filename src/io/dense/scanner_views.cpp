@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 constexpr double kStationShare = 0.02; ///< of the median range, the side of a station's cube
 /// A scan shows detail finer than its points stand apart on average, where they stand closer.
-constexpr double kPixelsBetweenPoints = 2.0;
+constexpr double kPixelsBetweenPoints = 4.0;
 constexpr std::uint32_t kNoStation = 0xffffffffU;
 constexpr int kEquirectangular = 17;
 

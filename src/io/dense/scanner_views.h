@@ -23,11 +23,11 @@ inline constexpr std::size_t kMostStations = 1024;
 /// are not. So a sight is off by an angle of about a degree at most, and exact at its point.
 ///
 /// A station looks all round, through an equirectangular lens, and measures ranges
-/// (Camera::measures_range). Its pixels are half as wide as points stand apart, seen from their
-/// stations: the median over 200 points of the distance at which eight others stand around, of all
-/// stations. The share of the sphere that a point has would say less: most beams of a scanner that
-/// stands before a thing meet nothing, and that of a profile scanner's place lie in a plane. Cost:
-/// O(points), in parallel but for a table of places.
+/// (Camera::measures_range). Its pixels are a quarter as wide as points stand apart, seen from
+/// their stations: the median over 200 points of the distance at which eight others stand around,
+/// of all stations. The share of the sphere that a point has would say less: most beams of a
+/// scanner that stands before a thing meet nothing, and that of a profile scanner's place lie in a
+/// plane. Cost: O(points), in parallel but for a table of places.
 void add_scanner_views(const std::vector<Eigen::Vector3d>& scanners, Scene& scene);
 
 } // namespace vcarve
