@@ -5,7 +5,7 @@
 #include "model/measured_range.h"
 #include "model/scene_points.h"
 #include "model/united_views.h"
-#include "steps/1_points/lexicographic_sort.h"
+#include "steps/1_points/same_place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,24 +40,37 @@ std::uint32_t best_of(const Scene& scene, const PointIndices& points)
                              [&](std::uint32_t a, std::uint32_t b) { return worth(a) < worth(b); });
 }
 
-Merged merge_duplicates(const Scene& scene, const PointIndices& by_place)
+/// The points with finite coordinates, ascending.
+PointIndices finite_points(const Scene& scene)
 {
+    return parallel_collect<std::uint32_t>(scene.num_points(), [&](std::size_t i, auto& finite) {
+        if (scene.positions[i].allFinite()) finite.push_back(static_cast<std::uint32_t>(i));
+    });
+}
+
+Merged merge_duplicates(const Scene& scene, const PointIndices& finite)
+{
+    const std::vector<std::uint32_t> firsts = first_at_place(scene.positions, finite);
     constexpr std::uint32_t kLeftOut = Merged::kAlone - 1;
-    std::vector<std::uint32_t> groups(scene.num_points(), kLeftOut);
+    std::vector<std::uint32_t> groups(scene.num_points(), kLeftOut);     // of the best of a place
+    std::vector<std::uint32_t> rows(scene.num_points(), Merged::kAlone); // of the first
     Merged merged;
-    for (std::size_t begin = 0, end = 0; begin < by_place.size(); begin = end) {
-        const Vector3d& place = scene.positions[by_place[begin]];
-        while (end < by_place.size() && scene.positions[by_place[end]] == place) {
-            ++end;
-        }
-        if (end - begin == 1) {
-            groups[by_place[begin]] = Merged::kAlone;
+    for (const std::uint32_t point : finite) {
+        const std::uint32_t first = firsts[point];
+        if (first == point) {
+            groups[point] = Merged::kAlone;
             continue;
         }
-        PointIndices members(by_place.begin() + static_cast<std::ptrdiff_t>(begin),
-                             by_place.begin() + static_cast<std::ptrdiff_t>(end));
-        groups[best_of(scene, members)] = static_cast<std::uint32_t>(merged.members.size());
-        merged.members.push_back(std::move(members));
+        if (rows[first] == Merged::kAlone) {
+            rows[first] = static_cast<std::uint32_t>(merged.members.size());
+            merged.members.push_back({first});
+        }
+        merged.members[rows[first]].push_back(point);
+    }
+    for (std::uint32_t row = 0; row < merged.members.size(); ++row) {
+        const PointIndices& members = merged.members[row];
+        groups[members.front()] = kLeftOut;
+        groups[best_of(scene, members)] = row;
     }
     for (std::uint32_t point = 0; point < groups.size(); ++point) {
         if (groups[point] != kLeftOut) {
@@ -122,8 +135,8 @@ FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
                              const Progress& progress)
 {
     require_indexable(scene.num_points(), kMostIndices, "points");
-    const PointIndices finite = lexicographic_sort(scene.positions);
-    progress.tell(0.4);
+    const PointIndices finite = finite_points(scene);
+    progress.tell(0.1);
     const Merged merged = merge_duplicates(scene, finite);
     progress.tell(0.6);
     std::vector<std::vector<std::uint32_t>> united(merged.members.size());
