@@ -58,6 +58,12 @@ Key cube_key(const Vector3d& from_corner, double side)
     return exact_key(cube);
 }
 
+/// Where the scanner of a point stood: one for all, or one a point.
+const Vector3d& scanner_of(std::size_t point, const std::vector<Vector3d>& scanners)
+{
+    return scanners[scanners.size() == 1 ? 0 : point];
+}
+
 /// Where scanners stood, and which of the points each measured.
 struct Stations {
     std::vector<Vector3d> places;
@@ -74,7 +80,7 @@ Stations stations_by(const std::vector<Vector3d>& scanners, const std::vector<Ve
     std::unordered_map<Key, std::uint32_t, HashOfKey> known;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!points[i].allFinite()) continue;
-        const Vector3d& place = scanners[scanners.size() == 1 ? 0 : i];
+        const Vector3d& place = scanner_of(i, scanners);
         const auto [found, is_new] =
             known.emplace(key_of(place), static_cast<std::uint32_t>(stations.places.size()));
         if (is_new) stations.places.push_back(place);
@@ -94,7 +100,7 @@ double median_range(const std::vector<Vector3d>& scanners, const std::vector<Vec
     std::vector<double> ranges;
     ranges.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const double range = (scanners[scanners.size() == 1 ? 0 : i] - points[i]).norm();
+        const double range = (scanner_of(i, scanners) - points[i]).norm();
         if (std::isfinite(range)) ranges.push_back(range);
     }
     return median_in_place(ranges);
@@ -107,7 +113,7 @@ Stations find_stations(const std::vector<Vector3d>& scanners, const std::vector<
     // The first place that counts: cubes do not depend on where the scene is.
     Vector3d corner = Vector3d::Zero();
     for (std::size_t i = points.size(); i-- > 0;) {
-        if (points[i].allFinite()) corner = scanners[scanners.size() == 1 ? 0 : i];
+        if (points[i].allFinite()) corner = scanner_of(i, scanners);
     }
     constexpr double kLeastSide = 1e-300; // where all ranges are zero
     for (double side = std::max(kStationShare * range, kLeastSide); is_too_many(stations, points);

@@ -24,10 +24,10 @@ struct FilteredPoints {
 
 /// The points fit for a triangulation: finite, no two at one place, each seen well enough. A point
 /// that a scanner measured is known from one view, so that neither the number of its views nor the
-/// angle between its sights is asked. Points
-/// at one place, but for rounding (same_place.h), become one, with the views of all, and what else
-/// belongs to the best of them (most views, then smallest error, then smallest id). The order of
-/// the points is that of the input. Cost: O(points log points + sights), in parallel.
+/// angle between its sights is asked. Points at one place, but for rounding (same_place.h), become
+/// one, with the views of all, and what else belongs to the best of them (most views, then smallest
+/// error, then smallest id). The order of the points is that of the input.
+/// Cost: O(points log points + sights), in parallel.
 FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
                              const Progress& progress = {});
 

@@ -96,8 +96,8 @@ bool is_at_rim(std::uint32_t face, const std::vector<Face>& faces, const VertexF
 }
 
 /// The kept faces with an edge so long, ascending.
-std::vector<std::uint32_t> large_faces(const TriMesh& boundary, const FaceFlags& keep,
-                                       double longest)
+std::vector<std::uint32_t> faces_with_long_edges(const TriMesh& boundary, const FaceFlags& keep,
+                                                 double longest)
 {
     const auto is_long = [&](std::uint32_t from, std::uint32_t to) {
         return (boundary.positions[to] - boundary.positions[from]).norm() >= longest;
@@ -132,7 +132,7 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
     constexpr int kRounds = 20;
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
-    const std::vector<std::uint32_t> large = large_faces(boundary, keep, long_edge);
+    const std::vector<std::uint32_t> large = faces_with_long_edges(boundary, keep, long_edge);
     if (large.empty()) return 0;
     const VertexFaces faces_at(boundary.faces, boundary.positions.size());
     const KeptFacets is_kept(facets, keep);
