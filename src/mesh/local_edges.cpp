@@ -7,18 +7,25 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace vcarve {
 
 using Eigen::Vector3d;
 
-LocalEdges::LocalEdges(std::span<const Vector3d> positions, std::span<const Face> faces,
+LocalEdges::LocalEdges(std::span<const Vector3d> positions, const std::vector<Face>& faces,
                        const FaceFlags& measured)
     : positions_(positions),
       faces_(faces),
       faces_at_(faces, positions.size(), measured),
       medians_(positions.size(), -1.0)
 {
+}
+
+void LocalEdges::replace_faces_at(std::uint32_t vertex, std::vector<std::uint32_t> faces)
+{
+    faces_at_.replace(vertex, std::move(faces));
+    medians_[vertex] = -1.0;
 }
 
 void LocalEdges::collect_squared_lengths(std::uint32_t vertex,

@@ -14,11 +14,15 @@ namespace vcarve {
 class LocalEdges {
   public:
     /// Only the faces with a flag are measured; all where there are no flags. Cost: O(faces).
-    LocalEdges(std::span<const Eigen::Vector3d> positions, std::span<const Face> faces,
+    LocalEdges(std::span<const Eigen::Vector3d> positions, const std::vector<Face>& faces,
                const FaceFlags& measured = {});
 
     /// The measured faces at each vertex.
     const VertexFaces& faces_at() const { return faces_at_; }
+
+    /// Measures other faces around a vertex from now on. They may have been added to the list of
+    /// faces meanwhile. Not while others ask.
+    void replace_faces_at(std::uint32_t vertex, std::vector<std::uint32_t> faces);
 
     /// The median length of the edges of the measured faces around a vertex; 0 where there are
     /// none.
@@ -44,7 +48,7 @@ class LocalEdges {
     std::vector<std::uint8_t> uneven_vertices(double size) const;
 
     std::span<const Eigen::Vector3d> positions_;
-    std::span<const Face> faces_;
+    const std::vector<Face>& faces_;
     VertexFaces faces_at_;
     mutable std::vector<double> medians_; ///< negative where not known yet
 };

@@ -15,7 +15,7 @@ namespace vcarve {
 /// threads.
 class SurfaceNormals {
   public:
-    SurfaceNormals(std::span<const Eigen::Vector3d> positions, std::span<const Face> faces,
+    SurfaceNormals(std::span<const Eigen::Vector3d> positions, const std::vector<Face>& faces,
                    const LocalEdges& edges)
         : positions_(positions), faces_(faces), edges_(edges)
     {
@@ -33,7 +33,7 @@ class SurfaceNormals {
 
   private:
     std::span<const Eigen::Vector3d> positions_;
-    std::span<const Face> faces_;
+    const std::vector<Face>& faces_;
     const LocalEdges& edges_;
 };
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace vcarve {
@@ -39,27 +40,86 @@ bool lies_before(const TetMesh& mesh, const Cell& cell, const SurfaceNormals& no
     });
 }
 
+/// Looks for bridging facets of a boundary: all over it at first, and again where it changed. Only
+/// large faces that were seen can be some, and which these are changes only where faces at their
+/// corners do. Keeps references.
+class BridgingFacets {
+  public:
+    BridgingFacets(const TetMesh& cells, const Scene& scene, const BridgingOptions& options)
+        : cells_(cells), scene_(scene), size_(options.bridging_edge)
+    {
+    }
+
+    /// Looks all over the boundary for large seen faces.
+    void look_all_over(const Boundary& boundary)
+    {
+        large_ = seen_among(boundary, boundary.edges().large_faces(size_));
+    }
+
+    /// Looks for large seen faces where labels have changed in some cells since.
+    void look_around(const Boundary& boundary, const std::vector<Index>& changed_cells);
+
+    /// The cells behind those that are bridging facets.
+    std::vector<Index> cells_behind(const Boundary& boundary) const;
+
+  private:
+    std::vector<std::uint32_t> seen_among(const Boundary& boundary,
+                                          const std::vector<std::uint32_t>& faces) const;
+
+    const TetMesh& cells_;
+    const Scene& scene_;
+    double size_;                      ///< of large faces
+    std::vector<std::uint32_t> large_; ///< seen faces of at least that size
+};
+
+std::vector<std::uint32_t> BridgingFacets::seen_among(const Boundary& boundary,
+                                                      const std::vector<std::uint32_t>& faces) const
+{
+    const auto look = [&](std::size_t i, std::vector<std::uint32_t>& found) {
+        const std::uint32_t face = faces[i];
+        const bool is_large = boundary.edges().relative_size(face) >= size_;
+        if (is_large && is_seen(scene_, boundary.faces()[face], boundary.normals().of(face)))
+            found.push_back(face);
+    };
+    return parallel_collect<std::uint32_t>(faces.size(), look, 64);
+}
+
+void BridgingFacets::look_around(const Boundary& boundary, const std::vector<Index>& changed_cells)
+{
+    std::vector<std::uint32_t> faces = std::move(large_);
+    std::erase_if(faces, [&](std::uint32_t face) { return !boundary.is_there(face); });
+    for (const Index cell : changed_cells) {
+        for (const Index vertex : cells_.cells[cell].vertices) {
+            if (vertex == kInfinite) continue;
+            std::ranges::copy(boundary.edges().faces_at()[vertex], std::back_inserter(faces));
+        }
+    }
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    large_ = seen_among(boundary, faces);
+}
+
+std::vector<Index> BridgingFacets::cells_behind(const Boundary& boundary) const
+{
+    const auto doubt = [&](std::size_t i, std::vector<Index>& doubted) {
+        const std::uint32_t face = large_[i];
+        const Index behind = boundary.facets()[face].cell;
+        if (stands_across(face, boundary.normals()) &&
+            lies_before(cells_, cells_.cells[behind], boundary.normals()))
+            doubted.push_back(behind);
+    };
+    return parallel_collect<Index>(large_.size(), doubt, 64);
+}
+
 } // namespace
 
 std::vector<Index> cells_behind_bridging_facets(const TetMesh& cells, const Boundary& boundary,
                                                 const Scene& scene, const BridgingOptions& options)
 {
-    if (options.bridging_edge == 0.0) {
-        return {};
-    }
-    // Few faces are large, so that everything but their size is cheap.
-    const SurfaceNormals& normals = boundary.normals();
-    const std::vector<std::uint32_t> large = boundary.edges().large_faces(options.bridging_edge);
-    const auto doubt = [&](std::size_t i, std::vector<Index>& doubted) {
-        const std::uint32_t face = large[i];
-        const Index behind = boundary.facets()[face].cell;
-        if (boundary.edges().relative_size(face) >= options.bridging_edge &&
-            is_seen(scene, boundary.faces()[face], normals.of(face)) &&
-            stands_across(face, normals) && lies_before(cells, cells.cells[behind], normals)) {
-            doubted.push_back(behind);
-        }
-    };
-    return parallel_collect<Index>(large.size(), doubt, 64);
+    if (options.bridging_edge == 0.0) return {};
+    BridgingFacets facets(cells, scene, options);
+    facets.look_all_over(boundary);
+    return facets.cells_behind(boundary);
 }
 
 DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
@@ -68,29 +128,29 @@ DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, Mi
 {
     constexpr int kRounds = 3; // behind a bridging facet there may be another
     DoubtedLabels result{.labelling = {cells, cut.labels()}};
+    if (options.bridging_edge == 0.0) return result;
     Labelling& labelling = result.labelling;
+    BridgingFacets bridging(cells, scene, options);
+    bridging.look_all_over(labelling.boundary());
     for (int round = 0; round < kRounds; ++round) {
         progress.tell(round, kRounds);
-        const std::vector<Index> doubted =
-            cells_behind_bridging_facets(cells, labelling.boundary(), scene, options);
+        const std::vector<Index> doubted = bridging.cells_behind(labelling.boundary());
         if (doubted.empty()) break;
         progress.tell(round + 0.3, kRounds);
         cut.add_source_capacity(doubted, one_sight);
         progress.tell(round + 0.6, kRounds);
         result.doubts += static_cast<std::int64_t>(doubted.size());
-        Labelling next(cells, cut.labels());
+        const Labels freed = cut.labels();
         progress.tell(round + 0.7, kRounds);
-        FreedPieces pieces(cells, scene, labelling.labels(), next.labels());
-        if (pieces.empty())
-            continue; // more source capacity only frees cells, so the labels are the same
+        FreedPieces pieces(cells, scene, labelling.labels(), freed);
         pieces.take_away(labelling.boundary());
-        labelling.forget_boundary(); // one at a time is enough to hold
-        pieces.lay_open(next.boundary());
+        labelling.set(pieces.cells(), Label::outside);
+        pieces.lay_open(labelling.boundary());
         progress.tell(round + 0.9, kRounds);
         const std::vector<Index> unpaid = pieces.unpaid();
-        next.set(unpaid, Label::inside);
+        labelling.set(unpaid, Label::inside);
         result.taken_back += static_cast<std::int64_t>(unpaid.size());
-        labelling = std::move(next);
+        bridging.look_around(labelling.boundary(), pieces.cells());
     }
     return result;
 }

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
+#include <iterator>
 #include <limits>
 
 namespace vcarve {
@@ -18,13 +20,21 @@ using Eigen::Vector3d;
 
 constexpr double kNeverPays = -std::numeric_limits<double>::infinity();
 
-std::vector<Index> freed_cells(const TetMesh& cells, const Labels& before, const Labels& after)
+/// Few are: most runs of cells are seen to be the same at one glance.
+std::vector<Index> freed_cells(const Labels& before, const Labels& after)
 {
-    return parallel_collect<Index>(cells.cells.size(), [&](std::size_t cell, auto& freed) {
-        if (before[cell] == Label::inside && after[cell] == Label::outside) {
-            freed.push_back(static_cast<Index>(cell));
+    constexpr std::size_t kRun = 256;
+    const std::size_t num_runs = (before.size() + kRun - 1) / kRun;
+    const auto look = [&](std::size_t run, std::vector<Index>& freed) {
+        const std::size_t begin = run * kRun;
+        const std::size_t end = std::min(before.size(), begin + kRun);
+        if (std::memcmp(&before[begin], &after[begin], end - begin) == 0) return;
+        for (std::size_t cell = begin; cell < end; ++cell) {
+            if (before[cell] == Label::inside && after[cell] == Label::outside)
+                freed.push_back(static_cast<Index>(cell));
         }
-    });
+    };
+    return parallel_collect<Index>(num_runs, look, 1024);
 }
 
 /// The views that saw one of the corners at least, ascending.
@@ -62,7 +72,7 @@ FreedPieces::FreedPieces(const TetMesh& cells, const Scene& scene, const Labels&
       scene_(scene),
       before_(before),
       after_(after),
-      freed_(freed_cells(cells, before, after)),
+      freed_(freed_cells(before, after)),
       pieces_(freed_.size()),
       saw_(cells, before, scene),
       sees_(cells, after, scene),
@@ -109,19 +119,15 @@ std::vector<FreedPieces::Outlook> FreedPieces::outlooks_from(const Boundary& bou
 void FreedPieces::take_away(const Boundary& boundary_before)
 {
     constexpr double kAtLeast = 0.9; // of what it takes away a piece must show
-    const std::vector<CellFacet>& facets = boundary_before.facets();
-    const auto is_taken = [&](std::size_t face) {
-        return after_[facets[face].cell] == Label::outside;
-    };
-    const auto taken = parallel_collect<std::uint32_t>(
-        facets.size(), [&](std::size_t face, std::vector<std::uint32_t>& found) {
-            if (is_taken(face)) found.push_back(static_cast<std::uint32_t>(face));
-        });
     const auto look = [&](std::size_t i, std::vector<Outlook>& found) {
-        const std::vector<Outlook> outlooks = outlooks_from(boundary_before, taken[i]);
-        found.insert(found.end(), outlooks.begin(), outlooks.end());
+        for (int slot = 0; slot < 4; ++slot) {
+            const CellFacet facet = {freed_[i], slot};
+            if (before_[cells_.other_side(facet).cell] == Label::inside) continue;
+            std::ranges::copy(outlooks_from(boundary_before, boundary_before.number_of(facet)),
+                              std::back_inserter(found));
+        }
     };
-    outlooks_ = parallel_collect<Outlook>(taken.size(), look, 16);
+    outlooks_ = parallel_collect<Outlook>(freed_.size(), look, 16);
     for (const Outlook& outlook : outlooks_) {
         gains_[pieces_.root(outlook.freed)] -= kAtLeast * outlook.taken;
     }

@@ -27,14 +27,17 @@ double plausibility(const Boundary& boundary, std::size_t face);
 /// or where the back of a face comes to light; 0.3 where nothing lies behind. Faces that none of
 /// these views sees count nothing. A piece that leaves a point on no face never pays: that there is
 /// something at a point is known better than what is between points. Asked for one boundary after
-/// the other, so that only one of them need be held. Keeps references. Cost: O(faces) a question,
-/// and a walk through the cells for every place and view; in parallel.
+/// the other, so that only one of them need be held, and the labels before may be changed once
+/// take_away is done. Keeps references. Cost: O(cells) to find what was freed, and a walk through
+/// the cells for every place and view; in parallel.
 class FreedPieces {
   public:
     FreedPieces(const TetMesh& cells, const Scene& scene, const Labels& before,
                 const Labels& after);
 
     bool empty() const { return freed_.empty(); }
+    /// All of them, ascending.
+    const std::vector<Index>& cells() const { return freed_; }
 
     /// Charges the pieces with the faces they took from the boundary before.
     void take_away(const Boundary& boundary_before);

@@ -23,7 +23,7 @@ const Boundary& Labelling::boundary()
 
 std::vector<CellFacet> Labelling::facets() const
 {
-    return boundary_ ? boundary_->facets() : boundary_facets(*cells_, labels_);
+    return boundary_ ? boundary_->facets_in_order() : boundary_facets(*cells_, labels_);
 }
 
 void Labelling::set(std::span<const Index> some_cells, Label label)
@@ -32,7 +32,7 @@ void Labelling::set(std::span<const Index> some_cells, Label label)
     for (const Index cell : some_cells) {
         labels_[cell] = label;
     }
-    forget_boundary();
+    if (boundary_) boundary_->update(labels_, some_cells);
 }
 
 } // namespace vcarve
