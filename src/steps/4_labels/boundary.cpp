@@ -18,7 +18,7 @@ std::pair<Index, int> key(const CellFacet& facet)
     return {facet.cell, facet.slot};
 }
 
-/// The corners of a facet, counter-clockwise seen from outside, if its cell is inside.
+/// The corners of a facet, counter-clockwise seen from outside its cell.
 Face face_of(const TetMesh& cells, const CellFacet& facet)
 {
     const auto& corners = cells.cells[facet.cell].vertices;
@@ -96,15 +96,15 @@ bool Boundary::is_before(std::uint32_t a, std::uint32_t b) const
 
 void Boundary::update(const Labels& labels, std::span<const Index> changed_cells)
 {
-    std::map<Index, std::vector<std::uint32_t>> rows; // faces at the vertices of these cells
+    std::map<Index, std::vector<std::uint32_t>> rows; // at vertices of these cells, faces of theirs
     const auto look_at = [&](const CellFacet& facet) {
-        const bool is_there = labels[facet.cell] == Label::inside &&
-                              labels[cells_.other_side(facet).cell] == Label::outside;
-        if (is_there) {
+        if (labels[facet.cell] == Label::inside &&
+            labels[cells_.other_side(facet).cell] == Label::outside) {
             const std::uint32_t face = find_or_add(facet);
             gone_.erase(face);
-            for (const std::uint32_t corner : faces_[face])
+            for (const std::uint32_t corner : faces_[face]) {
                 rows[corner].push_back(face);
+            }
         } else if (const auto face = find(facet)) {
             gone_.insert(*face);
         }
@@ -112,7 +112,7 @@ void Boundary::update(const Labels& labels, std::span<const Index> changed_cells
     for (const Index cell : changed_cells) {
         for (int slot = 0; slot < 4; ++slot) {
             if (cells_.cells[cell].vertices[slot] != kInfinite)
-                rows[cells_.cells[cell].vertices[slot]];
+                rows.try_emplace(cells_.cells[cell].vertices[slot]);
             look_at({cell, slot});
             look_at(cells_.other_side({cell, slot}));
         }

@@ -29,23 +29,26 @@ std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<CellFac
 
 /// The boundary of a labelling and how it runs, extracted once and asked by all that judge its
 /// faces. Face i is facet i, given from its inside cell, over the vertices of the cells; at first
-/// they are in the order of the cells. Where a few labels change, the boundary can be updated: faces
-/// keep their numbers, those that are gone, too, and new ones take the next. The faces at a vertex
-/// stay in the order of the cells, so that all that is measured there is the same as were the
-/// boundary extracted anew. Cost: O(cells) to build, in parallel. Keeps a reference to the cells.
+/// they are in the order of the cells. Where a few labels change, it can be updated: faces keep
+/// their numbers, also those that are gone, which come back by the same ones, and new faces take
+/// the next. The faces at a vertex stay in the order of the cells, so that what is measured there
+/// is the same, to the last bit, as were the boundary extracted anew. Keeps a reference to the
+/// cells. Cost: O(cells) to build, in parallel.
 class Boundary {
   public:
     Boundary(const TetMesh& cells, const Labels& labels);
     Boundary(const Boundary&) = delete;
     Boundary& operator=(const Boundary&) = delete;
 
-    /// Makes this the boundary of other labels, which differ from those before in some of
-    /// `changed_cells` only. Cost: O(changed cells x log faces).
+    /// Makes this the boundary of other labels, which differ from those before in `changed_cells`
+    /// only. Cost: O(changed cells x log faces), and once the copy of all faces to a larger place.
+    /// Not while others ask.
     void update(const Labels& labels, std::span<const Index> changed_cells);
 
-    /// By number, those that are gone among them.
+    /// By number, with those that are gone.
     const std::vector<CellFacet>& facets() const { return facets_; }
     const std::vector<Face>& faces() const { return faces_; }
+    /// Whether a face is not gone.
     bool is_there(std::uint32_t face) const { return !gone_.contains(face); }
     /// Which of the facets one is. Precondition: it is one of them. Cost: O(log faces).
     std::size_t number_of(const CellFacet& facet) const { return *find(facet); }
@@ -65,7 +68,7 @@ class Boundary {
     std::vector<Face> faces_;
     std::size_t num_first_; ///< how many facets there were at first, in order
     std::map<std::pair<Index, int>, std::uint32_t> added_; ///< the numbers of the others
-    std::set<std::uint32_t> gone_;
+    std::set<std::uint32_t> gone_; ///< the numbers of those that no label makes a boundary now
     LocalEdges edges_;
     SurfaceNormals normals_;
 };

@@ -40,9 +40,9 @@ bool lies_before(const TetMesh& mesh, const Cell& cell, const SurfaceNormals& no
     });
 }
 
-/// Looks for bridging facets of a boundary: all over it at first, and again where it changed. Only
-/// large faces that were seen can be some, and which these are changes only where faces at their
-/// corners do. Keeps references.
+/// Looks for bridging facets: all over a boundary at first, then only where it was updated. They
+/// are among the large faces that were seen, and a face becomes one of these only where faces at
+/// its corners changed. Keeps references.
 class BridgingFacets {
   public:
     BridgingFacets(const TetMesh& cells, const Scene& scene, const BridgingOptions& options)
@@ -50,16 +50,15 @@ class BridgingFacets {
     {
     }
 
-    /// Looks all over the boundary for large seen faces.
     void look_all_over(const Boundary& boundary)
     {
         large_ = seen_among(boundary, boundary.edges().large_faces(size_));
     }
 
-    /// Looks for large seen faces where labels have changed in some cells since.
+    /// Looks again after the boundary was updated, since the last look, in these cells.
     void look_around(const Boundary& boundary, const std::vector<Index>& changed_cells);
 
-    /// The cells behind those that are bridging facets.
+    /// The cells behind the bridging facets that are there now.
     std::vector<Index> cells_behind(const Boundary& boundary) const;
 
   private:
@@ -68,8 +67,8 @@ class BridgingFacets {
 
     const TetMesh& cells_;
     const Scene& scene_;
-    double size_;                      ///< of large faces
-    std::vector<std::uint32_t> large_; ///< seen faces of at least that size
+    double size_;                      ///< of large faces, at least
+    std::vector<std::uint32_t> large_; ///< and seen
 };
 
 std::vector<std::uint32_t> BridgingFacets::seen_among(const Boundary& boundary,
@@ -77,7 +76,8 @@ std::vector<std::uint32_t> BridgingFacets::seen_among(const Boundary& boundary,
 {
     const auto look = [&](std::size_t i, std::vector<std::uint32_t>& found) {
         const std::uint32_t face = faces[i];
-        const bool is_large = boundary.edges().relative_size(face) >= size_;
+        const bool is_large =
+            boundary.is_there(face) && boundary.edges().relative_size(face) >= size_;
         if (is_large && is_seen(scene_, boundary.faces()[face], boundary.normals().of(face)))
             found.push_back(face);
     };
@@ -87,7 +87,6 @@ std::vector<std::uint32_t> BridgingFacets::seen_among(const Boundary& boundary,
 void BridgingFacets::look_around(const Boundary& boundary, const std::vector<Index>& changed_cells)
 {
     std::vector<std::uint32_t> faces = std::move(large_);
-    std::erase_if(faces, [&](std::uint32_t face) { return !boundary.is_there(face); });
     for (const Index cell : changed_cells) {
         for (const Index vertex : cells_.cells[cell].vertices) {
             if (vertex == kInfinite) continue;

@@ -31,7 +31,8 @@ struct DoubtedLabels {
 
 /// Finds the cut again and again, each time with `one_sight` more for the outside in each cell
 /// behind a bridging facet, and keeps what becomes free where that pays (see FreedPieces). Cost:
-/// that of cells_behind_bridging_facets and of what changes in the cut, a few times.
+/// that of cells_behind_bridging_facets once, and a few times that of what changes in the cut, with
+/// a glance at all cells to find it.
 DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
                                     std::int32_t one_sight, const BridgingOptions& options,
                                     const Progress& progress = {});

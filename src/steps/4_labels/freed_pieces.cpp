@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "geometry/triangle.h"
+#include "steps/3_visibility/exact_walk.h"
 #include "steps/3_visibility/face_evidence.h"
 
 #include <Eigen/Geometry>
@@ -116,18 +117,57 @@ std::vector<FreedPieces::Outlook> FreedPieces::outlooks_from(const Boundary& bou
     return outlooks;
 }
 
+/// Whether a corner of a freed cell is on no face any more: all cells there are outside. Of most
+/// corners the cell behind some face before tells that it is not so.
+bool FreedPieces::loses_a_point(Index cell, const Boundary& boundary_before) const
+{
+    const auto is_outside = [&](Index around) { return after_[around] == Label::outside; };
+    const auto behind = [&](std::uint32_t face) { return boundary_before.facets()[face].cell; };
+    return std::ranges::any_of(cells_.cells[cell].vertices, [&](Index vertex) {
+        if (vertex == kInfinite) return false;
+        const auto faces = boundary_before.edges().faces_at()[vertex];
+        return std::ranges::all_of(faces, is_outside, behind) &&
+               std::ranges::all_of(cells_around_vertex(cells_, vertex, cell), is_outside);
+    });
+}
+
+/// Finds the pieces that never pay, since they leave a point on no face.
+void FreedPieces::find_losers(const Boundary& boundary_before)
+{
+    std::vector<std::uint8_t> loses(freed_.size());
+    const auto look = [&](std::size_t i) {
+        loses[i] = loses_a_point(freed_[i], boundary_before) ? 1 : 0;
+    };
+    parallel_for(loses.size(), look, 64);
+    for (std::uint32_t i = 0; i < loses.size(); ++i) {
+        if (loses[i] != 0) gains_[pieces_.root(i)] = kNeverPays;
+    }
+}
+
+/// The facets that the pieces which may pay took from the boundary before, ascending.
+std::vector<CellFacet> FreedPieces::taken_facets()
+{
+    std::vector<CellFacet> taken;
+    for (std::uint32_t i = 0; i < freed_.size(); ++i) {
+        if (gains_[pieces_.root(i)] == kNeverPays) continue;
+        for (int slot = 0; slot < 4; ++slot) {
+            if (before_[cells_.cells[freed_[i]].neighbors[slot]] == Label::outside)
+                taken.push_back({freed_[i], slot});
+        }
+    }
+    return taken;
+}
+
 void FreedPieces::take_away(const Boundary& boundary_before)
 {
     constexpr double kAtLeast = 0.9; // of what it takes away a piece must show
+    find_losers(boundary_before);
+    const std::vector<CellFacet> taken = taken_facets();
     const auto look = [&](std::size_t i, std::vector<Outlook>& found) {
-        for (int slot = 0; slot < 4; ++slot) {
-            const CellFacet facet = {freed_[i], slot};
-            if (before_[cells_.other_side(facet).cell] == Label::inside) continue;
-            std::ranges::copy(outlooks_from(boundary_before, boundary_before.number_of(facet)),
-                              std::back_inserter(found));
-        }
+        std::ranges::copy(outlooks_from(boundary_before, boundary_before.number_of(taken[i])),
+                          std::back_inserter(found));
     };
-    outlooks_ = parallel_collect<Outlook>(freed_.size(), look, 16);
+    outlooks_ = parallel_collect<Outlook>(taken.size(), look, 16);
     for (const Outlook& outlook : outlooks_) {
         gains_[pieces_.root(outlook.freed)] -= kAtLeast * outlook.taken;
     }
@@ -149,14 +189,6 @@ double FreedPieces::worth(const Boundary& boundary_after, const FaceVisibility::
     return kDoubtful * plausibility(boundary_after, face);
 }
 
-/// Whether a corner of a freed cell is on no face any more.
-bool FreedPieces::loses_a_point(Index cell, const Boundary& boundary_after) const
-{
-    return std::ranges::any_of(cells_.cells[cell].vertices, [&](Index vertex) {
-        return vertex != kInfinite && boundary_after.edges().faces_at()[vertex].empty();
-    });
-}
-
 void FreedPieces::lay_open(const Boundary& boundary_after)
 {
     std::vector<double> shown(outlooks_.size());
@@ -168,9 +200,6 @@ void FreedPieces::lay_open(const Boundary& boundary_after)
         64);
     for (std::size_t i = 0; i < shown.size(); ++i) {
         gains_[pieces_.root(outlooks_[i].freed)] += shown[i];
-    }
-    for (std::uint32_t i = 0; i < freed_.size(); ++i) {
-        if (loses_a_point(freed_[i], boundary_after)) gains_[pieces_.root(i)] = kNeverPays;
     }
 }
 

@@ -27,9 +27,9 @@ double plausibility(const Boundary& boundary, std::size_t face);
 /// or where the back of a face comes to light; 0.3 where nothing lies behind. Faces that none of
 /// these views sees count nothing. A piece that leaves a point on no face never pays: that there is
 /// something at a point is known better than what is between points. Asked for one boundary after
-/// the other, so that only one of them need be held, and the labels before may be changed once
-/// take_away is done. Keeps references. Cost: O(cells) to find what was freed, and a walk through
-/// the cells for every place and view; in parallel.
+/// the other, so that one can be made of the other, and the labels before may change in between.
+/// Keeps references. Cost: a glance at all cells to find what was freed, then a walk through the
+/// cells for every place and view; in parallel.
 class FreedPieces {
   public:
     FreedPieces(const TetMesh& cells, const Scene& scene, const Labels& before,
@@ -59,12 +59,14 @@ class FreedPieces {
 
     std::vector<Outlook> outlooks_from(const Boundary& boundary_before, std::size_t face) const;
     double worth(const Boundary& boundary_after, const FaceVisibility::Crossed& met) const;
-    bool loses_a_point(Index cell, const Boundary& boundary_after) const;
+    bool loses_a_point(Index cell, const Boundary& boundary_before) const;
+    void find_losers(const Boundary& boundary_before);
+    std::vector<CellFacet> taken_facets();
     std::uint32_t number_of(Index cell) const;
 
     const TetMesh& cells_;
     const Scene& scene_;
-    const Labels& before_;
+    const Labels& before_; ///< not used by lay_open()
     const Labels& after_;
     std::vector<Index> freed_; ///< ascending
     UnionFind pieces_;         ///< of the freed cells, by their places in `freed_`

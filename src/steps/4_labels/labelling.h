@@ -12,7 +12,7 @@
 namespace vcarve {
 
 /// Labels of all cells together with their boundary, which is extracted once however many passes
-/// ask for it, and again only after labels changed. `cells` must outlive it. Not safe from several
+/// ask for it, and updated where labels change. `cells` must outlive it. Not safe from several
 /// threads at a time. Memory: a byte a cell, and the boundary from when it was first asked for.
 class Labelling {
   public:
@@ -27,7 +27,8 @@ class Labelling {
     /// The facets of the boundary alone. Cost: O(cells) where the boundary is not at hand.
     std::vector<CellFacet> facets() const;
 
-    /// Gives some cells a label.
+    /// Gives some cells a label. Cost: where the boundary is at hand, that of Boundary::update, so
+    /// that few cells at a time are meant.
     void set(std::span<const Index> some_cells, Label label);
     /// Frees the memory of the boundary.
     void forget_boundary() { boundary_.reset(); }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <vector>
 
 namespace vcarve {
@@ -73,6 +74,33 @@ bool is_thin(const TetMesh& mesh, const Labels& labels, Index vertex)
     return sum < kThin;
 }
 
+/// The points that few views saw.
+std::vector<Index> seldom_seen_points(const Scene& scene)
+{
+    const double enough = enough_views(scene);
+    return parallel_collect<Index>(scene.num_points(), [&](std::size_t i, auto& found) {
+        if (static_cast<double>(scene.tracks[i].size()) < enough)
+            found.push_back(static_cast<Index>(i));
+    });
+}
+
+/// Those of some points, which ascend, that may have become tips, since the boundary changed at
+/// them or at their feet with these cells, which are finite.
+std::vector<Index> near_cells(const std::vector<Index>& points, const TetMesh& mesh,
+                              const Boundary& boundary, const std::vector<Index>& changed_cells)
+{
+    std::set<Index> near;
+    for (const Index cell : changed_cells) {
+        for (const Index vertex : mesh.cells[cell].vertices) {
+            for (const std::uint32_t face : boundary.edges().faces_at()[vertex])
+                near.insert(boundary.faces()[face].begin(), boundary.faces()[face].end());
+        }
+    }
+    std::vector<Index> found;
+    std::ranges::set_intersection(points, near, std::back_inserter(found));
+    return found;
+}
+
 } // namespace
 
 std::int64_t take_back_needles(const Scene& scene, const NeedleOptions& options,
@@ -80,20 +108,19 @@ std::int64_t take_back_needles(const Scene& scene, const NeedleOptions& options,
 {
     constexpr int kRounds = 4;
     if (options.needle_edge == 0.0) return 0;
-    const double enough = enough_views(scene);
+    const std::vector<Index> seldom_seen = seldom_seen_points(scene);
+    std::vector<Index> points = seldom_seen;
     std::int64_t taken_back = 0;
     for (int round = 0; round < kRounds; ++round) {
         const TetMesh& cells = labelling.cells();
         const Labels& labels = labelling.labels();
         const Boundary& boundary = labelling.boundary();
-        const auto tips =
-            parallel_collect<Index>(scene.num_points(), [&](std::size_t i, auto& found) {
-                const auto vertex = static_cast<Index>(i);
-                if (static_cast<double>(scene.tracks[i].size()) >= enough) return;
-                if (boundary.edges().faces_at()[i].empty()) return;
-                if (!stands_out(cells, boundary, vertex, options.needle_edge)) return;
-                if (is_thin(cells, labels, vertex)) found.push_back(vertex);
-            });
+        const auto tips = parallel_collect<Index>(points.size(), [&](std::size_t i, auto& found) {
+            const Index vertex = points[i];
+            if (boundary.edges().faces_at()[vertex].empty()) return;
+            if (!stands_out(cells, boundary, vertex, options.needle_edge)) return;
+            if (is_thin(cells, labels, vertex)) found.push_back(vertex);
+        });
         std::vector<Index> at_tips;
         for (const Index tip : tips) {
             std::ranges::copy(inside_cells_at(cells, labels, tip), std::back_inserter(at_tips));
@@ -101,6 +128,7 @@ std::int64_t take_back_needles(const Scene& scene, const NeedleOptions& options,
         labelling.set(at_tips, Label::outside);
         taken_back += static_cast<std::int64_t>(tips.size());
         if (tips.empty()) break;
+        points = near_cells(seldom_seen, cells, labelling.boundary(), at_tips);
     }
     return taken_back;
 }

@@ -14,8 +14,8 @@ namespace vcarve {
 /// longer than the median edge at its foot, and if few views saw its point: at most 3, or fewer
 /// than half of the median point's. The inside cells at a tip are called outside; that is repeated,
 /// since a needle may have more than one tip. Returns how many tips were taken back. Does not touch
-/// pits, tunnels of outside cells to a stray point behind the surface. Cost: O(cells) a round,
-/// mostly in parallel.
+/// pits, tunnels of outside cells to a stray point behind the surface. Cost: O(points), mostly in
+/// parallel, and what is near those taken back a round.
 std::int64_t take_back_needles(const Scene& scene, const NeedleOptions& options,
                                Labelling& labelling);
 
