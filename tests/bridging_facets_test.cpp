@@ -1,5 +1,7 @@
 #include "steps/2_cells/triangulate.h"
 #include "steps/4_labels/bridging_facets.h"
+#include "steps/4_labels/freed_pieces.h"
+#include "support/point_sets.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -308,6 +310,60 @@ TEST(DoubtBridgingFacets, FreesWhatPaysOneBehindTheOther)
         EXPECT_TRUE(!stays || result.labelling.labels()[i] == before[i]) << "cell " << i;
     }
     EXPECT_EQ(result.labelling.labels(), cut.labels());
+}
+
+/// The same with each boundary extracted anew and looked all over.
+DoubtedLabels doubted_by_words(const TetMesh& mesh, const Scene& scene, MinimumCut& cut,
+                               const BridgingOptions& options)
+{
+    DoubtedLabels result{.labelling = {mesh, cut.labels()}};
+    for (int round = 0; round < 3; ++round) {
+        const Labels before = result.labelling.labels();
+        const Boundary boundary(mesh, before);
+        const auto doubted = cells_behind_bridging_facets(mesh, boundary, scene, options);
+        cut.add_source_capacity(doubted, kOneSight);
+        Labels labels = cut.labels();
+        FreedPieces pieces(mesh, scene, before, labels);
+        pieces.take_away(boundary);
+        pieces.lay_open({mesh, labels});
+        const auto unpaid = pieces.unpaid();
+        for (const Index cell : unpaid) {
+            labels[cell] = Label::inside;
+        }
+        result.labelling = {mesh, std::move(labels)};
+        result.doubts += static_cast<std::int64_t>(doubted.size());
+        result.taken_back += static_cast<std::int64_t>(unpaid.size());
+    }
+    return result;
+}
+
+TEST(DoubtBridgingFacets, FindsAgainAllThatIsThereAfterChanges)
+{
+    std::int64_t stayed_free = 0;
+    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+        const Scene scene = bumpy_sphere(1200, 40 + seed);
+        const TetMesh mesh = triangulate(scene);
+        std::mt19937_64 random(seed);
+        FlowNetwork network;
+        network.arc_capacities.assign(mesh.cells.size(), {1, 1, 1, 1});
+        for (const Cell& cell : mesh.cells) {
+            const bool is_solid = !cell.is_infinite() && middle(mesh, cell).norm() < 1.0;
+            const auto capacity = static_cast<std::int32_t>(pick(random, 30));
+            network.terminal_capacities.push_back(is_solid ? -capacity : capacity / 3);
+        }
+        const BridgingOptions options = {.bridging_edge = 1.5};
+        MinimumCut cut(mesh, network);
+        MinimumCut same(mesh, network);
+        const std::int64_t inside = Labelling(mesh, cut.labels()).num_inside();
+        const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, options);
+        const DoubtedLabels expected = doubted_by_words(mesh, scene, same, options);
+        EXPECT_EQ(result.labelling.labels(), expected.labelling.labels());
+        EXPECT_EQ(result.doubts, expected.doubts);
+        EXPECT_EQ(result.taken_back, expected.taken_back);
+        EXPECT_GT(result.taken_back, 0);
+        stayed_free += inside - result.labelling.num_inside();
+    }
+    EXPECT_GT(stayed_free, 100);
 }
 
 TEST(DoubtBridgingFacets, LeavesTheCutAsItIsWhereNotAsked)

@@ -77,6 +77,27 @@ TEST(LocalEdges, AreTheMediansOfWhatIsMeasuredAroundAVertex)
     }
 }
 
+TEST(LocalEdges, AreMeasuredAnewWhereFacesWereReplaced)
+{
+    Soup soup = random_soup(5);
+    LocalEdges edges(soup.positions, soup.faces);
+    std::vector<double> before;
+    for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
+        before.push_back(edges.median(v));
+    }
+    const Face added = {1, 2, 3};
+    const auto number = static_cast<std::uint32_t>(soup.faces.size());
+    soup.faces.push_back(added);
+    const std::vector<std::uint32_t> row = {number};
+    edges.replace_faces_at(2, row);
+    EXPECT_TRUE(std::ranges::equal(edges.faces_at()[2], row));
+    FaceFlags only_added(soup.faces.size(), 0);
+    only_added[number] = 1;
+    for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
+        EXPECT_EQ(edges.median(v), v == 2 ? median_by_sorting(soup, only_added, v) : before[v]);
+    }
+}
+
 TEST(LocalEdges, FindEveryLargeFaceAndNotAllOthers)
 {
     for (std::uint32_t seed = 0; seed < 10; ++seed) {

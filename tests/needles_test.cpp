@@ -196,6 +196,18 @@ TEST(Needles, AreNotPits)
     EXPECT_EQ(plate.labels, before);
 }
 
+TEST(Needles, AreSoughtAgainNearThoseTakenBack)
+{
+    const Scene scene = bumpy_sphere(3000, 93); // with outliers
+    const TetMesh mesh = triangulate(scene);
+    std::mt19937_64 random(94);
+    Labelling labelling(mesh, labels_where(mesh, [&](Index cell) {
+                            return (middle(mesh, cell).norm() < 1.0) != (pick(random, 100) < 4);
+                        }));
+    EXPECT_GT(take_back_needles(scene, {.needle_edge = 2.0}, labelling), 0);
+    EXPECT_EQ(take_back_needles(scene, {.needle_edge = 2.0}, labelling), 0);
+}
+
 TEST(Needles, AreTheSameFromOneThreadAndTwo)
 {
     const Scene scene = bumpy_sphere(3000, 91); // with outliers

@@ -142,6 +142,8 @@ DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, Mi
         const Labels freed = cut.labels();
         progress.tell(round + 0.7, kRounds);
         FreedPieces pieces(cells, scene, labelling.labels(), freed);
+        if (pieces.empty())
+            continue; // more source capacity only frees cells, so the labels are the same
         pieces.take_away(labelling.boundary());
         labelling.set(pieces.cells(), Label::outside);
         pieces.lay_open(labelling.boundary());
