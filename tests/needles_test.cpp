@@ -198,14 +198,18 @@ TEST(Needles, AreNotPits)
 
 TEST(Needles, AreSoughtAgainNearThoseTakenBack)
 {
-    const Scene scene = bumpy_sphere(3000, 93); // with outliers
-    const TetMesh mesh = triangulate(scene);
-    std::mt19937_64 random(94);
-    Labelling labelling(mesh, labels_where(mesh, [&](Index cell) {
-                            return (middle(mesh, cell).norm() < 1.0) != (pick(random, 100) < 4);
-                        }));
-    EXPECT_GT(take_back_needles(scene, {.needle_edge = 2.0}, labelling), 0);
-    EXPECT_EQ(take_back_needles(scene, {.needle_edge = 2.0}, labelling), 0);
+    // Where one is gone, the edges at the feet of another may have become shorter.
+    constexpr NeedleOptions kMany = {.needle_edge = 1.1};
+    for (std::uint32_t seed = 93; seed < 99; ++seed) {
+        const Scene scene = bumpy_sphere(3000, seed); // with outliers
+        const TetMesh mesh = triangulate(scene);
+        std::mt19937_64 random(94);
+        Labelling labelling(mesh, labels_where(mesh, [&](Index cell) {
+                                return (middle(mesh, cell).norm() < 1.0) != (pick(random, 10) < 1);
+                            }));
+        EXPECT_GT(take_back_needles(scene, kMany, labelling), 0);
+        EXPECT_EQ(take_back_needles(scene, kMany, labelling), 0);
+    }
 }
 
 TEST(Needles, AreTheSameFromOneThreadAndTwo)
