@@ -235,7 +235,7 @@ TEST(DoubtBridgingFacets, TakesBackWhatDoesNotPay)
     const auto doubted = cells_behind_bridging_facets(mesh, {mesh, before}, scene, {});
 
     MinimumCut cut(mesh, wishes(mesh, before, loose));
-    const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, {});
+    const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, {{}, kOneSight});
     EXPECT_EQ(result.labelling.labels(), before);
     EXPECT_GT(result.taken_back, 0);
     EXPECT_EQ(result.doubts, static_cast<std::int64_t>(doubted.size()) * result.taken_back)
@@ -300,7 +300,7 @@ TEST(DoubtBridgingFacets, FreesWhatPaysOneBehindTheOther)
     }
     MinimumCut cut(mesh, wishes(mesh, before, loose));
     ASSERT_EQ(cut.labels(), before);
-    const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, {});
+    const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, {{}, kOneSight});
     EXPECT_EQ(result.taken_back, 0);
     EXPECT_GT(result.doubts, 0);
     EXPECT_TRUE(
@@ -355,7 +355,7 @@ TEST(DoubtBridgingFacets, FindsAgainAllThatIsThereAfterChanges)
         MinimumCut cut(mesh, network);
         MinimumCut same(mesh, network);
         const std::int64_t inside = Labelling(mesh, cut.labels()).num_inside();
-        const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, kOneSight, options);
+        const DoubtedLabels result = doubt_bridging_facets(mesh, scene, cut, {options, kOneSight});
         const DoubtedLabels expected = doubted_by_words(mesh, scene, same, options);
         EXPECT_EQ(result.labelling.labels(), expected.labelling.labels());
         EXPECT_EQ(result.doubts, expected.doubts);
@@ -374,7 +374,7 @@ TEST(DoubtBridgingFacets, LeavesTheCutAsItIsWhereNotAsked)
     before[tall_cell(mesh)] = Label::inside;
     MinimumCut cut(mesh, wishes(mesh, before, before));
     const DoubtedLabels result =
-        doubt_bridging_facets(mesh, scene, cut, kOneSight, {.bridging_edge = 0.0});
+        doubt_bridging_facets(mesh, scene, cut, {{.bridging_edge = 0.0}, kOneSight});
     EXPECT_EQ(result.labelling.labels(), before);
     EXPECT_EQ(result.doubts, 0);
     EXPECT_EQ(result.taken_back, 0);

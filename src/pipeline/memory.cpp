@@ -112,10 +112,10 @@ double tracing(const Sizes& n)
 }
 
 /// The network, the solver, and the labels before and after; and for bridging facets the facets
-/// amid them, as faces, and the faces around each vertex.
+/// amid them, which are copied when some are added, as faces, and the faces around each vertex.
 double cutting(const Sizes& n)
 {
-    constexpr double kBridgingFace = 8 + 2.0 * sizeof(Face);
+    constexpr double kBridgingFace = 2 * 8 + 2.0 * sizeof(Face);
     constexpr double kBridgingVertex = 4 + 8 + 1;
     return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 2) +
            n.faces * kBridgingFace + n.points * kBridgingVertex;

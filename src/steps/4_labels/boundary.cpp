@@ -51,7 +51,9 @@ std::size_t place_of(const CellFacet& facet, const std::vector<CellFacet>& facet
 std::vector<Face> boundary_faces(const TetMesh& cells, const std::vector<CellFacet>& facets)
 {
     require_indexable(facets.size(), kMostFaces, "faces");
-    std::vector<Face> faces(facets.size());
+    std::vector<Face> faces;
+    faces.reserve(facets.size() + facets.size() / 32); // room for what an update adds
+    faces.resize(facets.size());
     parallel_for(faces.size(), [&](std::size_t i) { faces[i] = face_of(cells, facets[i]); });
     return faces;
 }

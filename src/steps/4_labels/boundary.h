@@ -41,7 +41,7 @@ class Boundary {
     Boundary& operator=(const Boundary&) = delete;
 
     /// Makes this the boundary of other labels, which differ from those before in `changed_cells`
-    /// only. Cost: O(changed cells x log faces), and once the copy of all faces to a larger place.
+    /// only. Cost: O(changed cells x log faces), and once the copy of all facets to a larger place.
     /// Not while others ask.
     void update(const Labels& labels, std::span<const Index> changed_cells);
 

@@ -122,21 +122,20 @@ std::vector<Index> cells_behind_bridging_facets(const TetMesh& cells, const Boun
 }
 
 DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
-                                    std::int32_t one_sight, const BridgingOptions& options,
-                                    const Progress& progress)
+                                    const DoubtOptions& options, const Progress& progress)
 {
     constexpr int kRounds = 3; // behind a bridging facet there may be another
     DoubtedLabels result{.labelling = {cells, cut.labels()}};
-    if (options.bridging_edge == 0.0) return result;
+    if (options.bridging.bridging_edge == 0.0) return result;
     Labelling& labelling = result.labelling;
-    BridgingFacets bridging(cells, scene, options);
+    BridgingFacets bridging(cells, scene, options.bridging);
     bridging.look_all_over(labelling.boundary());
     for (int round = 0; round < kRounds; ++round) {
         progress.tell(round, kRounds);
         const std::vector<Index> doubted = bridging.cells_behind(labelling.boundary());
         if (doubted.empty()) break;
         progress.tell(round + 0.3, kRounds);
-        cut.add_source_capacity(doubted, one_sight);
+        cut.add_source_capacity(doubted, options.one_sight);
         progress.tell(round + 0.6, kRounds);
         result.doubts += static_cast<std::int64_t>(doubted.size());
         const Labels freed = cut.labels();

@@ -22,6 +22,11 @@ namespace vcarve {
 std::vector<Index> cells_behind_bridging_facets(const TetMesh& cells, const Boundary& boundary,
                                                 const Scene& scene, const BridgingOptions& options);
 
+struct DoubtOptions {
+    BridgingOptions bridging;
+    std::int32_t one_sight = 1; ///< what a doubt adds to the source capacity of a cell
+};
+
 /// Labels after doubts, and how many bridging facets were doubted on the way.
 struct DoubtedLabels {
     Labelling labelling;
@@ -34,7 +39,6 @@ struct DoubtedLabels {
 /// that of cells_behind_bridging_facets once, and a few times that of what changes in the cut, with
 /// a glance at all cells to find it.
 DoubtedLabels doubt_bridging_facets(const TetMesh& cells, const Scene& scene, MinimumCut& cut,
-                                    std::int32_t one_sight, const BridgingOptions& options,
-                                    const Progress& progress = {});
+                                    const DoubtOptions& options, const Progress& progress = {});
 
 } // namespace vcarve

@@ -68,8 +68,8 @@ Labelling cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
     const std::int32_t one_sight = energy.unit;
     const Progress progress(stage);
     MinimumCut minimum = cut(cells, std::move(energy), options.cut, progress.part(0.0, 0.6));
-    DoubtedLabels doubted = doubt_bridging_facets(cells, scene, minimum, one_sight,
-                                                  options.bridging, progress.part(0.6, 0.9));
+    DoubtedLabels doubted = doubt_bridging_facets(
+        cells, scene, minimum, {options.bridging, one_sight}, progress.part(0.6, 0.9));
     const std::int64_t needles = take_back_needles(scene, options.needles, doubted.labelling);
     stage.end({{"inside", doubted.labelling.num_inside()},
                {"bridging facets doubted", doubted.doubts},
