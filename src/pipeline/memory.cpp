@@ -72,7 +72,8 @@ double thinning(const Sizes& read, const Sizes& thinned)
     return read.scene() + kThinnedPoint * read.points + thinned.scene();
 }
 
-/// The points around each point, 24 of them, normals, variances, and places before and after.
+/// The points around each point, 24 of them at most, normals, variances, and places before and
+/// after.
 double denoising(const Sizes& n)
 {
     constexpr double kAround = 24 * 4 + 8;

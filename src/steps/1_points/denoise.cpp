@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -24,30 +25,43 @@ using Eigen::Vector3d;
 
 using Vectors = std::vector<Vector3d>; ///< one a point
 
-/// How the share of a neighbour falls with its distance, in distances of the farthest one.
-double nearness(double distance_sq, double reach_sq)
+/// The logarithm of how the share of a neighbour falls with its distance, in distances of the
+/// farthest one. Sums of logarithms, so that one exponential does for all.
+double log_nearness(double distance_sq, double reach_sq)
 {
     constexpr double kSpread = 1.0 / 1.5;
-    return std::exp(-distance_sq / (2.0 * kSpread * kSpread * reach_sq));
+    return -distance_sq / (2.0 * kSpread * kSpread * reach_sq);
 }
 
-/// How it falls with the angle between the normals, about 20 degrees.
-double likeness(double cosine)
+/// Of how it falls with the angle between the normals, about 20 degrees.
+double log_likeness(double cosine)
 {
     constexpr double kSpread = 0.35;
-    return std::exp(-(1.0 - cosine) / (kSpread * kSpread));
+    return -(1.0 - cosine) / (kSpread * kSpread);
+}
+
+/// How many points around a point tell how the surface runs there. More than the few bend it where
+/// they reach around an edge; but fitting normals, and noise as large as the distances between
+/// points, take more.
+constexpr std::size_t kFewAround = 12;
+constexpr std::size_t kManyAround = 24;
+
+bool knows_all_normals(const Scene& scene)
+{
+    return !scene.normals.empty() &&
+           std::ranges::none_of(scene.normals, [](const auto& normal) { return normal.isZero(); });
 }
 
 /// The nearest points around every point.
 class Neighborhoods {
   public:
-    Neighborhoods(const Vectors& positions, const Progress& progress)
-        : count_(std::min(kMost, positions.size() - 1)),
+    Neighborhoods(const Vectors& positions, std::size_t count, const Progress& progress)
+        : count_(std::min(count, positions.size() - 1)),
           points_(positions.size() * count_),
           reaches_sq_(positions.size())
     {
         const NearestNeighbors tree(positions);
-        const auto count = static_cast<std::ptrdiff_t>(count_);
+        const auto kept = static_cast<std::ptrdiff_t>(count_);
         progress.tell(0.4);
         parallel_for_ranges(
             positions.size(), progress.part(0.4, 1.0), [&](std::size_t first, std::size_t last) {
@@ -58,7 +72,7 @@ class Neighborhoods {
                     const auto self = std::ranges::find(nearest, static_cast<std::uint32_t>(i),
                                                         &NearestNeighbors::Neighbor::point);
                     if (self != nearest.end()) nearest.erase(self);
-                    std::ranges::transform(nearest.begin(), nearest.begin() + count,
+                    std::ranges::transform(nearest.begin(), nearest.begin() + kept,
                                            points_.begin() + begin(i),
                                            &NearestNeighbors::Neighbor::point);
                 }
@@ -72,9 +86,13 @@ class Neighborhoods {
     /// The square of the distance to the farthest of them.
     double reach_sq(std::size_t point) const { return reaches_sq_[point]; }
 
-  private:
-    static constexpr std::size_t kMost = 24;
+    /// The square of how far points stand apart where the surface is flat.
+    double spacing_sq(std::size_t point) const
+    {
+        return reaches_sq_[point] * std::numbers::pi / static_cast<double>(count_);
+    }
 
+  private:
     std::ptrdiff_t begin(std::size_t point) const
     {
         return static_cast<std::ptrdiff_t>(point * count_);
@@ -121,7 +139,7 @@ Vector3d fitted_normal(const Scene& scene, const Neighborhoods& neighborhoods, s
     for (const std::uint32_t other : around) {
         const Vector3d from_mean = scene.positions[other] - mean;
         const double distance_sq = (scene.positions[other] - position).squaredNorm();
-        spread += nearness(distance_sq, neighborhoods.reach_sq(point)) * from_mean *
+        spread += std::exp(log_nearness(distance_sq, neighborhoods.reach_sq(point))) * from_mean *
                   from_mean.transpose();
     }
     Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
@@ -147,8 +165,9 @@ Vectors surface_normals(const Scene& scene, const Neighborhoods& neighborhoods)
         Vector3d sum = normals[i];
         for (const std::uint32_t other : neighborhoods.around(i)) {
             const double distance_sq = (scene.positions[other] - scene.positions[i]).squaredNorm();
-            sum += nearness(distance_sq, neighborhoods.reach_sq(i)) *
-                   likeness(normals[i].dot(normals[other])) * normals[other];
+            sum += std::exp(log_nearness(distance_sq, neighborhoods.reach_sq(i)) +
+                            log_likeness(normals[i].dot(normals[other]))) *
+                   normals[other];
         }
         filtered[i] = sum.normalized();
     });
@@ -158,9 +177,9 @@ Vectors surface_normals(const Scene& scene, const Neighborhoods& neighborhoods)
 /// Estimates where the points are, each from itself and those around.
 class Denoiser {
   public:
-    Denoiser(const Scene& scene, const Progress& progress)
+    Denoiser(const Scene& scene, std::size_t num_around, const Progress& progress)
         : scene_(scene),
-          neighborhoods_(scene.positions, progress),
+          neighborhoods_(scene.positions, num_around, progress),
           normals_(surface_normals(scene, neighborhoods_)),
           spreads_(scene.num_points()),
           variances_(scene.num_points())
@@ -177,23 +196,18 @@ class Denoiser {
     {
         constexpr double kSigmaOfMedian = 1.4826; // of a normal distribution
         constexpr double kAll = 1e100;            // no plane is too far
-        std::vector<double> heights(variances_.size());
-        parallel_for(heights.size(), [&](std::size_t i) {
-            const double height = height_above_surface(i, kAll).value;
-            heights[i] = variances_[i] > 0.0 ? std::abs(height) / std::sqrt(variances_[i]) : 0.0;
-        });
-        return kSigmaOfMedian * median_in_place(heights);
+        return kSigmaOfMedian * median_of_some([&](std::size_t i) {
+                   const double height = height_above_surface(i, kAll).value;
+                   return variances_[i] > 0.0 ? std::abs(height) / std::sqrt(variances_[i]) : 0.0;
+               });
     }
 
-    /// The height of a point that is off by one pixel, over the distance to the farthest of the
-    /// points around: the median.
-    double share_of_a_pixel() const
+    /// The same of their heights, over the distances between points: the median.
+    double noise_in_spacings() const
     {
-        std::vector<double> shares(variances_.size());
-        parallel_for(shares.size(), [&](std::size_t i) {
-            shares[i] = std::sqrt(variances_[i] / neighborhoods_.reach_sq(i));
-        });
-        return median_in_place(shares);
+        return noise_px() * median_of_some([&](std::size_t i) {
+                   return std::sqrt(variances_[i] / neighborhoods_.spacing_sq(i));
+               });
     }
 
     /// Where a point is, if planes farther than `gate` times what a pixel makes of its uncertainty
@@ -210,6 +224,17 @@ class Denoiser {
     }
 
   private:
+    /// The median of value(i) over the points, or over every so manieth where there are many.
+    template <typename Value>
+    double median_of_some(const Value& value) const
+    {
+        constexpr std::size_t kEnough = 100'000;
+        const std::size_t step = 1 + variances_.size() / kEnough;
+        std::vector<double> values((variances_.size() + step - 1) / step);
+        parallel_for(values.size(), [&](std::size_t i) { values[i] = value(i * step); });
+        return median_in_place(values);
+    }
+
     /// How far a point lies above the surface, and how uncertain the surface is there.
     struct Height {
         double value = 0.0;
@@ -229,9 +254,11 @@ class Denoiser {
             const double variance = variances_[point] + variances_[other];
             if (!(variances_[other] > 0.0)) continue;
             const double height = normals_[other].dot(way);
+            const double of_all =
+                std::exp(log_nearness(way.squaredNorm(), neighborhoods_.reach_sq(point)) +
+                         log_likeness(cosine)) /
+                variance;
             const double agreement = std::exp(-height * height / (2.0 * gate * gate * variance));
-            const double of_all = nearness(way.squaredNorm(), neighborhoods_.reach_sq(point)) *
-                                  likeness(cosine) / variance;
             const double weight = of_all * agreement;
             all_weights += of_all;
             sum += weight * height;
@@ -251,10 +278,20 @@ class Denoiser {
 
 /// Whether a scan is so exact that its points stand out of the surface by next to nothing beside
 /// the distances between them. What is taken for noise there is what the surface is like.
-bool is_exact_scan(const Scene& scene, const Denoiser& denoiser, double noise_px)
+bool is_exact_scan(const Scene& scene, const Denoiser& denoiser)
 {
-    constexpr double kExact = 0.03;
-    return has_scanners(scene) && noise_px * denoiser.share_of_a_pixel() < kExact;
+    constexpr double kExact = 0.083;
+    return has_scanners(scene) && denoiser.noise_in_spacings() < kExact;
+}
+
+Denoiser make_denoiser(const Scene& scene, const Progress& progress)
+{
+    constexpr double kNoisy = 0.4;
+    if (knows_all_normals(scene)) {
+        Denoiser denoiser(scene, kFewAround, progress.part(0.0, 0.6));
+        if (denoiser.noise_in_spacings() < kNoisy) return denoiser;
+    }
+    return {scene, kManyAround, progress.part(0.6, 1.0)};
 }
 
 } // namespace
@@ -280,11 +317,11 @@ DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const 
     constexpr std::size_t kLeastPoints = 4; // a point and three around it
     DenoiseReport report;
     if (scene.num_points() < kLeastPoints) return report;
-    const Denoiser denoiser(scene, progress.part(0.0, 0.7));
+    const Denoiser denoiser = make_denoiser(scene, progress.part(0.0, 0.7));
     progress.tell(0.8);
     report.noise_px = denoiser.noise_px();
     const double gate = options.denoise * report.noise_px;
-    if (!(gate > 0.0) || is_exact_scan(scene, denoiser, report.noise_px)) return report;
+    if (!(gate > 0.0) || is_exact_scan(scene, denoiser)) return report;
     Vectors estimates(scene.num_points());
     parallel_for(estimates.size(), progress.part(0.85, 1.0),
                  [&](std::size_t i) { estimates[i] = denoiser.estimate(i, gate); });

@@ -23,20 +23,22 @@ struct DenoiseReport {
 /// by backward propagation, Hartley & Zisserman 2004, 5.2). How many pixels, the cloud tells: the
 /// median height of points above the planes of those around, over what one pixel makes of it.
 ///
-/// A plane lies through each of the 24 nearest points, across its normal. Normals are the cloud's,
-/// or where it has none those of planes fitted to the points around (Hoppe et al. 1992), and are
-/// filtered once with weights by nearness and likeness (Jones, Durand & Zwicker 2004). The planes
+/// A plane lies through each of the 12 nearest points, across its normal; of the 24 nearest where
+/// normals are missing or the noise is two fifths of the distance between points or more. Normals
+/// are the cloud's, or where it has none those of planes fitted to the points around (Hoppe et al.
+/// 1992), and are filtered once with weights by nearness and likeness (Jones, Durand & Zwicker
+/// 2004). The planes
 /// of near points with a like normal, of which the point lies within `denoise` standard deviations,
 /// are taken together by their uncertainty, and so is the point with them; it moves by no more than
 /// `denoise` of its own standard deviations. (The bilateral filter of Fleishman, Drori & Cohen-Or
 /// 2003, with variances known.)
 ///
 /// Points whose reprojection error is known stay, since a matcher found them one by one, and so do
-/// those whose sights do not cross, and all of a scan whose noise is less than 3 % of the distance
-/// to the 24th of the points around, in the median. Normals of the scene stay as they are. Points
-/// are finite and no two at one place, before and after. The result is the same for any number of
-/// threads and any scale of the scene. Cost: O(points log points + sights), in parallel but for a
-/// k-d tree; 250 bytes a point.
+/// those whose sights do not cross, and all of a scan whose noise is less than 8 % of the distance
+/// between points, in the median. Normals of the scene stay as they are. Points are finite and no
+/// two at one place, before and after. The result is the same for any number of threads and any
+/// scale of the scene. Cost: O(points log points + sights), in parallel but for a k-d tree; 200
+/// bytes a point, 250 without normals.
 DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options,
                              const Progress& progress = {});
 
