@@ -1,4 +1,4 @@
-#include "compare/sample.h"
+#include "base/random_number.h"
 #include "steps/1_points/denoise.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"

@@ -29,7 +29,7 @@ struct Problem {
 // ---- problems -----------------------------------------------------------------------------------
 
 /// Cells without an arc that could carry anything: every cell is its own neighbour.
-Problem isolated_cells(std::vector<std::int32_t> terminal_capacities)
+Problem isolated_cells(UnsetArray<std::int32_t> terminal_capacities)
 {
     Problem problem;
     problem.cells.cells.resize(terminal_capacities.size());
@@ -56,7 +56,7 @@ void connect(TetMesh& cells, std::pair<Index, int> a, std::pair<Index, int> b)
 }
 
 /// Cells in a row, each leading to the next by slot 1 and back by slot 0.
-Problem chain(std::vector<std::int32_t> terminal_capacities,
+Problem chain(UnsetArray<std::int32_t> terminal_capacities,
               const std::vector<std::int32_t>& forward, const std::vector<std::int32_t>& backward)
 {
     Problem problem = isolated_cells(std::move(terminal_capacities));
@@ -81,7 +81,7 @@ struct Kind {
 /// Facets paired at random: several between the same two cells, or one cell with itself, happen.
 Problem random_problem(const Kind& kind, std::mt19937& random)
 {
-    std::vector<std::int32_t> terminal_capacities(kind.cells, 0);
+    UnsetArray<std::int32_t> terminal_capacities(kind.cells, 0);
     std::bernoulli_distribution is_root(kind.roots), is_arc(kind.arcs);
     std::uniform_int_distribution<std::int32_t> excess(-kind.max_excess, kind.max_excess);
     std::uniform_int_distribution<std::int32_t> residual(0, kind.max_arc_capacity);
@@ -456,8 +456,8 @@ TEST(MinimumCut, SolvesALongChain)
     constexpr std::size_t kCells = 200000;
     std::mt19937 random(3);
     std::uniform_int_distribution<std::int32_t> residual(5, 9);
-    std::vector<std::int32_t> terminal_capacities(kCells, 0), forward(kCells - 1),
-        backward(kCells - 1);
+    UnsetArray<std::int32_t> terminal_capacities(kCells, 0);
+    std::vector<std::int32_t> forward(kCells - 1), backward(kCells - 1);
     for (std::int32_t& value : forward)
         value = residual(random);
     for (std::int32_t& value : backward)
@@ -480,7 +480,7 @@ TEST(MinimumCut, FollowsAPermutationOfTheCellsAndSlots)
     std::vector<Index> order(count);
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), random);
-    Problem permuted = isolated_cells(std::vector<std::int32_t>(count));
+    Problem permuted = isolated_cells(UnsetArray<std::int32_t>(count, 0));
     for (Index cell = 0; cell < count; ++cell) {
         permuted.network.terminal_capacities[order[cell]] =
             problem.network.terminal_capacities[cell];

@@ -1,4 +1,4 @@
-#include "compare/sample.h"
+#include "base/random_number.h"
 #include "geometry/nearest_neighbors.h"
 
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@ TEST(ParallelRows, HasTheItemsOfARowInTheOrderOfTheirSources)
         if (i != 4) visit(static_cast<std::uint32_t>(i % 3), static_cast<std::uint32_t>(i));
     });
     EXPECT_EQ(table.ends, (std::vector<std::uint32_t>{3, 4, 6, 6}));
-    EXPECT_EQ(table.items, (std::vector<std::uint32_t>{0, 3, 6, 1, 2, 5}));
+    EXPECT_EQ(table.items, (UnsetArray<std::uint32_t>{0, 3, 6, 1, 2, 5}));
     EXPECT_EQ(table[1].size(), 1U);
     EXPECT_TRUE(table[3].empty());
 }

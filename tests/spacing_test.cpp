@@ -1,4 +1,4 @@
-#include "compare/sample.h"
+#include "base/random_number.h"
 #include "compare/spacing.h"
 
 #include <gmock/gmock.h>

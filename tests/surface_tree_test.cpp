@@ -1,4 +1,4 @@
-#include "compare/sample.h"
+#include "base/random_number.h"
 #include "compare/surface_tree.h"
 #include "geometry/predicates.h"
 #include "support/measured_scenes.h"

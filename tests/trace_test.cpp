@@ -1,4 +1,4 @@
-#include "compare/sample.h"
+#include "base/random_number.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/3_visibility/walk.h"
@@ -72,7 +72,7 @@ const Vector3d kInCell0(0, 1, 2);
 
 constexpr TraceOptions kFullWeight = {.views_sigma = 0.0, .distance_sigma = 0.0, .sink_depth = 0.0};
 
-std::vector<Four> no_arc_capacities()
+ArcCapacities no_arc_capacities()
 {
     return {8, Four{0, 0, 0, 0}};
 }
@@ -94,10 +94,10 @@ Scene tube()
 }
 
 /// The energy of sights that are walked one by one and go on as the header says: one in four after
-/// 16 facets and one in 16 after 64.
+/// 16 facets and one in 16 after 40.
 struct BundledByHand {
-    std::vector<Four> arcs;
-    std::vector<std::int32_t> terminals;
+    ArcCapacities arcs;
+    UnsetArray<std::int32_t> terminals;
     int gone_on = 0; ///< sights that go on for 16
 
     BundledByHand(const TetMesh& mesh, const Scene& scene)
@@ -117,7 +117,7 @@ struct BundledByHand {
         SightWalk walk(mesh, vertex);
         walk.to(center, [&](Index cell, int slot) {
             ++crossed;
-            const std::uint32_t lead = crossed <= 16 ? 1 : crossed <= 64 ? 4 : 16;
+            const std::uint32_t lead = crossed <= 16 ? 1 : crossed <= 40 ? 4 : 16;
             if ((vertex + view) % lead != 0) return;
             const auto weight = static_cast<std::int32_t>(lead * 256);
             arcs[cell][slot] += weight;
@@ -193,11 +193,11 @@ TEST(TraceSights, PushesASightFromBeyondTheHullToItsPoint)
 {
     const Scene scene = star({kBeyondCell0});
     const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
-    std::vector<Four> arc_capacities = no_arc_capacities();
+    ArcCapacities arc_capacities = no_arc_capacities();
     arc_capacities[0][3] = 256; // back out; the way in is used up
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
     EXPECT_EQ(energy.network.terminal_capacities,
-              (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
+              (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
     EXPECT_EQ(energy.cell_of_view, std::vector<Index>{kInfinite});
     EXPECT_EQ(energy.unit, 256);
 }
@@ -208,7 +208,7 @@ TEST(TraceSights, LeavesTheWholeFlowInTheCellOfAViewThatNoFacetPartsFromItsPoint
     const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
     EXPECT_EQ(energy.network.arc_capacities, no_arc_capacities());
     EXPECT_EQ(energy.network.terminal_capacities,
-              (std::vector<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
+              (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
     EXPECT_EQ(energy.cell_of_view, std::vector<Index>{0});
 }
 
@@ -235,11 +235,11 @@ TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
     const TraceOptions options = {.views_sigma = 3.0, .distance_sigma = 0.0, .sink_depth = 0.0};
     const VisibilityEnergy energy = traced(triangulate(scene), scene, options);
     // 256 (1 - exp(-1 / 18)) / (1 - exp(-4 / 18)) = 69.4 beside 256
-    std::vector<Four> arc_capacities = no_arc_capacities();
+    ArcCapacities arc_capacities = no_arc_capacities();
     arc_capacities[0][3] = 69;
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
     EXPECT_EQ(energy.network.terminal_capacities,
-              (std::vector<std::int32_t>{69, 0, 0, 0, -512, 0, -69, 0}));
+              (UnsetArray<std::int32_t>{69, 0, 0, 0, -512, 0, -69, 0}));
 }
 
 TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
@@ -250,9 +250,9 @@ TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
     options.error_sigma = 3.0;
     const std::int32_t weight = 217; // 256 exp(-(4 - 1) / 18)
     EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities,
-              (std::vector<std::int32_t>{weight, 0, 0, 0, 0, 0, -weight, 0}));
+              (UnsetArray<std::int32_t>{weight, 0, 0, 0, 0, 0, -weight, 0}));
 
-    const std::vector<std::int32_t> full = {256, 0, 0, 0, 0, 0, -256, 0};
+    const UnsetArray<std::int32_t> full = {256, 0, 0, 0, 0, 0, -256, 0};
     for (const double harmless_px : {0.0, 1.0, -1.0}) {
         scene.errors_px[4] = harmless_px;
         EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities, full);
@@ -270,7 +270,7 @@ TEST(TraceSights, SaysNothingWithoutSights)
     const Scene scene = star({});
     const VisibilityEnergy energy = traced(triangulate(scene), scene, {});
     EXPECT_EQ(energy.network.arc_capacities, no_arc_capacities());
-    EXPECT_EQ(energy.network.terminal_capacities, std::vector<std::int32_t>(8, 0));
+    EXPECT_EQ(energy.network.terminal_capacities, UnsetArray<std::int32_t>(8, 0));
 }
 
 TEST(TraceSights, SoftensWhatIsNearThePoint)
@@ -280,11 +280,11 @@ TEST(TraceSights, SoftensWhatIsNearThePoint)
     const Scene scene = star({kBeyondCell0});
     const TraceOptions options = {.views_sigma = 0.0, .distance_sigma = 0.5, .sink_depth = 0.0};
     const VisibilityEnergy energy = traced(triangulate(scene), scene, options);
-    std::vector<Four> arc_capacities = no_arc_capacities();
+    ArcCapacities arc_capacities = no_arc_capacities();
     arc_capacities[0][3] = 79; // 256 (1 - exp(-(2.98142 / 3.4641)^2 / 2)) = 79.24
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
     EXPECT_EQ(energy.network.terminal_capacities,
-              (std::vector<std::int32_t>{79, 0, 0, 0, 0, 0, -256, 0}));
+              (UnsetArray<std::int32_t>{79, 0, 0, 0, 0, 0, -256, 0}));
 }
 
 TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
@@ -294,11 +294,11 @@ TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
         {{{0, 0, 0}, {}}, {{4, 0, 0}, {}}, {{0, 4, 0}, {}}, {{1, 1, 3}, {0}}, {{1, 1, -3}, {0}}});
     const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
     // Cell 0 {0 1 2 3} holds the view; point 4's sight crosses into it from cell 2 {0 1 2 4}.
-    std::vector<Four> arc_capacities = no_arc_capacities();
+    ArcCapacities arc_capacities = no_arc_capacities();
     arc_capacities[1][3] = 256;
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
     EXPECT_EQ(energy.network.terminal_capacities,
-              (std::vector<std::int32_t>{256, 256, 0, 0, 0, 0, 0, 0}));
+              (UnsetArray<std::int32_t>{256, 256, 0, 0, 0, 0, 0, 0}));
     EXPECT_EQ(energy.cell_of_view, std::vector<Index>{0});
 }
 

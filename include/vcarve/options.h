@@ -96,7 +96,7 @@ struct TraceOptions {
     double distance_sigma = 0.5; ///< --distance-sigma
     double sink_depth = 0.0;     ///< --sink-depth
     double error_sigma = 3.0;    ///< --error-sigma
-    int bundle_sights = 4;       ///< --bundle-sights
+    int bundle_sights = 5;       ///< --bundle-sights
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "base/unset_array.h"
 
 #include <tbb/task_arena.h>
 
@@ -15,7 +16,7 @@ namespace vcarve {
 /// Rows of numbers, stored end to end.
 struct RowTable {
     std::vector<std::uint32_t> ends; ///< where each row ends; it begins where the one before ends
-    std::vector<std::uint32_t> items;
+    UnsetArray<std::uint32_t> items;
 
     std::span<const std::uint32_t> operator[](std::size_t row) const
     {

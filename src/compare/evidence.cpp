@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "base/random_number.h"
 #include "compare/sample.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_table.h"

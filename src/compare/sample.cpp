@@ -1,6 +1,7 @@
 #include "compare/sample.h"
 
 #include "base/parallel.h"
+#include "base/random_number.h"
 #include "geometry/triangle.h"
 
 #include <Eigen/Geometry>
@@ -10,16 +11,6 @@
 
 namespace vcarve {
 namespace {
-
-constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15U; ///< 2^64 / golden ratio
-
-/// The mixing step of SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t mix(std::uint64_t z)
-{
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31U);
-}
 
 /// ends[i] is the area of the faces up to and including i. A face that is not finite has none.
 std::vector<double> cumulated_areas(const TriMesh& mesh)
@@ -44,12 +35,6 @@ Eigen::Vector3d point_in_face(const TriMesh& mesh, const Face& face, double u, d
 }
 
 } // namespace
-
-double random_number(std::uint64_t seed, std::uint64_t index)
-{
-    const std::uint64_t bits = mix(mix(seed + kGolden) + (index + 1) * kGolden);
-    return static_cast<double>(bits >> 11U) * 0x1p-53;
-}
 
 SurfaceSamples sample_surface(const TriMesh& mesh, std::size_t count, std::uint64_t seed)
 {

@@ -10,10 +10,6 @@
 
 namespace vcarve {
 
-/// A number in [0, 1) that depends on nothing but its arguments: number `index` of the sequence
-/// that `seed` begins. So sampling does not depend on the number of threads.
-double random_number(std::uint64_t seed, std::uint64_t index);
-
 /// Points spread over a surface, and the faces they lie on. The arrays run parallel.
 struct SurfaceSamples {
     std::vector<Eigen::Vector3d> positions; ///< in the frame of the mesh's positions

@@ -1,6 +1,7 @@
 #include "compare/truth.h"
 
 #include "base/parallel.h"
+#include "base/random_number.h"
 #include "compare/sample.h"
 #include "geometry/triangle.h"
 #include "model/camera.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/unset_array.h"
 #include "vcarve/tri_mesh.h"
 
 #include <span>
@@ -46,7 +47,7 @@ inline bool is_degenerate(const Face& face)
 /// The half-edges of all faces, gathered by the edge they run along. Edges are in ascending order
 /// of (lower, higher vertex), the half-edges of an edge ascend.
 struct EdgeTable {
-    std::vector<HalfEdge> half_edges;
+    UnsetArray<HalfEdge> half_edges;
     /// Edge e has half_edges[begins[e]] up to half_edges[begins[e + 1]].
     std::vector<std::uint32_t> begins;
 

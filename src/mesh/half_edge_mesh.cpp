@@ -144,20 +144,16 @@ std::array<Vector3d, 3> HalfEdgeMesh::triangle(FaceHandle face) const
 
 std::int64_t num_vertices_left(const HalfEdgeMesh& mesh)
 {
-    std::int64_t count = 0;
-    for (std::size_t v = 0; v < mesh.n_vertices(); ++v) {
-        count += mesh.is_deleted(handle_at<VertexHandle>(v)) ? 0 : 1;
-    }
-    return count;
+    return parallel_sum(mesh.n_vertices(), std::int64_t{0}, [&](std::size_t v) {
+        return mesh.is_deleted(handle_at<VertexHandle>(v)) ? 0 : 1;
+    });
 }
 
 std::int64_t num_faces_left(const HalfEdgeMesh& mesh)
 {
-    std::int64_t count = 0;
-    for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
-        count += mesh.is_deleted(handle_at<FaceHandle>(f)) ? 0 : 1;
-    }
-    return count;
+    return parallel_sum(mesh.n_faces(), std::int64_t{0}, [&](std::size_t f) {
+        return mesh.is_deleted(handle_at<FaceHandle>(f)) ? 0 : 1;
+    });
 }
 
 TriMesh tri_mesh(const HalfEdgeMesh& mesh)

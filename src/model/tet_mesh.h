@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/unset_array.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -47,8 +49,8 @@ struct CellFacet {
 /// same points give the same arrays, whatever the number of threads.
 struct TetMesh {
     std::vector<Eigen::Vector3d> positions;
-    std::vector<Cell> cells;
-    std::vector<std::uint8_t> mirrors; ///< 2 bits a facet, see mirror()
+    UnsetArray<Cell> cells;
+    UnsetArray<std::uint8_t> mirrors;  ///< 2 bits a facet, see mirror()
     std::vector<Index> cell_of_vertex; ///< one finite cell at each vertex
 
     /// The slot of `cell` in its neighbour across facet `slot`: neighbors[mirror] of that one is

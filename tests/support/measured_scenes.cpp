@@ -1,6 +1,6 @@
 #include "support/measured_scenes.h"
 
-#include "compare/sample.h"
+#include "base/random_number.h"
 
 #include <Eigen/LU>
 

@@ -1,6 +1,6 @@
 #include "support/random_cells.h"
 
-#include "compare/sample.h"
+#include "base/random_number.h"
 
 #include <vector>
 

@@ -3,23 +3,22 @@
 #include "base/freed_memory.h"
 #include "base/index_limit.h"
 #include "base/parallel.h"
+#include "base/parallel_invoke.h"
 #include "base/parallel_rows.h"
+#include "base/random_number.h"
+#include "base/unset_array.h"
 #include "vcarve/error.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
-#include <CGAL/property_map.h>
-#include <CGAL/spatial_sort.h>
 #include <fmt/core.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <stdexcept>
 
@@ -43,28 +42,36 @@ using Delaunay = CGAL::Delaunay_triangulation_3<
 /// The share of the time that the insertion of points takes; the rest is copying cells.
 constexpr double kInsertion = 0.8;
 
-std::vector<Kernel::Point_3> points_of(const Scene& scene)
+Kernel::Point_3 to_point(const Eigen::Vector3d& position)
 {
-    std::vector<Kernel::Point_3> points;
-    points.reserve(scene.num_points());
-    for (const Eigen::Vector3d& p : scene.positions) {
-        points.emplace_back(p.x(), p.y(), p.z());
-    }
-    return points;
+    return {position.x(), position.y(), position.z()};
 }
 
-/// The numbers of the points in the order that suits CGAL: random at large, near each other in the
-/// small (Amenta, Choi, Rote, "Incremental constructions con BRIO", 2003).
-template <typename Concurrency>
-std::vector<std::size_t> insertion_order(const std::vector<Kernel::Point_3>& points)
+/// In which round a point is inserted: the last one takes three quarters of all points, the one
+/// before three quarters of the rest, and so on, by chance.
+std::uint32_t insertion_round(std::size_t point, std::uint32_t num_rounds)
 {
-    using Map = CGAL::Pointer_property_map<Kernel::Point_3>::const_type;
-    std::vector<std::size_t> order(points.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    CGAL::spatial_sort<Concurrency>(
-        order.begin(), order.end(),
-        CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(CGAL::make_property_map(points)));
-    return order;
+    constexpr std::uint64_t kSeed = 0;
+    std::uint32_t round = num_rounds - 1;
+    for (double chance = random_number(kSeed, point); chance < 0.25 && round > 0; chance *= 4.0)
+        --round;
+    return round;
+}
+
+/// The numbers of points that follow each other in space, in the order that suits insertion: random
+/// at large, near each other in the small (Amenta, Choi, Rote, "Incremental constructions con
+/// BRIO", 2003).
+UnsetArray<std::uint32_t> insertion_order(std::size_t count)
+{
+    constexpr std::size_t kFirstRound = 16; // points or more
+    std::uint32_t num_rounds = 1;
+    while (count >> (2 * num_rounds) >= kFirstRound)
+        ++num_rounds;
+    return gather_rows(count, num_rounds,
+                       [&](std::size_t i, const auto& visit) {
+                           visit(insertion_round(i, num_rounds), static_cast<std::uint32_t>(i));
+                       })
+        .items;
 }
 
 CGAL::Bbox_3 box_of(const Scene& scene)
@@ -104,19 +111,38 @@ Cell unnumbered_cell(CellHandle cell)
     return result;
 }
 
-/// All cells, in the order CGAL keeps them, which may differ from run to run.
+/// Numbers all cells in the order CGAL keeps them, which may differ from run to run. From both ends
+/// at once, since CGAL gives no other way to share that.
 template <typename Triangulation>
-std::vector<Cell> unnumbered_cells(const Triangulation& triangulation, const Progress& progress)
+UnsetArray<typename Triangulation::Cell_handle> numbered_cells(const Triangulation& triangulation)
 {
-    using CellHandle = typename Triangulation::Cell_handle;
-    std::vector<CellHandle> handles;
-    handles.reserve(triangulation.tds().cells().size());
-    for (CellHandle cell : triangulation.all_cell_handles()) {
-        cell->info() = static_cast<Index>(handles.size());
-        handles.push_back(cell);
-    }
+    UnsetArray<typename Triangulation::Cell_handle> handles(triangulation.tds().cells().size());
+    const auto number = [&](std::size_t i, const auto& cell) {
+        cell->info() = static_cast<Index>(i);
+        handles[i] = cell;
+    };
+    const std::size_t half = handles.size() / 2;
+    parallel_invoke(
+        [&] {
+            auto cell = triangulation.all_cells_begin();
+            for (std::size_t i = 0; i < half; ++i)
+                number(i, cell++);
+        },
+        [&] {
+            auto cell = triangulation.all_cells_end();
+            for (std::size_t i = handles.size(); i-- > half;)
+                number(i, --cell);
+        });
+    return handles;
+}
+
+/// All cells, in that order.
+template <typename Triangulation>
+UnsetArray<Cell> unnumbered_cells(const Triangulation& triangulation, const Progress& progress)
+{
+    const auto handles = numbered_cells(triangulation);
     progress.tell(0.5);
-    std::vector<Cell> cells(handles.size());
+    UnsetArray<Cell> cells(handles.size());
     parallel_for(handles.size(), [&](std::size_t i) { cells[i] = unnumbered_cell(handles[i]); });
     return cells;
 }
@@ -137,7 +163,7 @@ bool comes_before(const Cell& a, const Cell& b)
 }
 
 /// The cells in canonical order: binned by smallest vertex, each bin sorted.
-std::vector<Index> canonical_order(const std::vector<Cell>& cells, std::size_t num_vertices)
+UnsetArray<Index> canonical_order(const UnsetArray<Cell>& cells, std::size_t num_vertices)
 {
     RowTable bins = gather_rows(cells.size(), num_vertices, [&](std::size_t i, const auto& visit) {
         visit(smallest_vertex(cells[i]), static_cast<Index>(i));
@@ -159,12 +185,12 @@ int slot_of_neighbor(const Cell& cell, Index neighbor)
 }
 
 /// Puts the cells in canonical order.
-void fill_cells(const std::vector<Cell>& unnumbered, TetMesh& mesh, std::size_t num_vertices,
+void fill_cells(const UnsetArray<Cell>& unnumbered, TetMesh& mesh, std::size_t num_vertices,
                 const Progress& progress)
 {
-    const std::vector<Index> order = canonical_order(unnumbered, num_vertices);
+    const UnsetArray<Index> order = canonical_order(unnumbered, num_vertices);
     progress.tell(0.5);
-    std::vector<Index> numbers(order.size());
+    UnsetArray<Index> numbers(order.size());
     parallel_for(order.size(), [&](std::size_t i) { numbers[order[i]] = static_cast<Index>(i); });
     mesh.cells.resize(order.size());
     parallel_for(order.size(), [&](std::size_t i) {
@@ -214,7 +240,7 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress
         throw std::logic_error("two points to triangulate lie at one place");
     }
     triangulation.infinite_vertex()->info() = kInfinite;
-    const std::vector<Cell> unnumbered = unnumbered_cells(triangulation, progress.part(0.0, 0.4));
+    const UnsetArray<Cell> unnumbered = unnumbered_cells(triangulation, progress.part(0.0, 0.4));
     progress.tell(0.4);
     triangulation.clear();
     return_freed_memory();
@@ -235,12 +261,11 @@ TetMesh triangulate_sequentially(const Scene& scene, const Progress& progress)
     constexpr std::size_t kToldEvery = 256;
     Triangulation triangulation;
     {
-        const std::vector<Kernel::Point_3> points = points_of(scene);
-        const std::vector<std::size_t> order = insertion_order<CGAL::Sequential_tag>(points);
+        const UnsetArray<std::uint32_t> order = insertion_order(scene.num_points());
         Triangulation::Vertex_handle hint;
         for (std::size_t i = 0; i < order.size(); ++i) {
-            hint = triangulation.insert(points[order[i]], hint);
-            hint->info() = static_cast<Index>(order[i]);
+            hint = triangulation.insert(to_point(scene.positions[order[i]]), hint);
+            hint->info() = order[i];
             if (i % kToldEvery == 0) progress.part(0.0, kInsertion).tell(i, order.size());
         }
     }
@@ -250,12 +275,12 @@ TetMesh triangulate_sequentially(const Scene& scene, const Progress& progress)
 /// Inserts points from many threads. A thread that does not get hold of all cells it would change
 /// lets go of them and tries again, as in CGAL's own insertion of many points at once.
 template <typename Triangulation>
-void insert_in_parallel(Triangulation& triangulation, const std::vector<Kernel::Point_3>& points,
-                        std::span<const std::size_t> order, const Progress& progress)
+void insert_in_parallel(Triangulation& triangulation, const std::vector<Eigen::Vector3d>& positions,
+                        std::span<const std::uint32_t> order, const Progress& progress)
 {
     using VertexHandle = typename Triangulation::Vertex_handle;
-    const auto try_insert = [&](std::size_t number, VertexHandle& hint) {
-        const Kernel::Point_3& point = points[number];
+    const auto try_insert = [&](Index number, VertexHandle& hint) {
+        const Kernel::Point_3 point = to_point(positions[number]);
         bool has_all_cells = false;
         VertexHandle vertex;
         if (triangulation.try_lock_vertex(hint) && triangulation.try_lock_point(point)) {
@@ -263,7 +288,7 @@ void insert_in_parallel(Triangulation& triangulation, const std::vector<Kernel::
         }
         triangulation.unlock_all_elements();
         if (!has_all_cells) return false;
-        vertex->info() = static_cast<Index>(number);
+        vertex->info() = number;
         hint = vertex;
         return true;
     };
@@ -288,16 +313,15 @@ TetMesh triangulate_in_parallel(const Scene& scene, const Progress& progress)
     Triangulation::Lock_data_structure locks(box_of(scene), kLockCellsPerAxis);
     Triangulation triangulation(Kernel(), &locks);
     {
-        const std::vector<Kernel::Point_3> points = points_of(scene);
-        const std::vector<std::size_t> order = insertion_order<CGAL::Parallel_tag>(points);
+        const UnsetArray<std::uint32_t> order = insertion_order(scene.num_points());
         std::size_t first = 0;
         Triangulation::Vertex_handle hint;
         for (; first < order.size() && (first < kFirstPoints || triangulation.dimension() < 3);
              ++first) {
-            hint = triangulation.insert(points[order[first]], hint);
-            hint->info() = static_cast<Index>(order[first]);
+            hint = triangulation.insert(to_point(scene.positions[order[first]]), hint);
+            hint->info() = order[first];
         }
-        insert_in_parallel(triangulation, points, std::span(order).subspan(first),
+        insert_in_parallel(triangulation, scene.positions, std::span(order).subspan(first),
                            progress.part(0.0, kInsertion));
     }
     return flatten(triangulation, scene, progress.part(kInsertion, 1.0));

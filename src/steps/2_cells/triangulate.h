@@ -10,8 +10,9 @@ namespace vcarve {
 /// CGAL's symbolic perturbation, so the triangulation depends on the points alone, not on their
 /// order or on the number of threads. Needs finite points, no two at one place. Throws InputError
 /// where there are fewer than four points or all lie in one plane, and where there are too many
-/// cells for 32-bit indices. Cost: O(points log points) on surfaces; CGAL's structure, about 600
-/// bytes a point, lives beside the result only while that is filled.
+/// cells for 32-bit indices. Cost: O(points log points) on surfaces where points that follow each
+/// other lie near each other, as spatial_sort() puts them; CGAL's structure, about 600 bytes a
+/// point, lives beside the result only while that is filled.
 TetMesh triangulate(const Scene& scene, const Progress& progress = {});
 
 } // namespace vcarve

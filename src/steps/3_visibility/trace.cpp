@@ -1,6 +1,7 @@
 #include "steps/3_visibility/trace.h"
 
 #include "base/prefetch.h"
+#include "base/round_half_up.h"
 #include "geometry/triangle.h"
 #include "steps/3_visibility/each_vertex.h"
 #include "steps/3_visibility/sight_weights.h"
@@ -19,6 +20,13 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
+
+/// All zero.
+FlowNetwork empty_network(const TetMesh& mesh)
+{
+    const std::size_t count = mesh.cells.size();
+    return {filled_array(count, std::array<std::int32_t, 4>{}), filled_array(count, 0)};
+}
 
 /// Adds to the network from many threads, and remembers whether a sum came near the end of 32 bits.
 class EnergySums {
@@ -286,7 +294,7 @@ class SightTerms {
         }
         const double distance = distance_to_facet(mesh_, facet, point, direction) / sigma_;
         const double soft = 1.0 - std::exp(-0.5 * distance * distance);
-        return static_cast<std::int32_t>(std::lround(full * soft));
+        return round_half_up(full * soft);
     }
 
     const TetMesh& mesh_;
@@ -337,8 +345,7 @@ void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
                      const Progress& progress) const
 {
     energy.unit = SightWeights::kUnit;
-    energy.network.arc_capacities.resize(cells_.cells.size(), {0, 0, 0, 0});
-    energy.network.terminal_capacities.resize(cells_.cells.size(), 0);
+    if (energy.network.arc_capacities.empty()) energy.network = empty_network(cells_);
     const std::size_t known_origins = energy.cell_of_view.size();
     if (source.is_measured) {
         energy.cell_of_view.resize(known_origins + source.origins.size(), kInfinite);

@@ -20,7 +20,7 @@ void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossin
 
 /// After how many facets measured rays to points of a dense cloud become bundles, and after how
 /// many these become bundles of bundles.
-inline constexpr std::array<int, 2> kBundledAfter = {16, 64};
+inline constexpr std::array<int, 2> kBundledAfter = {16, 40};
 
 /// Adds the visibility terms of sources to an energy. `cells`, `scene` and `options` must outlive
 /// it; `scene` has the points of the cells, which weigh their rays.

@@ -1,6 +1,7 @@
 #include "steps/4_labels/cut.h"
 
 #include "base/parallel.h"
+#include "base/round_half_up.h"
 
 #include <Eigen/Geometry>
 
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <memory>
 
 namespace vcarve {
 
@@ -19,7 +19,7 @@ using Eigen::Array2d;
 using Eigen::Array4d;
 using Eigen::Vector3d;
 using Costs = std::array<std::int32_t, 4>;
-using FacetCosts = std::unique_ptr<Costs[]>;
+using FacetCosts = UnsetArray<Costs>;
 
 /// The cosines of the angles between each facet of a finite cell and the sphere around the cell;
 /// not finite where the cell is too flat to have one. Roots and divisions, the larger part of the
@@ -47,13 +47,6 @@ Array4d sphere_cosines(const TetMesh& mesh, const Cell& cell)
     return dots / (lengths * Array4d(radii[0], radii[1], radii[1], radii[1]));
 }
 
-/// What std::lround gives for numbers from 0 to 2^31 - 1, without its call.
-std::int32_t round_half_up(double number)
-{
-    const auto whole = static_cast<std::int32_t>(number);
-    return whole + (number - whole >= 0.5 ? 1 : 0);
-}
-
 /// 1 - cos of the angle between each facet of a cell and the sphere around the cell, in steps; 0
 /// for infinite cells.
 Costs sphere_angle_costs(const TetMesh& mesh, const Cell& cell, double steps)
@@ -73,7 +66,7 @@ Costs sphere_angle_costs(const TetMesh& mesh, const Cell& cell, double steps)
 /// What cutting each facet costs by its shape, in steps, seen from either side.
 FacetCosts facet_costs(const TetMesh& mesh, double steps)
 {
-    auto costs = std::make_unique_for_overwrite<Costs[]>(mesh.cells.size());
+    FacetCosts costs(mesh.cells.size());
     parallel_for(mesh.cells.size(),
                  [&](std::size_t i) { costs[i] = sphere_angle_costs(mesh, mesh.cells[i], steps); });
     return costs;

@@ -1,27 +1,31 @@
 #include "steps/5_surface/cleanup.h"
 
+#include "base/parallel.h"
+#include "base/union_find.h"
 #include "mesh/half_edge_mesh.h"
 #include "steps/5_surface/fill_holes.h"
 #include "steps/5_surface/split_nonmanifold.h"
-
-#include <CGAL/Polygon_mesh_processing/connected_components.h>
-#include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 
 #include <algorithm>
 
 namespace vcarve {
 namespace {
 
+using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::VertexHandle;
 
-/// The number of each face's piece; pieces are numbered by their first faces.
-std::vector<std::uint32_t> find_pieces(const HalfEdgeMesh& mesh)
+/// The faces joined through edges to pieces.
+UnionFind find_pieces(const HalfEdgeMesh& mesh)
 {
-    std::vector<std::uint32_t> pieces(mesh.n_faces());
-    const HalfEdgeMesh::OpenMeshBase& graph = mesh;
-    CGAL::Polygon_mesh_processing::connected_components(
-        graph, boost::make_iterator_property_map(pieces.begin(), get(CGAL::face_index, graph)));
+    UnionFind pieces(mesh.n_faces());
+    parallel_for(mesh.n_edges(), [&](std::size_t i) {
+        const auto edge = handle_at<EdgeHandle>(i);
+        if (mesh.is_boundary(edge)) return;
+        const FaceHandle a = mesh.face_handle(mesh.halfedge_handle(edge, 0));
+        const FaceHandle b = mesh.face_handle(mesh.halfedge_handle(edge, 1));
+        pieces.join(static_cast<std::uint32_t>(a.idx()), static_cast<std::uint32_t>(b.idx()));
+    });
     return pieces;
 }
 
@@ -37,22 +41,22 @@ void delete_with_vertices(HalfEdgeMesh& mesh, FaceHandle face)
 /// pieces went.
 std::int64_t delete_small_pieces(HalfEdgeMesh& mesh, int min_faces)
 {
-    const std::vector<std::uint32_t> pieces = find_pieces(mesh);
-    std::vector<std::int64_t> sizes;
-    for (const std::uint32_t piece : pieces) {
-        sizes.resize(std::max<std::size_t>(sizes.size(), piece + 1));
-        ++sizes[piece];
+    UnionFind pieces = find_pieces(mesh);
+    const auto num_faces = static_cast<std::uint32_t>(mesh.n_faces());
+    std::vector<std::int64_t> sizes(num_faces, 0); // of a piece at its first face
+    for (std::uint32_t face = 0; face < num_faces; ++face) {
+        ++sizes[pieces.root(face)];
     }
     const auto largest = std::ranges::max_element(sizes) - sizes.begin();
     const auto is_small = [&](std::uint32_t piece) {
         return piece != largest && sizes[piece] < min_faces;
     };
-    for (std::size_t face = 0; face < pieces.size(); ++face) {
-        if (is_small(pieces[face])) delete_with_vertices(mesh, handle_at<FaceHandle>(face));
-    }
     std::int64_t num_small = 0;
-    for (std::uint32_t piece = 0; piece < sizes.size(); ++piece) {
-        num_small += is_small(piece) ? 1 : 0;
+    for (std::uint32_t face = 0; face < num_faces; ++face) {
+        const std::uint32_t piece = pieces.root(face);
+        if (!is_small(piece)) continue;
+        delete_with_vertices(mesh, handle_at<FaceHandle>(face));
+        num_small += piece == face ? 1 : 0;
     }
     return num_small;
 }

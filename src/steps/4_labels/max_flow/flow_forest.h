@@ -22,7 +22,7 @@ struct FilledBlock {
 class FlowForest {
   public:
     FlowForest(FlowGraph& graph, Index first, Index last)
-        : graph_(graph), nodes_(graph.nodes.get()), first_(first), count_(last - first)
+        : graph_(graph), nodes_(graph.nodes.data()), first_(first), count_(last - first)
     {
     }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/flow_network.h"
 #include "model/tet_mesh.h"
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -32,10 +32,9 @@ static_assert(std::is_trivially_default_constructible_v<FlowNode>); // made with
 
 /// A flow network while it is solved.
 struct FlowGraph {
-    const std::vector<Cell>& cells;
-    std::vector<std::array<std::int32_t, 4>>
-        arc_capacities; ///< what the flow leaves of them ///< what the flow leaves of them
-    std::unique_ptr<FlowNode[]> nodes;
+    const UnsetArray<Cell>& cells;
+    ArcCapacities arc_capacities; ///< what the flow leaves of them
+    UnsetArray<FlowNode> nodes;
 
     Index neighbor(Index cell, int slot) const { return cells[cell].neighbors[slot]; }
     int mirror(Index cell, int slot) const { return (nodes[cell].mirrors >> (2 * slot)) & 3; }

@@ -40,9 +40,8 @@ void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph&
 
 /// Makes all nodes of the graph and fills blocks of so many alone.
 std::vector<FilledBlock> fill_blocks(const TetMesh& cells,
-                                     std::vector<std::int32_t> terminal_capacities,
-                                     FlowGraph& graph, std::size_t block_size,
-                                     const Progress& progress)
+                                     UnsetArray<std::int32_t> terminal_capacities, FlowGraph& graph,
+                                     std::size_t block_size, const Progress& progress)
 {
     const std::size_t count = terminal_capacities.size();
     std::vector<FilledBlock> blocks((count + block_size - 1) / block_size);
@@ -74,9 +73,8 @@ std::vector<FilledBlock> merge_blocks(std::span<const FilledBlock> blocks, FlowG
 } // namespace
 
 struct MinimumCut::Solver {
-    Solver(const std::vector<Cell>& cells, std::vector<std::array<std::int32_t, 4>> arc_capacities)
-        : graph{cells, std::move(arc_capacities),
-                std::make_unique_for_overwrite<FlowNode[]>(cells.size())},
+    Solver(const UnsetArray<Cell>& cells, ArcCapacities arc_capacities)
+        : graph{cells, std::move(arc_capacities), UnsetArray<FlowNode>(cells.size())},
           forest(graph, 0, static_cast<Index>(cells.size()))
     {
     }
