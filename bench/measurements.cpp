@@ -6,6 +6,7 @@
 #include "cli/run_record.h"
 #include "io/files/mapped_file.h"
 #include "pipeline/memory.h"
+#include "pipeline/thinned_scene.h"
 #include "vcarve/io.h"
 #include "vcarve/reconstruct.h"
 
@@ -75,10 +76,9 @@ tbb::global_control limit_of(int threads)
                                static_cast<std::size_t>(threads));
 }
 
-/// What a run read, what predictions of its memory are made from, and the points it triangulated.
+/// What a run read and triangulated.
 struct Run {
-    SceneSize read;
-    SceneSize thinned;
+    RunSize size;
     std::vector<Vector3d> triangulated;
 };
 
@@ -86,20 +86,22 @@ Run make_surface(const Sample& sample, int threads, Log& log)
 {
     Options options;
     options.threads = threads;
-    cli::ModelInput input = cli::read_model_input({.path = sample.model, .points = {}}, log);
-    const SceneSize read = size_of(input.scene);
-    Reconstruction made = reconstruct(std::move(input.scene), options, log);
+    cli::ModelInput input = cli::read_model_input({.path = sample.model, .points = {}}, log,
+                                                  {.gather = thin_while_reading(options.thin)});
+    RunSize size = size_before_thinning(input.read, options.thin);
+    size.thinned = size_of(input.scene);
+    Reconstruction made = reconstruct_thinned(std::move(input.scene), input.read, options, log);
     Stage stage(log, "write");
     write_ply(sample.scratch / "surface.ply", made.mesh, {});
     stage.end({{"faces", made.mesh.faces.size()}});
-    return {read, read.is_dense ? size_of(made.scene) : read, std::move(made.scene.positions)};
+    return {size, std::move(made.scene.positions)};
 }
 
 /// The stages recorded, with their peaks above the base and what was foretold of them.
 Json stages_of(const cli::Json& recorded, const Meter& meter, const Run& run, int threads)
 {
     Json stages = Json::array();
-    const std::vector<StageMemory> predicted = predicted_memory(run.read, run.thinned, threads);
+    const std::vector<StageMemory> predicted = predicted_memory(run.size, threads);
     for (const cli::Json& stage : recorded) {
         stages.push_back({{"name", stage["name"]},
                           {"seconds", stage["seconds"]},
@@ -127,10 +129,10 @@ Json prepare(const Sample& sample)
     const Run run = make_surface(sample, 0, silent);
     write_raw_points(sample.triangulated(), run.triangulated);
     return {{"model", sample.model.filename().string()},
-            {"points", run.read.points},
+            {"points", run.size.read.points},
             {"triangulated", run.triangulated.size()},
-            {"views", run.read.views},
-            {"sights", run.read.sights}};
+            {"views", run.size.read.views},
+            {"sights", run.size.read.sights}};
 }
 
 Json measure_sequential_triangulation(const Sample& sample)
@@ -166,7 +168,7 @@ Json measure_run(const Sample& sample, int threads)
     const Run run = make_surface(sample, threads, recorder);
     Json result = meter.json();
     result["base_bytes"] = meter.base_bytes();
-    result["predicted_bytes"] = predicted_peak(run.read, run.thinned, threads);
+    result["predicted_bytes"] = predicted_peak(run.size, threads);
     // Each stage began a new peak
     const cli::Json recorded = recorder.json();
     result["peak_bytes"] = meter.above_base(recorded["total"]["peak_memory_bytes"]);

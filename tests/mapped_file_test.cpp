@@ -26,6 +26,18 @@ TEST(MappedFile, HoldsTheBytesOfTheFile)
     EXPECT_EQ(text_of(moved), "one\0two\r\n"sv);
 }
 
+TEST(MappedFile, ShowsWhatWasGivenBackAgain)
+{
+    const TemporaryFolder folder;
+    const std::string bytes(100'000, 'a');
+    const MappedFile file(folder.write("long", bytes + "b"));
+    for (const std::size_t count :
+         {std::size_t{0}, std::size_t{1}, std::size_t{70'000}, file.bytes().size()}) {
+        file.release(count);
+        EXPECT_EQ(text_of(file), bytes + "b");
+    }
+}
+
 TEST(MappedFile, TakesAnEmptyFile)
 {
     const TemporaryFolder folder;

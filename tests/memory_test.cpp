@@ -1,18 +1,24 @@
 #include "pipeline/memory.h"
 #include "support/ball_model.h"
+#include "support/dense_workspace.h"
 #include "support/scenes.h"
 #include "support/subprocess.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 #include "vcarve/reconstruct.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
+#include <string>
+#include <string_view>
 
 namespace vcarve {
 namespace {
@@ -20,6 +26,12 @@ namespace {
 using testing::HasSubstr;
 
 constexpr SceneSize kMillion = {.points = 1'000'000, .sights = 3'700'000, .views = 300};
+
+/// Of points that a matcher found one by one, which are not merged.
+RunSize size_of_run(const SceneSize& size)
+{
+    return {.read = size, .thinned = size};
+}
 
 TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
 {
@@ -30,7 +42,7 @@ TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
     const Scene scene = bumpy_sphere(300, 1);
     reconstruct(scene, Options(), log);
     auto at = log.heard.begin();
-    for (const StageMemory& stage : predicted_memory(size_of(scene), size_of(scene), 1)) {
+    for (const StageMemory& stage : predicted_memory(size_of_run(size_of(scene)), 1)) {
         at = std::find(at, log.heard.end(), stage.stage);
         ASSERT_NE(at, log.heard.end()) << stage.stage;
     }
@@ -38,21 +50,21 @@ TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
 
 TEST(PredictedMemory, GrowsWithPointsAndSightsAndThreads)
 {
-    const std::int64_t peak = predicted_peak(kMillion, kMillion, 1);
+    const std::int64_t peak = predicted_peak(size_of_run(kMillion), 1);
     SceneSize more = kMillion;
     more.points += 1000;
-    EXPECT_GT(predicted_peak(more, more, 1), peak);
+    EXPECT_GT(predicted_peak(size_of_run(more), 1), peak);
     more = kMillion;
     more.sights += 1000;
-    EXPECT_GT(predicted_peak(more, more, 1), peak);
-    EXPECT_GE(predicted_peak(kMillion, kMillion, 2), peak);
+    EXPECT_GT(predicted_peak(size_of_run(more), 1), peak);
+    EXPECT_GE(predicted_peak(size_of_run(kMillion), 2), peak);
     more = kMillion;
     more.has_normals = true;
-    EXPECT_GE(predicted_peak(more, more, 1), peak + 12'000'000);
+    EXPECT_GE(predicted_peak(size_of_run(more), 1), peak + 12'000'000);
     // Ten times the model takes ten times what a run takes beside the program itself.
     const SceneSize ten = {.points = 10'000'000, .sights = 37'000'000, .views = 3'000};
-    const std::int64_t program = predicted_peak({}, {}, 1);
-    EXPECT_NEAR(static_cast<double>(predicted_peak(ten, ten, 1) - program),
+    const std::int64_t program = predicted_peak({}, 1);
+    EXPECT_NEAR(static_cast<double>(predicted_peak(size_of_run(ten), 1) - program),
                 10.0 * static_cast<double>(peak - program), 1e3);
 }
 
@@ -60,8 +72,8 @@ TEST(PredictedMemory, OfReadingHoldsASightInTheFileInTheSceneAndInTheTrackThatGr
 {
     SceneSize more = kMillion;
     more.sights += 1000;
-    const StageMemory before = predicted_memory(kMillion, kMillion, 1).front();
-    const StageMemory after = predicted_memory(more, more, 1).front();
+    const StageMemory before = predicted_memory(size_of_run(kMillion), 1).front();
+    const StageMemory after = predicted_memory(size_of_run(more), 1).front();
     EXPECT_STREQ(before.stage, "read");
     EXPECT_EQ(after.bytes - before.bytes, 1000 * (8 + 4 + 4));
 }
@@ -69,11 +81,11 @@ TEST(PredictedMemory, OfReadingHoldsASightInTheFileInTheSceneAndInTheTrackThatGr
 TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
 {
     const SceneSize most = {.points = ~0ULL, .sights = ~0ULL, .views = ~0ULL};
-    EXPECT_GT(predicted_peak(most, most, 2), std::int64_t{1} << 60);
+    EXPECT_GT(predicted_peak(size_of_run(most), 2), std::int64_t{1} << 60);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need memory of their own
-/// What a run of the program on a ball took, stage by stage, and what was foretold.
+/// What a run of the program took, stage by stage, and what was foretold.
 struct MeasuredRun {
     std::map<std::string, double> measured; ///< bytes
     std::vector<StageMemory> predicted;
@@ -85,15 +97,14 @@ struct MeasuredRun {
     }
 };
 
-MeasuredRun run_on_ball(int points, int threads)
+MeasuredRun run_on(const std::filesystem::path& model, int threads)
 {
     const TemporaryFolder folder;
-    write_ball_model(folder / "ball", points);
     const std::string stats = folder / "stats.json";
     MeasuredRun run;
     const int exit_code =
         Subprocess({VCARVE_PROGRAM, "--quiet", "--threads", std::to_string(threads), "--stats",
-                    stats, folder / "ball", folder / "out.ply"})
+                    stats, model, folder / "out.ply"})
             .wait()
             .exit_code;
     EXPECT_EQ(exit_code, 0);
@@ -102,12 +113,27 @@ MeasuredRun run_on_ball(int points, int threads)
     for (const auto& stage : record["stages"]) {
         run.measured[stage["name"]] = stage["peak_memory_bytes"];
     }
-    const SceneSize size = {.points = record["input"]["points"],
+    const SceneSize read = {.points = record["input"]["points"],
                             .sights = record["input"]["sights"],
-                            .views = record["input"]["views"]};
-    run.predicted = predicted_memory(size, size, threads);
+                            .views = record["input"]["views"],
+                            .has_normals = !record["input"]["cloud"].is_null(),
+                            .is_dense = !record["input"]["cloud"].is_null()};
+    RunSize size = size_before_thinning(read, {});
+    if (read.is_dense) {
+        size.thinned = read;
+        size.thinned.points = record["stages"][0]["counts"]["points"];
+        size.thinned.sights = read.sights * size.thinned.points / read.points;
+    }
+    run.predicted = predicted_memory(size, threads);
     run.peak = record["total"]["peak_memory_bytes"];
     return run;
+}
+
+MeasuredRun run_on_ball(int points, int threads)
+{
+    const TemporaryFolder folder;
+    write_ball_model(folder / "ball", points);
+    return run_on(folder / "ball", threads);
 }
 
 TEST(PredictedMemory, IsWhatTheProgramNeeds)
@@ -118,11 +144,56 @@ TEST(PredictedMemory, IsWhatTheProgramNeeds)
         {"cut", 1.32},  {"surface", 1.06}, {"clean", 1.20}}; // as measured
     double most = 0.0;
     for (const StageMemory& stage : run.predicted) {
-        EXPECT_NEAR(run.ratio(stage), expected.at(stage.stage), 0.1) << stage.stage;
+        // What allocators keep differs from run to run.
+        EXPECT_NEAR(run.ratio(stage), expected.at(stage.stage), 0.15) << stage.stage;
         most = std::max(most, static_cast<double>(stage.bytes));
     }
     EXPECT_GE(most / run.peak, kLeastPredicted);
     EXPECT_LE(most / run.peak, kMostPredicted);
+}
+
+/// A dense workspace with the points of a fixture so many times over.
+void repeat_cloud(const std::filesystem::path& folder, std::size_t times)
+{
+    const std::filesystem::path from = std::filesystem::path(VCARVE_FIXTURES) / "dense_room";
+    std::filesystem::create_directory(folder);
+    std::filesystem::copy(from / "sparse", folder / "sparse");
+    const std::string cloud = bytes_of(from / "fused.ply");
+    const std::string rows = bytes_of(from / "fused.ply.vis");
+    std::uint64_t count = 0;
+    std::memcpy(&count, rows.data(), sizeof(count));
+    const std::string old_count = fmt::format("element vertex {}", count);
+    const std::size_t at = cloud.find(old_count);
+    ASSERT_NE(at, std::string::npos);
+    const std::string_view end = "end_header\n";
+    const std::size_t body = cloud.find(end) + end.size();
+    count *= times;
+    std::ofstream ply(folder / "fused.ply", std::ios::binary);
+    ply << cloud.substr(0, at) << "element vertex " << count
+        << cloud.substr(at + old_count.size(), body - at - old_count.size());
+    std::ofstream vis(folder / "fused.ply.vis", std::ios::binary);
+    vis << raw(count);
+    for (std::size_t i = 0; i < times; ++i) {
+        ply << std::string_view(cloud).substr(body);
+        vis << std::string_view(rows).substr(sizeof(count));
+    }
+}
+
+TEST(PredictedMemory, OfACloudIsWhatIsLeftOfItAndAPart)
+{
+    const TemporaryFolder folder;
+    std::map<std::size_t, double> peaks;
+    for (const std::size_t times : {150, 400}) { // 1.2 and 3.2 million points; a part has 1.05
+        const std::filesystem::path workspace = folder / std::to_string(times);
+        repeat_cloud(workspace, times);
+        const MeasuredRun run = run_on(workspace, 2);
+        EXPECT_STREQ(run.predicted.front().stage, "read");
+        EXPECT_GE(run.ratio(run.predicted.front()), kLeastPredicted);
+        EXPECT_LE(run.ratio(run.predicted.front()), kMostPredicted);
+        peaks[times] = run.measured.at("read");
+        std::filesystem::remove_all(workspace);
+    }
+    EXPECT_LE(peaks[400], 1.1 * peaks[150]) << "points that are merged away are forgotten";
 }
 
 TEST(PredictedMemory, IsWhatTheProgramNeedsAfterAParallelTriangulation)
@@ -137,11 +208,11 @@ TEST(PredictedMemory, IsWhatTheProgramNeedsAfterAParallelTriangulation)
 
 TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
 {
-    const std::int64_t peak = predicted_peak(kMillion, kMillion, 1);
-    EXPECT_NO_THROW(require_memory(kMillion, kMillion, 1, peak));
-    EXPECT_NO_THROW(require_memory(kMillion, kMillion, 1, 0));
-    EXPECT_THROW(require_memory(kMillion, kMillion, 1, peak - 1), InputError);
-    EXPECT_THAT(refusal<InputError>([] { require_memory(kMillion, kMillion, 1, 4 << 20); }),
+    const std::int64_t peak = predicted_peak(size_of_run(kMillion), 1);
+    EXPECT_NO_THROW(require_memory(size_of_run(kMillion), 1, peak));
+    EXPECT_NO_THROW(require_memory(size_of_run(kMillion), 1, 0));
+    EXPECT_THROW(require_memory(size_of_run(kMillion), 1, peak - 1), InputError);
+    EXPECT_THAT(refusal<InputError>([] { require_memory(size_of_run(kMillion), 1, 4 << 20); }),
                 testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
                                       "memory, and --max-memory allows 4M"));
 }

@@ -40,6 +40,31 @@ TEST(PlyCloud, IsTheSameInEveryEncodingWhateverElseThereIs)
     }
 }
 
+TEST(PlyCloud, ComesInParts)
+{
+    for (const char* name : {"dense_little", "dense_ascii", "dense_big_lists"}) {
+        SCOPED_TRACE(name);
+        PlyCloudReader reader(kFormats / name / "fused.ply");
+        EXPECT_EQ(reader.num_points(), 3U);
+        const PointCloud first = reader.next(2);
+        EXPECT_THAT(first.positions, ElementsAre(Vector3d(0.5, 0.25, 4.0), Vector3d(-0.125, 3, 5)));
+        const PointCloud second = reader.next(2);
+        EXPECT_THAT(second.positions, ElementsAre(Vector3d(1.5, -2.0, 6.0)));
+        EXPECT_THAT(second.colors, ElementsAre(Color{1, 2, 3}));
+        EXPECT_THAT(reader.next(2).positions, IsEmpty());
+    }
+}
+
+TEST(PlyCloud, NamesTheVertexOfTheFileWhateverThePart)
+{
+    const fs::path path = fs::path(VCARVE_FIXTURES) / "broken_dense/ply_ascii_ends/fused.ply";
+    PlyCloudReader reader(path);
+    reader.next(1);
+    reader.next(1);
+    EXPECT_EQ(refusal<InputError>([&] { reader.next(1); }),
+              path.string() + ": vertex 2 of 3: the file ends there");
+}
+
 TEST(PlyCloud, NeedsNeitherNormalsNorColours)
 {
     const PointCloud cloud = read_ply_cloud(kFormats / "dense_bare/fused.ply");

@@ -35,6 +35,12 @@ void add(Scene& scene, const Vector3d& position, const std::vector<std::uint32_t
     scene.tracks.push_back(views);
 }
 
+/// Where a point is in the frame of the scene that was thinned.
+Vector3d place(const Scene& thin, std::size_t point)
+{
+    return thin.positions[point] + thin.offset;
+}
+
 std::vector<std::uint32_t> track(const Scene& scene, std::size_t point)
 {
     const auto views = scene.tracks[point];
@@ -51,8 +57,8 @@ TEST(ThinPoints, MergesWhatOnePixelShowsAndKeepsItsSights)
     ASSERT_EQ(thin.num_points(), 2U);
     EXPECT_EQ(thin.point_ids, (std::vector<std::uint64_t>{1, 2}))
         << "the one with more views leads";
-    EXPECT_EQ(thin.positions[0], scene.positions[1]);
-    EXPECT_TRUE(thin.positions[1].isApprox(Vector3d(0.02, 0.015, 0.0)));
+    EXPECT_TRUE(place(thin, 0).isApprox(scene.positions[1]));
+    EXPECT_TRUE(place(thin, 1).isApprox(Vector3d(0.02, 0.015, 0.0)));
     EXPECT_EQ(thin.colors[1], (Color{20, 0, 0}));
     EXPECT_EQ(track(thin, 0), (std::vector<std::uint32_t>{0}));
     EXPECT_EQ(track(thin, 1), (std::vector<std::uint32_t>{0, 1}));
@@ -78,8 +84,8 @@ TEST(ThinPoints, LeavesTheTwoSidesOfABoardApart)
     ASSERT_EQ(thin.num_points(), 2U);
     EXPECT_EQ(thin.normals[0], up);
     EXPECT_EQ(thin.normals[1], Vector3f(-up));
-    EXPECT_NEAR(thin.positions[0].z(), 0.015, 1e-15);
-    EXPECT_NEAR(thin.positions[1].z(), 0.035, 1e-15);
+    EXPECT_NEAR(place(thin, 0).z(), 0.015, 1e-15);
+    EXPECT_NEAR(place(thin, 1).z(), 0.035, 1e-15);
 }
 
 TEST(ThinPoints, LeavesTheTwoSidesOfAnEdgeApartButMergesRoundABend)
@@ -175,7 +181,7 @@ TEST(ThinPoints, LeavesAPointWithAllItsViewsNearEveryPoint)
         const auto views = scene.tracks[i];
         bool found = false;
         for (std::size_t k = 0; k < thin.num_points() && !found; ++k) {
-            found = (thin.positions[k] - scene.positions[i]).norm() < reach &&
+            found = (place(thin, k) - scene.positions[i]).norm() < reach &&
                     std::ranges::includes(thin.tracks[k], views);
         }
         EXPECT_TRUE(found) << "point " << i;

@@ -21,8 +21,9 @@ class Visibility : public testing::Test {
   protected:
     Tracks read(const Rows& rows, const std::vector<std::uint32_t>& file_order) const
     {
-        return read_visibility(folder.write("a.vis", visibility_bytes(rows)),
-                               {rows.size(), "a.ply"}, file_order);
+        VisibilityReader reader(folder.write("a.vis", visibility_bytes(rows)),
+                                {rows.size(), "a.ply"}, file_order);
+        return reader.next(rows.size());
     }
 
     TemporaryFolder folder;
@@ -90,13 +91,28 @@ TEST_F(Visibility, NamesTheFirstPointWithAnImageThatIsNotThere)
                                             "model has 2 images, counted from 0");
 }
 
+TEST_F(Visibility, ComesInParts)
+{
+    VisibilityReader reader(
+        folder.write("a.vis", visibility_bytes(Rows{{0, 2}, {1, 1}, {}, {0, 1, 2}, {5}})),
+        {5, "a.ply"}, {1, 2, 0});
+    const Tracks first = reader.next(3);
+    EXPECT_THAT(first.begins, ElementsAre(0, 2, 3, 3));
+    EXPECT_THAT(first.views, ElementsAre(0, 1, 2));
+    EXPECT_THAT(reader.next(1).views, ElementsAre(0, 1, 2));
+    EXPECT_EQ(refusal<InputError>([&] { reader.next(7); }),
+              (folder / "a.vis").string() + ": point 4 of 5 was seen by image 5, but the model has "
+                                            "3 images, counted from 0");
+}
+
 TEST_F(Visibility, IsRefusedWhereverTheFileIsCut)
 {
     const std::string bytes = visibility_bytes(Rows{{0, 1}, {}, {1}});
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         const auto path = folder.write("a.vis", bytes.substr(0, length));
         const std::vector<std::uint32_t> file_order{0, 1};
-        EXPECT_THROW(read_visibility(path, {3, "a.ply"}, file_order), InputError) << length;
+        const auto read_all = [&] { VisibilityReader(path, {3, "a.ply"}, file_order).next(3); };
+        EXPECT_THROW(read_all(), InputError) << length;
     }
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "vcarve/io.h"
 #include "vcarve/log.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
+
+#include <filesystem>
 
 namespace vcarve {
 
@@ -23,5 +26,11 @@ struct Reconstruction {
 /// of a second after Log::wants_stop says so. Holds no globals: several runs may go on side by
 /// side.
 Reconstruction reconstruct(Scene input, const Options& options, Log& log);
+
+/// Reads a model, as read_model() does, and reconstructs it; the surface is the same. Of a dense
+/// cloud with a file of visibility not all points are in memory at a time: they are merged
+/// (ThinOptions) while they are read, as part of the stage "read". Throws what both throw.
+Reconstruction reconstruct(const std::filesystem::path& input, const PointsOptions& points,
+                           const Options& options, Log& log);
 
 } // namespace vcarve

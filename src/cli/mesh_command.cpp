@@ -9,6 +9,7 @@
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
 #include "pipeline/memory.h"
+#include "pipeline/thinned_scene.h"
 #include "steps/1_points/region.h"
 #include "steps/5_surface/provenance.h"
 #include "vcarve/error.h"
@@ -225,8 +226,8 @@ void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
 {
     const int wanted = arguments.options.threads;
     try {
-        require_memory(size, least_thinned(size), wanted == 0 ? available_threads() : wanted,
-                       arguments.options.max_memory);
+        require_memory(size_before_thinning(size, arguments.options.thin),
+                       wanted == 0 ? available_threads() : wanted, arguments.options.max_memory);
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
     }
@@ -236,7 +237,8 @@ void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
 Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
 {
     try {
-        Reconstruction made = reconstruct(std::move(input.scene), arguments.options, log);
+        Reconstruction made =
+            reconstruct_thinned(std::move(input.scene), input.read, arguments.options, log);
         Surface surface;
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
@@ -252,7 +254,9 @@ Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
 void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& record)
 {
     ModelInput input = read_model_input(
-        arguments.model, log, [&](const SceneSize& size) { require_memory_of(arguments, size); });
+        arguments.model, log,
+        {.check = [&](const SceneSize& size) { require_memory_of(arguments, size); },
+         .gather = thin_while_reading(arguments.options.thin)});
     record["input"] = input.record;
     const Eigen::Vector3d offset = offset_for(input.scene, arguments.output.offset);
     record["offset"] = {offset.x(), offset.y(), offset.z()};

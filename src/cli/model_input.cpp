@@ -63,18 +63,18 @@ PointsOptions read_points_options(const ParsedArguments& given)
     return options;
 }
 
-ModelInput read_model_input(const ModelArguments& model, Log& log, const SizeCheck& check)
+ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading)
 {
-    ReadModel read = read_found_model(model.path, model.points, log, check);
+    ReadModel read = read_found_model(model.path, model.points, log, reading);
     const FoundModel& found = read.found.model;
     ModelInput input;
     input.record = {{"model", model.path.string()},
                     {"folder", found.folder.string()},
                     {"format", found.format == ModelFormat::binary ? "binary" : "text"},
                     {"cloud", nullptr},
-                    {"points", read.scene.num_points()},
-                    {"views", read.scene.views.size()},
-                    {"sights", read.scene.num_sights()}};
+                    {"points", read.read.points},
+                    {"views", read.read.views},
+                    {"sights", read.read.sights}};
     if (read.found.scan) input.record["cloud"] = read.found.scan->cloud.string();
     if (read.found.scan && found.folder.empty()) {
         input.record["folder"] = nullptr;
@@ -82,6 +82,7 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const SizeChe
     }
     if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
     input.scene = std::move(read.scene);
+    input.read = read.read;
     return input;
 }
 

@@ -13,7 +13,8 @@ namespace vcarve::cli {
 /// A model that was read, and what a record says of it.
 struct ModelInput {
     Scene scene;
-    Json record; ///< "model", "folder", "format", "cloud", "points", "views", "sights"
+    SceneSize read; ///< of what was read
+    Json record;    ///< "model", "folder", "format", "cloud", "points", "views", "sights"
 };
 
 /// What the command line says of a model: the operand and the options beside it.
@@ -26,9 +27,8 @@ struct ModelArguments {
 void list_points_options(OptionTable& table);
 PointsOptions read_points_options(const ParsedArguments& given);
 
-/// Finds and reads the model the user means, as the stage "read". Throws InputError. `check` is
-/// called before reading, where the size of the model shows before.
-ModelInput read_model_input(const ModelArguments& model, Log& log, const SizeCheck& check = {});
+/// Finds and reads the model the user means, as the stage "read". Throws InputError.
+ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading = {});
 
 /// What console a command shows its stages on: none where it is to be quiet.
 std::unique_ptr<Log> shown_log(bool quiet);

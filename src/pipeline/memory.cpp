@@ -2,6 +2,7 @@
 
 #include "base/byte_size.h"
 #include "model/tet_mesh.h"
+#include "steps/1_points/thin.h"
 #include "vcarve/error.h"
 #include "vcarve/tri_mesh.h"
 
@@ -64,12 +65,25 @@ struct Sizes {
     double after_triangulation() const { return scene() + flat(); }
 };
 
-/// What the scene of a dense cloud becomes clusters of: places, footprints, leaders, cubes by code,
-/// and members; then the scene of those.
+/// Points that are merged: their footprints, leaders and cubes, or the members of clusters, and the
+/// rows of views that become united ones.
+double merging(const Sizes& points)
+{
+    constexpr double kMerged = 70;
+    return points.scene() + kMerged * points.points + kSceneSight * points.sights;
+}
+
+/// The points that are left of the parts before, one part, and what is left of it; or what is left
+/// of all parts, which is merged once more, and what is left then.
 double thinning(const Sizes& read, const Sizes& thinned)
 {
-    constexpr double kThinnedPoint = 150;
-    return read.scene() + kThinnedPoint * read.points + thinned.scene();
+    constexpr double kLeftOfParts = 1.25; // over what is left in the end
+    const double before = kLeftOfParts * thinned.scene();
+    Sizes part = read;
+    part.points = std::min(read.points, static_cast<double>(kThinnedAtOnce));
+    part.sights *= part.points / std::max(read.points, 1.0);
+    return std::max(before + merging(part) + std::min(part.scene(), before),
+                    kLeftOfParts * merging(thinned) + thinned.scene());
 }
 
 /// The points around each point, 24 of them at most, normals, variances, and places before and
@@ -153,25 +167,25 @@ Sizes sizes(const SceneSize& size, int threads)
 
 } // namespace
 
-SceneSize least_thinned(const SceneSize& read)
+RunSize size_before_thinning(const SceneSize& read, const ThinOptions& options)
 {
-    return read.is_dense ? SceneSize{} : read;
+    const bool is_thinned = read.is_dense && options.merge_px > 0.0;
+    return {.read = read, .thinned = is_thinned ? SceneSize{} : read, .in_parts = is_thinned};
 }
 
-std::vector<StageMemory> predicted_memory(const SceneSize& read, const SceneSize& thinned,
-                                          int threads)
+std::vector<StageMemory> predicted_memory(const RunSize& size, int threads)
 {
-    const Sizes all = sizes(read, threads);
-    const Sizes n = sizes(thinned, threads);
+    const Sizes all = sizes(size.read, threads);
+    const Sizes n = sizes(size.thinned, threads);
     std::vector<StageMemory> stages;
     const auto add = [&](const char* name, double bytes) {
         const double program = kProgram + kThread * n.threads;
         stages.push_back({name, std::llround(std::min(program + bytes, 0x1p62))});
     };
-    add("read", reading(all));
-    if (read.is_dense) add("thin", thinning(all, n));
+    add("read", size.in_parts ? thinning(all, n) : reading(all));
+    if (size.read.is_dense && !size.in_parts) add("thin", all.scene() + thinning(all, n));
     add("filter", filtering(n));
-    if (read.is_dense) add("denoise", denoising(n));
+    if (size.read.is_dense) add("denoise", denoising(n));
     add("triangulate", triangulating(n));
     add("sights", tracing(n));
     add("cut", cutting(n));
@@ -180,19 +194,20 @@ std::vector<StageMemory> predicted_memory(const SceneSize& read, const SceneSize
     return stages;
 }
 
-std::int64_t predicted_peak(const SceneSize& read, const SceneSize& thinned, int threads)
+std::int64_t predicted_peak(const RunSize& size, int threads)
 {
-    const std::vector<StageMemory> stages = predicted_memory(read, thinned, threads);
+    const std::vector<StageMemory> stages = predicted_memory(size, threads);
     return std::ranges::max(stages, {}, &StageMemory::bytes).bytes;
 }
 
-void require_memory(const SceneSize& read, const SceneSize& thinned, int threads, std::int64_t most)
+void require_memory(const RunSize& size, int threads, std::int64_t most)
 {
-    const std::int64_t needed = predicted_peak(read, thinned, threads);
+    const std::int64_t needed = predicted_peak(size, threads);
     if (most == 0 || needed <= most) return;
-    throw InputError(
-        fmt::format("{} points with {} sights need about {} of memory, and --max-memory allows {}",
-                    read.points, read.sights, byte_size_text(needed), byte_size_text(most)));
+    throw InputError(fmt::format("{} points with {} sights need about {} of memory, and "
+                                 "--max-memory allows {}",
+                                 size.read.points, size.read.sights, byte_size_text(needed),
+                                 byte_size_text(most)));
 }
 
 } // namespace vcarve

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/scene_size.h"
+#include "vcarve/options.h"
 
 #include <cstdint>
 #include <string>
@@ -14,20 +15,25 @@ struct StageMemory {
     std::int64_t bytes;
 };
 
-/// What a run will need, stage by stage, by the size of what it reads and of what is left when a
-/// dense cloud is thinned. Made of the sizes of the arrays that are alive at once (memory.cpp says
-/// which), for the method `cut`, which of all needs most, and for points as they usually are: 6.8
-/// cells a point, where points at random in space have 6.77 and points near a surface about 6.
-/// Points in rare positions (on two curves, say) can have many more cells, and need more.
-std::vector<StageMemory> predicted_memory(const SceneSize& read, const SceneSize& thinned,
-                                          int threads);
+/// How much a run reads, and how much of it is left when the points of a cloud are merged.
+struct RunSize {
+    SceneSize read;
+    SceneSize thinned;
+    bool in_parts = false; ///< points are merged while they are read, and never all in memory
+};
+
+/// What a run will need, stage by stage. Made of the sizes of the arrays that are alive at once
+/// (memory.cpp says which), for the method `cut`, which of all needs most, and for points as they
+/// usually are: 6.8 cells a point, where points at random in space have 6.77 and points near a
+/// surface about 6. Points in rare positions (on two curves, say) can have many more cells, and
+/// need more.
+std::vector<StageMemory> predicted_memory(const RunSize& size, int threads);
 
 /// The most of these, in bytes.
-std::int64_t predicted_peak(const SceneSize& read, const SceneSize& thinned, int threads);
+std::int64_t predicted_peak(const RunSize& size, int threads);
 
-/// What is left of a scene, as far as is known before it is thinned: of a dense one nothing for
-/// certain.
-SceneSize least_thinned(const SceneSize& read);
+/// What is known before a scene is thinned: of a dense one, nothing for certain is left.
+RunSize size_before_thinning(const SceneSize& read, const ThinOptions& options);
 
 /// The predicted peak over the one measured lies between these: 1.04 (a million points on two
 /// threads) to 1.34 (30 thousand on one) on sample models. A test holds the program to it, and
@@ -36,7 +42,6 @@ inline constexpr double kLeastPredicted = 1.0;
 inline constexpr double kMostPredicted = 1.4;
 
 /// Throws InputError where the prediction is above `most` bytes, naming both; 0 allows all.
-void require_memory(const SceneSize& read, const SceneSize& thinned, int threads,
-                    std::int64_t most);
+void require_memory(const RunSize& size, int threads, std::int64_t most);
 
 } // namespace vcarve

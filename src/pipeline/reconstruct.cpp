@@ -6,6 +6,7 @@
 #include "model/scene_check.h"
 #include "model/scene_size.h"
 #include "pipeline/memory.h"
+#include "pipeline/thinned_scene.h"
 #include "steps/1_points/center.h"
 #include "steps/1_points/crop.h"
 #include "steps/1_points/denoise.h"
@@ -29,13 +30,12 @@ namespace vcarve {
 
 namespace {
 
-void foresee_memory(const SceneSize& read, const SceneSize& thinned, const Options& options,
-                    Log& log)
+void foresee_memory(const RunSize& size, const Options& options, Log& log)
 {
     Stage stage(log, "memory");
     const int threads = tbb::this_task_arena::max_concurrency();
-    require_memory(read, thinned, threads, options.max_memory);
-    const std::int64_t peak = predicted_peak(read, thinned, threads);
+    require_memory(size, threads, options.max_memory);
+    const std::int64_t peak = predicted_peak(size, threads);
     stage.end({{"MiB expected", (peak >> 20) + 1}});
 }
 
@@ -109,14 +109,12 @@ TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
     return surface;
 }
 
-Reconstruction run_steps(Scene input, const Options& options, Log& log)
+/// All steps but thinning.
+Reconstruction run_steps(Scene scene, const RunSize& size, const Options& options, Log& log)
 {
-    const SceneSize read = size_of(input);
-    require_memory(read, least_thinned(read), tbb::this_task_arena::max_concurrency(),
-                   options.max_memory);
-    Scene scene = thin(center_points(std::move(input)), options.thin, log);
+    scene = center_points(std::move(scene));
     return_freed_memory();
-    foresee_memory(read, size_of(scene), options, log);
+    foresee_memory(size, options, log);
     scene = filter(std::move(scene), options.points, log);
     const std::unique_ptr<Region> region = make_region(options.crop.region, scene);
     scene = crop(std::move(scene), region.get(), log);
@@ -131,14 +129,65 @@ Reconstruction run_steps(Scene input, const Options& options, Log& log)
     return {std::move(scene), std::move(surface)};
 }
 
+Reconstruction thin_and_run_steps(Scene scene, const Options& options, Log& log)
+{
+    RunSize size = size_before_thinning(size_of(scene), options.thin);
+    size.in_parts = false;
+    require_memory(size, tbb::this_task_arena::max_concurrency(), options.max_memory);
+    scene = thin(std::move(scene), options.thin, log);
+    size.thinned = size_of(scene);
+    return run_steps(std::move(scene), size, options, log);
+}
+
+/// Calls run() with as many threads as the options say.
+template <typename Run>
+Reconstruction with_threads(const Options& options, const Run& run)
+{
+    validate(options);
+    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
+    return arena.execute(run);
+}
+
 } // namespace
+
+Gather thin_while_reading(const ThinOptions& options)
+{
+    if (options.merge_px == 0.0) return {};
+    return [options](SceneParts& parts, const Progress& progress) {
+        return thin_points(parts, options, progress);
+    };
+}
+
+Reconstruction reconstruct_thinned(Scene thinned, const SceneSize& read, const Options& options,
+                                   Log& log)
+{
+    return with_threads(options, [&] {
+        RunSize size = size_before_thinning(read, options.thin);
+        size.thinned = size_of(thinned);
+        return run_steps(std::move(thinned), size, options, log);
+    });
+}
 
 Reconstruction reconstruct(Scene input, const Options& options, Log& log)
 {
     validate(options);
     require_consistent(input);
-    tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
-    return arena.execute([&] { return run_steps(std::move(input), options, log); });
+    return with_threads(options,
+                        [&] { return thin_and_run_steps(std::move(input), options, log); });
+}
+
+Reconstruction reconstruct(const std::filesystem::path& input, const PointsOptions& points,
+                           const Options& options, Log& log)
+{
+    return with_threads(options, [&] {
+        const auto check = [&](const SceneSize& read) {
+            require_memory(size_before_thinning(read, options.thin),
+                           tbb::this_task_arena::max_concurrency(), options.max_memory);
+        };
+        ReadModel model =
+            read_found_model(input, points, log, {check, thin_while_reading(options.thin)});
+        return reconstruct_thinned(std::move(model.scene), model.read, options, log);
+    });
 }
 
 } // namespace vcarve

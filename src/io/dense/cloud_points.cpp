@@ -23,7 +23,7 @@ void make_unit(Eigen::Vector3f& normal)
 
 } // namespace
 
-void take_attributes(PointCloud cloud, Scene& scene)
+void take_attributes(PointCloud cloud, std::uint64_t first, Scene& scene)
 {
     const std::size_t num_points = scene.num_points();
     scene.normals = std::move(cloud.normals);
@@ -32,7 +32,7 @@ void take_attributes(PointCloud cloud, Scene& scene)
     scene.colors.resize(num_points, kGrey);
     scene.errors_px.assign(num_points, -1.0);
     scene.point_ids.resize(num_points);
-    std::iota(scene.point_ids.begin(), scene.point_ids.end(), 0U);
+    std::iota(scene.point_ids.begin(), scene.point_ids.end(), first);
 }
 
 } // namespace vcarve

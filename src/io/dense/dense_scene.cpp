@@ -4,8 +4,6 @@
 #include "io/colmap/model_size.h"
 #include "io/dense/cloud_points.h"
 #include "io/dense/nearest_sights.h"
-#include "io/dense/visibility.h"
-#include "io/ply/ply_cloud.h"
 #include "io/ply/ply_vertex.h"
 
 #include <system_error>
@@ -31,21 +29,45 @@ std::optional<std::uint64_t> sights_in(const std::filesystem::path& visibility,
 
 } // namespace
 
+DenseSceneReader::DenseSceneReader(const DenseFiles& files, const Progress& progress)
+    : DenseSceneReader(files, read_colmap_views(files.model, files.format, progress))
+{
+}
+
+DenseSceneReader::DenseSceneReader(const DenseFiles& files, ColmapViews model)
+    : cloud_(files.cloud),
+      visibility_(files.visibility, {cloud_.num_points(), files.cloud}, std::move(model.file_order))
+{
+    views_.cameras = std::move(model.cameras);
+    views_.views = std::move(model.views);
+}
+
+Scene DenseSceneReader::next(std::size_t most, const Progress& progress)
+{
+    Scene part = views_;
+    PointCloud cloud = cloud_.next(most, progress.part(0.0, 0.5));
+    part.positions = std::move(cloud.positions);
+    part.tracks = visibility_.next(most, progress.part(0.5, 1.0));
+    take_attributes(std::move(cloud), done_, part);
+    done_ += part.num_points();
+    return part;
+}
+
 Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
 {
-    ColmapViews model = read_colmap_views(files.model, files.format, progress.part(0.0, 0.1));
+    const Progress first = progress.part(0.0, 0.1);
+    if (!files.visibility.empty()) {
+        DenseSceneReader reader(files, first);
+        return reader.next(reader.num_points(), progress.part(0.1, 1.0));
+    }
+    ColmapViews model = read_colmap_views(files.model, files.format, first);
     PointCloud cloud = read_ply_cloud(files.cloud, progress.part(0.1, 0.5));
-    const std::size_t num_points = cloud.positions.size();
     Scene scene;
-    const Progress last = progress.part(0.5, 1.0);
     scene.cameras = std::move(model.cameras);
     scene.views = std::move(model.views);
     scene.positions = std::move(cloud.positions);
-    scene.tracks =
-        files.visibility.empty()
-            ? nearest_sights(scene, last)
-            : read_visibility(files.visibility, {num_points, files.cloud}, model.file_order, last);
-    take_attributes(std::move(cloud), scene);
+    scene.tracks = nearest_sights(scene, progress.part(0.5, 1.0));
+    take_attributes(std::move(cloud), 0, scene);
     return scene;
 }
 

@@ -2,9 +2,14 @@
 
 #include "base/progress.h"
 #include "io/colmap/colmap_model.h"
+#include "io/dense/visibility.h"
+#include "io/ply/ply_cloud.h"
+#include "model/scene_parts.h"
 #include "model/scene_size.h"
 #include "vcarve/scene.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 
@@ -23,8 +28,26 @@ struct DenseFiles {
 /// order: point_ids are places in the file from 0, errors are unknown, a colour that the file lacks
 /// is grey, normals are of unit length, or zero where the file's is no direction. Views and cameras
 /// are sorted by COLMAP's ids. Throws InputError naming file and place, and Cancelled. Cost: as
-/// read_ply_cloud and read_visibility, or nearest_sights.
+/// read_ply_cloud and VisibilityReader, or nearest_sights.
 Scene read_dense_scene(const DenseFiles& files, const Progress& progress = {});
+
+/// The same part by part, as it stands in its files, which must have a visibility.
+class DenseSceneReader final : public SceneParts {
+  public:
+    /// Reads the views, and opens the other files.
+    explicit DenseSceneReader(const DenseFiles& files, const Progress& progress = {});
+
+    std::size_t num_points() const override { return cloud_.num_points(); }
+    Scene next(std::size_t most, const Progress& progress) override;
+
+  private:
+    DenseSceneReader(const DenseFiles& files, ColmapViews model);
+
+    Scene views_; ///< without points
+    PlyCloudReader cloud_;
+    VisibilityReader visibility_;
+    std::uint64_t done_ = 0; ///< points
+};
 
 /// How large the scene will be, by the cloud's header and the bytes of the files, at most where
 /// these do not tell the number of sights; nothing where

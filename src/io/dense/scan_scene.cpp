@@ -27,7 +27,7 @@ Scene read_scan_scene(const ScanFile& file, const Progress& progress)
     scene.positions = std::move(cloud.positions);
     add_scanner_views(cloud.scanners, scene);
     progress.tell(0.95);
-    take_attributes(std::move(cloud), scene);
+    take_attributes(std::move(cloud), 0, scene);
     return scene;
 }
 

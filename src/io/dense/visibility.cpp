@@ -1,8 +1,6 @@
 #include "io/dense/visibility.h"
 
 #include "base/parallel.h"
-#include "io/colmap/byte_reader.h"
-#include "io/files/mapped_file.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -11,44 +9,17 @@
 #include <atomic>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <utility>
 
 namespace vcarve {
 
 namespace {
 
 constexpr std::size_t kNumberBytes = 4; ///< of a point's count of views, and of each view
-constexpr std::size_t kCountBytes = 8;  ///< of the number of points
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 /// So many points are found between two calls of Progress::tell.
 constexpr std::uint64_t kPointsBetweenTells = 65536;
-
-/// Where the rows of all points begin, by their lengths.
-std::vector<std::uint64_t> begins_of_rows(ByteReader& reader, const std::filesystem::path& path,
-                                          const CloudSize& cloud, const Progress& progress)
-{
-    const std::uint64_t count = reader.read_count(kNumberBytes, "points");
-    if (count != cloud.num_points) {
-        throw InputError(fmt::format("{}: tells of {} points, but {} has {}", path.string(), count,
-                                     cloud.path.string(), cloud.num_points));
-    }
-    std::vector<std::uint64_t> begins{0};
-    begins.reserve(count + 1);
-    for (std::uint64_t point = 0; point < count; ++point) {
-        const std::size_t begin = reader.offset();
-        const auto length = reader.read<std::uint32_t>("the number of views of a point");
-        const std::size_t most = reader.left() / kNumberBytes;
-        if (length > most) {
-            throw InputError(fmt::format("{}: byte {}: found a count of {} views of point {}, but "
-                                         "the rest of the file can hold {} at most",
-                                         path.string(), begin, length, point, most));
-        }
-        reader.skip(length, kNumberBytes);
-        begins.push_back(begins.back() + length);
-        if (point % kPointsBetweenTells == 0) progress.tell(reader.share_read());
-    }
-    reader.expect_end("the views of the last point");
-    return begins;
-}
 
 /// Lowers a number that several threads know.
 void lower_to(std::atomic<std::size_t>& least, std::size_t value)
@@ -61,6 +32,7 @@ void lower_to(std::atomic<std::size_t>& least, std::size_t value)
 /// Fills the rows of tracks, whose begins are known, in parallel.
 class RowFiller {
   public:
+    /// `bytes` begin with the first row.
     RowFiller(std::span<const char> bytes, std::span<const std::uint32_t> file_order,
               Tracks& tracks)
         : bytes_(bytes), file_order_(file_order), tracks_(tracks)
@@ -88,11 +60,11 @@ class RowFiller {
 
   private:
     /// What the file has for entry `i` of all rows, which is one of `point`'s: before it stand the
-    /// count of points, the lengths of the rows so far, and the entries so far.
+    /// lengths of the rows so far, and the entries so far.
     std::uint32_t image_at(std::size_t point, std::uint64_t i) const
     {
         std::uint32_t image = 0;
-        const std::size_t place = kCountBytes + kNumberBytes * (point + 1 + i);
+        const std::size_t place = kNumberBytes * (point + 1 + i);
         std::memcpy(&image, bytes_.data() + place, sizeof(image));
         return image;
     }
@@ -137,23 +109,63 @@ void merge_repeated_views(Tracks& tracks)
 
 } // namespace
 
-Tracks read_visibility(const std::filesystem::path& path, const CloudSize& cloud,
-                       std::span<const std::uint32_t> file_order, const Progress& progress)
+VisibilityReader::VisibilityReader(const std::filesystem::path& path, const CloudSize& cloud,
+                                   std::vector<std::uint32_t> file_order)
+    : path_(path),
+      file_(path),
+      reader_(file_.bytes(), path.string()),
+      file_order_(std::move(file_order)),
+      num_points_(reader_.read_count(kNumberBytes, "points"))
 {
-    const MappedFile file(path);
-    ByteReader reader(file.bytes(), path.string());
+    if (num_points_ != cloud.num_points) {
+        throw InputError(fmt::format("{}: tells of {} points, but {} has {}", path.string(),
+                                     num_points_, cloud.path.string(), cloud.num_points));
+    }
+}
+
+/// Where the next rows begin, by their lengths.
+std::vector<std::uint64_t> VisibilityReader::begins_of_rows(std::size_t count,
+                                                            const Progress& progress)
+{
+    std::vector<std::uint64_t> begins{0};
+    begins.reserve(count + 1);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const std::size_t begin = reader_.offset();
+        const auto length = reader_.read<std::uint32_t>("the number of views of a point");
+        const std::size_t most = reader_.left() / kNumberBytes;
+        if (length > most) {
+            throw InputError(fmt::format("{}: byte {}: found a count of {} views of point {}, but "
+                                         "the rest of the file can hold {} at most",
+                                         path_.string(), begin, length, done_ + i, most));
+        }
+        reader_.skip(length, kNumberBytes);
+        begins.push_back(begins.back() + length);
+        if (i % kPointsBetweenTells == 0) {
+            progress.tell(static_cast<double>(i), static_cast<double>(count));
+        }
+    }
+    if (done_ + count == num_points_) reader_.expect_end("the views of the last point");
+    return begins;
+}
+
+Tracks VisibilityReader::next(std::size_t most, const Progress& progress)
+{
+    const std::size_t count = std::min<std::uint64_t>(most, num_points_ - done_);
+    const std::size_t first_byte = reader_.offset();
     Tracks tracks;
-    tracks.begins = begins_of_rows(reader, path, cloud, progress.part(0.0, 0.5));
+    tracks.begins = begins_of_rows(count, progress.part(0.0, 0.5));
     tracks.views.resize(tracks.begins.back());
-    RowFiller rows(file.bytes(), file_order, tracks);
+    RowFiller rows(file_.bytes().subspan(first_byte), file_order_, tracks);
     rows.fill(progress.part(0.5, 1.0));
     if (rows.first_wrong() != kNone) {
         throw InputError(fmt::format("{}: point {} of {} was seen by image {}, but the model has "
                                      "{} images, counted from 0",
-                                     path.string(), rows.first_wrong(), tracks.size(),
-                                     rows.wrong_image(), file_order.size()));
+                                     path_.string(), done_ + rows.first_wrong(), num_points_,
+                                     rows.wrong_image(), file_order_.size()));
     }
     if (rows.has_repeated_views()) merge_repeated_views(tracks);
+    done_ += count;
+    file_.release(reader_.offset());
     return tracks;
 }
 

@@ -5,6 +5,7 @@
 #include <boost/interprocess/exceptions.hpp>
 #include <boost/interprocess/file_mapping.hpp>
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <system_error>
 
@@ -42,6 +43,14 @@ MappedFile::MappedFile(const std::filesystem::path& path) : region_(map_file(pat
 std::span<const char> MappedFile::bytes() const
 {
     return {static_cast<const char*>(region_.get_address()), region_.get_size()};
+}
+
+void MappedFile::release(std::size_t count) const
+{
+    const std::size_t page = bip::mapped_region::get_page_size();
+    const std::size_t whole = count / page * page;
+    // It only costs memory where the system will not.
+    if (whole > 0) static_cast<void>(madvise(region_.get_address(), whole, MADV_DONTNEED));
 }
 
 } // namespace vcarve

@@ -2,6 +2,7 @@
 
 #include <boost/interprocess/mapped_region.hpp>
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 
@@ -15,6 +16,10 @@ class MappedFile {
     explicit MappedFile(const std::filesystem::path& path);
 
     std::span<const char> bytes() const;
+
+    /// Gives back the memory of the first so many bytes, about, which are read from the file again
+    /// where they are asked for again.
+    void release(std::size_t count) const;
 
   private:
     boost::interprocess::mapped_region region_;

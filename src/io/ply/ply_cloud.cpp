@@ -18,6 +18,19 @@
 
 namespace vcarve {
 
+class PlyCloudReader::Vertices {
+  public:
+    Vertices() = default;
+    Vertices(const Vertices&) = delete;
+    Vertices& operator=(const Vertices&) = delete;
+    virtual ~Vertices() = default;
+
+    virtual std::size_t count() const = 0;
+    /// What of the file is not read.
+    virtual std::size_t bytes_left() const = 0;
+    virtual PointCloud next(std::size_t most, const Progress& progress) = 0;
+};
+
 namespace {
 
 /// So many vertices are read between two calls of Progress::tell.
@@ -30,53 +43,79 @@ std::string_view text_of(const MappedFile& file)
 
 /// Reads the vertices of a file.
 template <typename Body>
-class CloudReader {
+class CloudReader final : public PlyCloudReader::Vertices {
   public:
-    CloudReader(const PlyHeader& header, Body body, const std::filesystem::path& path)
-        : header_(header), entries_(body, path), path_(path)
+    CloudReader(const PlyHeader& header, Body body, const std::filesystem::path& path,
+                PlyScanners scanners)
+        : header_(header),
+          entries_(body, path),
+          path_(path),
+          vertices_(find_vertices()),
+          layout_(vertices_),
+          with_scanners_(scanners == PlyScanners::each),
+          camera_(scanners == PlyScanners::one_for_all ? header.find(kPlyCamera) : nullptr)
     {
+        if (!layout_.has_positions()) {
+            entries_.refuse("the vertices lack one of the properties x, y and z");
+        }
+        if (with_scanners_)
+            require_all("the vertices have", vertices_, names_of_scanner(vertices_));
+        for (const PlyElement& element : header.elements) {
+            entries_.require_room(element);
+            if (&element == &vertices_) break;
+            pass(element);
+        }
     }
 
-    PointCloud read(const Progress& progress, PlyScanners scanners)
+    std::size_t count() const override { return vertices_.count; }
+    std::size_t bytes_left() const override { return entries_.bytes_left(); }
+
+    PointCloud next(std::size_t most, const Progress& progress) override
     {
-        const PlyElement* const vertices = header_.find("vertex");
-        if (vertices == nullptr) entries_.refuse("has no element \"vertex\"");
-        const PlyElement* const camera =
-            scanners == PlyScanners::one_for_all ? header_.find(kPlyCamera) : nullptr;
-        for (const PlyElement& element : header_.elements) {
-            entries_.require_room(element);
-            if (&element == vertices) {
-                read_vertices(element, progress, scanners == PlyScanners::each);
-            } else if (&element == camera) {
-                read_camera(element);
-            } else {
-                entries_.skip_all(element);
-            }
-            if (&element >= vertices && (camera == nullptr || place_of_camera_)) break;
+        const std::size_t count = std::min(most, vertices_.count - done_);
+        PointCloud cloud;
+        cloud.positions.resize(count);
+        if (layout_.has_normals()) cloud.normals.resize(count);
+        if (layout_.has_colors()) cloud.colors.resize(count);
+        if (with_scanners_) cloud.scanners.resize(count);
+        if (const auto bytes = Body::fixed_bytes(vertices_)) {
+            read_parallel(cloud, *bytes, progress);
+        } else {
+            read_in_order(cloud, progress);
         }
-        if (place_of_camera_) cloud_.scanners.push_back(*place_of_camera_);
-        return std::move(cloud_);
+        require_finite_scanners(cloud);
+        done_ += count;
+        if (done_ == vertices_.count && camera_ != nullptr) {
+            find_camera_behind();
+            cloud.scanners.push_back(*place_of_camera_);
+        }
+        return cloud;
     }
 
   private:
-    void read_vertices(const PlyElement& vertices, const Progress& progress, bool with_scanners)
+    const PlyElement& find_vertices() const
     {
-        const PlyVertexLayout layout(vertices);
-        if (!layout.has_positions()) {
-            entries_.refuse("the vertices lack one of the properties x, y and z");
-        }
-        if (with_scanners) require_all("the vertices have", vertices, names_of_scanner(vertices));
-        cloud_.positions.resize(vertices.count);
-        if (layout.has_normals()) cloud_.normals.resize(vertices.count);
-        if (layout.has_colors()) cloud_.colors.resize(vertices.count);
-        if (with_scanners) cloud_.scanners.resize(vertices.count);
-        if (const auto bytes = Body::fixed_bytes(vertices)) {
-            read_parallel(layout, *bytes, progress);
-            entries_.skip_all(vertices);
+        const PlyElement* const vertices = header_.find("vertex");
+        if (vertices == nullptr) entries_.refuse("has no element \"vertex\"");
+        return *vertices;
+    }
+
+    void pass(const PlyElement& element)
+    {
+        if (&element == camera_) {
+            read_camera(element);
         } else {
-            read_in_order(layout, vertices, progress);
+            entries_.skip_all(element);
         }
-        require_finite_scanners();
+    }
+
+    /// Where the camera does not stand before the vertices.
+    void find_camera_behind()
+    {
+        for (const PlyElement* element = &vertices_ + 1; !place_of_camera_; ++element) {
+            entries_.require_room(*element);
+            pass(*element);
+        }
     }
 
     /// Less than three coordinates are no place.
@@ -95,13 +134,13 @@ class CloudReader {
     }
 
     /// Points that are not finite were not measured, from wherever.
-    void require_finite_scanners() const
+    void require_finite_scanners(const PointCloud& cloud) const
     {
-        for (std::size_t i = 0; i < cloud_.scanners.size(); ++i) {
-            const Eigen::Vector3d& place = cloud_.scanners[i];
-            if (place.allFinite() || !cloud_.positions[i].allFinite()) continue;
+        for (std::size_t i = 0; i < cloud.scanners.size(); ++i) {
+            const Eigen::Vector3d& place = cloud.scanners[i];
+            if (place.allFinite() || !cloud.positions[i].allFinite()) continue;
             entries_.refuse(
-                fmt::format("vertex {} of {}: {}", i, cloud_.scanners.size(), not_finite(place)));
+                fmt::format("vertex {} of {}: {}", done_ + i, vertices_.count, not_finite(place)));
         }
     }
 
@@ -135,57 +174,82 @@ class CloudReader {
         place_of_camera_ = place + header_.offset;
     }
 
-    void read_parallel(const PlyVertexLayout& layout, std::size_t vertex_bytes,
-                       const Progress& progress)
+    void read_parallel(PointCloud& cloud, std::size_t vertex_bytes, const Progress& progress)
     {
         const auto read_range = [&](std::size_t first, std::size_t last) {
             PlyEntries<Body> entries(entries_.body(), path_);
             entries.body().skip_bytes(first * vertex_bytes);
             for (std::size_t i = first; i != last; ++i) {
-                put(i, layout.read(entries));
+                put(cloud, i, layout_.read(entries));
             }
         };
-        parallel_for_ranges(cloud_.positions.size(), progress, read_range, kVerticesBetweenTells);
+        parallel_for_ranges(cloud.positions.size(), progress, read_range, kVerticesBetweenTells);
+        entries_.body().skip_bytes(cloud.positions.size() * vertex_bytes);
     }
 
-    void read_in_order(const PlyVertexLayout& layout, const PlyElement& vertices,
-                       const Progress& progress)
+    void read_in_order(PointCloud& cloud, const Progress& progress)
     {
-        const auto all = static_cast<double>(vertices.count);
-        entries_.read_all(vertices, [&](std::uint64_t i) {
-            put(i, layout.read(entries_));
-            if (i % kVerticesBetweenTells == 0) progress.tell(static_cast<double>(i), all);
+        const std::size_t count = cloud.positions.size();
+        entries_.read_some(vertices_, {done_, done_ + count}, [&](std::uint64_t vertex) {
+            const std::size_t i = vertex - done_;
+            put(cloud, i, layout_.read(entries_));
+            if (i % kVerticesBetweenTells == 0) {
+                progress.tell(static_cast<double>(i), static_cast<double>(count));
+            }
         });
     }
 
-    void put(std::size_t i, const PlyVertex& vertex)
+    void put(PointCloud& cloud, std::size_t i, const PlyVertex& vertex) const
     {
-        cloud_.positions[i] = vertex.position + header_.offset;
-        if (!cloud_.normals.empty()) cloud_.normals[i] = vertex.normal;
-        if (!cloud_.colors.empty()) cloud_.colors[i] = vertex.color;
-        if (!cloud_.scanners.empty()) cloud_.scanners[i] = vertex.scanner + header_.offset;
+        cloud.positions[i] = vertex.position + header_.offset;
+        if (!cloud.normals.empty()) cloud.normals[i] = vertex.normal;
+        if (!cloud.colors.empty()) cloud.colors[i] = vertex.color;
+        if (!cloud.scanners.empty()) cloud.scanners[i] = vertex.scanner + header_.offset;
     }
 
     const PlyHeader& header_;
     PlyEntries<Body> entries_;
     const std::filesystem::path& path_;
-    PointCloud cloud_;
+    const PlyElement& vertices_;
+    PlyVertexLayout layout_;
+    bool with_scanners_;
+    const PlyElement* camera_; ///< that stands for all vertices; null where none does
+    std::uint64_t done_ = 0;   ///< vertices
     std::optional<Eigen::Vector3d> place_of_camera_;
 };
 
 } // namespace
 
+PlyCloudReader::PlyCloudReader(const std::filesystem::path& path, ReadScanners scanners)
+    : path_(path), file_(path), header_(parse_ply_header(text_of(file_), path_))
+{
+    const PlyScanners wanted =
+        scanners == ReadScanners::yes ? scanners_in(header_) : PlyScanners::none;
+    vertices_ =
+        visit_ply_body(text_of(file_), header_, [&](auto body) -> std::unique_ptr<Vertices> {
+            return std::make_unique<CloudReader<decltype(body)>>(header_, body, path_, wanted);
+        });
+}
+
+PlyCloudReader::~PlyCloudReader() = default;
+
+std::size_t PlyCloudReader::num_points() const
+{
+    return vertices_->count();
+}
+
+PointCloud PlyCloudReader::next(std::size_t most, const Progress& progress)
+{
+    PointCloud cloud = vertices_->next(most, progress);
+    file_.release(file_.bytes().size() - vertices_->bytes_left());
+    return cloud;
+}
+
 PointCloud read_ply_cloud(const std::filesystem::path& path, const Progress& progress,
                           ReadScanners scanners)
 {
-    const MappedFile file(path);
-    const std::string_view bytes = text_of(file);
-    const PlyHeader header = parse_ply_header(bytes, path);
-    const PlyScanners wanted =
-        scanners == ReadScanners::yes ? scanners_in(header) : PlyScanners::none;
-    return visit_ply_body(bytes, header, [&](auto body) {
-        return CloudReader<decltype(body)>(header, body, path).read(progress, wanted);
-    });
+    PlyCloudReader reader(path, scanners);
+    return reader.next(reader.num_points(), progress);
 }
 
 PlyHeader read_ply_header(const std::filesystem::path& path)

@@ -1,12 +1,15 @@
 #pragma once
 
 #include "base/progress.h"
+#include "io/files/mapped_file.h"
 #include "io/ply/ply_header.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace vcarve {
@@ -23,6 +26,32 @@ struct PointCloud {
 
 /// What is read of where the scanners stood.
 enum class ReadScanners { no, yes };
+
+/// Reads the vertices of a PLY file part by part, in its order; see read_ply_cloud for what is read
+/// and refused. The parts of the file that have been read are no longer in memory.
+class PlyCloudReader {
+  public:
+    /// Opens the file, and refuses what its header tells.
+    explicit PlyCloudReader(const std::filesystem::path& path,
+                            ReadScanners scanners = ReadScanners::no);
+    ~PlyCloudReader();
+    PlyCloudReader(const PlyCloudReader&) = delete;
+    PlyCloudReader& operator=(const PlyCloudReader&) = delete;
+
+    std::size_t num_points() const;
+    /// The next points, at most so many; none after the last. A scanner that stands for all is told
+    /// with the last ones.
+    PointCloud next(std::size_t most, const Progress& progress = {});
+
+    /// The vertices of a file in one of PLY's encodings.
+    class Vertices;
+
+  private:
+    std::filesystem::path path_;
+    MappedFile file_;
+    PlyHeader header_;
+    std::unique_ptr<Vertices> vertices_;
+};
 
 /// Reads the vertices of an ascii, little endian or big endian PLY file, numbers of any type; text
 /// is read with all its digits, also where the header calls it float. Other properties and elements

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 namespace vcarve {
 
@@ -21,6 +22,7 @@ class PlyEntries {
     PlyEntries(Body body, const std::filesystem::path& path) : body_(body), path_(path) {}
 
     Body& body() { return body_; }
+    std::size_t bytes_left() const { return body_.bytes_left(); }
     double number(PlyType type) { return body_.number(type); }
 
     [[noreturn]] void refuse(std::string_view what) const
@@ -47,8 +49,16 @@ class PlyEntries {
     template <typename ReadEntry>
     void read_all(const PlyElement& element, const ReadEntry& read_entry)
     {
+        read_some(element, {0, element.count}, read_entry);
+    }
+
+    /// From the first to before the second of `range`.
+    template <typename ReadEntry>
+    void read_some(const PlyElement& element, std::pair<std::uint64_t, std::uint64_t> range,
+                   const ReadEntry& read_entry)
+    {
         if (element.properties.empty()) return;
-        for (std::uint64_t i = 0; i < element.count; ++i) {
+        for (std::uint64_t i = range.first; i < range.second; ++i) {
             try {
                 read_entry(i);
             } catch (const BadPlyEntry& bad) {

@@ -31,15 +31,19 @@ Vector3d median_of(const std::vector<Vector3d>& positions)
 
 Scene center_points(Scene scene)
 {
-    const Vector3d median = median_of(scene.positions);
+    move_origin(scene, median_of(scene.positions));
+    return scene;
+}
+
+void move_origin(Scene& scene, const Vector3d& origin)
+{
     for (Vector3d& position : scene.positions) {
-        position -= median;
+        position -= origin;
     }
     for (View& view : scene.views) {
-        view.center -= median;
+        view.center -= origin;
     }
-    scene.offset += median;
-    return scene;
+    scene.offset += origin;
 }
 
 } // namespace vcarve

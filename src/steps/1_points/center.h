@@ -2,6 +2,8 @@
 
 #include "vcarve/scene.h"
 
+#include <Eigen/Core>
+
 namespace vcarve {
 
 /// The same scene moved so that the median of its points is the origin, for work in doubles far
@@ -9,5 +11,9 @@ namespace vcarve {
 /// and do not count. Two points a few roundings apart may come to lie at one place. Cost: O(points
 /// + views).
 Scene center_points(Scene scene);
+
+/// Moves a scene so that `origin`, a place in it, is the origin; adds it to Scene::offset. Cost:
+/// O(points + views).
+void move_origin(Scene& scene, const Eigen::Vector3d& origin);
 
 } // namespace vcarve

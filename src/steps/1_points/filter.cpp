@@ -4,7 +4,6 @@
 #include "base/parallel.h"
 #include "model/measured_range.h"
 #include "model/scene_points.h"
-#include "model/united_views.h"
 #include "steps/1_points/same_place.h"
 
 #include <algorithm>
@@ -120,6 +119,19 @@ Verdict judge(const Scene& scene, std::uint32_t point, std::span<const std::uint
         return Verdict::low_angle;
     }
     return Verdict::keep;
+}
+
+/// All views that saw one of some points, ascending, each once.
+std::vector<std::uint32_t> united_views(const Scene& scene, const PointIndices& points)
+{
+    std::vector<std::uint32_t> views;
+    for (const std::uint32_t point : points) {
+        const auto track = scene.tracks[point];
+        views.insert(views.end(), track.begin(), track.end());
+    }
+    std::ranges::sort(views);
+    views.erase(std::unique(views.begin(), views.end()), views.end());
+    return views;
 }
 
 void count(Verdict verdict, FilterReport& report)

@@ -1,10 +1,16 @@
 #pragma once
 
 #include "base/progress.h"
+#include "model/scene_parts.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
+#include <cstddef>
+
 namespace vcarve {
+
+/// So many points are merged at a time.
+inline constexpr std::size_t kThinnedAtOnce = std::size_t{1} << 20U;
 
 /// Merges points that lie nearer to each other than the images they were seen in can tell, so that
 /// a dense cloud has one point where it had many and none of its sights is lost. A point's
@@ -23,7 +29,18 @@ namespace vcarve {
 /// (COLMAP's delaunay_mesher drops points by their distance in pixels and depth, one by one in
 /// random order, and keeps the dropped points' sights with a corner of the cell they lie in.)
 /// Points that no view saw stay as they are, and so do those whose reprojection error is known: a
-/// matcher found them one by one. Cost: O(points log points + sights), in parallel.
+/// matcher found them one by one.
+///
+/// Points are taken `at_once` at a time, and merged among each other; what is left of all parts is
+/// merged again in the same cubes, at the end and whenever it has doubled, as if each were a point.
+/// So at no time are more points in memory than two parts and twice what is left in the end; of a
+/// merged-away point only those of its sights remain that the others do not have. The median
+/// footprint, and the origin of the result, which is the median of the points, are those of the
+/// first part. Cost: O(points log points + sights), in parallel. Throws what the parts throw.
+Scene thin_points(SceneParts& parts, const ThinOptions& options, const Progress& progress = {},
+                  std::size_t at_once = kThinnedAtOnce);
+
+/// The same of a scene in memory.
 Scene thin_points(const Scene& scene, const ThinOptions& options, const Progress& progress = {});
 
 } // namespace vcarve

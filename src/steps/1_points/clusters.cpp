@@ -1,0 +1,222 @@
+#include "steps/1_points/clusters.h"
+
+#include "base/parallel.h"
+#include "base/parallel_sort.h"
+#include "base/unset_array.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::uint32_t kAlone =
+    0xffffffffU;                    ///< stands for the cluster of a point that has none yet
+constexpr int kLevels = 21;         ///< of cubes, one within the other; 3 x 21 bits number them
+constexpr int kFiner = 6;           ///< levels below the usual footprint; finer ones count as these
+constexpr std::uint32_t kUsed = 16; ///< levels that dots are merged on
+constexpr std::uint32_t kNever = kUsed;
+
+/// The bits of a number below 2^21, two zeros before each.
+std::uint64_t spread_bits(std::uint64_t number)
+{
+    number = (number | (number << 32U)) & 0x001f00000000ffffU;
+    number = (number | (number << 16U)) & 0x001f0000ff0000ffU;
+    number = (number | (number << 8U)) & 0x100f00f00f00f00fU;
+    number = (number | (number << 4U)) & 0x10c30c30c30c30c3U;
+    return (number | (number << 2U)) & 0x1249249249249249U;
+}
+
+/// Cubes whose sides are a power of two times one length.
+struct CubeGrid {
+    Vector3d corner;
+    double finest; ///< side
+
+    /// Which of the finest cubes holds a place, numbered so that the cubes within a larger one
+    /// follow each other (Morton order); nothing where it lies beyond all that are numbered.
+    std::optional<std::uint64_t> code(const Vector3d& place) const
+    {
+        constexpr double kMost = 1U << kLevels;
+        const Vector3d cell = ((place - corner) / finest).array().floor();
+        if (!(cell.minCoeff() >= 0.0 && cell.maxCoeff() < kMost)) return std::nullopt;
+        std::uint64_t code = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            code = (code << 1U) | spread_bits(static_cast<std::uint64_t>(cell[axis]));
+        }
+        return code;
+    }
+};
+
+/// A dot and its cube, which is one of those of its level.
+struct Placed {
+    std::uint64_t code;
+    std::uint32_t dot;
+    std::uint32_t level; ///< kNever for a dot that is not merged
+
+    bool operator<(const Placed& other) const
+    {
+        return std::tie(level, code, dot) < std::tie(other.level, other.code, other.dot);
+    }
+    std::uint64_t cube(std::uint32_t of_level) const { return code >> (3 * of_level); }
+};
+
+/// A dot that leads a cluster, and its cube.
+struct Leader {
+    std::uint64_t code;
+    std::uint32_t dot;
+
+    bool operator<(const Leader& other) const
+    {
+        return std::tie(code, dot) < std::tie(other.code, other.dot);
+    }
+};
+
+/// Whether two dots may be the same piece of surface.
+bool agree(const Dots& dots, std::uint32_t a, std::uint32_t b)
+{
+    constexpr float kAgreement = 0.5F; // cosine
+    const auto& normals = dots.normals;
+    return normals.empty() || normals[a].dot(normals[b]) >= kAgreement || normals[a].isZero() ||
+           normals[b].isZero();
+}
+
+/// Finds the clusters of dots.
+class Clustering {
+  public:
+    Clustering(const Dots& dots, const CubesForDots& cubes) : dots_(dots), reach_(cubes.reach)
+    {
+        grid_.finest = std::ldexp(cubes.unit, -kFiner);
+        grid_.corner =
+            Vector3d::Constant(cubes.unit * cubes.shift - std::ldexp(grid_.finest, kLevels - 1));
+    }
+
+    std::vector<std::uint32_t> leaders()
+    {
+        leader_of_.resize(dots_.size());
+        UnsetArray<Placed> placed(dots_.size());
+        parallel_for(dots_.size(), [&](std::size_t dot) {
+            leader_of_[dot] = static_cast<std::uint32_t>(dot);
+            placed[dot] = place(static_cast<std::uint32_t>(dot));
+        });
+        parallel_sort(placed);
+        auto begin = placed.begin();
+        for (std::uint32_t level = 0; level < kUsed; ++level) {
+            const auto end =
+                std::ranges::upper_bound(begin, placed.end(), level, {}, &Placed::level);
+            add_level({begin, end}, level);
+            begin = end;
+        }
+        return std::move(leader_of_);
+    }
+
+  private:
+    /// The level of a dot is that whose cubes' side is nearest to its footprint, as a factor.
+    Placed place(std::uint32_t dot) const
+    {
+        const double footprint = dots_.footprints[dot];
+        const std::optional<std::uint64_t> code = grid_.code(dots_.positions[dot]);
+        if (!code || !std::isfinite(footprint)) return {0, dot, kNever};
+        const double level = std::round(std::log2(footprint / grid_.finest));
+        return {*code, dot, static_cast<std::uint32_t>(std::clamp(level, 0.0, kUsed - 1.0))};
+    }
+
+    /// Gives the dots of a level to leaders, old ones or new, cube by cube.
+    void add_level(std::span<const Placed> dots, std::uint32_t level)
+    {
+        const auto begins_cube = [&](std::size_t i) {
+            return i == 0 || dots[i].cube(level) != dots[i - 1].cube(level);
+        };
+        auto fresh = parallel_collect<Leader>(dots.size(), [&](std::size_t i, auto& found) {
+            if (!begins_cube(i)) return;
+            std::size_t end = i + 1;
+            while (end < dots.size() && !begins_cube(end)) {
+                ++end;
+            }
+            const auto cube = [&](const Leader& leader) { return leader.code >> (3 * level); };
+            const auto known = std::ranges::equal_range(leaders_, dots[i].cube(level), {}, cube);
+            join(dots.subspan(i, end - i), {known.begin(), known.end()}, found);
+        });
+        parallel_sort(fresh);
+        std::vector<Leader> all(leaders_.size() + fresh.size());
+        std::merge(leaders_.begin(), leaders_.end(), fresh.begin(), fresh.end(), all.begin());
+        leaders_ = std::move(all);
+    }
+
+    /// Gives the dots of a cube to its leaders, the nearest that agrees each; of those left over,
+    /// the ones with most views lead.
+    void join(std::span<const Placed> own, std::vector<Leader> leaders, std::vector<Leader>& fresh)
+    {
+        std::vector<Placed> by_views(own.begin(), own.end());
+        std::ranges::sort(by_views, [&](const Placed& a, const Placed& b) {
+            return std::pair(dots_.num_views[b.dot], a.dot) <
+                   std::pair(dots_.num_views[a.dot], b.dot);
+        });
+        for (const Placed& placed : by_views) {
+            const std::uint32_t leader = nearest(placed, leaders);
+            if (leader == kAlone) {
+                leaders.push_back({placed.code, placed.dot});
+                fresh.push_back(leaders.back());
+            } else {
+                leader_of_[placed.dot] = leader;
+            }
+        }
+    }
+
+    std::uint32_t nearest(const Placed& placed, const std::vector<Leader>& leaders) const
+    {
+        const double reach = reach_ * std::ldexp(grid_.finest, static_cast<int>(placed.level));
+        double least_sq = reach * reach;
+        std::uint32_t best = kAlone;
+        for (const Leader& leader : leaders) {
+            const double distance_sq =
+                (dots_.positions[leader.dot] - dots_.positions[placed.dot]).squaredNorm();
+            if (distance_sq >= least_sq || !agree(dots_, leader.dot, placed.dot)) continue;
+            least_sq = distance_sq;
+            best = leader.dot;
+        }
+        return best;
+    }
+
+    const Dots& dots_;
+    double reach_;
+    CubeGrid grid_{};
+    std::vector<Leader> leaders_; ///< so far, by code
+    std::vector<std::uint32_t> leader_of_;
+};
+
+} // namespace
+
+std::vector<std::uint32_t> leaders_in_cubes(const Dots& dots, const CubesForDots& cubes)
+{
+    return Clustering(dots, cubes).leaders();
+}
+
+Clusters::Clusters(const std::vector<std::uint32_t>& leader_of) : members_(leader_of.size())
+{
+    std::vector<std::uint32_t> counts(leader_of.size(), 0);
+    for (const std::uint32_t leader : leader_of) {
+        ++counts[leader];
+    }
+    std::vector<std::size_t> ends(leader_of.size());
+    std::size_t sum = 0;
+    for (std::uint32_t dot = 0; dot < leader_of.size(); ++dot) {
+        ends[dot] = sum;
+        if (counts[dot] == 0) continue;
+        leaders_.push_back(dot);
+        begins_.push_back(sum);
+        sum += counts[dot];
+    }
+    begins_.push_back(sum);
+    for (std::uint32_t dot = 0; dot < leader_of.size(); ++dot) {
+        members_[ends[leader_of[dot]]++] = dot;
+    }
+}
+
+} // namespace vcarve

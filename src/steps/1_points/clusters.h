@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace vcarve {
+
+/// Points that may be merged: where they are, how fine they were seen, and how much they count.
+struct Dots {
+    std::span<const Eigen::Vector3d> positions;
+    std::span<const Eigen::Vector3f> normals; ///< empty, or one a dot
+    std::vector<double> footprints;           ///< infinite: never merged
+    std::vector<std::uint32_t> num_views;
+
+    std::size_t size() const { return positions.size(); }
+};
+
+/// Cubes that dots are merged in.
+struct CubesForDots {
+    double unit = 1.0;  ///< the usual side
+    double shift = 0.0; ///< of all cubes along every axis, in units
+    double reach = 1.0; ///< a dot joins a leader nearer than so many sides of its cube
+};
+
+/// The leader of every dot, which is one of its cluster. Dots whose footprint is the side of a cube
+/// or up to about twice that, and which lie in the same cube, make a cluster, finer dots first, and
+/// coarser dots join finer ones in their cube; the dot with most views leads, the first of several.
+/// Dots whose normals differ by more than 60 degrees are not in one. Cost: O(n log n), in parallel.
+std::vector<std::uint32_t> leaders_in_cubes(const Dots& dots, const CubesForDots& cubes);
+
+/// The members of every cluster, the clusters in the order of their leaders.
+class Clusters {
+  public:
+    explicit Clusters(const std::vector<std::uint32_t>& leader_of);
+
+    std::size_t size() const { return leaders_.size(); }
+    std::uint32_t leader(std::size_t cluster) const { return leaders_[cluster]; }
+    const std::vector<std::uint32_t>& leaders() const { return leaders_; }
+    std::span<const std::uint32_t> operator[](std::size_t cluster) const
+    {
+        return {members_.data() + begins_[cluster], members_.data() + begins_[cluster + 1]};
+    }
+
+  private:
+    std::vector<std::uint32_t> members_;
+    std::vector<std::uint32_t> leaders_;
+    std::vector<std::size_t> begins_;
+};
+
+} // namespace vcarve
