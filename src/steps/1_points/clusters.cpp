@@ -140,8 +140,10 @@ class Clustering {
                 ++end;
             }
             const auto cube = [&](const Leader& leader) { return leader.code >> (3 * level); };
-            const auto known = std::ranges::equal_range(leaders_, dots[i].cube(level), {}, cube);
-            join(dots.subspan(i, end - i), {known.begin(), known.end()}, found);
+            const std::uint64_t number = dots[i].cube(level);
+            const auto first = std::ranges::lower_bound(leaders_, number, {}, cube);
+            const auto last = std::ranges::upper_bound(leaders_, number, {}, cube);
+            join(dots.subspan(i, end - i), {first, last}, found);
         });
         parallel_sort(fresh);
         std::vector<Leader> all(leaders_.size() + fresh.size());
