@@ -401,7 +401,7 @@ TEST(Program, SaysThatMemoryIsShort)
     write_ball_model(folder / "ball", 200'000);
     const Outcome outcome =
         Subprocess(command({"--quiet", folder / "ball", folder / "out.ply", "--threads", "1"}),
-                   rlim_t{64} << 20)
+                   rlim_t{128} << 20) // of which the libraries' files take half
             .wait();
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.err, "colmap-vcarve: out of memory\n");

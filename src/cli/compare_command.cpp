@@ -5,6 +5,7 @@
 #include "cli/baseline_runs.h"
 #include "cli/interruption.h"
 #include "cli/model_input.h"
+#include "cli/preview_output.h"
 #include "compare/closed_surface.h"
 #include "io/files/mapped_file.h"
 #include "io/files/output_file.h"
@@ -68,6 +69,7 @@ struct CompareArguments {
     std::vector<fs::path> meshes;
     fs::path truth; ///< empty: none
     fs::path json;  ///< empty: none
+    PreviewArguments preview;
     CompareOptions measure;
     PointBaselineOptions point_baselines;
     std::string colmap; ///< empty: not run
@@ -97,6 +99,7 @@ std::vector<OptionRow> compare_options()
     baselines.visit(table);
     table.stage("Output");
     table.path({.name = "json", .help = "Also write all figures, unrounded, as JSON."});
+    list_preview_options(table);
     run.visit(table);
     table.stage("Help");
     table.flag(off, {.name = "help", .help = "Print this and exit."});
@@ -124,7 +127,18 @@ CompareArguments read_arguments(const ParsedArguments& given)
     arguments.meshes.assign(given.operands.begin() + 1, given.operands.end());
     if (given.has("truth")) arguments.truth = given.options.at("truth");
     if (given.has("json")) arguments.json = given.options.at("json");
+    arguments.preview = read_preview_options(given);
+    require_apart(arguments.preview, arguments.json, "--json");
     return arguments;
+}
+
+/// The files that are written.
+std::vector<fs::path> outputs_of(const CompareArguments& arguments)
+{
+    std::vector<fs::path> outputs;
+    if (!arguments.json.empty()) outputs.push_back(arguments.json);
+    if (!arguments.preview.out.empty()) outputs.push_back(arguments.preview.out);
+    return outputs;
 }
 
 /// What cannot be read or written is said before the work starts.
@@ -136,9 +150,14 @@ void check_files(const CompareArguments& arguments)
         if (input == arguments.json) {
             throw UsageError(fmt::format("--json would replace the mesh {}", input.string()));
         }
+        if (input == arguments.preview.out) {
+            throw UsageError(fmt::format("--preview would replace the mesh {}", input.string()));
+        }
         const MappedFile opens(input);
     }
-    if (!arguments.json.empty()) require_writable(arguments.json);
+    for (const fs::path& output : outputs_of(arguments)) {
+        require_writable(output);
+    }
 }
 
 /// Nothing half written stays behind, whenever the run ends.
@@ -146,7 +165,9 @@ void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* s
 {
     std::vector<fs::path> unfinished;
     if (scratch != nullptr) unfinished = scratch->contents();
-    if (!arguments.json.empty()) unfinished.push_back(part_path(arguments.json));
+    for (const fs::path& output : outputs_of(arguments)) {
+        unfinished.push_back(part_path(output));
+    }
     end_cleanly_on_signals(unfinished);
 }
 
@@ -203,24 +224,33 @@ Reference reference_of(const CompareArguments& arguments, Scene model, Log& log)
     return reference;
 }
 
-Comparison measure(const NamedMesh& mesh, const Reference& reference, Log& log)
+/// What meshes are measured by, and what their figures go with.
+struct Yardstick {
+    const Reference& reference;
+    PreviewOutput& preview;
+    Log& log;
+};
+
+/// The column of that name; the mesh's own name is the one that errors tell.
+Comparison measure(const NamedMesh& mesh, const std::string& column, const Yardstick& by)
 {
-    Stage stage(log, "measure");
-    Comparison comparison = compare_mesh(mesh, reference);
+    Stage stage(by.log, "measure");
+    Comparison comparison = compare_mesh(mesh, by.reference);
     stage.end({{"faces of " + mesh.name, comparison.size.faces}});
+    comparison.name = column;
+    by.preview.add(column, mesh.mesh, by.log);
     return comparison;
 }
 
 /// A column for each baseline.
-std::vector<Comparison> measure_baselines(std::vector<BaselineMesh> baselines,
-                                          const Reference& reference, Log& log)
+std::vector<Comparison> measure_baselines(std::vector<BaselineMesh> baselines, const Yardstick& by)
 {
     std::vector<Comparison> columns;
     for (BaselineMesh& baseline : baselines) {
         Comparison column;
         column.name = baseline.name;
         if (baseline.failure.empty()) {
-            column = measure({baseline.name, std::move(baseline.mesh)}, reference, log);
+            column = measure({baseline.name, std::move(baseline.mesh)}, baseline.name, by);
         }
         column.failure = baseline.failure;
         column.cost = baseline.cost;
@@ -230,15 +260,13 @@ std::vector<Comparison> measure_baselines(std::vector<BaselineMesh> baselines,
 }
 
 /// A column for each file.
-std::vector<Comparison> measure_files(const CompareArguments& arguments, const Reference& reference,
-                                      Log& log)
+std::vector<Comparison> measure_files(const CompareArguments& arguments, const Yardstick& by)
 {
     std::vector<Comparison> columns;
     const std::vector<std::string> names = column_names(arguments.meshes);
     for (std::size_t i = 0; i < names.size(); ++i) {
-        columns.push_back(
-            measure({arguments.meshes[i].string(), read_ply(arguments.meshes[i])}, reference, log));
-        columns.back().name = names[i];
+        const fs::path& path = arguments.meshes[i];
+        columns.push_back(measure({path.string(), read_ply(path)}, names[i], by));
     }
     return columns;
 }
@@ -262,6 +290,7 @@ Manual compare_manual()
         {"colmap-vcarve compare sparse/0 mesh.ply --truth gt.ply", "how true it is"},
         {"colmap-vcarve compare sparse/0 --colmap colmap", "this program beside COLMAP's mesher"},
         {"colmap-vcarve compare sparse/0 mesh.ply --baselines", "beside the paper's baselines"},
+        {"colmap-vcarve compare sparse/0 a.ply b.ply --preview ab.png", "a picture of each"},
     };
     manual.operand_meanings = {
         {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},
@@ -295,13 +324,17 @@ void run_compare(const ParsedArguments& given)
                                      arguments.model.path.string()));
     }
     ModelInput model = read_model_input(arguments.model, *log);
+    PreviewOutput preview(arguments.preview);
+    preview.stand_in(model.scene);
     const std::vector<NamedMesh> point_baselines = point_baselines_of(arguments, model.scene, *log);
     const Reference reference = reference_of(arguments, std::move(model.scene), *log);
-    std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), reference, *log);
+    const Yardstick by{reference, preview, *log};
+    std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), by);
     for (const NamedMesh& baseline : point_baselines) {
-        comparisons.push_back(measure(baseline, reference, *log));
+        comparisons.push_back(measure(baseline, baseline.name, by));
     }
-    std::ranges::move(measure_files(arguments, reference, *log), std::back_inserter(comparisons));
+    std::ranges::move(measure_files(arguments, by), std::back_inserter(comparisons));
+    preview.write();
     print_table(comparison_table(comparisons, reference));
     if (arguments.json.empty()) return;
     OutputFile file(arguments.json);

@@ -1,5 +1,7 @@
 #include "cli/console_log.h"
 
+#include "base/grouped_digits.h"
+
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -14,19 +16,6 @@ namespace {
 constexpr auto kRedraw = std::chrono::milliseconds(100);
 constexpr std::size_t kBarCells = 30;
 constexpr const char* kClearLine = "\r\x1b[K";
-
-/// 24310 -> "24,310"
-std::string grouped(std::int64_t number)
-{
-    const std::string digits = std::to_string(number);
-    std::string text;
-    for (std::size_t i = 0; i < digits.size(); ++i) {
-        const bool begins_group = (digits.size() - i) % 3 == 0;
-        if (begins_group && i > 0 && digits[i - 1] != '-') text.push_back(',');
-        text.push_back(digits[i]);
-    }
-    return text;
-}
 
 std::size_t columns_of(std::FILE* stream)
 {
@@ -48,15 +37,15 @@ std::string counts_text(const Counts& counts)
 {
     if (counts.empty()) return "";
     const bool has_whole = counts.size() > 1 && counts[1].first == "of";
-    std::string text = grouped(counts[0].second);
-    if (has_whole) text += " of " + grouped(counts[1].second);
+    std::string text = grouped_digits(counts[0].second);
+    if (has_whole) text += " of " + grouped_digits(counts[1].second);
     text += " " + counts[0].first;
 
     std::string others;
     for (std::size_t i = has_whole ? 2 : 1; i < counts.size(); ++i) {
         if (counts[i].second == 0) continue;
         others += others.empty() ? "" : ", ";
-        others += grouped(counts[i].second) + " " + counts[i].first;
+        others += grouped_digits(counts[i].second) + " " + counts[i].first;
     }
     return others.empty() ? text : fmt::format("{} ({})", text, others);
 }

@@ -4,6 +4,7 @@
 #include "base/version.h"
 #include "cli/interruption.h"
 #include "cli/model_input.h"
+#include "cli/preview_output.h"
 #include "cli/run_record.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
@@ -64,6 +65,7 @@ struct MeshArguments {
     ModelArguments model;
     fs::path out;
     fs::path stats; ///< empty: none
+    PreviewArguments preview;
     OutputOptions output;
     Options options;
 };
@@ -81,6 +83,7 @@ std::vector<OptionRow> mesh_options()
                 .help =
                     "Write options, counts, seconds and peak memory of every stage, and a check "
                     "of the mesh, as JSON."});
+    list_preview_options(table);
     table.stage("Help");
     table.flag(off, {.name = "help", .help = "Print this and exit."});
     table.flag(off,
@@ -126,11 +129,13 @@ MeshArguments read_arguments(const ParsedArguments& given)
     arguments.model = {given.operands[0], read_points_options(given)};
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
+    arguments.preview = read_preview_options(given);
     if (given.has("stats")) arguments.stats = given.options.at("stats");
     if (given.has("stats") && arguments.stats == arguments.out) {
         throw UsageError(fmt::format("--stats and the surface cannot both be written to {}",
                                      arguments.out.string()));
     }
+    require_apart(arguments.preview, arguments.stats, "--stats");
     return arguments;
 }
 
@@ -139,6 +144,7 @@ void prepare_outputs(const MeshArguments& arguments, bool with_stats)
 {
     std::vector<fs::path> outputs = {arguments.out};
     if (with_stats) outputs.push_back(arguments.stats);
+    if (!arguments.preview.out.empty()) outputs.push_back(arguments.preview.out);
     std::vector<fs::path> parts;
     parts.reserve(outputs.size());
     for (const fs::path& output : outputs) {
@@ -258,10 +264,15 @@ void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& reco
         {.check = [&](const SceneSize& size) { require_memory_of(arguments, size); },
          .gather = thin_while_reading(arguments.options.thin)});
     record["input"] = input.record;
+    PreviewOutput preview(arguments.preview);
+    preview.stand_in(input.scene);
+    record["preview"] = preview.record();
     const Eigen::Vector3d offset = offset_for(input.scene, arguments.output.offset);
     record["offset"] = {offset.x(), offset.y(), offset.z()};
     const Surface surface = surface_of(std::move(input), arguments, log);
     write_surface(arguments, surface, offset, log);
+    preview.add(arguments.out.filename().string(), surface.mesh, log);
+    preview.write();
     if (!arguments.stats.empty()) record["mesh"] = check_json(check_mesh(surface.mesh));
 }
 
@@ -277,6 +288,7 @@ Manual mesh_manual()
         {"colmap-vcarve sparse/0 mesh.ply", "the default: a surface from any sparse model"},
         {"colmap-vcarve dense mesh.ply", "from the dense points that stereo_fusion made"},
         {"colmap-vcarve scan.ply mesh.ply", "from a laser scan that tells of its scanners"},
+        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "with a picture of it"},
         {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
         {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
         {"colmap-vcarve --crop auto sparse/0 mesh.ply", "of what was looked at, without the rest"},
@@ -323,6 +335,7 @@ void run_mesh(const ParsedArguments& given)
                    {"input", nullptr},
                    {"output", arguments.out.string()},
                    {"offset", nullptr},
+                   {"preview", nullptr},
                    {"options", options_json(arguments.options)},
                    {"threads_used", threads}};
     record["options"].update(options_json(arguments.output));

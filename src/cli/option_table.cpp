@@ -94,6 +94,14 @@ void OptionTable::path(const OptionInfo& info)
     add(OptionKind::path, info).accepted = "a path";
 }
 
+void OptionTable::word_or_name(std::span<const char* const> words, const OptionInfo& info)
+{
+    OptionRow& row = add(OptionKind::name, info);
+    row.choices.assign(words.begin(), words.end());
+    row.accepted = fmt::format("{} or a name", fmt::join(row.choices, ", "));
+    row.initial = row.choices.front();
+}
+
 std::string placeholder(const OptionRow& row)
 {
     switch (row.kind) {
@@ -110,6 +118,8 @@ std::string placeholder(const OptionRow& row)
         return fmt::format("{}|box|<file>", fmt::join(row.choices, "|"));
     case OptionKind::path:
         return "<file>";
+    case OptionKind::name:
+        return fmt::format("{}|<name>", fmt::join(row.choices, "|"));
     case OptionKind::flag:
         break;
     }

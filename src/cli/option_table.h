@@ -7,7 +7,7 @@
 
 namespace vcarve::cli {
 
-enum class OptionKind { number, count, bytes, flag, choice, vector, region, path };
+enum class OptionKind { number, count, bytes, flag, choice, vector, region, path, name };
 
 /// One option as the user meets it.
 struct OptionRow {
@@ -37,6 +37,8 @@ class OptionTable final : public OptionVisitor {
 
     /// An option whose value is a path.
     void path(const OptionInfo& info);
+    /// An option whose value is one of `words`, the first by default, or a name.
+    void word_or_name(std::span<const char* const> words, const OptionInfo& info);
 
     const std::vector<OptionRow>& rows() const { return rows_; }
 

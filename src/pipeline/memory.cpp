@@ -16,7 +16,7 @@ namespace vcarve {
 namespace {
 
 /// Code, libraries and small things; the stack of a thread, and what allocators keep for it.
-constexpr double kProgram = 7e6;
+constexpr double kProgram = 9e6;
 constexpr double kThread = 0.5e6;
 
 constexpr double kCellsPerPoint = 6.8;

@@ -115,14 +115,4 @@ TEST(Raster, CutsFacesThatReachBehindTheCamera)
     }
 }
 
-TEST(Raster, SharesOfACornerAreOneAndOfTheMiddleAThird)
-{
-    const TriMesh mesh = box_ahead();
-    const auto& [a, b, c] = mesh.faces[5];
-    const Eigen::Vector3d middle =
-        (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]) / 3.0;
-    EXPECT_TRUE(vertex_shares(mesh, 5, mesh.positions[b]).isApprox(Eigen::Vector3d(0, 1, 0)));
-    EXPECT_TRUE(vertex_shares(mesh, 5, middle).isApprox(Eigen::Vector3d::Constant(1.0 / 3.0)));
-}
-
 } // namespace vcarve::render

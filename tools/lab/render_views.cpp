@@ -5,9 +5,9 @@
 // (how many to find in a view, at most), FOLDER/pairs.txt (names of views that look in similar
 // directions from places not too far apart, a pair a line) and FOLDER/max_error.txt (how far from
 // its true place, in the truth's units, a reconstructed centre may lie).
+#include "picture/picture.h"
 #include "render/photo_scene.h"
 #include "render/photograph.h"
-#include "render/picture.h"
 #include "vcarve/io.h"
 
 #include <fmt/format.h>

@@ -94,7 +94,7 @@ DepthMap stereo_depths(const render::PhotoScene& scene, std::size_t view, const 
 {
     const Pinhole& lens = scene.views[view];
     const std::vector<Hit> hits = render::rasterize(scene.parts.mesh, lens);
-    const render::Picture picture = render::photograph(scene.parts, lens);
+    const Picture picture = render::photograph(scene.parts, lens);
     const std::uint64_t own = (seed << 20U) + 8 * view;
     const std::vector<double> smooth = smooth_numbers(lens.width_px, lens.height_px, own);
     const double scale = 1.0 / (lens.focal_px.x() * baseline(scene.views, view));

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "picture/picture.h"
 #include "render/photo_scene.h"
-#include "render/picture.h"
 
 #include <cstdint>
 

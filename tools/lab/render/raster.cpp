@@ -163,16 +163,4 @@ Eigen::Vector3d face_normal(const TriMesh& mesh, std::uint32_t face)
     return (mesh.positions[b] - p).cross(mesh.positions[c] - p).normalized();
 }
 
-Eigen::Vector3d vertex_shares(const TriMesh& mesh, std::uint32_t face, const Eigen::Vector3d& place)
-{
-    const auto& [a, b, c] = mesh.faces[face];
-    const Eigen::Vector3d u = mesh.positions[b] - mesh.positions[a];
-    const Eigen::Vector3d v = mesh.positions[c] - mesh.positions[a];
-    const Eigen::Vector3d w = place - mesh.positions[a];
-    const Eigen::Vector3d normal = u.cross(v);
-    const double second = w.cross(v).dot(normal) / normal.squaredNorm();
-    const double third = u.cross(w).dot(normal) / normal.squaredNorm();
-    return {1.0 - second - third, second, third};
-}
-
 } // namespace vcarve::render

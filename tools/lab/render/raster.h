@@ -45,8 +45,4 @@ std::vector<Hit> rasterize(const TriMesh& mesh, const Pinhole& view);
 /// area.
 Eigen::Vector3d face_normal(const TriMesh& mesh, std::uint32_t face);
 
-/// Shares of a face's three vertices at a place in its plane; they add up to 1.
-Eigen::Vector3d vertex_shares(const TriMesh& mesh, std::uint32_t face,
-                              const Eigen::Vector3d& place);
-
 } // namespace vcarve::render

@@ -1,0 +1,93 @@
+#include "cli/preview_output.h"
+
+#include "picture/eye.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace vcarve::cli {
+
+namespace {
+
+constexpr std::array<const char*, 3> kViewWords = {"auto", "top", "orbit"};
+
+bool is_png_name(const std::filesystem::path& path)
+{
+    std::string end = path.extension().string();
+    std::ranges::transform(end, end.begin(),
+                           [](unsigned char letter) { return std::tolower(letter); });
+    return end == ".png";
+}
+
+} // namespace
+
+void list_preview_options(OptionTable& table)
+{
+    table.path({.name = "preview",
+                .help = "Also draw the surface, as PNG: in its colours, backs of faces in magenta, "
+                        "beside its normals as colours."});
+    table.word_or_name(
+        kViewWords,
+        {.name = "view",
+         .help = "From where --preview looks. auto: through the camera of the image that sees most "
+                 "points. top, orbit: from outside what was looked at, above or obliquely, through "
+                 "the backs of walls; up is the mean of the cameras'. Else the image of that "
+                 "name."});
+}
+
+PreviewArguments read_preview_options(const ParsedArguments& given)
+{
+    PreviewArguments arguments;
+    if (given.has("view") && !given.has("preview")) {
+        throw UsageError("--view says from where --preview looks, but there is no --preview");
+    }
+    if (!given.has("preview")) return arguments;
+    arguments.out = given.options.at("preview");
+    if (!is_png_name(arguments.out)) {
+        throw UsageError(fmt::format("cannot write {}: the name of a picture must end with .png",
+                                     arguments.out.string()));
+    }
+    if (given.has("view")) arguments.view = given.options.at("view");
+    return arguments;
+}
+
+void require_apart(const PreviewArguments& preview, const std::filesystem::path& other,
+                   const char* option)
+{
+    if (preview.out.empty() || preview.out != other) return;
+    throw UsageError(
+        fmt::format("{} and --preview cannot both be written to {}", option, other.string()));
+}
+
+void PreviewOutput::stand_in(const Scene& scene)
+{
+    if (!arguments_.out.empty()) preview_.emplace(choose_eye(scene, arguments_.view));
+}
+
+void PreviewOutput::add(const std::string& name, const TriMesh& mesh, Log& log)
+{
+    if (!preview_) return;
+    Stage stage(log, "preview");
+    const std::int64_t pixels = preview_->add(name, mesh);
+    is_empty_ = false;
+    stage.end({{"pixels of " + name, pixels}});
+}
+
+void PreviewOutput::write()
+{
+    if (!preview_) return;
+    if (is_empty_) preview_->add("no surface", {});
+    write_png(arguments_.out, preview_->picture());
+}
+
+Json PreviewOutput::record() const
+{
+    if (!preview_) return nullptr;
+    return {{"file", arguments_.out.string()}, {"view", preview_->eye().name}};
+}
+
+} // namespace vcarve::cli

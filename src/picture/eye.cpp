@@ -1,0 +1,184 @@
+#include "picture/eye.h"
+
+#include "model/camera.h"
+#include "steps/1_points/looked_at_ball.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kOutsideWidthPx = 1280.0;
+constexpr double kOutsideHeightPx = 960.0;
+constexpr double kHalfAngleRad = 22.5 * std::numbers::pi / 180.0;
+constexpr double kOrbitHeightRad = 35.0 * std::numbers::pi / 180.0;
+/// What lies a little outside the ball, such as the tops of walls, is seen as well.
+constexpr double kRoom = 1.2;
+/// A mean of unit vectors that is shorter says nothing.
+constexpr double kAgreeing = 0.1;
+
+bool has_lens(const Camera& camera)
+{
+    if (camera.width_px == 0 || camera.height_px == 0) return false;
+    const Eigen::Vector2d middle(static_cast<double>(camera.width_px) / 2.0,
+                                 static_cast<double>(camera.height_px) / 2.0);
+    return ray(camera, middle).has_value();
+}
+
+Eye eye_of(const Scene& scene, const View& view)
+{
+    return {.name = view.name,
+            .camera = scene.cameras[view.camera],
+            .cam_from_world = view.cam_from_world,
+            .center = view.center + scene.offset};
+}
+
+/// The mean of what `direction` says of the views; nothing where these cancel out.
+template <typename Direction>
+std::optional<Vector3d> mean_direction(const Scene& scene, const Direction& direction)
+{
+    Vector3d sum = Vector3d::Zero();
+    for (const View& view : scene.views) {
+        sum += direction(view);
+    }
+    if (!(sum.norm() > kAgreeing * static_cast<double>(scene.views.size()))) return std::nullopt;
+    return sum.normalized();
+}
+
+Vector3d up_of(const Scene& scene)
+{
+    const auto up = mean_direction(scene, [&](const View& view) -> Vector3d {
+        if (scene.cameras[view.camera].measures_range) return Vector3d::UnitZ();
+        return view.cam_from_world.conjugate() * -Vector3d::UnitY();
+    });
+    if (up) return *up;
+    const auto back = mean_direction(scene, [&](const View& view) -> Vector3d {
+        return view.cam_from_world.conjugate() * -Vector3d::UnitZ();
+    });
+    return back.value_or(Vector3d::UnitZ());
+}
+
+/// The level direction from a place to most cameras; any where these stand evenly around.
+Vector3d side_of(const Scene& scene, const Vector3d& from, const Vector3d& up)
+{
+    const auto level = [&](const Vector3d& way) -> Vector3d {
+        return (way - way.dot(up) * up).normalized();
+    };
+    const auto side =
+        mean_direction(scene, [&](const View& view) { return level(view.center - from); });
+    if (side && level(*side).norm() > 0.5) return level(*side);
+    if (!scene.views.empty()) {
+        Vector3d first = level(scene.views.front().center - from);
+        if (first.norm() > 0.5) return first;
+    }
+    return up.unitOrthogonal();
+}
+
+/// Looks at a ball, with some room above and below it, from a direction.
+Eye outside_of(const Ball& ball, const Vector3d& from, const Vector3d& upward)
+{
+    Eye eye;
+    eye.camera.width_px = static_cast<std::uint64_t>(kOutsideWidthPx);
+    eye.camera.height_px = static_cast<std::uint64_t>(kOutsideHeightPx);
+    const double focal_px = kOutsideHeightPx / 2.0 / std::tan(kHalfAngleRad);
+    eye.camera.params = {focal_px, kOutsideWidthPx / 2.0, kOutsideHeightPx / 2.0};
+    const double radius = ball.radius > 0.0 ? ball.radius : 1.0;
+    eye.center = ball.center + from * (kRoom * radius / std::sin(kHalfAngleRad));
+
+    // Rows are the camera's axes: right, down, ahead.
+    const Vector3d ahead = -from;
+    const Vector3d right = ahead.cross(upward).normalized();
+    Eigen::Matrix3d axes;
+    axes << right.transpose(), ahead.cross(right).transpose(), ahead.transpose();
+    eye.cam_from_world = Eigen::Quaterniond(axes);
+    eye.through_backs = true;
+    return eye;
+}
+
+Eye outside(const Scene& scene, const std::string& word)
+{
+    Ball ball = looked_at_ball(scene);
+    const Vector3d up = up_of(scene);
+    const Vector3d side = side_of(scene, ball.center, up);
+    ball.center += scene.offset;
+    const Vector3d oblique = std::cos(kOrbitHeightRad) * side + std::sin(kOrbitHeightRad) * up;
+    // From above, the side where most cameras are is the lower one.
+    Eye eye = word == "top" ? outside_of(ball, up, -side) : outside_of(ball, oblique, up);
+    eye.name = word;
+    return eye;
+}
+
+/// The view with a known lens that sees most points, or null.
+const View* busiest_view(const Scene& scene)
+{
+    std::vector<std::size_t> counts(scene.views.size(), 0);
+    for (const std::uint32_t view : scene.tracks.views) {
+        ++counts[view];
+    }
+    const View* busiest = nullptr;
+    for (const View& view : scene.views) {
+        const auto index = static_cast<std::size_t>(&view - scene.views.data());
+        const bool sees_more =
+            busiest == nullptr ||
+            counts[index] > counts[static_cast<std::size_t>(busiest - scene.views.data())];
+        if (sees_more && has_lens(scene.cameras[view.camera])) busiest = &view;
+    }
+    return busiest;
+}
+
+/// What a model's images are called, so that one can be chosen.
+std::string names_of(const Scene& scene)
+{
+    constexpr std::size_t kShown = 3;
+    if (scene.views.empty()) return "none";
+    std::string names;
+    for (std::size_t i = 0; i < std::min(kShown, scene.views.size()); ++i) {
+        names += (i == 0 ? "" : ", ") + scene.views[i].name;
+    }
+    return names + (scene.views.size() > kShown ? ", ..." : "");
+}
+
+} // namespace
+
+Eye choose_eye(const Scene& scene, const std::string& word)
+{
+    if (word == "top" || word == "orbit") return outside(scene, word);
+    if (word == "auto") {
+        const View* busiest = busiest_view(scene);
+        return busiest == nullptr ? outside(scene, "orbit") : eye_of(scene, *busiest);
+    }
+    const auto found = std::ranges::find(scene.views, word, &View::name);
+    if (found == scene.views.end()) {
+        throw UsageError(fmt::format("--view takes auto, top, orbit or the name of an image, but "
+                                     "the model has no image {}: it has {} ({})",
+                                     word, scene.views.size(), names_of(scene)));
+    }
+    if (!has_lens(scene.cameras[found->camera])) {
+        throw UsageError(fmt::format("--view {}: nothing can be shown through that image's camera "
+                                     "{}, because its lens is not known",
+                                     word, scene.cameras[found->camera].id));
+    }
+    return eye_of(scene, *found);
+}
+
+Eigen::Array2i picture_size(const Camera& camera, double most_pixels)
+{
+    constexpr double kLongest = 4096.0;
+    const Eigen::Array2d size(static_cast<double>(camera.width_px),
+                              static_cast<double>(camera.height_px));
+    const double scale = std::min(std::sqrt(most_pixels / size.prod()), kLongest / size.maxCoeff());
+    constexpr double kRounding = 1e-6; // so that 1280 stays 1280
+    return (scale * size + kRounding).floor().max(1.0).cast<int>();
+}
+
+} // namespace vcarve

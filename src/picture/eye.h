@@ -1,0 +1,41 @@
+#pragma once
+
+#include "vcarve/scene.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <string>
+
+namespace vcarve {
+
+/// From where a surface is looked at, and through which lens.
+struct Eye {
+    std::string name; ///< of the image, "top" or "orbit"
+    Camera camera;
+    Eigen::Quaterniond cam_from_world = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the model's frame, without its offset
+    /// Whether backs are looked through where a front lies behind: from outside, walls and ceilings
+    /// would hide what they enclose.
+    bool through_backs = false;
+};
+
+/// The place that a word means.
+///
+/// - "auto": the view that sees most points, of equal ones the first by COLMAP's id; "orbit" where
+///   no view's camera has a known lens, as in a laser scan.
+/// - "top" and "orbit": outside the ball of what was looked at (looked_at_ball), which fills most
+/// of
+///   the picture: from straight above, or 35 degrees above the side where most cameras are. What is
+///   up is not known to COLMAP: it is the mean of the upward directions of the cameras; where these
+///   cancel out, the mean direction they look back along; z of a laser scan.
+/// - else the view of that name.
+///
+/// Throws UsageError where there is no such view, or its lens is not known. Cost: O(sights).
+Eye choose_eye(const Scene& scene, const std::string& word);
+
+/// Width and height of a picture with the proportions of a camera's images and at most so many
+/// pixels, and neither side longer than 4096.
+Eigen::Array2i picture_size(const Camera& camera, double most_pixels);
+
+} // namespace vcarve

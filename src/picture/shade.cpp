@@ -1,0 +1,124 @@
+#include "picture/shade.h"
+
+#include "base/parallel.h"
+#include "picture/first_faces.h"
+#include "picture/lens_rays.h"
+
+#include <array>
+#include <optional>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Array3f;
+using Eigen::Vector3d;
+
+constexpr int kSamplesASide = 2;
+constexpr int kSamples = kSamplesASide * kSamplesASide;
+/// How bright a face is that is seen edge on. Colours have the light of the scene in them already.
+constexpr double kLeastLight = 0.55;
+/// How strong the colours of normals are: less than full, so that kBack is none of them.
+constexpr float kNormalStrength = 0.75F;
+
+/// What one ray adds to both pictures.
+struct Sample {
+    Array3f shaded;
+    Array3f normal;
+};
+
+Sample even_sample(const Array3f& color)
+{
+    return {color, color};
+}
+
+/// Unit; zero for a face without area.
+Vector3d normal_of(const TriMesh& mesh, const Face& face)
+{
+    const Vector3d& p = mesh.positions[face[0]];
+    return (mesh.positions[face[1]] - p).cross(mesh.positions[face[2]] - p).normalized();
+}
+
+Array3f own_color(const TriMesh& mesh, const FirstFace& hit)
+{
+    if (mesh.colors.empty()) return kUncolored;
+    const Face& face = mesh.faces[hit.face];
+    const std::array<float, 3> shares = {1.0F - hit.second - hit.third, hit.second, hit.third};
+    Array3f sum = Array3f::Zero();
+    for (int i = 0; i < 3; ++i) {
+        const Color& color = mesh.colors[face[i]];
+        sum += shares[i] * Array3f(color[0], color[1], color[2]);
+    }
+    return sum;
+}
+
+/// Looks along one ray at a time.
+class Looker {
+  public:
+    Looker(const TriMesh& mesh, const Eye& eye)
+        : mesh_(mesh),
+          eye_(eye),
+          faces_(mesh, eye.center - mesh.offset),
+          world_from_cam_(eye.cam_from_world.toRotationMatrix().transpose())
+    {
+    }
+
+    /// `in_camera` is the unit direction of the ray, if there is one.
+    Sample along(const std::optional<Vector3d>& in_camera) const
+    {
+        if (!in_camera) return even_sample(kNoRay);
+        const Vector3d towards = world_from_cam_ * *in_camera;
+        const FirstFace hit = first_face(towards);
+        if (hit.face == FirstFace::kNone) return even_sample(kNothing);
+        const Vector3d normal = normal_of(mesh_, mesh_.faces[hit.face]);
+        const double facing = -normal.dot(towards);
+        if (!(facing > 0.0)) return even_sample(kBack);
+        const auto light = static_cast<float>(kLeastLight + (1.0 - kLeastLight) * facing);
+        // The camera's y points down and its z ahead.
+        const Vector3d turned = world_from_cam_.transpose() * normal;
+        const Array3f shown = Vector3d(turned.x(), -turned.y(), -turned.z()).cast<float>().array();
+        return {light * own_color(mesh_, hit), 127.5F * (1.0F + kNormalStrength * shown)};
+    }
+
+  private:
+    FirstFace first_face(const Vector3d& towards) const
+    {
+        if (eye_.through_backs) {
+            const FirstFace front = faces_.front_along(towards);
+            if (front.face != FirstFace::kNone) return front;
+        }
+        return faces_.along(towards);
+    }
+
+    const TriMesh& mesh_;
+    const Eye& eye_;
+    FirstFaces faces_;
+    Eigen::Matrix3d world_from_cam_;
+};
+
+} // namespace
+
+Looks look_at(const TriMesh& mesh, const Eye& eye, double most_pixels)
+{
+    const Eigen::Array2i size = picture_size(eye.camera, most_pixels);
+    const int width_px = size.x();
+    Looks looks{even_picture(width_px, size.y(), Array3f::Zero()),
+                even_picture(width_px, size.y(), Array3f::Zero())};
+    const LensRays rays(eye.camera, size);
+    const Looker looker(mesh, eye);
+    const auto fill = [&](std::size_t pixel) {
+        const auto x = static_cast<int>(pixel % width_px);
+        const auto y = static_cast<int>(pixel / width_px);
+        for (int i = 0; i < kSamples; ++i) {
+            const Eigen::Array2i column_and_row(i % kSamplesASide, i / kSamplesASide);
+            const Eigen::Array2d within = (column_and_row.cast<double>() + 0.5) / kSamplesASide;
+            const Sample sample = looker.along(rays.at(x, y, within));
+            looks.shaded.pixels[pixel] += sample.shaded / kSamples;
+            looks.normals.pixels[pixel] += sample.normal / kSamples;
+        }
+    };
+    parallel_for(looks.shaded.pixels.size(), fill, 2048);
+    return looks;
+}
+
+} // namespace vcarve

@@ -1,0 +1,173 @@
+#include "model/camera.h"
+#include "picture/eye.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+View view_of(std::uint32_t id, const Vector3d& center)
+{
+    View view;
+    view.id = id;
+    view.name = std::string(1, static_cast<char>('a' + id)) + ".jpg";
+    view.center = center;
+    return view;
+}
+
+/// Three views beside each other, 10 before four points, which look along z; -y is up. Views 0 and
+/// 2 see three points, view 1 one.
+Scene scene_ahead()
+{
+    Scene scene;
+    scene.cameras = {
+        {.id = 4, .model = 0, .width_px = 40, .height_px = 30, .params = {40, 20, 15}}};
+    scene.views = {view_of(0, {-1, 0, 0}), view_of(1, {0, 0, 0}), view_of(2, {1, 0, 0})};
+    scene.positions = {{-1, -1, 10}, {1, -1, 10}, {-1, 1, 10}, {1, 1, 10}};
+    const std::array<std::vector<std::uint32_t>, 4> tracks = {{{0, 2}, {0, 2}, {0}, {1, 2}}};
+    for (const auto& track : tracks) {
+        scene.tracks.push_back(track);
+    }
+    scene.offset = {100, 200, 300};
+    return scene;
+}
+
+/// Where a place of the model's frame is in the picture.
+Eigen::Vector2d pixel_of(const Eye& eye, const Vector3d& place)
+{
+    return project(eye.camera, eye.cam_from_world * (place - eye.center)).value();
+}
+
+TEST(ChooseEye, IsTheFirstOfTheViewsThatSeeMost)
+{
+    const Eye eye = choose_eye(scene_ahead(), "auto");
+    EXPECT_EQ(eye.name, "a.jpg");
+    EXPECT_EQ(eye.center, Vector3d(99, 200, 300));
+    EXPECT_FALSE(eye.through_backs);
+    Scene scene = scene_ahead();
+    scene.tracks.push_back(std::vector<std::uint32_t>{2});
+    EXPECT_EQ(choose_eye(scene, "auto").name, "c.jpg");
+}
+
+TEST(ChooseEye, PassesOverViewsWhoseLensIsNotKnown)
+{
+    Scene scene = scene_ahead();
+    scene.cameras.push_back({.id = 5, .model = -1, .width_px = 40, .height_px = 30, .params = {}});
+    scene.views[0].camera = 1;
+    scene.views[2].camera = 1;
+    EXPECT_EQ(choose_eye(scene, "auto").name, "b.jpg");
+    scene.views[1].camera = 1;
+    EXPECT_EQ(choose_eye(scene, "auto").name, "orbit");
+    EXPECT_EQ(refusal<UsageError>([&] { choose_eye(scene, "b.jpg"); }),
+              "--view b.jpg: nothing can be shown through that image's camera 5, because its lens "
+              "is not known");
+}
+
+TEST(ChooseEye, IsTheViewOfTheName)
+{
+    EXPECT_EQ(choose_eye(scene_ahead(), "b.jpg").center, Vector3d(100, 200, 300));
+}
+
+TEST(ChooseEye, RefusesANameThatNoImageHas)
+{
+    Scene scene = scene_ahead();
+    EXPECT_EQ(refusal<UsageError>([&] { choose_eye(scene, "x.jpg"); }),
+              "--view takes auto, top, orbit or the name of an image, but the model has no image "
+              "x.jpg: it has 3 (a.jpg, b.jpg, c.jpg)");
+    scene.views.push_back(view_of(3, {0, 0, 0}));
+    EXPECT_EQ(refusal<UsageError>([&] { choose_eye(scene, ""); }),
+              "--view takes auto, top, orbit or the name of an image, but the model has no image "
+              ": it has 4 (a.jpg, b.jpg, c.jpg, ...)");
+}
+
+TEST(ChooseEye, LooksDownFromTheTopWithTheCamerasBelow)
+{
+    const Eye eye = choose_eye(scene_ahead(), "top");
+    EXPECT_TRUE(eye.through_backs);
+    EXPECT_EQ(picture_size(eye.camera, 1280.0 * 960.0).x(), 1280);
+    // Straight above the middle of the ball, which is that of the sights: up is -y.
+    const Vector3d down = eye.cam_from_world.conjugate() * Vector3d::UnitZ();
+    EXPECT_TRUE(down.isApprox(Vector3d::UnitY(), 1e-12)) << down.transpose();
+    const Vector3d middle = eye.center + down * 5.0;
+    EXPECT_TRUE(pixel_of(eye, middle).isApprox(Eigen::Vector2d(640, 480), 1e-9));
+    // Nearer to the cameras is lower in the picture.
+    EXPECT_GT(pixel_of(eye, middle - Vector3d::UnitZ()).y(), 480.0);
+    EXPECT_GT(pixel_of(eye, middle + Vector3d::UnitX()).x(), 640.0);
+}
+
+TEST(ChooseEye, LooksFromTheSideOfTheCamerasInOrbit)
+{
+    const Eye eye = choose_eye(scene_ahead(), "orbit");
+    EXPECT_EQ(eye.name, "orbit");
+    const Vector3d ahead = eye.cam_from_world.conjugate() * Vector3d::UnitZ();
+    EXPECT_NEAR(ahead.y(), std::sin(35.0 * EIGEN_PI / 180.0), 1e-12);
+    EXPECT_GT(ahead.z(), 0.8);
+    // What is up is up in the picture, and the points are all in it.
+    const Vector3d middle(100, 200, 310);
+    EXPECT_LT(pixel_of(eye, middle - 0.1 * Vector3d::UnitY()).y(), pixel_of(eye, middle).y());
+    for (const Vector3d& position : scene_ahead().positions) {
+        const Eigen::Vector2d pixel = pixel_of(eye, position + Vector3d(100, 200, 300));
+        EXPECT_TRUE((pixel.array() > 0.0).all() && pixel.x() < 1280.0 && pixel.y() < 960.0);
+    }
+}
+
+TEST(ChooseEye, TakesBackwardsForUpWhereTheCamerasUpsCancelOut)
+{
+    // A drone looks straight down, once on its way there and once on its way back.
+    Scene scene = scene_ahead();
+    scene.views.resize(2);
+    scene.tracks = {};
+    for (int i = 0; i < 4; ++i) {
+        scene.tracks.push_back(std::vector<std::uint32_t>{0, 1});
+    }
+    scene.views[1].cam_from_world = Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitZ());
+    const Eye eye = choose_eye(scene, "top");
+    const Vector3d ahead = eye.cam_from_world.conjugate() * Vector3d::UnitZ();
+    EXPECT_TRUE(ahead.isApprox(Vector3d::UnitZ(), 1e-9)) << ahead.transpose();
+}
+
+TEST(ChooseEye, TakesZForUpInALaserScan)
+{
+    Scene scene = scene_ahead();
+    scene.cameras[0] = {.id = 4, .model = -1, .params = {}, .measures_range = true};
+    const Eye eye = choose_eye(scene, "top");
+    const Vector3d ahead = eye.cam_from_world.conjugate() * Vector3d::UnitZ();
+    EXPECT_TRUE(ahead.isApprox(-Vector3d::UnitZ(), 1e-9)) << ahead.transpose();
+}
+
+TEST(ChooseEye, StandsSomewhereEvenWithoutSightsOrViews)
+{
+    Scene scene = scene_ahead();
+    scene.views.clear();
+    scene.tracks = {};
+    scene.positions.clear();
+    for (const char* word : {"auto", "top", "orbit"}) {
+        const Eye eye = choose_eye(scene, word);
+        EXPECT_TRUE(eye.center.allFinite()) << word;
+        EXPECT_TRUE(eye.cam_from_world.coeffs().allFinite()) << word;
+    }
+}
+
+TEST(PictureSize, HasTheProportionsOfTheImageAndAtMostSoManyPixels)
+{
+    const auto size = [](std::uint64_t width_px, std::uint64_t height_px) -> Eigen::Array2i {
+        return picture_size({.width_px = width_px, .height_px = height_px, .params = {}},
+                            1280.0 * 960.0);
+    };
+    EXPECT_TRUE((size(4000, 3000) == Eigen::Array2i(1280, 960)).all());
+    EXPECT_TRUE((size(16, 12) == Eigen::Array2i(1280, 960)).all());
+    EXPECT_TRUE((size(1000, 1000) == Eigen::Array2i(1108, 1108)).all());
+    EXPECT_TRUE((size(1, 100) == Eigen::Array2i(40, 4096)).all());
+    EXPECT_TRUE((size(1, ~std::uint64_t{0}) == Eigen::Array2i(1, 4096)).all());
+}
+
+} // namespace
+} // namespace vcarve

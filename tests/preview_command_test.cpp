@@ -1,0 +1,192 @@
+// The options --preview and --view, run as the user runs them.
+#include "support/ball_model.h"
+#include "support/read_png.h"
+#include "support/subprocess.h"
+#include "support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using testing::Contains;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+// The images of the ball have 1000 x 1000 pixels.
+constexpr int kPanel = 1108;
+constexpr int kWidth = 2 * kPanel + 8;
+constexpr int kCaption = 2 * 14 + 8;
+const Rgb kBackground = {236, 239, 243};
+const Rgb kBacks = {255, 0, 255};
+
+Outcome run(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), VCARVE_PROGRAM);
+    return Subprocess(arguments).wait();
+}
+
+class PreviewOfBall : public testing::Test {
+  protected:
+    PreviewOfBall() { write_ball_model(ball, 400); }
+
+    /// Expects the program to fail with this code, and gives its sentence.
+    std::string sentence_of(int exit_code, const std::vector<std::string>& arguments) const
+    {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.exit_code, exit_code);
+        EXPECT_THAT(outcome.out, IsEmpty());
+        return outcome.err;
+    }
+
+    TemporaryFolder folder;
+    std::string ball = folder / "ball";
+    std::string out = folder / "out.ply";
+    std::string png = folder / "out.png";
+};
+
+TEST_F(PreviewOfBall, ShowsTheSurfaceBesideItsNormals)
+{
+    const Outcome outcome = run({ball, out, "--preview", png});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, ContainsRegex("preview +1,227,664 pixels of out.ply +[0-9.]+ s\n"));
+    const ReadPng shown = read_png(png);
+    ASSERT_EQ(shown.width, kWidth);
+    ASSERT_EQ(shown.height, kCaption + kPanel);
+    EXPECT_EQ(folder.num_entries(), 3U);
+
+    const int middle_y = kCaption + kPanel / 2;
+    const Rgb ball_color = shown.at(kPanel / 2, middle_y);
+    // Of the points' 200, 100, 50, seen almost square.
+    EXPECT_NEAR(ball_color[0], 198, 3);
+    EXPECT_NEAR(ball_color[1], 99, 2);
+    EXPECT_NEAR(ball_color[2], 49, 2);
+    EXPECT_EQ(shown.at(5, middle_y), kBackground);
+    EXPECT_GT(shown.at(kPanel + 8 + kPanel / 2, middle_y)[2], 215);
+    EXPECT_EQ(shown.at(kWidth - 5, middle_y), kBackground);
+    EXPECT_THAT(shown.colors(0, kCaption, kWidth, shown.height), Not(Contains(kBacks)));
+    EXPECT_GT(shown.colors(0, kCaption, kPanel, shown.height).size(), 50U);
+}
+
+TEST_F(PreviewOfBall, NamesTheSurfaceAndTheImageAboveIt)
+{
+    ASSERT_EQ(run({"--quiet", ball, out, "--preview", png}).exit_code, 0);
+    const ReadPng shown = read_png(png);
+    ASSERT_EQ(shown.width, kWidth);
+    EXPECT_THAT(shown.colors(0, 0, 200, kCaption), Contains(Rgb{34, 38, 46}));
+    EXPECT_THAT(shown.colors(kPanel + 8, 0, kWidth, kCaption), Contains(kBacks));
+    ASSERT_EQ(run({"--quiet", ball, folder / "other.ply", "--preview", png}).exit_code, 0);
+    const ReadPng other = read_png(png);
+    EXPECT_TRUE(shown.bytes != other.bytes);
+    const auto below = static_cast<std::ptrdiff_t>(3) * kWidth * kCaption;
+    EXPECT_TRUE(
+        std::equal(shown.bytes.begin() + below, shown.bytes.end(), other.bytes.begin() + below));
+}
+
+TEST_F(PreviewOfBall, IsTheSameForAnyNumberOfThreads)
+{
+    std::vector<std::string> written;
+    for (const char* threads : {"1", "2", "3"}) {
+        ASSERT_EQ(run({"--quiet", ball, out, "--preview", png, "--threads", threads}).exit_code, 0);
+        written.push_back(bytes_of(png));
+    }
+    EXPECT_FALSE(written[0].empty());
+    EXPECT_TRUE(written[1] == written[0] && written[2] == written[0]);
+}
+
+TEST_F(PreviewOfBall, LooksFromWhereItIsTold)
+{
+    const std::string stats = folder / "stats.json";
+    std::vector<std::string> written;
+    for (const char* view : {"auto", "+z.jpg", "top", "orbit"}) {
+        ASSERT_EQ(run({"--quiet", ball, out, "--preview", png, std::string("--view=") + view,
+                       "--stats", stats})
+                      .exit_code,
+                  0);
+        const auto record = nlohmann::json::parse(bytes_of(stats));
+        EXPECT_EQ(record["preview"]["file"], png);
+        // Of the six images, -x.jpg sees the most points.
+        EXPECT_EQ(record["preview"]["view"], std::string(view) == "auto" ? "-x.jpg" : view);
+        EXPECT_TRUE(std::ranges::count(written, bytes_of(png)) == 0) << view;
+        written.push_back(bytes_of(png));
+        const int wide = std::string(view) == "top" || std::string(view) == "orbit" ? 1280 : kPanel;
+        EXPECT_EQ(read_png(png).width, 2 * wide + 8);
+    }
+}
+
+TEST_F(PreviewOfBall, HasARowAMeshInACompare)
+{
+    ASSERT_EQ(run({"--quiet", ball, out}).exit_code, 0);
+    const std::string inside_out = folder / "inside_out.ply";
+    folder.write("inside_out.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\n"
+                                   "property double y\nproperty double z\nelement face 1\n"
+                                   "property list uchar int vertex_indices\nend_header\n"
+                                   "0 -9 -9\n0 9 -9\n0 0 9\n3 0 1 2\n");
+    const Outcome outcome =
+        run({"compare", ball, out, inside_out, "--samples", "2000", "--preview", png});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("pixels of out.ply"));
+    EXPECT_THAT(outcome.err, HasSubstr("pixels of inside_out.ply"));
+    const ReadPng shown = read_png(png);
+    ASSERT_EQ(shown.width, kWidth);
+    ASSERT_EQ(shown.height, 2 * (kCaption + kPanel));
+    EXPECT_NEAR(shown.at(kPanel / 2, kCaption + kPanel / 2)[0], 198, 3);
+    EXPECT_EQ(shown.at(kPanel / 2, 2 * kCaption + kPanel + kPanel / 2), kBacks);
+}
+
+TEST_F(PreviewOfBall, RefusesNamesThatDoNotEndInPng)
+{
+    const std::string jpg = folder / "out.jpg";
+    const std::string expected =
+        "cannot write " + jpg + ": the name of a picture must end with .png\n";
+    EXPECT_EQ(sentence_of(2, {ball, out, "--preview", jpg}), "colmap-vcarve: " + expected);
+    EXPECT_THAT(sentence_of(2, {"compare", ball, out, "--preview", jpg}), HasSubstr(expected));
+    EXPECT_EQ(sentence_of(2, {ball, out, "--preview", out}),
+              "colmap-vcarve: cannot write " + out +
+                  ": the name of a picture must end with .png\n");
+}
+
+TEST_F(PreviewOfBall, RefusesAPlaceThatAnotherOutputTakes)
+{
+    EXPECT_EQ(sentence_of(2, {ball, out, "--preview", png, "--stats", png}),
+              "colmap-vcarve: --stats and --preview cannot both be written to " + png + "\n");
+    EXPECT_THAT(sentence_of(2, {"compare", ball, out, "--preview", png, "--json", png}),
+                HasSubstr("--json and --preview cannot both be written to " + png + "\n"));
+    EXPECT_THAT(sentence_of(2, {"compare", ball, png, "--preview", png}),
+                HasSubstr("--preview would replace the mesh " + png + "\n"));
+}
+
+TEST_F(PreviewOfBall, RefusesAPlaceThatCannotBeWrittenBeforeTheModelIsRead)
+{
+    const std::string nowhere = folder / "nowhere/out.png";
+    const std::string expected = "cannot write " + nowhere + ": the folder " +
+                                 (folder / "nowhere").string() + " does not exist\n";
+    EXPECT_EQ(sentence_of(2, {folder / "no_model", out, "--preview", nowhere}),
+              "colmap-vcarve: " + expected);
+    EXPECT_EQ(folder.num_entries(), 1U);
+}
+
+TEST_F(PreviewOfBall, RefusesAViewThatTheModelLacksBeforeTheSurfaceIsMade)
+{
+    EXPECT_EQ(sentence_of(2, {"--quiet", ball, out, "--preview", png, "--view", "x.jpg"}),
+              "colmap-vcarve: --view takes auto, top, orbit or the name of an image, but the model "
+              "has no image x.jpg: it has 6 (+z.jpg, -z.jpg, +y.jpg, ...)\n");
+    EXPECT_EQ(folder.num_entries(), 1U);
+}
+
+TEST_F(PreviewOfBall, RefusesAViewWithoutAPicture)
+{
+    EXPECT_EQ(sentence_of(2, {ball, out, "--view", "top"}),
+              "colmap-vcarve: --view says from where --preview looks, but there is no --preview\n");
+}
+
+} // namespace
+} // namespace vcarve
