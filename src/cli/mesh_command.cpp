@@ -3,12 +3,14 @@
 #include "base/threads.h"
 #include "base/version.h"
 #include "cli/interruption.h"
+#include "cli/mesh_report.h"
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
+#include "page/page.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "steps/1_points/region.h"
@@ -64,8 +66,12 @@ struct OutputOptions {
 struct MeshArguments {
     ModelArguments model;
     fs::path out;
-    fs::path stats; ///< empty: none
     PreviewArguments preview;
+    bool with_stats = false;
+    fs::path stats;
+    bool with_report = false;
+    fs::path report;
+    std::string command; ///< as it was typed
     OutputOptions output;
     Options options;
 };
@@ -84,6 +90,11 @@ std::vector<OptionRow> mesh_options()
                     "Write options, counts, seconds and peak memory of every stage, and a check "
                     "of the mesh, as JSON."});
     list_preview_options(table);
+    table.path({.name = "report",
+                .help =
+                    "Write a page for browsers, OUT.html, that needs no network: the surface in 3D "
+                    "with cameras and points, what every stage took, what the filter dropped and "
+                    "why, and what to be wary of."});
     table.stage("Help");
     table.flag(off, {.name = "help", .help = "Print this and exit."});
     table.flag(off,
@@ -119,6 +130,32 @@ void check_output(const fs::path& out, const OutputOptions& options)
     if (options.attributes) require_ply(out, "--attributes");
 }
 
+/// A file that is written, and what it is called in messages.
+struct Output {
+    const char* name;
+    fs::path path;
+};
+
+std::vector<Output> outputs_of(const MeshArguments& arguments)
+{
+    std::vector<Output> outputs = {{"the surface", arguments.out}};
+    if (!arguments.preview.out.empty()) outputs.push_back({"--preview", arguments.preview.out});
+    if (arguments.with_stats) outputs.push_back({"--stats", arguments.stats});
+    if (arguments.with_report) outputs.push_back({"--report", arguments.report});
+    return outputs;
+}
+
+void require_distinct(const std::vector<Output>& outputs)
+{
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (outputs[i].path != outputs[k].path) continue;
+            throw UsageError(fmt::format("{} and {} cannot both be written to {}", outputs[i].name,
+                                         outputs[k].name, outputs[i].path.string()));
+        }
+    }
+}
+
 MeshArguments read_arguments(const ParsedArguments& given)
 {
     MeshArguments arguments;
@@ -130,29 +167,29 @@ MeshArguments read_arguments(const ParsedArguments& given)
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
     arguments.preview = read_preview_options(given);
-    if (given.has("stats")) arguments.stats = given.options.at("stats");
-    if (given.has("stats") && arguments.stats == arguments.out) {
-        throw UsageError(fmt::format("--stats and the surface cannot both be written to {}",
-                                     arguments.out.string()));
+    arguments.with_stats = given.has("stats");
+    if (arguments.with_stats) arguments.stats = given.options.at("stats");
+    arguments.with_report = given.has("report");
+    if (arguments.with_report) {
+        arguments.report = given.options.at("report");
+        require_page_name(arguments.report);
     }
-    require_apart(arguments.preview, arguments.stats, "--stats");
+    arguments.command = command_text("colmap-vcarve", given.typed);
+    require_distinct(outputs_of(arguments));
     return arguments;
 }
 
 /// What cannot be written is said before the work starts, and nothing half written stays behind.
-void prepare_outputs(const MeshArguments& arguments, bool with_stats)
+void prepare_outputs(const std::vector<Output>& outputs)
 {
-    std::vector<fs::path> outputs = {arguments.out};
-    if (with_stats) outputs.push_back(arguments.stats);
-    if (!arguments.preview.out.empty()) outputs.push_back(arguments.preview.out);
     std::vector<fs::path> parts;
     parts.reserve(outputs.size());
-    for (const fs::path& output : outputs) {
-        parts.push_back(part_path(output));
+    for (const Output& output : outputs) {
+        parts.push_back(part_path(output.path));
     }
     end_cleanly_on_signals(parts);
-    for (const fs::path& output : outputs) {
-        require_writable(output);
+    for (const Output& output : outputs) {
+        require_writable(output.path);
     }
 }
 
@@ -160,6 +197,7 @@ void prepare_outputs(const MeshArguments& arguments, bool with_stats)
 struct Surface {
     TriMesh mesh;
     std::optional<Provenance> provenance;
+    Scene scene; ///< the points it was made from; empty where no report tells of them
 };
 
 Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted)
@@ -250,14 +288,17 @@ Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
         surface.mesh = std::move(made.mesh);
+        if (arguments.with_report) surface.scene = std::move(made.scene);
         return surface;
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
     }
 }
 
-/// From the model to the file; tells the record what went in and came out.
-void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& record)
+/// From the model to the file; tells the record what went in and came out. Gives what a report
+/// needs, where one is wanted.
+std::optional<ReportParts> make_surface(const MeshArguments& arguments, StageRecorder& log,
+                                        Json& record)
 {
     ModelInput input = read_model_input(
         arguments.model, log,
@@ -273,7 +314,19 @@ void make_surface(const MeshArguments& arguments, StageRecorder& log, Json& reco
     write_surface(arguments, surface, offset, log);
     preview.add(arguments.out.filename().string(), surface.mesh, log);
     preview.write();
-    if (!arguments.stats.empty()) record["mesh"] = check_json(check_mesh(surface.mesh));
+    if (!arguments.with_stats && !arguments.with_report) return std::nullopt;
+    record["mesh"] = check_json(check_mesh(surface.mesh));
+    if (!arguments.with_report) return std::nullopt;
+    return make_report(surface.mesh, surface.scene, log);
+}
+
+/// The files that tell of the run: both say the same.
+void write_records(const MeshArguments& arguments, const std::optional<ReportParts>& report,
+                   Json record)
+{
+    if (report.has_value()) record["report"] = report_json(*report, record);
+    if (arguments.with_stats) write_stats(arguments.stats, record);
+    if (report.has_value()) write_report(arguments.report, record, *report);
 }
 
 } // namespace
@@ -291,6 +344,7 @@ Manual mesh_manual()
         {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "with a picture of it"},
         {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
         {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
+        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it with"},
         {"colmap-vcarve --crop auto sparse/0 mesh.ply", "of what was looked at, without the rest"},
     };
     manual.operand_meanings = {
@@ -317,8 +371,7 @@ Manual mesh_manual()
 void run_mesh(const ParsedArguments& given)
 {
     const MeshArguments arguments = read_arguments(given);
-    const bool with_stats = given.has("stats");
-    prepare_outputs(arguments, with_stats);
+    prepare_outputs(outputs_of(arguments));
     // What is wrong with the file of a region is said before the work starts.
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
         make_region(arguments.options.crop.region, Scene());
@@ -332,6 +385,7 @@ void run_mesh(const ParsedArguments& given)
     const std::unique_ptr<Log> shown = shown_log(arguments.output.quiet);
     StageRecorder log(*shown);
     Json record = {{"program", program_json()},
+                   {"command", arguments.command},
                    {"input", nullptr},
                    {"output", arguments.out.string()},
                    {"offset", nullptr},
@@ -340,11 +394,9 @@ void run_mesh(const ParsedArguments& given)
                    {"threads_used", threads}};
     record["options"].update(options_json(arguments.output));
 
-    make_surface(arguments, log, record);
-    if (with_stats) {
-        record.update(log.json());
-        write_stats(arguments.stats, record);
-    }
+    const std::optional<ReportParts> report = make_surface(arguments, log, record);
+    record.update(log.json());
+    write_records(arguments, report, std::move(record));
 }
 
 } // namespace vcarve::cli

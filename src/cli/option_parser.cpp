@@ -261,6 +261,7 @@ ParsedArguments parse_arguments(std::span<const std::string> arguments,
         throw UsageError(fmt::format("{}{}", error.what(), kSeeHelp));
     }
     ParsedArguments parsed;
+    parsed.typed.assign(arguments.begin(), arguments.end());
     parsed.operands = operands_of(app.remaining(), rows);
     for (const OptionRow& row : rows) {
         const CLI::Option* option = app.get_option("--" + row.name);

@@ -15,6 +15,7 @@ inline constexpr const char* kSeeHelp = " (see colmap-vcarve --help)";
 
 /// A command line taken apart, values still as they were typed.
 struct ParsedArguments {
+    std::vector<std::string> typed;             ///< all of it, as it was
     std::vector<std::string> operands;          ///< what is no option, in order
     std::map<std::string, std::string> options; ///< by name; a flag's value is empty
 

@@ -20,6 +20,24 @@ Json counts_json(const Counts& counts)
     return json;
 }
 
+/// One word as a shell takes it.
+std::string quoted(const std::string& word)
+{
+    constexpr const char* kPlain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_=./,:+@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string text = "'";
+    for (const char letter : word) {
+        if (letter == '\'') {
+            text += R"('\'')";
+        } else {
+            text += letter;
+        }
+    }
+    text += '\'';
+    return text;
+}
+
 /// To the microsecond, which is more than such a figure is good for.
 double rounded(double seconds)
 {
@@ -106,6 +124,15 @@ void OptionRecorder::region(RegionChoice& value, const OptionInfo& info)
 std::string json_text(const Json& json)
 {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string command_text(std::string command, std::span<const std::string> words)
+{
+    for (const std::string& word : words) {
+        command += ' ';
+        command += quoted(word);
+    }
+    return command;
 }
 
 } // namespace vcarve::cli

@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <span>
+#include <string>
+
 namespace vcarve::cli {
 
 /// A record keeps its order, so that it can be read from top to bottom.
@@ -70,5 +73,9 @@ Json options_json(Options options)
 
 /// As text to be written to a file; bytes that are not UTF-8 (in paths) are replaced.
 std::string json_text(const Json& json);
+
+/// A command line as a shell takes it: words with letters that mean something to a shell are
+/// quoted.
+std::string command_text(std::string command, std::span<const std::string> words);
 
 } // namespace vcarve::cli

@@ -1,0 +1,36 @@
+#include "cli/mesh_report.h"
+
+#include "io/files/output_file.h"
+#include "page/page.h"
+#include "page/page_scene.h"
+#include "steps/3_visibility/face_evidence.h"
+
+namespace vcarve::cli {
+
+ReportParts make_report(const TriMesh& mesh, const Scene& scene, Log& log)
+{
+    Stage stage(log, "report");
+    ReportParts parts;
+    parts.figures = surface_figures(mesh, face_supports(mesh, scene), scene);
+    parts.scene = packed_scene(scene);
+    parts.scene["surface"] = packed_surface(mesh, scene, {}, stage);
+    stage.end({{"faces shown", parts.scene["surface"]["faces"]["count"].get<std::int64_t>()},
+               {"of", parts.figures.faces}});
+    return parts;
+}
+
+Json report_json(const ReportParts& parts, const Json& record)
+{
+    Json json = figures_json(parts.figures);
+    json["warnings"] = warnings_of(parts.figures, record);
+    return json;
+}
+
+void write_report(const std::filesystem::path& path, const Json& record, const ReportParts& parts)
+{
+    OutputFile file(path);
+    write_page(file.stream(), record, parts.scene);
+    file.commit();
+}
+
+} // namespace vcarve::cli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace vcarve {
+
+/// The files a page is made of, which CMake compiles in (cmake/embed_files.cmake).
+extern const std::string_view kReportHtml;
+extern const std::string_view kReportCss;
+extern const std::string_view kReportJs;
+extern const std::string_view kViewJs;
+extern const std::string_view kThreeJs;
+extern const std::string_view kThreeLicence;
+
+} // namespace vcarve

@@ -1,0 +1,157 @@
+#include "page/page_scene.h"
+
+#include "base/median.h"
+#include "model/camera.h"
+#include "page/display_mesh.h"
+#include "page/pack.h"
+#include "steps/3_visibility/face_evidence.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json positions_json(std::span<const Eigen::Vector3d> positions)
+{
+    const PackedPositions packed = pack_positions(positions);
+    return {{"count", positions.size()},
+            {"low", {packed.low.x(), packed.low.y(), packed.low.z()}},
+            {"quantum", {packed.quantum.x(), packed.quantum.y(), packed.quantum.z()}},
+            {"data", packed.data}};
+}
+
+Json vector_json(const Eigen::Vector3d& vector)
+{
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+/// The numbers i * of / count, which are `count` of those below `of`, or all of them.
+std::vector<std::size_t> evenly_chosen(std::size_t of, std::size_t count)
+{
+    std::vector<std::size_t> chosen(std::min(of, count));
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        chosen[i] = i * of / chosen.size();
+    }
+    return chosen;
+}
+
+Json points_json(const Scene& scene, std::size_t limit)
+{
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<Color> colors;
+    for (const std::size_t point : evenly_chosen(scene.num_points(), limit)) {
+        positions.push_back(scene.positions[point]);
+        colors.push_back(scene.colors[point]);
+    }
+    return {{"of", scene.num_points()},
+            {"positions", positions_json(positions)},
+            {"colors", pack_colors(colors)}};
+}
+
+/// How far an image reaches to the sides and up and down, at distance 1; nothing where that is not
+/// known. Of a very wide lens only the middle is shown.
+std::optional<Eigen::Vector2d> half_size(const Camera& camera)
+{
+    constexpr double kWidest = 1.5;
+    const std::optional<Intrinsics> lens = intrinsics(camera);
+    if (!lens.has_value() || camera.width_px == 0 || camera.height_px == 0) return std::nullopt;
+    const Eigen::Vector2d size_px(static_cast<double>(camera.width_px),
+                                  static_cast<double>(camera.height_px));
+    const Eigen::Vector2d half = 0.5 * size_px.cwiseQuotient(lens->focal_px);
+    return half * std::min(1.0, kWidest / half.maxCoeff());
+}
+
+Json view_json(const View& view, const Camera& camera)
+{
+    const Eigen::Matrix3d world_from_cam = view.cam_from_world.conjugate().toRotationMatrix();
+    Json json = {{"name", view.name},
+                 {"center", vector_json(view.center)},
+                 {"right", vector_json(world_from_cam.col(0))},
+                 {"down", vector_json(world_from_cam.col(1))},
+                 {"forward", vector_json(world_from_cam.col(2))},
+                 {"half_size", nullptr}};
+    const std::optional<Eigen::Vector2d> half = half_size(camera);
+    if (half.has_value()) json["half_size"] = {half->x(), half->y()};
+    return json;
+}
+
+Json views_json(const Scene& scene, const std::vector<std::size_t>& shown)
+{
+    Json views = Json::array();
+    for (const std::size_t view : shown) {
+        views.push_back(view_json(scene.views[view], scene.cameras[scene.views[view].camera]));
+    }
+    return views;
+}
+
+Eigen::Vector3d up_of(const Scene& scene)
+{
+    Eigen::Vector3d up = Eigen::Vector3d::Zero();
+    for (const View& view : scene.views) {
+        up -= view.cam_from_world.conjugate() * Eigen::Vector3d::UnitY();
+    }
+    return up.norm() > 0.0 ? Eigen::Vector3d(up.normalized()) : Eigen::Vector3d::UnitZ();
+}
+
+/// Which of the views that are shown saw most points, and how deep before it they lie.
+Json start_json(const Scene& scene, const std::vector<std::size_t>& shown)
+{
+    std::vector<std::vector<double>> depths(scene.views.size());
+    for (std::size_t point = 0; point < scene.num_points(); ++point) {
+        for (const std::uint32_t view : scene.tracks[point]) {
+            const View& from = scene.views[view];
+            depths[view].push_back(
+                (from.cam_from_world * (scene.positions[point] - from.center)).z());
+        }
+    }
+    const auto best =
+        std::ranges::max_element(shown, {}, [&](std::size_t view) { return depths[view].size(); });
+    if (best == shown.end() || depths[*best].empty()) return nullptr;
+    return {{"view", best - shown.begin()}, {"depth", median(depths[*best])}};
+}
+
+Json attributes_json(const TriMesh& mesh, const Scene& scene)
+{
+    std::vector<std::int32_t> num_views(mesh.positions.size(), 0);
+    std::vector<double> errors_px(mesh.positions.size(), -1.0);
+    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+        const std::uint32_t point = mesh.points[vertex];
+        if (point == kNoPoint) continue;
+        num_views[vertex] = static_cast<std::int32_t>(scene.tracks[point].size());
+        errors_px[vertex] = scene.errors_px[point];
+    }
+    return {{"colors", mesh.colors.empty() ? Json(nullptr) : Json(pack_colors(mesh.colors))},
+            {"num_views", pack_bytes(num_views)},
+            {"errors", pack_errors(errors_px)},
+            {"supports", pack_bytes(face_supports(mesh, scene))}};
+}
+
+} // namespace
+
+Json packed_surface(const TriMesh& mesh, const Scene& scene, const PageLimits& limits,
+                    const Progress& progress)
+{
+    const TriMesh shown = display_mesh(mesh, limits.faces, progress);
+    Json json = {{"of", mesh.faces.size()},
+                 {"positions", positions_json(shown.positions)},
+                 {"faces", {{"count", shown.faces.size()}, {"data", pack_faces(shown.faces)}}}};
+    json.update(attributes_json(shown, scene));
+    return json;
+}
+
+Json packed_scene(const Scene& scene, const PageLimits& limits)
+{
+    const std::vector<std::size_t> shown = evenly_chosen(scene.views.size(), limits.views);
+    return {{"up", vector_json(up_of(scene))},
+            {"start", start_json(scene, shown)},
+            {"points", points_json(scene, limits.points)},
+            {"views_of", scene.views.size()},
+            {"views", views_json(scene, shown)}};
+}
+
+} // namespace vcarve

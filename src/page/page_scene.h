@@ -1,0 +1,33 @@
+#pragma once
+
+#include "base/progress.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace vcarve {
+
+/// How much of a run a page holds, so that it opens at once and stays below 8 MB.
+struct PageLimits {
+    std::int64_t faces = 200'000; ///< of a surface; larger ones are simplified
+    std::size_t points = 100'000; ///< evenly chosen of more
+    std::size_t views = 2'000;    ///< evenly chosen of more
+};
+
+/// A surface as the page's script reads it: positions, faces and colours as pack.h has them, per
+/// vertex the number of views and the error, per face the support, and how many faces the surface
+/// itself has. `mesh` needs TriMesh::points, which count the points of `scene`.
+nlohmann::ordered_json packed_surface(const TriMesh& mesh, const Scene& scene,
+                                      const PageLimits& limits = {}, const Progress& progress = {});
+
+/// The points of a scene, its views as frusta, the direction that is up (against the mean of the
+/// images' downward axes) and the view to start from: the one that saw most points, with their
+/// median depth. "start" is null where there is no view.
+nlohmann::ordered_json packed_scene(const Scene& scene, const PageLimits& limits = {});
+
+} // namespace vcarve

@@ -1,0 +1,288 @@
+"use strict";
+// Fills the page from the record of the run, which is what --stats writes, and drives the view. Texts
+// from files (paths, names of images) only ever become text nodes.
+
+const record = JSON.parse(document.getElementById("record").textContent);
+const sceneData = JSON.parse(document.getElementById("scene").textContent);
+
+const byId = (id) => document.getElementById(id);
+const whole = (number) => Math.round(number).toLocaleString("en-US");
+const seconds = (number) => number.toFixed(2);
+const mebibytes = (bytes) => whole(bytes / 1048576);
+const percent = (share) => {
+  const value = 100 * share;
+  return (value === 0 || value === 100 ? value.toFixed(0) : value < 0.1 ? "< 0.1" : value.toFixed(1)) + " %";
+};
+const short = (number) => number === 0 ? "0" : Number(number.toPrecision(3)).toLocaleString("en-US", { maximumSignificantDigits: 3 });
+
+/// An element with attributes and children; a child that is no element becomes text.
+function element(name, attributes, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes || {})) made.setAttribute(key, value);
+  for (const child of children) made.append(child);
+  return made;
+}
+function row(term, value, isNumber) {
+  return element("tr", {}, element("th", { scope: "row" }, term),
+    element("td", isNumber ? { class: "number" } : {}, value));
+}
+function plural(count, noun) { return whole(count) + " " + noun + (count === 1 ? "" : "s"); }
+
+// ---- head and warnings
+
+function fillHead() {
+  const mesh = record.mesh, input = record.input, total = record.total;
+  const name = record.output.split("/").pop();
+  byId("title").textContent = name;
+  document.title = name + " · colmap-vcarve";
+  const state = mesh.is_closed ? "closed" : "open, with " + plural(mesh.boundary_edges, "edge") + " at its rims";
+  byId("lead").textContent = plural(mesh.faces, "face") + " made of " + plural(record.report.points, "point") +
+    " that " + plural(input.views, "view") + " saw, in " + seconds(total.seconds) + " s and " +
+    mebibytes(total.peak_memory_bytes) + " MiB of memory. The surface is " + state + ", in " +
+    plural(mesh.components, "piece") + ".";
+  byId("maker").textContent = record.program.name + " " + record.program.version;
+  const warnings = record.report.warnings;
+  byId("warnings-section").classList.toggle("none", warnings.length === 0);
+  for (const warning of warnings.length ? warnings : ["Nothing in the figures of this run asks for a warning."]) {
+    byId("warnings").append(element("li", {}, warning));
+  }
+}
+
+// ---- stages
+
+/// "19,258 cells, 7 sheets", as the counts of a stage read.
+function countsText(counts) {
+  const parts = [];
+  for (const [name, count] of Object.entries(counts)) {
+    if (name.startsWith("of ") && parts.length > 0) {
+      const before = parts.pop();
+      const space = before.indexOf(" ");
+      parts.push(before.slice(0, space) + " of " + whole(count) + before.slice(space));
+    } else if (count !== 0 || parts.length === 0) {
+      parts.push(whole(count) + " " + name);
+    }
+  }
+  return parts.join(", ");
+}
+function fillStages() {
+  const longest = Math.max(...record.stages.map((stage) => stage.seconds), 1e-9);
+  const body = byId("stages").tBodies[0];
+  for (const stage of record.stages) {
+    const bar = element("div", {});
+    bar.style.width = 100 * stage.seconds / longest + "%";
+    body.append(element("tr", {}, element("th", { scope: "row" }, stage.name),
+      element("td", {}, countsText(stage.counts)),
+      element("td", { class: "number" }, seconds(stage.seconds)),
+      element("td", { class: "bar", "aria-hidden": "true" }, bar),
+      element("td", { class: "number" }, mebibytes(stage.peak_memory_bytes))));
+  }
+  byId("stages").tFoot.append(element("tr", {}, element("th", { scope: "row" }, "in all"),
+    element("td", {}, record.threads_used + (record.threads_used === 1 ? " thread, " : " threads, ") +
+      seconds(record.total.cpu_seconds) + " s of processor time"),
+    element("td", { class: "number" }, seconds(record.total.seconds)), element("td", { class: "bar" }),
+    element("td", { class: "number" }, mebibytes(record.total.peak_memory_bytes))));
+  byId("stages-note").textContent = record.peak_memory_is_per_stage
+    ? "Memory is the most that was held at once during a stage."
+    : "Memory is the most that was held at once up to the end of a stage.";
+}
+
+// ---- filter
+
+const kReasons = [
+  ["non-finite", "not finite", () => "a coordinate is no finite number"],
+  ["duplicate", "double", () => "at the place of another point, and merged with it"],
+  ["few views", "few views", (o) => "seen by fewer than " + o["min-views"] + " views (--min-views)"],
+  ["high error", "high error", (o) => "reprojection error over " + o["max-error"] + " px (--max-error)"],
+  ["low angle", "small angle", (o) => "sights meet at less than " + o["min-angle"] + "° (--min-angle)"],
+];
+function fillFilter() {
+  const stage = record.stages.find((one) => one.name === "filter");
+  if (!stage) { byId("filter-section").hidden = true; return; }
+  const counts = stage.counts, all = counts["of points"];
+  const list = element("div", { class: "drops" });
+  const line = (name, why, count, kind) => {
+    const bar = element("div", {});
+    bar.style.width = 100 * count / Math.max(all, 1) + "%";
+    if (count === 0) bar.hidden = true;
+    list.append(element("span", { class: "why" }, name, element("br"), element("small", {}, why)),
+      element("span", { class: "number", "data-count": count }, whole(count) + " · " + percent(count / Math.max(all, 1))),
+      element("span", { class: "track " + kind, "aria-hidden": "true" }, bar));
+  };
+  line("kept", "of " + whole(all) + " points", counts.points, "kept");
+  for (const [key, name, why] of kReasons) line(name, why(record.options), counts[key], "");
+  byId("filter").append(list);
+}
+
+// ---- the surface
+
+function fillMesh() {
+  const mesh = record.mesh, report = record.report;
+  const body = byId("mesh").tBodies[0];
+  const yes = (is) => is ? "yes" : "no";
+  body.append(
+    row("Faces", whole(mesh.faces), true), row("Vertices", whole(mesh.vertices), true),
+    row("Pieces", whole(mesh.components), true),
+    row("Closed", yes(mesh.is_closed), true), row("Edges at rims", whole(mesh.boundary_edges), true),
+    row("Manifold", yes(mesh.is_manifold), true),
+    row("Area, in square model units", short(mesh.area), true),
+    row("Share of the area that no view saw whole from its front", percent(report.unsupported_area), true),
+    row("Share of the area in faces with an edge over 10 median edges", percent(report.long_area), true));
+}
+
+// ---- histograms
+
+function svg(name, attributes, text) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+function histogram(title, what, data) {
+  const isCount = data.unit === "views";
+  const number = isCount ? whole : short;
+  const words = "Median " + number(data.median) + " " + data.unit + ", largest " + number(data.largest) + "; " +
+    whole(data.values) + " " + what + ".";
+  const figure = element("figure", {}, element("figcaption", {}, element("h3", {}, title), element("p", {}, words)));
+  const width = 360, height = 150, base = height - 22;
+  const columns = data.counts.concat(data.beyond > 0 ? [data.beyond] : []);
+  const highest = Math.max(...columns, 1);
+  const step = width / Math.max(columns.length, 8);
+  const picture = svg("svg", { viewBox: "0 0 " + width + " " + height, role: "img", "aria-label": title + ". " + words });
+  columns.forEach((count, i) => {
+    const tall = (base - 14) * count / highest;
+    const beyond = i === data.counts.length;
+    const column = svg("rect", { class: beyond ? "column beyond" : "column", x: (i * step).toFixed(2), y: (base - tall).toFixed(2),
+      width: Math.max(step - 1, 0.5).toFixed(2), height: tall.toFixed(2) });
+    const from = number(data.bounds[i]);
+    const range = beyond ? from + " or more" : isCount ? from : from + " to " + number(data.bounds[i + 1]);
+    column.append(svg("title", {}, range + " " + data.unit + ": " + whole(count)));
+    picture.append(column);
+  });
+  picture.append(svg("line", { x1: 0, x2: width, y1: base, y2: base }));
+  // A label where it does not touch the next.
+  const last = data.counts.length;
+  const every = Math.max(1, Math.ceil(last / 6));
+  const end = data.beyond > 0 ? width - 90 : width;
+  for (let i = 0; i < last; i += every) {
+    const x = isCount ? (i + 0.5) * step : i * step;
+    if (x > end) break;
+    picture.append(svg("text", { x: x.toFixed(1), y: height - 8, "text-anchor": i === 0 && !isCount ? "start" : "middle" }, number(data.bounds[i])));
+  }
+  if (data.beyond > 0) {
+    picture.append(svg("text", { x: (last + 1) * step, y: height - 8, "text-anchor": "end" }, number(data.bounds[last]) + " or more"));
+  }
+  const span = data.bounds[last] - data.bounds[0];
+  const place = step * last * (data.median - data.bounds[0] + (isCount ? 0.5 : 0)) / span;
+  if (place <= step * last) {
+    picture.append(svg("line", { class: "median", x1: place.toFixed(1), x2: place.toFixed(1), y1: 4, y2: base }));
+  }
+  figure.append(picture);
+  return figure;
+}
+function fillHistograms() {
+  const all = record.report.histograms, place = byId("histograms");
+  if (all.track_length) place.append(histogram("Track length", "points, each by the views that saw it", all.track_length));
+  if (all.reprojection_error) place.append(histogram("Reprojection error", "points", all.reprojection_error));
+  if (all.edge_length) place.append(histogram("Edge length", "edges of faces", all.edge_length));
+}
+
+// ---- how it was made
+
+const optionText = (value) => Array.isArray(value) ? value.join(", ") : typeof value === "boolean" ? (value ? "yes" : "no") : String(value);
+
+function fillRun() {
+  byId("command").textContent = record.command;
+  for (const note of record.notes) byId("notes").append(element("li", {}, note));
+  for (const [name, value] of Object.entries(record.options)) {
+    byId("options").tBodies[0].append(row("--" + name, optionText(value)));
+  }
+  for (const [name, value] of Object.entries(record.program)) {
+    byId("program").tBodies[0].append(row(name, String(value)));
+  }
+  const text = byId("record-text");
+  text.parentElement.addEventListener("toggle", () => { text.textContent = JSON.stringify(record, null, 2); }, { once: true });
+}
+
+// ---- the view
+
+function showLegend(legend) {
+  const place = byId("legend");
+  place.replaceChildren();
+  place.hidden = !legend;
+  if (!legend) return;
+  place.append(element("div", {}, legend.title));
+  if (legend.low === undefined) return;
+  const scale = element("div", { class: "scale" });
+  scale.style.background = "linear-gradient(to right," + kRamp.map(css).join(",") + ")";
+  const swatch = element("span", { class: "swatch" });
+  swatch.style.background = css(legend.noneColour);
+  place.append(scale, element("div", { class: "ends" }, element("span", {}, legend.low), element("span", {}, legend.high)),
+    element("div", {}, swatch, legend.none));
+}
+function shownText() {
+  const surface = sceneData.surface, points = sceneData.points;
+  const parts = [];
+  if (surface.faces.count < surface.of) {
+    parts.push("The surface shown is simplified for this page to " + whole(surface.faces.count) + " of its " +
+      whole(surface.of) + " faces; the file has them all.");
+  }
+  if (points.positions.count < points.of) {
+    parts.push("Of " + whole(points.of) + " points " + whole(points.positions.count) + " are shown.");
+  }
+  if (sceneData.views.length < sceneData.views_of) {
+    parts.push("Of " + whole(sceneData.views_of) + " cameras " + whole(sceneData.views.length) + " are shown.");
+  }
+  return parts.join(" ");
+}
+function driveView() {
+  let view;
+  const select = byId("camera");
+  const follow = (state) => { select.value = state.view === null ? "" : String(state.view); };
+  try {
+    view = makeView(byId("canvas"), byId("image-frame"), sceneData.surface, sceneData, follow);
+  } catch (error) {
+    byId("no-webgl").hidden = false;
+    for (const control of document.querySelectorAll(".toolbar button, .toolbar select")) control.disabled = true;
+    return null;
+  }
+  byId("canvas").setAttribute("aria-label", "The surface, with " + whole(sceneData.surface.faces.count) + " faces");
+  for (const button of document.querySelectorAll("[data-layer]")) {
+    const name = button.dataset.layer;
+    button.setAttribute("aria-pressed", String(view.shown[name]));
+    button.addEventListener("click", () => {
+      view.show(name, !view.shown[name]);
+      button.setAttribute("aria-pressed", String(view.shown[name]));
+    });
+  }
+  sceneData.views.forEach((one, i) => select.append(element("option", { value: i }, one.name || "view " + (i + 1))));
+  const step = (by) => {
+    const count = sceneData.views.length;
+    if (count === 0) return;
+    const now = view.state.view === null ? (by > 0 ? -1 : count) : view.state.view;
+    view.through((now + by + count) % count);
+  };
+  select.addEventListener("change", () => { if (select.value !== "") view.through(Number(select.value)); });
+  const goes = { overview: view.overview, top: view.top, previous: () => step(-1), next: () => step(1) };
+  for (const button of document.querySelectorAll("[data-go]")) button.addEventListener("click", goes[button.dataset.go]);
+  byId("canvas").addEventListener("keydown", (event) => {
+    if (event.key === "[") step(-1);
+    if (event.key === "]") step(1);
+  });
+  const colour = byId("colour");
+  if (!view.hasColours) { colour.querySelector("[value=rgb]").remove(); colour.value = "plain"; }
+  colour.addEventListener("change", () => showLegend(view.colourBy(colour.value)));
+  view.colourBy(colour.value);
+  view.start();
+  view.draw();
+  return view;
+}
+
+fillHead();
+fillStages();
+fillFilter();
+fillMesh();
+fillHistograms();
+fillRun();
+byId("shown").textContent = shownText();
+window.report = { record, view: driveView() };
+document.documentElement.dataset.ready = "yes";

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "page/histogram.h"
+#include "vcarve/scene.h"
+#include "vcarve/tri_mesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+
+/// What a report says of a surface beyond what a check counts.
+struct SurfaceFigures {
+    std::int64_t faces = 0;
+    std::int64_t unsupported_faces = 0; ///< those with support 0, see Provenance::supports
+    double unsupported_area = 0.0;      ///< their share of the area
+    double long_area = 0.0;  ///< share of the area in faces with an edge over kLong median edges
+    Histogram edge_lengths;  ///< in scene units, every edge of every face
+    Histogram track_lengths; ///< views, of the points the surface was made from
+    Histogram errors_px;     ///< of those points, where it is known
+    std::int64_t points = 0; ///< that the surface was made from
+    static constexpr double kLong = 10.0;
+};
+
+/// `supports` are those of the faces. Cost: O(faces + points).
+SurfaceFigures surface_figures(const TriMesh& mesh, std::span<const std::int32_t> supports,
+                               const Scene& scene);
+
+/// "unsupported_faces", "unsupported_area", "long_area", "histograms".
+nlohmann::ordered_json figures_json(const SurfaceFigures& figures);
+
+/// What a person should know before trusting the surface, in plain sentences made of figures, in
+/// the order of the run. `record` is the run's, with "stages"; of what it lacks nothing is said.
+std::vector<std::string> warnings_of(const SurfaceFigures& figures,
+                                     const nlohmann::ordered_json& record);
+
+} // namespace vcarve

@@ -1,0 +1,476 @@
+"use strict";
+// The 3D view of a report: what packed_surface() and packed_scene() wrote, drawn by three.js.
+
+// ---- unpacking, the other side of src/page/pack.cpp
+
+function bytesOf(base64) {
+  const text = atob(base64);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+function threeByteNumbers(base64) {
+  const bytes = bytesOf(base64);
+  const numbers = new Uint32Array(bytes.length / 3);
+  for (let i = 0, k = 0; k < numbers.length; ++k, i += 3) {
+    numbers[k] = bytes[i] | bytes[i + 1] << 8 | bytes[i + 2] << 16;
+  }
+  return numbers;
+}
+
+function positionsOf(packed) {
+  const steps = threeByteNumbers(packed.data);
+  const positions = new Float32Array(steps.length);
+  for (let i = 0; i < steps.length; ++i) {
+    positions[i] = packed.low[i % 3] + packed.quantum[i % 3] * steps[i];
+  }
+  return positions;
+}
+
+const kNoError = 65535;
+
+function errorsOf(base64) {
+  const bytes = bytesOf(base64);
+  const errors = new Uint16Array(bytes.length / 2);
+  for (let i = 0; i < errors.length; ++i) errors[i] = bytes[2 * i] | bytes[2 * i + 1] << 8;
+  return errors;
+}
+
+// ---- colours
+
+const kRamp = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]]; // viridis
+const kNone = [196, 64, 84];     // what has no value: no support, no view
+const kUnknown = [150, 150, 150];
+const kPlain = [190, 188, 182];
+
+function rampColour(share) {
+  const place = Math.min(Math.max(share, 0), 1) * (kRamp.length - 1);
+  const low = Math.min(Math.floor(place), kRamp.length - 2);
+  return kRamp[low].map((value, i) => Math.round(value + (place - low) * (kRamp[low + 1][i] - value)));
+}
+
+const css = (colour) => "rgb(" + colour.join(" ") + ")";
+
+/// The value that a share of the numbers accepted lies below.
+function quantile(numbers, share, accepts) {
+  const taken = Array.from(numbers).filter(accepts).sort((a, b) => a - b);
+  return taken.length === 0 ? 0 : taken[Math.min(taken.length - 1, Math.floor(share * taken.length))];
+}
+
+/// What stands for a mode: a colour a corner of every face, and a legend.
+function colouring(mode, surface) {
+  const corners = surface.corners;
+  const colours = new Uint8Array(3 * corners.length);
+  const put = (i, colour) => { colours[3 * i] = colour[0]; colours[3 * i + 1] = colour[1]; colours[3 * i + 2] = colour[2]; };
+  let legend = null;
+  if (mode === "rgb" && surface.colours) {
+    for (let i = 0; i < corners.length; ++i) {
+      const from = 3 * corners[i];
+      colours[3 * i] = surface.colours[from];
+      colours[3 * i + 1] = surface.colours[from + 1];
+      colours[3 * i + 2] = surface.colours[from + 2];
+    }
+  } else if (mode === "support" || mode === "views" || mode === "error") {
+    const ofFaces = mode === "support";
+    const values = { support: surface.supports, views: surface.numViews, error: surface.errors }[mode];
+    const known = mode === "error" ? (v) => v !== kNoError : (v) => v > 0;
+    const low = mode === "error" ? 0 : 1;
+    const high = Math.max(quantile(values, 0.95, known), low + 1);
+    const table = new Map();
+    const colourOf = (value) => {
+      if (!known(value)) return mode === "error" ? kUnknown : kNone;
+      if (!table.has(value)) table.set(value, rampColour((value - low) / (high - low)));
+      return table.get(value);
+    };
+    for (let i = 0; i < corners.length; ++i) {
+      put(i, colourOf(values[ofFaces ? Math.floor(i / 3) : corners[i]]));
+    }
+    legend = {
+      support: { title: "Views that saw all corners of a face from its front", none: "none: no view, or a filled hole", unit: "" },
+      views: { title: "Views that saw a vertex", none: "none: the vertex is no point of the model", unit: "" },
+      error: { title: "Mean reprojection error of a vertex", none: "not known", unit: " px" },
+    }[mode];
+    legend.noneColour = mode === "error" ? kUnknown : kNone;
+    const shown = (value) => mode === "error" ? (value / 1000).toFixed(2) : String(value);
+    legend.low = shown(low) + legend.unit;
+    legend.high = shown(high) + legend.unit + " or more";
+  } else {
+    for (let i = 0; i < corners.length; ++i) put(i, kPlain);
+    if (mode === "normal") legend = { title: "Where a face looks: right red, up green, towards you blue" };
+  }
+  return { colours, legend };
+}
+
+// ---- shading: a light beside the eye, faces flat as they are, their backs striped in one hue
+
+const kVertexShader = `
+varying vec3 vColour;
+varying vec3 vEye;
+void main() {
+  vColour = color;
+  vec4 eye = modelViewMatrix * vec4(position, 1.0);
+  vEye = eye.xyz;
+  gl_Position = projectionMatrix * eye;
+}`;
+const kFragmentShader = `
+uniform float byNormal;
+uniform float contrast;
+varying vec3 vColour;
+varying vec3 vEye;
+void main() {
+  vec3 normal = normalize(cross(dFdx(vEye), dFdy(vEye)));
+  float lit = max(dot(normal, normalize(vec3(0.3, 0.5, 1.0))), 0.0);
+  vec3 colour = mix(vColour, 0.5 + 0.5 * normal, byNormal);
+  float shade = 1.0 - contrast * (1.0 - lit);
+  if (!gl_FrontFacing) {
+    float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
+    colour = mix(vec3(0.72, 0.42, 0.36), vec3(0.62, 0.34, 0.29), stripe);
+  }
+  gl_FragColor = vec4(colour * shade, 1.0);
+}`;
+
+function vectorOf(array) { return new THREE.Vector3(array[0], array[1], array[2]); }
+
+/// Where most of the vertices are: the middle and half the diagonal of a box that leaves out 3 % at
+/// each end of every axis.
+function middleOf(positions) {
+  const low = [], high = [];
+  const step = 3 * Math.max(1, Math.floor(positions.length / 3 / 20000));
+  for (let axis = 0; axis < 3; ++axis) {
+    const values = [];
+    for (let i = axis; i < positions.length; i += step) values.push(positions[i]);
+    values.sort((a, b) => a - b);
+    low.push(values.length ? values[Math.floor(0.03 * values.length)] : 0);
+    high.push(values.length ? values[Math.min(values.length - 1, Math.floor(0.97 * values.length))] : 1);
+  }
+  const center = vectorOf(low).add(vectorOf(high)).multiplyScalar(0.5);
+  return { center, radius: Math.max(vectorOf(high).distanceTo(vectorOf(low)) / 2, 1e-9) };
+}
+
+/// The frusta of all views, each eight lines; a view without a lens is a small cross.
+function frustumLines(views, size) {
+  const lines = [];
+  const push = (a, b) => lines.push(a.x, a.y, a.z, b.x, b.y, b.z);
+  for (const view of views) {
+    const eye = vectorOf(view.center), right = vectorOf(view.right), down = vectorOf(view.down);
+    const forward = vectorOf(view.forward);
+    const at = (x, y, z) => eye.clone().addScaledVector(right, size * x).addScaledVector(down, size * y)
+      .addScaledVector(forward, size * z);
+    if (!view.half_size) {
+      push(at(-.3, 0, 0), at(.3, 0, 0)); push(at(0, -.3, 0), at(0, .3, 0)); push(at(0, 0, -.3), at(0, 0, .3));
+      continue;
+    }
+    const w = view.half_size[0], h = view.half_size[1];
+    const corners = [at(-w, -h, 1), at(w, -h, 1), at(w, h, 1), at(-w, h, 1)];
+    corners.forEach((corner, i) => { push(eye, corner); push(corner, corners[(i + 1) % 4]); });
+  }
+  return new Float32Array(lines);
+}
+
+/// A canvas with a surface, points and views in it. `changed` is called whenever the view was moved,
+/// with what to give to follow() of another view.
+function makeView(canvas, frame, surfaceData, sceneData, changed) {
+  const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+  renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+  const scene = new THREE.Scene();
+  const camera = new THREE.PerspectiveCamera(45, 1, 0.1, 1000);
+  const views = sceneData.views;
+  const up = vectorOf(sceneData.up);
+
+  const positions = positionsOf(surfaceData.positions);
+  const surface = {
+    corners: threeByteNumbers(surfaceData.faces.data),
+    colours: surfaceData.colors ? bytesOf(surfaceData.colors) : null,
+    numViews: bytesOf(surfaceData.num_views),
+    errors: errorsOf(surfaceData.errors),
+    supports: bytesOf(surfaceData.supports),
+  };
+  const middle = middleOf(positions);
+
+  // Every face has corners of its own, since support is a face's.
+  const cornerPositions = new Float32Array(3 * surface.corners.length);
+  for (let i = 0; i < surface.corners.length; ++i) {
+    const from = 3 * surface.corners[i];
+    cornerPositions[3 * i] = positions[from];
+    cornerPositions[3 * i + 1] = positions[from + 1];
+    cornerPositions[3 * i + 2] = positions[from + 2];
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(cornerPositions, 3));
+  const material = new THREE.ShaderMaterial({
+    vertexShader: kVertexShader, fragmentShader: kFragmentShader, vertexColors: THREE.VertexColors,
+    uniforms: { byNormal: { value: 0 }, contrast: { value: 0.5 } }, side: THREE.DoubleSide,
+    extensions: { derivatives: true }, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+  });
+  const layers = { surface: new THREE.Mesh(geometry, material) };
+
+  function makeLayer(name) {
+    const made = new THREE.BufferGeometry();
+    if (name === "wireframe") {
+      const corners = surface.corners;
+      const edges = new Uint32Array(2 * corners.length);
+      for (let i = 0; i < corners.length; ++i) {
+        edges[2 * i] = corners[i];
+        edges[2 * i + 1] = corners[i % 3 === 2 ? i - 2 : i + 1];
+      }
+      made.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+      made.setIndex(new THREE.BufferAttribute(edges, 1));
+      return new THREE.LineSegments(made, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 }));
+    }
+    if (name === "points") {
+      made.setAttribute("position", new THREE.BufferAttribute(positionsOf(sceneData.points.positions), 3));
+      made.setAttribute("color", new THREE.BufferAttribute(bytesOf(sceneData.points.colors), 3, true));
+      return new THREE.Points(made, new THREE.PointsMaterial({
+        size: 2.5 * renderer.getPixelRatio(), sizeAttenuation: false, vertexColors: THREE.VertexColors }));
+    }
+    made.setAttribute("position", new THREE.BufferAttribute(frustumLines(views, 0.07 * middle.radius), 3));
+    return new THREE.LineSegments(made, new THREE.LineBasicMaterial());
+  }
+
+  const shown = { surface: true, wireframe: false, points: false, cameras: false, backs: true };
+  let mode = "rgb";
+  const state = { position: new THREE.Vector3(), target: new THREE.Vector3(), up: up.clone(), fov: 45, view: null };
+  let pending = false;
+
+  function style(name) { return getComputedStyle(document.documentElement).getPropertyValue(name).trim(); }
+
+  function draw() {
+    pending = false;
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    if (width === 0 || height === 0) return;
+    renderer.setSize(width, height, false);
+    renderer.setClearColor(new THREE.Color(style("--canvas")));
+    const view = state.view === null ? null : views[state.view];
+    camera.fov = state.fov;
+    camera.aspect = width / height;
+    frame.hidden = !(view && view.half_size);
+    if (view && view.half_size) {
+      // The whole image is seen, with a little around it.
+      const half = 1.08 * Math.max(view.half_size[1], view.half_size[0] / camera.aspect);
+      camera.fov = 2 * Math.atan(half) * 180 / Math.PI;
+      const scale = height / (2 * half);
+      frame.style.width = 2 * scale * view.half_size[0] + "px";
+      frame.style.height = 2 * scale * view.half_size[1] + "px";
+      frame.style.left = width / 2 - scale * view.half_size[0] + "px";
+      frame.style.top = height / 2 - scale * view.half_size[1] + "px";
+    }
+    camera.position.copy(state.position);
+    camera.up.copy(state.up);
+    camera.lookAt(state.target);
+    const distance = state.position.distanceTo(state.target);
+    camera.near = 0.01 * Math.min(distance, middle.radius);
+    camera.far = 100 * (state.position.distanceTo(middle.center) + middle.radius);
+    camera.updateProjectionMatrix();
+    for (const name of ["wireframe", "cameras"]) {
+      if (layers[name]) layers[name].material.color.set(style(name === "cameras" ? "--frame" : "--ink"));
+    }
+    renderer.render(scene, camera);
+  }
+  function redraw() {
+    if (!pending) { pending = true; requestAnimationFrame(draw); }
+  }
+  function moved() {
+    redraw();
+    if (changed) changed(state);
+  }
+
+  // ---- moving
+
+  function leaveEyes() {
+    if (state.view === null) return;
+    state.fov = Math.min(camera.fov, 75);
+    state.view = null;
+  }
+  function orbit(turn, tilt) {
+    leaveEyes();
+    const arm = state.position.clone().sub(state.target).applyAxisAngle(state.up, turn);
+    const from = arm.angleTo(state.up);
+    const to = Math.min(Math.max(from - tilt, 0.03), Math.PI - 0.03);
+    const side = state.up.clone().cross(arm).normalize();
+    arm.applyAxisAngle(side, to - from);
+    state.position.copy(state.target).add(arm);
+    moved();
+  }
+  function zoom(factor) {
+    leaveEyes();
+    const arm = state.position.clone().sub(state.target);
+    arm.setLength(Math.min(Math.max(arm.length() * factor, 1e-4 * middle.radius), 50 * middle.radius));
+    state.position.copy(state.target).add(arm);
+    moved();
+  }
+  function shift(x, y) { // by shares of the canvas's height
+    leaveEyes();
+    const arm = state.position.clone().sub(state.target);
+    const length = 2 * arm.length() * Math.tan(state.fov * Math.PI / 360);
+    const right = state.up.clone().cross(arm).normalize();
+    const above = arm.clone().cross(right).normalize();
+    const by = right.multiplyScalar(-x * length).add(above.multiplyScalar(y * length));
+    state.position.add(by);
+    state.target.add(by);
+    moved();
+  }
+  function lookFrom(direction) {
+    state.view = null;
+    state.fov = 45;
+    state.up.copy(up);
+    state.target.copy(middle.center);
+    const aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
+    const half = Math.atan(Math.tan(22.5 * Math.PI / 180) * Math.min(aspect, 1));
+    state.position.copy(middle.center).addScaledVector(direction.normalize(), 1.05 * middle.radius / Math.sin(half));
+    moved();
+  }
+  function overview() {
+    // From the side of the cameras where they stand on one, else from where the first one stands.
+    const eyes = new THREE.Vector3();
+    for (const view of views) eyes.addScaledVector(vectorOf(view.center), 1 / views.length);
+    let direction = eyes.sub(middle.center);
+    if (direction.length() < 0.3 * middle.radius && views.length > 0) {
+      direction = vectorOf(views[0].center).sub(middle.center);
+    }
+    direction.projectOnPlane(up);
+    if (direction.length() < 1e-9) direction = new THREE.Vector3(up.y, up.z, up.x).projectOnPlane(up);
+    lookFrom(direction.normalize().addScaledVector(up, 0.55));
+  }
+  function top() {
+    const direction = views.length > 0 ? vectorOf(views[0].forward).projectOnPlane(up) : new THREE.Vector3(1, 0, 0);
+    lookFrom(up.clone().addScaledVector(direction, -0.05));
+  }
+  function distanceBefore(view) {
+    const depth = middle.center.clone().sub(vectorOf(view.center)).dot(vectorOf(view.forward));
+    return Math.max(depth, 0.2 * middle.radius);
+  }
+  function through(number, depth) {
+    const view = views[number];
+    state.view = number;
+    state.up.copy(vectorOf(view.down)).negate();
+    state.position.copy(vectorOf(view.center));
+    state.target.copy(state.position).addScaledVector(vectorOf(view.forward), depth || distanceBefore(view));
+    moved();
+  }
+  /// As the view that saw most sees it, from a little farther back, upright.
+  function start() {
+    const first = sceneData.start;
+    if (!first) return overview();
+    const view = views[first.view];
+    const forward = vectorOf(view.forward);
+    state.view = null;
+    state.fov = 55;
+    state.up.copy(up);
+    state.target.copy(vectorOf(view.center)).addScaledVector(forward, first.depth);
+    state.position.copy(vectorOf(view.center)).addScaledVector(forward, -0.15 * first.depth);
+    moved();
+  }
+  function centreAt(x, y) {
+    const caster = new THREE.Raycaster();
+    caster.setFromCamera(new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight), camera);
+    const hit = caster.intersectObject(layers.surface)[0];
+    if (!hit) return;
+    leaveEyes();
+    state.position.add(hit.point.clone().sub(state.target));
+    state.target.copy(hit.point);
+    // Nearer by half, so that the second double click is a closer look.
+    const arm = state.position.clone().sub(state.target);
+    state.position.copy(state.target).addScaledVector(arm, 0.6);
+    moved();
+  }
+
+  // ---- mouse, fingers, keys
+
+  const pointers = new Map();
+  let lastTap = null;
+  const place = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    pointers.set(event.pointerId, place(event));
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const before = pointers.get(event.pointerId);
+    if (!before) return;
+    const now = place(event), height = canvas.clientHeight;
+    const x = (now.x - before.x) / height, y = (now.y - before.y) / height;
+    if (pointers.size === 2) {
+      const other = Array.from(pointers).find(([id]) => id !== event.pointerId)[1];
+      const apart = (p) => Math.max(Math.hypot(p.x - other.x, p.y - other.y), 1);
+      zoom(apart(before) / apart(now));
+      shift(x / 2, y / 2);
+    } else if (event.buttons & 2 || event.shiftKey) {
+      shift(x, y);
+    } else if (x !== 0 || y !== 0) {
+      orbit(-Math.PI * x, Math.PI * y);
+    }
+    pointers.set(event.pointerId, now);
+  });
+  for (const name of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(name, (event) => {
+      pointers.delete(event.pointerId);
+      if (name !== "pointerup" || event.pointerType !== "touch") return;
+      const tap = Object.assign(place(event), { time: event.timeStamp });
+      if (lastTap && tap.time - lastTap.time < 350 && Math.hypot(tap.x - lastTap.x, tap.y - lastTap.y) < 25) {
+        centreAt(tap.x, tap.y);
+      }
+      lastTap = tap;
+    });
+  }
+  canvas.addEventListener("dblclick", (event) => { const at = place(event); centreAt(at.x, at.y); });
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoom(Math.exp(Math.min(Math.max(event.deltaY * (event.deltaMode === 1 ? 0.05 : 0.0015), -0.5), 0.5)));
+  }, { passive: false });
+
+  function onKey(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return false;
+    const turn = 0.09, step = 0.06;
+    const arrows = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const arrow = arrows[event.key];
+    if (arrow && event.shiftKey) shift(step * arrow[0], step * arrow[1]);
+    else if (arrow) orbit(turn * arrow[0], turn * arrow[1]);
+    else if (event.key === "+" || event.key === "=") zoom(0.85);
+    else if (event.key === "-") zoom(1 / 0.85);
+    else if (event.key === "0") overview();
+    else return false;
+    return true;
+  }
+  canvas.addEventListener("keydown", (event) => { if (onKey(event)) event.preventDefault(); });
+
+  // ---- what is shown
+
+  function show(name, on) {
+    shown[name] = on;
+    if (name === "backs") {
+      material.side = on ? THREE.DoubleSide : THREE.FrontSide;
+      material.needsUpdate = true;
+    } else {
+      if (on && !layers[name]) layers[name] = makeLayer(name);
+      if (on) scene.add(layers[name]); else if (layers[name]) scene.remove(layers[name]);
+    }
+    redraw();
+  }
+  function colourBy(wanted) {
+    mode = wanted;
+    const made = colouring(mode, surface);
+    geometry.setAttribute("color", new THREE.BufferAttribute(made.colours, 3, true));
+    material.uniforms.byNormal.value = mode === "normal" ? 1 : 0;
+    material.uniforms.contrast.value = mode === "rgb" ? 0.3 : mode === "normal" ? 0.1 : mode === "plain" ? 0.6 : 0.35;
+    redraw();
+    return made.legend;
+  }
+
+  scene.add(layers.surface);
+  new ResizeObserver(redraw).observe(canvas);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+
+  return {
+    state, shown, show, colourBy, overview, top, through, start, draw, views,
+    hasColours: surface.colours !== null,
+    follow(other) {
+      state.position.copy(other.position); state.target.copy(other.target); state.up.copy(other.up);
+      state.fov = other.fov; state.view = other.view;
+      redraw();
+    },
+  };
+}

@@ -1,0 +1,133 @@
+#include "page/run_figures.h"
+
+#include <gtest/gtest.h>
+
+namespace vcarve {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Sentences = std::vector<std::string>;
+
+/// Figures that nobody needs to be warned of.
+SurfaceFigures good_figures()
+{
+    SurfaceFigures figures;
+    figures.faces = 200;
+    figures.unsupported_area = 0.0499;
+    figures.long_area = 0.2499;
+    figures.track_lengths.values = 100;
+    figures.track_lengths.median = 3.0;
+    figures.errors_px.values = 100;
+    figures.errors_px.median = 1.5;
+    return figures;
+}
+
+Json record_with(const Json& filter, const Json& orient)
+{
+    return {{"stages",
+             {{{"name", "filter"}, {"counts", filter}}, {{"name", "orient"}, {"counts", orient}}}}};
+}
+
+Json filtered(const char* reason, int dropped)
+{
+    Json counts = {{"points", 1000 - dropped}, {"of points", 1000}};
+    counts[reason] = dropped;
+    return record_with(counts, Json::object());
+}
+
+Sentences about(const SurfaceFigures& figures)
+{
+    return warnings_of(figures, Json::object());
+}
+
+TEST(Warnings, AreNoneOfGoodFigures)
+{
+    const Json record = record_with(
+        {{"points", 5}, {"of points", 10}, {"low angle", 1}, {"few views", 1}, {"duplicate", 1}},
+        {{"sights on the outside", 90}, {"of sights on the outside", 100}});
+    EXPECT_EQ(warnings_of(good_figures(), record), Sentences());
+    EXPECT_EQ(about(good_figures()), Sentences());
+}
+
+TEST(Warnings, NameTheOptionThatManyPointsFellTo)
+{
+    EXPECT_EQ(warnings_of(good_figures(), filtered("low angle", 334)),
+              Sentences{"33 % of the points fell to --min-angle: their sights meet at too small an "
+                        "angle to tell how far they are."});
+    EXPECT_EQ(warnings_of(good_figures(), filtered("few views", 200)),
+              Sentences{"20 % of the points fell to --min-views: too few views saw them."});
+    EXPECT_EQ(warnings_of(good_figures(), filtered("high error", 500)),
+              Sentences{"50 % of the points fell to --max-error: they were measured too badly."});
+    EXPECT_EQ(warnings_of(good_figures(), filtered("duplicate", 201)),
+              Sentences{"20 % of the points lie where another point lies and became one with it."});
+    EXPECT_EQ(warnings_of(good_figures(), filtered("non-finite", 1000)),
+              Sentences{"100 % of the points have no finite coordinates."});
+}
+
+TEST(Warnings, SayNothingOfFewDroppedPoints)
+{
+    for (const char* reason : {"low angle", "few views", "high error", "duplicate", "non-finite"}) {
+        EXPECT_EQ(warnings_of(good_figures(), filtered(reason, 199)), Sentences()) << reason;
+    }
+}
+
+TEST(Warnings, TellOfAreaThatNobodySaw)
+{
+    SurfaceFigures figures = good_figures();
+    figures.unsupported_area = 0.12;
+    EXPECT_EQ(
+        about(figures),
+        Sentences{"12 % of the surface has a corner that no camera saw from its front; colour "
+                  "by support to see where."});
+}
+
+TEST(Warnings, TellOfLongFaces)
+{
+    SurfaceFigures figures = good_figures();
+    figures.long_area = 0.25;
+    EXPECT_EQ(about(figures),
+              Sentences{"25 % of the surface is in faces with an edge over 10 times the median "
+                        "edge: they span places where points are few."});
+}
+
+TEST(Warnings, TellOfWeakPoints)
+{
+    SurfaceFigures figures = good_figures();
+    figures.track_lengths.median = 2.0;
+    EXPECT_EQ(
+        about(figures),
+        Sentences{"At least half of the points were seen by no more than two views, so that a "
+                  "wrong match is hard to tell from a point."});
+    figures = good_figures();
+    figures.errors_px.median = 1.72;
+    EXPECT_EQ(
+        about(figures),
+        Sentences{"Half of the points lie 1.7 px or more from where the images show them; the "
+                  "cameras may not be calibrated well."});
+}
+
+TEST(Warnings, SayNothingOfFiguresThatAreNotKnown)
+{
+    SurfaceFigures figures = good_figures();
+    figures.track_lengths = {};
+    figures.errors_px = {};
+    EXPECT_EQ(about(figures), Sentences());
+}
+
+TEST(Warnings, TellOfATinySurface)
+{
+    SurfaceFigures figures = good_figures();
+    figures.faces = 199;
+    EXPECT_EQ(about(figures), Sentences{"The surface has only 199 faces."});
+}
+
+TEST(Warnings, TellOfSightsFromBehind)
+{
+    const Json record = record_with(
+        Json::object(), {{"sights on the outside", 89}, {"of sights on the outside", 100}});
+    EXPECT_EQ(warnings_of(good_figures(), record),
+              Sentences{"11 % of the sights meet the surface from behind."});
+}
+
+} // namespace
+} // namespace vcarve
