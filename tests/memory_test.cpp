@@ -193,7 +193,8 @@ TEST(PredictedMemory, OfACloudIsWhatIsLeftOfItAndAPart)
         peaks[times] = run.measured.at("read");
         std::filesystem::remove_all(workspace);
     }
-    EXPECT_LE(peaks[400], 1.1 * peaks[150]) << "points that are merged away are forgotten";
+    // Peaks move by a tenth from run to run; points kept in memory would take 2.7 times as much.
+    EXPECT_LE(peaks[400], 1.3 * peaks[150]) << "points that are merged away are forgotten";
 }
 
 TEST(PredictedMemory, IsWhatTheProgramNeedsAfterAParallelTriangulation)

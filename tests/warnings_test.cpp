@@ -14,7 +14,7 @@ SurfaceFigures good_figures()
     SurfaceFigures figures;
     figures.faces = 200;
     figures.unsupported_area = 0.0499;
-    figures.long_area = 0.2499;
+    figures.long_area = 0.7499;
     figures.track_lengths.values = 100;
     figures.track_lengths.median = 3.0;
     figures.errors_px.values = 100;
@@ -84,9 +84,9 @@ TEST(Warnings, TellOfAreaThatNobodySaw)
 TEST(Warnings, TellOfLongFaces)
 {
     SurfaceFigures figures = good_figures();
-    figures.long_area = 0.25;
+    figures.long_area = 0.75;
     EXPECT_EQ(about(figures),
-              Sentences{"25 % of the surface is in faces with an edge over 10 times the median "
+              Sentences{"75 % of the surface is in faces with an edge over 10 times the median "
                         "edge: they span places where points are few."});
 }
 

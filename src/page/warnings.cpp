@@ -76,7 +76,7 @@ void warn_of_weak_points(std::vector<std::string>& warnings, const SurfaceFigure
 void warn_of_surface(std::vector<std::string>& warnings, const SurfaceFigures& figures)
 {
     constexpr double kMuchUnsupported = 0.05;
-    constexpr double kMuchLong = 0.25;
+    constexpr double kMuchLong = 0.75;
     constexpr std::int64_t kFewFaces = 200;
     if (figures.faces < kFewFaces) {
         warnings.push_back(fmt::format("The surface has only {} faces.", figures.faces));
