@@ -179,6 +179,16 @@ void repeat_cloud(const std::filesystem::path& folder, std::size_t times)
     }
 }
 
+TEST(Program, LeavesThePeakOfTheProcessToTheSystemUnlessStagesAreAskedFor)
+{
+    const TemporaryFolder folder;
+    write_ball_model(folder / "ball", 30'000);
+    const Outcome plain = Subprocess({VCARVE_PROGRAM, "--quiet", "--threads", "1", folder / "ball",
+                                      folder / "out.ply"})
+                              .wait();
+    EXPECT_GE(plain.peak_memory_bytes, 0.9 * run_on(folder / "ball", 1).peak);
+}
+
 TEST(PredictedMemory, OfACloudIsWhatIsLeftOfItAndAPart)
 {
     const TemporaryFolder folder;

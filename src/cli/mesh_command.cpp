@@ -88,7 +88,8 @@ std::vector<OptionRow> mesh_options()
     table.path({.name = "stats",
                 .help =
                     "Write options, counts, seconds and peak memory of every stage, and a check "
-                    "of the mesh, as JSON."});
+                    "of the mesh, as JSON. The peak that the system keeps of the process "
+                    "begins anew with every stage then, so read it here."});
     list_preview_options(table);
     table.path({.name = "report",
                 .help =
@@ -297,8 +298,7 @@ Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
 
 /// From the model to the file; tells the record what went in and came out. Gives what a report
 /// needs, where one is wanted.
-std::optional<ReportParts> make_surface(const MeshArguments& arguments, StageRecorder& log,
-                                        Json& record)
+std::optional<ReportParts> make_surface(const MeshArguments& arguments, Log& log, Json& record)
 {
     ModelInput input = read_model_input(
         arguments.model, log,
@@ -383,7 +383,11 @@ void run_mesh(const ParsedArguments& given)
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     const std::unique_ptr<Log> shown = shown_log(arguments.output.quiet);
-    StageRecorder log(*shown);
+    // It resets the peak of memory that the system keeps, so it is there only where it is asked
+    // for.
+    std::optional<StageRecorder> recorder;
+    if (arguments.with_stats || arguments.with_report) recorder.emplace(*shown);
+    Log& log = recorder ? *recorder : *shown;
     Json record = {{"program", program_json()},
                    {"command", arguments.command},
                    {"input", nullptr},
@@ -395,7 +399,8 @@ void run_mesh(const ParsedArguments& given)
     record["options"].update(options_json(arguments.output));
 
     const std::optional<ReportParts> report = make_surface(arguments, log, record);
-    record.update(log.json());
+    if (!recorder) return;
+    record.update(recorder->json());
     write_records(arguments, report, std::move(record));
 }
 

@@ -15,7 +15,8 @@ namespace vcarve::cli {
 using Json = nlohmann::ordered_json;
 
 /// Hands everything on to another log, and keeps seconds, CPU seconds, peak memory and counts of
-/// every stage. One stage runs at a time.
+/// every stage. One stage runs at a time. For that the peak that the system keeps of the process
+/// begins anew with every stage: what others read of it, such as time -v, is of the last one.
 class StageRecorder final : public Log {
   public:
     explicit StageRecorder(Log& shown);

@@ -19,6 +19,7 @@ struct Outcome {
     int exit_code = -1; ///< -1 where a signal killed it
     std::string out;
     std::string err;
+    double peak_memory_bytes = 0.0; ///< as the system tells when it has ended
 };
 
 /// A program that runs beside the test, with no terminal. Killed if the test gives up on it.
@@ -57,11 +58,13 @@ class Subprocess {
     Outcome wait()
     {
         int status = 0;
-        ::waitpid(pid_, &status, 0);
+        rusage usage = {};
+        ::wait4(pid_, &status, 0, &usage);
         pid_ = 0;
         return {.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
                 .out = bytes_of(folder_ / "out"),
-                .err = bytes_of(folder_ / "err")};
+                .err = bytes_of(folder_ / "err"),
+                .peak_memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss)};
     }
 
   private:
