@@ -77,10 +77,12 @@ class Thinning {
         }
     }
 
-    Scene finish()
+    Scene finish(const Progress& progress)
     {
         if (num_parts_ > 1) merge_again(kWholeCubes);
+        progress.tell(0.6);
         merge_again(kAcrossBorders);
+        progress.tell(1.0);
         return std::move(kept_.scene);
     }
 
@@ -127,7 +129,7 @@ Scene thin_points(SceneParts& parts, const ThinOptions& options, const Progress&
         done = end;
     } while (done < parts.num_points());
     progress.tell(kPerPart);
-    return thinning.finish();
+    return thinning.finish(progress.part(kPerPart, 1.0));
 }
 
 Scene thin_points(const Scene& scene, const ThinOptions& options, const Progress& progress)

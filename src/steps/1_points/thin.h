@@ -33,8 +33,9 @@ inline constexpr std::size_t kThinnedAtOnce = std::size_t{1} << 20U;
 ///
 /// Points are taken `at_once` at a time, and merged among each other; what is left of all parts is
 /// merged again in the same cubes, at the end and whenever it has doubled, as if each were a point.
-/// So at no time are more points in memory than two parts and twice what is left in the end; of a
-/// merged-away point only those of its sights remain that the others do not have. The median
+/// So at no time are more points in memory than one part and what is left of those before, which is
+/// at most four parts, or twice what was left when it was merged last; of a merged-away point only
+/// those of its sights remain that the others do not have. The median
 /// footprint, and the origin of the result, which is the median of the points, are those of the
 /// first part. Cost: O(points log points + sights), in parallel. Throws what the parts throw.
 Scene thin_points(SceneParts& parts, const ThinOptions& options, const Progress& progress = {},
