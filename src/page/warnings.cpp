@@ -62,8 +62,8 @@ void warn_of_weak_points(std::vector<std::string>& warnings, const SurfaceFigure
 {
     constexpr double kLargeErrorPx = 1.5;
     if (figures.track_lengths.values > 0 && figures.track_lengths.median <= 2.0) {
-        warnings.push_back("At least half of the points were seen by no more than two views, so "
-                           "that a wrong match is hard to tell from a point.");
+        warnings.emplace_back("At least half of the points were seen by no more than two views, so "
+                              "that a wrong match is hard to tell from a point.");
     }
     if (figures.errors_px.values > 0 && figures.errors_px.median > kLargeErrorPx) {
         warnings.push_back(
