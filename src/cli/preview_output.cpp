@@ -1,27 +1,18 @@
 #include "cli/preview_output.h"
 
+#include "base/lower_case_end.h"
 #include "picture/eye.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace vcarve::cli {
 
 namespace {
 
 constexpr std::array<const char*, 3> kViewWords = {"auto", "top", "orbit"};
-
-bool is_png_name(const std::filesystem::path& path)
-{
-    std::string end = path.extension().string();
-    std::ranges::transform(end, end.begin(),
-                           [](unsigned char letter) { return std::tolower(letter); });
-    return end == ".png";
-}
 
 } // namespace
 
@@ -47,7 +38,7 @@ PreviewArguments read_preview_options(const ParsedArguments& given)
     }
     if (!given.has("preview")) return arguments;
     arguments.out = given.options.at("preview");
-    if (!is_png_name(arguments.out)) {
+    if (lower_case_end(arguments.out) != ".png") {
         throw UsageError(fmt::format("cannot write {}: the name of a picture must end with .png",
                                      arguments.out.string()));
     }

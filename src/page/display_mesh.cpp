@@ -2,6 +2,8 @@
 
 #include "base/median.h"
 #include "mesh/half_edge_mesh.h"
+#include "mesh/used_vertices.h"
+#include "model/scene_points.h"
 #include "steps/5_surface/split_nonmanifold.h"
 
 #include <Eigen/Core>
@@ -21,27 +23,13 @@ namespace {
 /// The vertices that the faces use, in their order, and what belongs to them.
 TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces)
 {
+    const std::vector<std::uint32_t> vertices = used_vertices(faces, mesh.positions.size());
+    renumber(faces, vertices, mesh.positions.size());
     TriMesh used;
     used.offset = mesh.offset;
-    std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
-    for (const Face& face : faces) {
-        for (const std::uint32_t corner : face) {
-            is_used[corner] = 1;
-        }
-    }
-    std::vector<std::uint32_t> new_number(mesh.positions.size(), 0);
-    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        if (is_used[vertex] == 0) continue;
-        new_number[vertex] = static_cast<std::uint32_t>(used.positions.size());
-        used.positions.push_back(mesh.positions[vertex]);
-        if (!mesh.colors.empty()) used.colors.push_back(mesh.colors[vertex]);
-        if (!mesh.points.empty()) used.points.push_back(mesh.points[vertex]);
-    }
-    for (Face& face : faces) {
-        for (std::uint32_t& corner : face) {
-            corner = new_number[corner];
-        }
-    }
+    used.positions = values_at(vertices, mesh.positions);
+    used.colors = values_at(vertices, mesh.colors);
+    used.points = values_at(vertices, mesh.points);
     used.faces = std::move(faces);
     return used;
 }

@@ -1,12 +1,11 @@
 #include "page/page.h"
 
+#include "base/lower_case_end.h"
 #include "page/page_files.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <map>
 #include <string_view>
 
@@ -32,9 +31,7 @@ void fill(std::ostream& out, std::string_view text,
 
 void require_page_name(const std::filesystem::path& path)
 {
-    std::string end = path.extension().string();
-    std::ranges::transform(end, end.begin(),
-                           [](unsigned char letter) { return std::tolower(letter); });
+    const std::string end = lower_case_end(path);
     if (end == ".html" || end == ".htm") return;
     throw UsageError(fmt::format("cannot write {}: the name of a report must end with .html or "
                                  ".htm",

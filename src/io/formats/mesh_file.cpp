@@ -1,5 +1,6 @@
 #include "io/formats/mesh_file.h"
 
+#include "base/lower_case_end.h"
 #include "io/files/output_file.h"
 #include "vcarve/error.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -32,10 +32,7 @@ constexpr std::array<Kind, 5> kKinds = {{{".ply", nullptr},
 /// Null where there is no such format.
 const Kind* find_kind(const fs::path& path)
 {
-    std::string end = path.extension().string();
-    std::ranges::transform(end, end.begin(),
-                           [](unsigned char letter) { return std::tolower(letter); });
-    const auto* const kind = std::ranges::find(kKinds, end, &Kind::end);
+    const auto* const kind = std::ranges::find(kKinds, lower_case_end(path), &Kind::end);
     return kind == kKinds.end() ? nullptr : kind;
 }
 

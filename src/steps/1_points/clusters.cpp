@@ -200,24 +200,14 @@ std::vector<std::uint32_t> leaders_in_cubes(const Dots& dots, const CubesForDots
     return Clustering(dots, cubes).leaders();
 }
 
-Clusters::Clusters(const std::vector<std::uint32_t>& leader_of) : members_(leader_of.size())
+Clusters::Clusters(const std::vector<std::uint32_t>& leader_of)
+    : members_(
+          gather_rows(leader_of.size(), leader_of.size(), [&](std::size_t dot, const auto& visit) {
+              visit(leader_of[dot], static_cast<std::uint32_t>(dot));
+          }))
 {
-    std::vector<std::uint32_t> counts(leader_of.size(), 0);
-    for (const std::uint32_t leader : leader_of) {
-        ++counts[leader];
-    }
-    std::vector<std::size_t> ends(leader_of.size());
-    std::size_t sum = 0;
     for (std::uint32_t dot = 0; dot < leader_of.size(); ++dot) {
-        ends[dot] = sum;
-        if (counts[dot] == 0) continue;
-        leaders_.push_back(dot);
-        begins_.push_back(sum);
-        sum += counts[dot];
-    }
-    begins_.push_back(sum);
-    for (std::uint32_t dot = 0; dot < leader_of.size(); ++dot) {
-        members_[ends[leader_of[dot]]++] = dot;
+        if (leader_of[dot] == dot) leaders_.push_back(dot);
     }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/parallel_rows.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -42,13 +44,12 @@ class Clusters {
     const std::vector<std::uint32_t>& leaders() const { return leaders_; }
     std::span<const std::uint32_t> operator[](std::size_t cluster) const
     {
-        return {members_.data() + begins_[cluster], members_.data() + begins_[cluster + 1]};
+        return members_[leaders_[cluster]];
     }
 
   private:
-    std::vector<std::uint32_t> members_;
+    RowTable members_; ///< a dot, empty where it does not lead
     std::vector<std::uint32_t> leaders_;
-    std::vector<std::size_t> begins_;
 };
 
 } // namespace vcarve

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "model/measured_range.h"
 #include "model/scene_points.h"
+#include "model/united_tracks.h"
 #include "steps/1_points/same_place.h"
 
 #include <algorithm>
@@ -121,19 +122,6 @@ Verdict judge(const Scene& scene, std::uint32_t point, std::span<const std::uint
     return Verdict::keep;
 }
 
-/// All views that saw one of some points, ascending, each once.
-std::vector<std::uint32_t> united_views(const Scene& scene, const PointIndices& points)
-{
-    std::vector<std::uint32_t> views;
-    for (const std::uint32_t point : points) {
-        const auto track = scene.tracks[point];
-        views.insert(views.end(), track.begin(), track.end());
-    }
-    std::ranges::sort(views);
-    views.erase(std::unique(views.begin(), views.end()), views.end());
-    return views;
-}
-
 void count(Verdict verdict, FilterReport& report)
 {
     report.few_views += verdict == Verdict::few_views ? 1 : 0;
@@ -151,9 +139,7 @@ FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
     progress.tell(0.1);
     const Merged merged = merge_duplicates(scene, finite);
     progress.tell(0.6);
-    std::vector<std::vector<std::uint32_t>> united(merged.members.size());
-    parallel_for(united.size(),
-                 [&](std::size_t i) { united[i] = united_views(scene, merged.members[i]); });
+    const Tracks united = united_tracks(scene.tracks, merged.members);
     const auto track_of = [&](std::size_t place) -> std::span<const std::uint32_t> {
         const std::uint32_t group = merged.group[place];
         return group == Merged::kAlone ? scene.tracks[merged.best[place]] : united[group];

@@ -1,10 +1,9 @@
 #include "steps/1_points/merge_points.h"
 
 #include "base/parallel.h"
-#include "base/unset_array.h"
 #include "model/scene_points.h"
+#include "model/united_tracks.h"
 
-#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -69,37 +68,6 @@ class Members {
     std::span<const std::uint32_t> places_;
     double weight_ = 0.0; ///< of all
 };
-
-/// All views that saw a point of each cluster, ascending, each once.
-Tracks united_tracks(const Tracks& tracks, const Clusters& clusters)
-{
-    std::vector<std::uint64_t> begins{0}; // of as many views as there are with those twice
-    begins.reserve(clusters.size() + 1);
-    for (std::size_t i = 0; i < clusters.size(); ++i) {
-        std::uint64_t views = 0;
-        for (const std::uint32_t place : clusters[i]) {
-            views += tracks[place].size();
-        }
-        begins.push_back(begins.back() + views);
-    }
-    UnsetArray<std::uint32_t> views(begins.back());
-    UnsetArray<std::uint32_t> lengths(clusters.size());
-    parallel_for(clusters.size(), [&](std::size_t i) {
-        const auto begin = views.begin() + static_cast<std::ptrdiff_t>(begins[i]);
-        auto end = begin;
-        for (const std::uint32_t place : clusters[i]) {
-            end = std::ranges::copy(tracks[place], end).out;
-        }
-        if (clusters[i].size() > 1) {
-            std::sort(begin, end);
-            end = std::unique(begin, end);
-        }
-        lengths[i] = static_cast<std::uint32_t>(end - begin);
-    });
-    return make_tracks(clusters.size(), [&](std::size_t i) {
-        return std::span(views).subspan(begins[i], lengths[i]);
-    });
-}
 
 } // namespace
 

@@ -1,15 +1,12 @@
 #include "steps/1_points/region.h"
 
+#include "base/lower_case_end.h"
 #include "steps/1_points/looked_at_ball.h"
 #include "steps/1_points/mesh_region.h"
 #include "steps/1_points/polygon_region.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
-
-#include <algorithm>
-#include <cctype>
-#include <string>
 
 namespace vcarve {
 
@@ -67,13 +64,6 @@ class BallRegion final : public Region {
     Ball ball_;
 };
 
-bool ends_with_ply(const std::filesystem::path& path)
-{
-    std::string end = path.extension().string();
-    std::ranges::transform(end, end.begin(), [](unsigned char c) { return std::tolower(c); });
-    return end == ".ply";
-}
-
 } // namespace
 
 std::unique_ptr<Region> make_region(const RegionChoice& choice, const Scene& scene)
@@ -89,7 +79,7 @@ std::unique_ptr<Region> make_region(const RegionChoice& choice, const Scene& sce
     case RegionChoice::Kind::file:
         break;
     }
-    if (ends_with_ply(choice.file)) return read_mesh_region(choice.file, scene.offset);
+    if (lower_case_end(choice.file) == ".ply") return read_mesh_region(choice.file, scene.offset);
     return read_polygon_region(choice.file, scene.offset);
 }
 
