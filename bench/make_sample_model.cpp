@@ -25,12 +25,14 @@ std::size_t count_in(std::string_view text)
 int main(int count, char** words)
 {
     try {
-        if (count != 4) throw vcarve::UsageError("make_sample_model surface|terrain POINTS FOLDER");
+        if (count != 4)
+            throw vcarve::UsageError("make_sample_model surface|terrain|hall POINTS FOLDER");
         const std::size_t points = count_in(words[2]);
-        const auto shape = vcarve::bench::shape_named(words[1]);
+        vcarve::bench::SampleKind kind;
+        kind.shape = vcarve::bench::shape_named(words[1]);
         const auto views = vcarve::bench::usual_views(points);
         vcarve::bench::write_colmap_model(words[3],
-                                          vcarve::bench::make_sample_scene(shape, points, views));
+                                          vcarve::bench::make_sample_scene(kind, points, views));
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "make_sample_model: %s\n", error.what());

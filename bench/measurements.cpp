@@ -116,10 +116,10 @@ Json stages_of(const cli::Json& recorded, const Meter& meter, const Run& run, in
 
 } // namespace
 
-void make_model(const std::filesystem::path& folder, Shape shape, std::size_t points)
+void make_model(const std::filesystem::path& folder, const SampleKind& kind, std::size_t points)
 {
     if (std::filesystem::exists(folder)) return;
-    write_colmap_model(folder, make_sample_scene(shape, points, usual_views(points)));
+    write_colmap_model(folder, make_sample_scene(kind, points, usual_views(points)));
 }
 
 Json prepare(const Sample& sample)

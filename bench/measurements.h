@@ -18,7 +18,7 @@ struct Sample {
 };
 
 /// Writes a model of a sampled surface, unless its folder is there.
-void make_model(const std::filesystem::path& folder, Shape shape, std::size_t points);
+void make_model(const std::filesystem::path& folder, const SampleKind& kind, std::size_t points);
 
 /// Runs once and writes the file of triangulated points. Returns {"model", "points",
 /// "triangulated", "views", "sights"}.

@@ -25,6 +25,10 @@ struct Arguments {
     std::filesystem::path folder;              ///< for models and surfaces
     std::vector<std::filesystem::path> models; ///< to measure; none: samples are made
     std::string shape = "surface";
+    std::vector<double> noise_along = {SampleKind().noise_along};
+    std::vector<double> noise_across; ///< none: as along
+    std::vector<double> outliers = {SampleKind().outliers};
+    bool clustered = false;
     std::vector<std::uint64_t> points = {10'000, 100'000};
     std::vector<int> threads = {1, 2};
     std::size_t rounds = 3;
@@ -77,6 +81,28 @@ std::string machine_line()
                        known ? loads[0] : -1.0);
 }
 
+/// Every noise with every share of outliers.
+std::vector<SampleKind> kinds(const Arguments& arguments)
+{
+    std::vector<SampleKind> result;
+    SampleKind kind;
+    kind.shape = shape_named(arguments.shape);
+    kind.clustered = arguments.clustered;
+    for (const double along : arguments.noise_along) {
+        const std::vector<double> as_along = {along};
+        for (const double across :
+             arguments.noise_across.empty() ? as_along : arguments.noise_across) {
+            kind.noise_along = along;
+            kind.noise_across = across;
+            for (const double outliers : arguments.outliers) {
+                kind.outliers = outliers;
+                result.push_back(kind);
+            }
+        }
+    }
+    return result;
+}
+
 /// The models given, or models made of as many points as asked for.
 std::vector<Sample> samples(const Arguments& arguments)
 {
@@ -85,14 +111,15 @@ std::vector<Sample> samples(const Arguments& arguments)
         result.push_back({model, arguments.folder / std::to_string(result.size())});
     }
     if (!result.empty()) return result;
-    const Shape shape = shape_named(arguments.shape);
-    for (const std::uint64_t points : arguments.points) {
-        const auto folder = arguments.folder / fmt::format("{}_{}", arguments.shape, points);
-        in_own_process([&] {
-            make_model(folder, shape, points);
-            return Json();
-        });
-        result.push_back({folder, folder});
+    for (const SampleKind& kind : kinds(arguments)) {
+        for (const std::uint64_t points : arguments.points) {
+            const auto folder = arguments.folder / fmt::format("{}_{}", name_of(kind), points);
+            in_own_process([&] {
+                make_model(folder, kind, points);
+                return Json();
+            });
+            result.push_back({folder, folder});
+        }
     }
     return result;
 }
@@ -101,6 +128,7 @@ void run(const Arguments& arguments)
 {
     fmt::print("{}\n\n", machine_line());
     Json record = Json::array();
+    std::vector<SampleResult> results;
     for (const Sample& sample : samples(arguments)) {
         const Json sizes = in_own_process([&] { return prepare(sample); });
         SampleResult result = measure(sample, arguments);
@@ -108,7 +136,9 @@ void run(const Arguments& arguments)
         fmt::print("{}\n", report(result));
         std::fflush(stdout);
         record.push_back(json_of(result));
+        results.push_back(std::move(result));
     }
+    if (results.size() > 1) fmt::print("{}", summary(results));
     if (!arguments.json.empty()) std::ofstream(arguments.json) << record.dump(2) << '\n';
 }
 
@@ -125,7 +155,20 @@ int main(int count, char** words)
         app.add_option("--model", arguments.models,
                        "models or dense workspaces, instead of samples")
             ->check(CLI::ExistingDirectory);
-        app.add_option("--shape", arguments.shape, "surface or terrain");
+        app.add_option("--shape", arguments.shape, "surface, terrain or hall");
+        app.add_option("--noise", arguments.noise_along,
+                       "of points along their sights, in spacings of the points: .1,.25,.5,1")
+            ->delimiter(',')
+            ->check(CLI::NonNegativeNumber);
+        app.add_option("--noise-across", arguments.noise_across,
+                       "across their sights; as along, if it is not given")
+            ->delimiter(',')
+            ->check(CLI::NonNegativeNumber);
+        app.add_option("--outliers", arguments.outliers, "share of the points: 0,.02,.1")
+            ->delimiter(',')
+            ->check(CLI::Range(0.0, 1.0));
+        app.add_flag("--clustered", arguments.clustered,
+                     "points up to 256 times denser here than there");
         app.add_option("--points", arguments.points, "sizes of models: 10k,1M")
             ->delimiter(',')
             ->transform(CLI::AsNumberWithUnit(

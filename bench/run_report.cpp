@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 
@@ -17,6 +18,13 @@ constexpr const char* kFigures[] = {"seconds", "cpu_seconds", "peak_bytes"};
 double seconds_of(const Json& measured)
 {
     return measured["seconds"].get<double>();
+}
+
+double seconds_of_stage(const Json& run, const std::string& name)
+{
+    const auto found = std::ranges::find_if(
+        run["stages"], [&](const Json& stage) { return stage["name"] == name; });
+    return found != run["stages"].end() ? seconds_of(*found) : 0.0;
 }
 
 /// What the rows of one number of threads are compared with.
@@ -131,6 +139,30 @@ std::string report(const SampleResult& result)
     text += rows_of_runs(result, points) + '\n';
     for (const auto& [threads, run] : result.runs) {
         text += summary_of_run(result, threads, run);
+    }
+    return text;
+}
+
+std::string summary(const std::vector<SampleResult>& results)
+{
+    std::string text =
+        "| model | points | sights | threads | CGAL, s | run, s | x CGAL | triangulate "
+        "| sights | cut | bytes a point |\n"
+        "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+    for (const SampleResult& result : results) {
+        const auto& [threads, run] = *result.runs.rbegin();
+        const auto parallel = result.parallel.find(threads);
+        const double cgal_s =
+            seconds_of(parallel != result.parallel.end() ? parallel->second : result.sequential);
+        const std::filesystem::path model = result.sizes["model"].get<std::string>();
+        text +=
+            fmt::format("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | "
+                        "{:.2f} | {:.0f} |\n",
+                        model.filename().string(), result.sizes["points"].get<std::size_t>(),
+                        result.sizes["sights"].get<std::size_t>(), threads, cgal_s, seconds_of(run),
+                        seconds_of(run) / cgal_s, seconds_of_stage(run, "triangulate"),
+                        seconds_of_stage(run, "sights"), seconds_of_stage(run, "cut"),
+                        run["peak_bytes"].get<double>() / result.sizes["points"].get<double>());
     }
     return text;
 }

@@ -23,6 +23,10 @@ Json median_of(const std::vector<Json>& measurements);
 /// memory; warns of runs whose memory was not foretold as pipeline_memory.h says.
 std::string report(const SampleResult& result);
 
+/// A table in Markdown with a row for each sample: what its run on most threads took, and how much
+/// of it the triangulation, the sights and the cut, against CGAL's triangulation.
+std::string summary(const std::vector<SampleResult>& results);
+
 /// All figures.
 Json json_of(const SampleResult& result);
 

@@ -19,8 +19,6 @@ using Eigen::Vector3d;
 using ViewIndices = std::vector<std::uint32_t>;
 
 constexpr std::size_t kBlockPoints = 16384; ///< made with a generator of their own
-constexpr double kOutliers = 0.02;
-constexpr double kNoise = 0.25; ///< of the spacing
 
 /// For each view those near it, the nearest (itself) first.
 std::vector<ViewIndices> nearby_views(const std::vector<View>& views)
@@ -43,8 +41,14 @@ std::vector<ViewIndices> nearby_views(const std::vector<View>& views)
 /// Photographs a shape: makes points and decides which views see them.
 class Photographer {
   public:
-    Photographer(const SampleShape& shape, std::vector<View> views, double noise)
-        : shape_(shape), views_(std::move(views)), nearby_(nearby_views(views_)), noise_(noise)
+    /// `spacing` is that of as many points, evenly laid.
+    Photographer(const SampleShape& shape, std::vector<View> views, const SampleKind& kind,
+                 double spacing)
+        : shape_(shape),
+          views_(std::move(views)),
+          nearby_(nearby_views(views_)),
+          kind_(kind),
+          spacing_(spacing)
     {
     }
 
@@ -54,7 +58,8 @@ class Photographer {
     {
         Random random(seed);
         for (std::size_t i = 0; i < count; ++i) {
-            random.uniform() < kOutliers ? add_outlier(random, scene) : add_inlier(random, scene);
+            random.uniform() < kind_.outliers ? add_outlier(random, scene)
+                                              : add_inlier(random, scene);
         }
     }
 
@@ -64,14 +69,38 @@ class Photographer {
         const std::size_t wanted = track_length(random);
         while (true) {
             const Spot spot = shape_.spot(random);
+            const double density = kind_.clustered ? density_at(spot.position) : 1.0;
+            if (density < 1.0 && random.uniform() > density) continue;
             const std::uint32_t anchor = nearest_view(shape_.vantage(spot, random));
             const ViewIndices track =
                 some_of(nearby_[anchor], wanted, random,
                         [&](std::uint32_t view) { return sees(views_[view], spot); });
             // What fewer than two views see is in no model
             if (track.size() < 2) continue;
-            return add(spot.position + noise_ * random.normal_3d(), track, random, scene);
+            const Vector3d noise = spacing_ / std::sqrt(density) * noise_of(spot, track, random);
+            return add(spot.position + noise, track, random, scene);
         }
+    }
+
+    /// From 1/256 to 1, in clusters a tenth of the shape wide.
+    static double density_at(const Vector3d& place)
+    {
+        constexpr double kFrequency = 15.0;
+        const Eigen::Array3d waves = (kFrequency * place.array()).sin();
+        return std::exp2(-4.0 * (1.0 - waves.sum() / 3.0));
+    }
+
+    /// In spacings.
+    Vector3d noise_of(const Spot& spot, const ViewIndices& track, Random& random) const
+    {
+        Vector3d sight = Vector3d::Zero();
+        for (const std::uint32_t view : track) {
+            sight += (spot.position - views_[view].center).normalized();
+        }
+        sight.normalize();
+        const Vector3d even = random.normal_3d();
+        return kind_.noise_across * even +
+               (kind_.noise_along - kind_.noise_across) * sight.dot(even) * sight;
     }
 
     void add_outlier(Random& random, Scene& scene) const
@@ -142,17 +171,19 @@ class Photographer {
         const auto size_px = static_cast<double>(sample_camera_.width_px);
         const Eigen::Array2d pixel_px = in_image(place_in_camera);
         if ((pixel_px < 0.0).any() || (pixel_px > size_px).any()) return false;
-        return !is_hidden(spot.position, towards);
+        return !is_hidden(spot.position, view.center);
     }
 
-    /// Whether the shape comes between a spot and what lies in a direction.
-    bool is_hidden(const Vector3d& spot, const Vector3d& towards) const
+    /// Whether the shape comes between a spot and what looks at it.
+    bool is_hidden(const Vector3d& spot, const Vector3d& center) const
     {
         constexpr double kStep = 0.04; // a quarter of the narrowest hill
-        Vector3d place = spot + kStep * towards;
-        while (box_.contains(place)) {
+        const double distance = (center - spot).norm();
+        const Vector3d towards = (center - spot) / distance;
+        for (double along = kStep; along < distance; along += kStep) {
+            const Vector3d place = spot + along * towards;
+            if (!box_.contains(place)) return false;
             if (shape_.height_above(place) < 0.0) return true;
-            place += kStep * towards;
         }
         return false;
     }
@@ -160,10 +191,24 @@ class Photographer {
     const SampleShape& shape_;
     std::vector<View> views_;
     std::vector<ViewIndices> nearby_;
-    double noise_;
+    SampleKind kind_;
+    double spacing_;
     Eigen::AlignedBox3d box_ = shape_.box();
     Camera sample_camera_ = sample_camera();
 };
+
+std::unique_ptr<SampleShape> make_shape(Shape shape)
+{
+    switch (shape) {
+    case Shape::surface:
+        return bumpy_ball();
+    case Shape::terrain:
+        return terrain();
+    case Shape::hall:
+        return hall();
+    }
+    return nullptr;
+}
 
 void append(const Scene& block, Scene& scene)
 {
@@ -182,15 +227,35 @@ void append(const Scene& block, Scene& scene)
 
 Shape shape_named(std::string_view name)
 {
-    for (const Shape shape : {Shape::surface, Shape::terrain}) {
+    for (const Shape shape : {Shape::surface, Shape::terrain, Shape::hall}) {
         if (name == name_of(shape)) return shape;
     }
-    throw UsageError(fmt::format("a sample shows a surface or terrain, not \"{}\"", name));
+    throw UsageError(fmt::format("a sample shows a surface, terrain or hall, not \"{}\"", name));
 }
 
 const char* name_of(Shape shape)
 {
-    return shape == Shape::surface ? "surface" : "terrain";
+    switch (shape) {
+    case Shape::surface:
+        return "surface";
+    case Shape::terrain:
+        return "terrain";
+    case Shape::hall:
+        return "hall";
+    }
+    return "";
+}
+
+std::string name_of(const SampleKind& kind)
+{
+    const SampleKind usual;
+    std::string name = name_of(kind.shape);
+    if (kind.noise_along != usual.noise_along) name += fmt::format("_along{}", kind.noise_along);
+    if (kind.noise_across != usual.noise_across) {
+        name += fmt::format("_across{}", kind.noise_across);
+    }
+    if (kind.outliers != usual.outliers) name += fmt::format("_outliers{}", kind.outliers);
+    return kind.clustered ? name + "_clustered" : name;
 }
 
 std::size_t usual_views(std::size_t points)
@@ -199,11 +264,11 @@ std::size_t usual_views(std::size_t points)
     return points >= kMany ? 300 : 100;
 }
 
-Scene make_sample_scene(Shape shape, std::size_t points, std::size_t views)
+Scene make_sample_scene(const SampleKind& kind, std::size_t points, std::size_t views)
 {
-    const auto subject = shape == Shape::surface ? bumpy_ball() : terrain();
+    const auto subject = make_shape(kind.shape);
     const double spacing = std::sqrt(subject->area() / static_cast<double>(points));
-    const Photographer photographer(*subject, subject->views(views), kNoise * spacing);
+    const Photographer photographer(*subject, subject->views(views), kind, spacing);
 
     std::vector<Scene> blocks((points + kBlockPoints - 1) / kBlockPoints);
     const auto fill = [&](std::size_t i) {

@@ -4,25 +4,39 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace vcarve::bench {
 
-/// What a sample model shows.
-enum class Shape { surface, terrain };
+/// What a sample model shows: a closed surface seen from around, a ground seen from the air, or a
+/// hall with columns seen from inside.
+enum class Shape { surface, terrain, hall };
 
-/// "surface" or "terrain"; throws UsageError for another word.
+/// "surface", "terrain" or "hall"; throws UsageError for another word.
 Shape shape_named(std::string_view name);
 const char* name_of(Shape shape);
+
+/// What a sample model is like.
+struct SampleKind {
+    Shape shape = Shape::surface;
+    double noise_along = 0.25;  ///< along the mean sight, in spacings of the points (deviation)
+    double noise_across = 0.25; ///< in the two directions across it
+    double outliers = 0.02;     ///< share of the points that lie anywhere, with sights of others
+    bool clustered = false;     ///< up to 256 times denser here than there
+};
+
+/// "surface", or "hall_along0.5_across0.25_outliers0.1_clustered": names what is not as usual.
+std::string name_of(const SampleKind& kind);
 
 /// As many views as a model of so many points would have: 300 from a million points on, else 100.
 std::size_t usual_views(std::size_t points);
 
 /// A scene as COLMAP would reconstruct it, the same on every machine: points on the shape, off it
-/// by a quarter of their spacing, each seen by 2 to 8 nearby views (3.7 on average) that truly face
-/// it, nothing in between; one in fifty lies anywhere in the box, with the sights of others.
-/// Cost: 100 bytes a point; five million points take half a minute on two cores.
-Scene make_sample_scene(Shape shape, std::size_t points, std::size_t views);
+/// by the noise, each seen by 2 to 8 nearby views (3.7 on average) that truly face it, nothing in
+/// between; outliers lie anywhere in the box. Cost: 100 bytes a point; five million points take
+/// half a minute on two cores.
+Scene make_sample_scene(const SampleKind& kind, std::size_t points, std::size_t views);
 
 /// Writes cameras.bin, images.bin and points3D.bin into `folder`, which is made; each image lists
 /// its 2D points, and tracks name them, as COLMAP has it. All views must be of sample_camera().

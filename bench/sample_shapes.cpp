@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -166,6 +167,97 @@ class Terrain final : public SampleShape {
     Waves waves_;
 };
 
+/// Four walls, floor, ceiling and columns; free is what lies between them.
+class Hall final : public SampleShape {
+  public:
+    Spot spot(Random& random) const override
+    {
+        const double part = random.uniform() * area();
+        if (part < kColumnsArea) return column_spot(random);
+        if (part < kColumnsArea + 2.0 * kFloorArea) return floor_spot(random);
+        return wall_spot(random);
+    }
+
+    Vector3d vantage(const Spot& spot, Random& random) const override
+    {
+        const double distance = random.uniform(0.5, 1.5);
+        return spot.position + distance * (spot.normal + 0.5 * random.normal_3d()).normalized();
+    }
+
+    double height_above(const Vector3d& place) const override
+    {
+        double height = kHalfHeight - std::abs(place.z());
+        height = std::min(height, 1.0 - place.head<2>().cwiseAbs().maxCoeff());
+        for (const auto& column : kColumns) {
+            const Eigen::Vector2d axis(column[0], column[1]);
+            height = std::min(height, (place.head<2>() - axis).norm() - kColumnRadius);
+        }
+        return height;
+    }
+
+    Eigen::AlignedBox3d box() const override
+    {
+        const Vector3d corner(1.0, 1.0, kHalfHeight);
+        return {-corner, corner};
+    }
+
+    double area() const override { return kColumnsArea + 2.0 * kFloorArea + kWallsArea; }
+
+    std::vector<View> views(std::size_t count) const override
+    {
+        // On a path around the columns and between them, turning on
+        std::vector<View> views;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double along =
+                2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
+            const double ring = 0.5 + 0.3 * std::sin(7.0 * along);
+            const Vector3d center(ring * std::cos(along), ring * std::sin(along), 0.1);
+            const double heading = kTurns * along;
+            const double pitch = 0.6 * std::sin(3.0 * heading);
+            const Vector3d ahead(std::cos(heading), std::sin(heading), pitch);
+            views.push_back(view_towards(center, center + ahead, Vector3d::UnitZ()));
+        }
+        return views;
+    }
+
+  private:
+    static Spot column_spot(Random& random)
+    {
+        const auto& axis = kColumns[random.below(kColumns.size())];
+        const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+        const Vector3d normal(std::cos(angle), std::sin(angle), 0.0);
+        const Vector3d middle(axis[0], axis[1], random.uniform(-kHalfHeight, kHalfHeight));
+        return {middle + kColumnRadius * normal, normal};
+    }
+
+    static Spot floor_spot(Random& random)
+    {
+        const double side = random.below(2) == 0 ? -1.0 : 1.0;
+        const double x = random.uniform(-1.0, 1.0);
+        return {{x, random.uniform(-1.0, 1.0), side * kHalfHeight}, -side * Vector3d::UnitZ()};
+    }
+
+    static Spot wall_spot(Random& random)
+    {
+        const double side = random.below(2) == 0 ? -1.0 : 1.0;
+        const bool along_x = random.below(2) == 0;
+        const double along = random.uniform(-1.0, 1.0);
+        const double z = random.uniform(-kHalfHeight, kHalfHeight);
+        if (along_x) return {{along, side, z}, -side * Vector3d::UnitY()};
+        return {{side, along, z}, -side * Vector3d::UnitX()};
+    }
+
+    static constexpr double kTurns = 3.0; ///< of the heading on the way around
+    static constexpr double kHalfHeight = 0.4;
+    static constexpr double kColumnRadius = 0.1;
+    static constexpr std::array<std::array<double, 2>, 4> kColumns = {
+        {{-0.5, -0.5}, {-0.5, 0.5}, {0.5, -0.5}, {0.5, 0.5}}};
+    static constexpr double kFloorArea = 4.0;
+    static constexpr double kWallsArea = 8.0 * 2.0 * kHalfHeight;
+    static constexpr double kColumnsArea =
+        4.0 * 2.0 * std::numbers::pi * kColumnRadius * 2.0 * kHalfHeight;
+};
+
 } // namespace
 
 std::unique_ptr<SampleShape> bumpy_ball()
@@ -176,6 +268,11 @@ std::unique_ptr<SampleShape> bumpy_ball()
 std::unique_ptr<SampleShape> terrain()
 {
     return std::make_unique<Terrain>();
+}
+
+std::unique_ptr<SampleShape> hall()
+{
+    return std::make_unique<Hall>();
 }
 
 Camera sample_camera()

@@ -36,6 +36,9 @@ std::unique_ptr<SampleShape> bumpy_ball();
 /// Hills, seen from the air in strips.
 std::unique_ptr<SampleShape> terrain();
 
+/// A room with four round columns, seen from inside.
+std::unique_ptr<SampleShape> hall();
+
 /// What all views were taken with.
 Camera sample_camera();
 

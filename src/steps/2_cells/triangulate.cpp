@@ -85,7 +85,7 @@ CGAL::Bbox_3 box_of(const Scene& scene)
 
 /// A cell with its vertices as TetMesh has them, its neighbours still as CGAL keeps them.
 template <typename CellHandle>
-Cell unnumbered_cell(CellHandle cell)
+Cell unnumbered_cell(const CellHandle& cell)
 {
     std::array<int, 4> sources = {0, 1, 2, 3};
     std::array<Index, 4> found{};
@@ -111,39 +111,62 @@ Cell unnumbered_cell(CellHandle cell)
     return result;
 }
 
-/// Numbers all cells in the order CGAL keeps them, which may differ from run to run. From both ends
-/// at once, since CGAL gives no other way to share that.
+/// The cells of a triangulation, numbered in the order CGAL keeps them, which may differ from run
+/// to run. Memory: the place of one cell a run.
 template <typename Triangulation>
-UnsetArray<typename Triangulation::Cell_handle> numbered_cells(const Triangulation& triangulation)
-{
-    UnsetArray<typename Triangulation::Cell_handle> handles(triangulation.tds().cells().size());
-    const auto number = [&](std::size_t i, const auto& cell) {
-        cell->info() = static_cast<Index>(i);
-        handles[i] = cell;
-    };
-    const std::size_t half = handles.size() / 2;
-    parallel_invoke(
-        [&] {
-            auto cell = triangulation.all_cells_begin();
-            for (std::size_t i = 0; i < half; ++i)
-                number(i, cell++);
-        },
-        [&] {
-            auto cell = triangulation.all_cells_end();
-            for (std::size_t i = handles.size(); i-- > half;)
-                number(i, --cell);
-        });
-    return handles;
-}
+class NumberedCells {
+  public:
+    /// Numbers from both ends at once, since CGAL gives no other way to share that.
+    explicit NumberedCells(const Triangulation& triangulation)
+        : count_(triangulation.tds().cells().size()), firsts_((count_ + kRun - 1) / kRun)
+    {
+        const auto number = [&](std::size_t i, const auto& cell) {
+            cell->info() = static_cast<Index>(i);
+            if (i % kRun == 0) firsts_[i / kRun] = cell;
+        };
+        const std::size_t half = count_ / 2;
+        parallel_invoke(
+            [&] {
+                auto cell = triangulation.all_cells_begin();
+                for (std::size_t i = 0; i < half; ++i)
+                    number(i, cell++);
+            },
+            [&] {
+                auto cell = triangulation.all_cells_end();
+                for (std::size_t i = count_; i-- > half;)
+                    number(i, --cell);
+            });
+    }
+
+    std::size_t size() const { return count_; }
+
+    /// Calls visit(i, cell) for all cells, from many threads.
+    template <typename Visit>
+    void for_each(const Visit& visit) const
+    {
+        const auto visit_run = [&](std::size_t run) {
+            auto cell = firsts_[run];
+            const std::size_t last = std::min(count_, (run + 1) * kRun);
+            for (std::size_t i = run * kRun; i < last; ++i)
+                visit(i, cell++);
+        };
+        parallel_for(firsts_.size(), visit_run, 1);
+    }
+
+  private:
+    static constexpr std::size_t kRun = 1024; ///< cells
+    std::size_t count_;
+    std::vector<typename Triangulation::All_cells_iterator> firsts_; ///< of the runs
+};
 
 /// All cells, in that order.
 template <typename Triangulation>
 UnsetArray<Cell> unnumbered_cells(const Triangulation& triangulation, const Progress& progress)
 {
-    const auto handles = numbered_cells(triangulation);
+    const NumberedCells<Triangulation> numbered(triangulation);
     progress.tell(0.5);
-    UnsetArray<Cell> cells(handles.size());
-    parallel_for(handles.size(), [&](std::size_t i) { cells[i] = unnumbered_cell(handles[i]); });
+    UnsetArray<Cell> cells(numbered.size());
+    numbered.for_each([&](std::size_t i, const auto& cell) { cells[i] = unnumbered_cell(cell); });
     return cells;
 }
 
