@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include <maxflow.h>
 
 #include <algorithm>
 #include <utility>
@@ -94,8 +95,42 @@ void bench_boost(benchmark::State& state)
     report(state, count, inside);
 }
 
+/// Its authors' own program of Boykov and Kolmogorov's algorithm (PAMI 2004).
+void bench_libmaxflow(benchmark::State& state)
+{
+    using FlowGraph = maxflow::Graph_III;
+    const TetMesh& cells = sample_cells(state.range(0));
+    const FlowNetwork& network = sample_network(state.range(0));
+    const auto count = static_cast<int>(cells.cells.size());
+    std::size_t inside = 0;
+    for (auto _ : state) {
+        FlowGraph graph(count, 2 * count);
+        graph.add_node(count);
+        for (Index cell = 0; cell < cells.cells.size(); ++cell) {
+            const std::int32_t excess = network.terminal_capacities[cell];
+            graph.add_tweights(static_cast<int>(cell), std::max(excess, 0), std::max(-excess, 0));
+            for (int slot = 0; slot < 4; ++slot) {
+                const auto at = static_cast<std::size_t>(slot);
+                const Index beyond = cells.cells[cell].neighbors[at];
+                if (beyond < cell) continue;
+                const auto mirror = static_cast<std::size_t>(cells.mirror(cell, slot));
+                graph.add_edge(static_cast<int>(cell), static_cast<int>(beyond),
+                               network.arc_capacities[cell][at],
+                               network.arc_capacities[beyond][mirror]);
+            }
+        }
+        graph.maxflow();
+        inside = 0;
+        for (int cell = 0; cell < count; ++cell) {
+            inside += graph.what_segment(cell, FlowGraph::SOURCE) == FlowGraph::SINK ? 1U : 0U;
+        }
+    }
+    report(state, cells.cells.size(), inside);
+}
+
 BENCHMARK(bench_minimum_cut)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_boost)->Apply(sample_sizes)->UseRealTime();
+BENCHMARK(bench_libmaxflow)->Apply(sample_sizes)->UseRealTime();
 
 } // namespace
 } // namespace vcarve::bench

@@ -107,12 +107,11 @@ double filtering(const Sizes& n)
     return 2 * n.scene() + 64 * n.points;
 }
 
-/// CGAL's triangulation, the handles of its cells, and the cells before they are numbered. The
-/// points as CGAL wants them are gone by then.
+/// CGAL's triangulation and the cells before they are numbered. The points as CGAL wants them are
+/// gone by then.
 double triangulating(const Sizes& n)
 {
-    constexpr double kCell = 8 + sizeof(Cell);
-    return n.scene() + n.cgal() + kCell * n.cells;
+    return n.scene() + n.cgal() + sizeof(Cell) * n.cells;
 }
 
 /// First the edges that the distance sigma is measured by, up to six a cell of a choice of cells,
