@@ -3,9 +3,12 @@
 #include "base/threads.h"
 #include "baselines/baseline_surface.h"
 #include "cli/baseline_runs.h"
+#include "cli/compare_outputs.h"
+#include "cli/compare_report.h"
 #include "cli/interruption.h"
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
+#include "cli/run_record.h"
 #include "compare/closed_surface.h"
 #include "io/files/mapped_file.h"
 #include "io/files/output_file.h"
@@ -68,8 +71,8 @@ struct CompareArguments {
     ModelArguments model;
     std::vector<fs::path> meshes;
     fs::path truth; ///< empty: none
-    fs::path json;  ///< empty: none
-    PreviewArguments preview;
+    CompareOutputs outputs;
+    std::string command; ///< as it was typed
     CompareOptions measure;
     PointBaselineOptions point_baselines;
     std::string colmap; ///< empty: not run
@@ -97,9 +100,7 @@ std::vector<OptionRow> compare_options()
                 .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and "
                         "adds a column for each, with seconds and peak memory."});
     baselines.visit(table);
-    table.stage("Output");
-    table.path({.name = "json", .help = "Also write all figures, unrounded, as JSON."});
-    list_preview_options(table);
+    list_compare_outputs(table);
     run.visit(table);
     table.stage("Help");
     table.flag(off, {.name = "help", .help = "Print this and exit."});
@@ -126,19 +127,9 @@ CompareArguments read_arguments(const ParsedArguments& given)
     arguments.model = {given.operands[0], read_points_options(given)};
     arguments.meshes.assign(given.operands.begin() + 1, given.operands.end());
     if (given.has("truth")) arguments.truth = given.options.at("truth");
-    if (given.has("json")) arguments.json = given.options.at("json");
-    arguments.preview = read_preview_options(given);
-    require_apart(arguments.preview, arguments.json, "--json");
+    arguments.outputs = read_compare_outputs(given);
+    arguments.command = command_text("colmap-vcarve compare", given.typed);
     return arguments;
-}
-
-/// The files that are written.
-std::vector<fs::path> outputs_of(const CompareArguments& arguments)
-{
-    std::vector<fs::path> outputs;
-    if (!arguments.json.empty()) outputs.push_back(arguments.json);
-    if (!arguments.preview.out.empty()) outputs.push_back(arguments.preview.out);
-    return outputs;
 }
 
 /// What cannot be read or written is said before the work starts.
@@ -147,17 +138,9 @@ void check_files(const CompareArguments& arguments)
     std::vector<fs::path> inputs = arguments.meshes;
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
     for (const fs::path& input : inputs) {
-        if (input == arguments.json) {
-            throw UsageError(fmt::format("--json would replace the mesh {}", input.string()));
-        }
-        if (input == arguments.preview.out) {
-            throw UsageError(fmt::format("--preview would replace the mesh {}", input.string()));
-        }
         const MappedFile opens(input);
     }
-    for (const fs::path& output : outputs_of(arguments)) {
-        require_writable(output);
-    }
+    check_outputs(arguments.outputs, inputs);
 }
 
 /// Nothing half written stays behind, whenever the run ends.
@@ -165,7 +148,7 @@ void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* s
 {
     std::vector<fs::path> unfinished;
     if (scratch != nullptr) unfinished = scratch->contents();
-    for (const fs::path& output : outputs_of(arguments)) {
+    for (const fs::path& output : arguments.outputs.paths()) {
         unfinished.push_back(part_path(output));
     }
     end_cleanly_on_signals(unfinished);
@@ -228,6 +211,7 @@ Reference reference_of(const CompareArguments& arguments, Scene model, Log& log)
 struct Yardstick {
     const Reference& reference;
     PreviewOutput& preview;
+    CompareReport& report;
     Log& log;
 };
 
@@ -239,6 +223,7 @@ Comparison measure(const NamedMesh& mesh, const std::string& column, const Yards
     stage.end({{"faces of " + mesh.name, comparison.size.faces}});
     comparison.name = column;
     by.preview.add(column, mesh.mesh, by.log);
+    by.report.add(column, mesh.mesh);
     return comparison;
 }
 
@@ -291,6 +276,7 @@ Manual compare_manual()
         {"colmap-vcarve compare sparse/0 --colmap colmap", "this program beside COLMAP's mesher"},
         {"colmap-vcarve compare sparse/0 mesh.ply --baselines", "beside the paper's baselines"},
         {"colmap-vcarve compare sparse/0 a.ply b.ply --preview ab.png", "a picture of each"},
+        {"colmap-vcarve compare sparse/0 a.ply b.ply --report ab.html", "a page to look at both"},
     };
     manual.operand_meanings = {
         {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},
@@ -324,20 +310,23 @@ void run_compare(const ParsedArguments& given)
                                      arguments.model.path.string()));
     }
     ModelInput model = read_model_input(arguments.model, *log);
-    PreviewOutput preview(arguments.preview);
+    PreviewOutput preview(arguments.outputs.preview);
     preview.stand_in(model.scene);
+    CompareReport report(arguments.outputs.report);
+    report.stand_in(model.scene);
     const std::vector<NamedMesh> point_baselines = point_baselines_of(arguments, model.scene, *log);
     const Reference reference = reference_of(arguments, std::move(model.scene), *log);
-    const Yardstick by{reference, preview, *log};
+    const Yardstick by{reference, preview, report, *log};
     std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), by);
     for (const NamedMesh& baseline : point_baselines) {
         comparisons.push_back(measure(baseline, baseline.name, by));
     }
     std::ranges::move(measure_files(arguments, by), std::back_inserter(comparisons));
     preview.write();
+    report.write(comparisons, reference, arguments.command, *log);
     print_table(comparison_table(comparisons, reference));
-    if (arguments.json.empty()) return;
-    OutputFile file(arguments.json);
+    if (arguments.outputs.json.empty()) return;
+    OutputFile file(arguments.outputs.json);
     file.stream() << comparison_json(comparisons, reference);
     file.commit();
 }

@@ -250,14 +250,6 @@ Json check_json(const MeshCheck& check)
             {"is_manifold", check.is_manifold()}};
 }
 
-Json program_json()
-{
-    const Versions build = versions();
-    return {{"name", "colmap-vcarve"},    {"version", build.program},   {"git", build.git},
-            {"build", build.build_type},  {"compiler", build.compiler}, {"CGAL", build.cgal},
-            {"OpenMesh", build.openmesh}, {"Eigen", build.eigen},       {"oneTBB", build.tbb}};
-}
-
 void write_stats(const fs::path& path, const Json& record)
 {
     OutputFile file(path);

@@ -46,14 +46,6 @@ PreviewArguments read_preview_options(const ParsedArguments& given)
     return arguments;
 }
 
-void require_apart(const PreviewArguments& preview, const std::filesystem::path& other,
-                   const char* option)
-{
-    if (preview.out.empty() || preview.out != other) return;
-    throw UsageError(
-        fmt::format("{} and --preview cannot both be written to {}", option, other.string()));
-}
-
 void PreviewOutput::stand_in(const Scene& scene)
 {
     if (!arguments_.out.empty()) preview_.emplace(choose_eye(scene, arguments_.view));

@@ -23,10 +23,6 @@ void list_preview_options(OptionTable& table);
 /// Throws UsageError where the name does not end in .png, or only --view is given.
 PreviewArguments read_preview_options(const ParsedArguments& given);
 
-/// Throws UsageError where the picture would be written where another option writes to.
-void require_apart(const PreviewArguments& preview, const std::filesystem::path& other,
-                   const char* option);
-
 /// The picture of a run, if one is asked for; otherwise it does nothing.
 class PreviewOutput {
   public:

@@ -1,6 +1,7 @@
 #include "cli/run_record.h"
 
 #include "base/validate.h"
+#include "base/version.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,6 +120,14 @@ void OptionRecorder::region(RegionChoice& value, const OptionInfo& info)
     } else {
         json_[info.name] = region_text(value);
     }
+}
+
+Json program_json()
+{
+    const Versions build = versions();
+    return {{"name", "colmap-vcarve"},    {"version", build.program},   {"git", build.git},
+            {"build", build.build_type},  {"compiler", build.compiler}, {"CGAL", build.cgal},
+            {"OpenMesh", build.openmesh}, {"Eigen", build.eigen},       {"oneTBB", build.tbb}};
 }
 
 std::string json_text(const Json& json)

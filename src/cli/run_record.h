@@ -72,6 +72,9 @@ Json options_json(Options options)
     return recorder.json();
 }
 
+/// The program's name, version and build, and those of its libraries.
+Json program_json();
+
 /// As text to be written to a file; bytes that are not UTF-8 (in paths) are replaced.
 std::string json_text(const Json& json);
 

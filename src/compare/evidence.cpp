@@ -84,26 +84,13 @@ std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Referen
     return result;
 }
 
-/// Whether a view sees a place of the mesh, from whichever side: its image holds it and the mesh
-/// does not stand between.
-bool sees(const View& view, const Eigen::Vector3d& position, const MeasuredMesh& mesh,
-          const Reference& reference)
-{
-    const double touch = kTouchSpacings * reference.median_spacing;
-    const Eigen::Vector3d line = view.center - position;
-    const double length = line.norm();
-    if (length <= touch) return false;
-    if (!view_shows(view, reference.scene.cameras[view.camera], position)) return false;
-    return !mesh.tree.blocks(position + line * (touch / length), view.center);
-}
-
 /// Whether some view sees a sample of the mesh from its front.
 bool supported(const MeasuredMesh& mesh, const Reference& reference,
                const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
 {
     return std::ranges::any_of(reference.scene.views, [&](const View& view) {
         return stands_before(view.center, position, normal) &&
-               sees(view, position, mesh, reference);
+               view_sees(view, position, mesh, reference);
     });
 }
 
@@ -146,7 +133,7 @@ std::int64_t count_seen_rim(const MeasuredMesh& mesh, const Reference& reference
         seen.size(),
         [&](std::size_t i) {
             seen[i] = std::ranges::any_of(reference.scene.views, [&](const View& view) {
-                return sees(view, middles[i], mesh, reference);
+                return view_sees(view, middles[i], mesh, reference);
             });
         },
         16);
@@ -154,6 +141,17 @@ std::int64_t count_seen_rim(const MeasuredMesh& mesh, const Reference& reference
 }
 
 } // namespace
+
+bool view_sees(const View& view, const Eigen::Vector3d& position, const MeasuredMesh& mesh,
+               const Reference& reference)
+{
+    const double touch = kTouchSpacings * reference.median_spacing;
+    const Eigen::Vector3d line = view.center - position;
+    const double length = line.norm();
+    if (length <= touch) return false;
+    if (!view_shows(view, reference.scene.cameras[view.camera], position)) return false;
+    return !mesh.tree.blocks(position + line * (touch / length), view.center);
+}
 
 EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference& reference)
 {

@@ -35,4 +35,9 @@ struct EvidenceFigures {
 /// boundary edge, and what measure_view_rays takes; parallel.
 EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference& reference);
 
+/// Whether a view sees a place of the mesh, from whichever side: its image holds it and the mesh
+/// does not stand between.
+bool view_sees(const View& view, const Eigen::Vector3d& position, const MeasuredMesh& mesh,
+               const Reference& reference);
+
 } // namespace vcarve

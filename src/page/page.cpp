@@ -27,6 +27,29 @@ void fill(std::ostream& out, std::string_view text,
     }
 }
 
+/// What pages differ in, beside their HTML.
+struct PageParts {
+    std::string_view style;
+    std::string_view script;
+};
+
+void write(std::ostream& out, std::string_view html, const PageParts& parts,
+           const nlohmann::ordered_json& record, const nlohmann::ordered_json& scene)
+{
+    const std::string record_text = json_for_html(record);
+    const std::string scene_text = json_for_html(scene);
+    fill(out, html,
+         {{"style", parts.style},
+          {"three_licence", kThreeLicence},
+          {"record", record_text},
+          {"scene", scene_text},
+          {"three", kThreeJs},
+          {"view", kViewJs},
+          {"common", kCommonJs},
+          {"distance", kDistanceJs},
+          {"script", parts.script}});
+}
+
 } // namespace
 
 void require_page_name(const std::filesystem::path& path)
@@ -56,16 +79,14 @@ std::string json_for_html(const nlohmann::ordered_json& json)
 void write_page(std::ostream& out, const nlohmann::ordered_json& record,
                 const nlohmann::ordered_json& scene)
 {
-    const std::string record_text = json_for_html(record);
-    const std::string scene_text = json_for_html(scene);
-    fill(out, kReportHtml,
-         {{"style", kReportCss},
-          {"three_licence", kThreeLicence},
-          {"record", record_text},
-          {"scene", scene_text},
-          {"three", kThreeJs},
-          {"view", kViewJs},
-          {"report", kReportJs}});
+    write(out, kReportHtml, {kReportCss, kReportJs}, record, scene);
+}
+
+void write_comparison_page(std::ostream& out, const nlohmann::ordered_json& record,
+                           const nlohmann::ordered_json& scene)
+{
+    const std::string style = std::string(kReportCss) + std::string(kComparisonCss);
+    write(out, kComparisonHtml, {style, kComparisonJs}, record, scene);
 }
 
 } // namespace vcarve

@@ -22,4 +22,10 @@ std::string json_for_html(const nlohmann::ordered_json& json);
 void write_page(std::ostream& out, const nlohmann::ordered_json& record,
                 const nlohmann::ordered_json& scene);
 
+/// Writes a page that shows a comparison, in the same way. `record` has "program" and "command";
+/// "comparison", which is what --json writes; and "rows", those of the table, each with "title",
+/// "place", "better" ("lower", "higher" or null) and "cells". `scene` is comparison_scene().
+void write_comparison_page(std::ostream& out, const nlohmann::ordered_json& record,
+                           const nlohmann::ordered_json& scene);
+
 } // namespace vcarve

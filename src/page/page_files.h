@@ -8,6 +8,11 @@ namespace vcarve {
 extern const std::string_view kReportHtml;
 extern const std::string_view kReportCss;
 extern const std::string_view kReportJs;
+extern const std::string_view kComparisonHtml;
+extern const std::string_view kComparisonCss;
+extern const std::string_view kComparisonJs;
+extern const std::string_view kDistanceJs;
+extern const std::string_view kCommonJs;
 extern const std::string_view kViewJs;
 extern const std::string_view kThreeJs;
 extern const std::string_view kThreeLicence;

@@ -12,18 +12,9 @@
 
 namespace vcarve {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
 
-Json positions_json(std::span<const Eigen::Vector3d> positions)
-{
-    const PackedPositions packed = pack_positions(positions);
-    return {{"count", positions.size()},
-            {"low", {packed.low.x(), packed.low.y(), packed.low.z()}},
-            {"quantum", {packed.quantum.x(), packed.quantum.y(), packed.quantum.z()}},
-            {"data", packed.data}};
-}
+namespace {
 
 Json vector_json(const Eigen::Vector3d& vector)
 {
@@ -132,6 +123,15 @@ Json attributes_json(const TriMesh& mesh, const Scene& scene)
 }
 
 } // namespace
+
+Json positions_json(std::span<const Eigen::Vector3d> positions)
+{
+    const PackedPositions packed = pack_positions(positions);
+    return {{"count", positions.size()},
+            {"low", {packed.low.x(), packed.low.y(), packed.low.z()}},
+            {"quantum", {packed.quantum.x(), packed.quantum.y(), packed.quantum.z()}},
+            {"data", packed.data}};
+}
 
 Json packed_surface(const TriMesh& mesh, const Scene& scene, const PageLimits& limits,
                     const Progress& progress)

@@ -4,6 +4,7 @@
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
@@ -18,6 +19,9 @@ struct PageLimits {
     std::size_t points = 100'000; ///< evenly chosen of more
     std::size_t views = 2'000;    ///< evenly chosen of more
 };
+
+/// "count" and what pack_positions() makes of them: "low", "quantum" and "data".
+nlohmann::ordered_json positions_json(std::span<const Eigen::Vector3d> positions);
 
 /// A surface as the page's script reads it: positions, faces and colours as pack.h has them, per
 /// vertex the number of views and the error, per face the support, and how many faces the surface

@@ -44,10 +44,10 @@ const kNone = [196, 64, 84];     // what has no value: no support, no view
 const kUnknown = [150, 150, 150];
 const kPlain = [190, 188, 182];
 
-function rampColour(share) {
-  const place = Math.min(Math.max(share, 0), 1) * (kRamp.length - 1);
-  const low = Math.min(Math.floor(place), kRamp.length - 2);
-  return kRamp[low].map((value, i) => Math.round(value + (place - low) * (kRamp[low + 1][i] - value)));
+function rampColour(share, ramp = kRamp) {
+  const place = Math.min(Math.max(share, 0), 1) * (ramp.length - 1);
+  const low = Math.min(Math.floor(place), ramp.length - 2);
+  return ramp[low].map((value, i) => Math.round(value + (place - low) * (ramp[low + 1][i] - value)));
 }
 
 const css = (colour) => "rgb(" + colour.join(" ") + ")";
@@ -116,6 +116,7 @@ void main() {
 const kFragmentShader = `
 uniform float byNormal;
 uniform float contrast;
+uniform float ownBacks;
 varying vec3 vColour;
 varying vec3 vEye;
 void main() {
@@ -125,7 +126,8 @@ void main() {
   float shade = 1.0 - contrast * (1.0 - lit);
   if (!gl_FrontFacing) {
     float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
-    colour = mix(vec3(0.72, 0.42, 0.36), vec3(0.62, 0.34, 0.29), stripe);
+    colour = ownBacks > 0.5 ? colour * mix(1.0, 0.72, stripe)
+      : mix(vec3(0.72, 0.42, 0.36), vec3(0.62, 0.34, 0.29), stripe);
   }
   gl_FragColor = vec4(colour * shade, 1.0);
 }`;
@@ -182,11 +184,12 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   const surface = {
     corners: threeByteNumbers(surfaceData.faces.data),
     colours: surfaceData.colors ? bytesOf(surfaceData.colors) : null,
-    numViews: bytesOf(surfaceData.num_views),
-    errors: errorsOf(surfaceData.errors),
-    supports: bytesOf(surfaceData.supports),
+    numViews: surfaceData.num_views ? bytesOf(surfaceData.num_views) : null,
+    errors: surfaceData.errors ? errorsOf(surfaceData.errors) : null,
+    supports: surfaceData.supports ? bytesOf(surfaceData.supports) : null,
   };
-  const middle = middleOf(positions);
+  const middle = sceneData.middle
+    ? { center: vectorOf(sceneData.middle.center), radius: sceneData.middle.radius } : middleOf(positions);
 
   // Every face has corners of its own, since support is a face's.
   const cornerPositions = new Float32Array(3 * surface.corners.length);
@@ -200,7 +203,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   geometry.setAttribute("position", new THREE.BufferAttribute(cornerPositions, 3));
   const material = new THREE.ShaderMaterial({
     vertexShader: kVertexShader, fragmentShader: kFragmentShader, vertexColors: THREE.VertexColors,
-    uniforms: { byNormal: { value: 0 }, contrast: { value: 0.5 } }, side: THREE.DoubleSide,
+    uniforms: { byNormal: { value: 0 }, contrast: { value: 0.5 }, ownBacks: { value: 0 } }, side: THREE.DoubleSide,
     extensions: { derivatives: true }, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
   });
   const layers = { surface: new THREE.Mesh(geometry, material) };
@@ -232,6 +235,8 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   let mode = "rgb";
   const state = { position: new THREE.Vector3(), target: new THREE.Vector3(), up: up.clone(), fov: 45, view: null };
   let pending = false;
+  let marked = null; // a place and the element that follows it
+  let cut = null;    // the surface in smaller faces, see distance.js
 
   function style(name) { return getComputedStyle(document.documentElement).getPropertyValue(name).trim(); }
 
@@ -266,6 +271,12 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
       if (layers[name]) layers[name].material.color.set(style(name === "cameras" ? "--frame" : "--ink"));
     }
     renderer.render(scene, camera);
+    if (marked) {
+      const at = marked.place.clone().project(camera);
+      marked.element.hidden = Math.abs(at.x) > 1 || Math.abs(at.y) > 1 || at.z > 1;
+      marked.element.style.left = (0.5 + 0.5 * at.x) * width + "px";
+      marked.element.style.top = (0.5 - 0.5 * at.y) * height + "px";
+    }
   }
   function redraw() {
     if (!pending) { pending = true; requestAnimationFrame(draw); }
@@ -361,6 +372,24 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     state.position.copy(vectorOf(view.center)).addScaledVector(forward, -0.15 * first.depth);
     moved();
   }
+  /// To a place, seen from a direction and a distance.
+  function flyTo(place, towards, distance) {
+    state.view = null;
+    state.fov = 45;
+    state.up.copy(up);
+    // Not straight from above or below, where up would be no direction.
+    const from = towards.clone();
+    if (from.clone().cross(up).length() < 0.05) from.add(new THREE.Vector3(up.y, up.z, up.x).multiplyScalar(0.1)).normalize();
+    state.target.copy(place);
+    state.position.copy(place).addScaledVector(from, distance);
+    moved();
+  }
+  /// An element is kept where a place is shown; null for none.
+  function mark(element, place) {
+    if (marked) marked.element.hidden = true;
+    marked = place ? { element, place } : null;
+    redraw();
+  }
   function centreAt(x, y) {
     const caster = new THREE.Raycaster();
     caster.setFromCamera(new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight), camera);
@@ -451,26 +480,39 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     redraw();
   }
   function colourBy(wanted) {
-    mode = wanted;
-    const made = colouring(mode, surface);
-    geometry.setAttribute("color", new THREE.BufferAttribute(made.colours, 3, true));
+    const isDistance = wanted === "distance" && Boolean(surfaceData.distances);
+    mode = wanted === "distance" && !isDistance ? "plain" : wanted;
+    if (isDistance && !cut) cut = cutByDistance(positions, surface.corners, surfaceData.distances, sceneData.scale);
+    const made = isDistance ? cut : colouring(mode, surface);
+    if (!isDistance) geometry.setAttribute("color", new THREE.BufferAttribute(made.colours, 3, true));
+    layers.surface.geometry = isDistance ? cut.geometry : geometry;
+    material.uniforms.ownBacks.value = isDistance ? 1 : 0;
     material.uniforms.byNormal.value = mode === "normal" ? 1 : 0;
-    material.uniforms.contrast.value = mode === "rgb" ? 0.3 : mode === "normal" ? 0.1 : mode === "plain" ? 0.6 : 0.35;
+    material.uniforms.contrast.value = mode === "rgb" ? 0.3 : mode === "normal" ? 0.1 : mode === "plain" ? 0.6 : isDistance ? 0.45 : 0.35;
     redraw();
     return made.legend;
   }
 
   scene.add(layers.surface);
-  new ResizeObserver(redraw).observe(canvas);
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  const resizes = new ResizeObserver(redraw);
+  resizes.observe(canvas);
+  const scheme = window.matchMedia("(prefers-color-scheme: dark)");
+  scheme.addEventListener("change", redraw);
 
   return {
-    state, shown, show, colourBy, overview, top, through, start, draw, views,
+    state, shown, show, colourBy, overview, top, through, start, draw, views, flyTo, mark,
     hasColours: surface.colours !== null,
     follow(other) {
       state.position.copy(other.position); state.target.copy(other.target); state.up.copy(other.up);
       state.fov = other.fov; state.view = other.view;
       redraw();
+    },
+    /// Gives the picture's memory back; browsers keep some ten such pictures at most.
+    dispose() {
+      resizes.disconnect();
+      scheme.removeEventListener("change", redraw);
+      renderer.dispose();
+      renderer.forceContextLoss();
     },
   };
 }

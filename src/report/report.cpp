@@ -1,11 +1,12 @@
 #include "report/report.h"
 
-#include "report/figures.h"
+#include "report/comparison_record.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,7 +22,7 @@ std::string shown(const Figure& figure, const Comparison& comparison, bool is_fi
     return is_first ? comparison.failure : "-";
 }
 
-std::string table(std::span<const Comparison> comparisons, const std::vector<Figure>& rows)
+std::string table(std::span<const Comparison> comparisons, const std::vector<TableRow>& rows)
 {
     // The cells, the first row being the head.
     std::vector<std::vector<std::string>> cells(rows.size() + 1);
@@ -31,9 +32,7 @@ std::string table(std::span<const Comparison> comparisons, const std::vector<Fig
     }
     for (std::size_t row = 0; row < rows.size(); ++row) {
         cells[row + 1].push_back(rows[row].title);
-        for (const Comparison& comparison : comparisons) {
-            cells[row + 1].push_back(shown(rows[row], comparison, row == 0));
-        }
+        std::ranges::copy(rows[row].cells, std::back_inserter(cells[row + 1]));
     }
     std::vector<std::size_t> widths(cells[0].size(), 3);
     for (const auto& line : cells) {
@@ -87,7 +86,8 @@ Json mesh_json(const Comparison& comparison, const std::vector<Figure>& figures)
 
 } // namespace
 
-std::string comparison_json(std::span<const Comparison> comparisons, const Reference& reference)
+nlohmann::ordered_json comparison_record(std::span<const Comparison> comparisons,
+                                         const Reference& reference)
 {
     const std::vector<Figure> judged_by = figures(reference, has_costs(comparisons));
     Json report;
@@ -111,16 +111,36 @@ std::string comparison_json(std::span<const Comparison> comparisons, const Refer
     for (const Comparison& comparison : comparisons) {
         report["meshes"].push_back(mesh_json(comparison, judged_by));
     }
+    return report;
+}
+
+std::string comparison_json(std::span<const Comparison> comparisons, const Reference& reference)
+{
     // A file's name may be any bytes; what is not UTF-8 is replaced, not fatal.
-    return report.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return comparison_record(comparisons, reference)
+               .dump(2, ' ', false, Json::error_handler_t::replace) +
+           '\n';
+}
+
+std::vector<TableRow> table_rows(std::span<const Comparison> comparisons,
+                                 const Reference& reference)
+{
+    std::vector<TableRow> rows;
+    for (const Figure& figure : figures(reference, has_costs(comparisons))) {
+        if (figure.title.empty()) continue;
+        TableRow row{figure.title, figure.place, figure.better, {}};
+        for (const Comparison& comparison : comparisons) {
+            row.cells.push_back(shown(figure, comparison, rows.empty()));
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
 }
 
 std::string comparison_table(std::span<const Comparison> comparisons, const Reference& reference)
 {
     const std::vector<Figure> judged_by = figures(reference, has_costs(comparisons));
-    std::vector<Figure> rows = judged_by;
-    std::erase_if(rows, [](const Figure& figure) { return figure.title.empty(); });
-    std::string text = table(comparisons, rows);
+    std::string text = table(comparisons, table_rows(comparisons, reference));
     text += '\n';
     for (const std::string& line : definitions(reference, judged_by)) {
         text += line + '\n';

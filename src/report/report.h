@@ -1,11 +1,25 @@
 #pragma once
 
 #include "compare/compare.h"
+#include "report/figures.h"
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace vcarve {
+
+/// A figure of every mesh, as the table has it.
+struct TableRow {
+    std::string title;
+    std::string place; ///< see Figure::place
+    Better better = Better::neither;
+    std::vector<std::string> cells; ///< one a mesh; of one that failed, in the first row why
+};
+
+/// The rows of the table from its top to its bottom, without its head.
+std::vector<TableRow> table_rows(std::span<const Comparison> comparisons,
+                                 const Reference& reference);
 
 /// The figures as a Markdown table, a row a figure and a column a mesh, followed by what the
 /// figures mean. Ends with a newline.

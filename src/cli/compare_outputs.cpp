@@ -1,0 +1,89 @@
+#include "cli/compare_outputs.h"
+
+#include "io/files/output_file.h"
+#include "page/page.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Output {
+    const char* option;
+    fs::path path;
+};
+
+std::vector<Output> written(const CompareOutputs& outputs)
+{
+    std::vector<Output> all = {
+        {"--json", outputs.json}, {"--preview", outputs.preview.out}, {"--report", outputs.report}};
+    std::erase_if(all, [](const Output& output) { return output.path.empty(); });
+    return all;
+}
+
+void require_distinct(const std::vector<Output>& outputs)
+{
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (outputs[i].path != outputs[k].path) continue;
+            throw UsageError(fmt::format("{} and {} cannot both be written to {}",
+                                         outputs[k].option, outputs[i].option,
+                                         outputs[i].path.string()));
+        }
+    }
+}
+
+} // namespace
+
+std::vector<fs::path> CompareOutputs::paths() const
+{
+    std::vector<fs::path> paths;
+    for (const Output& output : written(*this)) {
+        paths.push_back(output.path);
+    }
+    return paths;
+}
+
+void list_compare_outputs(OptionTable& table)
+{
+    table.stage("Output");
+    table.path({.name = "json", .help = "Also write all figures, unrounded, as JSON."});
+    list_preview_options(table);
+    table.path({.name = "report",
+                .help = "Also write a page for browsers, OUT.html, that needs no network: the "
+                        "surfaces side by side under one camera, coloured by their distance to "
+                        "the truth or to each other, the table, and the worst places to go to."});
+}
+
+CompareOutputs read_compare_outputs(const ParsedArguments& given)
+{
+    CompareOutputs outputs;
+    if (given.has("json")) outputs.json = given.options.at("json");
+    outputs.preview = read_preview_options(given);
+    if (given.has("report")) {
+        outputs.report = given.options.at("report");
+        require_page_name(outputs.report);
+    }
+    require_distinct(written(outputs));
+    return outputs;
+}
+
+void check_outputs(const CompareOutputs& outputs, std::span<const fs::path> inputs)
+{
+    for (const Output& output : written(outputs)) {
+        if (std::ranges::count(inputs, output.path) == 0) continue;
+        throw UsageError(
+            fmt::format("{} would replace the mesh {}", output.option, output.path.string()));
+    }
+    for (const Output& output : written(outputs)) {
+        require_writable(output.path);
+    }
+}
+
+} // namespace vcarve::cli

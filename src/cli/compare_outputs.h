@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cli/option_parser.h"
+#include "cli/preview_output.h"
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace vcarve::cli {
+
+/// What a comparison writes beside its table; an empty path is not written.
+struct CompareOutputs {
+    std::filesystem::path json;
+    PreviewArguments preview;
+    std::filesystem::path report;
+
+    /// The files that are written.
+    std::vector<std::filesystem::path> paths() const;
+};
+
+/// Declares --json, --preview, --view and --report under a heading of their own.
+void list_compare_outputs(OptionTable& table);
+/// Throws UsageError where a name is wrong, or two would be written to one file.
+CompareOutputs read_compare_outputs(const ParsedArguments& given);
+
+/// Throws UsageError where a file that is read would be replaced, or one cannot be written.
+void check_outputs(const CompareOutputs& outputs, std::span<const std::filesystem::path> inputs);
+
+} // namespace vcarve::cli

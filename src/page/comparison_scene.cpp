@@ -1,0 +1,220 @@
+#include "page/comparison_scene.h"
+
+#include "compare/worst_places.h"
+#include "page/display_mesh.h"
+#include "page/face_grid.h"
+#include "page/pack.h"
+#include "page/page_scene.h"
+#include "steps/1_points/middle_box.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kTail = 0.05;           ///< of the points, left out at either end of a box
+constexpr double kPartShare = 0.005;     ///< of the diagonal: how far apart distances are told
+constexpr std::int64_t kParts = 300'000; ///< small faces that distances may add up to, a surface
+constexpr double kScales[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
+constexpr double kMostArea = 0.95;
+
+Json vector_json(const Eigen::Vector3d& vector)
+{
+    return {vector.x(), vector.y(), vector.z()};
+}
+
+/// A mesh ready to be drawn and measured.
+struct Compared {
+    const NamedMesh& named;
+    MeasuredMesh measured;
+};
+
+/// What a mesh is measured against.
+struct Target {
+    std::string name; ///< empty: nothing
+    const SurfaceTree* surface = nullptr;
+};
+
+Target target_of(std::size_t mesh, const std::vector<Compared>& all, const Reference& reference)
+{
+    if (reference.truth) return {"the truth", &reference.truth->surface.tree};
+    if (all.size() < 2) return {};
+    const Compared& other = all[mesh == 0 ? 1 : 0];
+    return {other.named.name, &other.measured.tree};
+}
+
+/// Moves what packed_scene() made by `shift`.
+void move_scene(Json& scene, const Eigen::Vector3d& shift)
+{
+    const auto move = [&](Json& place) {
+        for (int axis = 0; axis < 3; ++axis) {
+            Json& coordinate = place[static_cast<std::size_t>(axis)];
+            coordinate = coordinate.get<double>() + shift[axis];
+        }
+    };
+    move(scene["points"]["positions"]["low"]);
+    for (Json& view : scene["views"]) {
+        move(view["center"]);
+    }
+}
+
+Json middle_json(const Reference& reference)
+{
+    const Eigen::AlignedBox3d box = reference.truth ? middle_box(reference.truth->samples, 0.0)
+                                                    : middle_box(reference.scene.positions, kTail);
+    return {{"center", vector_json(box.center())}, {"radius", 0.5 * diagonal_of(reference)}};
+}
+
+Json surface_json(const std::string& name, const TriMesh& shown, std::size_t of)
+{
+    return {{"name", name},
+            {"is_truth", false},
+            {"of", of},
+            {"positions", positions_json(shown.positions)},
+            {"faces", {{"count", shown.faces.size()}, {"data", pack_faces(shown.faces)}}},
+            {"colors", shown.colors.empty() ? Json(nullptr) : Json(pack_colors(shown.colors))},
+            {"measured_to", nullptr},
+            {"distances", nullptr},
+            {"wrong", nullptr},
+            {"missing", nullptr}};
+}
+
+/// Distances in percent of the diagonal, packed as errors are.
+std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const SurfaceTree& target,
+                             double diagonal)
+{
+    std::vector<double> distances = distances_to(target, places);
+    for (double& distance : distances) {
+        distance *= 100.0 / diagonal;
+    }
+    return pack_errors(distances);
+}
+
+Json distances_json(const TriMesh& shown, const SurfaceTree& target, double diagonal)
+{
+    const std::vector<std::int32_t> parts = edge_parts(shown, kPartShare * diagonal, kParts);
+    return {{"parts", pack_bytes(parts)},
+            {"vertices", packed_distances(shown.positions, target, diagonal)},
+            {"between", packed_distances(grid_places(shown, parts), target, diagonal)}};
+}
+
+Json places_json(const std::vector<WorstPlace>& places)
+{
+    Json json = Json::array();
+    for (const WorstPlace& place : places) {
+        json.push_back({{"position", vector_json(place.position)},
+                        {"distance", place.distance},
+                        {"towards", vector_json(place.towards)},
+                        {"views", place.views ? Json(*place.views) : Json(nullptr)}});
+    }
+    return json;
+}
+
+/// How far most of a surface's area lies at most.
+double usual_most(std::vector<double> distances)
+{
+    if (distances.empty()) return 0.0;
+    const auto rank =
+        static_cast<std::ptrdiff_t>(kMostArea * static_cast<double>(distances.size() - 1));
+    std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
+    return distances[static_cast<std::size_t>(rank)];
+}
+
+double scale_of(double distance)
+{
+    const auto* const scale =
+        std::ranges::find_if(kScales, [&](double s) { return s >= distance; });
+    return scale == std::end(kScales) ? kScales[std::size(kScales) - 1] : *scale;
+}
+
+/// Adds what a mesh is told apart by; gives how far most of it lies.
+double add_distances(Json& surface, const TriMesh& shown, const MeasuredMesh& mesh,
+                     const Target& target, const Reference& reference)
+{
+    if (target.surface == nullptr) return 0.0;
+    constexpr std::size_t kPlaces = ComparisonLimits().places;
+    const SurfaceDistances far = surface_distances(mesh, *target.surface, reference);
+    const bool has_truth = reference.truth.has_value();
+    surface["measured_to"] = target.name;
+    surface["distances"] = distances_json(shown, *target.surface, diagonal_of(reference));
+    surface["wrong"] =
+        places_json(wrong_places(mesh, far, reference, has_truth ? kPlaces / 2 : kPlaces));
+    if (has_truth) surface["missing"] = places_json(missing_places(mesh, reference, kPlaces / 2));
+    return usual_most(far.distances);
+}
+
+/// What is drawn of a mesh, and what it is told apart by.
+struct DrawnMesh {
+    Json json;
+    double usual_most = 0.0; ///< how far most of it lies at most
+};
+
+DrawnMesh draw(const Compared& mesh, const Target& target, const Reference& reference,
+               std::int64_t faces, const Progress& progress)
+{
+    const TriMesh shown =
+        display_mesh(in_frame(mesh.named.mesh, reference.origin), faces, progress);
+    DrawnMesh drawn{surface_json(mesh.named.name, shown, mesh.named.mesh.faces.size())};
+    drawn.usual_most = add_distances(drawn.json, shown, mesh.measured, target, reference);
+    return drawn;
+}
+
+Json truth_json(const Reference& reference, std::int64_t faces, const Progress& progress)
+{
+    const TriMesh& truth = reference.truth->surface.mesh;
+    Json json = surface_json("truth", display_mesh(truth, faces, progress), truth.faces.size());
+    json["is_truth"] = true;
+    return json;
+}
+
+std::vector<Compared> prepare(std::span<const NamedMesh> meshes, const Reference& reference)
+{
+    std::vector<Compared> all;
+    for (const NamedMesh& mesh : meshes) {
+        all.push_back({mesh, place_mesh(mesh, reference)});
+    }
+    return all;
+}
+
+} // namespace
+
+Json comparison_scene(Json scene, const Eigen::Vector3d& scene_offset,
+                      std::span<const NamedMesh> meshes, const Reference& reference,
+                      const Progress& progress)
+{
+    const std::vector<Compared> all = prepare(meshes, reference);
+    move_scene(scene, scene_offset - reference.origin);
+    scene["middle"] = middle_json(reference);
+    scene["diagonal"] = diagonal_of(reference);
+    scene["diagonal_of"] = reference.truth ? "truth" : "points";
+    scene["surfaces"] = Json::array();
+
+    const auto count = std::ssize(all) + (reference.truth ? 1 : 0);
+    const ComparisonLimits limits;
+    const std::int64_t faces =
+        std::min(limits.faces, limits.all_faces / std::max<std::int64_t>(count, 1));
+    const auto part = [&](std::size_t i) {
+        const double share = 1.0 / static_cast<double>(count);
+        return progress.part(share * static_cast<double>(i), share * static_cast<double>(i + 1));
+    };
+    double most = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        DrawnMesh drawn = draw(all[i], target_of(i, all, reference), reference, faces, part(i));
+        most = std::max(most, drawn.usual_most);
+        scene["surfaces"].push_back(std::move(drawn.json));
+    }
+    if (reference.truth)
+        scene["surfaces"].push_back(truth_json(reference, faces, part(all.size())));
+    scene["scale"] = scale_of(most);
+    return scene;
+}
+
+} // namespace vcarve
