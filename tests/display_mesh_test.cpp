@@ -20,6 +20,15 @@ TriMesh colored_torus(std::uint32_t n)
     return mesh;
 }
 
+TEST(DisplayMesh, NeedsNeitherColoursNorPoints)
+{
+    const TriMesh shown = display_mesh(testing::torus(20), 300);
+    EXPECT_GT(shown.faces.size(), 250U);
+    EXPECT_LE(shown.faces.size(), 300U);
+    EXPECT_TRUE(shown.colors.empty());
+    EXPECT_TRUE(shown.points.empty());
+}
+
 TEST(DisplayMesh, LeavesASmallSurfaceAsItIs)
 {
     const TriMesh mesh = colored_torus(10);

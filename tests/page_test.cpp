@@ -54,10 +54,32 @@ TEST(Page, HoldsItsPartsOnceAndNoMarks)
     EXPECT_THAT(page, HasSubstr(std::string(kViewJs)));
     EXPECT_THAT(page, HasSubstr(std::string(kReportJs)));
     EXPECT_THAT(page, HasSubstr(std::string(kThreeLicence)));
-    for (const char* mark : {"{{record}}", "{{view}}", "{{style}}", "{{scene}}", "{{report}}"}) {
+    for (const char* mark : {"{{record}}", "{{view}}", "{{style}}", "{{scene}}", "{{script}}"}) {
         EXPECT_THAT(page, Not(HasSubstr(mark)));
     }
     EXPECT_EQ(page.size(), bare.size() + 8);
+}
+
+std::string comparison_page_of(const Json& record)
+{
+    std::ostringstream out;
+    write_comparison_page(out, record, {{"surfaces", {kNasty}}});
+    return out.str();
+}
+
+TEST(Page, OfAComparisonHoldsItsPartsOnceAndNoMarks)
+{
+    const std::string page = comparison_page_of({{"command", "compare"}});
+    const std::string bare = comparison_page_of({{"command", ""}});
+    for (const std::string_view part : {kThreeJs, kViewJs, kDistanceJs, kCommonJs, kComparisonJs,
+                                        kReportCss, kComparisonCss, kThreeLicence}) {
+        EXPECT_THAT(page, HasSubstr(std::string(part)));
+    }
+    for (const char* mark : {"{{record}}", "{{view}}", "{{style}}", "{{scene}}", "{{script}}"}) {
+        EXPECT_THAT(page, Not(HasSubstr(mark)));
+    }
+    EXPECT_EQ(page.size(), bare.size() + 7);
+    EXPECT_THAT(comparison_page_of({{"command", kNasty}}), Not(HasSubstr("<img src")));
 }
 
 TEST(Page, LetsNoNameFromAFileBreakOut)
@@ -69,8 +91,10 @@ TEST(Page, LetsNoNameFromAFileBreakOut)
 
 TEST(Page, AsksTheNetworkForNothing)
 {
-    const std::string own = std::string(kReportHtml) + std::string(kReportCss) +
-                            std::string(kViewJs) + std::string(kReportJs);
+    const std::string own =
+        std::string(kReportHtml) + std::string(kReportCss) + std::string(kViewJs) +
+        std::string(kReportJs) + std::string(kComparisonHtml) + std::string(kComparisonCss) +
+        std::string(kComparisonJs) + std::string(kCommonJs) + std::string(kDistanceJs);
     for (const char* call :
          {"src=\"", "url(", "@import", "fetch(", "XMLHttpRequest", "<link rel=\"s"}) {
         EXPECT_THAT(own, Not(HasSubstr(call)));

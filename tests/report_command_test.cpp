@@ -1,4 +1,5 @@
 #include "support/ball_model.h"
+#include "support/page_parts.h"
 #include "support/subprocess.h"
 #include "support/temporary_folder.h"
 
@@ -20,14 +21,6 @@ Outcome run(const std::vector<std::string>& arguments)
     std::vector<std::string> words = {VCARVE_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return Subprocess(words).wait();
-}
-
-/// The JSON that a page holds in the script element of that name.
-Json part_of(const std::string& page, const std::string& name)
-{
-    const std::string begin = "<script type=\"application/json\" id=\"" + name + "\">";
-    const std::size_t from = page.find(begin) + begin.size();
-    return Json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
 class ReportOfBall : public testing::Test {

@@ -13,6 +13,7 @@
 namespace vcarve {
 namespace {
 
+using testing::distance_to_face;
 using testing::together;
 
 Eigen::Vector3d random_point(std::uint64_t seed, std::uint64_t index)
@@ -20,27 +21,6 @@ Eigen::Vector3d random_point(std::uint64_t seed, std::uint64_t index)
     const Eigen::Vector3d unit(random_number(seed, 3 * index), random_number(seed, 3 * index + 1),
                                random_number(seed, 3 * index + 2));
     return 2.0 * unit - Eigen::Vector3d::Constant(0.5);
-}
-
-double distance_to_segment(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
-                           const Eigen::Vector3d& b)
-{
-    const double t = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-    return (x - a - t * (b - a)).norm();
-}
-
-double distance_to_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& x)
-{
-    const Eigen::Vector3d& a = mesh.positions[face[0]];
-    const Eigen::Vector3d& b = mesh.positions[face[1]];
-    const Eigen::Vector3d& c = mesh.positions[face[2]];
-    const Eigen::Vector3d n = (b - a).cross(c - a).normalized();
-    const Eigen::Vector3d foot = x - n * n.dot(x - a);
-    const bool inside = (b - a).cross(foot - a).dot(n) >= 0 &&
-                        (c - b).cross(foot - b).dot(n) >= 0 && (a - c).cross(foot - c).dot(n) >= 0;
-    if (inside) return (x - foot).norm();
-    return std::min(
-        {distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, a)});
 }
 
 /// Exact where nothing is degenerate: the ends lie on different sides and the line runs inside.

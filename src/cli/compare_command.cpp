@@ -137,10 +137,10 @@ void check_files(const CompareArguments& arguments)
 {
     std::vector<fs::path> inputs = arguments.meshes;
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
+    check_outputs(arguments.outputs, inputs);
     for (const fs::path& input : inputs) {
         const MappedFile opens(input);
     }
-    check_outputs(arguments.outputs, inputs);
 }
 
 /// Nothing half written stays behind, whenever the run ends.

@@ -165,7 +165,7 @@ function driveSurfaces() {
   const group = byId("surfaces");
   group.hidden = surfaces.length < 2;
   surfaces.forEach((surface, i) => {
-    const button = element("button", { type: "button", "data-surface": i }, surface.name);
+    const button = element("button", { type: "button", class: "surface", "data-surface": i }, surface.name);
     button.addEventListener("click", () => {
       if (panes.some((pane) => pane.surface === i)) closePane(i); else openPane(i);
     });

@@ -4,10 +4,21 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace vcarve::testing {
+namespace {
+
+double distance_to_segment(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
+                           const Eigen::Vector3d& b)
+{
+    const double t = std::clamp((x - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+    return (x - a - t * (b - a)).norm();
+}
+
+} // namespace
 
 TriMesh strip(double x0, double x1, double z)
 {
@@ -155,6 +166,20 @@ Camera square_camera(std::uint64_t size_px, double tangent)
 std::vector<Eigen::Vector3d> high_centers()
 {
     return {{0.2, 0.2, 10.0}, {0.8, 0.2, 10.0}, {0.2, 0.8, 10.0}, {0.8, 0.8, 10.0}};
+}
+
+double distance_to_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& x)
+{
+    const Eigen::Vector3d& a = mesh.positions[face[0]];
+    const Eigen::Vector3d& b = mesh.positions[face[1]];
+    const Eigen::Vector3d& c = mesh.positions[face[2]];
+    const Eigen::Vector3d n = (b - a).cross(c - a).normalized();
+    const Eigen::Vector3d foot = x - n * n.dot(x - a);
+    const bool inside = (b - a).cross(foot - a).dot(n) >= 0 &&
+                        (c - b).cross(foot - b).dot(n) >= 0 && (a - c).cross(foot - c).dot(n) >= 0;
+    if (inside) return (x - foot).norm();
+    return std::min(
+        {distance_to_segment(x, a, b), distance_to_segment(x, b, c), distance_to_segment(x, c, a)});
 }
 
 CompareOptions few_samples()

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace vcarve {
+
+/// The JSON that a page holds in the script element of that name.
+inline nlohmann::ordered_json part_of(const std::string& page, const std::string& name)
+{
+    const std::string begin = "<script type=\"application/json\" id=\"" + name + "\">";
+    const std::size_t from = page.find(begin) + begin.size();
+    return nlohmann::ordered_json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+} // namespace vcarve
