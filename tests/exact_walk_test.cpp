@@ -124,7 +124,7 @@ TEST(ExactWalk, GoesOnFromInsideACell)
 
 TEST(CellsAroundVertex, AreAllThatHoldIt)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         const TetMesh& mesh = named.mesh;
         for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
             std::vector<Index> expected;
@@ -145,7 +145,7 @@ TEST(CellsAroundVertex, AreAllThatHoldIt)
 
 TEST(ExactWalk, CrossesWhatBruteForceFinds)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(11);
         for (int sight = 0; sight < 700; ++sight) {
             const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));

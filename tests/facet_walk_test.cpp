@@ -84,7 +84,7 @@ CellFacet any_facet(const TetMesh& mesh, std::mt19937_64& random)
 
 /// From any place in any facet, at quarters of it every other time, which are exact on a lattice,
 /// to any target. Mostly from the side of the facet that has the target before it.
-Way any_way(const NamedMesh& named, std::mt19937_64& random)
+Way any_way(const NamedCells& named, std::mt19937_64& random)
 {
     Way way{};
     way.facet = any_facet(named.mesh, random);
@@ -103,7 +103,7 @@ Way any_way(const NamedMesh& named, std::mt19937_64& random)
 
 TEST(FacetWalk, CrossesWhatBruteForceFinds)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(31);
         for (int round = 0; round < 200; ++round) {
             const Way way = any_way(named, random);
@@ -119,7 +119,7 @@ TEST(FacetWalk, CrossesWhatBruteForceFinds)
 
 TEST(FacetWalk, StopsAtTheFacetItMayNotCross)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(32);
         for (int round = 0; round < 100; ++round) {
             const Way way = any_way(named, random);
@@ -155,7 +155,7 @@ TEST(FacetWalk, GoesNowhereThroughAPlaceThatIsNotInTheFacet)
 
 TEST(FacetWalk, CrossesOnlyItsFacetToATargetInTheNextCell)
 {
-    for (const NamedMesh& named : {meshes_to_walk()[0], meshes_to_walk()[2]}) {
+    for (const NamedCells& named : {meshes_to_walk()[0], meshes_to_walk()[2]}) {
         std::mt19937_64 random(34);
         for (int round = 0; round < 300; ++round) {
             const CellFacet facet = any_facet(named.mesh, random);

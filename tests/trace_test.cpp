@@ -334,7 +334,7 @@ Crossings crossings_of_all_sights(const TetMesh& mesh, const Scene& scene)
 
 TEST(CountCrossings, IsTheSumOfBruteForceCrossings)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(41);
         Positions centers;
         for (int view = 0; view < 6; ++view) {

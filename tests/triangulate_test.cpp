@@ -188,7 +188,7 @@ TEST(Triangulate, NumbersOneTetrahedronAsDocumented)
 
 TEST(Triangulate, PutsInfiniteCellsBeyondTheHull)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         const TetMesh& mesh = named.mesh;
         for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
             if (!mesh.cells[cell].is_infinite()) {
@@ -207,7 +207,7 @@ TEST(Triangulate, PutsInfiniteCellsBeyondTheHull)
 
 TEST(Triangulate, IsDelaunayAndCanonical)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         SCOPED_TRACE(named.name);
         expect_sound(named.mesh);
     }

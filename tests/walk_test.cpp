@@ -52,7 +52,7 @@ FastWalk fast_walk(SightWalk& walk, const Vector3d& target)
     return result;
 }
 
-std::string place(const NamedMesh& named, Index vertex, const Vector3d& target)
+std::string place(const NamedCells& named, Index vertex, const Vector3d& target)
 {
     return named.name + ", from vertex " + std::to_string(vertex) + " to (" +
            std::to_string(target.x()) + " " + std::to_string(target.y()) + " " +
@@ -99,7 +99,7 @@ TEST(SightFrame, IsNotClearWhereADeterminantOverflows)
 TEST(SightFrame, TurnsAsTheExactPredicateSays)
 {
     std::mt19937_64 random(21);
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         const Positions& points = named.mesh.positions;
         for (int round = 0; round < 2000; ++round) {
             const auto vertex = static_cast<Index>(pick(random, points.size()));
@@ -121,7 +121,7 @@ TEST(SightFrame, TurnsAsTheExactPredicateSays)
 
 TEST(SightWalk, CrossesWhatBruteForceFinds)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(12);
         for (int round = 0; round < 90; ++round) {
             const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
@@ -140,7 +140,7 @@ TEST(SightWalk, CrossesWhatBruteForceFinds)
 
 TEST(SightWalk, CrossesWhatTheExactWalkCrosses)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(13);
         for (int round = 0; round < 5000; ++round) {
             const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
@@ -160,7 +160,7 @@ TEST(SightWalk, CrossesWhatTheExactWalkCrosses)
 
 TEST(SightWalk, CrossesTheSameSideBySideAsAlone)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(16);
         std::vector<Sight> sights;
         while (sights.size() < 1000) {
@@ -198,7 +198,7 @@ TEST(SightWalk, CrossesTheSameSideBySideAsAlone)
 
 TEST(SightWalk, IsTheSameWhateverTheWalkBefore)
 {
-    for (const NamedMesh& named : meshes_to_walk()) {
+    for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(14);
         const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
         SightWalk worn(named.mesh, vertex);

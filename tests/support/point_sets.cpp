@@ -138,7 +138,7 @@ TetMesh triangulation_of(const Positions& positions)
     return triangulate(scene_of(positions));
 }
 
-std::vector<NamedMesh> meshes_to_walk()
+std::vector<NamedCells> meshes_to_walk()
 {
     const Vector3d origin = Vector3d::Zero();
     const Vector3d far(4'600'000.0, 500'000.0, 1000.0);
@@ -165,14 +165,14 @@ std::vector<NamedMesh> meshes_to_walk()
          0x1p-517},
         {"random of 2^400", mapped(random_points(50, 8), 0x1p400, origin), 0x1p398},
     };
-    std::vector<NamedMesh> meshes;
+    std::vector<NamedCells> meshes;
     for (const auto& [name, points, step] : sets) {
         meshes.push_back({name, triangulation_of(points), step});
     }
     return meshes;
 }
 
-Vector3d any_target(const NamedMesh& named, Index vertex, std::mt19937_64& random)
+Vector3d any_target(const NamedCells& named, Index vertex, std::mt19937_64& random)
 {
     const TetMesh& mesh = named.mesh;
     const Vector3d& point = mesh.positions[vertex];

@@ -42,17 +42,17 @@ Scene scene_seen_from(const Positions& centers, const Positions& points, double 
                       std::uint64_t seed);
 
 /// A triangulation with a name for messages.
-struct NamedMesh {
+struct NamedCells {
     std::string name;
     TetMesh mesh;
     double step; ///< how far apart its points are, for choosing targets
 };
 /// Triangulations on which walks are hard: general, regular, nearly regular, flat, far from the
 /// origin, tiny, huge.
-std::vector<NamedMesh> meshes_to_walk();
+std::vector<NamedCells> meshes_to_walk();
 
 /// A target for a sight from a vertex, of one of many sorts: anywhere in the hull or out of it, at
 /// and beyond vertices, edges and facets, on half steps of a lattice, at the vertex itself.
-Eigen::Vector3d any_target(const NamedMesh& named, Index vertex, std::mt19937_64& random);
+Eigen::Vector3d any_target(const NamedCells& named, Index vertex, std::mt19937_64& random);
 
 } // namespace vcarve
