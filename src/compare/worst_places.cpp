@@ -100,11 +100,12 @@ void look_at(WorstPlace& place, const Eigen::Vector3d& normal, const MeasuredMes
     for (const View& view : reference.scene.views) {
         if (!view_sees(view, place.position, mesh, reference)) continue;
         ++*place.views;
-        const Eigen::Vector3d line = (view.center - place.position).normalized();
-        const double square = std::abs(normal.dot(line));
+        const Eigen::Vector3d line = view.center - place.position;
+        const double square = std::abs(normal.dot(line.normalized()));
         if (square <= squarest) continue;
         squarest = square;
-        place.towards = line;
+        place.towards = line.normalized();
+        place.reach = line.norm();
     }
 }
 
@@ -188,7 +189,7 @@ std::vector<WorstPlace> missing_places(const MeasuredMesh& mesh, const Reference
         const bool in_image = truth.image_views[i * step] != kNoView;
         const std::uint32_t view = (in_image ? truth.image_views : truth.views)[i * step];
         const Eigen::Vector3d line = reference.scene.views[view].center - samples[i];
-        WorstPlace place{samples[i], distances[i], line.normalized()};
+        WorstPlace place{samples[i], distances[i], line.normalized(), line.norm()};
         if (!in_image) place.views = 0;
         places.push_back(place);
     }

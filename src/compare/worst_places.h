@@ -36,6 +36,7 @@ struct WorstPlace {
     Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< in the reference's frame
     double distance = 0.0;                              ///< in diagonals
     Eigen::Vector3d towards = Eigen::Vector3d::UnitZ(); ///< unit, to where it is well seen from
+    double reach = 0.0; ///< how far off the view stands that sees it from there; 0 if none does
     /// How many views see it, see view_sees(). A place on the truth counts only where enough views
     /// see it: of that it says 0 where no image holds it, and else nothing.
     std::optional<std::int64_t> views = {};

@@ -29,11 +29,12 @@ function fillHead() {
   byId("title").textContent = title;
   document.title = title + " · colmap-vcarve";
   const model = comparison.model;
-  let lead = "Measured against " + plural(model.points, "point") + " of the model and " + plural(model.views, "view");
-  lead += hasTruth ? ", and against the true surface." : "; the true surface is not known.";
+  const points = plural(model.points, "point"), views = plural(model.views, "view");
+  let lead = "Measured against " + (hasTruth ? points + ", " + views + " and the true surface."
+    : points + " and " + views + "; the true surface is not known.");
   const good = record.rows.find((one) => one.place === "/truth/agreement/2/f");
   if (good) {
-    lead += " F within 0.5 % of the truth's diagonal: " +
+    lead += " F within 0.5 % of its diagonal: " +
       comparison.meshes.map((mesh, i) => mesh.name + " " + good.cells[i]).join(", ") + ".";
   }
   byId("lead").textContent = lead;
@@ -111,8 +112,8 @@ function layOut() {
 }
 function shownText(surface) {
   const count = surface.faces.count;
-  return count < surface.of ? whole(surface.of) + " faces, simplified for this page to " + whole(count)
-    : plural(count, "face");
+  return (count < surface.of ? whole(surface.of) + " faces, simplified for this page to " + whole(count)
+    : plural(count, "face")) + (surface.colors || surface.is_truth ? "" : ", no colours");
 }
 function openPane(number) {
   const surface = surfaces[number];
@@ -212,7 +213,9 @@ function goTo(chosen, button, surface, words, isMissing) {
     if (!panes.some((pane) => pane.surface === wanted) && panes.length < kMostViews) openPane(wanted);
   }
   for (const other of document.querySelectorAll("[data-wrong]")) other.setAttribute("aria-pressed", String(other === button));
-  const distance = Math.min(Math.max(isMissing ? 0.25 : 0.15, 2.5 * chosen.distance), 1.5) * sceneData.diagonal;
+  // Not from behind the camera that sees it, where a wall may stand.
+  const distance = Math.min(Math.max(isMissing ? 0.4 : 0.15, 3 * chosen.distance) * sceneData.diagonal,
+    chosen.reach || 1.5 * sceneData.diagonal);
   leader().flyTo(vectorOf(chosen.position), vectorOf(chosen.towards), distance);
   panes.forEach(showPlace);
   byId("place-text").textContent = words;

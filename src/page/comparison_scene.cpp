@@ -24,7 +24,7 @@ constexpr double kTail = 0.05;           ///< of the points, left out at either 
 constexpr double kPartShare = 0.005;     ///< of the diagonal: how far apart distances are told
 constexpr std::int64_t kParts = 300'000; ///< small faces that distances may add up to, a surface
 constexpr double kScales[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
-constexpr double kMostArea = 0.95;
+constexpr double kMostArea = 0.9;
 
 Json vector_json(const Eigen::Vector3d& vector)
 {
@@ -113,6 +113,7 @@ Json places_json(const std::vector<WorstPlace>& places)
         json.push_back({{"position", vector_json(place.position)},
                         {"distance", place.distance},
                         {"towards", vector_json(place.towards)},
+                        {"reach", place.reach > 0.0 ? Json(place.reach) : Json(nullptr)},
                         {"views", place.views ? Json(*place.views) : Json(nullptr)}});
     }
     return json;

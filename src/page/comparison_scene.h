@@ -24,7 +24,7 @@ struct ComparisonLimits {
 /// - "diagonal": what distances are shares of, in the model's units; "diagonal_of": "truth" or
 ///   "points",
 /// - "scale": the distance at which colours end: of the round ones from 0.1 % to 5 % the least that
-///   95 % of every mesh's area do not exceed, or 5 %,
+///   nine tenths of every mesh's area do not exceed, or 5 %,
 /// - "surfaces": the meshes, and after them the truth where the reference has one. Each has "name",
 ///   "is_truth", "of" (how many faces it has), positions, faces and colours as pack.h has them; of
 ///   a mesh that is measured against something "measured_to" is its name, "distances" are those of

@@ -488,7 +488,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     layers.surface.geometry = isDistance ? cut.geometry : geometry;
     material.uniforms.ownBacks.value = isDistance ? 1 : 0;
     material.uniforms.byNormal.value = mode === "normal" ? 1 : 0;
-    material.uniforms.contrast.value = mode === "rgb" ? 0.3 : mode === "normal" ? 0.1 : mode === "plain" ? 0.6 : isDistance ? 0.45 : 0.35;
+    material.uniforms.contrast.value = mode === "rgb" ? 0.3 : mode === "normal" ? 0.1 : wanted === "distance" ? 0.45 : mode === "plain" ? 0.6 : 0.35;
     redraw();
     return made.legend;
   }
