@@ -34,7 +34,7 @@ function fillHead() {
     : points + " and " + views + "; the true surface is not known.");
   const good = record.rows.find((one) => one.place === "/truth/agreement/2/f");
   if (good) {
-    lead += " F within 0.5 % of its diagonal: " +
+    lead += " F within" + good.title.slice(1) + " of its diagonal: " +
       comparison.meshes.map((mesh, i) => mesh.name + " " + good.cells[i]).join(", ") + ".";
   }
   byId("lead").textContent = lead;
