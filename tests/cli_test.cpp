@@ -68,9 +68,47 @@ TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
                              "filter +[0-9]+ of 400 points.* s\n"
                              "triangulate +[0-9,]+ cells +[0-9.]+ s\n"
                              "(.|\n)*"
-                             "write +[0-9,]+ faces \\([0-9,]+ vertices\\) +[0-9.]+ s\n"));
+                             "write +[0-9,]+ faces \\([0-9,]+ vertices\\) +[0-9.]+ s\n" +
+                             out + ": [0-9,]+ faces, closed; .*\n"));
+    EXPECT_THAT(outcome.err, Not(ContainsRegex("[\r\x1b]"))) << "plain lines where piped";
     EXPECT_THAT(bytes_of(out), HasSubstr("format binary_little_endian"));
     EXPECT_EQ(folder.num_entries(), 2U);
+}
+
+/// What the program writes to a terminal of this kind.
+std::string shown_on_terminal(const std::string& environment,
+                              const std::vector<std::string>& arguments)
+{
+    std::string line = "env -u NO_COLOR " + environment + " '" + VCARVE_PROGRAM + "'";
+    for (const std::string& argument : arguments) {
+        line += " '" + argument + "'";
+    }
+    return Subprocess({"/usr/bin/script", "-qec", line, "/dev/null"}).wait().out;
+}
+
+TEST_F(ProgramOnBall, EmphasisesOnATerminalUnlessNoColorForbidsIt)
+{
+    const auto shown = [&](const std::string& environment) {
+        return shown_on_terminal(environment, {ball, out});
+    };
+    const std::string bold = "\x1b[1m" + out + ": ";
+    EXPECT_THAT(shown("TERM=xterm"), HasSubstr(bold));
+    EXPECT_THAT(shown("TERM=xterm NO_COLOR="), HasSubstr(bold)) << "empty is not set";
+    for (const char* plain : {"TERM=xterm NO_COLOR=1", "TERM=dumb"}) {
+        EXPECT_THAT(shown(plain), AllOf(HasSubstr(out + ": "), Not(HasSubstr("\x1b["))));
+    }
+}
+
+TEST_F(ProgramOnBall, CountsTheEdgesAtWhichItsSurfaceIsOpen)
+{
+    ASSERT_EQ(run({ball, out, "--stats", stats, "--crop=-2,-2,-2,2,2,0.3"}).exit_code, 0);
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    const auto& stages = record["stages"];
+    const auto orient =
+        std::ranges::find_if(stages, [](const auto& stage) { return stage["name"] == "orient"; });
+    ASSERT_NE(orient, stages.end());
+    EXPECT_GT(record["mesh"]["boundary_edges"], 0);
+    EXPECT_EQ((*orient)["counts"]["boundary edges"], record["mesh"]["boundary_edges"]);
 }
 
 TEST_F(ProgramOnBall, IsSilentOnRequest)

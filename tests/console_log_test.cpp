@@ -1,8 +1,10 @@
+#include "base/log.h"
 #include "cli/console_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -116,6 +118,77 @@ TEST(ConsoleLog, MovesABarWhileAStageRunsAndRemovesItForTheLine)
     stage.end({{"cells", 1}});
     EXPECT_THAT(screen.text(),
                 MatchesRegex("(.|\n)* 50 %  0 s\r\x1b\\[Kcut +1 cells +[0-9.]+ s\n"));
+}
+
+TEST(RunLine, ShowsTheStageAndWhatIsLeftOfTheRun)
+{
+    EXPECT_EQ(run_line("cut", {.share = 0.5, .left_seconds = 12.3}, 80),
+              "cut          [===============>              ]  50 %  12 s left");
+    EXPECT_EQ(run_line("cut", {.share = 0.999, .left_seconds = 0.2}, 80),
+              "cut          [=============================>]  99 %  1 s left");
+    EXPECT_EQ(run_line("smooth", {.share = 0.0, .left_seconds = 100}, 80),
+              "smooth       [>                             ]   0 %  2 min left");
+    EXPECT_EQ(run_line("smooth", {.share = 0.0, .left_seconds = 7300}, 80),
+              "smooth       [>                             ]   0 %  2 h left");
+}
+
+TEST(RunLine, IsNarrowerThanTheTerminal)
+{
+    for (std::size_t columns = 1; columns < 80; ++columns) {
+        EXPECT_LT(run_line("triangulate", {.share = 0.5, .left_seconds = 12}, columns).size(),
+                  columns);
+    }
+    EXPECT_EQ(run_line("cut", {.share = 0.5, .left_seconds = 12}, 40),
+              "cut          [===>   ]  50 %  12 s left");
+    EXPECT_EQ(run_line("cut", {.share = 0.5, .left_seconds = 12}, 36),
+              "cut           50 %  12 s left");
+}
+
+TEST(ConsoleLog, MovesABarOfTheRunWhereItIsExpectedToBeLong)
+{
+    const Screen screen;
+    ConsoleLog log({.stream = screen.stream(), .live = true});
+    log.expect({.stages = {{"read", 50}, {"cut", 50}}, .points = 0});
+    Stage stage(log, "read");
+    while (screen.text().find("   0 %  2 min left") == std::string::npos) {
+        std::this_thread::yield();
+    }
+    stage.end({{"points", 1}});
+    EXPECT_THAT(screen.text(), MatchesRegex("(.|\n)*left\r\x1b\\[Kread +1 points +[0-9.]+ s\n"));
+}
+
+TEST(ConsoleLog, ShowsNoBarOfAShortRun)
+{
+    const Screen screen;
+    {
+        ConsoleLog log({.stream = screen.stream(), .live = true, .bar_after_s = 0});
+        log.expect({.stages = {{"read", 1}, {"cut", 3}}, .points = 0});
+        Stage stage(log, "read");
+        std::this_thread::sleep_for(std::chrono::milliseconds(250));
+        stage.end({{"points", 1}});
+    }
+    EXPECT_THAT(screen.text(), Not(HasSubstr("\r")));
+}
+
+TEST(ConsoleLog, ShowsABarOfTheRunWhereItHasBecomeLong)
+{
+    const Screen screen;
+    ConsoleLog log({.stream = screen.stream(), .live = true, .run_bar_after_s = 0.2});
+    log.expect({.stages = {{"read", 0.01}, {"cut", 0.01}}, .points = 0});
+    const Stage stage(log, "read");
+    while (screen.text().find(" s left") == std::string::npos) {
+        std::this_thread::yield();
+    }
+}
+
+TEST(ConsoleLog, EndsWithASentenceInBoldWhereThatIsWanted)
+{
+    for (const bool emphasis : {false, true}) {
+        const Screen screen;
+        ConsoleLog log({.stream = screen.stream(), .emphasis = emphasis});
+        log.conclude("done");
+        EXPECT_EQ(screen.text(), emphasis ? "\x1b[1mdone\x1b[0m\n" : "done\n");
+    }
 }
 
 } // namespace

@@ -242,8 +242,8 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     };
     Recorder log;
     reconstruct(bumpy_sphere(500, 8), {}, log);
-    const std::vector<std::string> expected = {"memory", "filter",  "triangulate", "sights",
-                                               "cut",    "surface", "clean",       "orient"};
+    const std::vector<std::string> expected = {"memory",  "filter", "triangulate", "sights", "cut",
+                                               "surface", "clean",  "open",        "orient"};
     EXPECT_EQ(log.begun, expected);
     EXPECT_EQ(log.ended, expected);
 
@@ -253,7 +253,7 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
     const std::vector<std::string> labelled_twice = {"memory",  "filter",  "triangulate", "sights",
                                                      "cut",     "virtual", "sights",      "cut",
-                                                     "surface", "clean",   "orient"};
+                                                     "surface", "clean",   "open",        "orient"};
     EXPECT_EQ(twice.begun, labelled_twice);
     EXPECT_EQ(twice.ended, labelled_twice);
 }

@@ -2,6 +2,8 @@
 
 #include "base/threads.h"
 #include "base/version.h"
+#include "cli/closing_line.h"
+#include "cli/expected_run.h"
 #include "cli/interruption.h"
 #include "cli/mesh_report.h"
 #include "cli/model_input.h"
@@ -10,6 +12,7 @@
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
+#include "mesh/long_faces.h"
 #include "page/page.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
@@ -257,14 +260,18 @@ void write_stats(const fs::path& path, const Json& record)
     file.commit();
 }
 
+int threads_of(const Options& options)
+{
+    return options.threads == 0 ? available_threads() : options.threads;
+}
+
 /// What a model needs is said of it. Where its size only shows when it is read, reconstruct() does
 /// the same then.
 void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
 {
-    const int wanted = arguments.options.threads;
     try {
         require_memory(size_before_thinning(size, arguments.options.thin),
-                       wanted == 0 ? available_threads() : wanted, arguments.options.max_memory);
+                       threads_of(arguments.options), arguments.options.max_memory);
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
     }
@@ -288,28 +295,72 @@ Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
     }
 }
 
-/// From the model to the file; tells the record what went in and came out. Gives what a report
-/// needs, where one is wanted.
-std::optional<ReportParts> make_surface(const MeshArguments& arguments, Log& log, Json& record)
+/// The logs of a run: what is shown, and what is told of it, which goes there, too.
+struct RunLogs {
+    RunLog& shown;
+    Log& told;
+};
+
+/// What is kept of a run when the surface is written.
+struct Made {
+    std::optional<ReportParts> report; ///< where one is wanted
+    double long_area = 0.0;            ///< of the surface, see RunOutcome
+    bool is_dense = false;             ///< the points were a cloud's
+};
+
+ModelInput read_input(const MeshArguments& arguments, const RunLogs& logs)
 {
-    ModelInput input = read_model_input(
-        arguments.model, log,
-        {.check = [&](const SceneSize& size) { require_memory_of(arguments, size); },
-         .gather = thin_while_reading(arguments.options.thin)});
+    const auto expect = [&](const SceneSize& size) {
+        logs.shown.expect(expected_run(
+            size, arguments.options,
+            {.preview = !arguments.preview.out.empty(), .report = arguments.with_report},
+            threads_of(arguments.options)));
+    };
+    bool is_expected = false;
+    ModelInput input = read_model_input(arguments.model, logs.told,
+                                        {.check =
+                                             [&](const SceneSize& size) {
+                                                 require_memory_of(arguments, size);
+                                                 expect(size);
+                                                 is_expected = true;
+                                             },
+                                         .gather = thin_while_reading(arguments.options.thin)});
+    if (!is_expected) expect(input.read);
+    return input;
+}
+
+/// From the model to the file; tells the record what went in and came out.
+Made make_surface(const MeshArguments& arguments, const RunLogs& logs, Json& record)
+{
+    ModelInput input = read_input(arguments, logs);
     record["input"] = input.record;
     PreviewOutput preview(arguments.preview);
     preview.stand_in(input.scene);
     record["preview"] = preview.record();
     const Eigen::Vector3d offset = offset_for(input.scene, arguments.output.offset);
     record["offset"] = {offset.x(), offset.y(), offset.z()};
-    const Surface surface = surface_of(std::move(input), arguments, log);
-    write_surface(arguments, surface, offset, log);
-    preview.add(arguments.out.filename().string(), surface.mesh, log);
+    Made made;
+    made.is_dense = input.read.is_dense;
+    const Surface surface = surface_of(std::move(input), arguments, logs.told);
+    write_surface(arguments, surface, offset, logs.told);
+    preview.add(arguments.out.filename().string(), surface.mesh, logs.told);
     preview.write();
-    if (!arguments.with_stats && !arguments.with_report) return std::nullopt;
+    if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
+    if (!arguments.with_stats && !arguments.with_report) return made;
     record["mesh"] = check_json(check_mesh(surface.mesh));
-    if (!arguments.with_report) return std::nullopt;
-    return make_report(surface.mesh, surface.scene, log);
+    if (arguments.with_report) made.report = make_report(surface.mesh, surface.scene, logs.told);
+    return made;
+}
+
+std::string closing_line(const MeshArguments& arguments, const Made& made,
+                         const CountsOfStages& counts)
+{
+    RunOutcome outcome = outcome_of(counts);
+    outcome.out = arguments.out.string();
+    outcome.long_area = made.long_area;
+    outcome.is_dense = made.is_dense;
+    outcome.has_report = arguments.with_report;
+    return closing_line(outcome, arguments.options);
 }
 
 /// The files that tell of the run: both say the same.
@@ -354,6 +405,11 @@ Manual mesh_manual()
         {"colmap-vcarve compare",
          "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
          "--help."},
+        {"What it prints",
+         "One line a stage on stderr, and at the end how much of what the views look at is open "
+         "(lines of sight through all images that meet no face where the closed surface has one) "
+         "and what to try. On terminals a bar of the whole run, if that takes over 5 seconds. "
+         "NO_COLOR suppresses bold letters."},
         {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
     };
     manual.options = mesh_options();
@@ -370,16 +426,16 @@ void run_mesh(const ParsedArguments& given)
     }
 
     // The passes ask for as many threads as they are told; no more than this limit ever run.
-    const int wanted = arguments.options.threads;
-    const int threads = wanted == 0 ? available_threads() : wanted;
+    const int threads = threads_of(arguments.options);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<Log> shown = shown_log(arguments.output.quiet);
+    const std::unique_ptr<RunLog> shown = shown_log(arguments.output.quiet);
+    CountsKeeper keeper(*shown);
     // It resets the peak of memory that the system keeps, so it is there only where it is asked
     // for.
     std::optional<StageRecorder> recorder;
-    if (arguments.with_stats || arguments.with_report) recorder.emplace(*shown);
-    Log& log = recorder ? *recorder : *shown;
+    if (arguments.with_stats || arguments.with_report) recorder.emplace(keeper);
+    const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper};
     Json record = {{"program", program_json()},
                    {"command", arguments.command},
                    {"input", nullptr},
@@ -390,10 +446,12 @@ void run_mesh(const ParsedArguments& given)
                    {"threads_used", threads}};
     record["options"].update(options_json(arguments.output));
 
-    const std::optional<ReportParts> report = make_surface(arguments, log, record);
-    if (!recorder) return;
-    record.update(recorder->json());
-    write_records(arguments, report, std::move(record));
+    const Made made = make_surface(arguments, logs, record);
+    if (recorder) {
+        record.update(recorder->json());
+        write_records(arguments, made.report, std::move(record));
+    }
+    shown->conclude(closing_line(arguments, made, keeper.counts()));
 }
 
 } // namespace vcarve::cli

@@ -86,9 +86,9 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading
     return input;
 }
 
-std::unique_ptr<Log> shown_log(bool quiet)
+std::unique_ptr<RunLog> shown_log(bool quiet)
 {
-    if (quiet) return std::make_unique<Log>();
+    if (quiet) return std::make_unique<RunLog>();
     return std::make_unique<ConsoleLog>(console_on_stderr());
 }
 

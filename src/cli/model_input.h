@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "cli/option_parser.h"
+#include "cli/run_log.h"
 #include "cli/run_record.h"
 #include "io/input/read_model.h"
 
@@ -31,6 +32,6 @@ PointsOptions read_points_options(const ParsedArguments& given);
 ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading = {});
 
 /// What console a command shows its stages on: none where it is to be quiet.
-std::unique_ptr<Log> shown_log(bool quiet);
+std::unique_ptr<RunLog> shown_log(bool quiet);
 
 } // namespace vcarve::cli

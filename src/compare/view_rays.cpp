@@ -2,33 +2,15 @@
 
 #include "base/parallel.h"
 #include "model/camera.h"
+#include "model/pixel_grid.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace vcarve {
 namespace {
 
 constexpr std::size_t kSamplesPerRay = 4;
 constexpr std::size_t kLeastRaysAView = 36;
-
-/// The middles of a grid of about square cells, at most `most` of them but at least one.
-std::vector<Eigen::Vector2d> grid_pixels(const Camera& camera, std::size_t most)
-{
-    const auto width_px = static_cast<double>(camera.width_px);
-    const auto height_px = static_cast<double>(camera.height_px);
-    const auto count = static_cast<double>(most);
-    const double columns =
-        std::clamp(std::round(std::sqrt(count * width_px / height_px)), 1.0, count);
-    const double rows = std::floor(count / columns);
-    std::vector<Eigen::Vector2d> pixels;
-    for (double row = 0.5; row < rows; ++row) {
-        for (double column = 0.5; column < columns; ++column) {
-            pixels.emplace_back(column / columns * width_px, row / rows * height_px);
-        }
-    }
-    return pixels;
-}
 
 /// Per ray: what it first meets of a surface.
 std::vector<std::optional<FirstHit>> first_hits(const SurfaceTree& tree, const Reference& reference)
@@ -54,10 +36,9 @@ std::vector<ViewRay> view_rays(const Scene& scene, const CompareOptions& options
     const auto rays_of_view = [&](std::size_t index, std::vector<ViewRay>& rays) {
         const View& view = scene.views[index];
         const Camera& camera = scene.cameras[view.camera];
-        if (camera.width_px == 0 || camera.height_px == 0) return;
         // As long as the centre is far from zero, so that adding it rounds little off.
         const double reach = view.center.isZero(0.0) ? 1.0 : view.center.norm();
-        for (const Eigen::Vector2d& pixel : grid_pixels(camera, most)) {
+        for (const Eigen::Vector2d& pixel : pixel_grid(camera, most)) {
             const std::optional<Eigen::Vector3d> direction = ray(camera, pixel);
             if (!direction) continue;
             const Eigen::Vector3d line = view.cam_from_world.conjugate() * *direction;

@@ -156,6 +156,19 @@ std::int64_t num_faces_left(const HalfEdgeMesh& mesh)
     });
 }
 
+std::int64_t num_boundary_edges(const HalfEdgeMesh& mesh)
+{
+    return parallel_sum(mesh.n_faces(), std::int64_t{0}, [&](std::size_t f) {
+        const auto face = handle_at<FaceHandle>(f);
+        std::int64_t of_face = 0;
+        if (mesh.is_deleted(face)) return of_face;
+        for (const auto half_edge : mesh.fh_range(face)) {
+            of_face += mesh.is_boundary(mesh.opposite_halfedge_handle(half_edge)) ? 1 : 0;
+        }
+        return of_face;
+    });
+}
+
 TriMesh tri_mesh(const HalfEdgeMesh& mesh)
 {
     const auto vertices =

@@ -80,6 +80,8 @@ Handle handle_at(std::size_t number)
 /// How many vertices of faces, and faces, are not deleted.
 std::int64_t num_vertices_left(const HalfEdgeMesh& mesh);
 std::int64_t num_faces_left(const HalfEdgeMesh& mesh);
+/// Edges of one face that is left. Cost: O(faces), in parallel.
+std::int64_t num_boundary_edges(const HalfEdgeMesh& mesh);
 
 /// The faces that are not deleted, and their vertices, in the order they have in `mesh`, with
 /// normals. Cost: O(faces), in parallel.

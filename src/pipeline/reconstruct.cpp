@@ -105,7 +105,9 @@ TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
     Stage stage(log, "orient");
     const ViewAgreement agreement = view_agreement(mesh, scene);
     TriMesh surface = tri_mesh(mesh);
-    stage.end({{"sights on the outside", agreement.facing}, {"of", agreement.sights}});
+    stage.end({{"sights on the outside", agreement.facing},
+               {"of", agreement.sights},
+               {"boundary edges", num_boundary_edges(mesh)}});
     return surface;
 }
 

@@ -75,6 +75,7 @@ CleanSurface clean_surface(TriMesh soup, const CleanupOptions& options)
     // Small pieces go before holes are filled: a hole in one of them is none of ours.
     HalfEdgeMesh& mesh = *result.mesh;
     result.counts.removed_components = delete_small_pieces(mesh, options.min_component_faces);
+    result.first_filled = mesh.n_faces();
     result.counts.filled_holes = fill_holes(mesh, options.max_hole_edges);
     set_vertex_normals(mesh);
     result.counts.vertices = num_vertices_left(mesh);

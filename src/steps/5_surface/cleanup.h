@@ -3,6 +3,7 @@
 #include "vcarve/options.h"
 #include "vcarve/tri_mesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -23,6 +24,7 @@ class HalfEdgeMesh;
 struct CleanSurface {
     std::unique_ptr<HalfEdgeMesh> mesh;
     CleanupCounts counts;
+    std::size_t first_filled = 0; ///< faces of the mesh from here on fill holes
 };
 
 /// A manifold, consistently oriented surface, as the one mesh that is worked on from then on, from

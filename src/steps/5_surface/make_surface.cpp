@@ -4,8 +4,10 @@
 #include "mesh/half_edge_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/5_surface/extract.h"
+#include "steps/5_surface/openness.h"
 #include "vcarve/error.h"
 
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -30,15 +32,24 @@ std::int64_t leave_region(const TriMesh& surface, const Region& region, FaceFlag
     return left;
 }
 
-TriMesh extract(Labelling labelling, const Scene& scene, const Region* region,
-                const SurfaceOptions& options, Log& log)
+/// The boundary of a labelling, and which of it is kept.
+struct Extracted {
+    std::vector<CellFacet> facets;
+    FaceFlags keep;
+    TriMesh surface; ///< what is kept
+};
+
+Extracted extract(Labelling& labelling, const Scene& scene, const Region* region,
+                  const SurfaceOptions& options, Log& log)
 {
     Stage stage(log, "surface");
-    const std::vector<CellFacet> facets = labelling.facets();
+    Extracted extracted;
+    const std::vector<CellFacet>& facets = extracted.facets = labelling.facets();
     labelling.forget_boundary(); // the surface is numbered and measured anew
     TriMesh surface = extract_surface(labelling.cells(), facets, scene);
     stage.progress(0.2);
-    FaceFlags keep(facets.size(), 1);
+    FaceFlags& keep = extracted.keep;
+    keep.assign(facets.size(), 1);
     std::int64_t sheets = 0;
     std::int64_t cropped = 0;
     if (!options.closed) {
@@ -65,10 +76,11 @@ TriMesh extract(Labelling labelling, const Scene& scene, const Region* region,
         throw InputError("the sights leave no surface: no part of the space behind the points is "
                          "seen well enough");
     }
-    return surface;
+    extracted.surface = std::move(surface);
+    return extracted;
 }
 
-std::unique_ptr<HalfEdgeMesh> clean(TriMesh surface, const SurfaceOptions& options, Log& log)
+CleanSurface clean(TriMesh surface, const SurfaceOptions& options, Log& log)
 {
     Stage stage(log, "clean");
     CleanSurface cleaned = clean_surface(std::move(surface), options.cleanup);
@@ -79,7 +91,21 @@ std::unique_ptr<HalfEdgeMesh> clean(TriMesh surface, const SurfaceOptions& optio
                {"split vertices", counts.split_vertices},
                {"components dropped", counts.removed_components},
                {"holes filled", counts.filled_holes}});
-    return std::move(cleaned.mesh);
+    return cleaned;
+}
+
+/// How much of what the views look at is open, holes that were filled left out.
+void tell_openness(const Labelling& labelling, const Extracted& extracted,
+                   const CleanSurface& cleaned, const Scene& scene, Log& log)
+{
+    Stage stage(log, "open");
+    const Openness openness = measure_openness(labelling.cells(), labelling.labels(),
+                                               extracted.facets, extracted.keep, scene);
+    std::vector<std::array<Eigen::Vector3d, 3>> filled;
+    for (std::size_t i = cleaned.first_filled; i < cleaned.mesh->n_faces(); ++i) {
+        filled.push_back(cleaned.mesh->triangle(handle_at<OpenMesh::FaceHandle>(i)));
+    }
+    stage.end({{"rays of the views", count_free(openness.open, filled)}, {"of", openness.rays}});
 }
 
 } // namespace
@@ -88,7 +114,13 @@ std::unique_ptr<HalfEdgeMesh> make_surface(Labelling labelling, const Scene& sce
                                            const Region* region, const SurfaceOptions& options,
                                            Log& log)
 {
-    return clean(extract(std::move(labelling), scene, region, options, log), options, log);
+    Extracted extracted = extract(labelling, scene, region, options, log);
+    CleanSurface cleaned = clean(std::move(extracted.surface), options, log);
+    // What a region leaves out is not open.
+    if (!options.closed && region == nullptr) {
+        tell_openness(labelling, extracted, cleaned, scene, log);
+    }
+    return std::move(cleaned.mesh);
 }
 
 } // namespace vcarve

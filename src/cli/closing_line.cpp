@@ -1,0 +1,123 @@
+#include "cli/closing_line.h"
+
+#include "base/grouped_digits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace vcarve::cli {
+
+namespace {
+
+/// What a stage counted under a name; 0 where it counted no such thing.
+std::int64_t count_of(const CountsOfStages& stages, const char* stage, std::string_view name)
+{
+    const auto counts = stages.find(stage);
+    if (counts == stages.end()) return 0;
+    const auto at = std::ranges::find(counts->second, name, &Counts::value_type::first);
+    return at == counts->second.end() ? 0 : at->second;
+}
+
+std::string percent(double share)
+{
+    return fmt::format("{} %", std::llround(100.0 * share));
+}
+
+/// Whether it shows, rounded.
+bool is_open(const RunOutcome& outcome)
+{
+    constexpr double kShown = 0.005;
+    return outcome.open.value_or(0.0) >= kShown;
+}
+
+std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& options)
+{
+    if (is_open(outcome)) {
+        return fmt::format("open in {} of what the views look at ({})", percent(*outcome.open),
+                           options.sheets.max_sheet > 0.0
+                               ? "--max-sheet 0 closes that with large faces"
+                               : "--closed closes that");
+    }
+    if (outcome.boundary_edges == 0) return "closed";
+    const std::string edges =
+        fmt::format("open along {} edges", grouped_digits(outcome.boundary_edges));
+    if (!outcome.open) return edges;
+    return fmt::format("{}, {} of what the views look at", edges,
+                       *outcome.open > 0.0 ? "in less than 1 %" : "but in nothing");
+}
+
+void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
+                        std::vector<std::string>& proposals)
+{
+    constexpr double kMany = 0.2;
+    constexpr std::int64_t kFew = 500;
+    const auto before = static_cast<double>(std::max<std::int64_t>(outcome.points_before, 1));
+    const auto propose = [&](std::int64_t dropped, const char* remedy) {
+        const double share = static_cast<double>(dropped) / before;
+        if (share < kMany) return;
+        proposals.push_back(fmt::format("if parts are missing, try {}: {} of the points fell to it",
+                                        remedy, percent(share)));
+    };
+    // One view says nothing about where a point is.
+    if (options.min_views > 2) propose(outcome.few_views, "a smaller --min-views");
+    propose(outcome.high_error, "a larger --max-error");
+    propose(outcome.low_angle, "a smaller --min-angle");
+    if (proposals.empty() && outcome.points < kFew && !outcome.is_dense) {
+        proposals.push_back(
+            fmt::format("{} points are few, more images or dense points (stereo_fusion) show more",
+                        grouped_digits(outcome.points)));
+    }
+}
+
+void propose_for_surface(const RunOutcome& outcome, const Options& options,
+                         std::vector<std::string>& proposals)
+{
+    constexpr double kMuchLong = 0.6;
+    if (outcome.long_area < kMuchLong) return;
+    if (options.surface.closed) {
+        proposals.emplace_back("if its large faces are in the way, leave out --closed");
+    } else if (options.crop.region.kind == RegionChoice::Kind::everything) {
+        proposals.emplace_back("if its large faces are in the way, try --crop auto");
+    }
+}
+
+} // namespace
+
+RunOutcome outcome_of(const CountsOfStages& counts)
+{
+    RunOutcome outcome;
+    outcome.faces = count_of(counts, "write", "faces");
+    outcome.boundary_edges = count_of(counts, "orient", "boundary edges");
+    const auto rays = static_cast<double>(count_of(counts, "open", "of"));
+    if (rays > 0.0) {
+        outcome.open = static_cast<double>(count_of(counts, "open", "rays of the views")) / rays;
+    }
+    outcome.points = count_of(counts, "filter", "points");
+    outcome.points_before = count_of(counts, "filter", "of");
+    outcome.few_views = count_of(counts, "filter", "few views");
+    outcome.high_error = count_of(counts, "filter", "high error");
+    outcome.low_angle = count_of(counts, "filter", "low angle");
+    return outcome;
+}
+
+std::string closing_line(const RunOutcome& outcome, const Options& options)
+{
+    constexpr std::size_t kMost = 2;
+    std::vector<std::string> proposals;
+    propose_for_points(outcome, options.points, proposals);
+    propose_for_surface(outcome, options, proposals);
+    if (proposals.empty() && !outcome.has_report) {
+        proposals.emplace_back("--report OUT.html shows it from all sides");
+    }
+    std::string line = fmt::format("{}: {} faces, {}", outcome.out, grouped_digits(outcome.faces),
+                                   openness_text(outcome, options.surface));
+    for (std::size_t i = 0; i < std::min(proposals.size(), kMost); ++i) {
+        line += "; " + proposals[i];
+    }
+    return line;
+}
+
+} // namespace vcarve::cli

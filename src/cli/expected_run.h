@@ -1,0 +1,17 @@
+#pragma once
+
+#include "pipeline/predicted_time.h"
+
+namespace vcarve::cli {
+
+/// What the program does when the surface is made.
+struct ExpectedOutputs {
+    bool preview = false;
+    bool report = false;
+};
+
+/// What the program will take, with what it writes.
+PredictedTimes expected_run(const SceneSize& read, const Options& options,
+                            const ExpectedOutputs& outputs, int threads);
+
+} // namespace vcarve::cli

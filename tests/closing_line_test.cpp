@@ -1,0 +1,153 @@
+#include "cli/closing_line.h"
+
+#include <gtest/gtest.h>
+
+namespace vcarve::cli {
+namespace {
+
+/// A surface of which nothing is to be said.
+RunOutcome usual()
+{
+    return {.out = "out.ply",
+            .faces = 22268,
+            .boundary_edges = 990,
+            .open = 0.001,
+            .long_area = 0.1,
+            .points = 20000,
+            .points_before = 22000};
+}
+
+std::string line(const RunOutcome& outcome, const Options& options = {})
+{
+    return closing_line(outcome, options);
+}
+
+TEST(ClosingLine, ShowsTheReportWhereNothingStandsOut)
+{
+    EXPECT_EQ(line(usual()), "out.ply: 22,268 faces, open along 990 edges, in less than 1 % of "
+                             "what the views look at; --report OUT.html shows it from all sides");
+    RunOutcome outcome = usual();
+    outcome.has_report = true;
+    outcome.open = 0.0;
+    EXPECT_EQ(line(outcome),
+              "out.ply: 22,268 faces, open along 990 edges, but in nothing of what the views look "
+              "at");
+}
+
+TEST(ClosingLine, SaysWhatClosesWhatIsOpen)
+{
+    RunOutcome outcome = usual();
+    outcome.open = 0.035;
+    EXPECT_EQ(line(outcome),
+              "out.ply: 22,268 faces, open in 4 % of what the views look at (--max-sheet 0 closes "
+              "that with large faces); --report OUT.html shows it from all sides");
+    Options options;
+    options.surface.sheets.max_sheet = 0.0;
+    EXPECT_EQ(line(outcome, options),
+              "out.ply: 22,268 faces, open in 4 % of what the views look at (--closed closes "
+              "that); --report OUT.html shows it from all sides");
+}
+
+TEST(ClosingLine, ProposesNothingForAClosedSurface)
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    outcome.open.reset();
+    outcome.has_report = true;
+    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed");
+}
+
+TEST(ClosingLine, CountsEdgesWhereItIsNotKnownWhatTheViewsLookAt)
+{
+    RunOutcome outcome = usual();
+    outcome.open.reset();
+    outcome.has_report = true;
+    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, open along 990 edges");
+}
+
+TEST(ClosingLine, ProposesToCropLargeFacesUnlessThatIsDone)
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    outcome.long_area = 0.7;
+    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if its large faces are in the way, "
+                             "try --crop auto");
+    Options options;
+    options.surface.closed = true;
+    EXPECT_EQ(line(outcome, options), "out.ply: 22,268 faces, closed; if its large faces are in "
+                                      "the way, leave out --closed");
+    options = {};
+    options.crop.region.kind = RegionChoice::Kind::looked_at;
+    EXPECT_EQ(line(outcome, options),
+              "out.ply: 22,268 faces, closed; --report OUT.html shows it from all sides");
+}
+
+TEST(ClosingLine, NamesTheLimitThatManyPointsFellTo)
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    outcome.low_angle = 11000;
+    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if parts are missing, try a smaller "
+                             "--min-angle: 50 % of the points fell to it");
+    outcome.high_error = 4400;
+    outcome.low_angle = 0;
+    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if parts are missing, try a larger "
+                             "--max-error: 20 % of the points fell to it");
+}
+
+TEST(ClosingLine, DoesNotProposePointsOfOneView)
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    outcome.few_views = 11000;
+    EXPECT_EQ(line(outcome),
+              "out.ply: 22,268 faces, closed; --report OUT.html shows it from all sides");
+    Options options;
+    options.points.min_views = 3;
+    EXPECT_EQ(line(outcome, options), "out.ply: 22,268 faces, closed; if parts are missing, try a "
+                                      "smaller --min-views: 50 % of the points fell to it");
+}
+
+TEST(ClosingLine, ProposesAtMostTwoThings)
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    outcome.high_error = outcome.low_angle = 8000;
+    outcome.long_area = 1.0;
+    EXPECT_EQ(line(outcome).find("--crop"), std::string::npos);
+    EXPECT_NE(line(outcome).find("--min-angle"), std::string::npos);
+}
+
+TEST(ClosingLine, SaysThatSparsePointsAreFew)
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    outcome.points = outcome.points_before = 114;
+    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; 114 points are few, more images or "
+                             "dense points (stereo_fusion) show more");
+    outcome.is_dense = true;
+    EXPECT_EQ(line(outcome),
+              "out.ply: 22,268 faces, closed; --report OUT.html shows it from all sides");
+}
+
+TEST(RunOutcome, IsMadeOfWhatTheStagesCount)
+{
+    const RunOutcome outcome = outcome_of(
+        {{"filter",
+          {{"points", 70}, {"of", 100}, {"few views", 10}, {"high error", 15}, {"low angle", 5}}},
+         {"open", {{"rays of the views", 40}, {"of", 4000}}},
+         {"orient", {{"sights on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
+         {"write", {{"faces", 99}, {"vertices", 50}}}});
+    EXPECT_EQ(outcome.points, 70);
+    EXPECT_EQ(outcome.points_before, 100);
+    EXPECT_EQ(outcome.few_views, 10);
+    EXPECT_EQ(outcome.high_error, 15);
+    EXPECT_EQ(outcome.low_angle, 5);
+    EXPECT_EQ(outcome.open, 0.01);
+    EXPECT_EQ(outcome.boundary_edges, 12);
+    EXPECT_EQ(outcome.faces, 99);
+    EXPECT_FALSE(outcome_of({}).open);
+}
+
+} // namespace
+} // namespace vcarve::cli

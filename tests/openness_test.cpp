@@ -1,0 +1,172 @@
+#include "geometry/predicates.h"
+#include "model/camera.h"
+#include "model/pixel_grid.h"
+#include "steps/5_surface/openness.h"
+#include "support/made_cells.h"
+#include "support/scenes.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using testing::aim;
+using testing::LabelledScene;
+using testing::solid;
+
+/// Whether a ray meets one of the faces that are kept, or of all.
+bool meets(const LabelledScene& made, const FaceFlags& keep, bool only_kept, const Vector3d& eye,
+           const Vector3d& target)
+{
+    for (std::size_t i = 0; i < made.corners.size(); ++i) {
+        if (only_kept && keep[i] == 0) continue;
+        std::array<Vector3d, 3> triangle;
+        for (int k = 0; k < 3; ++k) {
+            triangle[k] = made.mesh.positions[made.corners[i][k]];
+        }
+        if (meets_triangle(eye, target, triangle)) return true;
+    }
+    return false;
+}
+
+struct Count {
+    std::int64_t rays = 0;
+    std::int64_t open = 0;
+};
+
+/// The same as measure_openness, by trying every face.
+Count tried(const LabelledScene& made, const FaceFlags& keep, std::size_t rays_a_view)
+{
+    Count openness;
+    for (const View& view : made.scene.views) {
+        const Camera& camera = made.scene.cameras[view.camera];
+        for (const Eigen::Vector2d& pixel : pixel_grid(camera, rays_a_view)) {
+            const Vector3d line = view.cam_from_world.conjugate() * *ray(camera, pixel);
+            const Vector3d target = view.center + 100.0 * line;
+            ++openness.rays;
+            const bool is_open = meets(made, keep, false, view.center, target) &&
+                                 !meets(made, keep, true, view.center, target);
+            openness.open += is_open ? 1 : 0;
+        }
+    }
+    return openness;
+}
+
+Count measured(const LabelledScene& made, const FaceFlags& keep)
+{
+    const Openness openness =
+        measure_openness(made.mesh, made.labels, made.facets, keep, made.scene);
+    return {openness.rays, static_cast<std::int64_t>(openness.open.size())};
+}
+
+LabelledScene solid_ball()
+{
+    Scene scene = bumpy_sphere(150, 3);
+    for (View& view : scene.views) {
+        aim(view, Vector3d::Zero());
+    }
+    return {scene, [](const TetMesh& mesh) { return solid(mesh); }};
+}
+
+TEST(Openness, IsNoneWhereAllIsKept)
+{
+    const LabelledScene made = solid_ball();
+    const Count openness = measured(made, FaceFlags(made.facets.size(), 1));
+    EXPECT_GT(openness.rays, 3000);
+    EXPECT_EQ(openness.open, 0);
+}
+
+TEST(Openness, IsWhatTryingEveryFaceFinds)
+{
+    const LabelledScene made = solid_ball();
+    // Two faces of three are away: through some gaps the back of others is seen.
+    FaceFlags keep(made.facets.size(), 0);
+    for (std::size_t i = 0; i < keep.size(); i += 3) {
+        keep[i] = 1;
+    }
+    const Count expected = tried(made, keep, 4096 / made.scene.views.size());
+    const Count openness = measured(made, keep);
+    EXPECT_EQ(openness.rays, expected.rays);
+    EXPECT_EQ(openness.open, expected.open);
+    EXPECT_GT(openness.open, 100);
+}
+
+TEST(Openness, LooksFromWithin)
+{
+    // Inside are the cells at the hull only, so that views amid the others look at their backs.
+    Scene scene = bumpy_sphere(400, 3);
+    for (View& view : scene.views) {
+        view.center *= 0.01;
+    }
+    const LabelledScene made(scene, [](const TetMesh& mesh) {
+        return testing::labels_where(mesh, [&](Index cell) {
+            return std::ranges::any_of(mesh.cells[cell].neighbors, [&](Index neighbor) {
+                return mesh.cells[neighbor].is_infinite();
+            });
+        });
+    });
+    FaceFlags keep(made.facets.size(), 1);
+    for (std::size_t i = 0; i < keep.size(); i += 2) {
+        keep[i] = 0;
+    }
+    const Count expected = tried(made, keep, 4096 / made.scene.views.size());
+    const Count openness = measured(made, keep);
+    EXPECT_EQ(openness.rays, expected.rays);
+    EXPECT_EQ(openness.open, expected.open);
+    EXPECT_GT(openness.open, 100);
+}
+
+TEST(Openness, AsksNoViewThatSawNothing)
+{
+    LabelledScene made = solid_ball();
+    std::vector<std::uint32_t> track;
+    made.scene.tracks = {};
+    for (std::size_t i = 0; i < made.scene.num_points(); ++i) {
+        made.scene.tracks.push_back(track);
+    }
+    EXPECT_EQ(measured(made, FaceFlags(made.facets.size(), 1)).rays, 0);
+}
+
+TEST(Openness, IsTheSameForAnyNumberOfThreads)
+{
+    const LabelledScene made = solid_ball();
+    const FaceFlags keep(made.facets.size(), 0);
+    const auto by = [&](int threads) {
+        return testing::with_threads(threads, [&] { return measured(made, keep); });
+    };
+    EXPECT_GT(by(1).open, 100);
+    EXPECT_EQ(by(1).open, by(4).open);
+    EXPECT_EQ(by(1).rays, by(4).rays);
+}
+
+TEST(Openness, EndsWhereAHoleIsFilled)
+{
+    const std::vector<ViewLine> lines = {{{0.2, 0.2, 2}, {0.2, 0.2, -2}},
+                                         {{0.2, 0.2, -2}, {0.2, 0.2, 2}},
+                                         {{0.9, 0.9, 2}, {0.9, 0.9, -2}},
+                                         {{0.2, 0.2, 2}, {0.2, 0.2, 1}}};
+    EXPECT_EQ(count_free(lines, {}), 4);
+    EXPECT_EQ(count_free(lines, {{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}}), 2);
+}
+
+TEST(PixelGrid, IsOfAboutSquareCells)
+{
+    Camera camera;
+    camera.width_px = 400;
+    camera.height_px = 200;
+    const std::vector<Eigen::Vector2d> pixels = pixel_grid(camera, 8);
+    const std::vector<Eigen::Vector2d> expected = {{50, 50},  {150, 50},  {250, 50},  {350, 50},
+                                                   {50, 150}, {150, 150}, {250, 150}, {350, 150}};
+    EXPECT_EQ(pixels, expected);
+    EXPECT_EQ(pixel_grid(camera, 1).size(), 1U);
+    camera.height_px = 0;
+    EXPECT_TRUE(pixel_grid(camera, 8).empty());
+}
+
+} // namespace
+} // namespace vcarve
