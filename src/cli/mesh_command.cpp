@@ -94,11 +94,11 @@ std::vector<OptionRow> mesh_options()
                     "of the mesh, as JSON. The peak that the system keeps of the process "
                     "begins anew with every stage then, so read it here."});
     list_preview_options(table);
-    table.path({.name = "report",
-                .help =
-                    "Write a page for browsers, OUT.html, that needs no network: the surface in 3D "
-                    "with cameras and points, what every stage took, what the filter dropped and "
-                    "why, and what to be wary of."});
+    table.path(
+        {.name = "report",
+         .help = "Write a page for browsers, OUT.html, that needs no network: the surface in 3D "
+                 "with cameras, points and the faces that were taken away, what every stage took, "
+                 "what the filter dropped and why, and what to be wary of."});
     table.stage("Help");
     table.flag(off, {.name = "help", .help = "Print this and exit."});
     table.flag(off,
@@ -201,7 +201,8 @@ void prepare_outputs(const std::vector<Output>& outputs)
 struct Surface {
     TriMesh mesh;
     std::optional<Provenance> provenance;
-    Scene scene; ///< the points it was made from; empty where no report tells of them
+    Scene scene;          ///< the points it was made from; empty where no report tells of them
+    RemovedFaces removed; ///< in the same case: what was taken away
 };
 
 Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted)
@@ -281,9 +282,10 @@ void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
 Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
 {
     try {
-        Reconstruction made =
-            reconstruct_thinned(std::move(input.scene), input.read, arguments.options, log);
         Surface surface;
+        Reconstruction made =
+            reconstruct_thinned(std::move(input.scene), input.read, arguments.options, log,
+                                arguments.with_report ? &surface.removed : nullptr);
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
@@ -348,7 +350,9 @@ Made make_surface(const MeshArguments& arguments, const RunLogs& logs, Json& rec
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
     if (!arguments.with_stats && !arguments.with_report) return made;
     record["mesh"] = check_json(check_mesh(surface.mesh));
-    if (arguments.with_report) made.report = make_report(surface.mesh, surface.scene, logs.told);
+    if (arguments.with_report) {
+        made.report = make_report(surface.mesh, surface.removed, surface.scene, logs.told);
+    }
     return made;
 }
 

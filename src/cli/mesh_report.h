@@ -2,6 +2,7 @@
 
 #include "base/log.h"
 #include "cli/run_record.h"
+#include "mesh/removed_faces.h"
 #include "page/run_figures.h"
 
 #include <filesystem>
@@ -14,8 +15,10 @@ struct ReportParts {
     Json scene; ///< what the page draws
 };
 
-/// Measures and packs a surface and the scene it was made from, as the stage "report".
-ReportParts make_report(const TriMesh& mesh, const Scene& scene, Log& log);
+/// Measures and packs a surface, what was taken away from it and the scene it was made from, as the
+/// stage "report".
+ReportParts make_report(const TriMesh& mesh, const RemovedFaces& removed, const Scene& scene,
+                        Log& log);
 
 /// What a record says of a report: figures, and warnings made of them and of the record's stages.
 Json report_json(const ReportParts& parts, const Json& record);

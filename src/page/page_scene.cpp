@@ -1,12 +1,16 @@
 #include "page/page_scene.h"
 
 #include "base/median.h"
+#include "geometry/triangle.h"
+#include "mesh/used_vertices.h"
 #include "model/camera.h"
+#include "model/scene_points.h"
 #include "page/display_mesh.h"
 #include "page/pack.h"
 #include "steps/3_visibility/face_evidence.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -122,6 +126,24 @@ Json attributes_json(const TriMesh& mesh, const Scene& scene)
             {"supports", pack_bytes(face_supports(mesh, scene))}};
 }
 
+/// The numbers of the largest faces, at most so many, ascending. Of equal ones the first.
+std::vector<std::size_t> largest_faces(const TriMesh& mesh, std::size_t count)
+{
+    std::vector<std::size_t> faces(mesh.faces.size());
+    std::iota(faces.begin(), faces.end(), std::size_t{0});
+    if (faces.size() <= count) return faces;
+    std::vector<double> areas(faces.size());
+    std::ranges::transform(mesh.faces, areas.begin(),
+                           [&](const Face& face) { return face_area(mesh.positions, face); });
+    const auto is_larger = [&](std::size_t a, std::size_t b) {
+        return areas[a] != areas[b] ? areas[a] > areas[b] : a < b;
+    };
+    std::ranges::nth_element(faces, faces.begin() + static_cast<std::ptrdiff_t>(count), is_larger);
+    faces.resize(count);
+    std::ranges::sort(faces);
+    return faces;
+}
+
 } // namespace
 
 Json positions_json(std::span<const Eigen::Vector3d> positions)
@@ -131,6 +153,29 @@ Json positions_json(std::span<const Eigen::Vector3d> positions)
             {"low", {packed.low.x(), packed.low.y(), packed.low.z()}},
             {"quantum", {packed.quantum.x(), packed.quantum.y(), packed.quantum.z()}},
             {"data", packed.data}};
+}
+
+Json packed_removed(const RemovedFaces& removed, const PageLimits& limits)
+{
+    std::vector<Face> faces;
+    std::vector<std::int32_t> reasons;
+    for (const std::size_t face : largest_faces(removed.mesh, limits.removed)) {
+        faces.push_back(removed.mesh.faces[face]);
+        reasons.push_back(static_cast<std::int32_t>(removed.reasons[face]));
+    }
+    const auto vertices = used_vertices(faces, removed.mesh.positions.size());
+    renumber(faces, vertices, removed.mesh.positions.size());
+    Json counts = Json::array();
+    for (std::size_t reason = 0; reason < kRemovalNames.size(); ++reason) {
+        const auto count = std::ranges::count(removed.reasons, static_cast<Removal>(reason));
+        if (count == 0) continue;
+        counts.push_back({{"reason", reason}, {"name", kRemovalNames[reason]}, {"of", count}});
+    }
+    return {{"of", removed.mesh.faces.size()},
+            {"reasons", counts},
+            {"positions", positions_json(values_at(vertices, removed.mesh.positions))},
+            {"faces", {{"count", faces.size()}, {"data", pack_faces(faces)}}},
+            {"why", pack_bytes(reasons)}};
 }
 
 Json packed_surface(const TriMesh& mesh, const Scene& scene, const PageLimits& limits,

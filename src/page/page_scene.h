@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "mesh/removed_faces.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
@@ -18,6 +19,7 @@ struct PageLimits {
     std::int64_t faces = 200'000; ///< of a surface; larger ones are simplified
     std::size_t points = 100'000; ///< evenly chosen of more
     std::size_t views = 2'000;    ///< evenly chosen of more
+    std::size_t removed = 40'000; ///< faces that were taken away: the largest of more
 };
 
 /// "count" and what pack_positions() makes of them: "low", "quantum" and "data".
@@ -33,5 +35,10 @@ nlohmann::ordered_json packed_surface(const TriMesh& mesh, const Scene& scene,
 /// images' downward axes) and the view to start from: the one that saw most points, with their
 /// median depth. "start" is null where there is no view.
 nlohmann::ordered_json packed_scene(const Scene& scene, const PageLimits& limits = {});
+
+/// The faces that were taken away, the largest where there are too many, in their order: positions,
+/// faces and per face the number of its reason; and of the reasons that occur, in that order, the
+/// name and how many faces in all it took away.
+nlohmann::ordered_json packed_removed(const RemovedFaces& removed, const PageLimits& limits = {});
 
 } // namespace vcarve

@@ -178,6 +178,20 @@ function fillRun() {
 
 // ---- the view
 
+/// What was taken away and why, as long as it is shown.
+function showRemoved(on) {
+  const place = byId("removed-legend");
+  place.replaceChildren();
+  place.hidden = !on;
+  if (!on) return;
+  place.append(element("div", {}, "Removed faces"));
+  for (const { reason, name, of } of sceneData.removed.reasons) {
+    const swatch = element("span", { class: "swatch" });
+    swatch.style.background = css(kRemoved[reason]);
+    place.append(element("div", { "data-removed": of }, swatch, name + ": " + whole(of)));
+  }
+}
+
 function shownText() {
   const surface = sceneData.surface, points = sceneData.points;
   const parts = [];
@@ -187,6 +201,10 @@ function shownText() {
   }
   if (points.positions.count < points.of) {
     parts.push("Of " + whole(points.of) + " points " + whole(points.positions.count) + " are shown.");
+  }
+  if (sceneData.removed.faces.count < sceneData.removed.of) {
+    parts.push("Of " + whole(sceneData.removed.of) + " removed faces the " + whole(sceneData.removed.faces.count) +
+      " largest are shown.");
   }
   if (sceneData.views.length < sceneData.views_of) {
     parts.push("Of " + whole(sceneData.views_of) + " cameras " + whole(sceneData.views.length) + " are shown.");
@@ -207,9 +225,14 @@ function driveView() {
   byId("canvas").setAttribute("aria-label", "The surface, with " + whole(sceneData.surface.faces.count) + " faces");
   for (const button of document.querySelectorAll("[data-layer]")) {
     const name = button.dataset.layer;
+    if (name === "removed" && sceneData.removed.of === 0) {
+      button.disabled = true;
+      button.title = "Nothing was removed";
+    }
     button.setAttribute("aria-pressed", String(view.shown[name]));
     button.addEventListener("click", () => {
       view.show(name, !view.shown[name]);
+      if (name === "removed") showRemoved(view.shown[name]);
       button.setAttribute("aria-pressed", String(view.shown[name]));
     });
   }

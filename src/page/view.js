@@ -50,6 +50,9 @@ function rampColour(share, ramp = kRamp) {
   return ramp[low].map((value, i) => Math.round(value + (place - low) * (ramp[low + 1][i] - value)));
 }
 
+/// By the number of the reason why a face was taken away.
+const kRemoved = [[222, 143, 5], [2, 115, 178], [148, 148, 148], [204, 120, 188]];
+
 const css = (colour) => "rgb(" + colour.join(" ") + ")";
 
 /// The value that a share of the numbers accepted lies below.
@@ -170,6 +173,24 @@ function frustumLines(views, size) {
   return new Float32Array(lines);
 }
 
+/// What was taken away, a mesh a reason. What nobody saw stands before all else, so it is faint.
+function removedFaces(removed) {
+  const why = bytesOf(removed.why), corners = threeByteNumbers(removed.faces.data), places = positionsOf(removed.positions);
+  const group = new THREE.Group();
+  for (const { reason, name } of removed.reasons) {
+    const own = [];
+    for (let i = 0; i < corners.length; ++i) {
+      if (why[Math.floor(i / 3)] === reason) own.push(places[3 * corners[i]], places[3 * corners[i] + 1], places[3 * corners[i] + 2]);
+    }
+    const made = new THREE.BufferGeometry();
+    made.setAttribute("position", new THREE.BufferAttribute(new Float32Array(own), 3));
+    group.add(new THREE.Mesh(made, new THREE.MeshBasicMaterial({
+      color: new THREE.Color(css(kRemoved[reason]).replace(/ /g, ",")), side: THREE.DoubleSide, transparent: true,
+      opacity: name === "unseen" ? 0.15 : 0.7, depthWrite: false })));
+  }
+  return group;
+}
+
 /// A canvas with a surface, points and views in it. `changed` is called whenever the view was moved,
 /// with what to give to follow() of another view.
 function makeView(canvas, frame, surfaceData, sceneData, changed) {
@@ -221,6 +242,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
       made.setIndex(new THREE.BufferAttribute(edges, 1));
       return new THREE.LineSegments(made, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 }));
     }
+    if (name === "removed") return removedFaces(sceneData.removed);
     if (name === "points") {
       made.setAttribute("position", new THREE.BufferAttribute(positionsOf(sceneData.points.positions), 3));
       made.setAttribute("color", new THREE.BufferAttribute(bytesOf(sceneData.points.colors), 3, true));
@@ -231,7 +253,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     return new THREE.LineSegments(made, new THREE.LineBasicMaterial());
   }
 
-  const shown = { surface: true, wireframe: false, points: false, cameras: false, backs: true };
+  const shown = { surface: true, wireframe: false, points: false, cameras: false, backs: true, removed: false };
   let mode = "rgb";
   const state = { position: new THREE.Vector3(), target: new THREE.Vector3(), up: up.clone(), fov: 45, view: null };
   let pending = false;

@@ -111,8 +111,9 @@ TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
     return surface;
 }
 
-/// All steps but thinning.
-Reconstruction run_steps(Scene scene, const RunSize& size, const Options& options, Log& log)
+/// All steps but thinning. Faces that are taken away go to `removed`, where it is not null.
+Reconstruction run_steps(Scene scene, const RunSize& size, const Options& options, Log& log,
+                         RemovedFaces* removed = nullptr)
 {
     scene = center_points(std::move(scene));
     return_freed_memory();
@@ -125,7 +126,7 @@ Reconstruction run_steps(Scene scene, const RunSize& size, const Options& option
     const TetMesh cells = triangulate(scene, log);
     Labelling labelling = label_cells(cells, scene, options.labels, log);
     const std::unique_ptr<HalfEdgeMesh> mesh =
-        make_surface(std::move(labelling), scene, region.get(), options.surface, log);
+        make_surface(std::move(labelling), scene, {region.get(), removed}, options.surface, log);
     refine(*mesh, scene, options.refine, log);
     TriMesh surface = orient(*mesh, scene, log);
     return {std::move(scene), std::move(surface)};
@@ -161,12 +162,12 @@ Gather thin_while_reading(const ThinOptions& options)
 }
 
 Reconstruction reconstruct_thinned(Scene thinned, const SceneSize& read, const Options& options,
-                                   Log& log)
+                                   Log& log, RemovedFaces* removed)
 {
     return with_threads(options, [&] {
         RunSize size = size_before_thinning(read, options.thin);
         size.thinned = size_of(thinned);
-        return run_steps(std::move(thinned), size, options, log);
+        return run_steps(std::move(thinned), size, options, log, removed);
     });
 }
 

@@ -5,6 +5,7 @@
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/5_surface/extract.h"
 #include "steps/5_surface/openness.h"
+#include "steps/5_surface/removals.h"
 #include "vcarve/error.h"
 
 #include <array>
@@ -39,10 +40,12 @@ struct Extracted {
     TriMesh surface; ///< what is kept
 };
 
-Extracted extract(Labelling& labelling, const Scene& scene, const Region* region,
+Extracted extract(Labelling& labelling, const Scene& scene, const SurfaceWishes& wishes,
                   const SurfaceOptions& options, Log& log)
 {
     Stage stage(log, "surface");
+    const Region* const region = wishes.region;
+    Removals removals(wishes.removed);
     Extracted extracted;
     const std::vector<CellFacet>& facets = extracted.facets = labelling.facets();
     labelling.forget_boundary(); // the surface is numbered and measured anew
@@ -56,12 +59,17 @@ Extracted extract(Labelling& labelling, const Scene& scene, const Region* region
         const FaceVisibility visibility(labelling.cells(), labelling.labels(), scene);
         stage.progress(0.4);
         keep = supported_faces(surface, facets, visibility, scene, options.support);
+        removals.note(keep, Removal::unseen);
         stage.progress(0.7);
         if (region != nullptr) cropped = leave_region(surface, *region, keep);
+        removals.note(keep, Removal::outside_region);
         sheets = peel_sheets(surface, facets, visibility, options.sheets, keep);
+        removals.note(keep, Removal::sheet);
     } else if (region != nullptr) {
         cropped = leave_region(surface, *region, keep);
+        removals.note(keep, Removal::outside_region);
     }
+    removals.add_noted(surface);
     surface = with_faces(std::move(surface), keep);
     const std::int64_t dropped = size_of(facets.size() - surface.faces.size());
     Counts counts = {{"faces", size_of(surface.faces.size())},
@@ -111,13 +119,14 @@ void tell_openness(const Labelling& labelling, const Extracted& extracted,
 } // namespace
 
 std::unique_ptr<HalfEdgeMesh> make_surface(Labelling labelling, const Scene& scene,
-                                           const Region* region, const SurfaceOptions& options,
-                                           Log& log)
+                                           const SurfaceWishes& wishes,
+                                           const SurfaceOptions& options, Log& log)
 {
-    Extracted extracted = extract(labelling, scene, region, options, log);
+    Extracted extracted = extract(labelling, scene, wishes, options, log);
     CleanSurface cleaned = clean(std::move(extracted.surface), options, log);
+    Removals(wishes.removed).add_deleted(*cleaned.mesh, cleaned.first_filled);
     // What a region leaves out is not open.
-    if (!options.closed && region == nullptr) {
+    if (!options.closed && wishes.region == nullptr) {
         tell_openness(labelling, extracted, cleaned, scene, log);
     }
     return std::move(cleaned.mesh);
