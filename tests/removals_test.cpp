@@ -141,7 +141,8 @@ TEST(PackedRemoved, HoldsTheLargestFacesAndCountsAll)
     EXPECT_EQ(json["positions"]["count"], 6);
     EXPECT_EQ(json["why"], "AwA="); // 3 and 0
     const auto expected = nlohmann::ordered_json::parse(
-        R"([{"reason": 0, "name": "unseen", "of": 2}, {"reason": 3, "name": "small pieces", "of": 2}])");
+        R"([{"reason": 0, "name": "unseen", "of": 2},
+            {"reason": 3, "name": "small pieces", "of": 2}])");
     EXPECT_EQ(json["reasons"], expected);
     EXPECT_EQ(packed_removed(removed)["faces"]["count"], 4);
     EXPECT_EQ(packed_removed({})["of"], 0);
