@@ -42,8 +42,7 @@ std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& optio
                                : "--closed closes that");
     }
     if (outcome.boundary_edges == 0) return "closed";
-    const std::string edges =
-        fmt::format("open along {} edges", grouped_digits(outcome.boundary_edges));
+    std::string edges = fmt::format("open along {} edges", grouped_digits(outcome.boundary_edges));
     if (!outcome.open) return edges;
     return fmt::format("{}, {} of what the views look at", edges,
                        *outcome.open > 0.0 ? "in less than 1 %" : "but in nothing");

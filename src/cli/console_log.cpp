@@ -229,10 +229,10 @@ void ConsoleLog::note(std::string_view sentence)
     print_line(fmt::format("{} {}", emphasised("note:"), sentence));
 }
 
-void ConsoleLog::expect(PredictedTimes times)
+void ConsoleLog::expect(const PredictedTimes& times)
 {
     const std::lock_guard lock(mutex_);
-    clock_.expect(std::move(times));
+    clock_.expect(times);
 }
 
 void ConsoleLog::conclude(std::string_view sentence)

@@ -40,7 +40,7 @@ class ConsoleLog final : public RunLog {
     void stage_progresses(double share) override;
     void stage_ends(std::string_view name, const Counts& counts) override;
     void note(std::string_view sentence) override;
-    void expect(PredictedTimes times) override;
+    void expect(const PredictedTimes& times) override;
     void conclude(std::string_view sentence) override;
 
   private:

@@ -14,7 +14,7 @@ namespace vcarve::cli {
 class RunLog : public Log {
   public:
     /// How long the run is expected to take. It may be told again, when more is known.
-    virtual void expect(PredictedTimes /*times*/) {}
+    virtual void expect(const PredictedTimes& /*times*/) {}
     /// The run is over, and this is what to remember of it.
     virtual void conclude(std::string_view /*sentence*/) {}
 };

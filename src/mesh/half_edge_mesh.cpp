@@ -163,7 +163,7 @@ std::int64_t num_boundary_edges(const HalfEdgeMesh& mesh)
         std::int64_t of_face = 0;
         if (mesh.is_deleted(face)) return of_face;
         for (const auto half_edge : mesh.fh_range(face)) {
-            of_face += mesh.is_boundary(mesh.opposite_halfedge_handle(half_edge)) ? 1 : 0;
+            of_face += half_edge.opp().is_boundary() ? 1 : 0;
         }
         return of_face;
     });
