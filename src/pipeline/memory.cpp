@@ -145,12 +145,11 @@ double extracting(const Sizes& n)
 }
 
 /// The surface with its edges and seams; then with its seams the half-edges and what these are laid
-/// by (146 bytes a face in all); beside them the facets of the boundary, and which of them are
-/// kept.
+/// by (146 bytes a face in all). The cells are gone by then.
 double cleaning(const Sizes& n)
 {
-    constexpr double kFace = 150 + 9;
-    return n.after_triangulation() + n.cells + n.faces * kFace;
+    constexpr double kFace = 150;
+    return n.scene() + n.faces * kFace;
 }
 
 Sizes sizes(const SceneSize& size, int threads)

@@ -99,6 +99,14 @@ TetMesh triangulate(const Scene& scene, Log& log)
     return cells;
 }
 
+/// From the points to the faces that views see; the cells are gone when it ends.
+SeenSurface carve(const Scene& scene, const SurfaceWishes& wishes, const Options& options, Log& log)
+{
+    const TetMesh cells = triangulate(scene, log);
+    return seen_surface(label_cells(cells, scene, options.labels, log), scene, wishes,
+                        options.surface, log);
+}
+
 /// Checks which way the surface faces, and hands it over.
 TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 {
@@ -123,10 +131,10 @@ Reconstruction run_steps(Scene scene, const RunSize& size, const Options& option
     scene = crop(std::move(scene), region.get(), log);
     denoise(scene, options.denoise, log);
     return_freed_memory();
-    const TetMesh cells = triangulate(scene, log);
-    Labelling labelling = label_cells(cells, scene, options.labels, log);
+    SeenSurface seen = carve(scene, {region.get(), removed}, options, log);
+    return_freed_memory();
     const std::unique_ptr<HalfEdgeMesh> mesh =
-        make_surface(std::move(labelling), scene, {region.get(), removed}, options.surface, log);
+        mended_surface(std::move(seen), removed, options.surface, log);
     refine(*mesh, scene, options.refine, log);
     TriMesh surface = orient(*mesh, scene, log);
     return {std::move(scene), std::move(surface)};

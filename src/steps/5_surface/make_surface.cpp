@@ -4,7 +4,6 @@
 #include "mesh/half_edge_mesh.h"
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/5_surface/extract.h"
-#include "steps/5_surface/openness.h"
 #include "steps/5_surface/removals.h"
 #include "vcarve/error.h"
 
@@ -33,26 +32,19 @@ std::int64_t leave_region(const TriMesh& surface, const Region& region, FaceFlag
     return left;
 }
 
-/// The boundary of a labelling, and which of it is kept.
-struct Extracted {
-    std::vector<CellFacet> facets;
-    FaceFlags keep;
-    TriMesh surface; ///< what is kept
-};
+} // namespace
 
-Extracted extract(Labelling& labelling, const Scene& scene, const SurfaceWishes& wishes,
-                  const SurfaceOptions& options, Log& log)
+SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceWishes& wishes,
+                         const SurfaceOptions& options, Log& log)
 {
     Stage stage(log, "surface");
     const Region* const region = wishes.region;
     Removals removals(wishes.removed);
-    Extracted extracted;
-    const std::vector<CellFacet>& facets = extracted.facets = labelling.facets();
+    const std::vector<CellFacet> facets = labelling.facets();
     labelling.forget_boundary(); // the surface is numbered and measured anew
     TriMesh surface = extract_surface(labelling.cells(), facets, scene);
     stage.progress(0.2);
-    FaceFlags& keep = extracted.keep;
-    keep.assign(facets.size(), 1);
+    FaceFlags keep(facets.size(), 1);
     std::int64_t sheets = 0;
     std::int64_t cropped = 0;
     if (!options.closed) {
@@ -71,6 +63,12 @@ Extracted extract(Labelling& labelling, const Scene& scene, const SurfaceWishes&
     }
     removals.add_noted(surface);
     surface = with_faces(std::move(surface), keep);
+    SeenSurface seen;
+    // What a region leaves out is not open.
+    if (!options.closed && region == nullptr) {
+        seen.openness =
+            measure_openness(labelling.cells(), labelling.labels(), facets, keep, scene);
+    }
     const std::int64_t dropped = size_of(facets.size() - surface.faces.size());
     Counts counts = {{"faces", size_of(surface.faces.size())},
                      {"unseen", dropped - sheets - cropped},
@@ -84,9 +82,11 @@ Extracted extract(Labelling& labelling, const Scene& scene, const SurfaceWishes&
         throw InputError("the sights leave no surface: no part of the space behind the points is "
                          "seen well enough");
     }
-    extracted.surface = std::move(surface);
-    return extracted;
+    seen.faces = std::move(surface);
+    return seen;
 }
+
+namespace {
 
 CleanSurface clean(TriMesh surface, const SurfaceOptions& options, Log& log)
 {
@@ -103,12 +103,9 @@ CleanSurface clean(TriMesh surface, const SurfaceOptions& options, Log& log)
 }
 
 /// How much of what the views look at is open, holes that were filled left out.
-void tell_openness(const Labelling& labelling, const Extracted& extracted,
-                   const CleanSurface& cleaned, const Scene& scene, Log& log)
+void tell_openness(const Openness& openness, const CleanSurface& cleaned, Log& log)
 {
     Stage stage(log, "open");
-    const Openness openness = measure_openness(labelling.cells(), labelling.labels(),
-                                               extracted.facets, extracted.keep, scene);
     std::vector<std::array<Eigen::Vector3d, 3>> filled;
     for (std::size_t i = cleaned.first_filled; i < cleaned.mesh->n_faces(); ++i) {
         filled.push_back(cleaned.mesh->triangle(handle_at<OpenMesh::FaceHandle>(i)));
@@ -118,17 +115,12 @@ void tell_openness(const Labelling& labelling, const Extracted& extracted,
 
 } // namespace
 
-std::unique_ptr<HalfEdgeMesh> make_surface(Labelling labelling, const Scene& scene,
-                                           const SurfaceWishes& wishes,
-                                           const SurfaceOptions& options, Log& log)
+std::unique_ptr<HalfEdgeMesh> mended_surface(SeenSurface seen, RemovedFaces* removed,
+                                             const SurfaceOptions& options, Log& log)
 {
-    Extracted extracted = extract(labelling, scene, wishes, options, log);
-    CleanSurface cleaned = clean(std::move(extracted.surface), options, log);
-    Removals(wishes.removed).add_deleted(*cleaned.mesh, cleaned.first_filled);
-    // What a region leaves out is not open.
-    if (!options.closed && wishes.region == nullptr) {
-        tell_openness(labelling, extracted, cleaned, scene, log);
-    }
+    CleanSurface cleaned = clean(std::move(seen.faces), options, log);
+    Removals(removed).add_deleted(*cleaned.mesh, cleaned.first_filled);
+    if (seen.openness) tell_openness(*seen.openness, cleaned, log);
     return std::move(cleaned.mesh);
 }
 

@@ -5,6 +5,7 @@
 #include "steps/1_points/region.h"
 #include "steps/4_labels/labelling.h"
 #include "steps/5_surface/cleanup.h"
+#include "steps/5_surface/openness.h"
 #include "steps/5_surface/sheets.h"
 #include "steps/5_surface/support.h"
 #include "vcarve/options.h"
@@ -12,6 +13,7 @@
 #include "vcarve/tri_mesh.h"
 
 #include <memory>
+#include <optional>
 
 namespace vcarve {
 
@@ -21,12 +23,22 @@ struct SurfaceWishes {
     RemovedFaces* removed = nullptr; ///< gets the faces that are taken away; null where nobody asks
 };
 
-/// The surface of a labelling: the boundary of the inside (extract.h), of which only the faces are
-/// kept that views support (support.h, sheets.h) unless it is to be closed, and of these, where
-/// there is a region, those whose corners all lie within it; mended into a manifold (cleanup.h), as
-/// the one mesh that is worked on from then on. Throws InputError where no face is left.
-std::unique_ptr<HalfEdgeMesh> make_surface(Labelling labelling, const Scene& scene,
-                                           const SurfaceWishes& wishes,
-                                           const SurfaceOptions& options, Log& log);
+/// The faces that were chosen for a surface, before they are mended.
+struct SeenSurface {
+    TriMesh faces; ///< with TriMesh::points
+    /// What they leave open; not known where all faces are kept, or a region leaves some out.
+    std::optional<Openness> openness;
+};
+
+/// Of the boundary of a labelling (extract.h) the faces that views support (support.h, sheets.h),
+/// or all where the surface is to be closed, and of these, where there is a region, those whose
+/// corners all lie within it. Throws InputError where no face is left.
+SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceWishes& wishes,
+                         const SurfaceOptions& options, Log& log);
+
+/// Such faces mended into a manifold (cleanup.h), as the one mesh that is worked on from then on.
+/// Small pieces that are dropped go to `removed`, where it is not null.
+std::unique_ptr<HalfEdgeMesh> mended_surface(SeenSurface seen, RemovedFaces* removed,
+                                             const SurfaceOptions& options, Log& log);
 
 } // namespace vcarve
