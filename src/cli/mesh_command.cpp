@@ -5,6 +5,7 @@
 #include "cli/closing_line.h"
 #include "cli/expected_run.h"
 #include "cli/interruption.h"
+#include "cli/mesh_arguments.h"
 #include "cli/mesh_report.h"
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
@@ -13,7 +14,6 @@
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
 #include "mesh/long_faces.h"
-#include "page/page.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "steps/1_points/region.h"
@@ -34,154 +34,6 @@ namespace vcarve::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum class OffsetWord { none, automatic };
-constexpr const char* kOffsetWords[] = {"none", "auto"};
-
-/// What the program writes, whatever it computes.
-struct OutputOptions {
-    bool ascii = false;
-    bool attributes = false;
-    bool quiet = false;
-    WordOrVector offset; ///< one of kOffsetWords
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Output");
-        options.flag(
-            ascii, {.name = "ascii", .help = "Write numbers as text instead of binary; PLY only."});
-        options.flag(attributes,
-                     {.name = "attributes",
-                      .help = "Write what vertices and faces come from: point3d_id, num_views and "
-                              "error_px of each vertex, support of each face; PLY only."});
-        options.word_or_vector(
-            offset, kOffsetWords,
-            {.name = "offset",
-             .help = "What is subtracted from the coordinates that are written, and said in the "
-                     "file: none; x,y,z; or auto, round numbers for a model that lies far from the "
-                     "origin, so that programs that compute with floats lose nothing.",
-             .min = -kUnlimited});
-        options.flag(quiet, {.name = "quiet", .help = "Print nothing but errors."});
-    }
-};
-
-/// Everything the command line says.
-struct MeshArguments {
-    ModelArguments model;
-    fs::path out;
-    PreviewArguments preview;
-    bool with_stats = false;
-    fs::path stats;
-    bool with_report = false;
-    fs::path report;
-    std::string command; ///< as it was typed
-    OutputOptions output;
-    Options options;
-};
-
-std::vector<OptionRow> mesh_options()
-{
-    Options options;
-    OutputOptions output;
-    bool off = false;
-    OptionTable table;
-    list_points_options(table);
-    options.visit(table);
-    output.visit(table);
-    table.path({.name = "stats",
-                .help =
-                    "Write options, counts, seconds and peak memory of every stage, and a check "
-                    "of the mesh, as JSON. The peak that the system keeps of the process "
-                    "begins anew with every stage then, so read it here."});
-    list_preview_options(table);
-    table.path(
-        {.name = "report",
-         .help = "Write a page for browsers, OUT.html, that needs no network: the surface in 3D "
-                 "with cameras, points and the faces that were taken away, what every stage took, "
-                 "what the filter dropped and why, and what to be wary of."});
-    table.stage("Help");
-    table.flag(off, {.name = "help", .help = "Print this and exit."});
-    table.flag(off,
-               {.name = "version", .help = "Print versions of the program and its libraries."});
-    return table.rows();
-}
-
-void check_operands(const std::vector<std::string>& operands)
-{
-    if (operands.size() != 2) {
-        std::string got = operands.empty() ? "nothing" : operands[0];
-        for (std::size_t i = 1; i < operands.size(); ++i) {
-            got += " " + operands[i];
-        }
-        throw UsageError(fmt::format("expected a model and an output, MODEL OUT.ply, but got {}{}",
-                                     got, kSeeHelp));
-    }
-    const fs::path model = operands[0];
-    const fs::path out = operands[1];
-    if (is_mesh_name(model) && !is_mesh_name(out)) {
-        throw UsageError(fmt::format("the model comes first and the output second: colmap-vcarve "
-                                     "{} {}",
-                                     out.string(), model.string()));
-    }
-}
-
-void check_output(const fs::path& out, const OutputOptions& options)
-{
-    // What is a folder is refused as such later.
-    if (!out.has_filename() || fs::is_directory(out)) return;
-    require_mesh_name(out);
-    if (options.ascii) require_ply(out, "--ascii");
-    if (options.attributes) require_ply(out, "--attributes");
-}
-
-/// A file that is written, and what it is called in messages.
-struct Output {
-    const char* name;
-    fs::path path;
-};
-
-std::vector<Output> outputs_of(const MeshArguments& arguments)
-{
-    std::vector<Output> outputs = {{"the surface", arguments.out}};
-    if (!arguments.preview.out.empty()) outputs.push_back({"--preview", arguments.preview.out});
-    if (arguments.with_stats) outputs.push_back({"--stats", arguments.stats});
-    if (arguments.with_report) outputs.push_back({"--report", arguments.report});
-    return outputs;
-}
-
-void require_distinct(const std::vector<Output>& outputs)
-{
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            if (outputs[i].path != outputs[k].path) continue;
-            throw UsageError(fmt::format("{} and {} cannot both be written to {}", outputs[i].name,
-                                         outputs[k].name, outputs[i].path.string()));
-        }
-    }
-}
-
-MeshArguments read_arguments(const ParsedArguments& given)
-{
-    MeshArguments arguments;
-    OptionReader reader(given);
-    arguments.options.visit(reader);
-    arguments.output.visit(reader);
-    check_operands(given.operands);
-    arguments.model = {given.operands[0], read_points_options(given)};
-    arguments.out = given.operands[1];
-    check_output(arguments.out, arguments.output);
-    arguments.preview = read_preview_options(given);
-    arguments.with_stats = given.has("stats");
-    if (arguments.with_stats) arguments.stats = given.options.at("stats");
-    arguments.with_report = given.has("report");
-    if (arguments.with_report) {
-        arguments.report = given.options.at("report");
-        require_page_name(arguments.report);
-    }
-    arguments.command = command_text("colmap-vcarve", given.typed);
-    require_distinct(outputs_of(arguments));
-    return arguments;
-}
 
 /// What cannot be written is said before the work starts, and nothing half written stays behind.
 void prepare_outputs(const std::vector<Output>& outputs)
@@ -422,7 +274,7 @@ Manual mesh_manual()
 
 void run_mesh(const ParsedArguments& given)
 {
-    const MeshArguments arguments = read_arguments(given);
+    const MeshArguments arguments = read_mesh_arguments(given);
     prepare_outputs(outputs_of(arguments));
     // What is wrong with the file of a region is said before the work starts.
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
