@@ -53,6 +53,7 @@ TEST(ChooseEye, IsTheFirstOfTheViewsThatSeeMost)
     EXPECT_EQ(eye.center, Vector3d(99, 200, 300));
     EXPECT_FALSE(eye.through_backs);
     Scene scene = scene_ahead();
+    scene.positions.emplace_back(0, 0, 10);
     scene.tracks.push_back(std::vector<std::uint32_t>{2});
     EXPECT_EQ(choose_eye(scene, "auto").name, "c.jpg");
 }

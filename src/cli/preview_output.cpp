@@ -24,10 +24,10 @@ void list_preview_options(OptionTable& table)
     table.word_or_name(
         kViewWords,
         {.name = "view",
-         .help = "From where --preview looks. auto: through the camera of the image that sees most "
-                 "points. top, orbit: from outside what was looked at, above or obliquely, through "
-                 "the backs of walls; up is the mean of the cameras'. Else the image of that "
-                 "name."});
+         .help =
+             "From where --preview looks. auto: through the camera of the image that sees most of "
+             "what was looked at. top, orbit: from outside, above or obliquely, through the "
+             "backs of walls; up is the mean of the cameras'. Else the image of that name."});
 }
 
 PreviewArguments read_preview_options(const ParsedArguments& given)

@@ -7,6 +7,7 @@
 #include "model/scene_points.h"
 #include "page/display_mesh.h"
 #include "page/pack.h"
+#include "steps/1_points/seen_places.h"
 #include "steps/3_visibility/face_evidence.h"
 
 #include <algorithm>
@@ -93,7 +94,8 @@ Eigen::Vector3d up_of(const Scene& scene)
     return up.norm() > 0.0 ? Eigen::Vector3d(up.normalized()) : Eigen::Vector3d::UnitZ();
 }
 
-/// Which of the views that are shown saw most points, and how deep before it they lie.
+/// Which of the views that are shown saw most of what was looked at, and how deep before it the
+/// points that it saw lie.
 Json start_json(const Scene& scene, const std::vector<std::size_t>& shown)
 {
     std::vector<std::vector<double>> depths(scene.views.size());
@@ -104,8 +106,9 @@ Json start_json(const Scene& scene, const std::vector<std::size_t>& shown)
                 (from.cam_from_world * (scene.positions[point] - from.center)).z());
         }
     }
+    const std::vector<std::size_t> places = seen_places(scene);
     const auto best =
-        std::ranges::max_element(shown, {}, [&](std::size_t view) { return depths[view].size(); });
+        std::ranges::max_element(shown, {}, [&](std::size_t view) { return places[view]; });
     if (best == shown.end() || depths[*best].empty()) return nullptr;
     return {{"view", best - shown.begin()}, {"depth", median(depths[*best])}};
 }

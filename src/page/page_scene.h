@@ -32,8 +32,8 @@ nlohmann::ordered_json packed_surface(const TriMesh& mesh, const Scene& scene,
                                       const PageLimits& limits = {}, const Progress& progress = {});
 
 /// The points of a scene, its views as frusta, the direction that is up (against the mean of the
-/// images' downward axes) and the view to start from: the one that saw most points, with their
-/// median depth. "start" is null where there is no view.
+/// images' downward axes) and the view to start from: the one that saw most of what was looked at
+/// (seen_places), with the median depth of its points. "start" is null where there is no view.
 nlohmann::ordered_json packed_scene(const Scene& scene, const PageLimits& limits = {});
 
 /// The faces that were taken away, the largest where there are too many, in their order: positions,

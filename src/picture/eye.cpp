@@ -2,6 +2,7 @@
 
 #include "model/camera.h"
 #include "steps/1_points/looked_at_ball.h"
+#include "steps/1_points/seen_places.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -118,22 +119,19 @@ Eye outside(const Scene& scene, const std::string& word)
     return eye;
 }
 
-/// The view with a known lens that sees most points, or null.
-const View* busiest_view(const Scene& scene)
+/// The view with a known lens that sees most of what was looked at, or null.
+const View* widest_view(const Scene& scene)
 {
-    std::vector<std::size_t> counts(scene.views.size(), 0);
-    for (const std::uint32_t view : scene.tracks.views) {
-        ++counts[view];
-    }
-    const View* busiest = nullptr;
+    const std::vector<std::size_t> places = seen_places(scene);
+    const View* widest = nullptr;
     for (const View& view : scene.views) {
         const auto index = static_cast<std::size_t>(&view - scene.views.data());
         const bool sees_more =
-            busiest == nullptr ||
-            counts[index] > counts[static_cast<std::size_t>(busiest - scene.views.data())];
-        if (sees_more && has_lens(scene.cameras[view.camera])) busiest = &view;
+            widest == nullptr ||
+            places[index] > places[static_cast<std::size_t>(widest - scene.views.data())];
+        if (sees_more && has_lens(scene.cameras[view.camera])) widest = &view;
     }
-    return busiest;
+    return widest;
 }
 
 /// What a model's images are called, so that one can be chosen.
@@ -154,8 +152,8 @@ Eye choose_eye(const Scene& scene, const std::string& word)
 {
     if (word == "top" || word == "orbit") return outside(scene, word);
     if (word == "auto") {
-        const View* busiest = busiest_view(scene);
-        return busiest == nullptr ? outside(scene, "orbit") : eye_of(scene, *busiest);
+        const View* widest = widest_view(scene);
+        return widest == nullptr ? outside(scene, "orbit") : eye_of(scene, *widest);
     }
     const auto found = std::ranges::find(scene.views, word, &View::name);
     if (found == scene.views.end()) {

@@ -22,8 +22,9 @@ struct Eye {
 
 /// The place that a word means.
 ///
-/// - "auto": the view that sees most points, of equal ones the first by COLMAP's id; "orbit" where
-///   no view's camera has a known lens, as in a laser scan.
+/// - "auto": the view that sees most of what was looked at (seen_places), of equal ones the first
+/// by
+///   COLMAP's id; "orbit" where no view's camera has a known lens, as in a laser scan.
 /// - "top" and "orbit": outside the ball of what was looked at (looked_at_ball), which fills most
 /// of
 ///   the picture: from straight above, or 35 degrees above the side where most cameras are. What is
