@@ -174,7 +174,7 @@ TEST_F(CompareReportOfBall, IsRefusedUnderAnotherName)
 TEST_F(CompareReportOfBall, IsRefusedWhereAnotherOutputOrAnInputIs)
 {
     EXPECT_EQ(sentence_of(2, {mesh, "--report", page, "--json", page}),
-              "colmap-vcarve: --json and --report cannot both be written to " + page + "\n");
+              "colmap-vcarve: --report and --json cannot both be written to " + page + "\n");
     std::filesystem::copy(mesh, page);
     EXPECT_EQ(sentence_of(2, {page, coarse, "--report", page}),
               "colmap-vcarve: --report would replace the mesh " + page + "\n");

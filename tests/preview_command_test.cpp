@@ -159,7 +159,7 @@ TEST_F(PreviewOfBall, RefusesAPlaceThatAnotherOutputTakes)
     EXPECT_EQ(sentence_of(2, {ball, out, "--preview", png, "--stats", png}),
               "colmap-vcarve: --stats and --preview cannot both be written to " + png + "\n");
     EXPECT_THAT(sentence_of(2, {"compare", ball, out, "--preview", png, "--json", png}),
-                HasSubstr("--json and --preview cannot both be written to " + png + "\n"));
+                HasSubstr("--preview and --json cannot both be written to " + png + "\n"));
     EXPECT_THAT(sentence_of(2, {"compare", ball, png, "--preview", png}),
                 HasSubstr("--preview would replace the mesh " + png + "\n"));
 }

@@ -1,5 +1,6 @@
 #include "cli/compare_outputs.h"
 
+#include "cli/outputs.h"
 #include "io/files/output_file.h"
 #include "page/page.h"
 #include "vcarve/error.h"
@@ -14,29 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Output {
-    const char* option;
-    fs::path path;
-};
-
 std::vector<Output> written(const CompareOutputs& outputs)
 {
     std::vector<Output> all = {
         {"--json", outputs.json}, {"--preview", outputs.preview.out}, {"--report", outputs.report}};
     std::erase_if(all, [](const Output& output) { return output.path.empty(); });
     return all;
-}
-
-void require_distinct(const std::vector<Output>& outputs)
-{
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            if (outputs[i].path != outputs[k].path) continue;
-            throw UsageError(fmt::format("{} and {} cannot both be written to {}",
-                                         outputs[k].option, outputs[i].option,
-                                         outputs[i].path.string()));
-        }
-    }
 }
 
 } // namespace
@@ -79,7 +63,7 @@ void check_outputs(const CompareOutputs& outputs, std::span<const fs::path> inpu
     for (const Output& output : written(outputs)) {
         if (std::ranges::count(inputs, output.path) == 0) continue;
         throw UsageError(
-            fmt::format("{} would replace the mesh {}", output.option, output.path.string()));
+            fmt::format("{} would replace the mesh {}", output.name, output.path.string()));
     }
     for (const Output& output : written(outputs)) {
         require_writable(output.path);

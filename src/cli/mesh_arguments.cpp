@@ -41,17 +41,6 @@ void check_output(const fs::path& out, const OutputOptions& options)
     if (options.attributes) require_ply(out, "--attributes");
 }
 
-void require_distinct(const std::vector<Output>& outputs)
-{
-    for (std::size_t i = 0; i < outputs.size(); ++i) {
-        for (std::size_t k = 0; k < i; ++k) {
-            if (outputs[i].path != outputs[k].path) continue;
-            throw UsageError(fmt::format("{} and {} cannot both be written to {}", outputs[i].name,
-                                         outputs[k].name, outputs[i].path.string()));
-        }
-    }
-}
-
 } // namespace
 
 std::vector<OptionRow> mesh_options()

@@ -3,6 +3,7 @@
 #include "cli/model_input.h"
 #include "cli/option_parser.h"
 #include "cli/option_table.h"
+#include "cli/outputs.h"
 #include "cli/preview_output.h"
 #include "vcarve/options.h"
 
@@ -62,12 +63,6 @@ std::vector<OptionRow> mesh_options();
 /// Throws UsageError where operands are missing or too many, the output has a name of no format, or
 /// two outputs would be one file.
 MeshArguments read_mesh_arguments(const ParsedArguments& given);
-
-/// A file that is written, and what it is called in messages.
-struct Output {
-    const char* name;
-    std::filesystem::path path;
-};
 
 /// All that a run is to write.
 std::vector<Output> outputs_of(const MeshArguments& arguments);

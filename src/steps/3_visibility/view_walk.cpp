@@ -59,7 +59,8 @@ ViewWalk::First ViewWalk::way_into_hull(const SightFrame& frame) const
 {
     constexpr int kHullSlot = 3;
     Index cell = cell_;
-    while (true) {
+    // No facet comes twice, so the number of cells is never reached.
+    for (std::size_t steps = 0; steps < mesh_.cells.size(); ++steps) {
         const std::array<int, 3> sides = turns(frame, {cell, kHullSlot});
         const auto across = std::ranges::find(sides, -1) - sides.begin();
         if (across == 3) {
@@ -69,6 +70,7 @@ ViewWalk::First ViewWalk::way_into_hull(const SightFrame& frame) const
         cell = mesh_.cells[cell].neighbors[kFacetCorners[kHullSlot][(across + 2) % 3]];
         if (!is_before_hull(cell)) return {{kInfinite, 0}, true}; // it passes the hull by
     }
+    return {};
 }
 
 ViewWalk::First ViewWalk::first_facet(const SightFrame& frame) const
