@@ -152,6 +152,8 @@ TEST(Openness, EndsWhereAHoleIsFilled)
                                          {{0.2, 0.2, 2}, {0.2, 0.2, 1}}};
     EXPECT_EQ(count_free(lines, {}), 4);
     EXPECT_EQ(count_free(lines, {{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)}}), 2);
+    EXPECT_EQ(count_free(lines, {{Vector3d(0, 0, 0), Vector3d(1, 1, 0), Vector3d(0.2, 0.2, 0)}}), 4)
+        << "a triangle without area";
 }
 
 TEST(PixelGrid, IsOfAboutSquareCells)

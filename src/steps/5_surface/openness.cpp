@@ -1,7 +1,7 @@
 #include "steps/5_surface/openness.h"
 
 #include "base/parallel.h"
-#include "geometry/predicates.h"
+#include "geometry/triangle_tree.h"
 #include "model/camera.h"
 #include "model/pixel_grid.h"
 #include "steps/3_visibility/view_walk.h"
@@ -133,15 +133,11 @@ Openness measure_openness(const TetMesh& cells, const Labels& labels,
 std::int64_t count_free(const std::vector<ViewLine>& lines,
                         const std::vector<std::array<Vector3d, 3>>& triangles)
 {
+    const TriangleTree tree(triangles);
     std::vector<std::uint8_t> is_free(lines.size());
     parallel_for(
         lines.size(),
-        [&](std::size_t i) {
-            is_free[i] = std::ranges::none_of(triangles, [&](const auto& triangle) {
-                return meets_triangle(lines[i].eye, lines[i].end, triangle);
-            });
-        },
-        16);
+        [&](std::size_t i) { is_free[i] = tree.is_met(lines[i].eye, lines[i].end) ? 0 : 1; }, 16);
     return std::ranges::count(is_free, 1);
 }
 

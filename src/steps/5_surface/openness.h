@@ -34,7 +34,8 @@ Openness measure_openness(const TetMesh& cells, const Labels& labels,
                           const std::vector<CellFacet>& facets, const FaceFlags& keep,
                           const Scene& scene);
 
-/// How many of some lines meet no triangle. Cost: O(lines x triangles), in parallel.
+/// How many of some lines meet no triangle, exact; those without area are met by none. Cost:
+/// O((lines + triangles) log triangles), mostly in parallel.
 std::int64_t count_free(const std::vector<ViewLine>& lines,
                         const std::vector<std::array<Eigen::Vector3d, 3>>& triangles);
 
