@@ -4,23 +4,17 @@
 #include "base/index_limit.h"
 #include "base/parallel.h"
 #include "base/parallel_invoke.h"
-#include "base/parallel_rows.h"
-#include "base/random_number.h"
 #include "base/unset_array.h"
-#include "vcarve/error.h"
+#include "steps/2_cells/canonical_cells.h"
+#include "steps/2_cells/delaunay.h"
+#include "steps/2_cells/insertion_order.h"
+#include "steps/2_cells/refusals.h"
 
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Delaunay_triangulation_cell_base_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
-#include <fmt/core.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <span>
-#include <stdexcept>
 
 namespace vcarve {
 
@@ -29,50 +23,8 @@ namespace {
 /// Below this many points CGAL's parallel insertion loses against its sequential one (measured).
 constexpr std::size_t kParallelFromPoints = 50'000;
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<Index, Kernel>;
-using CellBase =
-    CGAL::Triangulation_cell_base_with_info_3<Index, Kernel,
-                                              CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-
-template <typename Concurrency>
-using Delaunay = CGAL::Delaunay_triangulation_3<
-    Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase, Concurrency>>;
-
 /// The share of the time that the insertion of points takes; the rest is copying cells.
 constexpr double kInsertion = 0.8;
-
-Kernel::Point_3 to_point(const Eigen::Vector3d& position)
-{
-    return {position.x(), position.y(), position.z()};
-}
-
-/// In which round a point is inserted: the last one takes three quarters of all points, the one
-/// before three quarters of the rest, and so on, by chance.
-std::uint32_t insertion_round(std::size_t point, std::uint32_t num_rounds)
-{
-    constexpr std::uint64_t kSeed = 0;
-    std::uint32_t round = num_rounds - 1;
-    for (double chance = random_number(kSeed, point); chance < 0.25 && round > 0; chance *= 4.0)
-        --round;
-    return round;
-}
-
-/// The numbers of points that follow each other in space, in the order that suits insertion: random
-/// at large, near each other in the small (Amenta, Choi, Rote, "Incremental constructions con
-/// BRIO", 2003).
-UnsetArray<std::uint32_t> insertion_order(std::size_t count)
-{
-    constexpr std::size_t kFirstRound = 16; // points or more
-    std::uint32_t num_rounds = 1;
-    while (count >> (2 * num_rounds) >= kFirstRound)
-        ++num_rounds;
-    return gather_rows(count, num_rounds,
-                       [&](std::size_t i, const auto& visit) {
-                           visit(insertion_round(i, num_rounds), static_cast<std::uint32_t>(i));
-                       })
-        .items;
-}
 
 CGAL::Bbox_3 box_of(const Scene& scene)
 {
@@ -81,34 +33,6 @@ CGAL::Bbox_3 box_of(const Scene& scene)
         box += CGAL::Bbox_3(p.x(), p.y(), p.z(), p.x(), p.y(), p.z());
     }
     return box;
-}
-
-/// A cell with its vertices as TetMesh has them, its neighbours still as CGAL keeps them.
-template <typename CellHandle>
-Cell unnumbered_cell(const CellHandle& cell)
-{
-    std::array<int, 4> sources = {0, 1, 2, 3};
-    std::array<Index, 4> found{};
-    for (int i = 0; i < 4; ++i) {
-        found[i] = cell->vertex(i)->info();
-    }
-    // Sort by exchanging; each exchange turns the cell inside out, and one more may turn it back.
-    bool is_odd = false;
-    for (int i = 1; i < 4; ++i) {
-        for (int j = i; j > 0 && found[sources[j]] < found[sources[j - 1]]; --j) {
-            std::swap(sources[j], sources[j - 1]);
-            is_odd = !is_odd;
-        }
-    }
-    if (is_odd) {
-        std::swap(sources[0], sources[1]);
-    }
-    Cell result{};
-    for (int i = 0; i < 4; ++i) {
-        result.vertices[i] = found[sources[i]];
-        result.neighbors[i] = cell->neighbor(sources[i])->info();
-    }
-    return result;
 }
 
 /// The cells of a triangulation, numbered in the order CGAL keeps them, which may differ from run
@@ -121,7 +45,7 @@ class NumberedCells {
         : count_(triangulation.tds().cells().size()), firsts_((count_ + kRun - 1) / kRun)
     {
         const auto number = [&](std::size_t i, const auto& cell) {
-            cell->info() = static_cast<Index>(i);
+            cell->info().value = static_cast<Index>(i);
             if (i % kRun == 0) firsts_[i / kRun] = cell;
         };
         const std::size_t half = count_ / 2;
@@ -161,91 +85,13 @@ class NumberedCells {
 
 /// All cells, in that order.
 template <typename Triangulation>
-UnsetArray<Cell> unnumbered_cells(const Triangulation& triangulation, const Progress& progress)
+UnsetArray<Cell> unordered_cells(const Triangulation& triangulation, const Progress& progress)
 {
     const NumberedCells<Triangulation> numbered(triangulation);
     progress.tell(0.5);
     UnsetArray<Cell> cells(numbered.size());
-    numbered.for_each([&](std::size_t i, const auto& cell) { cells[i] = unnumbered_cell(cell); });
+    numbered.for_each([&](std::size_t i, const auto& cell) { cells[i] = unordered_cell(cell); });
     return cells;
-}
-
-Index smallest_vertex(const Cell& cell)
-{
-    return std::min(cell.vertices[0], cell.vertices[1]);
-}
-
-/// Whether the sorted vertices of a cell come first. Only the first two may stand exchanged.
-bool comes_before(const Cell& a, const Cell& b)
-{
-    const auto key = [](const Cell& cell) {
-        const auto [low, high] = std::minmax(cell.vertices[0], cell.vertices[1]);
-        return std::array<Index, 4>{low, high, cell.vertices[2], cell.vertices[3]};
-    };
-    return key(a) < key(b);
-}
-
-/// The cells in canonical order: binned by smallest vertex, each bin sorted.
-UnsetArray<Index> canonical_order(const UnsetArray<Cell>& cells, std::size_t num_vertices)
-{
-    RowTable bins = gather_rows(cells.size(), num_vertices, [&](std::size_t i, const auto& visit) {
-        visit(smallest_vertex(cells[i]), static_cast<Index>(i));
-    });
-    parallel_for(num_vertices, [&](std::size_t vertex) {
-        const Index begin = vertex == 0 ? 0 : bins.ends[vertex - 1];
-        std::sort(bins.items.begin() + begin, bins.items.begin() + bins.ends[vertex],
-                  [&](Index a, Index b) { return comes_before(cells[a], cells[b]); });
-    });
-    return std::move(bins.items);
-}
-
-/// Where a cell has another one as neighbour, which is in one place only: cells that shared two
-/// facets would share all vertices.
-int slot_of_neighbor(const Cell& cell, Index neighbor)
-{
-    const auto found = std::find(cell.neighbors.begin(), cell.neighbors.end(), neighbor);
-    return static_cast<int>(found - cell.neighbors.begin());
-}
-
-/// Puts the cells in canonical order.
-void fill_cells(const UnsetArray<Cell>& unnumbered, TetMesh& mesh, std::size_t num_vertices,
-                const Progress& progress)
-{
-    const UnsetArray<Index> order = canonical_order(unnumbered, num_vertices);
-    progress.tell(0.5);
-    UnsetArray<Index> numbers(order.size());
-    parallel_for(order.size(), [&](std::size_t i) { numbers[order[i]] = static_cast<Index>(i); });
-    mesh.cells.resize(order.size());
-    parallel_for(order.size(), [&](std::size_t i) {
-        Cell cell = unnumbered[order[i]];
-        for (Index& neighbor : cell.neighbors) {
-            neighbor = numbers[neighbor];
-        }
-        mesh.cells[i] = cell;
-    });
-    progress.tell(0.7);
-    mesh.mirrors.resize(order.size());
-    parallel_for(order.size(), [&](std::size_t i) {
-        unsigned mirrors = 0;
-        for (int slot = 0; slot < 4; ++slot) {
-            const Cell& beyond = mesh.cells[mesh.cells[i].neighbors[slot]];
-            const int mirror = slot_of_neighbor(beyond, static_cast<Index>(i));
-            mirrors |= static_cast<unsigned>(mirror) << (2 * slot);
-        }
-        mesh.mirrors[i] = static_cast<std::uint8_t>(mirrors);
-    });
-}
-
-void find_cells_of_vertices(TetMesh& mesh)
-{
-    mesh.cell_of_vertex.assign(mesh.positions.size(), kInfinite);
-    for (std::size_t i = mesh.cells.size(); i-- > 0;) {
-        if (!mesh.cells[i].is_infinite()) {
-            for (const Index vertex : mesh.cells[i].vertices) {
-                mesh.cell_of_vertex[vertex] = static_cast<Index>(i);
-            }
-        }
-    }
 }
 
 /// Copies the cells of a triangulation to flat arrays and clears it on the way, so that only one
@@ -253,26 +99,22 @@ void find_cells_of_vertices(TetMesh& mesh)
 template <typename Triangulation>
 TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress& progress)
 {
-    if (triangulation.dimension() < 3) {
-        throw InputError(fmt::format("the {} points that passed the filter all lie in one plane; a "
-                                     "surface needs at least four that do not",
-                                     scene.num_points()));
-    }
+    if (triangulation.dimension() < 3) throw all_in_one_plane(scene.num_points());
     require_indexable(triangulation.number_of_cells(), kMostIndices, "cells");
     if (triangulation.number_of_vertices() != scene.num_points()) {
-        throw std::logic_error("two points to triangulate lie at one place");
+        throw two_at_one_place();
     }
     triangulation.infinite_vertex()->info() = kInfinite;
-    const UnsetArray<Cell> unnumbered = unnumbered_cells(triangulation, progress.part(0.0, 0.4));
+    const UnsetArray<Cell> unordered = unordered_cells(triangulation, progress.part(0.0, 0.4));
     progress.tell(0.4);
     triangulation.clear();
     return_freed_memory();
     progress.tell(0.6);
     TetMesh mesh;
-    fill_cells(unnumbered, mesh, scene.num_points(), progress.part(0.6, 0.9));
+    mesh.cells = in_canonical_order(unordered, 0, scene.num_points(), progress.part(0.6, 0.9));
     progress.tell(0.9);
     mesh.positions = scene.positions;
-    find_cells_of_vertices(mesh);
+    complete(mesh);
     return mesh;
 }
 
@@ -354,11 +196,7 @@ TetMesh triangulate_in_parallel(const Scene& scene, const Progress& progress)
 
 TetMesh triangulate(const Scene& scene, const Progress& progress)
 {
-    if (scene.num_points() < 4) {
-        throw InputError(fmt::format("{} point{} passed the filter; a surface needs at least four "
-                                     "that do not lie in one plane",
-                                     scene.num_points(), scene.num_points() == 1 ? "" : "s"));
-    }
+    require_four_points(scene.num_points());
     const bool pays =
         scene.num_points() >= kParallelFromPoints && tbb::this_task_arena::max_concurrency() > 1;
     return pays ? triangulate_in_parallel(scene, progress)

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "base/progress.h"
+#include "model/tet_mesh.h"
+#include "steps/2_cells/point_tree.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vcarve {
+
+/// A facet of a block's cell, beyond which lies a cell of another block.
+struct OpenFacet {
+    std::array<Index, 3> corners; ///< ascending
+    Index cell;                   ///< within the block
+    std::uint32_t slot;
+};
+
+/// The cells whose smallest vertices are in one run of points.
+struct BlockCells {
+    UnsetArray<Cell> cells; ///< in canonical order; neighbours by number in here or CellNumber::kNone
+    std::vector<OpenFacet> open_facets;
+    std::size_t taken_in = 0; ///< points of other blocks
+};
+
+/// Points that span space, and the farthest ones in 14 directions: what each block begins with, so
+/// that its own points do not lie outside all else. Ascending. Fewer than four where all points lie
+/// in one plane. Cost: O(points).
+std::vector<Index> first_points(const std::vector<Eigen::Vector3d>& points);
+
+/// The cells of the Delaunay triangulation of all points that have their smallest vertex in `own`,
+/// made from these points and as few others as they need. Cells with a corner in `own` are looked
+/// at: where another point lies in the sphere around one, the deepest such point is inserted, until
+/// there is none. Then each of these cells is one of the whole triangulation, which is unique, as
+/// CGAL decides by the points alone where several lie on one sphere. `first` is first_points().
+/// Memory: about 450 bytes for each point inserted.
+BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, const PointRun& own,
+                       const Progress& progress = {});
+
+} // namespace vcarve

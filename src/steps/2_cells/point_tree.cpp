@@ -1,0 +1,59 @@
+#include "steps/2_cells/point_tree.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vcarve {
+
+namespace {
+
+double distance_between(const Box& a, const Box& b)
+{
+    const Eigen::Vector3d gap =
+        (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(Eigen::Vector3d::Zero());
+    return gap.norm();
+}
+
+} // namespace
+
+PointTree::PointTree(const std::vector<Eigen::Vector3d>& points) : points_(points)
+{
+    levels_.emplace_back((points.size() + kLeaf - 1) / kLeaf);
+    parallel_for(levels_[0].size(), [&](std::size_t node) {
+        const PointRun run = run_of(0, node);
+        Box box{points[run.first], points[run.first]};
+        for (std::size_t i = run.first; i < run.last; ++i) {
+            box = {box.low.cwiseMin(points[i]), box.high.cwiseMax(points[i])};
+        }
+        levels_[0][node] = box;
+    });
+    while (levels_.back().size() > 1) {
+        const std::vector<Box>& below = levels_.back();
+        std::vector<Box> level((below.size() + kFanout - 1) / kFanout);
+        for (std::size_t node = 0; node < level.size(); ++node) {
+            level[node] = below[node * kFanout];
+            const std::size_t last = std::min(below.size(), (node + 1) * kFanout);
+            for (std::size_t child = node * kFanout; child < last; ++child) {
+                level[node] = {level[node].low.cwiseMin(below[child].low),
+                               level[node].high.cwiseMax(below[child].high)};
+            }
+        }
+        levels_.push_back(std::move(level));
+    }
+}
+
+double PointTree::distance_to_foreign(const Box& box, const PointRun& own) const
+{
+    double nearest = std::numeric_limits<double>::infinity();
+    visit_foreign(
+        own, [&](const Box& other) { return distance_between(box, other) < nearest; },
+        [&](std::size_t i) {
+            nearest = std::min(nearest, distance_between(box, {points_[i], points_[i]}));
+        });
+    return nearest;
+}
+
+} // namespace vcarve

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "vcarve/error.h"
+
+#include <cstddef>
+#include <stdexcept>
+
+namespace vcarve {
+
+/// Throws InputError where so few points are left that they have no tetrahedron.
+void require_four_points(std::size_t num_points);
+
+/// What is thrown where the points do not span space.
+InputError all_in_one_plane(std::size_t num_points);
+
+/// What is thrown where two points are the same, which no caller must let happen.
+std::logic_error two_at_one_place();
+
+} // namespace vcarve

@@ -1,0 +1,128 @@
+#include "steps/2_cells/triangulate_blocks.h"
+
+#include "base/freed_memory.h"
+#include "base/index_limit.h"
+#include "base/parallel.h"
+#include "base/parallel_sort.h"
+#include "steps/2_cells/block_cells.h"
+#include "steps/2_cells/canonical_cells.h"
+#include "steps/2_cells/refusals.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+/// The share of the time that the blocks take; the rest is joining them.
+constexpr double kBlocks = 0.9;
+
+PointRun run_of(std::size_t block, std::size_t num_blocks, std::size_t num_points)
+{
+    return {block * num_points / num_blocks, (block + 1) * num_points / num_blocks};
+}
+
+std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>& first,
+                                   std::size_t num_blocks, const Progress& progress)
+{
+    const PointTree tree(scene.positions);
+    std::vector<BlockCells> blocks(num_blocks);
+    ProgressCount done(progress, scene.num_points());
+    parallel_for(
+        num_blocks,
+        [&](std::size_t block) {
+            const PointRun own = run_of(block, num_blocks, scene.num_points());
+            blocks[block] = block_cells(tree, first, own);
+            done.add(own.size());
+        },
+        1);
+    return blocks;
+}
+
+/// The number of each block's first cell, and of all cells.
+std::vector<std::size_t> first_cells(const std::vector<BlockCells>& blocks)
+{
+    std::vector<std::size_t> firsts{0};
+    for (const BlockCells& block : blocks) {
+        firsts.push_back(firsts.back() + block.cells.size());
+    }
+    return firsts;
+}
+
+/// The facets between blocks, numbered by all cells, each from both sides, one after the other.
+std::vector<OpenFacet> facets_between(std::vector<BlockCells>& blocks,
+                                      const std::vector<std::size_t>& firsts)
+{
+    std::vector<OpenFacet> facets;
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+        for (OpenFacet facet : std::exchange(blocks[block].open_facets, {})) {
+            facet.cell += static_cast<Index>(firsts[block]);
+            facets.push_back(facet);
+        }
+    }
+    parallel_sort(facets, [](const OpenFacet& a, const OpenFacet& b) {
+        return a.corners != b.corners ? a.corners < b.corners : a.cell < b.cell;
+    });
+    return facets;
+}
+
+/// The cells of all blocks, one block after the other, which is their canonical order.
+UnsetArray<Cell> joined_cells(std::vector<BlockCells>& blocks,
+                              const std::vector<std::size_t>& firsts)
+{
+    UnsetArray<Cell> cells(firsts.back());
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+        const UnsetArray<Cell> own = std::exchange(blocks[block].cells, {});
+        parallel_for(own.size(), [&](std::size_t i) {
+            Cell cell = own[i];
+            for (Index& neighbor : cell.neighbors) {
+                if (neighbor != kInfinite) neighbor += static_cast<Index>(firsts[block]);
+            }
+            cells[firsts[block] + i] = cell;
+        });
+    }
+    return cells;
+}
+
+/// Makes the cells at both sides of the facets between blocks neighbours.
+void join_facets(const std::vector<OpenFacet>& facets, UnsetArray<Cell>& cells)
+{
+    if (facets.size() % 2 != 0) throw std::logic_error("a facet between blocks has one side");
+    parallel_for(facets.size() / 2, [&](std::size_t i) {
+        const OpenFacet& one = facets[2 * i];
+        const OpenFacet& other = facets[2 * i + 1];
+        if (one.corners != other.corners) {
+            throw std::logic_error("a facet between blocks has one side");
+        }
+        cells[one.cell].neighbors[one.slot] = other.cell;
+        cells[other.cell].neighbors[other.slot] = one.cell;
+    });
+}
+
+} // namespace
+
+TetMesh triangulate_in_blocks(const Scene& scene, std::size_t num_blocks, const Progress& progress)
+{
+    require_four_points(scene.num_points());
+    const std::vector<Index> first = first_points(scene.positions);
+    if (first.size() < 4) throw all_in_one_plane(scene.num_points());
+    num_blocks = std::clamp<std::size_t>(num_blocks, 1, scene.num_points());
+    std::vector<BlockCells> blocks =
+        all_blocks(scene, first, num_blocks, progress.part(0.0, kBlocks));
+    return_freed_memory();
+    const std::vector<std::size_t> firsts = first_cells(blocks);
+    require_indexable(firsts.back(), kMostIndices, "cells");
+    const std::vector<OpenFacet> facets = facets_between(blocks, firsts);
+    TetMesh mesh;
+    mesh.cells = joined_cells(blocks, firsts);
+    join_facets(facets, mesh.cells);
+    progress.tell(0.95);
+    mesh.positions = scene.positions;
+    complete(mesh);
+    return mesh;
+}
+
+} // namespace vcarve

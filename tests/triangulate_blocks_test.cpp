@@ -1,0 +1,177 @@
+#include "steps/1_points/spatial_sort.h"
+#include "steps/2_cells/block_cells.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/2_cells/triangulate_blocks.h"
+#include "support/point_sets.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+struct NamedPoints {
+    std::string name;
+    Positions points;
+};
+
+/// On a ground of small height over a raster: flat at large, four on a circle in the small.
+Positions terrain(int n, double height)
+{
+    Positions points;
+    std::mt19937_64 random(71);
+    for (int x = 0; x < n; ++x) {
+        for (int y = 0; y < n; ++y) {
+            points.emplace_back(x, y, height * std::floor(even(random, 0.0, 5.0)));
+        }
+    }
+    return points;
+}
+
+/// Nearly on one sphere, so that the tetrahedra amid them are all slivers.
+Positions nearly_on_a_sphere(std::size_t count, double noise)
+{
+    std::mt19937_64 random(72);
+    Positions points;
+    while (points.size() < count) {
+        const Vector3d p = even_in_cube(random, -1.0, 1.0);
+        if (p.norm() > 1.0 || p.norm() < 0.1) continue;
+        points.push_back((1.0 + even(random, -noise, noise)) * p.normalized());
+    }
+    return points;
+}
+
+/// A dense cluster, and points far away from it and from each other.
+Positions with_outliers()
+{
+    Positions points = mapped(random_points(800, 73), 1e-3, Vector3d(5.0, 5.0, 5.0));
+    for (const Vector3d& far : mapped(random_points(60, 74), 1e4, Vector3d::Constant(-5e3)))
+        points.push_back(far);
+    return points;
+}
+
+/// All in one plane but one.
+Positions plane_and_a_point()
+{
+    Positions points = lattice(12);
+    points.resize(144);
+    points.emplace_back(3.5, 2.25, 1e-9);
+    return points;
+}
+
+std::vector<NamedPoints> point_sets()
+{
+    return {{"anywhere", random_points(3000, 75)},
+            {"a lattice", lattice(11)},
+            {"a body-centered lattice", body_centered_lattice(7)},
+            {"on a sphere", points_on_sphere()},
+            {"nearly on a sphere", nearly_on_a_sphere(600, 1e-12)},
+            {"a rough ball", nearly_on_a_sphere(2500, 0.01)},
+            {"a terrain on a raster", terrain(40, 1.0)},
+            {"a flat terrain", terrain(30, 1e-9)},
+            {"outliers", with_outliers()},
+            {"a plane and a point", plane_and_a_point()},
+            {"far from the origin", mapped(random_points(1000, 76), 1.0, Vector3d(5e5, 4.6e6, 100))},
+            {"tiny", mapped(random_points(1000, 77), 0x1p-120, Vector3d::Zero())},
+            {"huge", mapped(random_points(1000, 78), 0x1p120, Vector3d::Zero())},
+            {"few", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}}};
+}
+
+void expect_equal(const TetMesh& a, const TetMesh& b)
+{
+    ASSERT_EQ(a.cells.size(), b.cells.size());
+    for (std::size_t i = 0; i < a.cells.size(); ++i) {
+        ASSERT_EQ(a.cells[i].vertices, b.cells[i].vertices) << "cell " << i;
+        ASSERT_EQ(a.cells[i].neighbors, b.cells[i].neighbors) << "cell " << i;
+    }
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.mirrors, b.mirrors);
+    EXPECT_EQ(a.cell_of_vertex, b.cell_of_vertex);
+}
+
+TEST(TriangulateBlocks, GivesTheCellsOfTheWhole)
+{
+    for (const NamedPoints& named : point_sets()) {
+        const Scene scene = spatial_sort(scene_of(named.points));
+        const TetMesh whole = triangulate(scene);
+        for (const std::size_t blocks : {1, 2, 3, 8, 64}) {
+            SCOPED_TRACE(named.name + ", " + std::to_string(blocks) + " blocks");
+            expect_equal(triangulate_in_blocks(scene, blocks), whole);
+        }
+    }
+}
+
+TEST(TriangulateBlocks, GivesTheCellsOfTheWholeWithOnePointABlock)
+{
+    for (const Positions& points : {lattice(4), random_points(70, 79), points_on_sphere()}) {
+        const Scene scene = spatial_sort(scene_of(points));
+        const TetMesh whole = triangulate(scene);
+        expect_equal(triangulate_in_blocks(scene, scene.num_points()), whole);
+        expect_equal(triangulate_in_blocks(scene, 10 * scene.num_points()), whole);
+    }
+}
+
+/// Blocks then lie amid each other, which is slow but must be right.
+TEST(TriangulateBlocks, GivesTheCellsOfTheWholeOfPointsThatDoNotFollowEachOther)
+{
+    const Scene scene = scene_of(random_points(400, 80));
+    expect_equal(triangulate_in_blocks(scene, 5), triangulate(scene));
+}
+
+TEST(TriangulateBlocks, GivesTheSameForAnyNumberOfThreads)
+{
+    const Scene scene = spatial_sort(scene_of(random_points(4000, 81)));
+    const auto with_threads = [&](int threads) {
+        tbb::task_arena arena(threads);
+        return arena.execute([&] { return triangulate_in_blocks(scene, 7); });
+    };
+    expect_equal(with_threads(1), with_threads(2));
+}
+
+TEST(TriangulateBlocks, TakesInFewPointsOfOtherBlocks)
+{
+    // A block of an eighth of 20,000 points has some 600 around it: about one layer.
+    const Scene scene = spatial_sort(scene_of(random_points(20'000, 82)));
+    const PointTree tree(scene.positions);
+    const std::vector<Index> first = first_points(scene.positions);
+    const PointRun own{5000, 7500};
+    const BlockCells block = block_cells(tree, first, own);
+    EXPECT_LT(block.taken_in, own.size());
+    EXPECT_GT(block.taken_in, own.size() / 10);
+}
+
+TEST(TriangulateBlocks, RefusesWhatTheWholeRefuses)
+{
+    Positions plane = lattice(5);
+    plane.resize(25);
+    Positions doubled = lattice(3);
+    doubled.insert(doubled.begin(), 20, Vector3d(1, 1, 1));
+    for (const Positions& points : {Positions{}, lattice(1), plane}) {
+        const Scene scene = scene_of(points);
+        EXPECT_EQ(refusal<InputError>([&] { triangulate_in_blocks(scene, 2); }),
+                  refusal<InputError>([&] { triangulate(scene); }));
+    }
+    EXPECT_EQ(refusal<std::logic_error>([&] { triangulate_in_blocks(scene_of(doubled), 2); }),
+              "two points to triangulate lie at one place");
+}
+
+TEST(FirstPoints, SpanSpaceWhereverTheyAre)
+{
+    Positions points = plane_and_a_point();
+    std::swap(points[100], points.back());
+    const std::vector<Index> first = first_points(points);
+    EXPECT_TRUE(std::ranges::binary_search(first, Index{100}));
+    EXPECT_TRUE(std::ranges::is_sorted(first));
+    EXPECT_EQ(first_points(lattice(1)).size(), 1U);
+}
+
+} // namespace
+} // namespace vcarve
