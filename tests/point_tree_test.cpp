@@ -47,19 +47,28 @@ TEST(PointTree, ShowsAllPointsInABoxThatIsAskedFor)
     EXPECT_GT(shown, 0);
 }
 
-TEST(PointTree, KnowsTheDistanceToTheNearestForeignPoint)
+TEST(PointTree, KnowsTheDistancesToTheNearestForeignPoint)
 {
     const Positions points = random_points(500, 63);
     const PointTree tree(points);
-    const PointRun own{100, 200};
-    const Vector3d at(0.4, 0.6, 0.5);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!own.contains(i)) nearest = std::min(nearest, (points[i] - at).norm());
+    const PointRun own{100, 200}; // the leaves from 96 to 208
+    const std::vector<double> distances = tree.distances_to_foreign(own);
+    ASSERT_EQ(distances.size(), 7U);
+    for (std::size_t leaf = 0; leaf < 7; ++leaf) {
+        Box box{points[96 + 16 * leaf], points[96 + 16 * leaf]};
+        for (std::size_t i = 0; i < 16; ++i) {
+            const Vector3d& p = points[96 + 16 * leaf + i];
+            box = {box.low.cwiseMin(p), box.high.cwiseMax(p)};
+        }
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (own.contains(i)) continue;
+            nearest = std::min(nearest,
+                               (points[i].cwiseMax(box.low).cwiseMin(box.high) - points[i]).norm());
+        }
+        EXPECT_DOUBLE_EQ(distances[leaf], nearest) << leaf;
     }
-    EXPECT_DOUBLE_EQ(tree.distance_to_foreign({at, at}, own), nearest);
-    EXPECT_EQ(tree.distance_to_foreign({at, at}, {0, 500}),
-              std::numeric_limits<double>::infinity());
+    EXPECT_EQ(tree.distances_to_foreign({0, 500})[3], std::numeric_limits<double>::infinity());
 }
 
 } // namespace

@@ -47,9 +47,8 @@ TEST(SphereBound, NeverTellsThatAPointInsideIsOutside)
         const Corners corners = tetrahedron(random, height);
         const SphereBound bound = SphereBound::around(corners);
         // Near the corners, where it is a matter of the last digits, and anywhere.
-        const Vector3d near = corners[pick(random, 4)] +
-                              std::pow(10.0, even(random, -17.0, 0.0)) *
-                                  even_in_cube(random, -1.0, 1.0);
+        const Vector3d near = corners[pick(random, 4)] + std::pow(10.0, even(random, -17.0, 0.0)) *
+                                                             even_in_cube(random, -1.0, 1.0);
         if (!is_inside(corners, near)) continue;
         ++inside;
         ASSERT_LE(bound.least_at(near), 0.0) << "height " << height;

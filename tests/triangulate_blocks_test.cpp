@@ -69,20 +69,21 @@ Positions plane_and_a_point()
 
 std::vector<NamedPoints> point_sets()
 {
-    return {{"anywhere", random_points(3000, 75)},
-            {"a lattice", lattice(11)},
-            {"a body-centered lattice", body_centered_lattice(7)},
-            {"on a sphere", points_on_sphere()},
-            {"nearly on a sphere", nearly_on_a_sphere(600, 1e-12)},
-            {"a rough ball", nearly_on_a_sphere(2500, 0.01)},
-            {"a terrain on a raster", terrain(40, 1.0)},
-            {"a flat terrain", terrain(30, 1e-9)},
-            {"outliers", with_outliers()},
-            {"a plane and a point", plane_and_a_point()},
-            {"far from the origin", mapped(random_points(1000, 76), 1.0, Vector3d(5e5, 4.6e6, 100))},
-            {"tiny", mapped(random_points(1000, 77), 0x1p-120, Vector3d::Zero())},
-            {"huge", mapped(random_points(1000, 78), 0x1p120, Vector3d::Zero())},
-            {"few", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}}};
+    return {
+        {"anywhere", random_points(3000, 75)},
+        {"a lattice", lattice(11)},
+        {"a body-centered lattice", body_centered_lattice(7)},
+        {"on a sphere", points_on_sphere()},
+        {"nearly on a sphere", nearly_on_a_sphere(600, 1e-12)},
+        {"a rough ball", nearly_on_a_sphere(2500, 0.01)},
+        {"a terrain on a raster", terrain(40, 1.0)},
+        {"a flat terrain", terrain(30, 1e-9)},
+        {"outliers", with_outliers()},
+        {"a plane and a point", plane_and_a_point()},
+        {"far from the origin", mapped(random_points(1000, 76), 1.0, Vector3d(5e5, 4.6e6, 100))},
+        {"tiny", mapped(random_points(1000, 77), 0x1p-120, Vector3d::Zero())},
+        {"huge", mapped(random_points(1000, 78), 0x1p120, Vector3d::Zero())},
+        {"few", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}}};
 }
 
 void expect_equal(const TetMesh& a, const TetMesh& b)

@@ -36,13 +36,10 @@ constexpr double kForeign = 0.95;
 /// The triangulation of a block's own points and of the others that it takes in.
 class Block {
   public:
-    Block(const PointTree& tree, const PointRun& own) : tree_(tree), own_(own)
+    Block(const PointTree& tree, const PointRun& own)
+        : tree_(tree), own_(own), to_foreign_(tree.distances_to_foreign(own))
     {
         triangulation_.infinite_vertex()->info() = kInfinite;
-        const std::size_t first_leaf = own.first / PointTree::kLeaf;
-        const std::size_t last_leaf = (own.last - 1) / PointTree::kLeaf;
-        for (std::size_t leaf = first_leaf; leaf <= last_leaf; ++leaf)
-            to_foreign_.push_back(tree.distance_to_foreign(tree.leaf(leaf), own));
     }
 
     void insert(Index point, VertexHandle near)
@@ -85,15 +82,19 @@ class Block {
     }
 
   private:
-    const Vector3d& position(VertexHandle vertex) const { return tree_.points()[vertex->info()]; }
+    static Vector3d position(VertexHandle vertex)
+    {
+        const Kernel::Point_3& point = vertex->point();
+        return {point.x(), point.y(), point.z()};
+    }
 
-    SphereBound sphere_of(CellHandle cell) const
+    static SphereBound sphere_of(CellHandle cell)
     {
         for (int i = 0; i < 4; ++i) {
             if (cell->vertex(i)->info() != kInfinite) continue;
             const auto& [a, b, c] = kBeforeCorner[i];
-            return SphereBound::beyond({position(cell->vertex(a)), position(cell->vertex(b)),
-                                        position(cell->vertex(c))});
+            return SphereBound::beyond(
+                {position(cell->vertex(a)), position(cell->vertex(b)), position(cell->vertex(c))});
         }
         return SphereBound::around({position(cell->vertex(0)), position(cell->vertex(1)),
                                     position(cell->vertex(2)), position(cell->vertex(3))});

@@ -20,7 +20,8 @@ struct OpenFacet {
 
 /// The cells whose smallest vertices are in one run of points.
 struct BlockCells {
-    UnsetArray<Cell> cells; ///< in canonical order; neighbours by number in here or CellNumber::kNone
+    UnsetArray<Cell>
+        cells; ///< in canonical order; neighbours by number in here or CellNumber::kNone
     std::vector<OpenFacet> open_facets;
     std::size_t taken_in = 0; ///< points of other blocks
 };

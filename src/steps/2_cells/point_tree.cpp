@@ -45,15 +45,27 @@ PointTree::PointTree(const std::vector<Eigen::Vector3d>& points) : points_(point
     }
 }
 
-double PointTree::distance_to_foreign(const Box& box, const PointRun& own) const
+std::vector<double> PointTree::distances_to_foreign(const PointRun& own) const
 {
-    double nearest = std::numeric_limits<double>::infinity();
-    visit_foreign(
-        own, [&](const Box& other) { return distance_between(box, other) < nearest; },
-        [&](std::size_t i) {
-            nearest = std::min(nearest, distance_between(box, {points_[i], points_[i]}));
-        });
-    return nearest;
+    std::vector<double> distances;
+    std::size_t nearest_point = points_.size(); // to the leaf before: not far from the next one's
+    for (std::size_t leaf = own.first / kLeaf; leaf * kLeaf < own.last; ++leaf) {
+        const Box& box = levels_[0][leaf];
+        const auto distance_to = [&](std::size_t i) {
+            return distance_between(box, {points_[i], points_[i]});
+        };
+        double nearest = nearest_point < points_.size() ? distance_to(nearest_point)
+                                                        : std::numeric_limits<double>::infinity();
+        visit_foreign(
+            own, [&](const Box& other) { return distance_between(box, other) < nearest; },
+            [&](std::size_t i) {
+                if (!(distance_to(i) < nearest)) return;
+                nearest = distance_to(i);
+                nearest_point = i;
+            });
+        distances.push_back(nearest);
+    }
+    return distances;
 }
 
 } // namespace vcarve

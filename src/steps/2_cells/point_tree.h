@@ -30,20 +30,19 @@ class PointTree {
 
     const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
-    /// The box of a leaf's points.
-    const Box& leaf(std::size_t number) const { return levels_.front()[number]; }
-
     /// Shows visit(box) boxes from the top down, those only whose points are not all in `own`. It
     /// returns whether it wants what is in there; at last visit_point(i) is shown points that are
     /// not in `own`.
     template <typename VisitBox, typename VisitPoint>
-    void visit_foreign(const PointRun& own, const VisitBox& visit, const VisitPoint& visit_point) const
+    void visit_foreign(const PointRun& own, const VisitBox& visit,
+                       const VisitPoint& visit_point) const
     {
         descend(levels_.size() - 1, 0, own, visit, visit_point);
     }
 
-    /// The distance from a box to the nearest box of a leaf with points that are not in `own`.
-    double distance_to_foreign(const Box& box, const PointRun& own) const;
+    /// Of each leaf with points of `own` the distance from its box to the nearest point that is not
+    /// in `own`; infinite where there is none.
+    std::vector<double> distances_to_foreign(const PointRun& own) const;
 
   private:
     static constexpr std::size_t kFanout = 8;

@@ -55,8 +55,8 @@ SphereBound SphereBound::computed(const std::array<Vector3d, 4>& corners)
     bound.corner_ = corners[0];
     bound.volume_ = static_cast<double>(volume);
     bound.normal_ = normal.template cast<double>();
-    bound.volume_error_ = static_cast<double>(16 * unit * bs.dot(cds)) +
-                          16.0 * kRounding * std::abs(bound.volume_);
+    bound.volume_error_ =
+        static_cast<double>(16 * unit * bs.dot(cds)) + 16.0 * kRounding * std::abs(bound.volume_);
     bound.normal_error_ = (24 * unit * normal_terms).template cast<double>() +
                           16.0 * kRounding * bound.normal_.cwiseAbs();
     if (bound.volume_ > 0.0) bound.center_ = bound.normal_ / (2.0 * bound.volume_);
@@ -81,9 +81,8 @@ SphereBound SphereBound::beyond(const std::array<Vector3d, 3>& corners)
     SphereBound bound;
     bound.corner_ = corners[0];
     bound.normal_ = b.cross(c);
-    bound.normal_error_ =
-        kRounding * (8.0 * cross_bound<double>(b.cwiseAbs(), c.cwiseAbs()) +
-                     16.0 * bound.normal_.cwiseAbs());
+    bound.normal_error_ = kRounding * (8.0 * cross_bound<double>(b.cwiseAbs(), c.cwiseAbs()) +
+                                       16.0 * bound.normal_.cwiseAbs());
     return bound;
 }
 
@@ -95,8 +94,8 @@ double SphereBound::least_in(const Box& box) const
         const double high = box.high[axis] - corner_[axis];
         const auto at = [&](double q) { return q * (volume_ * q - normal_[axis]); };
         // A parabola that opens upwards is least at the center, any other one at an end.
-        least += volume_ > 0.0 ? at(std::clamp(center_[axis], low, high))
-                               : std::min(at(low), at(high));
+        least +=
+            volume_ > 0.0 ? at(std::clamp(center_[axis], low, high)) : std::min(at(low), at(high));
         const double most = std::max(std::abs(low), std::abs(high));
         least -= most * (volume_error_ * most + normal_error_[axis]);
     }

@@ -25,8 +25,8 @@ class SphereBound {
     /// Of the half space in which orientation(a, b, c, x) is positive.
     static SphereBound beyond(const std::array<Eigen::Vector3d, 3>& corners);
 
-    /// At most what the polynomial is at any point of a box. Where it is positive, no point in there
-    /// is inside.
+    /// At most what the polynomial is at any point of a box. Where it is positive, no point in
+    /// there is inside.
     double least_in(const Box& box) const;
     /// The same of one point.
     double least_at(const Eigen::Vector3d& point) const { return least_in({point, point}); }

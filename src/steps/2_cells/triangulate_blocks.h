@@ -12,8 +12,8 @@ namespace vcarve {
 /// each other, each triangulated by itself with a few points of the others (see block_cells.h).
 /// As many blocks are in work at a time as there are threads. Needs points that follow each other
 /// in space, as spatial_sort() puts them; throws as triangulate() does. Cost: a block takes in more
-/// points of others the smaller it is; of 100,000 points and more, less than a fifth. Memory: CGAL's
-/// structure of the blocks in work, and the cells twice.
+/// points of others the smaller it is; of 100,000 points and more, less than a fifth. Memory:
+/// CGAL's structure of the blocks in work, and the cells twice.
 TetMesh triangulate_in_blocks(const Scene& scene, std::size_t num_blocks,
                               const Progress& progress = {});
 
