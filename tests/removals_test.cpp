@@ -100,7 +100,8 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     }
     StageCounts log;
     RemovedFaces removed;
-    const TriMesh mesh = reconstruct_thinned(scene, size_of(scene), options, log, {.removed = &removed}).mesh;
+    const TriMesh mesh =
+        reconstruct_thinned(scene, size_of(scene), options, log, {.removed = &removed}).mesh;
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
     EXPECT_EQ(count(removed, Removal::sheet), log.all["surface sheets"]);
     EXPECT_EQ(count(removed, Removal::outside_region), log.all["surface outside the region"]);

@@ -37,9 +37,10 @@ void list_work_options(OptionTable& table)
 {
     bool off = false;
     table.path({.name = "work",
-                .help = "Keep what every stage made in this folder until the surface is written, "
-                        "so that the same command, given again, goes on after the last stage that "
-                        "a run finished which was killed or found the disk full. None by default."});
+                .help =
+                    "Keep what every stage made in this folder until the surface is written, "
+                    "so that the same command, given again, goes on after the last stage that "
+                    "a run finished which was killed or found the disk full. None by default."});
     table.flag(off, {.name = "keep-work",
                      .help = "Leave the folder of --work as it is at the end, instead of "
                              "removing what the run put there."});

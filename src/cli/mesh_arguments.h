@@ -54,7 +54,7 @@ struct MeshArguments {
     std::filesystem::path report;
     std::filesystem::path work; ///< empty where nothing is kept between stages
     bool keeps_work = false;    ///< also at the end
-    std::string command; ///< as it was typed
+    std::string command;        ///< as it was typed
     OutputOptions output;
     Options options;
 };

@@ -137,7 +137,7 @@ Job job_of(const MeshArguments& arguments, Log& log)
 {
     Stage stage(log, "digest");
     Job job = {program_fact()};
-    const Job input = input_facts(find_input(arguments.model.path, arguments.model.points));
+    const Job input = input_facts(find_input(arguments.model.path, arguments.model.points), stage);
     job.insert(job.end(), input.begin(), input.end());
     stage.end({{"files", size_of(input.size())}});
     const Job options = option_facts(arguments.options);
@@ -159,10 +159,9 @@ Surface surface_of(ModelInput input, const MeshArguments& arguments, WorkFolder*
 {
     try {
         Surface surface;
-        Reconstruction made =
-            reconstruct_thinned(std::move(input.scene), input.read, arguments.options, log,
-                                {.removed = arguments.with_report ? &surface.removed : nullptr,
-                                 .work = work});
+        Reconstruction made = reconstruct_thinned(
+            std::move(input.scene), input.read, arguments.options, log,
+            {.removed = arguments.with_report ? &surface.removed : nullptr, .work = work});
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }

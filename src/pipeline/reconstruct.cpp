@@ -129,8 +129,7 @@ CarvedSurface carve(const Carvers& carvers, bool wants_removed, const Options& o
                     StageKeeper& work)
 {
     const Scene& scene = carvers.scene;
-    const TetMesh cells =
-        work.stage("cells", [&] { return triangulate(scene, work.log()); });
+    const TetMesh cells = work.stage("cells", [&] { return triangulate(scene, work.log()); });
     CarvedSurface carved;
     const SurfaceWishes wishes = {carvers.region.get(), wants_removed ? &carved.removed : nullptr};
     carved.seen = seen_surface(label_cells(cells, scene, options.labels, work), scene, wishes,
@@ -162,9 +161,8 @@ Reconstruction run_steps(Scene scene, const RunSize& size, const Options& option
     Carvers carvers = prepare(std::move(scene), options, work);
     return_freed_memory();
     const bool wants_removed = extras.removed != nullptr;
-    CarvedSurface carved =
-        work.stage(wants_removed ? "surface-and-removed" : "surface",
-                   [&] { return carve(carvers, wants_removed, options, work); });
+    CarvedSurface carved = work.stage(wants_removed ? "surface-and-removed" : "surface",
+                                      [&] { return carve(carvers, wants_removed, options, work); });
     if (wants_removed) *extras.removed = std::move(carved.removed);
     return_freed_memory();
     scene = std::move(carvers.scene);

@@ -53,7 +53,9 @@ void RunningDigest::add(std::span<const char> bytes)
     std::vector<Digest> blocks(bytes.size() / kBlockBytes);
     parallel_for(
         blocks.size(),
-        [&](std::size_t i) { blocks[i] = chained({}, bytes.subspan(i * kBlockBytes, kBlockBytes)); },
+        [&](std::size_t i) {
+            blocks[i] = chained({}, bytes.subspan(i * kBlockBytes, kBlockBytes));
+        },
         1);
     for (const Digest& block : blocks) {
         chain_ = chained(chain_, as_bytes(block));
@@ -74,15 +76,16 @@ Digest digest_of(std::span<const char> bytes)
     return digest.value();
 }
 
-Digest digest_of_file(const std::filesystem::path& path)
+Digest digest_of_file(const std::filesystem::path& path, const Progress& progress)
 {
-    constexpr std::size_t kPieceBytes = 64 * kBlockBytes;
+    constexpr std::size_t kPieceBytes = 16 * kBlockBytes;
     const MappedFile file(path);
     RunningDigest digest;
     for (std::size_t done = 0; done < file.bytes().size(); done += kPieceBytes) {
         const auto left = file.bytes().subspan(done);
         digest.add(left.first(std::min(left.size(), kPieceBytes)));
         file.release(done); // what was read need not stay in memory
+        progress.tell(static_cast<double>(done), static_cast<double>(file.bytes().size()));
     }
     return digest.value();
 }

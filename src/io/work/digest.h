@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/progress.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +34,7 @@ class RunningDigest {
 
 Digest digest_of(std::span<const char> bytes);
 
-/// The digest of a file's content. Throws InputError where it cannot be read.
-Digest digest_of_file(const std::filesystem::path& path);
+/// The digest of a file's content. Throws InputError where it cannot be read, and Cancelled.
+Digest digest_of_file(const std::filesystem::path& path, const Progress& progress = {});
 
 } // namespace vcarve

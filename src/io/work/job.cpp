@@ -8,8 +8,47 @@
 #include <fmt/ranges.h>
 
 #include <string_view>
+#include <system_error>
 
 namespace vcarve {
+
+namespace {
+
+/// A file of the input, and what it is called whatever its name.
+struct ReadFile {
+    std::string name;
+    std::filesystem::path path;
+};
+
+std::vector<ReadFile> files_of(const FoundInput& input)
+{
+    if (input.scan) return {{"the scan", input.scan->cloud}};
+    const bool is_dense = input.dense.has_value();
+    const auto& folder = is_dense ? input.dense->model : input.model.folder;
+    const ModelFormat format = is_dense ? input.dense->format : input.model.format;
+    std::vector<ReadFile> files;
+    for (const char* const stem : kModelFiles) {
+        if (is_dense && std::string_view(stem) == "points3D") continue; // is not read then
+        const std::string name = model_file(stem, format);
+        files.push_back({name, folder / name});
+    }
+    if (!is_dense) return files;
+    files.push_back({"the cloud", input.dense->cloud});
+    if (!input.dense->visibility.empty()) {
+        files.push_back({"the visibility", input.dense->visibility});
+    }
+    return files;
+}
+
+/// 0 of one that is not there, which reading will tell of.
+double size_of_file(const std::filesystem::path& path)
+{
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(path, error);
+    return error ? 0.0 : static_cast<double>(bytes);
+}
+
+} // namespace
 
 std::string job_text(const Job& job)
 {
@@ -31,35 +70,34 @@ JobFact program_fact()
             fmt::format("colmap-vcarve {}, {}", program_version(), versions().compiler)};
 }
 
-JobFact file_fact(const std::string& name, const std::filesystem::path& path)
+JobFact file_fact(const std::string& name, const std::filesystem::path& path,
+                  const Progress& progress)
 {
-    const Digest digest = digest_of_file(path);
+    const Digest digest = digest_of_file(path, progress);
     return {name, fmt::format("{} bytes with the digest {}", std::filesystem::file_size(path),
                               digest_text(digest))};
 }
 
-Job input_facts(const FoundInput& input)
+Job input_facts(const FoundInput& input, const Progress& progress)
 {
-    if (input.scan) {
-        const auto& place = input.scan->scanner;
-        return {file_fact("the scan", input.scan->cloud),
-                {"--scanner", place ? fmt::format("{}", fmt::join(*place, ",")) : "file"}};
+    const std::vector<ReadFile> files = files_of(input);
+    double all = 0.0;
+    for (const ReadFile& file : files) {
+        all += size_of_file(file.path);
     }
     Job facts;
-    const bool is_dense = input.dense.has_value();
-    const auto& folder = is_dense ? input.dense->model : input.model.folder;
-    const ModelFormat format = is_dense ? input.dense->format : input.model.format;
-    for (const char* const stem : kModelFiles) {
-        if (is_dense && std::string_view(stem) == "points3D") continue; // is not read then
-        const std::string name = model_file(stem, format);
-        facts.push_back(file_fact(name, folder / name));
+    double done = 0.0;
+    for (const ReadFile& file : files) {
+        const double end = done + size_of_file(file.path);
+        const Progress part = all > 0.0 ? progress.part(done / all, end / all) : progress;
+        facts.push_back(file_fact(file.name, file.path, part));
+        done = end;
     }
-    if (!is_dense) return facts;
-    facts.push_back(file_fact("the cloud", input.dense->cloud));
-    if (input.dense->visibility.empty()) {
-        facts.push_back({"--sights", "nearest"});
-    } else {
-        facts.push_back(file_fact("the visibility", input.dense->visibility));
+    if (input.scan) {
+        const auto& place = input.scan->scanner;
+        facts.push_back({"--scanner", place ? fmt::format("{}", fmt::join(*place, ",")) : "file"});
+    } else if (input.dense) {
+        facts.push_back({"--sights", input.dense->visibility.empty() ? "nearest" : "file"});
     }
     return facts;
 }

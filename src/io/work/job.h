@@ -33,11 +33,12 @@ JobFact program_fact();
 
 /// A file by its size and a digest of its content; where it lies and when it was written do not
 /// matter. Throws InputError where it cannot be read.
-JobFact file_fact(const std::string& name, const std::filesystem::path& path);
+JobFact file_fact(const std::string& name, const std::filesystem::path& path,
+                  const Progress& progress = {});
 
 /// The files that are read of an input, and what it says beside them. Cost: reads them all, see
 /// digest_of_file.
-Job input_facts(const FoundInput& input);
+Job input_facts(const FoundInput& input, const Progress& progress = {});
 
 /// Lists options as facts, but for those under the heading "Run" (threads, memory and the like):
 /// what stands there must leave the result as it is. Of a region's file the content counts.

@@ -15,8 +15,8 @@ namespace vcarve {
 
 namespace {
 
-constexpr std::array<char, 16> kMagic = {'v', 'c', 'a', 'r', 'v', 'e', ' ', 's',
-                                         't', 'a', 'g', 'e', '\r', '\n', 0, 1};
+constexpr std::array<char, 16> kMagic = {'v', 'c', 'a', 'r', 'v',  'e',  ' ', 's',
+                                         't', 'a', 'g', 'e', '\r', '\n', 0,   1};
 constexpr std::uint64_t kVersion = 1;
 /// Written and read, and looked at for what it adds to a digest, at a time.
 constexpr std::size_t kPieceBytes = 16 << 20;
@@ -78,7 +78,8 @@ void StageWriter::commit()
 
 StageReader::StageReader(std::filesystem::path path, const StageLabel& label,
                          const Progress& progress)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "rbe"), &std::fclose),
+    : path_(std::move(path)),
+      file_(std::fopen(path_.c_str(), "rbe"), &std::fclose),
       progress_(progress)
 {
     if (!file_) refuse(fmt::format("it cannot be opened: {}", std::strerror(errno)));

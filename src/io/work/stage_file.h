@@ -14,9 +14,9 @@
 #include <string_view>
 
 // A file with what a stage made: a header (a magic number, the layout's version, the stage's name,
-// the digest of the job, how many bytes follow, and a digest of all that), the content, and a digest
-// of the content. Arrays stand as they do in memory, so that they are written from and read into
-// their place; numbers are those of the machine that wrote them.
+// the digest of the job, how many bytes follow, and a digest of all that), the content, and a
+// digest of the content. Arrays stand as they do in memory, so that they are written from and read
+// into their place; numbers are those of the machine that wrote them.
 
 namespace vcarve {
 
@@ -104,7 +104,8 @@ void StageSizer::put(const T& value)
         if constexpr (kIsPlain<typename T::value_type>) {
             bytes_ += value.size() * sizeof(typename T::value_type);
         } else {
-            for (const auto& item : value) put(item);
+            for (const auto& item : value)
+                put(item);
         }
     } else {
         KeptFields<T>::visit([&](const auto& field) { put(field); }, value);
@@ -124,7 +125,8 @@ void StageWriter::put(const T& value)
         if constexpr (kIsPlain<typename T::value_type>) {
             put_bytes(value.data(), value.size() * sizeof(typename T::value_type));
         } else {
-            for (const auto& item : value) put(item);
+            for (const auto& item : value)
+                put(item);
         }
     } else {
         KeptFields<T>::visit([&](const auto& field) { put(field); }, value);
@@ -149,7 +151,8 @@ void StageReader::get(T& value)
             get_bytes(value.data(), value.size() * sizeof(Item));
         } else {
             // One by one, so that a wrong count ends at the end of the file.
-            for (std::size_t left = get_count(1); left > 0; --left) get(value.emplace_back());
+            for (std::size_t left = get_count(1); left > 0; --left)
+                get(value.emplace_back());
         }
     } else {
         KeptFields<T>::visit([&](auto& field) { get(field); }, value);

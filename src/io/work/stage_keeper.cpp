@@ -11,6 +11,11 @@ constexpr const char* kMadeAgain = "it is made again";
 
 } // namespace
 
+Counts size_counts(std::string_view name, std::uint64_t bytes)
+{
+    return {{fmt::format("MiB of {}", name), static_cast<std::int64_t>(bytes >> 20) + 1}};
+}
+
 void RememberingLog::stage_ends(std::string_view name, const Counts& counts)
 {
     told_.push_back({std::string(name), true, counts});
@@ -41,10 +46,21 @@ void StageKeeper::tell_taken(std::string_view name, const std::vector<ToldEvent>
     for (const ToldEvent& event : told) {
         if (event.is_stage) stages.push_back(event.text);
     }
-    shown_.note(fmt::format("what an earlier run made in the stages {} is taken from {}, so they "
-                            "take no time now",
-                            fmt::join(stages, ", "), (folder_->path() / name).string()));
+    shown_.note(fmt::format("{} of the folder {} has what an earlier run made in {}", name,
+                            folder_->path().string(), fmt::join(stages, ", ")));
     remembering_.tell_again(told);
+}
+
+std::vector<ToldEvent> StageKeeper::told_since(std::size_t first) const
+{
+    const std::vector<ToldEvent>& told = remembering_.told();
+    return {told.begin() + static_cast<std::ptrdiff_t>(first), told.end()};
+}
+
+void StageKeeper::note_unkept(std::string_view name, const UsageError& error)
+{
+    shown_.note(
+        fmt::format("{}; the run goes on, but {} would have to be made again", error.what(), name));
 }
 
 void StageKeeper::note_unusable(const InputError& error)

@@ -59,6 +59,9 @@ class RememberingLog final : public Log {
     std::vector<ToldEvent> told_;
 };
 
+/// What a stage counts that wrote or read the file of another.
+Counts size_counts(std::string_view name, std::uint64_t bytes);
+
 /// Where the results of a run's stages go and come from: a work folder, or none. Without a folder
 /// every stage is made, and that is all.
 class StageKeeper {
@@ -73,14 +76,16 @@ class StageKeeper {
     /// What make() returns, or returned in an earlier run; it is kept for later ones. What was told
     /// while it was made is told again then. A file that cannot be used, whatever the reason, is
     /// told of in a note, and the stage is made again: the bytes will be the same. Stages may be
-    /// made within stages: of one that is there, those within are not asked for. Throws what make()
-    /// throws, UsageError where the disk takes no more, and Cancelled.
+    /// made within stages: of one that is there, those within are not asked for. Where a stage
+    /// cannot be written, for the disk is full, a note says so and the run goes on with what it has
+    /// in memory. Throws what make() throws, and Cancelled.
     template <typename Make>
     auto stage(std::string_view name, const Make& make) -> decltype(make());
 
-    /// The same for a part of a stage, from many threads. Parts are told of as little as possible:
-    /// they are no stages of the log, and unusable files are told of when the stage ends. They go
-    /// when their stage is kept.
+    /// The same for a part of a stage, from many threads, to be called within make() of its stage.
+    /// Parts are no stages of the log, and what is wrong with their files is told when the stage
+    /// ends. They go when their stage is kept. Throws UsageError where one cannot be written, for
+    /// who works in parts counts on them.
     template <typename Make>
     auto piece(const StagePiece& piece, const Make& make) -> decltype(make());
 
@@ -89,8 +94,10 @@ class StageKeeper {
     std::optional<Made> taken(std::string_view name);
     template <typename Made>
     void keep(std::string_view name, const Made& made, std::size_t first_told);
+    std::vector<ToldEvent> told_since(std::size_t first) const;
     void tell_taken(std::string_view name, const std::vector<ToldEvent>& told);
     void note_unusable(const InputError& error);
+    void note_unkept(std::string_view name, const UsageError& error);
     void tell_unusable_pieces();
 
     WorkFolder* folder_;
@@ -109,8 +116,12 @@ auto StageKeeper::stage(std::string_view name, const Make& make) -> decltype(mak
     const std::size_t first_told = remembering_.told().size();
     Made made = make();
     tell_unusable_pieces();
-    keep(name, made, first_told);
-    folder_->drop_pieces(name);
+    try {
+        keep(name, made, first_told);
+        folder_->drop_pieces(name);
+    } catch (const UsageError& error) {
+        note_unkept(name, error);
+    }
     return made;
 }
 
@@ -143,7 +154,7 @@ std::optional<Made> StageKeeper::taken(std::string_view name)
     try {
         Stage stage(shown_, "resume");
         const std::uint64_t bytes = folder_->load(name, stage, told, *made);
-        stage.end({{"MiB of " + std::string(name), static_cast<std::int64_t>(bytes >> 20)}});
+        stage.end(size_counts(name, bytes));
     } catch (const InputError& error) {
         note_unusable(error);
         return std::nullopt;
@@ -156,13 +167,8 @@ template <typename Made>
 void StageKeeper::keep(std::string_view name, const Made& made, std::size_t first_told)
 {
     Stage stage(shown_, "keep");
-    const std::vector<ToldEvent> told(remembering_.told().begin() +
-                                          static_cast<std::ptrdiff_t>(first_told),
-                                      remembering_.told().end());
-    StageSizer sizer;
-    sizer.put(made);
-    folder_->save(name, stage, told, made);
-    stage.end({{"MiB of " + std::string(name), static_cast<std::int64_t>(sizer.bytes() >> 20)}});
+    const std::uint64_t bytes = folder_->save(name, stage, told_since(first_told), made);
+    stage.end(size_counts(name, bytes));
 }
 
 } // namespace vcarve

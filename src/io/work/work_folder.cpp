@@ -65,8 +65,8 @@ bool make_folder(const fs::path& folder)
     std::error_code error;
     const bool was_made = fs::create_directory(folder, error);
     if (fs::is_directory(folder)) return was_made;
-    const std::string reason = fs::exists(folder) ? "there is a file of that name"
-                                                  : error.message();
+    const std::string reason =
+        fs::exists(folder) ? "there is a file of that name" : error.message();
     throw UsageError(fmt::format("cannot make the work folder {}: {}", folder.string(), reason));
 }
 
@@ -112,8 +112,8 @@ int lock(const fs::path& folder)
                                              "has ended, or name another folder with --work",
                                              folder.string()));
             }
-            throw UsageError(fmt::format("the work folder {} cannot be locked: {}",
-                                         folder.string(), std::strerror(error)));
+            throw UsageError(fmt::format("the work folder {} cannot be locked: {}", folder.string(),
+                                         std::strerror(error)));
         }
         if (is_same_file(file, path)) return file;
         ::close(file);
@@ -244,9 +244,8 @@ bool WorkFolder::has(std::string_view stage) const
 
 bool WorkFolder::holds_stages() const
 {
-    return std::ranges::any_of(files_in(folder_), [](const fs::path& file) {
-        return file.extension() == kStageEnd;
-    });
+    return std::ranges::any_of(files_in(folder_),
+                               [](const fs::path& file) { return file.extension() == kStageEnd; });
 }
 
 void WorkFolder::drop_pieces(std::string_view stage) const

@@ -42,10 +42,12 @@ class WorkFolder {
     const std::filesystem::path& path() const { return folder_; }
     bool has(std::string_view stage) const;
 
-    /// Writes what a stage made. Throws UsageError where that cannot be written, and Cancelled; the
-    /// file is whole or not there. Safe from many threads for different stages.
+    /// Writes what a stage made; tells how many bytes it were. Throws UsageError where that cannot
+    /// be written, and Cancelled; the file is whole or not there. Safe from many threads for
+    /// different stages.
     template <typename... Parts>
-    void save(std::string_view stage, const Progress& progress, const Parts&... parts) const;
+    std::uint64_t save(std::string_view stage, const Progress& progress,
+                       const Parts&... parts) const;
     /// Reads it, in the order it was written; tells how many bytes it were. Throws InputError where
     /// the file is not as save() left it; the parts may be half read then. Safe from many threads.
     template <typename... Parts>
@@ -64,22 +66,24 @@ class WorkFolder {
     void write_job(const Job& job);
 
     std::filesystem::path folder_;
-    bool was_made_;    ///< by this object, or by the run that began the job
-    int lock_ = -1;    ///< descriptor
-    Digest job_{};     ///< set by begin()
+    bool was_made_; ///< by this object, or by the run that began the job
+    int lock_ = -1; ///< descriptor
+    Digest job_{};  ///< set by begin()
 };
 
 /// The name under which a part of a stage is saved: "cells-3-of-8".
 std::string piece_name(const StagePiece& piece);
 
 template <typename... Parts>
-void WorkFolder::save(std::string_view stage, const Progress& progress, const Parts&... parts) const
+std::uint64_t WorkFolder::save(std::string_view stage, const Progress& progress,
+                               const Parts&... parts) const
 {
     StageSizer sizer;
     (sizer.put(parts), ...);
     StageWriter writer(file_of(stage), {std::string(stage), job_}, sizer.bytes(), progress);
     (writer.put(parts), ...);
     writer.commit();
+    return sizer.bytes();
 }
 
 template <typename... Parts>

@@ -29,8 +29,8 @@ VirtualSights place_virtual_views(const Labelling& labelling, const Scene& scene
 /// `cast(source, said, progress)` adds what a source knows to all that was said, `label(said)`
 /// labels by that.
 template <typename Said, typename Cast, typename Label>
-Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options,
-                           StageKeeper& work, const Cast& cast, const Label& label)
+Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options, StageKeeper& work,
+                           const Cast& cast, const Label& label)
 {
     const auto with = [&](const RaySource& source, Said said) {
         Stage stage(work.log(), "sights");
@@ -44,8 +44,7 @@ Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options
     if (options.count == 0) return label(by_photographs());
     return label(work.stage("virtual-sights", [&] {
         Said said = by_photographs();
-        const VirtualSights more =
-            place_virtual_views(label(said), scene, options, work.log());
+        const VirtualSights more = place_virtual_views(label(said), scene, options, work.log());
         return with(more.source(options.weight), std::move(said));
     }));
 }
@@ -53,8 +52,7 @@ Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options
 Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
                 StageKeeper& work)
 {
-    const auto cast = [&](const RaySource& source, Crossings& crossings,
-                          const Progress& progress) {
+    const auto cast = [&](const RaySource& source, Crossings& crossings, const Progress& progress) {
         cast_rays(cells, source, crossings, progress);
     };
     const auto label = [&](const Crossings& crossings) {
