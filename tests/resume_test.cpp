@@ -4,6 +4,7 @@
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ class EndingLog final : public Log {
         if (name == "keep" || name == "resume") return;
         lines.emplace_back(name);
         for (const auto& [what, count] : counts) {
-            lines.back() += " " + std::to_string(count) + " " + what;
+            lines.back() += fmt::format(" {} {}", count, what);
         }
     }
 
@@ -46,7 +47,7 @@ class EndingLog final : public Log {
 
 constexpr std::size_t kNever = 1000;
 
-struct Run {
+struct Trial {
     Reconstruction made;
     RemovedFaces removed;
     EndingLog log{kNever};
@@ -54,10 +55,10 @@ struct Run {
 
 struct Case {
     std::string name;
-    Options options;
+    Options options = {};
     bool is_dense = false;
     bool wants_removed = false;
-    std::vector<std::string> kept; ///< the stages that are
+    std::vector<std::string> kept = {}; ///< the stages that are
 };
 
 Scene scene_of(const Case& some)
@@ -67,14 +68,15 @@ Scene scene_of(const Case& some)
     return scene;
 }
 
-Run run(const Case& some, WorkFolder* work, std::size_t most = kNever)
+Trial run(const Case& some, WorkFolder* work, std::size_t most = kNever)
 {
-    Run run{.log = EndingLog(most)};
+    Trial trial;
+    trial.log = EndingLog(most);
     const Scene scene = scene_of(some);
-    run.made =
-        reconstruct_thinned(scene, size_of(scene), some.options, run.log,
-                            {.removed = some.wants_removed ? &run.removed : nullptr, .work = work});
-    return run;
+    trial.made = reconstruct_thinned(
+        scene, size_of(scene), some.options, trial.log,
+        {.removed = some.wants_removed ? &trial.removed : nullptr, .work = work});
+    return trial;
 }
 
 void expect_equal(const TriMesh& a, const TriMesh& b)
@@ -87,7 +89,7 @@ void expect_equal(const TriMesh& a, const TriMesh& b)
     EXPECT_EQ(a.offset, b.offset);
 }
 
-void expect_equal(const Run& a, const Run& b)
+void expect_equal(const Trial& a, const Trial& b)
 {
     expect_equal(a.made.mesh, b.made.mesh);
     expect_equal_scenes(a.made.scene, b.made.scene);
@@ -130,11 +132,11 @@ class Resumed : public testing::TestWithParam<Case> {
         work.begin(job);
         EXPECT_EQ(refusal<std::runtime_error>([&] { run(GetParam(), &work, stages); }), "killed");
     }
-    Run go_on() const
+    Trial go_on() const
     {
         WorkFolder work(folder.path());
         work.begin(job);
-        Run made = run(GetParam(), &work);
+        Trial made = run(GetParam(), &work);
         work.clear();
         return made;
     }
@@ -152,10 +154,10 @@ std::string name_of(const testing::TestParamInfo<Case>& info)
 
 TEST_P(Resumed, MakesTheSameAfterAnyStage)
 {
-    const Run alone = run(GetParam(), nullptr);
+    const Trial alone = run(GetParam(), nullptr);
     ASSERT_FALSE(alone.made.mesh.faces.empty());
     EXPECT_TRUE(alone.log.kept.empty());
-    const Run undisturbed = go_on();
+    const Trial undisturbed = go_on();
     expect_equal(undisturbed, alone);
     std::vector<std::string> kept;
     for (const std::string& stage : GetParam().kept) {
@@ -164,7 +166,7 @@ TEST_P(Resumed, MakesTheSameAfterAnyStage)
     EXPECT_EQ(undisturbed.log.kept, kept);
     for (std::size_t stages = 1; stages <= kept.size(); ++stages) {
         end_after(stages);
-        const Run resumed = go_on();
+        const Trial resumed = go_on();
         expect_equal(resumed, alone);
         EXPECT_EQ(resumed.log.kept,
                   std::vector(kept.begin() + static_cast<std::ptrdiff_t>(stages), kept.end()));
@@ -174,7 +176,7 @@ TEST_P(Resumed, MakesTheSameAfterAnyStage)
 
 INSTANTIATE_TEST_SUITE_P(Runs, Resumed, testing::ValuesIn(cases()), name_of);
 
-TEST(Resumed, WithAReportWantedOnlyNowMakesTheSurfaceAgain)
+TEST(ResumedRun, WithAReportWantedOnlyNowMakesTheSurfaceAgain)
 {
     const TemporaryFolder folder;
     Case some = cases()[0];
@@ -186,7 +188,7 @@ TEST(Resumed, WithAReportWantedOnlyNowMakesTheSurfaceAgain)
     some.wants_removed = true;
     WorkFolder work(folder.path());
     work.begin({});
-    const Run resumed = run(some, &work);
+    const Trial resumed = run(some, &work);
     EXPECT_THAT(resumed.log.kept, ElementsAre("MiB of surface-and-removed"));
     expect_equal(resumed, run(some, nullptr));
     EXPECT_FALSE(resumed.removed.reasons.empty());

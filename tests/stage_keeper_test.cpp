@@ -3,6 +3,7 @@
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -27,7 +28,7 @@ class Lines final : public Log {
         if (name == "keep" || name == "resume") return;
         lines.push_back(std::string(name));
         for (const auto& [what, count] : counts) {
-            lines.back() += " " + std::to_string(count) + " " + what;
+            lines.back() += fmt::format(" {} {}", count, what);
         }
     }
     void note(std::string_view sentence) override { notes.emplace_back(sentence); }
