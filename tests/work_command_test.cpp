@@ -59,8 +59,8 @@ TEST_F(WorkOfProgram, IsKeptAndTakenWhereAsked)
     const Outcome outcome = run({"--threads=1", "--ascii", "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("note: surface of the folder " + work +
-                                       " has what an earlier run made in filter, triangulate, "
-                                       "sights, cut, surface"));
+                                       " has what an earlier run made in triangulate, sights, "
+                                       "cut, surface"));
     EXPECT_THAT(outcome.err, ContainsRegex("resume +[0-9]+ MiB of surface"));
     EXPECT_FALSE(fs::exists(work));
     const auto record = nlohmann::json::parse(bytes_of(stats));
@@ -91,8 +91,8 @@ TEST_F(WorkOfProgram, OfOtherOptionsOrInputIsRefused)
 
 TEST_F(WorkOfProgram, IsOneRunsAtATime)
 {
-    // A terminal that nobody reads holds the first run up: a pipe would; here it is simply slow.
-    Subprocess first(words({"--virtual-views=2000"}));
+    // So many views take their time.
+    Subprocess first(words({"--virtual-views=300"}));
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!fs::exists(work + "/points.stage") && std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -122,9 +122,11 @@ TEST_F(WorkOfProgram, IsToBeAFolderOfItsOwn)
 
 TEST_F(WorkOfProgram, IsLeftByNoRunThatNeverWorked)
 {
-    scene = VCARVE_FIXTURES "/degenerate";
-    EXPECT_EQ(run({"--quiet"}).exit_code, 3);
-    EXPECT_FALSE(fs::exists(work));
+    for (const char* const model : {"/broken", "/nowhere"}) {
+        scene = std::string(VCARVE_FIXTURES) + model;
+        EXPECT_EQ(run({"--quiet"}).exit_code, 3) << model;
+        EXPECT_FALSE(fs::exists(work)) << model;
+    }
 }
 
 } // namespace vcarve
