@@ -100,7 +100,8 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     }
     StageCounts log;
     RemovedFaces removed;
-    const TriMesh mesh = reconstruct_thinned(scene, size_of(scene), options, log, &removed).mesh;
+    const TriMesh mesh =
+        reconstruct_thinned(scene, size_of(scene), options, log, {.removed = &removed}).mesh;
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
     EXPECT_EQ(count(removed, Removal::sheet), log.all["surface sheets"]);
     EXPECT_EQ(count(removed, Removal::outside_region), log.all["surface outside the region"]);
@@ -123,7 +124,7 @@ TEST(RemovedFaces, TellSheetsFromWhatNobodySaw)
     RemovedFaces removed;
     const Scene scene = read_model(std::filesystem::path(VCARVE_FIXTURES) / "room", log);
     const SceneSize size = size_of(scene);
-    reconstruct_thinned(scene, size, {}, log, &removed);
+    reconstruct_thinned(scene, size, {}, log, {.removed = &removed});
     EXPECT_GT(count(removed, Removal::sheet), 0);
     EXPECT_EQ(count(removed, Removal::sheet), log.all["surface sheets"]);
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);

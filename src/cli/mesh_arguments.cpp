@@ -32,6 +32,34 @@ void check_operands(const std::vector<std::string>& operands)
     }
 }
 
+/// Under the heading "Run", which is the last of Options.
+void list_work_options(OptionTable& table)
+{
+    bool off = false;
+    table.path({.name = "work",
+                .help =
+                    "Keep what every stage made in this folder until the surface is written, "
+                    "so that the same command, given again, goes on after the last stage that "
+                    "a run finished which was killed or found the disk full. None by default."});
+    table.flag(off, {.name = "keep-work",
+                     .help = "Leave the folder of --work as it is at the end, instead of "
+                             "removing what the run put there."});
+}
+
+void read_work_options(const ParsedArguments& given, MeshArguments& arguments)
+{
+    if (given.has("work")) arguments.work = given.options.at("work");
+    arguments.keeps_work = given.has("keep-work");
+    if (given.has("work") && arguments.work.empty()) {
+        throw UsageError(fmt::format("--work takes a folder, but got an empty path{}", kSeeHelp));
+    }
+    if (arguments.keeps_work && arguments.work.empty()) {
+        throw UsageError(fmt::format("--keep-work keeps the folder of --work, which was not "
+                                     "given{}",
+                                     kSeeHelp));
+    }
+}
+
 void check_output(const fs::path& out, const OutputOptions& options)
 {
     // What is a folder is refused as such later.
@@ -51,6 +79,7 @@ std::vector<OptionRow> mesh_options()
     OptionTable table;
     list_points_options(table);
     options.visit(table);
+    list_work_options(table);
     output.visit(table);
     table.path({.name = "stats",
                 .help =
@@ -97,6 +126,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
         arguments.report = given.options.at("report");
         require_page_name(arguments.report);
     }
+    read_work_options(given, arguments);
     arguments.command = command_text("colmap-vcarve", given.typed);
     require_distinct(outputs_of(arguments));
     return arguments;

@@ -52,7 +52,9 @@ struct MeshArguments {
     std::filesystem::path stats;
     bool with_report = false;
     std::filesystem::path report;
-    std::string command; ///< as it was typed
+    std::filesystem::path work; ///< empty where nothing is kept between stages
+    bool keeps_work = false;    ///< also at the end
+    std::string command;        ///< as it was typed
     OutputOptions output;
     Options options;
 };

@@ -12,6 +12,7 @@
 #include "cli/run_record.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
+#include "io/work/work_folder.h"
 #include "mesh/check.h"
 #include "mesh/long_faces.h"
 #include "pipeline/memory.h"
@@ -130,14 +131,37 @@ void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
     }
 }
 
+/// All that the stages of a run depend on. What does not change before the surface is written, as
+/// --offset does, is left out.
+Job job_of(const MeshArguments& arguments, Log& log)
+{
+    Stage stage(log, "digest");
+    Job job = {program_fact()};
+    const Job input = input_facts(find_input(arguments.model.path, arguments.model.points), stage);
+    job.insert(job.end(), input.begin(), input.end());
+    stage.end({{"files", size_of(input.size())}});
+    const Job options = option_facts(arguments.options);
+    job.insert(job.end(), options.begin(), options.end());
+    return job;
+}
+
+/// The folder of --work, its job begun; null where there is none.
+std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log)
+{
+    if (arguments.work.empty()) return nullptr;
+    auto folder = std::make_unique<WorkFolder>(arguments.work);
+    folder->begin(job_of(arguments, log));
+    return folder;
+}
+
 /// The surface of a scene. What the scene lacks is said of the model it was read from.
-Surface surface_of(ModelInput input, const MeshArguments& arguments, Log& log)
+Surface surface_of(ModelInput input, const MeshArguments& arguments, WorkFolder* work, Log& log)
 {
     try {
         Surface surface;
-        Reconstruction made =
-            reconstruct_thinned(std::move(input.scene), input.read, arguments.options, log,
-                                arguments.with_report ? &surface.removed : nullptr);
+        Reconstruction made = reconstruct_thinned(
+            std::move(input.scene), input.read, arguments.options, log,
+            {.removed = arguments.with_report ? &surface.removed : nullptr, .work = work});
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
@@ -184,7 +208,8 @@ ModelInput read_input(const MeshArguments& arguments, const RunLogs& logs)
 }
 
 /// From the model to the file; tells the record what went in and came out.
-Made make_surface(const MeshArguments& arguments, const RunLogs& logs, Json& record)
+Made make_surface(const MeshArguments& arguments, WorkFolder* work, const RunLogs& logs,
+                  Json& record)
 {
     ModelInput input = read_input(arguments, logs);
     record["input"] = input.record;
@@ -195,7 +220,7 @@ Made make_surface(const MeshArguments& arguments, const RunLogs& logs, Json& rec
     record["offset"] = {offset.x(), offset.y(), offset.z()};
     Made made;
     made.is_dense = input.read.is_dense;
-    const Surface surface = surface_of(std::move(input), arguments, logs.told);
+    const Surface surface = surface_of(std::move(input), arguments, work, logs.told);
     write_surface(arguments, surface, offset, logs.told);
     preview.add(arguments.out.filename().string(), surface.mesh, logs.told);
     preview.write();
@@ -302,11 +327,13 @@ void run_mesh(const ParsedArguments& given)
                    {"threads_used", threads}};
     record["options"].update(options_json(arguments.output));
 
-    const Made made = make_surface(arguments, logs, record);
+    const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
+    const Made made = make_surface(arguments, work.get(), logs, record);
     if (recorder) {
         record.update(recorder->json());
         write_records(arguments, made.report, std::move(record));
     }
+    if (work && !arguments.keeps_work) work->clear();
     shown->conclude(closing_line(arguments, made, keeper.counts()));
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/freed_memory.h"
 #include "base/validate.h"
+#include "io/work/stage_keeper.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/scene_check.h"
 #include "model/scene_size.h"
@@ -16,6 +17,7 @@
 #include "steps/1_points/thin.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/4_labels/label_cells.h"
+#include "steps/5_surface/kept_surface.h"
 #include "steps/5_surface/make_surface.h"
 #include "steps/5_surface/orient.h"
 #include "steps/6_refine/refine.h"
@@ -99,12 +101,40 @@ TetMesh triangulate(const Scene& scene, Log& log)
     return cells;
 }
 
-/// From the points to the faces that views see; the cells are gone when it ends.
-SeenSurface carve(const Scene& scene, const SurfaceWishes& wishes, const Options& options, Log& log)
+/// The points that are carved with, and the part of space that the surface is wanted of.
+struct Carvers {
+    Scene scene;
+    std::unique_ptr<Region> region; ///< null for all of space
+};
+
+Carvers prepare(Scene scene, const Options& options, StageKeeper& work)
 {
-    const TetMesh cells = triangulate(scene, log);
-    return seen_surface(label_cells(cells, scene, options.labels, log), scene, wishes,
-                        options.surface, log);
+    const auto filtered = [&] { return filter(std::move(scene), options.points, work.log()); };
+    std::unique_ptr<Region> region;
+    const bool is_cropped = options.crop.region.kind != RegionChoice::Kind::everything;
+    if (is_cropped) { // the region is found among points that it drops
+        scene = work.stage("filtered", filtered);
+        region = make_region(options.crop.region, scene);
+    }
+    scene = work.stage("points", [&] {
+        Scene points = is_cropped ? crop(std::move(scene), region.get(), work.log()) : filtered();
+        denoise(points, options.denoise, work.log());
+        return points;
+    });
+    return {std::move(scene), std::move(region)};
+}
+
+/// From the points to the faces that views see; the cells are gone when it ends.
+CarvedSurface carve(const Carvers& carvers, bool wants_removed, const Options& options,
+                    StageKeeper& work)
+{
+    const Scene& scene = carvers.scene;
+    const TetMesh cells = work.stage("cells", [&] { return triangulate(scene, work.log()); });
+    CarvedSurface carved;
+    const SurfaceWishes wishes = {carvers.region.get(), wants_removed ? &carved.removed : nullptr};
+    carved.seen = seen_surface(label_cells(cells, scene, options.labels, work), scene, wishes,
+                               options.surface, work.log());
+    return carved;
 }
 
 /// Checks which way the surface faces, and hands it over.
@@ -119,22 +149,25 @@ TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
     return surface;
 }
 
-/// All steps but thinning. Faces that are taken away go to `removed`, where it is not null.
-Reconstruction run_steps(Scene scene, const RunSize& size, const Options& options, Log& log,
-                         RemovedFaces* removed = nullptr)
+/// All steps but thinning.
+Reconstruction run_steps(Scene scene, const RunSize& size, const Options& options, Log& shown,
+                         const RunExtras& extras = {})
 {
+    StageKeeper work(extras.work, shown);
+    Log& log = work.log();
     scene = center_points(std::move(scene));
     return_freed_memory();
     foresee_memory(size, options, log);
-    scene = filter(std::move(scene), options.points, log);
-    const std::unique_ptr<Region> region = make_region(options.crop.region, scene);
-    scene = crop(std::move(scene), region.get(), log);
-    denoise(scene, options.denoise, log);
+    Carvers carvers = prepare(std::move(scene), options, work);
     return_freed_memory();
-    SeenSurface seen = carve(scene, {region.get(), removed}, options, log);
+    const bool wants_removed = extras.removed != nullptr;
+    CarvedSurface carved = work.stage(wants_removed ? "surface-and-removed" : "surface",
+                                      [&] { return carve(carvers, wants_removed, options, work); });
+    if (wants_removed) *extras.removed = std::move(carved.removed);
     return_freed_memory();
+    scene = std::move(carvers.scene);
     const std::unique_ptr<HalfEdgeMesh> mesh =
-        mended_surface(std::move(seen), removed, options.surface, log);
+        mended_surface(std::move(carved.seen), extras.removed, options.surface, log);
     refine(*mesh, scene, options.refine, log);
     TriMesh surface = orient(*mesh, scene, log);
     return {std::move(scene), std::move(surface)};
@@ -170,12 +203,12 @@ Gather thin_while_reading(const ThinOptions& options)
 }
 
 Reconstruction reconstruct_thinned(Scene thinned, const SceneSize& read, const Options& options,
-                                   Log& log, RemovedFaces* removed)
+                                   Log& log, const RunExtras& extras)
 {
     return with_threads(options, [&] {
         RunSize size = size_before_thinning(read, options.thin);
         size.thinned = size_of(thinned);
-        return run_steps(std::move(thinned), size, options, log, removed);
+        return run_steps(std::move(thinned), size, options, log, extras);
     });
 }
 

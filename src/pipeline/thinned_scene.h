@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/input/read_model.h"
+#include "io/work/work_folder.h"
 #include "mesh/removed_faces.h"
 #include "model/scene_size.h"
 #include "vcarve/options.h"
@@ -12,10 +13,18 @@ namespace vcarve {
 /// nothing where none are to be merged.
 Gather thin_while_reading(const ThinOptions& options);
 
+/// What a run has beside a scene and options; nothing of it changes the surface.
+struct RunExtras {
+    /// Gets the faces that were taken away, which cost time and memory only where it is not null.
+    RemovedFaces* removed = nullptr;
+    /// Where stages are kept, and taken from where an earlier run kept them; null for nowhere. It
+    /// has begun the job that the scene and the options are of.
+    WorkFolder* work = nullptr;
+};
+
 /// The surface of a scene whose points were merged so, if they are of a cloud. `read` is the size
-/// of what was read. `removed`, where it is not null, gets the faces that were taken away; they
-/// cost time and memory only then, and the surface is the same.
+/// of what was read.
 Reconstruction reconstruct_thinned(Scene thinned, const SceneSize& read, const Options& options,
-                                   Log& log, RemovedFaces* removed = nullptr);
+                                   Log& log, const RunExtras& extras = {});
 
 } // namespace vcarve

@@ -20,6 +20,7 @@ inline void expect_equal_scenes(const Scene& a, const Scene& b)
         EXPECT_EQ(a.cameras[i].width_px, b.cameras[i].width_px);
         EXPECT_EQ(a.cameras[i].height_px, b.cameras[i].height_px);
         EXPECT_EQ(a.cameras[i].params, b.cameras[i].params);
+        EXPECT_EQ(a.cameras[i].measures_range, b.cameras[i].measures_range);
     }
     ASSERT_EQ(a.views.size(), b.views.size());
     for (std::size_t i = 0; i < a.views.size(); ++i) {

@@ -26,39 +26,42 @@ VirtualSights place_virtual_views(const Labelling& labelling, const Scene& scene
 }
 
 /// Labels by the photographs and, where virtual views are asked for, once more with these.
-/// `cast(source, progress)` adds what a source knows, `label(is_last)` labels by all that was
-/// added.
-template <typename Cast, typename Label>
-Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options, Log& log,
+/// `cast(source, said, progress)` adds what a source knows to all that was said, `label(said)`
+/// labels by that.
+template <typename Said, typename Cast, typename Label>
+Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options, StageKeeper& work,
                            const Cast& cast, const Label& label)
 {
-    const auto add = [&](const RaySource& source) {
-        Stage stage(log, "sights");
-        cast(source, stage);
+    const auto with = [&](const RaySource& source, Said said) {
+        Stage stage(work.log(), "sights");
+        cast(source, said, stage);
         stage.end({{"sights", size_of(source.rays->views.size())}});
+        return said;
     };
-    add(photographs(scene));
-    const bool is_last = options.count == 0;
-    Labelling first = label(is_last);
-    if (is_last) return first;
-    const VirtualSights more = place_virtual_views(first, scene, options, log);
-    add(more.source(options.weight));
-    return label(true);
+    const auto by_photographs = [&] {
+        return work.stage("sights", [&] { return with(photographs(scene), Said()); });
+    };
+    if (options.count == 0) return label(by_photographs());
+    return label(work.stage("virtual-sights", [&] {
+        Said said = by_photographs();
+        const VirtualSights more = place_virtual_views(label(said), scene, options, work.log());
+        return with(more.source(options.weight), std::move(said));
+    }));
 }
 
-Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
+Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
+                StageKeeper& work)
 {
-    Crossings crossings;
-    const auto cast = [&](const RaySource& source, const Progress& progress) {
+    const auto cast = [&](const RaySource& source, Crossings& crossings, const Progress& progress) {
         cast_rays(cells, source, crossings, progress);
     };
-    const auto label = [&](bool /*is_last*/) {
-        Stage stage(log, "carve");
+    const auto label = [&](const Crossings& crossings) {
+        Stage stage(work.log(), "carve");
         Labelling carved(cells, carve(cells, crossings, options.min_crossings));
         stage.end({{"inside", carved.num_inside()}});
         return carved;
     };
-    return label_by_sources(scene, options.virtual_views, log, cast, label);
+    return label_by_sources<Crossings>(scene, options.virtual_views, work, cast, label);
 }
 
 Labelling cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
@@ -78,27 +81,32 @@ Labelling cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
     return std::move(doubted.labelling);
 }
 
-Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options, Log& log)
+Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
+              StageKeeper& work)
 {
-    VisibilityEnergy energy;
     std::optional<Scales> scales; // measured once, as a part of the first stage
-    const auto cast = [&](const RaySource& source, const Progress& progress) {
+    const auto cast = [&](const RaySource& source, VisibilityEnergy& energy,
+                          const Progress& progress) {
         if (!scales) scales = measure_scales(cells, scene);
         RayCaster(cells, scene, *scales, options.trace).cast(source, energy, progress);
     };
-    const auto label = [&](bool is_last) {
-        return cut(cells, scene, is_last ? std::move(energy) : energy, options, log);
+    const auto label = [&](VisibilityEnergy energy) {
+        return cut(cells, scene, std::move(energy), options, work.log());
     };
-    return label_by_sources(scene, options.virtual_views, log, cast, label);
+    return label_by_sources<VisibilityEnergy>(scene, options.virtual_views, work, cast, label);
 }
 
 } // namespace
 
 Labelling label_cells(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
-                      Log& log)
+                      StageKeeper& work)
 {
-    return options.method == Method::strict ? carve(cells, scene, options, log)
-                                            : cut(cells, scene, options, log);
+    const auto label = [&] {
+        return options.method == Method::strict ? carve(cells, scene, options, work)
+                                                : cut(cells, scene, options, work);
+    };
+    if (!work.keeps()) return label();
+    return {cells, work.stage("labels", [&] { return label().labels(); })};
 }
 
 } // namespace vcarve

@@ -1,0 +1,162 @@
+#pragma once
+
+#include "base/progress.h"
+#include "io/files/output_file.h"
+#include "io/work/digest.h"
+#include "io/work/kept_fields.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+// A file with what a stage made: a header (a magic number, the layout's version, the stage's name,
+// the digest of the job, how many bytes follow, and a digest of all that), the content, and a
+// digest of the content. Arrays stand as they do in memory, so that they are written from and read
+// into their place; numbers are those of the machine that wrote them.
+
+namespace vcarve {
+
+/// What a stage file is of.
+struct StageLabel {
+    std::string name; ///< of the stage, at most kLongestName letters
+    Digest job;       ///< input and options, see job.h
+
+    static constexpr std::size_t kLongestName = 63;
+};
+
+/// Counts the bytes that StageWriter would write.
+class StageSizer {
+  public:
+    template <typename T>
+    void put(const T& value);
+    std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    std::uint64_t bytes_ = 0;
+};
+
+/// Writes a stage file, which is there when commit() has ended and not before.
+class StageWriter {
+  public:
+    /// `bytes` is what a StageSizer says of all that will be put. Throws UsageError where the file
+    /// cannot be written, as everything else here does, and Cancelled where the progress does.
+    StageWriter(const std::filesystem::path& path, const StageLabel& label, std::uint64_t bytes,
+                const Progress& progress);
+
+    template <typename T>
+    void put(const T& value);
+    void commit();
+
+  private:
+    void put_bytes(const void* data, std::size_t count);
+
+    OutputFile file_;
+    std::uint64_t bytes_;
+    std::uint64_t done_ = 0;
+    RunningDigest digest_;
+    Progress progress_;
+};
+
+/// Reads a stage file. What was got counts only when finish() has found all of it in order: every
+/// function throws InputError, one sentence with the file, what was found and what was expected,
+/// where the file is missing, unreadable, cut off, damaged, or of another stage or job. Never
+/// allocates more than there are bytes in the file.
+class StageReader {
+  public:
+    StageReader(std::filesystem::path path, const StageLabel& label, const Progress& progress);
+
+    template <typename T>
+    void get(T& value);
+    void finish();
+
+    std::uint64_t bytes() const { return bytes_; } ///< of the content
+
+  private:
+    void read_header(const StageLabel& label);
+    void read(void* data, std::size_t count);
+    void get_bytes(void* data, std::size_t count);
+    /// How many items follow; each takes so many bytes at least.
+    std::size_t get_count(std::size_t item_bytes);
+    [[noreturn]] void refuse(std::string_view what) const;
+
+    std::filesystem::path path_;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+    std::uint64_t bytes_ = 0;
+    std::uint64_t done_ = 0;
+    RunningDigest digest_;
+    Progress progress_;
+};
+
+template <typename T>
+void StageSizer::put(const T& value)
+{
+    if constexpr (kIsPlain<T>) {
+        bytes_ += sizeof(T);
+    } else if constexpr (kIsOptional<T>) {
+        bytes_ += sizeof(bool);
+        if (value) put(*value);
+    } else if constexpr (kIsArray<T>) {
+        bytes_ += sizeof(std::uint64_t);
+        if constexpr (kIsPlain<typename T::value_type>) {
+            bytes_ += value.size() * sizeof(typename T::value_type);
+        } else {
+            for (const auto& item : value)
+                put(item);
+        }
+    } else {
+        KeptFields<T>::visit([&](const auto& field) { put(field); }, value);
+    }
+}
+
+template <typename T>
+void StageWriter::put(const T& value)
+{
+    if constexpr (kIsPlain<T>) {
+        put_bytes(&value, sizeof(T));
+    } else if constexpr (kIsOptional<T>) {
+        put(value.has_value());
+        if (value) put(*value);
+    } else if constexpr (kIsArray<T>) {
+        put(std::uint64_t{value.size()});
+        if constexpr (kIsPlain<typename T::value_type>) {
+            put_bytes(value.data(), value.size() * sizeof(typename T::value_type));
+        } else {
+            for (const auto& item : value)
+                put(item);
+        }
+    } else {
+        KeptFields<T>::visit([&](const auto& field) { put(field); }, value);
+    }
+}
+
+template <typename T>
+void StageReader::get(T& value)
+{
+    if constexpr (kIsPlain<T>) {
+        get_bytes(&value, sizeof(T));
+    } else if constexpr (kIsOptional<T>) {
+        std::uint8_t has_value = 0;
+        get(has_value);
+        value.reset();
+        if (has_value != 0) get(value.emplace());
+    } else if constexpr (kIsArray<T>) {
+        using Item = typename T::value_type;
+        value.clear();
+        if constexpr (kIsPlain<Item>) {
+            value.resize(get_count(sizeof(Item)));
+            get_bytes(value.data(), value.size() * sizeof(Item));
+        } else {
+            // One by one, so that a wrong count ends at the end of the file.
+            for (std::size_t left = get_count(1); left > 0; --left)
+                get(value.emplace_back());
+        }
+    } else {
+        KeptFields<T>::visit([&](auto& field) { get(field); }, value);
+    }
+}
+
+} // namespace vcarve

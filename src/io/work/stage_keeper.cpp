@@ -1,0 +1,79 @@
+#include "io/work/stage_keeper.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vcarve {
+
+namespace {
+
+constexpr const char* kMadeAgain = "it is made again";
+
+} // namespace
+
+Counts size_counts(std::string_view name, std::uint64_t bytes)
+{
+    return {{fmt::format("MiB of {}", name), static_cast<std::int64_t>(bytes >> 20) + 1}};
+}
+
+void RememberingLog::stage_ends(std::string_view name, const Counts& counts)
+{
+    told_.push_back({std::string(name), true, counts});
+    shown_.stage_ends(name, counts);
+}
+
+void RememberingLog::note(std::string_view sentence)
+{
+    told_.push_back({std::string(sentence), false, {}});
+    shown_.note(sentence);
+}
+
+void RememberingLog::tell_again(const std::vector<ToldEvent>& events)
+{
+    for (const ToldEvent& event : events) {
+        if (event.is_stage) {
+            stage_begins(event.text);
+            stage_ends(event.text, event.counts);
+        } else {
+            note(event.text);
+        }
+    }
+}
+
+void StageKeeper::tell_taken(std::string_view name, const std::vector<ToldEvent>& told)
+{
+    std::vector<std::string> stages;
+    for (const ToldEvent& event : told) {
+        if (event.is_stage) stages.push_back(event.text);
+    }
+    shown_.note(fmt::format("{} of the folder {} has what an earlier run made in {}", name,
+                            folder_->path().string(), fmt::join(stages, ", ")));
+    remembering_.tell_again(told);
+}
+
+std::vector<ToldEvent> StageKeeper::told_since(std::size_t first) const
+{
+    const std::vector<ToldEvent>& told = remembering_.told();
+    return {told.begin() + static_cast<std::ptrdiff_t>(first), told.end()};
+}
+
+void StageKeeper::note_unkept(std::string_view name, const UsageError& error)
+{
+    shown_.note(
+        fmt::format("{}; the run goes on, but {} would have to be made again", error.what(), name));
+}
+
+void StageKeeper::note_unusable(const InputError& error)
+{
+    shown_.note(fmt::format("{}; {}", error.what(), kMadeAgain));
+}
+
+void StageKeeper::tell_unusable_pieces()
+{
+    const std::lock_guard lock(mutex_);
+    for (const std::string& sentence : std::exchange(unusable_, {})) {
+        shown_.note(fmt::format("{}; {}", sentence, kMadeAgain));
+    }
+}
+
+} // namespace vcarve

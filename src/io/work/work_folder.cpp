@@ -1,0 +1,280 @@
+#include "io/work/work_folder.h"
+
+#include "io/files/output_file.h"
+#include "vcarve/error.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kLockName = "lock";
+constexpr const char* kJobName = "job";
+constexpr const char* kStageEnd = ".stage";
+/// First line of the job's file, and what the last one begins with.
+constexpr std::string_view kJobTitle = "work folder of colmap-vcarve, layout 1\n";
+constexpr std::string_view kMadeHere = "the folder\twas made by the run\n";
+constexpr std::string_view kJobEnd = "digest of the lines above\t";
+constexpr const char* kAnother = "name another folder with --work, or remove this one to begin "
+                                 "anew";
+
+/// Whether a name is one of a file half written, see part_path().
+bool is_part(const std::string& name)
+{
+    return name.find(".part-") != std::string::npos;
+}
+
+/// Whether we write files of that name.
+bool is_ours(const std::string& name)
+{
+    const std::string whole = name.substr(0, name.find(".part-"));
+    return whole == kLockName || whole == kJobName || whole.ends_with(kStageEnd);
+}
+
+std::vector<fs::path> files_in(const fs::path& folder)
+{
+    std::error_code error; // what cannot be listed is refused where it is written
+    std::vector<fs::path> files;
+    for (auto entry = fs::directory_iterator(folder, error);
+         !error && entry != fs::directory_iterator(); entry.increment(error)) {
+        files.push_back(entry->path());
+    }
+    std::ranges::sort(files);
+    return files;
+}
+
+/// True where there was none. Throws UsageError where there is none afterwards.
+bool make_folder(const fs::path& folder)
+{
+    std::error_code error;
+    const bool was_made = fs::create_directory(folder, error);
+    if (fs::is_directory(folder)) return was_made;
+    const std::string reason =
+        fs::exists(folder) ? "there is a file of that name" : error.message();
+    throw UsageError(fmt::format("cannot make the work folder {}: {}", folder.string(), reason));
+}
+
+/// Nobody's files are to be taken for ours, nor mixed with them.
+void require_ours(const fs::path& folder)
+{
+    if (fs::exists(folder / kJobName)) return;
+    for (const fs::path& file : files_in(folder)) {
+        const std::string name = file.filename();
+        if (name == kLockName || (is_ours(name) && is_part(name))) continue;
+        throw UsageError(fmt::format("{} is no work folder, but holds {}; --work takes a folder "
+                                     "that is empty or does not exist, or one that an earlier run "
+                                     "left",
+                                     folder.string(), name));
+    }
+}
+
+/// Whether the file of that descriptor is the one of that name still.
+bool is_same_file(int descriptor, const fs::path& path)
+{
+    struct stat opened = {};
+    struct stat named = {};
+    return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// The descriptor of the locked file. A run that ends removes that file, so one that was opened
+/// just before may be nobody's by now.
+int lock(const fs::path& folder)
+{
+    const fs::path path = folder / kLockName;
+    for (;;) {
+        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file < 0) {
+            throw UsageError(fmt::format("cannot write in the work folder {}: {}", folder.string(),
+                                         std::strerror(errno)));
+        }
+        if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+            const int error = errno;
+            ::close(file);
+            if (error == EWOULDBLOCK) {
+                throw InputError(fmt::format("another run works in the folder {}; wait until it "
+                                             "has ended, or name another folder with --work",
+                                             folder.string()));
+            }
+            throw UsageError(fmt::format("the work folder {} cannot be locked: {}", folder.string(),
+                                         std::strerror(error)));
+        }
+        if (is_same_file(file, path)) return file;
+        ::close(file);
+    }
+}
+
+void remove_quietly(const fs::path& path)
+{
+    std::error_code error; // what cannot be removed stays
+    fs::remove(path, error);
+}
+
+std::string whole_text(const std::string& lines)
+{
+    return fmt::format("{}{}{}\n", lines, kJobEnd, digest_text(digest_of(lines)));
+}
+
+/// Empty where there is no such file.
+std::string text_of(const fs::path& path)
+{
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The facts in the text of a job's file. Throws InputError where it is damaged.
+std::string job_lines(const fs::path& path, const std::string& text)
+{
+    const std::string lines = text.substr(0, std::min(text.size(), text.rfind(kJobEnd)));
+    if (!lines.starts_with(kJobTitle) || text != whole_text(lines)) {
+        throw InputError(fmt::format("{}: the file that says what the folder is of is damaged: it "
+                                     "does not fit its digest; {}",
+                                     path.string(), kAnother));
+    }
+    const std::size_t first = kJobTitle.size();
+    const bool is_made_here = lines.compare(first, kMadeHere.size(), kMadeHere) == 0;
+    return lines.substr(is_made_here ? first + kMadeHere.size() : first);
+}
+
+Job parse_job(std::string_view lines)
+{
+    Job job;
+    while (!lines.empty()) {
+        const std::string_view line = lines.substr(0, lines.find('\n'));
+        const std::size_t tab = std::min(line.find('\t'), line.size() - 1);
+        job.push_back({std::string(line.substr(0, tab)), std::string(line.substr(tab + 1))});
+        lines.remove_prefix(line.size() + 1);
+    }
+    return job;
+}
+
+std::string value_in(const Job& job, const std::string& name)
+{
+    const auto fact = std::ranges::find(job, name, &JobFact::name);
+    return fact == job.end() ? "not there" : fact->value;
+}
+
+/// The first thing that differs between two jobs that are not equal, as a clause.
+std::string difference(const Job& before, const Job& now)
+{
+    for (const Job* const job : {&now, &before}) {
+        for (const JobFact& fact : *job) {
+            const std::string old_value = value_in(before, fact.name);
+            const std::string new_value = value_in(now, fact.name);
+            if (old_value == new_value) continue;
+            return fmt::format("{} was {} and is {}", fact.name, old_value, new_value);
+        }
+    }
+    return "the order of what is read differs";
+}
+
+} // namespace
+
+WorkFolder::WorkFolder(fs::path folder)
+    : folder_(std::move(folder)), was_made_(make_folder(folder_))
+{
+    require_ours(folder_);
+    lock_ = lock(folder_);
+    for (const fs::path& file : files_in(folder_)) {
+        const std::string name = file.filename();
+        if (is_ours(name) && is_part(name)) remove_quietly(file);
+    }
+}
+
+WorkFolder::~WorkFolder()
+{
+    if (lock_ < 0) return;
+    if (!holds_stages()) {
+        clear();
+    } else {
+        ::close(lock_);
+    }
+}
+
+void WorkFolder::begin(const Job& job)
+{
+    const fs::path path = folder_ / kJobName;
+    job_ = digest_of(job);
+    std::string lines = text_of(path);
+    if (lines.find(kMadeHere) != std::string::npos) was_made_ = true;
+    if (!holds_stages()) { // nothing to go on with, nor to lose
+        write_job(job);
+        return;
+    }
+    lines = job_lines(path, lines);
+    if (lines == job_text(job)) return;
+    throw InputError(fmt::format("the work folder {} is of another run: {}; {}", folder_.string(),
+                                 difference(parse_job(lines), job), kAnother));
+}
+
+void WorkFolder::write_job(const Job& job)
+{
+    OutputFile file(folder_ / kJobName);
+    std::string lines(kJobTitle);
+    if (was_made_) lines += kMadeHere;
+    file.stream() << whole_text(lines + job_text(job));
+    file.commit();
+}
+
+fs::path WorkFolder::file_of(std::string_view stage) const
+{
+    return folder_ / fmt::format("{}{}", stage, kStageEnd);
+}
+
+bool WorkFolder::has(std::string_view stage) const
+{
+    return fs::exists(file_of(stage));
+}
+
+bool WorkFolder::holds_stages() const
+{
+    return std::ranges::any_of(files_in(folder_),
+                               [](const fs::path& file) { return file.extension() == kStageEnd; });
+}
+
+void WorkFolder::drop_pieces(std::string_view stage) const
+{
+    for (const fs::path& file : files_in(folder_)) {
+        const std::string name = file.filename();
+        const bool is_piece = name.starts_with(fmt::format("{}-", stage)) &&
+                              name.find("-of-") != std::string::npos && is_ours(name);
+        if (is_piece) remove_quietly(file);
+    }
+}
+
+void WorkFolder::clear()
+{
+    if (lock_ < 0) return;
+    // The job goes after its stages: a run that is killed in between finds what it knows.
+    for (const fs::path& file : files_in(folder_)) {
+        const std::string name = file.filename();
+        if (is_ours(name) && name != kJobName && name != kLockName) remove_quietly(file);
+    }
+    remove_quietly(folder_ / kJobName);
+    remove_quietly(folder_ / kLockName);
+    ::close(std::exchange(lock_, -1));
+    if (was_made_) remove_quietly(folder_); // but where it holds something
+}
+
+std::string piece_name(const StagePiece& piece)
+{
+    return fmt::format("{}-{}-of-{}", piece.stage, piece.number, piece.of);
+}
+
+} // namespace vcarve

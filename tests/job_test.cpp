@@ -1,0 +1,181 @@
+#include "base/version.h"
+#include "io/work/job.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+#include "vcarve/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+
+/// Changes the option of one number to another value in its range, and lists all names.
+class OneChanged final : public OptionVisitor {
+  public:
+    explicit OneChanged(std::size_t which) : which_(which) {}
+
+    void stage(const char*) override {}
+    void number(double& value, const OptionInfo& info) override
+    {
+        if (is_it(info)) value = value == 1.0 ? 0.5 : 1.0;
+    }
+    void count(int& value, const OptionInfo& info) override
+    {
+        if (is_it(info)) ++value;
+    }
+    void bytes(std::int64_t& value, const OptionInfo& info) override
+    {
+        if (is_it(info)) ++value;
+    }
+    void flag(bool& value, const OptionInfo& info) override
+    {
+        if (is_it(info)) value = !value;
+    }
+    void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override
+    {
+        if (is_it(info)) value = (value + 1) % static_cast<int>(names.size());
+    }
+    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
+                        const OptionInfo& info) override
+    {
+        if (is_it(info)) value.word = (value.word + 1) % static_cast<int>(words.size());
+    }
+    void region(RegionChoice& value, const OptionInfo& info) override
+    {
+        if (is_it(info)) value.kind = RegionChoice::Kind::looked_at;
+    }
+
+    std::vector<std::string> names;
+
+  private:
+    bool is_it(const OptionInfo& info)
+    {
+        names.emplace_back(info.name);
+        return names.size() == which_ + 1;
+    }
+
+    std::size_t which_;
+};
+
+FoundInput model_in(const fs::path& folder)
+{
+    FoundInput input;
+    input.model.folder = folder;
+    return input;
+}
+
+void write_model(const TemporaryFolder& folder, const std::string& points)
+{
+    folder.write("cameras.bin", "some cameras");
+    folder.write("images.bin", "some images");
+    folder.write("points3D.bin", points);
+}
+
+} // namespace
+
+TEST(Job, DependsOnEveryOptionButThoseOfTheRun)
+{
+    const Job usual = option_facts(Options());
+    OneChanged all(1000);
+    Options().visit(all);
+    std::vector<std::string> without;
+    for (std::size_t i = 0; i < all.names.size(); ++i) {
+        Options options;
+        OneChanged change(i);
+        options.visit(change);
+        if (option_facts(options) == usual) without.push_back(all.names[i]);
+    }
+    EXPECT_THAT(without, ElementsAre("threads", "max-memory"));
+}
+
+TEST(Job, TellsNumbersApartToTheLastDigit)
+{
+    Options options;
+    options.labels.cut.quality = std::nextafter(1.0, 2.0);
+    EXPECT_NE(option_facts(options), option_facts(Options()));
+}
+
+TEST(Job, DependsOnTheContentOfFilesNotOnPlaceOrTime)
+{
+    const TemporaryFolder here;
+    const TemporaryFolder there;
+    write_model(here, "some points");
+    write_model(there, "some points");
+    fs::last_write_time(there / "images.bin",
+                        fs::file_time_type::clock::now() - std::chrono::hours(48));
+    EXPECT_EQ(input_facts(model_in(here.path())), input_facts(model_in(there.path())));
+    write_model(there, "some pointS");
+    const Job before = input_facts(model_in(here.path()));
+    const Job after = input_facts(model_in(there.path()));
+    EXPECT_EQ(before[0], after[0]);
+    EXPECT_EQ(before[1], after[1]);
+    EXPECT_EQ(before[2].name, "points3D.bin");
+    EXPECT_THAT(before[2].value, HasSubstr("11 bytes with the digest "));
+    EXPECT_NE(before[2], after[2]);
+}
+
+TEST(Job, DependsOnTheCloudAndNotOnPointsThatAreNotRead)
+{
+    const TemporaryFolder folder;
+    write_model(folder, "some points");
+    FoundInput input = model_in(folder.path());
+    input.dense = DenseFiles{.model = folder.path(),
+                             .format = ModelFormat::binary,
+                             .cloud = folder.write("a.ply", "a cloud"),
+                             .visibility = folder.write("a.ply.vis", "sights")};
+    const Job before = input_facts(input);
+    write_model(folder, "other points");
+    EXPECT_EQ(input_facts(input), before);
+    folder.write("a.ply.vis", "Sights");
+    EXPECT_NE(input_facts(input), before);
+    input.dense->visibility.clear();
+    EXPECT_THAT(input_facts(input), Contains(JobFact{"--sights", "nearest"}));
+    folder.write("a.ply", "A cloud");
+    EXPECT_THAT(input_facts(input), Not(IsSupersetOf({before[2]})));
+}
+
+TEST(Job, DependsOnWhereTheScannerStood)
+{
+    const TemporaryFolder folder;
+    FoundInput input;
+    input.scan = ScanFile{folder.write("scan.ply", "points"), std::nullopt};
+    const Job before = input_facts(input);
+    EXPECT_THAT(before, Contains(JobFact{"--scanner", "file"}));
+    input.scan->scanner = Eigen::Vector3d(1.0, 2.5, -3.0);
+    EXPECT_THAT(input_facts(input), Contains(JobFact{"--scanner", "1,2.5,-3"}));
+}
+
+TEST(Job, DependsOnTheContentOfARegionsFile)
+{
+    const TemporaryFolder folder;
+    Options options;
+    options.crop.region.kind = RegionChoice::Kind::file;
+    options.crop.region.file = folder.write("polygon.txt", "0 0\n1 0\n1 1\n");
+    const Job before = option_facts(options);
+    folder.write("polygon.txt", "0 0\n1 0\n1 2\n");
+    EXPECT_NE(option_facts(options), before);
+}
+
+TEST(Job, NamesTheProgram)
+{
+    EXPECT_THAT(program_fact().value, HasSubstr(program_version()));
+}
+
+TEST(Job, HasALineAFact)
+{
+    EXPECT_EQ(job_text({{"--quality", "1"}, {"--closed", "no"}}), "--quality\t1\n--closed\tno\n");
+    EXPECT_NE(digest_of(Job{{"--quality", "1"}}), digest_of(Job{{"--quality", "2"}}));
+}
+
+} // namespace vcarve

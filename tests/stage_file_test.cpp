@@ -1,0 +1,213 @@
+#include "io/work/stage_file.h"
+#include "steps/2_cells/triangulate.h"
+#include "steps/5_surface/kept_surface.h"
+#include "support/read_back.h"
+#include "support/scene_checks.h"
+#include "support/scenes.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace vcarve {
+namespace {
+
+using testing::AnyOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class StageFile : public testing::Test {
+  protected:
+    template <typename T>
+    void write(const T& value) const
+    {
+        StageSizer sizer;
+        sizer.put(value);
+        StageWriter writer(path, label, sizer.bytes(), {});
+        writer.put(value);
+        writer.commit();
+    }
+    template <typename T>
+    T read() const
+    {
+        T value;
+        StageReader reader(path, label, {});
+        reader.get(value);
+        reader.finish();
+        return value;
+    }
+    template <typename T>
+    T through_file(const T& value) const
+    {
+        write(value);
+        return read<T>();
+    }
+    /// What is said of the file when it has these bytes.
+    std::string refusal_of(std::string_view bytes) const
+    {
+        folder.write("some.stage", bytes);
+        return refusal<InputError>([&] { read<Scene>(); });
+    }
+
+    TemporaryFolder folder;
+    std::filesystem::path path = folder / "some.stage";
+    StageLabel label = {"some", digest_of(std::string("job"))};
+    Scene scene = bumpy_sphere(50, 1);
+};
+
+std::string replaced(std::string bytes, std::size_t at, char mask)
+{
+    bytes[at] = static_cast<char>(bytes[at] ^ mask);
+    return bytes;
+}
+
+} // namespace
+
+TEST_F(StageFile, GivesBackAScene)
+{
+    scene.views[0].name = "a name with \n and \0"; // as a model may have it
+    scene.cameras[0].params = {1.0, 0.1, -2.0};
+    scene.cameras[0].measures_range = true;
+    scene.normals.assign(scene.num_points(), Eigen::Vector3f(0.5F, 1.0F, -1.0F));
+    scene.offset = Eigen::Vector3d(1e6, -2.0, 0.1);
+    expect_equal_scenes(through_file(scene), scene);
+    EXPECT_TRUE(through_file(scene).cameras[0].measures_range);
+    expect_equal_scenes(through_file(Scene()), Scene());
+}
+
+TEST_F(StageFile, GivesBackCells)
+{
+    const TetMesh cells = triangulate(scene);
+    const TetMesh same = through_file(cells);
+    EXPECT_EQ(same.positions, cells.positions);
+    EXPECT_EQ(same.mirrors, cells.mirrors);
+    EXPECT_EQ(same.cell_of_vertex, cells.cell_of_vertex);
+    ASSERT_EQ(same.cells.size(), cells.cells.size());
+    for (std::size_t i = 0; i < cells.cells.size(); ++i) {
+        EXPECT_EQ(same.cells[i].vertices, cells.cells[i].vertices);
+        EXPECT_EQ(same.cells[i].neighbors, cells.cells[i].neighbors);
+    }
+}
+
+TEST_F(StageFile, GivesBackAnEnergy)
+{
+    VisibilityEnergy energy;
+    energy.network.arc_capacities = {{1, 2, 3, 4}, {5, 6, 7, 8}};
+    energy.network.terminal_capacities = {-7, 9};
+    energy.cell_of_view = {3, kInfinite};
+    energy.unit = 4096;
+    const VisibilityEnergy same = through_file(energy);
+    EXPECT_EQ(same.network.arc_capacities, energy.network.arc_capacities);
+    EXPECT_EQ(same.network.terminal_capacities, energy.network.terminal_capacities);
+    EXPECT_EQ(same.cell_of_view, energy.cell_of_view);
+    EXPECT_EQ(same.unit, energy.unit);
+}
+
+TEST_F(StageFile, GivesBackASurfaceAndWhatWasTakenAway)
+{
+    CarvedSurface carved;
+    carved.seen.faces = sample_sheet();
+    carved.seen.faces.points = {3, 2, kNoPoint};
+    carved.seen.faces.offset = Eigen::Vector3d(1.0, 2.0, 3.0);
+    carved.seen.openness = Openness{12, {{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}}};
+    carved.removed.mesh.positions = {Eigen::Vector3d(7, 8, 9)};
+    carved.removed.reasons = {Removal::sheet, Removal::unseen};
+    const CarvedSurface same = through_file(carved);
+    EXPECT_EQ(same.seen.faces.positions, carved.seen.faces.positions);
+    EXPECT_EQ(same.seen.faces.faces, carved.seen.faces.faces);
+    EXPECT_EQ(same.seen.faces.colors, carved.seen.faces.colors);
+    EXPECT_EQ(same.seen.faces.normals, carved.seen.faces.normals);
+    EXPECT_EQ(same.seen.faces.points, carved.seen.faces.points);
+    EXPECT_EQ(same.seen.faces.offset, carved.seen.faces.offset);
+    ASSERT_TRUE(same.seen.openness.has_value());
+    EXPECT_EQ(same.seen.openness->rays, 12);
+    ASSERT_EQ(same.seen.openness->open.size(), 1U);
+    EXPECT_EQ(same.seen.openness->open[0].eye, Eigen::Vector3d(1, 2, 3));
+    EXPECT_EQ(same.seen.openness->open[0].end, Eigen::Vector3d(4, 5, 6));
+    EXPECT_EQ(same.removed.mesh.positions, carved.removed.mesh.positions);
+    EXPECT_EQ(same.removed.reasons, carved.removed.reasons);
+    carved.seen.openness.reset();
+    EXPECT_FALSE(through_file(carved).seen.openness.has_value());
+}
+
+TEST_F(StageFile, IsRefusedWhereverAByteIsAnother)
+{
+    write(scene);
+    const std::string bytes = bytes_of(path);
+    ASSERT_GT(bytes.size(), 3000U);
+    std::mt19937 random(7);
+    std::uniform_int_distribution<std::size_t> place(0, bytes.size() - 1);
+    for (std::size_t i = 0; i < 400; ++i) {
+        // The header, the first counts, the end, and anywhere.
+        const std::size_t at = i < 200 ? i : i < 220 ? bytes.size() - 220 + i : place(random);
+        const char mask = static_cast<char>(1 << (i % 8));
+        EXPECT_THAT(refusal_of(replaced(bytes, at, mask)), StartsWith(path.string() + ": it"))
+            << at;
+    }
+    folder.write("some.stage", bytes);
+    expect_equal_scenes(read<Scene>(), scene);
+}
+
+TEST_F(StageFile, IsRefusedWhereverItIsCutOff)
+{
+    write(scene);
+    const std::string bytes = bytes_of(path);
+    for (std::size_t length = 0; length < bytes.size(); length += length < 300 ? 1 : 97) {
+        EXPECT_THAT(
+            refusal_of(bytes.substr(0, length)),
+            AnyOf(HasSubstr("it is cut off: it has " + std::to_string(length) + " bytes"),
+                  HasSubstr("it has " + std::to_string(length) +
+                            " bytes, but its header tells of " + std::to_string(bytes.size()))));
+    }
+    EXPECT_THAT(refusal_of(bytes + "x"), HasSubstr("but its header tells of"));
+}
+
+TEST_F(StageFile, SaysWhatIsWrong)
+{
+    EXPECT_EQ(refusal<InputError>([&] { read<Scene>(); }),
+              path.string() + ": it cannot be opened: No such file or directory");
+    std::filesystem::create_directory(path);
+    EXPECT_THAT(refusal<InputError>([&] { read<Scene>(); }), StartsWith(path.string() + ": it"));
+    std::filesystem::remove(path);
+    EXPECT_EQ(refusal_of(std::string(1000, 'x')),
+              path.string() + ": it does not begin as a stage file does");
+    write(scene);
+    label.name = "other";
+    EXPECT_EQ(refusal<InputError>([&] { read<Scene>(); }),
+              path.string() + ": it is of stage some, not other");
+    label = {"some", Digest{}};
+    EXPECT_EQ(refusal<InputError>([&] { read<Scene>(); }),
+              path.string() + ": it is of another input or other options");
+}
+
+TEST_F(StageFile, OfMoreThanItsReaderAsksForIsRefused)
+{
+    write(scene);
+    EXPECT_THAT(refusal<InputError>([&] { read<std::vector<Camera>>(); }),
+                HasSubstr("its content is damaged"));
+}
+
+TEST_F(StageFile, IsNotThereBeforeItIsCommitted)
+{
+    StageSizer sizer;
+    sizer.put(scene);
+    {
+        StageWriter writer(path, label, sizer.bytes(), {});
+        writer.put(scene);
+    }
+    EXPECT_EQ(folder.num_entries(), 0U);
+}
+
+TEST_F(StageFile, IsAsLargeAsWasCounted)
+{
+    write(scene);
+    StageSizer sizer;
+    sizer.put(scene);
+    StageReader reader(path, label, {});
+    EXPECT_EQ(reader.bytes(), sizer.bytes());
+}
+
+} // namespace vcarve

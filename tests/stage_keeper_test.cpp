@@ -1,0 +1,247 @@
+#include "base/parallel.h"
+#include "io/work/stage_keeper.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+
+namespace vcarve {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// What was told, a line each, without what keeping itself tells.
+class Lines final : public Log {
+  public:
+    void stage_ends(std::string_view name, const Counts& counts) override
+    {
+        if (name == "keep" || name == "resume") return;
+        lines.push_back(std::string(name));
+        for (const auto& [what, count] : counts) {
+            lines.back() += fmt::format(" {} {}", count, what);
+        }
+    }
+    void note(std::string_view sentence) override { notes.emplace_back(sentence); }
+
+    std::vector<std::string> lines;
+    std::vector<std::string> notes;
+};
+
+/// One run after the other in the same folder.
+class Keeper : public testing::Test {
+  protected:
+    /// A run: what it told, and how often the stages were made, stand in the members after it.
+    template <typename Run>
+    auto run(const Run& run)
+    {
+        log = {};
+        inner_made = outer_made = 0;
+        WorkFolder work(folder.path());
+        work.begin({{"a", "b"}});
+        StageKeeper keeper(&work, log);
+        return run(keeper);
+    }
+    /// A stage that another is made within.
+    Numbers outer(StageKeeper& keeper)
+    {
+        return keeper.stage("outer", [&] {
+            Numbers numbers = keeper.stage("inner", [&] {
+                ++inner_made;
+                tell(keeper.log(), "first");
+                return Numbers{1, 2, 3};
+            });
+            ++outer_made;
+            keeper.log().note("a note");
+            tell(keeper.log(), "second");
+            numbers.push_back(4);
+            return numbers;
+        });
+    }
+    static void tell(Log& log, std::string_view name)
+    {
+        Stage stage(log, name);
+        stage.end({{"numbers", 3}});
+    }
+    void damage(const std::string& file) const
+    {
+        std::fstream(folder / file, std::ios::in | std::ios::out).seekp(200) << "damage";
+    }
+    void remove(const std::string& file) const { std::filesystem::remove(folder / file); }
+
+    const Numbers expected = {1, 2, 3, 4};
+    TemporaryFolder folder;
+    Lines log;
+    int inner_made = 0;
+    int outer_made = 0;
+};
+
+} // namespace
+
+TEST_F(Keeper, WithoutAFolderMakesEveryStageAndTellsNothingElse)
+{
+    StageKeeper keeper(nullptr, log);
+    EXPECT_FALSE(keeper.keeps());
+    EXPECT_EQ(&keeper.log(), &log);
+    EXPECT_EQ(outer(keeper), expected);
+    EXPECT_EQ(outer(keeper), expected);
+    EXPECT_EQ(outer_made, 2);
+    EXPECT_THAT(log.notes, ElementsAre("a note", "a note"));
+}
+
+TEST_F(Keeper, TakesAStageThatWasKeptAndTellsWhatItTold)
+{
+    EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
+    EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
+    EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
+    EXPECT_EQ(inner_made + outer_made, 0);
+    EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
+    EXPECT_THAT(log.notes, ElementsAre("outer of the folder " + folder.path().string() +
+                                           " has what an earlier run made in first, second",
+                                       "a note"));
+}
+
+TEST_F(Keeper, GoesOnAfterTheLastStageThatWasKept)
+{
+    run([&](auto& keeper) { return outer(keeper); });
+    remove("outer.stage");
+    EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
+    EXPECT_EQ(inner_made, 0);
+    EXPECT_EQ(outer_made, 1);
+    // What was taken is a part of what the stage around it tells.
+    remove("inner.stage");
+    EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
+    EXPECT_EQ(outer_made, 0);
+    EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
+}
+
+TEST_F(Keeper, MakesADamagedStageAgainAndSaysSo)
+{
+    run([&](auto& keeper) { return outer(keeper); });
+    damage("outer.stage");
+    EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
+    EXPECT_EQ(inner_made, 0);
+    EXPECT_EQ(outer_made, 1);
+    ASSERT_FALSE(log.notes.empty());
+    EXPECT_THAT(log.notes[0], HasSubstr("outer.stage: its content is damaged"));
+    EXPECT_THAT(log.notes[0], HasSubstr("; it is made again"));
+    run([&](auto& keeper) { return outer(keeper); });
+    EXPECT_EQ(outer_made, 0); // it is whole again
+}
+
+TEST_F(Keeper, GoesOnWhereAStageCannotBeWrittenAndSaysSo)
+{
+    const auto once_unwritable = [&](StageKeeper& keeper) {
+        // Nobody writes where a folder stands.
+        std::filesystem::create_directory(folder /
+                                          ("outer.stage.part-" + std::to_string(::getpid())));
+        return outer(keeper);
+    };
+    EXPECT_EQ(run(once_unwritable), expected);
+    ASSERT_EQ(log.notes.size(), 2U);
+    EXPECT_THAT(log.notes[1], HasSubstr("cannot write " + (folder / "outer.stage").string()));
+    EXPECT_THAT(log.notes[1], HasSubstr("; the run goes on, but outer would have to be made "
+                                        "again"));
+    EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
+    EXPECT_EQ(inner_made, 0);
+    EXPECT_EQ(outer_made, 1);
+}
+
+TEST_F(Keeper, KeepsNothingOfAStageThatFails)
+{
+    const auto fail = [](StageKeeper& keeper) {
+        return keeper.stage("numbers", []() -> Numbers { throw InputError("no numbers"); });
+    };
+    EXPECT_EQ(refusal<InputError>([&] { run(fail); }), "no numbers");
+    EXPECT_EQ(folder.num_entries(), 0U);
+}
+
+/// A stage of 20 parts, made on all threads; those after `most` fail.
+class PiecesOfKeeper : public Keeper {
+  protected:
+    Numbers squares(StageKeeper& keeper, std::size_t of, std::size_t most)
+    {
+        return keeper.stage("squares", [&] {
+            Numbers all(of);
+            parallel_for(
+                of,
+                [&](std::size_t i) {
+                    const Numbers part = keeper.piece({"squares", i, of}, [&] {
+                        if (i >= most) throw InputError("killed");
+                        ++made;
+                        return Numbers{static_cast<std::uint32_t>(i * i)};
+                    });
+                    all[i] = part.at(0);
+                },
+                1);
+            return all;
+        });
+    }
+    auto squares(std::size_t of, std::size_t most)
+    {
+        made = 0;
+        return run([&](StageKeeper& keeper) { return squares(keeper, of, most); });
+    }
+    /// Leaves all parts of a stage that did not end.
+    void leave_parts()
+    {
+        const auto all_parts = [&](StageKeeper& keeper) {
+            for (std::size_t i = 0; i < 20; ++i) {
+                keeper.piece({"squares", i, 20},
+                             [&] { return Numbers{static_cast<std::uint32_t>(i * i)}; });
+            }
+            return 0;
+        };
+        run(all_parts);
+    }
+
+    std::atomic<int> made = 0;
+};
+
+TEST_F(PiecesOfKeeper, AreNotMadeAgain)
+{
+    EXPECT_EQ(refusal<InputError>([&] { squares(20, 15); }), "killed");
+    const int before = made;
+    const Numbers all = squares(20, 20);
+    EXPECT_EQ(before + made, 20);
+    EXPECT_EQ(all[19], 361U);
+    EXPECT_THAT(log.notes, IsEmpty());
+}
+
+TEST_F(PiecesOfKeeper, GoWhenTheirStageIsKept)
+{
+    leave_parts();
+    EXPECT_EQ(folder.num_entries(), 22U);
+    squares(20, 20);
+    EXPECT_EQ(made, 0);
+    EXPECT_EQ(folder.num_entries(), 3U); // lock, job, squares
+}
+
+TEST_F(PiecesOfKeeper, OfAnotherNumberAreOthers)
+{
+    leave_parts();
+    EXPECT_EQ(squares(10, 10).size(), 10U);
+    EXPECT_EQ(made, 10);
+}
+
+TEST_F(PiecesOfKeeper, ThatAreDamagedAreMadeAgainAndToldOfAtTheEnd)
+{
+    leave_parts();
+    damage("squares-3-of-20.stage");
+    EXPECT_EQ(squares(20, 20)[3], 9U);
+    EXPECT_EQ(made, 1);
+    ASSERT_EQ(log.notes.size(), 1U);
+    EXPECT_THAT(log.notes[0], HasSubstr("squares-3-of-20.stage: it"));
+    EXPECT_THAT(log.notes[0], HasSubstr("; it is made again"));
+}
+
+} // namespace vcarve

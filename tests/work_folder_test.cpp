@@ -1,0 +1,242 @@
+#include "io/work/work_folder.h"
+#include "support/temporary_folder.h"
+#include "support/usual_signals.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const Job kJob = {{"points3D.bin", "12 bytes"}, {"--quality", "1"}};
+
+using Numbers = std::vector<std::uint32_t>;
+
+class Work : public testing::Test {
+  protected:
+    /// A folder with what one stage made.
+    void leave_a_stage() const
+    {
+        WorkFolder work(path);
+        work.begin(kJob);
+        work.save("numbers", {}, Numbers{1, 2, 3});
+    }
+    std::string refusal_to_begin(const Job& job) const
+    {
+        return refusal<InputError>([&] { WorkFolder(path).begin(job); });
+    }
+    Numbers numbers() const
+    {
+        WorkFolder work(path);
+        work.begin(kJob);
+        Numbers numbers;
+        work.load("numbers", {}, numbers);
+        return numbers;
+    }
+
+    TemporaryFolder folder;
+    fs::path path = folder / "work";
+};
+
+/// No file may grow beyond so many bytes while it lives.
+class LimitedFiles {
+  public:
+    explicit LimitedFiles(rlim_t bytes)
+    {
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit = {bytes, before_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    }
+    LimitedFiles(const LimitedFiles&) = delete;
+    LimitedFiles& operator=(const LimitedFiles&) = delete;
+    ~LimitedFiles()
+    {
+        ::setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+  private:
+    rlimit before_ = {};
+    void (*handler_)(int) = nullptr;
+};
+
+} // namespace
+
+TEST_F(Work, IsThereForTheNextRunOfTheSameJob)
+{
+    leave_a_stage();
+    EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
+    EXPECT_FALSE(WorkFolder(path).has("others"));
+}
+
+TEST_F(Work, OfAnotherJobIsRefusedAndLeftAsItIs)
+{
+    leave_a_stage();
+    const std::string job = bytes_of(path / "job");
+    const std::string end = "; name another folder with --work, or remove this one to begin anew";
+    const std::string begin = "the work folder " + path.string() + " is of another run: ";
+    EXPECT_EQ(refusal_to_begin({kJob[0], {"--quality", "2"}}),
+              begin + "--quality was 1 and is 2" + end);
+    EXPECT_EQ(refusal_to_begin({{"points3D.bin", "13 bytes"}, kJob[1]}),
+              begin + "points3D.bin was 12 bytes and is 13 bytes" + end);
+    EXPECT_EQ(refusal_to_begin({kJob[0]}), begin + "--quality was 1 and is not there" + end);
+    EXPECT_EQ(refusal_to_begin({kJob[1], kJob[0]}),
+              begin + "the order of what is read differs" + end);
+    EXPECT_EQ(bytes_of(path / "job"), job);
+    EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
+}
+
+TEST_F(Work, WhoseJobIsDamagedIsRefused)
+{
+    leave_a_stage();
+    const std::string job = bytes_of(path / "job");
+    for (std::size_t at = 0; at < job.size(); ++at) {
+        std::string other = job;
+        other[at] = static_cast<char>(other[at] ^ 1);
+        std::ofstream(path / "job") << other;
+        EXPECT_THAT(refusal_to_begin(kJob), HasSubstr("/job: the file that says what the folder is "
+                                                      "of is damaged"))
+            << at;
+    }
+    fs::resize_file(path / "job", job.size() / 2);
+    EXPECT_THAT(refusal_to_begin(kJob), HasSubstr("is damaged"));
+}
+
+TEST_F(Work, WithNothingToGoOnWithIsTakenByAnyJobAndGoes)
+{
+    WorkFolder(path).begin(kJob);
+    EXPECT_FALSE(fs::exists(path));
+    fs::create_directory(path);
+    WorkFolder(path).begin(kJob);
+    EXPECT_TRUE(fs::is_empty(path)); // it was there before
+    folder.write("work/job", "damaged");
+    WorkFolder(path).begin(kJob);
+    EXPECT_TRUE(fs::is_empty(path));
+}
+
+TEST_F(Work, IsOneRunsAtATime)
+{
+    WorkFolder work(path);
+    EXPECT_EQ(refusal<InputError>([&] { WorkFolder other(path); }),
+              "another run works in the folder " + path.string() +
+                  "; wait until it has ended, or name another folder with --work");
+    work.begin(kJob); // nothing was lost
+    work.save("numbers", {}, Numbers{1});
+    EXPECT_TRUE(work.has("numbers"));
+}
+
+TEST_F(Work, IsFreeWhenItsProcessWasKilled)
+{
+    int ready[2] = {};
+    ASSERT_EQ(::pipe(ready), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        take_signals_as_usual();
+        WorkFolder work(path);
+        work.begin(kJob);
+        work.save("numbers", {}, Numbers{1, 2, 3});
+        static_cast<void>(::write(ready[1], "x", 1));
+        ::pause();
+        ::_exit(0);
+    }
+    char letter = 0;
+    ASSERT_EQ(::read(ready[0], &letter, 1), 1);
+    EXPECT_THAT(refusal<InputError>([&] { WorkFolder other(path); }),
+                StartsWith("another run works in the folder"));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    ::close(ready[0]);
+    ::close(ready[1]);
+    EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
+}
+
+TEST_F(Work, IsNoFolderOfSomethingElse)
+{
+    folder.write("work/notes.txt", "mine");
+    EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(path); }),
+              path.string() +
+                  " is no work folder, but holds notes.txt; --work takes a folder that is empty or "
+                  "does not exist, or one that an earlier run left");
+    EXPECT_EQ(std::distance(fs::directory_iterator(path), {}), 1);
+    folder.write("file", "mine");
+    EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(folder / "file"); }),
+              "cannot make the work folder " + (folder / "file").string() +
+                  ": there is a file of that name");
+    EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(folder / "no/work"); }),
+              "cannot make the work folder " + (folder / "no/work").string() +
+                  ": No such file or directory");
+}
+
+TEST_F(Work, IsClearedOfWhatIsOurs)
+{
+    leave_a_stage();
+    {
+        WorkFolder work(path);
+        work.begin(kJob);
+        work.clear();
+    }
+    EXPECT_FALSE(fs::exists(path)); // by whoever made it
+    leave_a_stage();
+    folder.write("work/notes.txt", "mine");
+    WorkFolder work(path);
+    work.begin(kJob);
+    work.clear();
+    EXPECT_EQ(std::distance(fs::directory_iterator(path), {}), 1);
+    EXPECT_TRUE(fs::exists(path / "notes.txt"));
+}
+
+TEST_F(Work, LosesWhatAKilledRunHalfWrote)
+{
+    leave_a_stage();
+    folder.write("work/others.stage.part-123", "half");
+    folder.write("work/job.part-123", "half");
+    folder.write("work/my.part-123", "mine");
+    EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
+    EXPECT_FALSE(fs::exists(path / "others.stage.part-123"));
+    EXPECT_FALSE(fs::exists(path / "job.part-123"));
+    EXPECT_TRUE(fs::exists(path / "my.part-123"));
+}
+
+TEST_F(Work, OnAFullDiskSaysSoAndLosesNothing)
+{
+    leave_a_stage();
+    WorkFolder work(path);
+    work.begin(kJob);
+    {
+        const LimitedFiles limit(100'000);
+        EXPECT_EQ(refusal<UsageError>([&] { work.save("many", {}, Numbers(1'000'000)); }),
+                  "cannot write " + (path / "many.stage").string() + ": File too large");
+        EXPECT_FALSE(work.has("many"));
+        work.save("few", {}, Numbers{4});
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(path), {}), 4); // lock, job, numbers, few
+}
+
+TEST_F(Work, KeepsPartsUnderNamesOfTheirOwn)
+{
+    EXPECT_EQ(piece_name({"cells", 3, 8}), "cells-3-of-8");
+    WorkFolder work(path);
+    work.begin(kJob);
+    for (const char* const name : {"cells-3-of-8", "cells-0-of-2", "cells", "cellsites-0-of-2"}) {
+        work.save(name, {}, Numbers{1});
+    }
+    work.drop_pieces("cells");
+    EXPECT_FALSE(work.has("cells-3-of-8"));
+    EXPECT_FALSE(work.has("cells-0-of-2"));
+    EXPECT_TRUE(work.has("cells"));
+    EXPECT_TRUE(work.has("cellsites-0-of-2"));
+}
+
+} // namespace vcarve
