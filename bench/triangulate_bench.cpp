@@ -30,7 +30,8 @@ void triangulate_in_blocks(benchmark::State& state)
     const Scene& scene = sample_scene(state.range(0));
     const auto num_blocks = static_cast<std::size_t>(state.range(1));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(vcarve::triangulate_in_blocks(scene, num_blocks).cells.data());
+        benchmark::DoNotOptimize(
+            vcarve::triangulate_in_blocks(scene, {.count = num_blocks}).cells.data());
     }
     const PointTree tree(scene.positions);
     const std::size_t size = scene.num_points() / num_blocks;

@@ -105,7 +105,7 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWhole)
         const TetMesh whole = triangulate(scene);
         for (const std::size_t blocks : {1, 2, 3, 8, 64}) {
             SCOPED_TRACE(named.name + ", " + std::to_string(blocks) + " blocks");
-            expect_equal(triangulate_in_blocks(scene, blocks), whole);
+            expect_equal(triangulate_in_blocks(scene, {.count = blocks}), whole);
         }
     }
 }
@@ -115,8 +115,8 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWholeWithOnePointABlock)
     for (const Positions& points : {lattice(4), random_points(70, 79), points_on_sphere()}) {
         const Scene scene = spatial_sort(scene_of(points));
         const TetMesh whole = triangulate(scene);
-        expect_equal(triangulate_in_blocks(scene, scene.num_points()), whole);
-        expect_equal(triangulate_in_blocks(scene, 10 * scene.num_points()), whole);
+        expect_equal(triangulate_in_blocks(scene, {.count = scene.num_points()}), whole);
+        expect_equal(triangulate_in_blocks(scene, {.count = 10 * scene.num_points()}), whole);
     }
 }
 
@@ -124,7 +124,7 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWholeWithOnePointABlock)
 TEST(TriangulateBlocks, GivesTheCellsOfTheWholeOfPointsThatDoNotFollowEachOther)
 {
     const Scene scene = scene_of(random_points(400, 80));
-    expect_equal(triangulate_in_blocks(scene, 5), triangulate(scene));
+    expect_equal(triangulate_in_blocks(scene, {.count = 5}), triangulate(scene));
 }
 
 TEST(TriangulateBlocks, GivesTheSameForAnyNumberOfThreads)
@@ -132,7 +132,7 @@ TEST(TriangulateBlocks, GivesTheSameForAnyNumberOfThreads)
     const Scene scene = spatial_sort(scene_of(random_points(4000, 81)));
     const auto with_threads = [&](int threads) {
         tbb::task_arena arena(threads);
-        return arena.execute([&] { return triangulate_in_blocks(scene, 7); });
+        return arena.execute([&] { return triangulate_in_blocks(scene, {.count = 7}); });
     };
     expect_equal(with_threads(1), with_threads(2));
 }
@@ -157,11 +157,12 @@ TEST(TriangulateBlocks, RefusesWhatTheWholeRefuses)
     doubled.insert(doubled.begin(), 20, Vector3d(1, 1, 1));
     for (const Positions& points : {Positions{}, lattice(1), plane}) {
         const Scene scene = scene_of(points);
-        EXPECT_EQ(refusal<InputError>([&] { triangulate_in_blocks(scene, 2); }),
+        EXPECT_EQ(refusal<InputError>([&] { triangulate_in_blocks(scene, {.count = 2}); }),
                   refusal<InputError>([&] { triangulate(scene); }));
     }
-    EXPECT_EQ(refusal<std::logic_error>([&] { triangulate_in_blocks(scene_of(doubled), 2); }),
-              "two points to triangulate lie at one place");
+    EXPECT_EQ(
+        refusal<std::logic_error>([&] { triangulate_in_blocks(scene_of(doubled), {.count = 2}); }),
+        "two points to triangulate lie at one place");
 }
 
 TEST(FirstPoints, SpanSpaceWhereverTheyAre)

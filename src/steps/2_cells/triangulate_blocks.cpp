@@ -26,20 +26,21 @@ PointRun run_of(std::size_t block, std::size_t num_blocks, std::size_t num_point
 }
 
 std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>& first,
-                                   std::size_t num_blocks, const Progress& progress)
+                                   const Blocks& blocks, const Progress& progress)
 {
     const PointTree tree(scene.positions);
-    std::vector<BlockCells> blocks(num_blocks);
+    const std::size_t count = std::clamp<std::size_t>(blocks.count, 1, scene.num_points());
+    std::vector<BlockCells> made(count);
     ProgressCount done(progress, scene.num_points());
     parallel_for(
-        num_blocks,
+        count,
         [&](std::size_t block) {
-            const PointRun own = run_of(block, num_blocks, scene.num_points());
-            blocks[block] = block_cells(tree, first, own);
+            const PointRun own = run_of(block, count, scene.num_points());
+            made[block] = blocks.keep(block, [&] { return block_cells(tree, first, own); });
             done.add(own.size());
         },
         1);
-    return blocks;
+    return made;
 }
 
 /// The number of each block's first cell, and of all cells.
@@ -104,14 +105,12 @@ void join_facets(const std::vector<OpenFacet>& facets, UnsetArray<Cell>& cells)
 
 } // namespace
 
-TetMesh triangulate_in_blocks(const Scene& scene, std::size_t num_blocks, const Progress& progress)
+TetMesh triangulate_in_blocks(const Scene& scene, const Blocks& wanted, const Progress& progress)
 {
     require_four_points(scene.num_points());
     const std::vector<Index> first = first_points(scene.positions);
     if (first.size() < 4) throw all_in_one_plane(scene.num_points());
-    num_blocks = std::clamp<std::size_t>(num_blocks, 1, scene.num_points());
-    std::vector<BlockCells> blocks =
-        all_blocks(scene, first, num_blocks, progress.part(0.0, kBlocks));
+    std::vector<BlockCells> blocks = all_blocks(scene, first, wanted, progress.part(0.0, kBlocks));
     return_freed_memory();
     const std::vector<std::size_t> firsts = first_cells(blocks);
     require_indexable(firsts.back(), kMostIndices, "cells");

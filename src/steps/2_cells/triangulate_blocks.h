@@ -2,11 +2,24 @@
 
 #include "base/progress.h"
 #include "model/tet_mesh.h"
+#include "steps/2_cells/block_cells.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>
+#include <functional>
 
 namespace vcarve {
+
+/// Gives a block's cells: what make() returns, or what it returned in an earlier run. Called from
+/// many threads.
+using KeepBlock =
+    std::function<BlockCells(std::size_t block, const std::function<BlockCells()>& make)>;
+
+/// How a triangulation is cut.
+struct Blocks {
+    std::size_t count = 1;
+    KeepBlock keep = [](std::size_t, const auto& make) { return make(); };
+};
 
 /// What triangulate() gives, to the last bit, made in so many blocks: runs of points that follow
 /// each other, each triangulated by itself with a few points of the others (see block_cells.h).
@@ -14,7 +27,7 @@ namespace vcarve {
 /// in space, as spatial_sort() puts them; throws as triangulate() does. Cost: a block takes in more
 /// points of others the smaller it is; of 100,000 points and more, less than a fifth. Memory:
 /// CGAL's structure of the blocks in work, and the cells twice.
-TetMesh triangulate_in_blocks(const Scene& scene, std::size_t num_blocks,
+TetMesh triangulate_in_blocks(const Scene& scene, const Blocks& blocks,
                               const Progress& progress = {});
 
 } // namespace vcarve
