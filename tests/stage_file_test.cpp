@@ -68,7 +68,7 @@ std::string replaced(std::string bytes, std::size_t at, char mask)
 
 TEST_F(StageFile, GivesBackAScene)
 {
-    scene.views[0].name = "a name with \n and \0"; // as a model may have it
+    scene.views[0].name = std::string("with \n and \0 in it", 17); // as a model may have it
     scene.cameras[0].params = {1.0, 0.1, -2.0};
     scene.cameras[0].measures_range = true;
     scene.normals.assign(scene.num_points(), Eigen::Vector3f(0.5F, 1.0F, -1.0F));
