@@ -235,7 +235,7 @@ TEST(Reconstruct, RefusesAModelThatNeedsTooMuchMemoryBeforeAnyWork)
         void stage_ends(std::string_view, const Counts&) override { ++ended; }
     } log;
     Options options;
-    options.max_memory = 1000;
+    options.memory.most = 1000;
     EXPECT_THAT(refusal<InputError>([&] { reconstruct(bumpy_sphere(300, 1), options, log); }),
                 HasSubstr("--max-memory allows 1000"));
     EXPECT_EQ(log.ended, 0);

@@ -51,6 +51,11 @@ std::vector<OptionRow> mesh_options()
     OptionTable table;
     list_points_options(table);
     options.visit(table);
+    table.path({.name = "work",
+                .unit = "folder",
+                .help = "Where the files of --blocks go, on a disk with room for them; it is made "
+                        "where there is none, and nothing stays in it. By default a folder beside "
+                        "the output, for as long as the run lasts."});
     output.visit(table);
     table.path({.name = "stats",
                 .help =
@@ -97,6 +102,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
         arguments.report = given.options.at("report");
         require_page_name(arguments.report);
     }
+    if (given.has("work")) arguments.work = given.options.at("work");
     arguments.command = command_text("colmap-vcarve", given.typed);
     require_distinct(outputs_of(arguments));
     return arguments;

@@ -52,7 +52,8 @@ struct MeshArguments {
     std::filesystem::path stats;
     bool with_report = false;
     std::filesystem::path report;
-    std::string command; ///< as it was typed
+    std::filesystem::path work; ///< empty where --work was not given
+    std::string command;        ///< as it was typed
     OutputOptions output;
     Options options;
 };

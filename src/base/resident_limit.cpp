@@ -1,0 +1,90 @@
+#include "base/resident_limit.h"
+
+#include "base/droppable_pages.h"
+#include "base/free_memory.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+namespace vcarve {
+
+namespace {
+
+/// Whether the cgroup has so little left that the system will soon have to take pages back.
+bool is_cgroup_nearly_full()
+{
+    const std::optional<CgroupMemory> cgroup = cgroup_memory();
+    return cgroup && cgroup->limit - cgroup->used < cgroup->limit / 4;
+}
+
+/// What is looked at may not be in memory, so the system is asked after every piece.
+void drop_down_to(ResidentSize now, std::int64_t most, bool writes_back)
+{
+    constexpr std::size_t kAtOnce = std::size_t{64} << 20;
+    constexpr int kMostPieces = 256;
+    const std::int64_t target = now.all - bytes_to_drop(now, most);
+    for (int piece = 0; piece < kMostPieces && now.all > target; ++piece) {
+        if (drop_next_pages(kAtOnce, writes_back) == 0) return;
+        now = resident_size().value_or(ResidentSize());
+    }
+}
+
+} // namespace
+
+std::optional<ResidentSize> resident_size()
+{
+    std::ifstream statm("/proc/self/statm");
+    std::int64_t virtual_pages = 0;
+    std::int64_t pages = 0;
+    std::int64_t file_pages = 0;
+    if (!(statm >> virtual_pages >> pages >> file_pages)) return std::nullopt;
+    const std::int64_t page = ::sysconf(_SC_PAGESIZE);
+    return ResidentSize{.all = pages * page, .of_files = file_pages * page};
+}
+
+std::int64_t bytes_to_drop(const ResidentSize& now, std::int64_t most)
+{
+    // What two threads fill in 20 ms comes on top of the limit's upper end.
+    const std::int64_t upper_end = most / 16 * 15;
+    const std::int64_t lower_end = most / 4 * 3;
+    const std::int64_t least_left = most / 8;
+    if (now.all <= upper_end) return 0;
+    return std::clamp(now.all - lower_end, std::int64_t{0},
+                      std::max(now.of_files - least_left, std::int64_t{0}));
+}
+
+ResidentLimit::ResidentLimit(std::int64_t most) : most_(most), thread_([this] { watch(); }) {}
+
+ResidentLimit::~ResidentLimit()
+{
+    {
+        const std::lock_guard lock(mutex_);
+        is_over_ = true;
+    }
+    ends_.notify_all();
+    thread_.join();
+}
+
+/// False when it is over.
+bool ResidentLimit::waits(int milliseconds)
+{
+    std::unique_lock lock(mutex_);
+    return !ends_.wait_for(lock, std::chrono::milliseconds(milliseconds),
+                           [this] { return is_over_; });
+}
+
+void ResidentLimit::watch()
+{
+    constexpr int kUsual = 20;
+    constexpr int kLooksAtCgroup = 10;
+    bool writes_back = false;
+    for (int looks = 0; waits(kUsual); ++looks) {
+        if (looks % kLooksAtCgroup == 0) writes_back = is_cgroup_nearly_full();
+        if (const auto now = resident_size()) drop_down_to(*now, most_, writes_back);
+    }
+}
+
+} // namespace vcarve
