@@ -3,11 +3,13 @@
 #include "base/droppable_pages.h"
 #include "base/free_memory.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <fstream>
+#include <cstdio>
 
 namespace vcarve {
 
@@ -36,13 +38,18 @@ void drop_down_to(ResidentSize now, std::int64_t most, bool writes_back)
 
 std::optional<ResidentSize> resident_size()
 {
-    std::ifstream statm("/proc/self/statm");
-    std::int64_t virtual_pages = 0;
-    std::int64_t pages = 0;
-    std::int64_t file_pages = 0;
-    if (!(statm >> virtual_pages >> pages >> file_pages)) return std::nullopt;
+    const int statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+    if (statm < 0) return std::nullopt;
+    std::array<char, 128> text{};
+    const ssize_t count = ::read(statm, text.data(), text.size() - 1);
+    ::close(statm);
+    long long all = 0;
+    long long of_files = 0;
+    if (count <= 0 || std::sscanf(text.data(), "%*s %lld %lld", &all, &of_files) != 2) {
+        return std::nullopt;
+    }
     const std::int64_t page = ::sysconf(_SC_PAGESIZE);
-    return ResidentSize{.all = pages * page, .of_files = file_pages * page};
+    return ResidentSize{.all = all * page, .of_files = of_files * page};
 }
 
 std::int64_t bytes_to_drop(const ResidentSize& now, std::int64_t most)
@@ -69,21 +76,29 @@ ResidentLimit::~ResidentLimit()
 }
 
 /// False when it is over.
-bool ResidentLimit::waits(int milliseconds)
+bool ResidentLimit::waits(std::chrono::milliseconds pause)
 {
     std::unique_lock lock(mutex_);
-    return !ends_.wait_for(lock, std::chrono::milliseconds(milliseconds),
-                           [this] { return is_over_; });
+    return !ends_.wait_for(lock, pause, [this] { return is_over_; });
 }
 
 void ResidentLimit::watch()
 {
-    constexpr int kUsual = 20;
-    constexpr int kLooksAtCgroup = 10;
+    constexpr std::chrono::milliseconds kUsual(20);
+    constexpr std::chrono::milliseconds kNearLimit(3);
+    constexpr std::chrono::milliseconds kLooksAtCgroup(200);
     bool writes_back = false;
-    for (int looks = 0; waits(kUsual); ++looks) {
-        if (looks % kLooksAtCgroup == 0) writes_back = is_cgroup_nearly_full();
-        if (const auto now = resident_size()) drop_down_to(*now, most_, writes_back);
+    std::chrono::milliseconds since_cgroup = kLooksAtCgroup;
+    std::chrono::milliseconds pause = kUsual;
+    while (waits(pause)) {
+        since_cgroup += pause;
+        if (since_cgroup >= kLooksAtCgroup) {
+            writes_back = is_cgroup_nearly_full();
+            since_cgroup = {};
+        }
+        const std::optional<ResidentSize> now = resident_size();
+        if (now) drop_down_to(*now, most_, writes_back);
+        pause = now && now->all > most_ / 2 ? kNearLimit : kUsual;
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -17,11 +18,12 @@ struct ResidentSize {
 /// As the system tells of this process; nothing where it does not.
 std::optional<ResidentSize> resident_size();
 
-/// A thread that, as long as the object lives, looks every 20 ms at how much of the process is in
-/// memory and drops droppable pages where it is more than `most` bytes. Where others fill memory
-/// faster than that, the limit is passed by what they fill meanwhile; memory that cannot be dropped
-/// is not bounded. Where the cgroup of the process is nearly full the system is also told to write
-/// what is dropped, because it may have to wait for that later.
+/// A thread that, as long as the object lives, looks every 20 ms, or 3 ms where it is above half
+/// the limit, at how much of the process is in memory and drops droppable pages where it is more
+/// than `most` bytes. Where others fill memory faster than that, the limit is passed by what they
+/// fill meanwhile; memory that cannot be dropped is not bounded. Where the cgroup of the process is
+/// nearly full the system is also told to write what is dropped, because it may have to wait for
+/// that later.
 class ResidentLimit {
   public:
     explicit ResidentLimit(std::int64_t most);
@@ -31,7 +33,7 @@ class ResidentLimit {
 
   private:
     void watch();
-    bool waits(int milliseconds);
+    bool waits(std::chrono::milliseconds pause);
 
     std::int64_t most_;
     std::mutex mutex_;

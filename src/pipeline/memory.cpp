@@ -156,8 +156,6 @@ double cleaning(const Sizes& n)
 constexpr double kBlockPoint = 600;
 /// What a run in blocks has in the heap, a point: arrays that are too small for files of their own.
 constexpr double kHeapPoint = 12;
-/// Arrays that grow are copied: for a moment they are there twice.
-constexpr double kGrownArrays = 1.3;
 
 Sizes sizes(const SceneSize& size, int threads)
 {
@@ -231,7 +229,7 @@ std::int64_t predicted_scratch(const RunSize& size)
     const double read = size.in_parts ? thinning(all, n) : reading(all);
     const double of_cells = std::max(cutting(n), extracting(n));
     const double most = std::max({read, filtering(n), denoising(n), of_cells, cleaning(n)});
-    return std::llround(std::min(kGrownArrays * most, 0x1p62));
+    return std::llround(std::min(most, 0x1p62));
 }
 
 std::int64_t least_memory(const RunSize& size, int threads)
