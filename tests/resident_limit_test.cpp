@@ -13,16 +13,16 @@ constexpr std::int64_t kMiB = std::int64_t{1} << 20;
 TEST(ResidentLimit, LetsPagesBeBelowTheLimit)
 {
     EXPECT_EQ(bytes_to_drop({.all = 0, .of_files = 0}, 1600), 0);
-    EXPECT_EQ(bytes_to_drop({.all = 1500, .of_files = 1500}, 1600), 0);
+    EXPECT_EQ(bytes_to_drop({.all = 1200, .of_files = 1200}, 1600), 0);
     EXPECT_EQ(
-        bytes_to_drop({.all = 1500, .of_files = 1500}, std::numeric_limits<std::int64_t>::max()),
+        bytes_to_drop({.all = 1200, .of_files = 1200}, std::numeric_limits<std::int64_t>::max()),
         0);
 }
 
 TEST(ResidentLimit, DropsDownToWellBelowTheLimit)
 {
-    EXPECT_EQ(bytes_to_drop({.all = 1501, .of_files = 1501}, 1600), 301);
-    EXPECT_EQ(bytes_to_drop({.all = 3000, .of_files = 3000}, 1600), 1800);
+    EXPECT_EQ(bytes_to_drop({.all = 1201, .of_files = 1201}, 1600), 401);
+    EXPECT_EQ(bytes_to_drop({.all = 3000, .of_files = 3000}, 1600), 2200);
 }
 
 TEST(ResidentLimit, KeepsSomePagesWhateverElseIsInMemory)

@@ -22,7 +22,7 @@ using testing::Not;
 /// Large enough for arrays in files.
 class ProgramInBlocks : public testing::Test {
   protected:
-    ProgramInBlocks() { write_ball_model(ball, 60'000); }
+    ProgramInBlocks() { write_ball_model(ball, 120'000); }
 
     Outcome run(std::vector<std::string> arguments) const
     {
@@ -48,7 +48,7 @@ TEST_F(ProgramInBlocks, WritesTheSameSurface)
     const std::string in_memory = bytes_of(out);
     const nlohmann::json memory = memory_of({"--blocks", "2", "--work", folder / "work"});
     EXPECT_EQ(memory["blocks"], 2);
-    EXPECT_GT(memory["scratch_bytes"], 20 << 20);
+    EXPECT_GT(memory["scratch_bytes"], 8 << 20);
     EXPECT_LE(memory["scratch_bytes"], memory["expected_scratch_bytes"]);
     EXPECT_TRUE(bytes_of(out) == in_memory);
     EXPECT_FALSE(std::filesystem::exists(folder / "work"));
@@ -56,20 +56,20 @@ TEST_F(ProgramInBlocks, WritesTheSameSurface)
 
 TEST_F(ProgramInBlocks, TakesBlocksWhereMemoryDoesNotDoAndSaysSo)
 {
-    const Outcome outcome = run({"--max-memory", "40M", "--threads", "1"});
+    const Outcome outcome = run({"--max-memory", "60M", "--threads", "1"});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, ContainsRegex("about [0-9.]+M needed, 40M allowed: [0-9]+ blocks, "
+    EXPECT_THAT(outcome.err, ContainsRegex("about [0-9.]+M needed, 60M allowed: [0-9]+ blocks, "
                                            "scratch of about [0-9.]+M in .*out.ply.scratch-"));
     EXPECT_EQ(folder.num_entries(), 2U) << "the ball and the surface";
 }
 
 TEST_F(ProgramInBlocks, RefusesInsteadWhereNoBlocksAreWanted)
 {
-    const Outcome outcome = run({"--max-memory", "40M", "--blocks", "0"});
+    const Outcome outcome = run({"--max-memory", "60M", "--blocks", "0"});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err,
-                MatchesRegex("(.|\n)*colmap-vcarve: .*ball: 60000 points with [0-9]+ sights need "
-                             "about [0-9.]+M of memory, and --max-memory allows 40M\n"));
+                MatchesRegex("(.|\n)*colmap-vcarve: .*ball: 120000 points with [0-9]+ sights need "
+                             "about [0-9.]+M of memory, and --max-memory allows 60M\n"));
 }
 
 TEST_F(ProgramInBlocks, NamesAWorkFolderThatDoesNotDo)

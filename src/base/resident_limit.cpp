@@ -54,9 +54,9 @@ std::optional<ResidentSize> resident_size()
 
 std::int64_t bytes_to_drop(const ResidentSize& now, std::int64_t most)
 {
-    // What two threads fill in 20 ms comes on top of the limit's upper end.
-    const std::int64_t upper_end = most / 16 * 15;
-    const std::int64_t lower_end = most / 4 * 3;
+    // What threads bring into memory between two looks comes on top of the upper end.
+    const std::int64_t upper_end = most / 4 * 3;
+    const std::int64_t lower_end = most / 2;
     const std::int64_t least_left = most / 8;
     if (now.all <= upper_end) return 0;
     return std::clamp(now.all - lower_end, std::int64_t{0},

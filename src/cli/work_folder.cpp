@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -59,12 +61,11 @@ WorkFolder::~WorkFolder()
 void WorkFolder::prepare(std::int64_t bytes) const
 {
     std::error_code error;
+    const fs::file_status status = fs::status(path_, error);
+    if (fs::exists(status) && !fs::is_directory(status)) refuse(path_, "it is not a folder");
     fs::create_directory(path_, error);
     if (error) refuse(path_, error.message());
-    if (!fs::is_directory(path_, error)) refuse(path_, "it is not a folder");
-    if (::access(path_.c_str(), W_OK | X_OK) != 0) {
-        refuse(path_, std::make_error_code(static_cast<std::errc>(errno)).message());
-    }
+    if (::access(path_.c_str(), W_OK | X_OK) != 0) refuse(path_, std::strerror(errno));
     const std::optional<std::int64_t> free = free_space(path_);
     if (free && *free < bytes) {
         refuse(path_, fmt::format("{} are free there, and about {} are needed",
@@ -95,7 +96,6 @@ MemoryOptions RunMemory::options() const
 {
     MemoryOptions options = wanted_;
     options.blocks = plan_.blocks;
-    // What is free was looked at here, for reconstruct() to refuse only what the user forbids.
     return options;
 }
 
