@@ -72,7 +72,7 @@ TEST_F(ProgramInBlocks, RefusesInsteadWhereNoBlocksAreWanted)
                              "about [0-9.]+M of memory, and --max-memory allows 60M\n"));
 }
 
-TEST_F(ProgramInBlocks, NamesAWorkFolderThatDoesNotDo)
+TEST_F(ProgramInBlocks, NamesAScratchFolderThatDoesNotDo)
 {
     const Outcome outcome = run({"--blocks", "2", "--work", folder / "no/where"});
     EXPECT_EQ(outcome.exit_code, 2);

@@ -10,7 +10,7 @@
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
-#include "cli/work_folder.h"
+#include "cli/run_memory.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
@@ -37,7 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What cannot be written is said before the work starts, and nothing half written stays behind.
-void prepare_outputs(const std::vector<Output>& outputs, const WorkFolder& work)
+void prepare_outputs(const std::vector<Output>& outputs, const ScratchFolder& work)
 {
     std::vector<fs::path> parts;
     parts.reserve(outputs.size() + 1);
@@ -248,7 +248,7 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
 void run(const ParsedArguments& given)
 {
     const MeshArguments arguments = read_mesh_arguments(given);
-    const WorkFolder work(arguments.work, arguments.out);
+    const ScratchFolder work(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), work);
     // What is wrong with the file of a region is said before the work starts.
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {

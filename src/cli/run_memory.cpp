@@ -1,4 +1,4 @@
-#include "cli/work_folder.h"
+#include "cli/run_memory.h"
 
 #include "base/byte_size.h"
 #include "base/free_memory.h"
@@ -44,21 +44,21 @@ std::string note_of(const BlockPlan& plan, const fs::path& folder)
 
 } // namespace
 
-WorkFolder::WorkFolder(fs::path given, const fs::path& out)
+ScratchFolder::ScratchFolder(fs::path given, const fs::path& out)
     : is_given_(!given.empty()),
       path_(is_given_ ? std::move(given) : folder_beside(out)),
       is_temporary_(!fs::exists(path_))
 {
 }
 
-WorkFolder::~WorkFolder()
+ScratchFolder::~ScratchFolder()
 {
     // Its files have no names, so it is empty, unless somebody else uses it.
     std::error_code ignored;
     if (is_temporary_) fs::remove(path_, ignored);
 }
 
-void WorkFolder::prepare(std::int64_t bytes) const
+void ScratchFolder::prepare(std::int64_t bytes) const
 {
     std::error_code error;
     const fs::file_status status = fs::status(path_, error);
@@ -73,7 +73,7 @@ void WorkFolder::prepare(std::int64_t bytes) const
     }
 }
 
-RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const WorkFolder& folder)
+RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ScratchFolder& folder)
     : wanted_(wanted), threads_(threads), folder_(folder), free_(free_memory())
 {
     if (folder.is_given()) folder.prepare(0);

@@ -10,14 +10,14 @@
 namespace vcarve::cli {
 
 /// The folder that the scratch files of a run are in, and whether it was there before.
-class WorkFolder {
+class ScratchFolder {
   public:
     /// What --work says, or where that is empty, a folder beside the output.
-    WorkFolder(std::filesystem::path given, const std::filesystem::path& out);
-    WorkFolder(const WorkFolder&) = delete;
-    WorkFolder& operator=(const WorkFolder&) = delete;
+    ScratchFolder(std::filesystem::path given, const std::filesystem::path& out);
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
     /// Removes the folder where it was made here.
-    ~WorkFolder();
+    ~ScratchFolder();
 
     const std::filesystem::path& path() const { return path_; }
     /// Whether the run is to remove it.
@@ -38,7 +38,7 @@ class WorkFolder {
 /// the latter case, for as long as the object lives.
 class RunMemory {
   public:
-    RunMemory(const MemoryOptions& wanted, int threads, const WorkFolder& folder);
+    RunMemory(const MemoryOptions& wanted, int threads, const ScratchFolder& folder);
 
     /// Once the size of a run is known, and again when more is known of it: arrays that are made
     /// from now on are where they should be. A note says how many blocks there are and why. Throws
@@ -54,7 +54,7 @@ class RunMemory {
   private:
     MemoryOptions wanted_;
     int threads_;
-    const WorkFolder& folder_;
+    const ScratchFolder& folder_;
     std::optional<std::int64_t> free_; ///< before the run took any
     BlockPlan plan_;
     std::optional<ScratchMemory> scratch_;
