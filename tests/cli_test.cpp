@@ -169,9 +169,11 @@ TEST_F(ProgramOnBall, TakesAModelThatNeedsNoMoreMemoryThanAllowed)
 
 TEST_F(ProgramOnBall, RefusesAModelThatNeedsTooMuchMemory)
 {
-    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M"}),
+    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M", "--blocks", "0"}),
                 MatchesRegex("colmap-vcarve: .*ball: 400 points with [0-9]+ sights need about "
                              "[0-9.]+M of memory, and --max-memory allows 1M\n"));
+    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M"}),
+                HasSubstr("M of memory even in blocks, and --max-memory allows 1M\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -1,3 +1,4 @@
+#include "base/droppable_pages.h"
 #include "io/files/mapped_file.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
@@ -53,6 +54,15 @@ TEST(MappedFile, RefusesWhatIsNotAFile)
               path + "/no.bin: the file does not exist");
     EXPECT_EQ(refusal<InputError>([&] { MappedFile{folder.path()}; }),
               path + ": found something that is not a file");
+}
+
+TEST(MappedFile, IsReadAgainWhereItsPagesWereDropped)
+{
+    const TemporaryFolder folder;
+    const MappedFile file(folder.write("file", std::string(100'000, 'a')));
+    EXPECT_EQ(file.bytes().back(), 'a');
+    EXPECT_EQ(drop_next_pages(1 << 20, false), 100'000U);
+    EXPECT_EQ(file.bytes().back(), 'a');
 }
 
 } // namespace

@@ -217,6 +217,59 @@ TEST(PredictedMemory, IsWhatTheProgramNeedsAfterAParallelTriangulation)
 }
 #endif
 
+constexpr std::int64_t kGiB = std::int64_t{1} << 30;
+
+TEST(PlanBlocks, WorksInMemoryWhereThatDoes)
+{
+    const RunSize million = size_of_run(kMillion);
+    const std::int64_t peak = predicted_peak(million, 2);
+    const BlockPlan plan = plan_blocks(million, 2, {.most = peak}, std::nullopt);
+    EXPECT_FALSE(plan.in_blocks());
+    EXPECT_EQ(plan.needed, peak);
+    EXPECT_EQ(plan.scratch, 0);
+    EXPECT_TRUE(plan_blocks(million, 2, {.most = peak - 1}, std::nullopt).in_blocks());
+    EXPECT_FALSE(plan_blocks(million, 2, {.most = 0}, std::nullopt).in_blocks()) << "no limit";
+}
+
+TEST(PlanBlocks, AllowsFourFifthsOfWhatIsFreeWhereNothingIsSaid)
+{
+    const RunSize million = size_of_run(kMillion);
+    const std::int64_t peak = predicted_peak(million, 1);
+    EXPECT_FALSE(plan_blocks(million, 1, {}, peak / 4 * 5 + 5).in_blocks());
+    const BlockPlan plan = plan_blocks(million, 1, {}, peak);
+    EXPECT_TRUE(plan.in_blocks());
+    EXPECT_EQ(plan.most, peak / 5 * 4);
+    EXPECT_FALSE(plan_blocks(million, 1, {}, std::nullopt).in_blocks()) << "nothing is known";
+    EXPECT_FALSE(plan_blocks(million, 1, {.blocks = 0}, peak).in_blocks()) << "none are wanted";
+}
+
+TEST(PlanBlocks, TakesSoManyThatThoseAtATimeTakeHalfOfTheMemory)
+{
+    // As docs/scale.md says: 20 million points in 4 GiB.
+    const SceneSize twenty = {.points = 20'000'000, .sights = 74'000'000, .views = 4'000};
+    const RunSize run = size_of_run(twenty);
+    const BlockPlan plan = plan_blocks(run, 2, {.most = 4 * kGiB}, std::nullopt);
+    const double left = static_cast<double>(4 * kGiB - least_memory(run, 2));
+    EXPECT_LE(2 * 600.0 * 20e6 / plan.blocks, left / 2);
+    EXPECT_GT(2 * 600.0 * 20e6 / (plan.blocks - 1), left / 2);
+    EXPECT_EQ(plan_blocks(run, 2, {.most = 15 * kGiB}, std::nullopt).blocks, 4);
+    EXPECT_EQ(plan_blocks(run, 1, {.most = 15 * kGiB}, std::nullopt).blocks, 2);
+    EXPECT_EQ(plan_blocks(run, 2, {.most = 4 * kGiB, .blocks = 7}, std::nullopt).blocks, 7);
+}
+
+TEST(PlanBlocks, RefusesWhatEvenBlocksDoNotFitInto)
+{
+    const RunSize run = size_of_run(kMillion);
+    const std::int64_t least = least_memory(run, 1);
+    EXPECT_THAT(refusal<InputError>([&] { plan_blocks(run, 1, {.most = least}, std::nullopt); }),
+                testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
+                                      "memory even in blocks, and --max-memory allows [0-9.]+M"));
+    EXPECT_NO_THROW(plan_blocks(run, 1, {.most = least + (1 << 20)}, std::nullopt));
+    EXPECT_THAT(refusal<InputError>(
+                    [&] { plan_blocks(run, 1, {.most = least, .blocks = 0}, std::nullopt); }),
+                testing::Not(HasSubstr("in blocks")));
+}
+
 TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
 {
     const std::int64_t peak = predicted_peak(size_of_run(kMillion), 1);
@@ -235,7 +288,7 @@ TEST(Reconstruct, RefusesAModelThatNeedsTooMuchMemoryBeforeAnyWork)
         void stage_ends(std::string_view, const Counts&) override { ++ended; }
     } log;
     Options options;
-    options.max_memory = 1000;
+    options.memory.most = 1000;
     EXPECT_THAT(refusal<InputError>([&] { reconstruct(bumpy_sphere(300, 1), options, log); }),
                 HasSubstr("--max-memory allows 1000"));
     EXPECT_EQ(log.ended, 0);

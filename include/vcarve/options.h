@@ -364,17 +364,48 @@ struct RefineOptions {
     }
 };
 
+/// How a run gets by with the memory there is.
+struct MemoryOptions {
+    static constexpr int kAutoBlocks = -1;          ///< as many as --max-memory makes necessary
+    static constexpr std::int64_t kAutoMemory = -1; ///< most of what is free
+
+    std::int64_t most = kAutoMemory; ///< --max-memory, bytes; 0 has no limit
+    int blocks = kAutoBlocks;        ///< --blocks; 0 works in memory
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.bytes(most, {.name = "max-memory",
+                             .help = "How much memory a run may take, judging by its points and "
+                                     "sights before work starts: bytes, or with K, M or G. A model "
+                                     "that needs more is meshed in blocks; with --blocks 0 it is "
+                                     "refused. auto: 80 % of what the machine or its control group "
+                                     "has free; 0 has no limit.",
+                             .word = "auto",
+                             .word_value = static_cast<double>(kAutoMemory)});
+        options.count(blocks, {.name = "blocks",
+                               .unit = "blocks",
+                               .help = "How many to cut the model into, with what does not fit "
+                                       "into memory in files of --work; the surface is the same. "
+                                       "auto: as many as --max-memory makes necessary; 0 works in "
+                                       "memory.",
+                               .max = 65536.0,
+                               .word = "auto",
+                               .word_value = static_cast<double>(kAutoBlocks)});
+    }
+};
+
 /// Everything a run can be told, step by step.
 struct Options {
-    FilterOptions points;        ///< which points are kept
-    ThinOptions thin;            ///< which points become one
-    CropOptions crop;            ///< which part of space counts
-    DenoiseOptions denoise;      ///< how far points move
-    LabelOptions labels;         ///< which cells are inside
-    SurfaceOptions surface;      ///< which faces are kept
-    RefineOptions refine;        ///< what is done to the surface
-    int threads = 0;             ///< --threads
-    std::int64_t max_memory = 0; ///< --max-memory, bytes
+    FilterOptions points;   ///< which points are kept
+    ThinOptions thin;       ///< which points become one
+    CropOptions crop;       ///< which part of space counts
+    DenoiseOptions denoise; ///< how far points move
+    LabelOptions labels;    ///< which cells are inside
+    SurfaceOptions surface; ///< which faces are kept
+    RefineOptions refine;   ///< what is done to the surface
+    int threads = 0;        ///< --threads
+    MemoryOptions memory;   ///< how much of it is taken
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
@@ -392,11 +423,7 @@ struct Options {
                        .unit = "threads",
                        .help = "How many to use; 0 uses all. The surface is the same for any.",
                        .max = 1024});
-        options.bytes(max_memory,
-                      {.name = "max-memory",
-                       .help = "Refuse a model that is likely to need more memory, judging by its "
-                               "points and sights, before work starts: bytes, or with K, M or G; 0 "
-                               "refuses none."});
+        memory.visit(options);
     }
 };
 

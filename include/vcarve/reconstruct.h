@@ -21,10 +21,14 @@ struct Reconstruction {
 ///
 /// Throws, before any work, UsageError where an option is out of its range (naming it, what was
 /// found and what is accepted) or the arrays of the scene do not fit each other, and InputError
-/// where the run would need more than `options.max_memory`; later InputError where the scene holds
-/// too little for a surface, or the file of a region is wrong. Throws Cancelled within a fraction
-/// of a second after Log::wants_stop says so. Holds no globals: several runs may go on side by
-/// side.
+/// where the run, in memory, would need more than `options.memory.most`; later InputError where the
+/// scene holds too little for a surface, or the file of a region is wrong. Throws Cancelled within
+/// a fraction of a second after Log::wants_stop says so. Holds no globals: several runs may go on
+/// side by side.
+///
+/// All arrays are in memory, where the caller's operator new puts them, so both words "auto" of
+/// MemoryOptions mean no limit and no blocks here: to choose by what is free, and to keep arrays in
+/// files, is what the program does. Blocks that are asked for bound what the triangulation takes.
 Reconstruction reconstruct(Scene input, const Options& options, Log& log);
 
 /// Reads a model, as read_model() does, and reconstructs it; the surface is the same. Of a dense

@@ -36,6 +36,17 @@ std::string accepted_counts(const OptionInfo& info)
     return accepted("a whole number", info);
 }
 
+std::string accepted_bytes(const OptionInfo& info)
+{
+    return info.word[0] == '\0' ? kAcceptedBytes
+                                : fmt::format("{} or {}", info.word, kAcceptedBytes);
+}
+
+bool means_word(double value, const OptionInfo& info)
+{
+    return info.word[0] != '\0' && value == info.word_value;
+}
+
 std::string accepted_vectors(std::span<const char* const> words, const OptionInfo& info)
 {
     return accepted(fmt::format("{} or x,y,z", fmt::join(words, ", ")), info);
@@ -67,6 +78,7 @@ void RangeCheck::number(double& value, const OptionInfo& info)
 
 void RangeCheck::count(int& value, const OptionInfo& info)
 {
+    if (means_word(value, info)) return;
     if (value < info.min || value > info.max) {
         throw UsageError(
             fmt::format("--{} takes {}, not {}", info.name, accepted_counts(info), value));
@@ -75,8 +87,9 @@ void RangeCheck::count(int& value, const OptionInfo& info)
 
 void RangeCheck::bytes(std::int64_t& value, const OptionInfo& info)
 {
-    if (value < 0) {
-        throw UsageError(fmt::format("--{} takes {}, not {}", info.name, kAcceptedBytes, value));
+    if (value < 0 && !means_word(static_cast<double>(value), info)) {
+        throw UsageError(
+            fmt::format("--{} takes {}, not {}", info.name, accepted_bytes(info), value));
     }
 }
 

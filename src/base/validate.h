@@ -15,6 +15,12 @@ std::string accepted_vectors(std::span<const char* const> words, const OptionInf
 inline constexpr const char* kAcceptedRegions = "none, auto, x0,y0,z0,x1,y1,z1 or a file";
 inline constexpr const char* kAcceptedBytes = "a size in bytes, or with K, M or G as in 8G";
 
+/// A size, or the option's word.
+std::string accepted_bytes(const OptionInfo& info);
+
+/// Whether a value is what the option's word stands for.
+bool means_word(double value, const OptionInfo& info);
+
 /// A region as one would type it.
 std::string region_text(const RegionChoice& region);
 

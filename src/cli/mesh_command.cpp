@@ -9,6 +9,7 @@
 #include "cli/mesh_report.h"
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
+#include "cli/run_memory.h"
 #include "cli/run_record.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
@@ -37,13 +38,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What cannot be written is said before the work starts, and nothing half written stays behind.
-void prepare_outputs(const std::vector<Output>& outputs)
+void prepare_outputs(const std::vector<Output>& outputs, const ScratchFolder& scratch)
 {
     std::vector<fs::path> parts;
-    parts.reserve(outputs.size());
+    parts.reserve(outputs.size() + 1);
     for (const Output& output : outputs) {
         parts.push_back(part_path(output.path));
     }
+    if (scratch.is_temporary()) parts.push_back(scratch.path());
     end_cleanly_on_signals(parts);
     for (const Output& output : outputs) {
         require_writable(output.path);
@@ -119,15 +121,28 @@ int threads_of(const Options& options)
     return options.threads == 0 ? available_threads() : options.threads;
 }
 
-/// What a model needs is said of it. Where its size only shows when it is read, reconstruct() does
-/// the same then.
-void require_memory_of(const MeshArguments& arguments, const SceneSize& size)
+/// The logs of a run: what is shown, and what is told of it, which goes there, too.
+struct RunLogs {
+    RunLog& shown;
+    Log& told;
+};
+
+/// A run: what it is to do, whom it tells, where its arrays are, and where its stages are kept.
+struct Run {
+    const MeshArguments& arguments;
+    RunLogs logs;
+    RunMemory& memory;
+    WorkFolder* work; ///< null for nowhere
+};
+
+/// What a model needs is said of it. Where its size only shows when it is read, or when the points
+/// of a cloud are merged, it is looked at again then.
+void fit_memory(const Run& run, const RunSize& size)
 {
     try {
-        require_memory(size_before_thinning(size, arguments.options.thin),
-                       threads_of(arguments.options), arguments.options.max_memory);
+        run.memory.fit(size, run.logs.told);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
+        throw InputError(fmt::format("{}: {}", run.arguments.model.path.string(), error.what()));
     }
 }
 
@@ -155,13 +170,16 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
 }
 
 /// The surface of a scene. What the scene lacks is said of the model it was read from.
-Surface surface_of(ModelInput input, const MeshArguments& arguments, WorkFolder* work, Log& log)
+Surface surface_of(ModelInput input, const Run& run)
 {
+    const MeshArguments& arguments = run.arguments;
     try {
         Surface surface;
+        Options options = arguments.options;
+        options.memory = run.memory.options();
         Reconstruction made = reconstruct_thinned(
-            std::move(input.scene), input.read, arguments.options, log,
-            {.removed = arguments.with_report ? &surface.removed : nullptr, .work = work});
+            std::move(input.scene), input.read, options, run.logs.told,
+            {.removed = arguments.with_report ? &surface.removed : nullptr, .work = run.work});
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
@@ -173,12 +191,6 @@ Surface surface_of(ModelInput input, const MeshArguments& arguments, WorkFolder*
     }
 }
 
-/// The logs of a run: what is shown, and what is told of it, which goes there, too.
-struct RunLogs {
-    RunLog& shown;
-    Log& told;
-};
-
 /// What is kept of a run when the surface is written.
 struct Made {
     std::optional<ReportParts> report; ///< where one is wanted
@@ -186,32 +198,37 @@ struct Made {
     bool is_dense = false;             ///< the points were a cloud's
 };
 
-ModelInput read_input(const MeshArguments& arguments, const RunLogs& logs)
+ModelInput read_input(const Run& run)
 {
+    const MeshArguments& arguments = run.arguments;
     const auto expect = [&](const SceneSize& size) {
-        logs.shown.expect(expected_run(
+        run.logs.shown.expect(expected_run(
             size, arguments.options,
             {.preview = !arguments.preview.out.empty(), .report = arguments.with_report},
             threads_of(arguments.options)));
     };
     bool is_expected = false;
-    ModelInput input = read_model_input(arguments.model, logs.told,
-                                        {.check =
-                                             [&](const SceneSize& size) {
-                                                 require_memory_of(arguments, size);
-                                                 expect(size);
-                                                 is_expected = true;
-                                             },
-                                         .gather = thin_while_reading(arguments.options.thin)});
+    const auto check = [&](const SceneSize& size) {
+        fit_memory(run, size_before_thinning(size, arguments.options.thin));
+        expect(size);
+        is_expected = true;
+    };
+    ModelInput input =
+        read_model_input(arguments.model, run.logs.told,
+                         {.check = check, .gather = thin_while_reading(arguments.options.thin)});
     if (!is_expected) expect(input.read);
+    RunSize size = size_before_thinning(input.read, arguments.options.thin);
+    size.thinned = size_of(input.scene);
+    fit_memory(run, size);
     return input;
 }
 
 /// From the model to the file; tells the record what went in and came out.
-Made make_surface(const MeshArguments& arguments, WorkFolder* work, const RunLogs& logs,
-                  Json& record)
+Made make_surface(const Run& run, Json& record)
 {
-    ModelInput input = read_input(arguments, logs);
+    const MeshArguments& arguments = run.arguments;
+    const RunLogs& logs = run.logs;
+    ModelInput input = read_input(run);
     record["input"] = input.record;
     PreviewOutput preview(arguments.preview);
     preview.stand_in(input.scene);
@@ -220,7 +237,7 @@ Made make_surface(const MeshArguments& arguments, WorkFolder* work, const RunLog
     record["offset"] = {offset.x(), offset.y(), offset.z()};
     Made made;
     made.is_dense = input.read.is_dense;
-    const Surface surface = surface_of(std::move(input), arguments, work, logs.told);
+    const Surface surface = surface_of(std::move(input), run);
     write_surface(arguments, surface, offset, logs.told);
     preview.add(arguments.out.filename().string(), surface.mesh, logs.told);
     preview.write();
@@ -251,6 +268,49 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
     if (report.has_value()) record["report"] = report_json(*report, record);
     if (arguments.with_stats) write_stats(arguments.stats, record);
     if (report.has_value()) write_report(arguments.report, record, *report);
+}
+
+void run(const ParsedArguments& given)
+{
+    const MeshArguments arguments = read_mesh_arguments(given);
+    const ScratchFolder scratch(arguments.work, arguments.out);
+    prepare_outputs(outputs_of(arguments), scratch);
+    // What is wrong with the file of a region is said before the work starts.
+    if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
+        make_region(arguments.options.crop.region, Scene());
+    }
+
+    // The passes ask for as many threads as they are told; no more than this limit ever run.
+    const int threads = threads_of(arguments.options);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    const std::unique_ptr<RunLog> shown = shown_log(arguments.output.quiet);
+    CountsKeeper keeper(*shown);
+    // It resets the peak of memory that the system keeps, so it is there only where it is asked
+    // for.
+    std::optional<StageRecorder> recorder;
+    if (arguments.with_stats || arguments.with_report) recorder.emplace(keeper);
+    const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper};
+    Json record = {{"program", program_json()},
+                   {"command", arguments.command},
+                   {"input", nullptr},
+                   {"output", arguments.out.string()},
+                   {"offset", nullptr},
+                   {"preview", nullptr},
+                   {"options", options_json(arguments.options)},
+                   {"threads_used", threads}};
+    record["options"].update(options_json(arguments.output));
+
+    const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
+    RunMemory memory(arguments.options.memory, threads, scratch);
+    const Made made = make_surface({arguments, logs, memory, work.get()}, record);
+    record["memory"] = memory.record();
+    if (recorder) {
+        record.update(recorder->json());
+        write_records(arguments, made.report, std::move(record));
+    }
+    if (work && !arguments.keeps_work) work->clear();
+    shown->conclude(closing_line(arguments, made, keeper.counts()));
 }
 
 } // namespace
@@ -299,42 +359,11 @@ Manual mesh_manual()
 
 void run_mesh(const ParsedArguments& given)
 {
-    const MeshArguments arguments = read_mesh_arguments(given);
-    prepare_outputs(outputs_of(arguments));
-    // What is wrong with the file of a region is said before the work starts.
-    if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
-        make_region(arguments.options.crop.region, Scene());
+    try {
+        run(given);
+    } catch (const ScratchError& error) {
+        throw UsageError(error.what());
     }
-
-    // The passes ask for as many threads as they are told; no more than this limit ever run.
-    const int threads = threads_of(arguments.options);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-    const std::unique_ptr<RunLog> shown = shown_log(arguments.output.quiet);
-    CountsKeeper keeper(*shown);
-    // It resets the peak of memory that the system keeps, so it is there only where it is asked
-    // for.
-    std::optional<StageRecorder> recorder;
-    if (arguments.with_stats || arguments.with_report) recorder.emplace(keeper);
-    const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper};
-    Json record = {{"program", program_json()},
-                   {"command", arguments.command},
-                   {"input", nullptr},
-                   {"output", arguments.out.string()},
-                   {"offset", nullptr},
-                   {"preview", nullptr},
-                   {"options", options_json(arguments.options)},
-                   {"threads_used", threads}};
-    record["options"].update(options_json(arguments.output));
-
-    const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
-    const Made made = make_surface(arguments, work.get(), logs, record);
-    if (recorder) {
-        record.update(recorder->json());
-        write_records(arguments, made.report, std::move(record));
-    }
-    if (work && !arguments.keeps_work) work->clear();
-    shown->conclude(closing_line(arguments, made, keeper.counts()));
 }
 
 } // namespace vcarve::cli

@@ -179,7 +179,12 @@ void OptionReader::count(int& value, const OptionInfo& info)
 {
     const auto given = given_.find(info.name);
     if (given == given_.end()) return;
-    if (!parse(given->second, value)) {
+    if (info.word[0] != '\0' && given->second == info.word) {
+        value = static_cast<int>(info.word_value);
+        return;
+    }
+    // The number that the word stands for is no value that one could type.
+    if (!parse(given->second, value) || means_word(value, info)) {
         refuse_value(info.name, accepted_counts(info), given->second);
     }
     RangeCheck().count(value, info);
@@ -189,8 +194,12 @@ void OptionReader::bytes(std::int64_t& value, const OptionInfo& info)
 {
     const auto given = given_.find(info.name);
     if (given == given_.end()) return;
+    if (info.word[0] != '\0' && given->second == info.word) {
+        value = static_cast<std::int64_t>(info.word_value);
+        return;
+    }
     const auto size = parse_byte_size(given->second);
-    if (!size) refuse_value(info.name, kAcceptedBytes, given->second);
+    if (!size) refuse_value(info.name, accepted_bytes(info), given->second);
     value = *size;
 }
 

@@ -19,6 +19,12 @@ std::string range(const OptionInfo& info)
     return "";
 }
 
+/// Words, and what may stand there instead of one.
+std::string one_of(const std::string& words, const std::string& other)
+{
+    return words.empty() ? other : fmt::format("{}|{}", words, other);
+}
+
 } // namespace
 
 OptionRow& OptionTable::add(OptionKind kind, const OptionInfo& info)
@@ -29,6 +35,7 @@ OptionRow& OptionTable::add(OptionKind kind, const OptionInfo& info)
     row.name = info.name;
     row.unit = info.unit;
     row.help = info.help;
+    if (info.word[0] != '\0') row.choices = {info.word};
     return rows_.emplace_back(row);
 }
 
@@ -45,14 +52,15 @@ void OptionTable::count(int& value, const OptionInfo& info)
     OptionRow& row = add(OptionKind::count, info);
     row.accepted = accepted_counts(info);
     row.range = range(info);
-    row.initial = fmt::format("{}", value);
+    row.initial = means_word(value, info) ? info.word : fmt::format("{}", value);
 }
 
 void OptionTable::bytes(std::int64_t& value, const OptionInfo& info)
 {
     OptionRow& row = add(OptionKind::bytes, info);
-    row.accepted = kAcceptedBytes;
-    row.initial = byte_size_text(value);
+    row.accepted = accepted_bytes(info);
+    const bool is_word = means_word(static_cast<double>(value), info);
+    row.initial = is_word ? info.word : byte_size_text(value);
 }
 
 void OptionTable::flag(bool& value, const OptionInfo& info)
@@ -104,22 +112,24 @@ void OptionTable::word_or_name(std::span<const char* const> words, const OptionI
 
 std::string placeholder(const OptionRow& row)
 {
+    const std::string unit = row.unit.empty() ? "" : fmt::format("<{}>", row.unit);
+    const std::string words = fmt::format("{}", fmt::join(row.choices, "|"));
     switch (row.kind) {
     case OptionKind::number:
     case OptionKind::count:
-        return row.unit.empty() ? "<number>" : fmt::format("<{}>", row.unit);
+        return one_of(words, unit.empty() ? "<number>" : unit);
     case OptionKind::bytes:
-        return "<size>";
+        return one_of(words, "<size>");
     case OptionKind::choice:
-        return fmt::format("{}", fmt::join(row.choices, "|"));
+        return words;
     case OptionKind::vector:
-        return fmt::format("{}|x,y,z", fmt::join(row.choices, "|"));
+        return one_of(words, "x,y,z");
     case OptionKind::region:
-        return fmt::format("{}|box|<file>", fmt::join(row.choices, "|"));
+        return one_of(words, "box|<file>");
     case OptionKind::path:
-        return "<file>";
+        return unit.empty() ? "<file>" : unit;
     case OptionKind::name:
-        return fmt::format("{}|<name>", fmt::join(row.choices, "|"));
+        return one_of(words, "<name>");
     case OptionKind::flag:
         break;
     }

@@ -102,6 +102,18 @@ void OptionRecorder::number(double& value, const OptionInfo& info)
     }
 }
 
+void OptionRecorder::count(int& value, const OptionInfo& info)
+{
+    json_[info.name] = value;
+    if (means_word(value, info)) json_[info.name] = info.word;
+}
+
+void OptionRecorder::bytes(std::int64_t& value, const OptionInfo& info)
+{
+    json_[info.name] = value;
+    if (means_word(static_cast<double>(value), info)) json_[info.name] = info.word;
+}
+
 void OptionRecorder::word_or_vector(WordOrVector& value, std::span<const char* const> words,
                                     const OptionInfo& info)
 {

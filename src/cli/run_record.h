@@ -47,8 +47,8 @@ class OptionRecorder final : public OptionVisitor {
   public:
     void stage(const char*) override {}
     void number(double& value, const OptionInfo& info) override;
-    void count(int& value, const OptionInfo& info) override { json_[info.name] = value; }
-    void bytes(std::int64_t& value, const OptionInfo& info) override { json_[info.name] = value; }
+    void count(int& value, const OptionInfo& info) override;
+    void bytes(std::int64_t& value, const OptionInfo& info) override;
     void flag(bool& value, const OptionInfo& info) override { json_[info.name] = value; }
     void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override
     {

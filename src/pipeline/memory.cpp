@@ -152,6 +152,11 @@ double cleaning(const Sizes& n)
     return n.scene() + n.faces * kFace;
 }
 
+/// CGAL's triangulation of a block, with the ghosts around it, a point of the block.
+constexpr double kBlockPoint = 600;
+/// What a run in blocks has in the heap, a point: arrays that are too small for files of their own.
+constexpr double kHeapPoint = 12;
+
 Sizes sizes(const SceneSize& size, int threads)
 {
     const auto points = static_cast<double>(size.points);
@@ -162,6 +167,14 @@ Sizes sizes(const SceneSize& size, int threads)
             .faces = kFacesPerPoint * points,
             .threads = static_cast<double>(threads),
             .point_bytes = kScenePoint + (size.has_normals ? kSceneNormal : 0.0)};
+}
+
+[[noreturn]] void refuse_in_blocks(const RunSize& size, std::int64_t least, std::int64_t most)
+{
+    throw InputError(fmt::format("{} points with {} sights need about {} of memory even in blocks, "
+                                 "and --max-memory allows {}",
+                                 size.read.points, size.read.sights, byte_size_text(least),
+                                 byte_size_text(most)));
 }
 
 } // namespace
@@ -202,11 +215,53 @@ std::int64_t predicted_peak(const RunSize& size, int threads)
 void require_memory(const RunSize& size, int threads, std::int64_t most)
 {
     const std::int64_t needed = predicted_peak(size, threads);
-    if (most == 0 || needed <= most) return;
+    if (most <= 0 || needed <= most) return;
     throw InputError(fmt::format("{} points with {} sights need about {} of memory, and "
                                  "--max-memory allows {}",
                                  size.read.points, size.read.sights, byte_size_text(needed),
                                  byte_size_text(most)));
+}
+
+std::int64_t predicted_scratch(const RunSize& size)
+{
+    Sizes all = sizes(size.read, 1);
+    Sizes n = sizes(size.thinned, 1);
+    const double read = size.in_parts ? thinning(all, n) : reading(all);
+    const double of_cells = std::max(cutting(n), extracting(n));
+    const double most = std::max({read, filtering(n), denoising(n), of_cells, cleaning(n)});
+    return std::llround(std::min(most, 0x1p62));
+}
+
+std::int64_t least_memory(const RunSize& size, int threads)
+{
+    const Sizes n = sizes(size.thinned, threads);
+    return std::llround(std::min(kProgram + kThread * n.threads + kHeapPoint * n.points, 0x1p62));
+}
+
+BlockPlan plan_blocks(const RunSize& size, int threads, const MemoryOptions& wanted,
+                      std::optional<std::int64_t> free)
+{
+    const bool is_open = wanted.most == MemoryOptions::kAutoMemory;
+    BlockPlan plan;
+    plan.needed = predicted_peak(size, threads);
+    plan.most = is_open ? free.value_or(0) / 5 * 4 : wanted.most;
+    if (wanted.blocks == 0) {
+        require_memory(size, threads, wanted.most);
+        return plan;
+    }
+    const bool fits = plan.most == 0 || plan.needed <= plan.most;
+    if (wanted.blocks == MemoryOptions::kAutoBlocks && fits) return plan;
+
+    const std::int64_t least = least_memory(size, threads);
+    if (plan.most > 0 && least >= plan.most) refuse_in_blocks(size, least, plan.most);
+    plan.scratch = predicted_scratch(size);
+    plan.blocks = wanted.blocks;
+    if (wanted.blocks == MemoryOptions::kAutoBlocks) {
+        const double at_once = kBlockPoint * static_cast<double>(size.thinned.points) * threads;
+        const double blocks = std::ceil(at_once / (0.5 * static_cast<double>(plan.most - least)));
+        plan.blocks = static_cast<int>(std::clamp(blocks, 2.0, 65536.0));
+    }
+    return plan;
 }
 
 } // namespace vcarve

@@ -4,6 +4,7 @@
 #include "vcarve/options.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,31 @@ RunSize size_before_thinning(const SceneSize& read, const ThinOptions& options);
 inline constexpr double kLeastPredicted = 1.0;
 inline constexpr double kMostPredicted = 1.4;
 
-/// Throws InputError where the prediction is above `most` bytes, naming both; 0 allows all.
+/// Throws InputError where the prediction is above `most` bytes, naming both; 0 or less allows all.
 void require_memory(const RunSize& size, int threads, std::int64_t most);
+
+/// How a run gets by with the memory it may take.
+struct BlockPlan {
+    int blocks = 0;           ///< 0: it works in memory
+    std::int64_t needed = 0;  ///< in memory, as predicted
+    std::int64_t most = 0;    ///< how much it may take; 0 for all
+    std::int64_t scratch = 0; ///< the most that files in the work folder will hold; 0 in memory
+
+    bool in_blocks() const { return blocks > 0; }
+};
+
+/// In memory where the options ask for that, or the run fits; else in blocks, so many that those
+/// being triangulated at a time, one a thread, take half of what is allowed. `free` is what the
+/// system has, of which four fifths are allowed where the options leave that open; nothing where it
+/// is not known. Throws InputError where a run in memory would need more than the options say, or
+/// one in blocks more than is allowed: each point needs some memory even then.
+BlockPlan plan_blocks(const RunSize& size, int threads, const MemoryOptions& wanted,
+                      std::optional<std::int64_t> free);
+
+/// The least memory that a run in blocks needs, in bytes.
+std::int64_t least_memory(const RunSize& size, int threads);
+
+/// The most that arrays in the work folder take at a time, in bytes.
+std::int64_t predicted_scratch(const RunSize& size);
 
 } // namespace vcarve

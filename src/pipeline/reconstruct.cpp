@@ -15,7 +15,9 @@
 #include "steps/1_points/region.h"
 #include "steps/1_points/spatial_sort.h"
 #include "steps/1_points/thin.h"
+#include "steps/2_cells/kept_block.h"
 #include "steps/2_cells/triangulate.h"
+#include "steps/2_cells/triangulate_blocks.h"
 #include "steps/4_labels/label_cells.h"
 #include "steps/5_surface/kept_surface.h"
 #include "steps/5_surface/make_surface.h"
@@ -32,11 +34,18 @@ namespace vcarve {
 
 namespace {
 
+/// Refuses what does not fit into memory where all of it is to be there.
+void require_memory_of(const RunSize& size, const MemoryOptions& options)
+{
+    if (options.blocks > 0) return;
+    require_memory(size, tbb::this_task_arena::max_concurrency(), options.most);
+}
+
 void foresee_memory(const RunSize& size, const Options& options, Log& log)
 {
     Stage stage(log, "memory");
     const int threads = tbb::this_task_arena::max_concurrency();
-    require_memory(size, threads, options.max_memory);
+    require_memory_of(size, options.memory);
     const std::int64_t peak = predicted_peak(size, threads);
     stage.end({{"MiB expected", (peak >> 20) + 1}});
 }
@@ -93,10 +102,16 @@ Scene crop(Scene scene, const Region* region, Log& log)
     return std::move(cropped.scene);
 }
 
-TetMesh triangulate(const Scene& scene, Log& log)
+/// In one piece, or in so many blocks, each of which is kept by itself; the cells are the same.
+TetMesh triangulate(const Scene& scene, int num_blocks, StageKeeper& work)
 {
-    Stage stage(log, "triangulate");
-    TetMesh cells = triangulate(scene, stage);
+    Stage stage(work.log(), "triangulate");
+    const auto count = static_cast<std::size_t>(num_blocks);
+    const auto keep = [&](std::size_t block, const std::function<BlockCells()>& make) {
+        return work.piece({"cells", block, count}, make);
+    };
+    TetMesh cells = num_blocks > 0 ? triangulate_in_blocks(scene, {count, keep}, stage)
+                                   : triangulate(scene, stage);
     stage.end({{"cells", size_of(cells.cells.size())}});
     return cells;
 }
@@ -129,7 +144,8 @@ CarvedSurface carve(const Carvers& carvers, bool wants_removed, const Options& o
                     StageKeeper& work)
 {
     const Scene& scene = carvers.scene;
-    const TetMesh cells = work.stage("cells", [&] { return triangulate(scene, work.log()); });
+    const TetMesh cells =
+        work.stage("cells", [&] { return triangulate(scene, options.memory.blocks, work); });
     CarvedSurface carved;
     const SurfaceWishes wishes = {carvers.region.get(), wants_removed ? &carved.removed : nullptr};
     carved.seen = seen_surface(label_cells(cells, scene, options.labels, work), scene, wishes,
@@ -177,7 +193,7 @@ Reconstruction thin_and_run_steps(Scene scene, const Options& options, Log& log)
 {
     RunSize size = size_before_thinning(size_of(scene), options.thin);
     size.in_parts = false;
-    require_memory(size, tbb::this_task_arena::max_concurrency(), options.max_memory);
+    require_memory_of(size, options.memory);
     scene = thin(std::move(scene), options.thin, log);
     size.thinned = size_of(scene);
     return run_steps(std::move(scene), size, options, log);
@@ -225,8 +241,7 @@ Reconstruction reconstruct(const std::filesystem::path& input, const PointsOptio
 {
     return with_threads(options, [&] {
         const auto check = [&](const SceneSize& read) {
-            require_memory(size_before_thinning(read, options.thin),
-                           tbb::this_task_arena::max_concurrency(), options.max_memory);
+            require_memory_of(size_before_thinning(read, options.thin), options.memory);
         };
         ReadModel model =
             read_found_model(input, points, log, {check, thin_while_reading(options.thin)});

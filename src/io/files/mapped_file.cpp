@@ -38,7 +38,10 @@ bip::mapped_region map_file(const std::filesystem::path& path)
 
 } // namespace
 
-MappedFile::MappedFile(const std::filesystem::path& path) : region_(map_file(path)) {}
+MappedFile::MappedFile(const std::filesystem::path& path)
+    : region_(map_file(path)), pages_(region_.get_address(), region_.get_size())
+{
+}
 
 std::span<const char> MappedFile::bytes() const
 {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/droppable_pages.h"
+
 #include <boost/interprocess/mapped_region.hpp>
 
 #include <cstddef>
@@ -14,6 +16,9 @@ class MappedFile {
   public:
     /// Throws InputError where `path` is not a file that can be read.
     explicit MappedFile(const std::filesystem::path& path);
+    MappedFile(MappedFile&&) = default;
+    MappedFile& operator=(MappedFile&&) = delete; // pages are forgotten before they are unmapped
+    ~MappedFile() = default;
 
     std::span<const char> bytes() const;
 
@@ -23,6 +28,7 @@ class MappedFile {
 
   private:
     boost::interprocess::mapped_region region_;
+    DroppablePages pages_;
 };
 
 } // namespace vcarve

@@ -1,0 +1,108 @@
+#include "base/droppable_pages.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <mutex>
+
+namespace vcarve {
+
+namespace {
+
+struct Range {
+    std::size_t bytes;
+    int file;
+};
+
+/// All ranges by their first byte, and where the last drop ended.
+struct Ranges {
+    std::mutex mutex;
+    std::map<std::uintptr_t, Range> by_begin;
+    std::uintptr_t dropped_to = 0;
+};
+
+/// It lives as long as the process: pages may be unmapped when other static things are gone.
+Ranges& ranges()
+{
+    static auto* const all = new Ranges;
+    return *all;
+}
+
+std::uintptr_t number_of(const void* address)
+{
+    return reinterpret_cast<std::uintptr_t>(address);
+}
+
+/// The range that holds `place`, or the next one, or the first; there is one.
+auto range_at(const std::map<std::uintptr_t, Range>& by_begin, std::uintptr_t place)
+{
+    auto next = by_begin.upper_bound(place);
+    if (next != by_begin.begin()) {
+        const auto before = std::prev(next);
+        if (place - before->first < before->second.bytes) return before;
+    }
+    return next == by_begin.end() ? by_begin.begin() : next;
+}
+
+/// Neither can fail in a way that matters: pages that stay only cost memory.
+void drop(std::uintptr_t begin, std::size_t offset, std::size_t bytes, int written_back)
+{
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): it was made from a pointer
+    static_cast<void>(::madvise(reinterpret_cast<void*>(begin + offset), bytes, MADV_DONTNEED));
+#ifdef __linux__
+    if (written_back != DroppablePages::kNoFile) {
+        static_cast<void>(::sync_file_range(written_back, static_cast<off_t>(offset),
+                                            static_cast<off_t>(bytes), SYNC_FILE_RANGE_WRITE));
+    }
+#endif
+}
+
+} // namespace
+
+DroppablePages::DroppablePages(const void* begin, std::size_t bytes, int file)
+{
+    if (bytes == 0) return;
+    begin_ = begin;
+    Ranges& all = ranges();
+    const std::lock_guard lock(all.mutex);
+    all.by_begin[number_of(begin)] = {bytes, file};
+}
+
+DroppablePages::~DroppablePages()
+{
+    if (begin_ == nullptr) return;
+    Ranges& all = ranges();
+    std::map<std::uintptr_t, Range>::node_type gone; // freed without the lock
+    const std::lock_guard lock(all.mutex);
+    gone = all.by_begin.extract(number_of(begin_));
+}
+
+std::size_t drop_next_pages(std::size_t bytes, bool write_back)
+{
+    // The lock is kept for a piece: once a range is forgotten, its addresses may be somebody
+    // else's. A piece takes a fraction of a millisecond.
+    constexpr std::size_t kPiece = std::size_t{4} << 20;
+    Ranges& all = ranges();
+    std::size_t looked_at = 0;
+    std::uintptr_t first = 0;
+    while (looked_at < bytes) {
+        const std::lock_guard lock(all.mutex);
+        if (all.by_begin.empty()) break;
+        const auto range = range_at(all.by_begin, all.dropped_to);
+        const auto& [begin, what] = *range;
+        const bool is_within = all.dropped_to >= begin && all.dropped_to - begin < what.bytes;
+        const std::size_t offset = is_within ? all.dropped_to - begin : 0;
+        if (begin + offset == first) break; // once around
+        if (looked_at == 0) first = begin + offset;
+        const std::size_t piece = std::min(kPiece, what.bytes - offset);
+        drop(begin, offset, piece, write_back ? what.file : DroppablePages::kNoFile);
+        all.dropped_to = begin + offset + piece;
+        looked_at += piece;
+    }
+    return looked_at;
+}
+
+} // namespace vcarve

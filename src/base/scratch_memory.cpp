@@ -1,0 +1,258 @@
+#include "base/scratch_memory.h"
+
+#include "base/byte_size.h"
+#include "base/droppable_pages.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPage = 4096; ///< the least that a system has
+constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
+
+/// A file descriptor, closed when it goes.
+class File {
+  public:
+    explicit File(int descriptor) : descriptor_(descriptor) {}
+    File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    File& operator=(File&& other) noexcept
+    {
+        std::swap(descriptor_, other.descriptor_);
+        return *this;
+    }
+    ~File()
+    {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    int descriptor() const { return descriptor_; }
+
+  private:
+    int descriptor_;
+};
+
+/// A file that is mapped. Its members go in the order that is needed: first nobody drops pages.
+struct Block {
+    File file;
+    std::size_t bytes;
+    DroppablePages pages;
+};
+
+/// All of them, and where new ones are made. It lives as long as the process, because arrays are
+/// freed when other static things are gone. Nothing is freed while the mutex is held: freeing asks
+/// for it.
+struct Blocks {
+    std::mutex mutex;
+    std::map<void*, Block> by_begin;
+    fs::path folder; ///< where is_open
+    std::int64_t bytes = 0;
+    std::int64_t peak_bytes = 0;
+    bool is_open = false;               ///< whether arrays are kept here
+    std::atomic<std::size_t> count = 0; ///< of by_begin
+};
+
+Blocks& blocks()
+{
+    static auto* const all = new Blocks;
+    return *all;
+}
+
+[[noreturn]] void refuse(const fs::path& folder, std::string_view reason)
+{
+    throw ScratchError(
+        fmt::format("no file can be made in the work folder {}: {}", folder.string(), reason));
+}
+
+[[noreturn]] void refuse_as_full(const fs::path& folder, std::size_t bytes)
+{
+    const std::optional<std::int64_t> left = free_space(folder);
+    throw ScratchError(fmt::format("the work folder {} is full: {} more are needed, and {} are "
+                                   "free",
+                                   folder.string(),
+                                   byte_size_text(static_cast<std::int64_t>(bytes)),
+                                   left ? byte_size_text(*left) : "none"));
+}
+
+/// A file that nobody else can open, and that ends with its last user.
+File unnamed_file(const fs::path& folder)
+{
+#ifdef O_TMPFILE
+    const int unnamed = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0600);
+    if (unnamed >= 0) return File(unnamed);
+#endif
+    // Some file systems have no files without a name.
+    std::string name = (folder / "vcarve-XXXXXX").string();
+    const int named = ::mkostemp(name.data(), O_CLOEXEC);
+    if (named < 0) refuse(folder, std::strerror(errno));
+    ::unlink(name.c_str());
+    return File(named);
+}
+
+/// Gives a file its size, and its space on the disk: without that, writing to a page of it ends the
+/// process when the disk is full.
+void take_space(int file, std::size_t bytes, const fs::path& folder)
+{
+    int error = 0;
+#ifdef __linux__
+    while ((error = ::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 ? 0 : errno) == EINTR) {
+    }
+    if (error == 0) return;
+#else
+    error = EOPNOTSUPP;
+#endif
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG) refuse_as_full(folder, bytes);
+    if (error != EOPNOTSUPP && error != ENOSYS) refuse(folder, std::strerror(error));
+    // Where the file system reserves nothing, what is free now has to do.
+    const std::optional<std::int64_t> left = free_space(folder);
+    if (left && *left < static_cast<std::int64_t>(bytes)) refuse_as_full(folder, bytes);
+    if (::ftruncate(file, static_cast<off_t>(bytes)) != 0) refuse(folder, std::strerror(errno));
+}
+
+/// Files stay open so that their pages can be written back; but not so many that others, which a
+/// run has to open, find no number left.
+File kept_open(File file)
+{
+    rlimit limit = {};
+    const bool is_known = ::getrlimit(RLIMIT_NOFILE, &limit) == 0;
+    const rlim_t most = is_known ? limit.rlim_cur / 2 : 0;
+    if (static_cast<rlim_t>(file.descriptor()) < most) return file;
+    return File(DroppablePages::kNoFile); // the mapping keeps the file
+}
+
+void* map(const File& file, std::size_t bytes)
+{
+    void* const begin =
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(), 0);
+    if (begin == MAP_FAILED) throw std::bad_alloc();
+#ifdef MADV_DONTFORK
+    // A child that wrote to an array would write to the parent's.
+    static_cast<void>(::madvise(begin, bytes, MADV_DONTFORK));
+#endif
+    return begin;
+}
+
+/// A map of one block, so that it becomes one of all without memory being asked for.
+std::map<void*, Block> new_block(std::size_t bytes, const fs::path& folder)
+{
+    File file = unnamed_file(folder);
+    take_space(file.descriptor(), bytes, folder);
+    void* const begin = map(file, bytes);
+    std::map<void*, Block> block;
+    try {
+        file = kept_open(std::move(file));
+        DroppablePages pages(begin, bytes, file.descriptor());
+        block.emplace(begin, Block{std::move(file), bytes, std::move(pages)});
+    } catch (...) {
+        ::munmap(begin, bytes);
+        throw;
+    }
+    return block;
+}
+
+/// Where new blocks are made now; nothing where arrays stay in memory.
+std::optional<fs::path> present_folder()
+{
+    const std::lock_guard lock(blocks().mutex);
+    if (!blocks().is_open) return std::nullopt;
+    return blocks().folder;
+}
+
+} // namespace
+
+ScratchError::ScratchError(const std::string& sentence)
+{
+    const std::size_t count = std::min(sentence.size(), sentence_.size() - 1);
+    std::copy_n(sentence.begin(), count, sentence_.begin());
+}
+
+ScratchMemory::ScratchMemory(const fs::path& folder, std::int64_t most_resident)
+{
+    unnamed_file(folder);
+    Blocks& all = blocks();
+    fs::path exchanged = folder;
+    {
+        const std::lock_guard lock(all.mutex);
+        if (all.is_open) throw std::logic_error("there is a ScratchMemory");
+        all.folder.swap(exchanged);
+        all.is_open = true;
+    }
+    limit_.emplace(most_resident);
+}
+
+ScratchMemory::~ScratchMemory()
+{
+    const std::lock_guard lock(blocks().mutex);
+    blocks().is_open = false;
+}
+
+std::int64_t ScratchMemory::peak_bytes()
+{
+    const std::lock_guard lock(blocks().mutex);
+    return blocks().peak_bytes;
+}
+
+void* allocate_scratch(std::size_t bytes, std::size_t alignment)
+{
+    // Said first, since it is what nearly all memory ends with, that of blocks() among it.
+    if (bytes < ScratchMemory::kLeastBytes || alignment > kPage) return nullptr;
+    const std::optional<fs::path> folder = present_folder();
+    if (!folder) return nullptr;
+    if (bytes > kNever / 4) throw std::bad_alloc();
+    const std::size_t whole_pages = (bytes + kPage - 1) / kPage * kPage;
+    std::map<void*, Block> block = new_block(whole_pages, *folder);
+    void* const begin = block.begin()->first;
+    Blocks& all = blocks();
+    const std::lock_guard lock(all.mutex);
+    all.by_begin.merge(block);
+    all.count = all.by_begin.size();
+    all.bytes += static_cast<std::int64_t>(whole_pages);
+    all.peak_bytes = std::max(all.peak_bytes, all.bytes);
+    return begin;
+}
+
+bool free_scratch(void* memory) noexcept
+{
+    // Nearly all memory ends here: a block begins with a page.
+    if (memory == nullptr || reinterpret_cast<std::uintptr_t>(memory) % kPage != 0) return false;
+    Blocks& all = blocks();
+    if (all.count == 0) return false;
+    std::map<void*, Block>::node_type block;
+    {
+        const std::lock_guard lock(all.mutex);
+        block = all.by_begin.extract(memory);
+        if (block.empty()) return false;
+        all.count = all.by_begin.size();
+        all.bytes -= static_cast<std::int64_t>(block.mapped().bytes);
+    }
+    block.mapped().pages = DroppablePages(); // nobody drops what is unmapped
+    ::munmap(memory, block.mapped().bytes);
+    return true;
+}
+
+std::optional<std::int64_t> free_space(const fs::path& folder)
+{
+    std::error_code error;
+    const fs::space_info space = fs::space(folder, error);
+    if (error) return std::nullopt;
+    return static_cast<std::int64_t>(std::min(space.available, std::uintmax_t{1} << 62));
+}
+
+} // namespace vcarve

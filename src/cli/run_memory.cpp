@@ -1,0 +1,109 @@
+#include "cli/run_memory.h"
+
+#include "base/byte_size.h"
+#include "base/free_memory.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name that no other run has. Beside a device, such as /dev/null, is no place for files.
+fs::path folder_beside(const fs::path& out)
+{
+    std::error_code error;
+    const bool is_device = fs::is_character_file(out, error);
+    fs::path folder = is_device ? fs::temp_directory_path() / "colmap-vcarve" : out;
+    folder += fmt::format(".scratch-{}", ::getpid());
+    return folder;
+}
+
+[[noreturn]] void refuse(const fs::path& folder, std::string_view reason)
+{
+    throw UsageError(fmt::format("cannot use the work folder {}: {}", folder.string(), reason));
+}
+
+std::string note_of(const BlockPlan& plan, const fs::path& folder)
+{
+    const std::string allowed =
+        plan.most == 0 ? "no limit" : byte_size_text(plan.most) + " allowed";
+    return fmt::format("about {} needed, {}: {} blocks, scratch of about {} in {}",
+                       byte_size_text(plan.needed), allowed, plan.blocks,
+                       byte_size_text(plan.scratch), folder.string());
+}
+
+} // namespace
+
+ScratchFolder::ScratchFolder(fs::path given, const fs::path& out)
+    : is_temporary_(given.empty()), path_(is_temporary_ ? folder_beside(out) : std::move(given))
+{
+}
+
+ScratchFolder::~ScratchFolder()
+{
+    // Its files have no names, so it is empty, unless somebody else uses it.
+    std::error_code ignored;
+    if (is_temporary_) fs::remove(path_, ignored);
+}
+
+void ScratchFolder::prepare(std::int64_t bytes) const
+{
+    std::error_code error;
+    const fs::file_status status = fs::status(path_, error);
+    if (fs::exists(status) && !fs::is_directory(status)) refuse(path_, "it is not a folder");
+    fs::create_directory(path_, error);
+    if (error) refuse(path_, error.message());
+    if (::access(path_.c_str(), W_OK | X_OK) != 0) refuse(path_, std::strerror(errno));
+    const std::optional<std::int64_t> free = free_space(path_);
+    if (free && *free < bytes) {
+        refuse(path_, fmt::format("{} are free there, and about {} are needed",
+                                  byte_size_text(*free), byte_size_text(bytes)));
+    }
+}
+
+RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ScratchFolder& folder)
+    : wanted_(wanted), threads_(threads), folder_(folder), free_(free_memory())
+{
+    if (!folder.is_temporary()) folder.prepare(0);
+}
+
+void RunMemory::fit(const RunSize& size, Log& log)
+{
+    const BlockPlan before = std::exchange(plan_, plan_blocks(size, threads_, wanted_, free_));
+    // What is kept in files stays there, even if what is left of a cloud would fit.
+    if (before.in_blocks() && !plan_.in_blocks()) plan_ = before;
+    if (!plan_.in_blocks()) return;
+    if (before.blocks != plan_.blocks) log.note(note_of(plan_, folder_.path()));
+    if (scratch_) return;
+    folder_.prepare(plan_.scratch);
+    constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+    scratch_.emplace(folder_.path(), plan_.most == 0 ? kNoLimit : plan_.most);
+}
+
+MemoryOptions RunMemory::options() const
+{
+    MemoryOptions options = wanted_;
+    options.blocks = plan_.blocks;
+    return options;
+}
+
+Json RunMemory::record() const
+{
+    return {{"blocks", plan_.blocks},
+            {"needed_bytes", plan_.needed},
+            {"allowed_bytes", plan_.most},
+            {"expected_scratch_bytes", plan_.scratch},
+            {"scratch_bytes", ScratchMemory::peak_bytes()}};
+}
+
+} // namespace vcarve::cli

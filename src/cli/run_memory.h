@@ -1,0 +1,61 @@
+#pragma once
+
+#include "base/scratch_memory.h"
+#include "cli/run_record.h"
+#include "pipeline/memory.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace vcarve::cli {
+
+/// The folder that the scratch files of a run are in: the work folder, or one for the run alone.
+class ScratchFolder {
+  public:
+    /// What --work says, or where that is empty, a folder beside the output.
+    ScratchFolder(std::filesystem::path given, const std::filesystem::path& out);
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    /// Removes a temporary one.
+    ~ScratchFolder();
+
+    const std::filesystem::path& path() const { return path_; }
+    /// Whether it is there for this run alone, which is to remove it.
+    bool is_temporary() const { return is_temporary_; }
+
+    /// Makes it, where it is not there. Throws UsageError where that cannot be, and where it cannot
+    /// be written to or has less than so many bytes free.
+    void prepare(std::int64_t bytes) const;
+
+  private:
+    bool is_temporary_;
+    std::filesystem::path path_;
+};
+
+/// Decides whether a run works in memory or in blocks, and keeps its arrays in the work folder in
+/// the latter case, for as long as the object lives.
+class RunMemory {
+  public:
+    RunMemory(const MemoryOptions& wanted, int threads, const ScratchFolder& folder);
+
+    /// Once the size of a run is known, and again when more is known of it: arrays that are made
+    /// from now on are where they should be. A note says how many blocks there are and why. Throws
+    /// InputError where the memory does not do, UsageError where the folder does not.
+    void fit(const RunSize& size, Log& log);
+
+    /// What reconstruct() is to be told.
+    MemoryOptions options() const;
+    /// {"blocks", "needed_bytes", "allowed_bytes", "expected_scratch_bytes", "scratch_bytes"}; the
+    /// last is the most that was in the folder at a time up to now.
+    Json record() const;
+
+  private:
+    MemoryOptions wanted_;
+    int threads_;
+    const ScratchFolder& folder_;
+    std::optional<std::int64_t> free_; ///< before the run took any
+    BlockPlan plan_;
+    std::optional<ScratchMemory> scratch_;
+};
+
+} // namespace vcarve::cli

@@ -1,0 +1,131 @@
+// The program's operator new and delete: large arrays go to the work folder where there is one, all
+// others to the C library, as ever. The functions below are those that may be replaced
+// ([new.delete] in the C++ standard); they are part of the program alone, so that the library never
+// decides where the arrays of others are.
+#include "base/scratch_memory.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+void* from_c_library(std::size_t bytes, std::size_t alignment)
+{
+    constexpr std::size_t kUsual = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+    const std::size_t asked = std::max<std::size_t>(bytes, 1);
+    if (alignment <= kUsual) return std::malloc(asked);
+    void* memory = nullptr;
+    return ::posix_memalign(&memory, alignment, asked) == 0 ? memory : nullptr;
+}
+
+void* allocate(std::size_t bytes, std::size_t alignment = 1)
+{
+    if (void* const scratch = vcarve::allocate_scratch(bytes, alignment)) return scratch;
+    while (true) {
+        if (void* const memory = from_c_library(bytes, alignment)) return memory;
+        const std::new_handler handler = std::get_new_handler();
+        if (handler == nullptr) throw std::bad_alloc();
+        handler();
+    }
+}
+
+void* allocate_or_null(std::size_t bytes, std::size_t alignment = 1) noexcept
+{
+    try {
+        return allocate(bytes, alignment);
+    } catch (...) {
+        return nullptr;
+    }
+}
+
+void release(void* memory) noexcept
+{
+    if (!vcarve::free_scratch(memory)) std::free(memory);
+}
+
+} // namespace
+
+// NOLINTBEGIN(misc-definitions-in-headers, readability-inconsistent-declaration-parameter-name)
+void* operator new(std::size_t bytes)
+{
+    return allocate(bytes);
+}
+void* operator new[](std::size_t bytes)
+{
+    return allocate(bytes);
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
+{
+    return allocate_or_null(bytes);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
+{
+    return allocate_or_null(bytes);
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment)
+{
+    return allocate(bytes, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment)
+{
+    return allocate(bytes, static_cast<std::size_t>(alignment));
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept
+{
+    return allocate_or_null(bytes, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept
+{
+    return allocate_or_null(bytes, static_cast<std::size_t>(alignment));
+}
+
+void operator delete(void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::size_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t&) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept
+{
+    release(memory);
+}
+void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept
+{
+    release(memory);
+}
+void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept
+{
+    release(memory);
+}
+// NOLINTEND(misc-definitions-in-headers, readability-inconsistent-declaration-parameter-name)

@@ -1,0 +1,48 @@
+#include "base/resident_limit.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+constexpr std::int64_t kMiB = std::int64_t{1} << 20;
+
+TEST(ResidentLimit, LetsPagesBeBelowTheLimit)
+{
+    EXPECT_EQ(bytes_to_drop({.all = 0, .of_files = 0}, 1600), 0);
+    EXPECT_EQ(bytes_to_drop({.all = 1200, .of_files = 1200}, 1600), 0);
+    EXPECT_EQ(
+        bytes_to_drop({.all = 1200, .of_files = 1200}, std::numeric_limits<std::int64_t>::max()),
+        0);
+}
+
+TEST(ResidentLimit, DropsDownToWellBelowTheLimit)
+{
+    EXPECT_EQ(bytes_to_drop({.all = 1201, .of_files = 1201}, 1600), 401);
+    EXPECT_EQ(bytes_to_drop({.all = 3000, .of_files = 3000}, 1600), 2200);
+}
+
+TEST(ResidentLimit, KeepsSomePagesWhateverElseIsInMemory)
+{
+    EXPECT_EQ(bytes_to_drop({.all = 3000, .of_files = 500}, 1600), 300);
+    EXPECT_EQ(bytes_to_drop({.all = 3000, .of_files = 200}, 1600), 0);
+    EXPECT_EQ(bytes_to_drop({.all = 3000, .of_files = 100}, 1600), 0);
+}
+
+TEST(ResidentSize, GrowsWithWhatIsWrittenTo)
+{
+    const auto before = resident_size();
+    ASSERT_TRUE(before);
+    EXPECT_GE(before->all, before->of_files);
+    EXPECT_GT(before->of_files, 0) << "the program itself";
+    const std::vector<char> written(static_cast<std::size_t>(64 * kMiB), 'x');
+    const auto after = resident_size();
+    EXPECT_NEAR(static_cast<double>(after->all - before->all), 64.0 * kMiB, 8.0 * kMiB);
+    EXPECT_EQ(written.back(), 'x');
+}
+
+} // namespace
+} // namespace vcarve

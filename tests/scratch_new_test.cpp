@@ -1,0 +1,98 @@
+// The program's operator new, seen from outside.
+#include "support/ball_model.h"
+#include "support/subprocess.h"
+#include "support/temporary_folder.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::Not;
+
+/// Large enough for arrays in files.
+class ProgramInBlocks : public testing::Test {
+  protected:
+    ProgramInBlocks() { write_ball_model(ball, 120'000); }
+
+    Outcome run(std::vector<std::string> arguments) const
+    {
+        arguments.insert(arguments.begin(), {VCARVE_PROGRAM, ball, out});
+        return Subprocess(arguments).wait();
+    }
+    nlohmann::json memory_of(std::vector<std::string> arguments) const
+    {
+        const std::string stats = folder / "stats.json";
+        arguments.insert(arguments.end(), {"--stats", stats});
+        EXPECT_EQ(run(arguments).exit_code, 0);
+        return nlohmann::json::parse(bytes_of(stats))["memory"];
+    }
+
+    TemporaryFolder folder;
+    std::string ball = folder / "ball";
+    std::string out = folder / "out.ply";
+};
+
+TEST_F(ProgramInBlocks, WritesTheSameSurface)
+{
+    EXPECT_EQ(memory_of({"--blocks", "0"})["scratch_bytes"], 0);
+    const std::string in_memory = bytes_of(out);
+    const nlohmann::json memory = memory_of({"--blocks", "2", "--work", folder / "work"});
+    EXPECT_EQ(memory["blocks"], 2);
+    EXPECT_GT(memory["scratch_bytes"], 8 << 20);
+    EXPECT_LE(memory["scratch_bytes"], memory["expected_scratch_bytes"]);
+    EXPECT_TRUE(bytes_of(out) == in_memory);
+    EXPECT_FALSE(std::filesystem::exists(folder / "work"));
+}
+
+TEST_F(ProgramInBlocks, TakesBlocksWhereMemoryDoesNotDoAndSaysSo)
+{
+    const Outcome outcome = run({"--max-memory", "60M", "--threads", "1"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, ContainsRegex("about [0-9.]+M needed, 60M allowed: [0-9]+ blocks, "
+                                           "scratch of about [0-9.]+M in .*out.ply.scratch-"));
+    EXPECT_EQ(folder.num_entries(), 2U) << "the ball and the surface";
+}
+
+TEST_F(ProgramInBlocks, RefusesInsteadWhereNoBlocksAreWanted)
+{
+    const Outcome outcome = run({"--max-memory", "60M", "--blocks", "0"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err,
+                MatchesRegex("(.|\n)*colmap-vcarve: .*ball: 120000 points with [0-9]+ sights need "
+                             "about [0-9.]+M of memory, and --max-memory allows 60M\n"));
+}
+
+TEST_F(ProgramInBlocks, NamesAScratchFolderThatDoesNotDo)
+{
+    const Outcome outcome = run({"--blocks", "2", "--work", folder / "no/where"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err, "colmap-vcarve: cannot use the work folder " +
+                               (folder / "no/where").string() + ": No such file or directory\n");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ProgramInBlocks, LeavesNoFilesWhenItIsEnded)
+{
+    const std::string work = folder / "work";
+    Subprocess program({VCARVE_PROGRAM, ball, out, "--blocks", "2", "--work", work});
+    while (program.err_so_far().find("triangulate ") == std::string::npos && program.is_running()) {
+        ::usleep(1000);
+    }
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait().exit_code, 128 + SIGTERM);
+    EXPECT_FALSE(std::filesystem::exists(work));
+    EXPECT_EQ(folder.num_entries(), 1U) << "the ball";
+}
+
+} // namespace
+} // namespace vcarve
