@@ -24,11 +24,8 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void become(std::vector<std::string> words)
 {
-    std::vector<char*> pointers;
-    for (std::string& word : words) {
-        pointers.push_back(word.data());
-    }
-    pointers.push_back(nullptr);
+    std::vector<char*> pointers(words.size() + 1, nullptr); // the last ends the list
+    std::ranges::transform(words, pointers.begin(), [](std::string& word) { return word.data(); });
     ::execv(pointers[0], pointers.data());
     ::_exit(127);
 }
