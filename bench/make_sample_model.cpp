@@ -32,7 +32,7 @@ int main(int count, char** words)
         kind.shape = vcarve::bench::shape_named(words[1]);
         const auto views = vcarve::bench::usual_views(points);
         vcarve::bench::write_colmap_model(words[3],
-                                          vcarve::bench::make_sample_scene(kind, points, views));
+                                          *vcarve::bench::sample_parts(kind, points, views));
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "make_sample_model: %s\n", error.what());

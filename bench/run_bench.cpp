@@ -1,6 +1,8 @@
 // Measures whole runs, from files to files, against CGAL's triangulation of the same points:
-// seconds, CPU seconds and peaks of memory, stage by stage. See tools/bench.
+// seconds, CPU seconds and peaks of memory, stage by stage; or runs of the program in blocks
+// against those in memory. See tools/bench.
 
+#include "block_bench.h"
 #include "measurements.h"
 #include "run_report.h"
 
@@ -32,6 +34,9 @@ struct Arguments {
     std::vector<std::uint64_t> points = {10'000, 100'000};
     std::vector<int> threads = {1, 2};
     std::size_t rounds = 3;
+    std::vector<std::string> blocks; ///< none: runs are not measured in blocks
+    std::filesystem::path program;   ///< which is run in blocks
+    bool no_memory_run = false;
     std::filesystem::path json; ///< empty: none
 };
 
@@ -124,6 +129,33 @@ std::vector<Sample> samples(const Arguments& arguments)
     return result;
 }
 
+void write_json(const std::filesystem::path& path, const Json& record)
+{
+    if (!path.empty()) std::ofstream(path) << record.dump(2) << '\n';
+}
+
+/// False where a surface was another in blocks than in memory.
+bool run_in_blocks(const Arguments& arguments)
+{
+    const BlockRuns runs = {.program = arguments.program,
+                            .folder = arguments.folder,
+                            .blocks = arguments.blocks,
+                            .threads = arguments.threads,
+                            .rounds = arguments.rounds,
+                            .in_memory = !arguments.no_memory_run};
+    Json record = Json::array();
+    bool is_same = true;
+    for (const Sample& sample : samples(arguments)) {
+        const BlockResult result = measure_blocks(sample.model, runs);
+        fmt::print("{}\n", block_report(result));
+        std::fflush(stdout);
+        record.push_back(json_of(result));
+        is_same = is_same && is_same_everywhere(result);
+    }
+    write_json(arguments.json, record);
+    return is_same;
+}
+
 void run(const Arguments& arguments)
 {
     fmt::print("{}\n\n", machine_line());
@@ -139,7 +171,46 @@ void run(const Arguments& arguments)
         results.push_back(std::move(result));
     }
     if (results.size() > 1) fmt::print("{}", summary(results));
-    if (!arguments.json.empty()) std::ofstream(arguments.json) << record.dump(2) << '\n';
+    write_json(arguments.json, record);
+}
+
+void add_sample_options(CLI::App& app, Arguments& arguments)
+{
+    app.add_option("--model", arguments.models, "models or dense workspaces, instead of samples")
+        ->check(CLI::ExistingDirectory);
+    app.add_option("--shape", arguments.shape, "surface, terrain or hall");
+    app.add_option("--noise", arguments.noise_along,
+                   "of points along their sights, in spacings of the points: .1,.25,.5,1")
+        ->delimiter(',')
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--noise-across", arguments.noise_across,
+                   "across their sights; as along, if it is not given")
+        ->delimiter(',')
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--outliers", arguments.outliers, "share of the points: 0,.02,.1")
+        ->delimiter(',')
+        ->check(CLI::Range(0.0, 1.0));
+    app.add_flag("--clustered", arguments.clustered,
+                 "points up to 256 times denser here than there");
+    app.add_option("--points", arguments.points, "sizes of models: 10k,1M")
+        ->delimiter(',')
+        ->transform(CLI::AsNumberWithUnit(
+            std::map<std::string, std::uint64_t>{{"k", 1'000}, {"M", 1'000'000}}));
+}
+
+void add_block_options(CLI::App& app, Arguments& arguments)
+{
+    CLI::Option* program =
+        app.add_option("--program", arguments.program, "which is run with --blocks")
+            ->check(CLI::ExistingFile);
+    CLI::Option* blocks = app.add_option("--blocks", arguments.blocks,
+                                         "runs the program with these --blocks beside --blocks 0, "
+                                         "in memory: 8,64")
+                              ->delimiter(',')
+                              ->needs(program);
+    app.add_flag("--no-memory-run", arguments.no_memory_run,
+                 "not in memory, where there is not enough")
+        ->needs(blocks);
 }
 
 } // namespace
@@ -152,32 +223,14 @@ int main(int count, char** words)
         vcarve::bench::Arguments arguments;
         CLI::App app("Measures colmap-vcarve on sample models.");
         app.add_option("--folder", arguments.folder, "where models are, or are made")->required();
-        app.add_option("--model", arguments.models,
-                       "models or dense workspaces, instead of samples")
-            ->check(CLI::ExistingDirectory);
-        app.add_option("--shape", arguments.shape, "surface, terrain or hall");
-        app.add_option("--noise", arguments.noise_along,
-                       "of points along their sights, in spacings of the points: .1,.25,.5,1")
-            ->delimiter(',')
-            ->check(CLI::NonNegativeNumber);
-        app.add_option("--noise-across", arguments.noise_across,
-                       "across their sights; as along, if it is not given")
-            ->delimiter(',')
-            ->check(CLI::NonNegativeNumber);
-        app.add_option("--outliers", arguments.outliers, "share of the points: 0,.02,.1")
-            ->delimiter(',')
-            ->check(CLI::Range(0.0, 1.0));
-        app.add_flag("--clustered", arguments.clustered,
-                     "points up to 256 times denser here than there");
-        app.add_option("--points", arguments.points, "sizes of models: 10k,1M")
-            ->delimiter(',')
-            ->transform(CLI::AsNumberWithUnit(
-                std::map<std::string, std::uint64_t>{{"k", 1'000}, {"M", 1'000'000}}));
+        vcarve::bench::add_sample_options(app, arguments);
+        vcarve::bench::add_block_options(app, arguments);
         app.add_option("--threads", arguments.threads, "1,2")->delimiter(',');
         app.add_option("--rounds", arguments.rounds, "of which medians are printed")
             ->check(CLI::PositiveNumber);
         app.add_option("--json", arguments.json, "a file for all figures");
         CLI11_PARSE(app, count, words);
+        if (!arguments.blocks.empty()) return vcarve::bench::run_in_blocks(arguments) ? 0 : 1;
         vcarve::bench::run(arguments);
         return 0;
     } catch (const std::exception& error) {

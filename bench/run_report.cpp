@@ -13,7 +13,8 @@ namespace vcarve::bench {
 
 namespace {
 
-constexpr const char* kFigures[] = {"seconds", "cpu_seconds", "peak_bytes"};
+constexpr const char* kFigures[] = {"seconds",       "cpu_seconds",   "peak_bytes",
+                                    "scratch_bytes", "written_bytes", "read_bytes"};
 
 double seconds_of(const Json& measured)
 {
@@ -116,6 +117,7 @@ Json median_of(const std::vector<Json>& measurements)
         return values[values.size() / 2];
     };
     for (const char* figure : kFigures) {
+        if (!result.contains(figure)) continue;
         result[figure] = middle([&](const Json& one) { return one[figure]; });
         for (std::size_t i = 0; result.contains("stages") && i < result["stages"].size(); ++i) {
             result["stages"][i][figure] =

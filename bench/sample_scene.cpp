@@ -18,8 +18,6 @@ namespace {
 using Eigen::Vector3d;
 using ViewIndices = std::vector<std::uint32_t>;
 
-constexpr std::size_t kBlockPoints = 16384; ///< made with a generator of their own
-
 /// For each view those near it, the nearest (itself) first.
 std::vector<ViewIndices> nearby_views(const std::vector<View>& views)
 {
@@ -223,6 +221,63 @@ void append(const Scene& block, Scene& scene)
     }
 }
 
+/// The cameras and views of a sample.
+Scene numbered_views(std::vector<View> views)
+{
+    Scene scene;
+    scene.cameras = {sample_camera()};
+    scene.views = std::move(views);
+    for (std::size_t i = 0; i < scene.views.size(); ++i) {
+        scene.views[i].id = static_cast<std::uint32_t>(i + 1);
+        scene.views[i].name = fmt::format("{:04}.jpg", i + 1);
+    }
+    return scene;
+}
+
+class SampleParts final : public SceneParts {
+  public:
+    SampleParts(const SampleKind& kind, std::size_t points, std::size_t views)
+        : shape_(make_shape(kind.shape)),
+          num_points_(points),
+          photographer_(*shape_, shape_->views(views), kind,
+                        std::sqrt(shape_->area() / static_cast<double>(points))),
+          views_(numbered_views(photographer_.views()))
+    {
+    }
+
+    std::size_t num_points() const override { return num_points_; }
+
+    Scene next(std::size_t most, const Progress& progress) override
+    {
+        const std::size_t left = num_points_ - first_;
+        const std::size_t whole = most >= left ? left : most / kSampleBlock * kSampleBlock;
+        std::vector<Scene> blocks((whole + kSampleBlock - 1) / kSampleBlock);
+        const auto fill = [&](std::size_t i) {
+            const std::size_t count = std::min(kSampleBlock, whole - i * kSampleBlock);
+            photographer_.add_points(count, first_ / kSampleBlock + i, blocks[i]);
+        };
+        parallel_for(blocks.size(), fill, 1);
+
+        Scene scene = views_;
+        for (Scene& block : blocks) {
+            append(block, scene);
+            block = {};
+        }
+        scene.point_ids.resize(whole);
+        std::iota(scene.point_ids.begin(), scene.point_ids.end(), std::uint64_t{first_} + 1);
+        first_ += whole;
+        progress.tell(1.0);
+        return scene;
+    }
+
+  private:
+    std::unique_ptr<SampleShape> shape_;
+    std::size_t num_points_;
+    Photographer photographer_;
+    Scene views_;
+    std::size_t first_ = 0; ///< point of the next part, the first of a block
+};
+
 } // namespace
 
 Shape shape_named(std::string_view name)
@@ -264,33 +319,15 @@ std::size_t usual_views(std::size_t points)
     return points >= kMany ? 300 : 100;
 }
 
+std::unique_ptr<SceneParts> sample_parts(const SampleKind& kind, std::size_t points,
+                                         std::size_t views)
+{
+    return std::make_unique<SampleParts>(kind, points, views);
+}
+
 Scene make_sample_scene(const SampleKind& kind, std::size_t points, std::size_t views)
 {
-    const auto subject = make_shape(kind.shape);
-    const double spacing = std::sqrt(subject->area() / static_cast<double>(points));
-    const Photographer photographer(*subject, subject->views(views), kind, spacing);
-
-    std::vector<Scene> blocks((points + kBlockPoints - 1) / kBlockPoints);
-    const auto fill = [&](std::size_t i) {
-        const std::size_t begin = i * kBlockPoints;
-        photographer.add_points(std::min(kBlockPoints, points - begin), i, blocks[i]);
-    };
-    parallel_for(blocks.size(), fill, 1);
-
-    Scene scene;
-    scene.cameras = {sample_camera()};
-    scene.views = photographer.views();
-    for (std::size_t i = 0; i < views; ++i) {
-        scene.views[i].id = static_cast<std::uint32_t>(i + 1);
-        scene.views[i].name = fmt::format("{:04}.jpg", i + 1);
-    }
-    for (Scene& block : blocks) {
-        append(block, scene);
-        block = {};
-    }
-    scene.point_ids.resize(points);
-    std::iota(scene.point_ids.begin(), scene.point_ids.end(), std::uint64_t{1});
-    return scene;
+    return SampleParts(kind, points, views).next(points, {});
 }
 
 } // namespace vcarve::bench

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "model/scene_parts.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -32,14 +34,28 @@ std::string name_of(const SampleKind& kind);
 /// As many views as a model of so many points would have: 300 from a million points on, else 100.
 std::size_t usual_views(std::size_t points);
 
+/// Points of a sample are made in blocks of so many, each from a seed of its own.
+inline constexpr std::size_t kSampleBlock = 16384;
+
 /// A scene as COLMAP would reconstruct it, the same on every machine: points on the shape, off it
 /// by the noise, each seen by 2 to 8 nearby views (3.7 on average) that truly face it, nothing in
-/// between; outliers lie anywhere in the box. Cost: 100 bytes a point; five million points take
-/// half a minute on two cores.
+/// between; outliers lie anywhere in the box. Its points are made as they are asked for, on all
+/// threads: next() gives whole blocks, and none where not even one is asked for; a last one that is
+/// smaller counts for one. Cost: five million points take half a minute on two cores; memory for
+/// the points of a part twice.
+std::unique_ptr<SceneParts> sample_parts(const SampleKind& kind, std::size_t points,
+                                         std::size_t views);
+
+/// All points of it at once. Cost: 200 bytes a point.
 Scene make_sample_scene(const SampleKind& kind, std::size_t points, std::size_t views);
 
 /// Writes cameras.bin, images.bin and points3D.bin into `folder`, which is made; each image lists
 /// its 2D points, and tracks name them, as COLMAP has it. All views must be of sample_camera().
+/// Cost: memory for parts of a quarter of a million points and for their 2D points, however many
+/// points there are in all; a second to read again what was written of a million.
+void write_colmap_model(const std::filesystem::path& folder, SceneParts& parts);
+
+/// The same of a scene that is in memory.
 void write_colmap_model(const std::filesystem::path& folder, const Scene& scene);
 
 } // namespace vcarve::bench

@@ -49,6 +49,20 @@ TEST(Filter, DropsEachBadPointForItsOwnReason)
     EXPECT_EQ(result.report.duplicate, 0);
 }
 
+TEST(Filter, KeepsTheViewsOfAllPointsAtAPlaceBehindOthersThatAreDropped)
+{
+    const Scene scene = make_scene(kCenters, {{{2, 0, 0}, {0}},      // one view
+                                              {{1, 0, 0}, {0, 1}},   // at one place
+                                              {{1, 0, 0}, {1, 2}},   // with this
+                                              {{4, 0, 0}, {0, 2}},   // 0.06 degrees
+                                              {{3, 0, 0}, {0, 1}}}); // good
+    const FilteredPoints result = filter_points(scene, {});
+    EXPECT_EQ(result.scene.point_ids, (std::vector<std::uint64_t>{2, 5}));
+    EXPECT_EQ(result.scene.tracks.begins, (std::vector<std::uint64_t>{0, 3, 5}));
+    EXPECT_EQ(result.scene.tracks.views, (std::vector<std::uint32_t>{0, 1, 2, 0, 1}));
+    EXPECT_EQ(result.scene.positions, (std::vector<Vector3d>{{1, 0, 0}, {3, 0, 0}}));
+}
+
 TEST(Filter, AsksForNoSecondViewWhereTheRangeWasMeasured)
 {
     Scene scene = make_scene(kCenters, {{{2, 0, 0}, {0}}, {{3, 0, 0}, {0, 2}}, {{4, 0, 0}, {1}}});

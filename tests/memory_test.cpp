@@ -68,14 +68,14 @@ TEST(PredictedMemory, GrowsWithPointsAndSightsAndThreads)
                 10.0 * static_cast<double>(peak - program), 1e3);
 }
 
-TEST(PredictedMemory, OfReadingHoldsASightInTheFileInTheSceneAndInTheTrackThatGrows)
+TEST(PredictedMemory, OfReadingHoldsASightInTheSceneOnly)
 {
     SceneSize more = kMillion;
     more.sights += 1000;
     const StageMemory before = predicted_memory(size_of_run(kMillion), 1).front();
     const StageMemory after = predicted_memory(size_of_run(more), 1).front();
     EXPECT_STREQ(before.stage, "read");
-    EXPECT_EQ(after.bytes - before.bytes, 1000 * (8 + 4 + 4));
+    EXPECT_EQ(after.bytes - before.bytes, 1000 * 4);
 }
 
 TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
@@ -140,7 +140,7 @@ TEST(PredictedMemory, IsWhatTheProgramNeeds)
 {
     const MeasuredRun run = run_on_ball(30'000, 1);
     const std::map<std::string, double> expected = {
-        {"read", 1.00}, {"filter", 1.02},  {"triangulate", 1.27}, {"sights", 1.28},
+        {"read", 0.85}, {"filter", 1.02},  {"triangulate", 1.27}, {"sights", 1.28},
         {"cut", 1.32},  {"surface", 1.06}, {"clean", 0.97}}; // as measured
     double most = 0.0;
     for (const StageMemory& stage : run.predicted) {

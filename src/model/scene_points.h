@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -45,6 +46,20 @@ Tracks make_tracks(std::size_t count, const RowOf& row_of)
                           tracks.views.begin() + static_cast<std::ptrdiff_t>(tracks.begins[i]));
     });
     return tracks;
+}
+
+/// Leaves only some points of a scene, in the order given, with tracks for them. The arrays are
+/// replaced one after another, so that the memory of one of them, and not of a scene, is needed
+/// beside those that are there. Cost: O(points), in parallel.
+template <typename Points>
+void keep_points(Scene& scene, const Points& points, Tracks tracks)
+{
+    scene.tracks = std::move(tracks);
+    scene.positions = values_at(points, scene.positions);
+    scene.colors = values_at(points, scene.colors);
+    scene.errors_px = values_at(points, scene.errors_px);
+    scene.point_ids = values_at(points, scene.point_ids);
+    scene.normals = values_at(points, scene.normals);
 }
 
 /// Some points of a scene in the order given, with all its views; the i-th of them was seen by

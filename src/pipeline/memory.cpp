@@ -29,10 +29,6 @@ constexpr double kSceneNormal = 12;
 constexpr double kSceneSight = 4;
 constexpr double kSceneView = 256;
 
-/// points3D.bin: a point, and an image id with the index of a 2D point.
-constexpr double kFilePoint = 51;
-constexpr double kFileSight = 8;
-
 /// CGAL: a cell holds 4 vertices, 4 neighbours, its state and index; a vertex its point, a cell and
 /// its index; both with some room to grow.
 constexpr double kCgalCell = 73;
@@ -95,16 +91,18 @@ double denoising(const Sizes& n)
     return n.scene() + n.points * (kAround + kPlaced);
 }
 
-/// The file, the scene with its growing tracks, and the ids once more to find doubles.
+/// The scene, and its positions once more, where the arrays of a text model grow; a binary one
+/// needs a third of that, for its ids. Files are given back as they are read.
 double reading(const Sizes& n)
 {
-    return n.points * (kFilePoint + 8) + n.sights * (kFileSight + kSceneSight) + n.scene();
+    return n.scene() + 24 * n.points;
 }
 
-/// The scene before and after, and the orders points are sorted in.
+/// The scene, whose arrays are replaced one by one, and positions with what they are sorted by;
+/// and what the allocator keeps of arrays that were freed, of models below a million points.
 double filtering(const Sizes& n)
 {
-    return 2 * n.scene() + 64 * n.points;
+    return n.scene() + (36 + 16) * n.points;
 }
 
 /// CGAL's triangulation and the cells before they are numbered. The points as CGAL wants them are

@@ -75,10 +75,9 @@ Scene filter(Scene scene, const FilterOptions& options, Log& log)
     Stage stage(log, "filter");
     const std::int64_t num_points = size_of(scene.num_points());
     const Progress progress(stage);
-    FilteredPoints filtered = filter_points(scene, options, progress.part(0.0, 0.6));
-    scene = Scene(); // two are enough at a time
+    FilteredPoints filtered = filter_points(std::move(scene), options, progress.part(0.0, 0.6));
     progress.tell(0.6);
-    Scene sorted = spatial_sort(filtered.scene, progress.part(0.6, 1.0));
+    Scene sorted = spatial_sort(std::move(filtered.scene), progress.part(0.6, 1.0));
     const FilterReport& dropped = filtered.report;
     stage.end({{"points", size_of(sorted.num_points())},
                {"of", num_points},
@@ -95,9 +94,10 @@ Scene crop(Scene scene, const Region* region, Log& log)
 {
     if (region == nullptr) return scene;
     Stage stage(log, "crop");
-    CroppedPoints cropped = crop_points(scene, *region, stage);
+    const std::int64_t num_points = size_of(scene.num_points());
+    CroppedPoints cropped = crop_points(std::move(scene), *region, stage);
     stage.end({{"points", cropped.inside},
-               {"of", size_of(scene.num_points())},
+               {"of", num_points},
                {"outside but seen through it", cropped.witnesses}});
     return std::move(cropped.scene);
 }

@@ -73,8 +73,10 @@ void read_images(const std::filesystem::path& path, SceneBuilder& builder, const
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
     const std::uint64_t count = reader.read_count(kImageBytes, "images");
+    ReadOnce pages(file);
     for (std::uint64_t i = 0; i < count; ++i) {
         builder.add_image(read_image(reader));
+        pages.read_up_to(reader.offset());
         if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
     reader.expect_end("the last image");
@@ -98,7 +100,9 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
     const std::uint64_t count = reader.read_count(kPointBytes, "points");
-    builder.reserve_points(count);
+    // What is no point is tracks
+    builder.reserve_points(count, (reader.left() - count * kPointBytes) / kTrackElementBytes);
+    ReadOnce pages(file);
     std::vector<std::uint32_t> image_ids;
     for (std::uint64_t i = 0; i < count; ++i) {
         const PointRecord point = read_point(reader);
@@ -108,6 +112,7 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
             reader.read<std::uint32_t>("the track of a point");
         }
         builder.add_point(point, image_ids);
+        pages.read_up_to(reader.offset());
         if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
     reader.expect_end("the last point");

@@ -84,8 +84,10 @@ void read_images(const std::filesystem::path& path, SceneBuilder& builder, const
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
+    ReadOnce pages(file);
     for (std::uint64_t i = 0; reader.next_record(); ++i) {
         builder.add_image(read_image(reader));
+        pages.read_up_to(reader.offset());
         if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
     builder.close_images();
@@ -109,6 +111,7 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
+    ReadOnce pages(file);
     std::vector<std::uint32_t> image_ids;
     for (std::uint64_t i = 0; reader.next_record(); ++i) {
         const PointRecord point = read_point(reader);
@@ -118,6 +121,7 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
             reader.read_uint32("the index of a 2D point in the track");
         }
         builder.add_point(point, image_ids);
+        pages.read_up_to(reader.offset());
         if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
 }

@@ -91,13 +91,14 @@ void SceneBuilder::close_images()
     }
 }
 
-void SceneBuilder::reserve_points(std::size_t count)
+void SceneBuilder::reserve_points(std::size_t count, std::size_t sights)
 {
     scene_.positions.reserve(count);
     scene_.colors.reserve(count);
     scene_.errors_px.reserve(count);
     scene_.point_ids.reserve(count);
     scene_.tracks.begins.reserve(count + 1);
+    scene_.tracks.views.reserve(sights);
 }
 
 std::uint32_t SceneBuilder::view_index(std::uint32_t image_id, std::uint64_t point_id) const
@@ -125,6 +126,8 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
     std::sort(row_.begin(), row_.end());
     row_.erase(std::unique(row_.begin(), row_.end()), row_.end());
 
+    const std::vector<std::uint64_t>& ids = scene_.point_ids;
+    point_ids_ascend_ = point_ids_ascend_ && (ids.empty() || ids.back() < point.id);
     scene_.positions.push_back(point.position);
     scene_.colors.push_back(point.color);
     scene_.errors_px.push_back(std::isnan(point.error_px) ? -1.0 : point.error_px);
@@ -134,6 +137,7 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
 
 void SceneBuilder::refuse_point_ids_twice() const
 {
+    if (point_ids_ascend_) return;
     std::vector<std::uint64_t> ids = scene_.point_ids;
     parallel_sort(ids);
     const auto twice = std::adjacent_find(ids.begin(), ids.end());

@@ -47,7 +47,8 @@ class SceneBuilder {
     /// To be called between the last image and the first point.
     void close_images();
 
-    void reserve_points(std::size_t count);
+    /// So many points and sights will come, or a few less.
+    void reserve_points(std::size_t count, std::size_t sights);
     /// `image_ids` may be in any order and name an image more than once.
     void add_point(const PointRecord& point, std::span<const std::uint32_t> image_ids);
 
@@ -66,6 +67,7 @@ class SceneBuilder {
     std::vector<std::uint32_t> file_ids_;  ///< of the images, as they were added
     std::vector<std::uint32_t> image_ids_; ///< ascending, parallel to the views
     std::vector<std::uint32_t> row_;       ///< view indices of the point being added
+    bool point_ids_ascend_ = true;         ///< of the points so far, so that none occurs twice
 };
 
 } // namespace vcarve

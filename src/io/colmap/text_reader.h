@@ -24,6 +24,8 @@ class TextReader {
     /// Goes to the next line that is neither a comment nor blank. False: there is none.
     bool next_record();
 
+    /// How many bytes of the file are read, with all of the current line.
+    std::size_t offset() const { return size_ - unread_.size(); }
     /// How much of the file is read, 0 to 1.
     double share_read() const
     {

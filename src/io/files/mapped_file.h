@@ -31,4 +31,24 @@ class MappedFile {
     DroppablePages pages_;
 };
 
+/// Gives the memory of a file back while it is read from its begin to its end, so that what is read
+/// of a large one does not stay beside what is made of it.
+class ReadOnce {
+  public:
+    explicit ReadOnce(const MappedFile& file) : file_(file) {}
+
+    /// The bytes before this one will not be read again. Cost: most often none.
+    void read_up_to(std::size_t offset)
+    {
+        constexpr std::size_t kAtOnce = std::size_t{1} << 20U;
+        if (offset - released_ < kAtOnce) return;
+        file_.release(offset);
+        released_ = offset;
+    }
+
+  private:
+    const MappedFile& file_;
+    std::size_t released_ = 0;
+};
+
 } // namespace vcarve

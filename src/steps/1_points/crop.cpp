@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -35,7 +36,7 @@ std::string box_text(const AlignedBox3d& box)
 
 } // namespace
 
-CroppedPoints crop_points(const Scene& scene, const Region& region, const Progress& progress)
+CroppedPoints crop_points(Scene scene, const Region& region, const Progress& progress)
 {
     const Tracks& tracks = scene.tracks;
     Flags is_inside(scene.num_points());
@@ -52,8 +53,12 @@ CroppedPoints crop_points(const Scene& scene, const Region& region, const Progre
     parallel_for(scene.num_points(), progress.part(0.0, 0.9), judge);
 
     CroppedPoints result;
+    // What is reserved takes memory only where it is filled
     std::vector<std::uint32_t> kept;
+    kept.reserve(scene.num_points());
     Tracks kept_tracks;
+    kept_tracks.begins.reserve(scene.num_points() + 1);
+    kept_tracks.views.reserve(scene.num_sights());
     std::vector<std::uint32_t> views;
     for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
         views.clear();
@@ -66,7 +71,8 @@ CroppedPoints crop_points(const Scene& scene, const Region& region, const Progre
         kept_tracks.push_back(views);
     }
     if (result.inside == 0 && scene.num_points() > 0) refuse_empty(scene, region);
-    result.scene = select_points(scene, kept, [&](std::size_t i) { return kept_tracks[i]; });
+    keep_points(scene, kept, std::move(kept_tracks));
+    result.scene = std::move(scene);
     return result;
 }
 

@@ -19,6 +19,6 @@ struct CroppedPoints {
 /// what was seen to be empty there stays so, wherever the sight ends. Throws InputError where no
 /// point lies within the region; a scene without points stays as it is. Cost: a question to the
 /// region a sight of a point outside, in parallel.
-CroppedPoints crop_points(const Scene& scene, const Region& region, const Progress& progress = {});
+CroppedPoints crop_points(Scene scene, const Region& region, const Progress& progress = {});
 
 } // namespace vcarve

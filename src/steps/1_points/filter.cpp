@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 namespace vcarve {
 
@@ -21,6 +22,7 @@ using PointIndices = std::vector<std::uint32_t>;
 
 /// Points at one place, by the index of the best of them.
 struct Merged {
+    std::size_t num_finite = 0;        ///< of all points, those that are at a place
     PointIndices best;                 ///< one point a place, ascending
     std::vector<std::uint32_t> group;  ///< per entry of `best`, its row in `members`, or kAlone
     std::vector<PointIndices> members; ///< all points of a place that has more than one
@@ -48,13 +50,15 @@ PointIndices finite_points(const Scene& scene)
     });
 }
 
-Merged merge_duplicates(const Scene& scene, const PointIndices& finite)
+Merged merge_duplicates(const Scene& scene)
 {
+    const PointIndices finite = finite_points(scene);
     const std::vector<std::uint32_t> firsts = first_at_place(scene.positions, finite);
     constexpr std::uint32_t kLeftOut = Merged::kAlone - 1;
     std::vector<std::uint32_t> groups(scene.num_points(), kLeftOut);     // of the best of a place
     std::vector<std::uint32_t> rows(scene.num_points(), Merged::kAlone); // of the first
     Merged merged;
+    merged.num_finite = finite.size();
     for (const std::uint32_t point : finite) {
         const std::uint32_t first = firsts[point];
         if (first == point) {
@@ -72,6 +76,8 @@ Merged merge_duplicates(const Scene& scene, const PointIndices& finite)
         groups[members.front()] = kLeftOut;
         groups[best_of(scene, members)] = row;
     }
+    merged.best.reserve(finite.size());
+    merged.group.reserve(finite.size());
     for (std::uint32_t point = 0; point < groups.size(); ++point) {
         if (groups[point] != kLeftOut) {
             merged.best.push_back(point);
@@ -129,15 +135,26 @@ void count(Verdict verdict, FilterReport& report)
     report.low_angle += verdict == Verdict::low_angle ? 1 : 0;
 }
 
+/// Leaves the places whose points are to be kept.
+void drop_places(Merged& merged, const std::vector<Verdict>& verdicts)
+{
+    std::size_t kept = 0;
+    for (std::size_t place = 0; place < verdicts.size(); ++place) {
+        if (verdicts[place] != Verdict::keep) continue;
+        merged.best[kept] = merged.best[place];
+        merged.group[kept] = merged.group[place];
+        ++kept;
+    }
+    merged.best.resize(kept);
+    merged.group.resize(kept);
+}
+
 } // namespace
 
-FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
-                             const Progress& progress)
+FilteredPoints filter_points(Scene scene, const FilterOptions& options, const Progress& progress)
 {
     require_indexable(scene.num_points(), kMostIndices, "points");
-    const PointIndices finite = finite_points(scene);
-    progress.tell(0.1);
-    const Merged merged = merge_duplicates(scene, finite);
+    Merged merged = merge_duplicates(scene);
     progress.tell(0.6);
     const Tracks united = united_tracks(scene.tracks, merged.members);
     const auto track_of = [&](std::size_t place) -> std::span<const std::uint32_t> {
@@ -152,17 +169,14 @@ FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
     progress.tell(0.8);
 
     FilteredPoints result;
-    result.report.non_finite = static_cast<std::int64_t>(scene.num_points() - finite.size());
-    result.report.duplicate = static_cast<std::int64_t>(finite.size() - merged.best.size());
-    PointIndices kept;
-    std::vector<std::uint32_t> places;
-    for (std::uint32_t place = 0; place < merged.best.size(); ++place) {
-        count(verdicts[place], result.report);
-        if (verdicts[place] != Verdict::keep) continue;
-        kept.push_back(merged.best[place]);
-        places.push_back(place);
+    result.report.non_finite = static_cast<std::int64_t>(scene.num_points() - merged.num_finite);
+    result.report.duplicate = static_cast<std::int64_t>(merged.num_finite - merged.best.size());
+    for (const Verdict verdict : verdicts) {
+        count(verdict, result.report);
     }
-    result.scene = select_points(scene, kept, [&](std::size_t i) { return track_of(places[i]); });
+    drop_places(merged, verdicts);
+    keep_points(scene, merged.best, make_tracks(merged.best.size(), track_of));
+    result.scene = std::move(scene);
     return result;
 }
 

@@ -27,8 +27,9 @@ struct FilteredPoints {
 /// angle between its sights is asked. Points at one place, but for rounding (same_place.h), become
 /// one, with the views of all, and what else belongs to the best of them (most views, then smallest
 /// error, then smallest id). The order of the points is that of the input.
-/// Cost: O(points log points + sights), in parallel.
-FilteredPoints filter_points(const Scene& scene, const FilterOptions& options,
+/// Cost: O(points log points + sights), in parallel, and 36 bytes a point beside the scene, if it
+/// is moved here.
+FilteredPoints filter_points(Scene scene, const FilterOptions& options,
                              const Progress& progress = {});
 
 } // namespace vcarve

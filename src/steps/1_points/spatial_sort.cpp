@@ -62,11 +62,13 @@ std::vector<std::uint32_t> hilbert_order(const std::vector<Vector3d>& positions)
 
 } // namespace
 
-Scene spatial_sort(const Scene& scene, const Progress& progress)
+Scene spatial_sort(Scene scene, const Progress& progress)
 {
     const std::vector<std::uint32_t> order = hilbert_order(scene.positions);
     progress.tell(0.8);
-    return select_points(scene, order, [&](std::size_t i) { return scene.tracks[order[i]]; });
+    const auto row_of = [&](std::size_t i) { return scene.tracks[order[i]]; };
+    keep_points(scene, order, make_tracks(order.size(), row_of));
+    return scene;
 }
 
 } // namespace vcarve

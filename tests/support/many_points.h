@@ -1,0 +1,80 @@
+#pragma once
+
+#include "base/freed_memory.h"
+#include "base/random_number.h"
+#include "cli/process_usage.h"
+#include "vcarve/scene.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+
+/// Points in a thin layer, made quickly so that there can be many of them, each seen by three of
+/// six views above it.
+inline Scene many_points(std::size_t count)
+{
+    Scene scene;
+    scene.cameras = {{.id = 1,
+                      .model = 0,
+                      .width_px = 100,
+                      .height_px = 100,
+                      .params = {100.0, 50.0, 50.0},
+                      .measures_range = false}};
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const double turn = i * std::numbers::pi / 3.0;
+        View view;
+        view.id = i + 1;
+        view.name = std::to_string(i) + ".jpg";
+        view.center = {3.0 * std::cos(turn), 3.0 * std::sin(turn), 4.0};
+        scene.views.push_back(view);
+    }
+    const std::vector<std::uint32_t> track = {0, 2, 4};
+    scene.positions.reserve(count);
+    scene.tracks.begins.reserve(count + 1);
+    scene.tracks.views.reserve(3 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        scene.positions.emplace_back(random_number(1, i), random_number(2, i),
+                                     0.01 * random_number(3, i));
+        scene.tracks.push_back(track);
+    }
+    scene.colors.resize(count, {1, 2, 3});
+    scene.errors_px.resize(count, 0.5);
+    scene.point_ids.resize(count);
+    std::iota(scene.point_ids.begin(), scene.point_ids.end(), std::uint64_t{1});
+    return scene;
+}
+
+/// What the points of a scene take, in bytes.
+inline double bytes_of_points(const Scene& scene)
+{
+    constexpr double kPoint = 24 + 3 + 8 + 8 + 8;
+    return kPoint * static_cast<double>(scene.num_points()) +
+           4.0 * static_cast<double>(scene.num_sights());
+}
+
+/// The most memory that an action holds beside what was held before it, in bytes.
+template <typename Action>
+double memory_taken(const Action& action)
+{
+#ifdef __GLIBC__
+    // Arrays that are freed go back to the system at once, as they do of larger models.
+    mallopt(M_MMAP_THRESHOLD, 1 << 17);
+#endif
+    return_freed_memory();
+    if (!cli::reset_peak_memory()) throw std::runtime_error("peaks of memory cannot be told apart");
+    const std::int64_t before = cli::peak_memory_bytes();
+    action();
+    return static_cast<double>(cli::peak_memory_bytes() - before);
+}
+
+} // namespace vcarve
