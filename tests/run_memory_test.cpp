@@ -25,11 +25,11 @@ struct Notes : Log {
 constexpr SceneSize kSmall = {.points = 1000, .sights = 4000, .views = 3};
 constexpr RunSize kRun = {.read = kSmall, .thinned = kSmall};
 
-TEST(ScratchFolder, IsBesideTheOutputAndGoneAfterwardsWhereNoneIsGiven)
+TEST(ArrayFolder, IsBesideTheOutputAndGoneAfterwardsWhereNoneIsGiven)
 {
     const TemporaryFolder folder;
     {
-        const ScratchFolder work({}, folder / "out.ply");
+        const ArrayFolder work({}, folder / "out.ply");
         EXPECT_TRUE(work.is_temporary());
         EXPECT_THAT(work.path().string(), HasSubstr((folder / "out.ply.scratch-").string()));
         EXPECT_FALSE(std::filesystem::exists(work.path())) << "only where it is needed";
@@ -39,34 +39,33 @@ TEST(ScratchFolder, IsBesideTheOutputAndGoneAfterwardsWhereNoneIsGiven)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(ScratchFolder, StaysWhereItWasThereBefore)
+TEST(ArrayFolder, StaysWhereItWasThereBefore)
 {
     const TemporaryFolder folder;
     {
-        const ScratchFolder work(folder.path(), "out.ply");
+        const ArrayFolder work(folder.path(), "out.ply");
         EXPECT_FALSE(work.is_temporary());
         work.prepare(0);
     }
     EXPECT_TRUE(std::filesystem::exists(folder.path()));
 }
 
-TEST(ScratchFolder, IsNotBesideADevice)
+TEST(ArrayFolder, IsNotBesideADevice)
 {
-    EXPECT_NE(ScratchFolder({}, "/dev/null").path().parent_path(), "/dev");
+    EXPECT_NE(ArrayFolder({}, "/dev/null").path().parent_path(), "/dev");
 }
 
-TEST(ScratchFolder, SaysWhyItCannotBeUsed)
+TEST(ArrayFolder, SaysWhyItCannotBeUsed)
 {
     const TemporaryFolder folder;
     const std::string file = folder.write("file", "").string();
-    EXPECT_EQ(refusal<UsageError>([&] { ScratchFolder(file, "out.ply").prepare(0); }),
+    EXPECT_EQ(refusal<UsageError>([&] { ArrayFolder(file, "out.ply").prepare(0); }),
               "cannot use the work folder " + file + ": it is not a folder");
     const std::string nowhere = folder / "no/where";
-    EXPECT_EQ(refusal<UsageError>([&] { ScratchFolder(nowhere, "out.ply").prepare(0); }),
+    EXPECT_EQ(refusal<UsageError>([&] { ArrayFolder(nowhere, "out.ply").prepare(0); }),
               "cannot use the work folder " + nowhere + ": No such file or directory");
-    EXPECT_THAT(refusal<UsageError>([&] {
-                    ScratchFolder(folder.path(), "out.ply").prepare(std::int64_t{1} << 60);
-                }),
+    EXPECT_THAT(refusal<UsageError>(
+                    [&] { ArrayFolder(folder.path(), "out.ply").prepare(std::int64_t{1} << 60); }),
                 MatchesRegex("cannot use the work folder .*: [0-9.]+[KMG]? are free there, and "
                              "about 1.074e\\+09G are needed"));
 }
@@ -74,7 +73,7 @@ TEST(ScratchFolder, SaysWhyItCannotBeUsed)
 TEST(RunMemory, StaysInMemoryWhereThatDoesAndMakesNoFolder)
 {
     const TemporaryFolder folder;
-    const ScratchFolder work({}, folder / "out.ply");
+    const ArrayFolder work({}, folder / "out.ply");
     RunMemory memory({.most = std::int64_t{1} << 30}, 1, work);
     Notes notes;
     memory.fit(kRun, notes);
@@ -88,7 +87,7 @@ TEST(RunMemory, StaysInMemoryWhereThatDoesAndMakesNoFolder)
 TEST(RunMemory, KeepsArraysInFilesWhereItWorksInBlocksAndSaysWhyOnce)
 {
     const TemporaryFolder folder;
-    const ScratchFolder work({}, folder / "out.ply");
+    const ArrayFolder work({}, folder / "out.ply");
     {
         RunMemory memory({.most = 0, .blocks = 7}, 1, work);
         Notes notes;
@@ -109,7 +108,7 @@ TEST(RunMemory, KeepsArraysInFilesWhereItWorksInBlocksAndSaysWhyOnce)
 TEST(RunMemory, StaysInFilesWhereWhatIsLeftOfACloudWouldFit)
 {
     const TemporaryFolder folder;
-    const ScratchFolder work({}, folder / "out.ply");
+    const ArrayFolder work({}, folder / "out.ply");
     RunSize read = kRun;
     read.read.points = 10'000'000;
     const std::int64_t most = std::int64_t{500} << 20;
@@ -126,7 +125,7 @@ TEST(RunMemory, SaysThatAFolderCannotBeUsedBeforeItIsNeeded)
 {
     const TemporaryFolder folder;
     const std::string file = folder.write("file", "").string();
-    const ScratchFolder work(file, "out.ply");
+    const ArrayFolder work(file, "out.ply");
     EXPECT_THAT(refusal<UsageError>([&] { RunMemory({}, 1, work); }),
                 HasSubstr("cannot use the work folder"));
 }

@@ -38,7 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What cannot be written is said before the work starts, and nothing half written stays behind.
-void prepare_outputs(const std::vector<Output>& outputs, const ScratchFolder& scratch)
+void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scratch)
 {
     std::vector<fs::path> parts;
     parts.reserve(outputs.size() + 1);
@@ -273,7 +273,7 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
 void run(const ParsedArguments& given)
 {
     const MeshArguments arguments = read_mesh_arguments(given);
-    const ScratchFolder scratch(arguments.work, arguments.out);
+    const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
     // What is wrong with the file of a region is said before the work starts.
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {

@@ -44,19 +44,19 @@ std::string note_of(const BlockPlan& plan, const fs::path& folder)
 
 } // namespace
 
-ScratchFolder::ScratchFolder(fs::path given, const fs::path& out)
+ArrayFolder::ArrayFolder(fs::path given, const fs::path& out)
     : is_temporary_(given.empty()), path_(is_temporary_ ? folder_beside(out) : std::move(given))
 {
 }
 
-ScratchFolder::~ScratchFolder()
+ArrayFolder::~ArrayFolder()
 {
     // Its files have no names, so it is empty, unless somebody else uses it.
     std::error_code ignored;
     if (is_temporary_) fs::remove(path_, ignored);
 }
 
-void ScratchFolder::prepare(std::int64_t bytes) const
+void ArrayFolder::prepare(std::int64_t bytes) const
 {
     std::error_code error;
     const fs::file_status status = fs::status(path_, error);
@@ -71,7 +71,7 @@ void ScratchFolder::prepare(std::int64_t bytes) const
     }
 }
 
-RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ScratchFolder& folder)
+RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder)
     : wanted_(wanted), threads_(threads), folder_(folder), free_(free_memory())
 {
     if (!folder.is_temporary()) folder.prepare(0);

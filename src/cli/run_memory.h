@@ -10,14 +10,14 @@
 namespace vcarve::cli {
 
 /// The folder that the scratch files of a run are in: the work folder, or one for the run alone.
-class ScratchFolder {
+class ArrayFolder {
   public:
     /// What --work says, or where that is empty, a folder beside the output.
-    ScratchFolder(std::filesystem::path given, const std::filesystem::path& out);
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    ArrayFolder(std::filesystem::path given, const std::filesystem::path& out);
+    ArrayFolder(const ArrayFolder&) = delete;
+    ArrayFolder& operator=(const ArrayFolder&) = delete;
     /// Removes a temporary one.
-    ~ScratchFolder();
+    ~ArrayFolder();
 
     const std::filesystem::path& path() const { return path_; }
     /// Whether it is there for this run alone, which is to remove it.
@@ -36,7 +36,7 @@ class ScratchFolder {
 /// the latter case, for as long as the object lives.
 class RunMemory {
   public:
-    RunMemory(const MemoryOptions& wanted, int threads, const ScratchFolder& folder);
+    RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder);
 
     /// Once the size of a run is known, and again when more is known of it: arrays that are made
     /// from now on are where they should be. A note says how many blocks there are and why. Throws
@@ -52,7 +52,7 @@ class RunMemory {
   private:
     MemoryOptions wanted_;
     int threads_;
-    const ScratchFolder& folder_;
+    const ArrayFolder& folder_;
     std::optional<std::int64_t> free_; ///< before the run took any
     BlockPlan plan_;
     std::optional<ScratchMemory> scratch_;
