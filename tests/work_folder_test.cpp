@@ -197,6 +197,19 @@ TEST_F(Work, IsClearedOfWhatIsOurs)
     EXPECT_TRUE(fs::exists(path / "notes.txt"));
 }
 
+TEST_F(Work, GoesAlsoWhereItsMakerWasKilledBeforeItBegan)
+{
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const WorkFolder work(path);
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_TRUE(fs::exists(path));
+    WorkFolder(path).begin(kJob);
+    EXPECT_FALSE(fs::exists(path));
+}
+
 TEST_F(Work, LosesWhatAKilledRunHalfWrote)
 {
     leave_a_stage();

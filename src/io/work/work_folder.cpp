@@ -29,7 +29,8 @@ constexpr const char* kJobName = "job";
 constexpr const char* kStageEnd = ".stage";
 /// First line of the job's file, and what the last one begins with.
 constexpr std::string_view kJobTitle = "work folder of colmap-vcarve, layout 1\n";
-constexpr std::string_view kMadeHere = "the folder\twas made by the run\n";
+/// Stands in the locked file, which goes last, where the folder is to go with it.
+constexpr std::string_view kMadeHere = "the folder was made by the run\n";
 constexpr std::string_view kJobEnd = "digest of the lines above\t";
 constexpr const char* kAnother = "name another folder with --work, or remove this one to begin "
                                  "anew";
@@ -147,9 +148,7 @@ std::string job_lines(const fs::path& path, const std::string& text)
                                      "does not fit its digest; {}",
                                      path.string(), kAnother));
     }
-    const std::size_t first = kJobTitle.size();
-    const bool is_made_here = lines.compare(first, kMadeHere.size(), kMadeHere) == 0;
-    return lines.substr(is_made_here ? first + kMadeHere.size() : first);
+    return lines.substr(kJobTitle.size());
 }
 
 Job parse_job(std::string_view lines)
@@ -191,6 +190,11 @@ WorkFolder::WorkFolder(fs::path folder)
 {
     require_ours(folder_);
     lock_ = lock(folder_);
+    if (was_made_) {
+        std::ofstream(folder_ / kLockName) << kMadeHere;
+    } else {
+        was_made_ = text_of(folder_ / kLockName) == kMadeHere;
+    }
     for (const fs::path& file : files_in(folder_)) {
         const std::string name = file.filename();
         if (is_ours(name) && is_part(name)) remove_quietly(file);
@@ -211,13 +215,11 @@ void WorkFolder::begin(const Job& job)
 {
     const fs::path path = folder_ / kJobName;
     job_ = digest_of(job);
-    std::string lines = text_of(path);
-    if (lines.find(kMadeHere) != std::string::npos) was_made_ = true;
     if (!holds_stages()) { // nothing to go on with, nor to lose
         write_job(job);
         return;
     }
-    lines = job_lines(path, lines);
+    const std::string lines = job_lines(path, text_of(path));
     if (lines == job_text(job)) return;
     throw InputError(fmt::format("the work folder {} is of another run: {}; {}", folder_.string(),
                                  difference(parse_job(lines), job), kAnother));
@@ -226,9 +228,7 @@ void WorkFolder::begin(const Job& job)
 void WorkFolder::write_job(const Job& job)
 {
     OutputFile file(folder_ / kJobName);
-    std::string lines(kJobTitle);
-    if (was_made_) lines += kMadeHere;
-    file.stream() << whole_text(lines + job_text(job));
+    file.stream() << whole_text(std::string(kJobTitle) + job_text(job));
     file.commit();
 }
 
@@ -268,8 +268,8 @@ void WorkFolder::clear()
     }
     remove_quietly(folder_ / kJobName);
     remove_quietly(folder_ / kLockName);
-    ::close(std::exchange(lock_, -1));
     if (was_made_) remove_quietly(folder_); // but where it holds something
+    ::close(std::exchange(lock_, -1));      // last, for it takes a while to free a removed file
 }
 
 std::string piece_name(const StagePiece& piece)

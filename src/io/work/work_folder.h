@@ -66,7 +66,7 @@ class WorkFolder {
     void write_job(const Job& job);
 
     std::filesystem::path folder_;
-    bool was_made_; ///< by this object, or by the run that began the job
+    bool was_made_; ///< by this object, or by a run that was killed
     int lock_ = -1; ///< descriptor
     Digest job_{};  ///< set by begin()
 };
