@@ -31,7 +31,7 @@ void triangulate_in_blocks(benchmark::State& state)
     const auto num_blocks = static_cast<std::size_t>(state.range(1));
     for (auto _ : state) {
         benchmark::DoNotOptimize(
-            vcarve::triangulate_in_blocks(scene, {.count = num_blocks}).cells.data());
+            vcarve::triangulate_in_blocks(scene, {.count = num_blocks}).value().cells.data());
     }
     const PointTree tree(scene.positions);
     const std::size_t size = scene.num_points() / num_blocks;

@@ -96,7 +96,7 @@ TEST(Job, DependsOnEveryOptionButThoseOfTheRun)
         options.visit(change);
         if (option_facts(options) == usual) without.push_back(all.names[i]);
     }
-    EXPECT_THAT(without, ElementsAre("threads", "max-memory"));
+    EXPECT_THAT(without, ElementsAre("threads", "max-memory", "blocks"));
 }
 
 TEST(Job, TellsNumbersApartToTheLastDigit)

@@ -20,7 +20,7 @@ TEST(PointTree, ShowsEachForeignPointOnceWhereAllIsWanted)
         const PointRun own{count / 3, count / 2};
         std::vector<int> shown(count, 0);
         tree.visit_foreign(
-            own, [](const Box&) { return true; }, [&](std::size_t i) { ++shown[i]; });
+            own, 1.0, [](const Box&) { return 0.0; }, [&](std::size_t i) { ++shown[i]; });
         for (std::size_t i = 0; i < count; ++i) {
             ASSERT_EQ(shown[i], own.contains(i) ? 0 : 1) << i << " of " << count;
         }
@@ -37,10 +37,11 @@ TEST(PointTree, ShowsAllPointsInABoxThatIsAskedFor)
     };
     std::ptrdiff_t shown = 0;
     tree.visit_foreign(
-        {0, 0},
+        {0, 0}, 0.0,
         [&](const Box& box) {
-            return (box.low.array() <= wanted.high.array()).all() &&
-                   (box.high.array() >= wanted.low.array()).all();
+            const bool meets = (box.low.array() <= wanted.high.array()).all() &&
+                               (box.high.array() >= wanted.low.array()).all();
+            return meets ? 0.0 : 1.0;
         },
         [&](std::size_t i) { shown += is_in(points[i]) ? 1 : 0; });
     EXPECT_EQ(shown, std::ranges::count_if(points, is_in));

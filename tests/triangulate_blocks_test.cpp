@@ -86,6 +86,13 @@ std::vector<NamedPoints> point_sets()
         {"few", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}}};
 }
 
+TetMesh in_blocks(const Scene& scene, std::size_t count)
+{
+    std::optional<TetMesh> mesh = triangulate_in_blocks(scene, {.count = count});
+    EXPECT_TRUE(mesh.has_value());
+    return mesh.value_or(TetMesh());
+}
+
 void expect_equal(const TetMesh& a, const TetMesh& b)
 {
     ASSERT_EQ(a.cells.size(), b.cells.size());
@@ -105,7 +112,7 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWhole)
         const TetMesh whole = triangulate(scene);
         for (const std::size_t blocks : {1, 2, 3, 8, 64}) {
             SCOPED_TRACE(named.name + ", " + std::to_string(blocks) + " blocks");
-            expect_equal(triangulate_in_blocks(scene, {.count = blocks}), whole);
+            expect_equal(in_blocks(scene, blocks), whole);
         }
     }
 }
@@ -115,8 +122,8 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWholeWithOnePointABlock)
     for (const Positions& points : {lattice(4), random_points(70, 79), points_on_sphere()}) {
         const Scene scene = spatial_sort(scene_of(points));
         const TetMesh whole = triangulate(scene);
-        expect_equal(triangulate_in_blocks(scene, {.count = scene.num_points()}), whole);
-        expect_equal(triangulate_in_blocks(scene, {.count = 10 * scene.num_points()}), whole);
+        expect_equal(in_blocks(scene, scene.num_points()), whole);
+        expect_equal(in_blocks(scene, 10 * scene.num_points()), whole);
     }
 }
 
@@ -124,7 +131,7 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWholeWithOnePointABlock)
 TEST(TriangulateBlocks, GivesTheCellsOfTheWholeOfPointsThatDoNotFollowEachOther)
 {
     const Scene scene = scene_of(random_points(400, 80));
-    expect_equal(triangulate_in_blocks(scene, {.count = 5}), triangulate(scene));
+    expect_equal(in_blocks(scene, 5), triangulate(scene));
 }
 
 TEST(TriangulateBlocks, GivesTheSameForAnyNumberOfThreads)
@@ -132,7 +139,7 @@ TEST(TriangulateBlocks, GivesTheSameForAnyNumberOfThreads)
     const Scene scene = spatial_sort(scene_of(random_points(4000, 81)));
     const auto with_threads = [&](int threads) {
         tbb::task_arena arena(threads);
-        return arena.execute([&] { return triangulate_in_blocks(scene, {.count = 7}); });
+        return arena.execute([&] { return in_blocks(scene, 7); });
     };
     expect_equal(with_threads(1), with_threads(2));
 }
@@ -157,12 +164,18 @@ TEST(TriangulateBlocks, RefusesWhatTheWholeRefuses)
     doubled.insert(doubled.begin(), 20, Vector3d(1, 1, 1));
     for (const Positions& points : {Positions{}, lattice(1), plane}) {
         const Scene scene = scene_of(points);
-        EXPECT_EQ(refusal<InputError>([&] { triangulate_in_blocks(scene, {.count = 2}); }),
+        EXPECT_EQ(refusal<InputError>([&] { in_blocks(scene, 2); }),
                   refusal<InputError>([&] { triangulate(scene); }));
     }
-    EXPECT_EQ(
-        refusal<std::logic_error>([&] { triangulate_in_blocks(scene_of(doubled), {.count = 2}); }),
-        "two points to triangulate lie at one place");
+    EXPECT_EQ(refusal<std::logic_error>([&] { in_blocks(scene_of(doubled), 2); }),
+              "two points to triangulate lie at one place");
+}
+
+/// Each of their cells has nearly all points on its sphere.
+TEST(TriangulateBlocks, LeavesPointsOnOneSphereToTheWhole)
+{
+    const Scene scene = spatial_sort(scene_of(nearly_on_a_sphere(30'000, 0.0)));
+    EXPECT_FALSE(triangulate_in_blocks(scene, {.count = 4}).has_value());
 }
 
 TEST(FirstPoints, SpanSpaceWhereverTheyAre)

@@ -27,7 +27,9 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace vcarve {
@@ -102,18 +104,30 @@ Scene crop(Scene scene, const Region* region, Log& log)
     return std::move(cropped.scene);
 }
 
-/// In one piece, or in so many blocks, each of which is kept by itself; the cells are the same.
-TetMesh triangulate(const Scene& scene, int num_blocks, StageKeeper& work)
+/// The same cells as triangulate(), made in so many blocks, each of which is kept by itself.
+std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, int num_blocks, StageKeeper& work,
+                                             const Progress& progress)
 {
-    Stage stage(work.log(), "triangulate");
+    if (num_blocks <= 0) return std::nullopt;
     const auto count = static_cast<std::size_t>(num_blocks);
     const auto keep = [&](std::size_t block, const std::function<BlockCells()>& make) {
         return work.piece({"cells", block, count}, make);
     };
-    TetMesh cells = num_blocks > 0 ? triangulate_in_blocks(scene, {count, keep}, stage)
-                                   : triangulate(scene, stage);
-    stage.end({{"cells", size_of(cells.cells.size())}});
+    std::optional<TetMesh> cells = triangulate_in_blocks(scene, {count, keep}, progress);
+    if (!cells) {
+        work.log().note("the points lie on common spheres or planes up to their last digits, so "
+                        "they are triangulated at once, which takes more memory");
+    }
     return cells;
+}
+
+TetMesh triangulate(const Scene& scene, int num_blocks, StageKeeper& work)
+{
+    Stage stage(work.log(), "triangulate");
+    std::optional<TetMesh> cells = triangulate_in_blocks(scene, num_blocks, work, stage);
+    if (!cells) cells = triangulate(scene, stage);
+    stage.end({{"cells", size_of(cells->cells.size())}});
+    return std::move(*cells);
 }
 
 /// The points that are carved with, and the part of space that the surface is wanted of.

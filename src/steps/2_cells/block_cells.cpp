@@ -24,6 +24,12 @@ using VertexHandle = Triangulation::Vertex_handle;
 /// What a cell's number says while the block grows: that no point is known in its sphere.
 constexpr Index kEmptySphere = 0;
 
+/// How many points may be looked at one by one, of a block of so many: usually it is some hundred a
+/// point. And how many of these exactly, which takes a hundred times as long.
+constexpr std::size_t kLooks = 3000;
+constexpr std::size_t kExactLooks = 60;
+constexpr std::size_t kFreeLooks = 20'000; ///< points more than there are
+
 /// The corners of CGAL's facet i of a cell such that orientation(them, corner i) is positive in a
 /// cell that is not inside out.
 constexpr std::array<std::array<int, 3>, 4> kBeforeCorner = {
@@ -63,18 +69,21 @@ class Block {
 
     /// Of the points of other blocks in the sphere around a cell, or beyond the facet of one at the
     /// hull, the deepest, as far as rounding lets that be told.
-    std::optional<Index> deepest_foreign(CellHandle cell) const
+    std::optional<Index> deepest_foreign(CellHandle cell)
     {
         const SphereBound bound = sphere_of(cell);
         if (is_far_from_foreign(cell, bound)) return std::nullopt;
         double least = 0.0;
         std::optional<Index> deepest;
         tree_.visit_foreign(
-            own_, [&](const Box& box) { return !(bound.least_in(box) > least); },
+            own_, least, [&](const Box& box) { return bound.least_in(box); },
             [&](std::size_t i) {
                 const double at = bound.least_at(tree_.points()[i]);
                 const auto point = static_cast<Index>(i);
-                if (at > least || !is_inside(cell, point)) return;
+                count(looks_, kLooks);
+                if (at > least) return;
+                count(exact_looks_, kExactLooks);
+                if (!is_inside(cell, point)) return;
                 least = at;
                 deepest = point;
             });
@@ -82,6 +91,11 @@ class Block {
     }
 
   private:
+    void count(std::size_t& looks, std::size_t most) const
+    {
+        if (++looks > most * (own_.size() + kFreeLooks)) throw TooManyTies();
+    }
+
     static Vector3d position(VertexHandle vertex)
     {
         const Kernel::Point_3& point = vertex->point();
@@ -130,6 +144,8 @@ class Block {
     Triangulation triangulation_;
     VertexHandle last_;
     std::size_t inserted_ = 0;
+    std::size_t looks_ = 0;
+    std::size_t exact_looks_ = 0;
 };
 
 /// A point to take in, and a vertex of a cell whose sphere it is in.
@@ -139,7 +155,7 @@ struct Wanted {
 };
 
 /// The deepest point in the sphere of a cell, where there is any, goes to `wanted`.
-void look_into(CellHandle cell, const Block& block, std::vector<Wanted>& wanted)
+void look_into(CellHandle cell, Block& block, std::vector<Wanted>& wanted)
 {
     if (cell->info().value == kEmptySphere || !block.has_own_corner(cell)) return;
     if (const std::optional<Index> deepest = block.deepest_foreign(cell)) {
@@ -150,7 +166,7 @@ void look_into(CellHandle cell, const Block& block, std::vector<Wanted>& wanted)
     }
 }
 
-std::vector<Wanted> points_in_spheres(const Block& block, const Progress& progress)
+std::vector<Wanted> points_in_spheres(Block& block, const Progress& progress)
 {
     constexpr std::size_t kToldEvery = 1024;
     std::vector<Wanted> wanted;
@@ -165,7 +181,7 @@ std::vector<Wanted> points_in_spheres(const Block& block, const Progress& progre
 
 /// The same, of the cells that came with the points inserted last: all new cells are around these.
 std::vector<Wanted> points_in_spheres_around(const std::vector<VertexHandle>& inserted,
-                                             const Block& block)
+                                             Block& block)
 {
     std::vector<Wanted> wanted;
     std::vector<CellHandle> around;

@@ -26,6 +26,10 @@ struct BlockCells {
     std::size_t taken_in = 0; ///< points of other blocks
 };
 
+/// Thrown where points lie on common spheres or planes up to their last digits, so many that the
+/// spheres of a block's cells cannot be told to be empty without looking at most points for each.
+struct TooManyTies {};
+
 /// Points that span space, and the farthest ones in 14 directions: what each block begins with, so
 /// that its own points do not lie outside all else. Ascending. Fewer than four where all points lie
 /// in one plane. Cost: O(points).
@@ -36,7 +40,7 @@ std::vector<Index> first_points(const std::vector<Eigen::Vector3d>& points);
 /// at: where another point lies in the sphere around one, the deepest such point is inserted, until
 /// there is none. Then each of these cells is one of the whole triangulation, which is unique, as
 /// CGAL decides by the points alone where several lie on one sphere. `first` is first_points().
-/// Memory: about 450 bytes for each point inserted.
+/// Throws TooManyTies. Memory: about 450 bytes for each point inserted.
 BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, const PointRun& own,
                        const Progress& progress = {});
 

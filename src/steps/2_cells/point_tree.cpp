@@ -57,7 +57,7 @@ std::vector<double> PointTree::distances_to_foreign(const PointRun& own) const
         double nearest = nearest_point < points_.size() ? distance_to(nearest_point)
                                                         : std::numeric_limits<double>::infinity();
         visit_foreign(
-            own, [&](const Box& other) { return distance_between(box, other) < nearest; },
+            own, nearest, [&](const Box& other) { return distance_between(box, other); },
             [&](std::size_t i) {
                 if (!(distance_to(i) < nearest)) return;
                 nearest = distance_to(i);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -30,14 +31,14 @@ class PointTree {
 
     const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
-    /// Shows visit(box) boxes from the top down, those only whose points are not all in `own`. It
-    /// returns whether it wants what is in there; at last visit_point(i) is shown points that are
-    /// not in `own`.
-    template <typename VisitBox, typename VisitPoint>
-    void visit_foreign(const PointRun& own, const VisitBox& visit,
+    /// Shows visit_point(i) points that are not in `own`, those first whose boxes have the least
+    /// bound(box), and none in boxes with more than `limit`, which visit_point may lower.
+    template <typename Bound, typename VisitPoint>
+    void visit_foreign(const PointRun& own, const double& limit, const Bound& bound,
                        const VisitPoint& visit_point) const
     {
-        descend(levels_.size() - 1, 0, own, visit, visit_point);
+        const std::size_t top = levels_.size() - 1;
+        if (!(bound(levels_[top][0]) > limit)) descend(top, 0, own, limit, bound, visit_point);
     }
 
     /// Of each leaf with points of `own` the distance from its box to the nearest point that is not
@@ -47,22 +48,37 @@ class PointTree {
   private:
     static constexpr std::size_t kFanout = 8;
 
-    template <typename VisitBox, typename VisitPoint>
-    void descend(std::size_t level, std::size_t node, const PointRun& own, const VisitBox& visit,
-                 const VisitPoint& visit_point) const
+    /// A box amid those of its siblings.
+    struct Child {
+        double bound;
+        std::size_t node;
+    };
+
+    // NOLINTNEXTLINE(readability-function-size): one parameter more than others may have
+    template <typename Bound, typename VisitPoint>
+    void descend(std::size_t level, std::size_t node, const PointRun& own, const double& limit,
+                 const Bound& bound, const VisitPoint& visit_point) const
     {
         const PointRun run = run_of(level, node);
-        if (own.first <= run.first && run.last <= own.last) return;
-        if (!visit(levels_[level][node])) return;
         if (level == 0) {
             for (std::size_t i = run.first; i < run.last; ++i) {
                 if (!own.contains(i)) visit_point(i);
             }
             return;
         }
+        std::array<Child, kFanout> children;
+        std::size_t count = 0;
         const std::size_t last = std::min(levels_[level - 1].size(), (node + 1) * kFanout);
-        for (std::size_t child = node * kFanout; child < last; ++child)
-            descend(level - 1, child, own, visit, visit_point);
+        for (std::size_t child = node * kFanout; child < last; ++child) {
+            const PointRun below = run_of(level - 1, child);
+            if (own.first <= below.first && below.last <= own.last) continue;
+            children[count++] = {bound(levels_[level - 1][child]), child};
+        }
+        std::ranges::sort(children.begin(), children.begin() + count, {}, &Child::bound);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (children[i].bound > limit) continue;
+            descend(level - 1, children[i].node, own, limit, bound, visit_point);
+        }
     }
 
     PointRun run_of(std::size_t level, std::size_t node) const

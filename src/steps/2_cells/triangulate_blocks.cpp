@@ -9,6 +9,8 @@
 #include "steps/2_cells/refusals.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -25,6 +27,26 @@ PointRun run_of(std::size_t block, std::size_t num_blocks, std::size_t num_point
     return {block * num_points / num_blocks, (block + 1) * num_points / num_blocks};
 }
 
+/// Calls body(block) for all blocks, from many threads. What one throws is thrown at the end, and
+/// not from within the loop: oneTBB would then end the loops that other blocks run, too, as if they
+/// were done.
+template <typename Body>
+void for_each_block(std::size_t count, const Body& body)
+{
+    std::atomic<bool> has_failed = false;
+    std::exception_ptr failure;
+    const auto guarded = [&](std::size_t block) {
+        if (has_failed) return;
+        try {
+            body(block);
+        } catch (...) {
+            if (!has_failed.exchange(true)) failure = std::current_exception();
+        }
+    };
+    parallel_for(count, guarded, 1);
+    if (failure) std::rethrow_exception(failure);
+}
+
 std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>& first,
                                    const Blocks& blocks, const Progress& progress)
 {
@@ -32,14 +54,11 @@ std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>&
     const std::size_t count = std::clamp<std::size_t>(blocks.count, 1, scene.num_points());
     std::vector<BlockCells> made(count);
     ProgressCount done(progress, scene.num_points());
-    parallel_for(
-        count,
-        [&](std::size_t block) {
-            const PointRun own = run_of(block, count, scene.num_points());
-            made[block] = blocks.keep(block, [&] { return block_cells(tree, first, own); });
-            done.add(own.size());
-        },
-        1);
+    for_each_block(count, [&](std::size_t block) {
+        const PointRun own = run_of(block, count, scene.num_points());
+        made[block] = blocks.keep(block, [&] { return block_cells(tree, first, own); });
+        done.add(own.size());
+    });
     return made;
 }
 
@@ -103,21 +122,34 @@ void join_facets(const std::vector<OpenFacet>& facets, UnsetArray<Cell>& cells)
     });
 }
 
-} // namespace
-
-TetMesh triangulate_in_blocks(const Scene& scene, const Blocks& wanted, const Progress& progress)
+/// The cells of all blocks, as neighbours of each other.
+TetMesh joined(std::vector<BlockCells>& blocks)
 {
-    require_four_points(scene.num_points());
-    const std::vector<Index> first = first_points(scene.positions);
-    if (first.size() < 4) throw all_in_one_plane(scene.num_points());
-    std::vector<BlockCells> blocks = all_blocks(scene, first, wanted, progress.part(0.0, kBlocks));
-    return_freed_memory();
     const std::vector<std::size_t> firsts = first_cells(blocks);
     require_indexable(firsts.back(), kMostIndices, "cells");
     const std::vector<OpenFacet> facets = facets_between(blocks, firsts);
     TetMesh mesh;
     mesh.cells = joined_cells(blocks, firsts);
     join_facets(facets, mesh.cells);
+    return mesh;
+}
+
+} // namespace
+
+std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& wanted,
+                                             const Progress& progress)
+{
+    require_four_points(scene.num_points());
+    const std::vector<Index> first = first_points(scene.positions);
+    if (first.size() < 4) throw all_in_one_plane(scene.num_points());
+    std::vector<BlockCells> blocks;
+    try {
+        blocks = all_blocks(scene, first, wanted, progress.part(0.0, kBlocks));
+    } catch (const TooManyTies&) {
+        return std::nullopt;
+    }
+    return_freed_memory();
+    TetMesh mesh = joined(blocks);
     progress.tell(0.95);
     mesh.positions = scene.positions;
     complete(mesh);

@@ -28,37 +28,57 @@ FlowNetwork empty_network(const TetMesh& mesh)
     return {filled_array(count, std::array<std::int32_t, 4>{}), filled_array(count, 0)};
 }
 
-/// Adds to the network from many threads, and remembers whether a sum came near the end of 32 bits.
+/// Adds to the network from many threads. What is added to arcs has no sign, so a sum that goes on
+/// from where it is too large stays too large in any order, and can end at a limit: a facet in free
+/// space that two million sights cross is as safe from any cut as one that more cross. A sum of a
+/// cell's terms has signs and must be exact; it is remembered whether one was too large.
 class EnergySums {
   public:
     explicit EnergySums(FlowNetwork& network) : network_(network) {}
 
     void add_arc_capacity(Index cell, int slot, std::int32_t weight)
     {
-        add(network_.arc_capacities[cell][slot], weight);
+        std::int32_t& sum = network_.arc_capacities[cell][slot];
+        const std::int32_t before = add(sum, weight);
+        if (before <= kMaxSum) return;
+        add(sum, -weight);
+        has_full_arcs_.store(true, std::memory_order_relaxed);
     }
     void add_terminal_capacity(Index cell, std::int32_t flow)
     {
-        add(network_.terminal_capacities[cell], flow);
+        const std::int32_t before = add(network_.terminal_capacities[cell], flow);
+        if (before > kMaxSum || before < -kMaxSum) {
+            is_exceeded_.store(true, std::memory_order_relaxed);
+        }
     }
     bool is_exceeded() const { return is_exceeded_; }
+
+    /// To be called when all is added.
+    void limit_full_arcs()
+    {
+        ArcCapacities& arcs = network_.arc_capacities;
+        if (!has_full_arcs_) return;
+        parallel_for(arcs.size(), [&](std::size_t cell) {
+            for (std::int32_t& capacity : arcs[cell])
+                capacity = std::min(capacity, kMaxSum);
+        });
+    }
 
     /// Asks early for the memory of a cell's arcs.
     void fetch(Index cell) const { prefetch(&network_.arc_capacities[cell]); }
 
   private:
-    void add(std::int32_t& sum, std::int32_t value)
+    // The cut adds a few sums and the costs of facets: a quarter of the range is theirs.
+    static constexpr std::int32_t kMaxSum = 1 << 29;
+
+    /// Gives the sum before.
+    static std::int32_t add(std::int32_t& sum, std::int32_t value)
     {
-        // The cut adds a few sums and the costs of facets: a quarter of the range is theirs.
-        constexpr std::int32_t kMaxSum = 1 << 29;
-        const std::int32_t before =
-            std::atomic_ref<std::int32_t>(sum).fetch_add(value, std::memory_order_relaxed);
-        if (before > kMaxSum || before < -kMaxSum) {
-            is_exceeded_.store(true, std::memory_order_relaxed);
-        }
+        return std::atomic_ref<std::int32_t>(sum).fetch_add(value, std::memory_order_relaxed);
     }
 
     FlowNetwork& network_;
+    std::atomic<bool> has_full_arcs_ = false;
     std::atomic<bool> is_exceeded_ = false;
 };
 
@@ -320,7 +340,7 @@ void require_exact(const EnergySums& sums, const Scene& scene)
 {
     if (sums.is_exceeded()) {
         throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
-                                     "at one facet; a surface needs fewer points or views",
+                                     "in one cell; a surface needs fewer points or views",
                                      scene.num_sights()));
     }
 }
@@ -372,6 +392,7 @@ void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
             if (source.is_measured) lower(cell_of_origin[view], cell);
         });
     });
+    sums.limit_full_arcs();
     require_exact(sums, scene_);
     if (source.is_measured) locate_other_origins(cells_, source.origins, cell_of_origin);
 }
