@@ -8,7 +8,9 @@
 #include "support/paper_rule.h"
 #include "support/point_sets.h"
 #include "support/scenes.h"
+#include "support/temporary_folder.h"
 #include "support/unpushed_network.h"
+#include "vcarve/error.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -263,6 +265,31 @@ TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
     options.error_sigma = 3.0;
     scene.errors_px.assign(5, -1.0);
     EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities, full);
+}
+
+TEST(TraceSights, LetsAnArcBeFullButNotACell)
+{
+    // One ray of more weight than an arc holds, twice: the arc is full, and of the flow that stays
+    // in the cell, which must be exact, the second is too much.
+    const Scene scene = star({kBeyondCell0});
+    const TetMesh mesh = triangulate(scene);
+    RaySource heavy = photographs(scene);
+    heavy.weight = 2.2e6;
+    const auto cast = [&](VisibilityEnergy& energy) {
+        Log silent;
+        Stage stage(silent, "sights");
+        RayCaster(mesh, scene, measure_scales(mesh, scene), kFullWeight).cast(heavy, energy, stage);
+    };
+    VisibilityEnergy energy;
+    cast(energy);
+    EXPECT_EQ(energy.network.arc_capacities[0][3], 1 << 29);
+    EXPECT_EQ(energy.network.terminal_capacities[0], 563'200'000);
+    EXPECT_EQ(refusal<InputError>([&] {
+                  cast(energy);
+                  cast(energy);
+              }),
+              "the 1 sights of the model add up to more than 32 bits hold in one cell; a surface "
+              "needs fewer points or views");
 }
 
 TEST(TraceSights, SaysNothingWithoutSights)

@@ -40,9 +40,9 @@ class EnergySums {
     {
         std::int32_t& sum = network_.arc_capacities[cell][slot];
         const std::int32_t before = add(sum, weight);
-        if (before <= kMaxSum) return;
-        add(sum, -weight);
+        if (before + weight <= kMaxSum) return;
         has_full_arcs_.store(true, std::memory_order_relaxed);
+        if (before > kMaxSum) add(sum, -weight);
     }
     void add_terminal_capacity(Index cell, std::int32_t flow)
     {
