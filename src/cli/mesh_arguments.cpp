@@ -37,10 +37,12 @@ void list_work_options(OptionTable& table)
 {
     bool off = false;
     table.path({.name = "work",
-                .help =
-                    "Keep what every stage made in this folder until the surface is written, "
-                    "so that the same command, given again, goes on after the last stage that "
-                    "a run finished which was killed or found the disk full. None by default."});
+                .unit = "folder",
+                .help = "Where the files of --blocks go, on a disk with room for them, and what "
+                        "every stage made, until the surface is written: the same command, given "
+                        "again, goes on after the last stage that a run finished which was killed "
+                        "or found the disk full. It is made where there is none. By default only "
+                        "the files of --blocks, in a folder beside the output."});
     table.flag(off, {.name = "keep-work",
                      .help = "Leave the folder of --work as it is at the end, instead of "
                              "removing what the run put there."});
