@@ -27,6 +27,7 @@ struct Ranges {
 /// It lives as long as the process: pages may be unmapped when other static things are gone.
 Ranges& ranges()
 {
+    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
     static auto* const all = new Ranges;
     return *all;
 }

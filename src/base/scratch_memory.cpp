@@ -71,6 +71,7 @@ struct Blocks {
 
 Blocks& blocks()
 {
+    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
     static auto* const all = new Blocks;
     return *all;
 }

@@ -155,7 +155,8 @@ constexpr double kBlockPoint = 600;
 /// What a run in blocks has in the heap, a point: arrays that are too small for files of their own
 /// (22 bytes were measured of 5 M points).
 constexpr double kHeapPoint = 24;
-/// Files in the work folder against what passes are predicted to need: arrays that grow stand twice.
+/// Files in the work folder against what passes are predicted to need: arrays that grow stand
+/// twice.
 constexpr double kScratchMargin = 1.2;
 
 Sizes sizes(const SceneSize& size, int threads)

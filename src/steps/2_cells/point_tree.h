@@ -38,7 +38,8 @@ class PointTree {
                        const VisitPoint& visit_point) const
     {
         const std::size_t top = levels_.size() - 1;
-        if (!(bound(levels_[top][0]) > limit)) descend(top, 0, own, limit, bound, visit_point);
+        if (bound(levels_[top][0]) > limit) return;
+        descend(top, 0, Search<Bound, VisitPoint>{own, limit, bound, visit_point});
     }
 
     /// Of each leaf with points of `own` the distance from its box to the nearest point that is not
@@ -54,15 +55,22 @@ class PointTree {
         std::size_t node;
     };
 
-    // NOLINTNEXTLINE(readability-function-size): one parameter more than others may have
+    /// What visit_foreign() was told.
     template <typename Bound, typename VisitPoint>
-    void descend(std::size_t level, std::size_t node, const PointRun& own, const double& limit,
-                 const Bound& bound, const VisitPoint& visit_point) const
+    struct Search {
+        const PointRun& own;
+        const double& limit;
+        const Bound& bound;
+        const VisitPoint& visit_point;
+    };
+
+    template <typename Bound, typename VisitPoint>
+    void descend(std::size_t level, std::size_t node, const Search<Bound, VisitPoint>& search) const
     {
         const PointRun run = run_of(level, node);
         if (level == 0) {
             for (std::size_t i = run.first; i < run.last; ++i) {
-                if (!own.contains(i)) visit_point(i);
+                if (!search.own.contains(i)) search.visit_point(i);
             }
             return;
         }
@@ -71,13 +79,12 @@ class PointTree {
         const std::size_t last = std::min(levels_[level - 1].size(), (node + 1) * kFanout);
         for (std::size_t child = node * kFanout; child < last; ++child) {
             const PointRun below = run_of(level - 1, child);
-            if (own.first <= below.first && below.last <= own.last) continue;
-            children[count++] = {bound(levels_[level - 1][child]), child};
+            if (search.own.first <= below.first && below.last <= search.own.last) continue;
+            children[count++] = {search.bound(levels_[level - 1][child]), child};
         }
         std::ranges::sort(children.begin(), children.begin() + count, {}, &Child::bound);
         for (std::size_t i = 0; i < count; ++i) {
-            if (children[i].bound > limit) continue;
-            descend(level - 1, children[i].node, own, limit, bound, visit_point);
+            if (!(children[i].bound > search.limit)) descend(level - 1, children[i].node, search);
         }
     }
 
