@@ -42,9 +42,9 @@ class OneChanged final : public OptionVisitor {
     {
         if (is_it(info)) value = !value;
     }
-    void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override
+    void choice(int& value, std::span<const char* const> words, const OptionInfo& info) override
     {
-        if (is_it(info)) value = (value + 1) % static_cast<int>(names.size());
+        if (is_it(info)) value = (value + 1) % static_cast<int>(words.size());
     }
     void word_or_vector(WordOrVector& value, std::span<const char* const> words,
                         const OptionInfo& info) override
