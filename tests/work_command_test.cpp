@@ -50,6 +50,15 @@ TEST_F(WorkOfProgram, ChangesNothingAndGoes)
     EXPECT_FALSE(fs::exists(work));
 }
 
+TEST_F(WorkOfProgram, IsEmptyAfterARefusal)
+{
+    fs::create_directory(work);
+    const Outcome outcome = run({"--min-views", "1000"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("keep "));
+    EXPECT_TRUE(fs::is_empty(work));
+}
+
 TEST_F(WorkOfProgram, IsKeptAndTakenWhereAsked)
 {
     ASSERT_EQ(run({"--quiet", "--keep-work"}).exit_code, 0);

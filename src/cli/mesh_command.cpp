@@ -270,6 +270,18 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
     if (report.has_value()) write_report(arguments.report, record, *report);
 }
 
+/// From the model to the file; a run that is refused takes away what it kept, but nothing of
+/// earlier runs.
+Made make_or_clear(const Run& run, Json& record)
+{
+    try {
+        return make_surface(run, record);
+    } catch (const InputError&) {
+        if (run.work != nullptr && !run.work->goes_on()) run.work->clear();
+        throw;
+    }
+}
+
 void run(const ParsedArguments& given)
 {
     const MeshArguments arguments = read_mesh_arguments(given);
@@ -303,7 +315,7 @@ void run(const ParsedArguments& given)
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
     RunMemory memory(arguments.options.memory, threads, scratch);
-    const Made made = make_surface({arguments, logs, memory, work.get()}, record);
+    const Made made = make_or_clear({arguments, logs, memory, work.get()}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());

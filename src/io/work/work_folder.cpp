@@ -215,7 +215,8 @@ void WorkFolder::begin(const Job& job)
 {
     const fs::path path = folder_ / kJobName;
     job_ = digest_of(job);
-    if (!holds_stages()) { // nothing to go on with, nor to lose
+    goes_on_ = holds_stages();
+    if (!goes_on_) { // nothing to go on with, nor to lose
         write_job(job);
         return;
     }

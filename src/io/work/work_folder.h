@@ -40,6 +40,8 @@ class WorkFolder {
     void begin(const Job& job);
 
     const std::filesystem::path& path() const { return folder_; }
+    /// Whether there were stages of an earlier run when the job began.
+    bool goes_on() const { return goes_on_; }
     bool has(std::string_view stage) const;
 
     /// Writes what a stage made; tells how many bytes it were. Throws UsageError where that cannot
@@ -66,6 +68,7 @@ class WorkFolder {
     void write_job(const Job& job);
 
     std::filesystem::path folder_;
+    bool goes_on_ = false;
     bool was_made_; ///< by this object, or by a run that was killed
     int lock_ = -1; ///< descriptor
     Digest job_{};  ///< set by begin()
