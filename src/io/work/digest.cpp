@@ -8,6 +8,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
 
 namespace vcarve {
 
@@ -18,6 +20,16 @@ constexpr std::size_t kBlockBytes = 1 << 20;
 /// The MD5 of the digest before and some bytes, as RFC 4122 makes names of them.
 Digest chained(const Digest& before, std::span<const char> bytes)
 {
+    // Boost reads whole words: bytes that begin amid one are copied to where they do not, and those
+    // that are none to somewhere.
+    const bool begins_a_word =
+        reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(std::uint32_t) == 0;
+    std::string copy;
+    if (bytes.empty() || !begins_a_word) {
+        copy.reserve(bytes.size() + 64); // in memory of its own, not within the string
+        copy.assign(bytes.begin(), bytes.end());
+        bytes = copy;
+    }
     boost::uuids::uuid space;
     std::ranges::copy(before, space.begin());
     const boost::uuids::uuid name =
