@@ -40,7 +40,10 @@ TEST(ResidentSize, GrowsWithWhatIsWrittenTo)
     EXPECT_GT(before->of_files, 0) << "the program itself";
     const std::vector<char> written(static_cast<std::size_t>(64 * kMiB), 'x');
     const auto after = resident_size();
-    EXPECT_NEAR(static_cast<double>(after->all - before->all), 64.0 * kMiB, 8.0 * kMiB);
+    EXPECT_GE(after->all - before->all, 56 * kMiB);
+#ifndef __SANITIZE_THREAD__ // which notes who wrote each word, in several times as much memory
+    EXPECT_LE(after->all - before->all, 72 * kMiB);
+#endif
     EXPECT_EQ(written.back(), 'x');
 }
 
