@@ -108,9 +108,12 @@ File unnamed_file(const fs::path& folder)
 }
 
 /// Gives a file its size, and its space on the disk: without that, writing to a page of it ends the
-/// process when the disk is full.
+/// process when the disk is full. What is free is looked at first: a file system that is asked for
+/// more may give all that there is before it refuses, and leave none to others meanwhile.
 void take_space(int file, std::size_t bytes, const fs::path& folder)
 {
+    const std::optional<std::int64_t> left = free_space(folder);
+    if (left && *left < static_cast<std::int64_t>(bytes)) refuse_as_full(folder, bytes);
     int error = 0;
 #ifdef __linux__
     while ((error = ::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0 ? 0 : errno) == EINTR) {
@@ -121,9 +124,6 @@ void take_space(int file, std::size_t bytes, const fs::path& folder)
 #endif
     if (error == ENOSPC || error == EDQUOT || error == EFBIG) refuse_as_full(folder, bytes);
     if (error != EOPNOTSUPP && error != ENOSYS) refuse(folder, std::strerror(error));
-    // Where the file system reserves nothing, what is free now has to do.
-    const std::optional<std::int64_t> left = free_space(folder);
-    if (left && *left < static_cast<std::int64_t>(bytes)) refuse_as_full(folder, bytes);
     if (::ftruncate(file, static_cast<off_t>(bytes)) != 0) refuse(folder, std::strerror(errno));
 }
 
