@@ -1,6 +1,7 @@
 #include "geometry/predicates.h"
 #include "io/colmap/colmap_model.h"
 #include "steps/2_cells/triangulate.h"
+#include "steps/3_visibility/count_crossings.h"
 #include "steps/3_visibility/edge_lengths.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/3_visibility/virtual_views.h"
@@ -107,7 +108,7 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
             const Scene two = seen_by_two(scene, a, b);
             Crossings crossings = crossings_of(mesh, two);
             const Labels first = carve(mesh, crossings, 1);
-            cast_rays(mesh, virtual_sights_of(two, mesh, first, 20).source(0.5), crossings, stage_);
+            CrossingCounter(mesh).cast(virtual_sights_of(two, mesh, first, 20).source(0.5), crossings, stage_);
             const Faults left = faults_of(mesh, first, truth);
             const Faults still_left = faults_of(mesh, carve(mesh, crossings, 1), truth);
             before += left;
@@ -286,9 +287,9 @@ TEST_F(VirtualViews, CountLikeRealOnesAtFullWeight)
     const VirtualSights sights = virtual_sights_of(scene, mesh, carve(mesh, before, 1), 25);
     const Crossings own = crossings_of(mesh, as_real(scene, sights));
     Crossings whole = before;
-    cast_rays(mesh, sights.source(1.0), whole, stage_);
+    CrossingCounter(mesh).cast(sights.source(1.0), whole, stage_);
     Crossings half = before;
-    cast_rays(mesh, sights.source(0.5), half, stage_);
+    CrossingCounter(mesh).cast(sights.source(0.5), half, stage_);
     std::uint32_t most = 0;
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4; ++slot) {

@@ -248,6 +248,30 @@ bool free_scratch(void* memory) noexcept
     return true;
 }
 
+bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place)
+{
+    Blocks& all = blocks();
+    std::map<void*, Block>::node_type block;
+    {
+        const std::lock_guard lock(all.mutex);
+        block = all.by_begin.extract(memory);
+    }
+    if (block.empty()) return false;
+    Block& known = block.mapped();
+    const std::size_t whole_pages = (bytes + kPage - 1) / kPage * kPage;
+    bool is_mapped = false;
+    if (whole_pages <= known.bytes) {
+        known.pages = DroppablePages(); // nobody drops what is being mapped anew
+        is_mapped = ::mmap(memory, bytes, PROT_READ, MAP_SHARED | MAP_FIXED, place.file,
+                           place.begin) != MAP_FAILED;
+        if (is_mapped) known.file = File(DroppablePages::kNoFile);
+        known.pages = DroppablePages(memory, known.bytes, known.file.descriptor());
+    }
+    const std::lock_guard lock(all.mutex);
+    all.by_begin.insert(std::move(block));
+    return is_mapped;
+}
+
 std::optional<std::int64_t> free_space(const fs::path& folder)
 {
     std::error_code error;

@@ -65,6 +65,18 @@ void* allocate_scratch(std::size_t bytes, std::size_t alignment);
 /// look at the address. Thread safe; works when the ScratchMemory is gone.
 bool free_scratch(void* memory) noexcept;
 
+/// A place in an open file.
+struct FilePlace {
+    int file = -1;          ///< descriptor; needed no longer than the call takes
+    std::int64_t begin = 0; ///< where a page of the file begins
+};
+
+/// Puts bytes of a file in the place of what allocate_scratch() gave, to be read only: they are in
+/// memory where they are looked at, and only then. What stood there, and its space, is gone. False
+/// where the memory is none of allocate_scratch(), or the file cannot be mapped; nothing is changed
+/// then. The file must keep its length.
+bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place);
+
 /// How many bytes the file system of a folder still takes, for those who are not root; nothing
 /// where it does not say.
 std::optional<std::int64_t> free_space(const std::filesystem::path& folder);

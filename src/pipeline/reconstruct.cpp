@@ -7,6 +7,7 @@
 #include "model/scene_check.h"
 #include "model/scene_size.h"
 #include "pipeline/memory.h"
+#include "pipeline/rank_shares.h"
 #include "pipeline/thinned_scene.h"
 #include "steps/1_points/center.h"
 #include "steps/1_points/crop.h"
@@ -15,7 +16,6 @@
 #include "steps/1_points/region.h"
 #include "steps/1_points/spatial_sort.h"
 #include "steps/1_points/thin.h"
-#include "steps/2_cells/kept_block.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/2_cells/triangulate_blocks.h"
 #include "steps/4_labels/label_cells.h"
@@ -27,7 +27,6 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -110,10 +109,13 @@ std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, int num_blocks,
 {
     if (num_blocks <= 0) return std::nullopt;
     const auto count = static_cast<std::size_t>(num_blocks);
-    const auto keep = [&](std::size_t block, const std::function<BlockCells()>& make) {
-        return work.piece({"cells", block, count}, make);
-    };
-    std::optional<TetMesh> cells = triangulate_in_blocks(scene, {count, keep}, progress);
+    const Blocks blocks = kept_blocks(count, work);
+    // With other ranks, all blocks but those that gave up are there then.
+    const bool is_shared = work.share(kBlocksTask, BlocksTask{count}, kNeededForBlocks, [&] {
+        triangulate_share(scene, blocks, {0, work.num_ranks()}, progress.part(0.0, 0.8));
+    });
+    std::optional<TetMesh> cells =
+        triangulate_in_blocks(scene, blocks, progress.part(is_shared ? 0.8 : 0.0, 1.0));
     if (!cells) {
         work.log().note("the points lie on common spheres or planes up to their last digits, so "
                         "they are triangulated at once, which takes more memory");
@@ -183,7 +185,7 @@ TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 Reconstruction run_steps(Scene scene, const RunSize& size, const Options& options, Log& shown,
                          const RunExtras& extras = {})
 {
-    StageKeeper work(extras.work, shown);
+    StageKeeper work(extras.work, shown, extras.ranks);
     Log& log = work.log();
     scene = center_points(std::move(scene));
     return_freed_memory();

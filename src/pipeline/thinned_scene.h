@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/input/read_model.h"
+#include "io/work/ranks.h"
 #include "io/work/work_folder.h"
 #include "mesh/removed_faces.h"
 #include "model/scene_size.h"
@@ -20,6 +21,8 @@ struct RunExtras {
     /// Where stages are kept, and taken from where an earlier run kept them; null for nowhere. It
     /// has begun the job that the scene and the options are of.
     WorkFolder* work = nullptr;
+    /// The other processes that work on it; null where there are none.
+    Ranks* ranks = nullptr;
 };
 
 /// The surface of a scene whose points were merged so, if they are of a cloud. `read` is the size

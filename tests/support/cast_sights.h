@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/ray_source.h"
+#include "steps/3_visibility/count_crossings.h"
 #include "steps/3_visibility/trace.h"
 
 namespace vcarve {
@@ -11,7 +12,7 @@ inline Crossings crossings_of(const TetMesh& cells, const Scene& scene)
     Log silent;
     Stage stage(silent, "sights");
     Crossings crossings;
-    cast_rays(cells, photographs(scene), crossings, stage);
+    CrossingCounter(cells).cast(photographs(scene), crossings, stage);
     return crossings;
 }
 

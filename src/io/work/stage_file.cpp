@@ -1,5 +1,6 @@
 #include "io/work/stage_file.h"
 
+#include "base/scratch_memory.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 namespace vcarve {
 
@@ -17,7 +19,7 @@ namespace {
 
 constexpr std::array<char, 16> kMagic = {'v', 'c', 'a', 'r', 'v',  'e',  ' ', 's',
                                          't', 'a', 'g', 'e', '\r', '\n', 0,   1};
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 /// Written and read, and looked at for what it adds to a digest, at a time.
 constexpr std::size_t kPieceBytes = 16 << 20;
 
@@ -29,6 +31,8 @@ struct Header {
     Digest job{};
     std::array<char, StageLabel::kLongestName + 1> name{};
 };
+
+static_assert(sizeof(Header) + sizeof(Digest) == kContentBegin);
 
 std::span<const char> bytes_of(const Header& header)
 {
@@ -70,6 +74,12 @@ void StageWriter::put_bytes(const void* data, std::size_t count)
     }
 }
 
+void StageWriter::put_padding(std::size_t array_bytes)
+{
+    const std::vector<char> zeros(stage_padding(done_, array_bytes));
+    put_bytes(zeros.data(), zeros.size());
+}
+
 void StageWriter::commit()
 {
     write_digest(file_.stream(), digest_.value());
@@ -77,9 +87,10 @@ void StageWriter::commit()
 }
 
 StageReader::StageReader(std::filesystem::path path, const StageLabel& label,
-                         const Progress& progress)
+                         const Progress& progress, Content content)
     : path_(std::move(path)),
       file_(std::fopen(path_.c_str(), "rbe"), &std::fclose),
+      content_(content),
       progress_(progress)
 {
     if (!file_) refuse(fmt::format("it cannot be opened: {}", std::strerror(errno)));
@@ -133,13 +144,33 @@ void StageReader::get_bytes(void* data, std::size_t count)
     for (std::span<char> left(static_cast<char*>(data), count); !left.empty();) {
         const auto piece = left.first(std::min(left.size(), kPieceBytes));
         read(piece.data(), piece.size());
-        digest_.add(piece);
+        if (content_ == Content::checked) digest_.add(piece);
         done_ += piece.size();
         left = left.subspan(piece.size());
         if (piece.size() >= kPieceBytes / 16) {
             progress_.tell(static_cast<double>(done_), static_cast<double>(bytes_));
         }
     }
+}
+
+void StageReader::get_array(void* data, std::size_t bytes)
+{
+    std::vector<char> padding(stage_padding(done_, bytes));
+    get_bytes(padding.data(), padding.size());
+    if (!map_array(data, bytes)) get_bytes(data, bytes);
+}
+
+/// False where the array is to be read.
+bool StageReader::map_array(void* data, std::size_t bytes)
+{
+    if (content_ != Content::mapped || bytes > bytes_ - done_) return false;
+    const auto place = static_cast<off_t>(kContentBegin + done_);
+    if (!map_over_scratch(data, bytes, {::fileno(file_.get()), place})) return false;
+    if (::fseeko(file_.get(), static_cast<off_t>(bytes), SEEK_CUR) != 0) {
+        refuse(fmt::format("it cannot be read: {}", std::strerror(errno)));
+    }
+    done_ += bytes;
+    return true;
 }
 
 std::size_t StageReader::get_count(std::size_t item_bytes)
@@ -158,6 +189,10 @@ void StageReader::finish()
 {
     Digest expected{};
     read(expected.data(), sizeof(expected));
+    if (content_ == Content::mapped) {
+        if (done_ != bytes_) refuse("its content is damaged: it is too long");
+        return;
+    }
     const Digest found = digest_.value();
     if (done_ != bytes_ || found != expected) {
         refuse(fmt::format("its content is damaged: {} of {} bytes have the digest {}, but {} was "

@@ -16,7 +16,8 @@
 // A file with what a stage made: a header (a magic number, the layout's version, the stage's name,
 // the digest of the job, how many bytes follow, and a digest of all that), the content, and a
 // digest of the content. Arrays stand as they do in memory, so that they are written from and read
-// into their place; numbers are those of the machine that wrote them.
+// into their place; numbers are those of the machine that wrote them. Large arrays begin with a
+// page of the file, so that they can be mapped.
 
 namespace vcarve {
 
@@ -27,6 +28,18 @@ struct StageLabel {
 
     static constexpr std::size_t kLongestName = 63;
 };
+
+/// Where the content of a stage file begins.
+inline constexpr std::uint64_t kContentBegin = 128;
+
+/// How many bytes stand before an array, so that large ones begin with a page.
+constexpr std::uint64_t stage_padding(std::uint64_t content_before, std::uint64_t array_bytes)
+{
+    constexpr std::uint64_t kPage = 4096;
+    constexpr std::uint64_t kLarge = std::uint64_t{1} << 20;
+    if (array_bytes < kLarge) return 0;
+    return (kPage - (kContentBegin + content_before) % kPage) % kPage;
+}
 
 /// Counts the bytes that StageWriter would write.
 class StageSizer {
@@ -53,6 +66,7 @@ class StageWriter {
 
   private:
     void put_bytes(const void* data, std::size_t count);
+    void put_padding(std::size_t array_bytes);
 
     OutputFile file_;
     std::uint64_t bytes_;
@@ -67,7 +81,14 @@ class StageWriter {
 /// allocates more than there are bytes in the file.
 class StageReader {
   public:
-    StageReader(std::filesystem::path path, const StageLabel& label, const Progress& progress);
+    /// How the content is taken.
+    enum class Content {
+        checked, ///< read, and found to be what was written
+        mapped,  ///< believed; large arrays in scratch memory are mapped from the file, read only
+    };
+
+    StageReader(std::filesystem::path path, const StageLabel& label, const Progress& progress,
+                Content content = Content::checked);
 
     template <typename T>
     void get(T& value);
@@ -79,12 +100,15 @@ class StageReader {
     void read_header(const StageLabel& label);
     void read(void* data, std::size_t count);
     void get_bytes(void* data, std::size_t count);
+    void get_array(void* data, std::size_t bytes);
+    bool map_array(void* data, std::size_t bytes);
     /// How many items follow; each takes so many bytes at least.
     std::size_t get_count(std::size_t item_bytes);
     [[noreturn]] void refuse(std::string_view what) const;
 
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+    Content content_;
     std::uint64_t bytes_ = 0;
     std::uint64_t done_ = 0;
     RunningDigest digest_;
@@ -102,7 +126,8 @@ void StageSizer::put(const T& value)
     } else if constexpr (kIsArray<T>) {
         bytes_ += sizeof(std::uint64_t);
         if constexpr (kIsPlain<typename T::value_type>) {
-            bytes_ += value.size() * sizeof(typename T::value_type);
+            const std::uint64_t array_bytes = value.size() * sizeof(typename T::value_type);
+            bytes_ += stage_padding(bytes_, array_bytes) + array_bytes;
         } else {
             for (const auto& item : value)
                 put(item);
@@ -123,7 +148,9 @@ void StageWriter::put(const T& value)
     } else if constexpr (kIsArray<T>) {
         put(std::uint64_t{value.size()});
         if constexpr (kIsPlain<typename T::value_type>) {
-            put_bytes(value.data(), value.size() * sizeof(typename T::value_type));
+            const std::size_t array_bytes = value.size() * sizeof(typename T::value_type);
+            put_padding(array_bytes);
+            put_bytes(value.data(), array_bytes);
         } else {
             for (const auto& item : value)
                 put(item);
@@ -148,7 +175,7 @@ void StageReader::get(T& value)
         value.clear();
         if constexpr (kIsPlain<Item>) {
             value.resize(get_count(sizeof(Item)));
-            get_bytes(value.data(), value.size() * sizeof(Item));
+            get_array(value.data(), value.size() * sizeof(Item));
         } else {
             // One by one, so that a wrong count ends at the end of the file.
             for (std::size_t left = get_count(1); left > 0; --left)

@@ -1,11 +1,15 @@
 #pragma once
 
 #include "base/log.h"
+#include "io/work/ranks.h"
 #include "io/work/work_folder.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -67,8 +71,12 @@ Counts size_counts(std::string_view name, std::uint64_t bytes);
 class StageKeeper {
   public:
     /// Stages of the run have to tell log() instead of `log`, so that what they said can be said
-    /// again. `folder`, where it is not null, has begun the job; it and `log` must outlive it.
-    StageKeeper(WorkFolder* folder, Log& log) : folder_(folder), shown_(log), remembering_(log) {}
+    /// again. `folder`, where it is not null, has begun the job; `ranks`, where it is not null, have
+    /// that folder in common. All of them must outlive it.
+    StageKeeper(WorkFolder* folder, Log& log, Ranks* ranks = nullptr)
+        : folder_(folder), ranks_(ranks), shown_(log), remembering_(log)
+    {
+    }
 
     Log& log() { return folder_ == nullptr ? shown_ : remembering_; }
     bool keeps() const { return folder_ != nullptr; }
@@ -89,6 +97,17 @@ class StageKeeper {
     template <typename Make>
     auto piece(const StagePiece& piece, const Make& make) -> decltype(make());
 
+    /// How many processes work on the run.
+    std::size_t num_ranks() const { return ranks_ == nullptr ? 1 : ranks_->count(); }
+
+    /// Has the other ranks do their shares of a task, whose file they find under that name, and
+    /// calls own() for the share of this one. False, and nothing is done, where there are no
+    /// others, or `needed`, stages that they begin with, could not be kept. Throws as
+    /// Ranks::share() does, and UsageError where the task cannot be written.
+    template <typename Task, typename Own>
+    bool share(std::string_view name, const Task& task, std::span<const std::string_view> needed,
+               const Own& own);
+
   private:
     template <typename Made>
     std::optional<Made> taken(std::string_view name);
@@ -101,6 +120,7 @@ class StageKeeper {
     void tell_unusable_pieces();
 
     WorkFolder* folder_;
+    Ranks* ranks_;
     Log& shown_;
     RememberingLog remembering_;
     std::mutex mutex_;                  ///< guards what follows
@@ -145,6 +165,20 @@ auto StageKeeper::piece(const StagePiece& piece, const Make& make) -> decltype(m
     return made;
 }
 
+template <typename Task, typename Own>
+bool StageKeeper::share(std::string_view name, const Task& task,
+                        std::span<const std::string_view> needed, const Own& own)
+{
+    const auto is_there = [&](std::string_view stage) { return folder_->has(stage); };
+    if (num_ranks() == 1 || folder_ == nullptr || !std::ranges::all_of(needed, is_there)) {
+        return false;
+    }
+    folder_->save(name, {}, task);
+    ranks_->share(std::string(name), own);
+    folder_->drop(name);
+    return true;
+}
+
 template <typename Made>
 std::optional<Made> StageKeeper::taken(std::string_view name)
 {
@@ -157,6 +191,7 @@ std::optional<Made> StageKeeper::taken(std::string_view name)
         stage.end(size_counts(name, bytes));
     } catch (const InputError& error) {
         note_unusable(error);
+        folder_->drop(name); // other ranks are not to find it
         return std::nullopt;
     }
     tell_taken(name, told);

@@ -201,6 +201,10 @@ WorkFolder::WorkFolder(fs::path folder)
     }
 }
 
+WorkFolder::WorkFolder(fs::path folder, const Digest& job) : folder_(std::move(folder)), job_(job)
+{
+}
+
 WorkFolder::~WorkFolder()
 {
     if (lock_ < 0) return;
@@ -247,6 +251,11 @@ bool WorkFolder::holds_stages() const
 {
     return std::ranges::any_of(files_in(folder_),
                                [](const fs::path& file) { return file.extension() == kStageEnd; });
+}
+
+void WorkFolder::drop(std::string_view stage) const
+{
+    remove_quietly(file_of(stage));
 }
 
 void WorkFolder::drop_pieces(std::string_view stage) const

@@ -29,6 +29,9 @@ class WorkFolder {
     /// made or written, or holds something but is no work folder; InputError where another run
     /// works in it. What a killed run left half written is removed.
     explicit WorkFolder(std::filesystem::path folder);
+    /// Another process's folder, which it has locked and begun a job in: stages may be read and
+    /// parts of them written, as the two agree.
+    WorkFolder(std::filesystem::path folder, const Digest& job);
     WorkFolder(const WorkFolder&) = delete;
     WorkFolder& operator=(const WorkFolder&) = delete;
     /// Unlocks it. It goes where it holds nothing that a later run could go on with.
@@ -40,6 +43,7 @@ class WorkFolder {
     void begin(const Job& job);
 
     const std::filesystem::path& path() const { return folder_; }
+    const Digest& job() const { return job_; }
     /// Whether there were stages of an earlier run when the job began.
     bool goes_on() const { return goes_on_; }
     bool has(std::string_view stage) const;
@@ -55,6 +59,14 @@ class WorkFolder {
     template <typename... Parts>
     std::uint64_t load(std::string_view stage, const Progress& progress, Parts&... parts) const;
 
+    /// The same without a look at whether the content is what was written, for stages that this
+    /// run wrote or has loaded: large arrays that are in scratch memory are mapped from the file,
+    /// to be read only.
+    template <typename... Parts>
+    void map(std::string_view stage, Parts&... parts) const;
+
+    /// Removes a stage, if it is there.
+    void drop(std::string_view stage) const;
     /// Removes the parts of a stage, whatever their number.
     void drop_pieces(std::string_view stage) const;
 
@@ -69,7 +81,7 @@ class WorkFolder {
 
     std::filesystem::path folder_;
     bool goes_on_ = false;
-    bool was_made_; ///< by this object, or by a run that was killed
+    bool was_made_ = false; ///< by this object, or by a run that was killed
     int lock_ = -1; ///< descriptor
     Digest job_{};  ///< set by begin()
 };
@@ -97,6 +109,15 @@ std::uint64_t WorkFolder::load(std::string_view stage, const Progress& progress,
     (reader.get(parts), ...);
     reader.finish();
     return reader.bytes();
+}
+
+template <typename... Parts>
+void WorkFolder::map(std::string_view stage, Parts&... parts) const
+{
+    StageReader reader(file_of(stage), {std::string(stage), job_}, {},
+                       StageReader::Content::mapped);
+    (reader.get(parts), ...);
+    reader.finish();
 }
 
 } // namespace vcarve

@@ -47,11 +47,16 @@ void for_each_block(std::size_t count, const Body& body)
     if (failure) std::rethrow_exception(failure);
 }
 
+std::size_t num_blocks(const Blocks& wanted, const Scene& scene)
+{
+    return std::clamp<std::size_t>(wanted.count, 1, scene.num_points());
+}
+
 std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>& first,
                                    const Blocks& blocks, const Progress& progress)
 {
     const PointTree tree(scene.positions);
-    const std::size_t count = std::clamp<std::size_t>(blocks.count, 1, scene.num_points());
+    const std::size_t count = num_blocks(blocks, scene);
     std::vector<BlockCells> made(count);
     ProgressCount done(progress, scene.num_points());
     for_each_block(count, [&](std::size_t block) {
@@ -135,6 +140,27 @@ TetMesh joined(std::vector<BlockCells>& blocks)
 }
 
 } // namespace
+
+void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& rank,
+                       const Progress& progress)
+{
+    const std::vector<Index> first = first_points(scene.positions);
+    const std::size_t count = num_blocks(blocks, scene);
+    if (first.size() < 4 || rank.number >= count) return;
+    const PointTree tree(scene.positions);
+    const std::size_t share = (count - rank.number + rank.of - 1) / rank.of;
+    ProgressCount done(progress, share);
+    for_each_block(share, [&](std::size_t k) {
+        const std::size_t block = rank.number + k * rank.of;
+        const PointRun own = run_of(block, count, scene.num_points());
+        try {
+            blocks.keep(block, [&] { return block_cells(tree, first, own); });
+        } catch (const TooManyTies&) {
+            return;
+        }
+        done.add(1);
+    });
+}
 
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& wanted,
                                              const Progress& progress)

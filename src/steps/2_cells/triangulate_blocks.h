@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "io/work/ranks.h"
 #include "model/tet_mesh.h"
 #include "steps/2_cells/block_cells.h"
 #include "vcarve/scene.h"
@@ -32,5 +33,10 @@ struct Blocks {
 /// CGAL's structure of the blocks in work, and the cells twice.
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& blocks,
                                              const Progress& progress = {});
+
+/// Makes the blocks of which a rank's share consists, every so many-th, and hands them to `keep`,
+/// which must remember them. Blocks that give up, see above, are left to triangulate_in_blocks().
+void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& rank,
+                       const Progress& progress = {});
 
 } // namespace vcarve

@@ -1,9 +1,8 @@
 #include "steps/3_visibility/trace.h"
 
-#include "base/prefetch.h"
 #include "base/round_half_up.h"
 #include "geometry/triangle.h"
-#include "steps/3_visibility/each_vertex.h"
+#include "steps/3_visibility/energy_sums.h"
 #include "steps/3_visibility/sight_weights.h"
 #include "steps/3_visibility/walk.h"
 #include "vcarve/error.h"
@@ -13,7 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <span>
+#include <utility>
 
 namespace vcarve {
 
@@ -26,97 +25,6 @@ FlowNetwork empty_network(const TetMesh& mesh)
 {
     const std::size_t count = mesh.cells.size();
     return {filled_array(count, std::array<std::int32_t, 4>{}), filled_array(count, 0)};
-}
-
-/// Adds to the network from many threads. What is added to arcs has no sign, so a sum that goes on
-/// from where it is too large stays too large in any order, and can end at a limit: a facet in free
-/// space that two million sights cross is as safe from any cut as one that more cross. A sum of a
-/// cell's terms has signs and must be exact; it is remembered whether one was too large.
-class EnergySums {
-  public:
-    explicit EnergySums(FlowNetwork& network) : network_(network) {}
-
-    void add_arc_capacity(Index cell, int slot, std::int32_t weight)
-    {
-        std::int32_t& sum = network_.arc_capacities[cell][slot];
-        const std::int32_t before = add(sum, weight);
-        if (before + weight <= kMaxSum) return;
-        has_full_arcs_.store(true, std::memory_order_relaxed);
-        if (before > kMaxSum) add(sum, -weight);
-    }
-    void add_terminal_capacity(Index cell, std::int32_t flow)
-    {
-        const std::int32_t before = add(network_.terminal_capacities[cell], flow);
-        if (before > kMaxSum || before < -kMaxSum) {
-            is_exceeded_.store(true, std::memory_order_relaxed);
-        }
-    }
-    bool is_exceeded() const { return is_exceeded_; }
-
-    /// To be called when all is added.
-    void limit_full_arcs()
-    {
-        ArcCapacities& arcs = network_.arc_capacities;
-        if (!has_full_arcs_) return;
-        parallel_for(arcs.size(), [&](std::size_t cell) {
-            for (std::int32_t& capacity : arcs[cell])
-                capacity = std::min(capacity, kMaxSum);
-        });
-    }
-
-    /// Asks early for the memory of a cell's arcs.
-    void fetch(Index cell) const { prefetch(&network_.arc_capacities[cell]); }
-
-  private:
-    // The cut adds a few sums and the costs of facets: a quarter of the range is theirs.
-    static constexpr std::int32_t kMaxSum = 1 << 29;
-
-    /// Gives the sum before.
-    static std::int32_t add(std::int32_t& sum, std::int32_t value)
-    {
-        return std::atomic_ref<std::int32_t>(sum).fetch_add(value, std::memory_order_relaxed);
-    }
-
-    FlowNetwork& network_;
-    std::atomic<bool> has_full_arcs_ = false;
-    std::atomic<bool> is_exceeded_ = false;
-};
-
-void count_one(std::uint32_t& count)
-{
-    std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
-}
-
-/// The rays to a run of vertices.
-std::vector<Sight> rays_to(Index first, Index last, const RaySource& source)
-{
-    const Tracks& rays = *source.rays;
-    std::vector<Sight> sights;
-    sights.reserve(rays.begins[last] - rays.begins[first]);
-    for (Index vertex = first; vertex < last; ++vertex) {
-        for (const std::uint32_t origin : rays[vertex]) {
-            sights.push_back({vertex, source.origins[origin]});
-        }
-    }
-    return sights;
-}
-
-/// Counts the facets that rays cross, on both sides.
-void count_facets(const TetMesh& cells, const RaySource& source, Crossings& crossings,
-                  const Progress& progress)
-{
-    for_each_run_of_vertices(cells, progress, [&](Index first, Index last) {
-        const std::vector<Sight> sights = rays_to(first, last, source);
-        SightWalk(cells).along_each(
-            sights.size(), [&](std::size_t k) { return sights[k]; },
-            [&](std::size_t, Index cell, int slot) {
-                const Index beyond = cells.cells[cell].neighbors[slot];
-                count_one(crossings[cell][slot]);
-                count_one(crossings[beyond][cells.mirror(cell, slot)]);
-                return true;
-            },
-            [](std::size_t, const WalkEnds&) {});
-    });
 }
 
 /// A view on the border of cells is found in different ones; the smallest does not depend on order.
@@ -325,7 +233,7 @@ class SightTerms {
 /// Finds the cells of the origins to which no ray led, as when none of a view's points passed the
 /// filter: a camera stands in free space all the same.
 void locate_other_origins(const TetMesh& cells, const std::vector<Vector3d>& origins,
-                          std::span<Index> cell_of_origin)
+                          std::vector<Index>& cell_of_origin)
 {
     if (cells.positions.empty()) return;
     SightWalk walk(cells, 0);
@@ -336,9 +244,9 @@ void locate_other_origins(const TetMesh& cells, const std::vector<Vector3d>& ori
     }
 }
 
-void require_exact(const EnergySums& sums, const Scene& scene)
+void require_exact(bool is_exact, const Scene& scene)
 {
-    if (sums.is_exceeded()) {
+    if (!is_exact) {
         throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
                                      "in one cell; a surface needs fewer points or views",
                                      scene.num_sights()));
@@ -347,35 +255,19 @@ void require_exact(const EnergySums& sums, const Scene& scene)
 
 } // namespace
 
-void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings,
-               const Progress& progress)
+VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& points,
+                                     const Progress& progress) const
 {
-    crossings.resize(cells.cells.size(), {0, 0, 0, 0});
-    if (source.weight == 1.0) return count_facets(cells, source, crossings, progress);
-    Crossings more(cells.cells.size(), {0, 0, 0, 0});
-    count_facets(cells, source, more, progress);
-    parallel_for(more.size(), [&](std::size_t cell) {
-        for (int slot = 0; slot < 4; ++slot) {
-            crossings[cell][slot] += static_cast<std::uint32_t>(source.weight * more[cell][slot]);
-        }
-    });
-}
-
-void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
-                     const Progress& progress) const
-{
+    VisibilityEnergy energy;
     energy.unit = SightWeights::kUnit;
-    if (energy.network.arc_capacities.empty()) energy.network = empty_network(cells_);
-    const std::size_t known_origins = energy.cell_of_view.size();
-    if (source.is_measured) {
-        energy.cell_of_view.resize(known_origins + source.origins.size(), kInfinite);
-    }
-    const std::span<Index> cell_of_origin = std::span(energy.cell_of_view).subspan(known_origins);
+    energy.network = empty_network(cells_);
+    if (source.is_measured) energy.cell_of_view.resize(source.origins.size(), kInfinite);
+    std::vector<Index>& cell_of_origin = energy.cell_of_view;
     EnergySums sums(energy.network);
     const SightTerms terms(cells_, sums, options_.distance_sigma * scales_.short_edge);
     const SightWeights weights(scene_, scales_, options_);
 
-    for_each_run_of_vertices(cells_, progress, [&](Index first, Index last) {
+    for_each_run_of_vertices(points, progress, [&](Index first, Index last) {
         SightWalk walk(cells_);
         std::vector<OutwardSight> sights;
         for (Index vertex = first; vertex < last; ++vertex) {
@@ -393,8 +285,54 @@ void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
         });
     });
     sums.limit_full_arcs();
-    require_exact(sums, scene_);
-    if (source.is_measured) locate_other_origins(cells_, source.origins, cell_of_origin);
+    require_exact(!sums.is_exceeded(), scene_);
+    return energy;
+}
+
+RayCaster::Share RayCaster::share(const RaySource& source, const VertexRun& points,
+                             const Progress& progress) const
+{
+    VisibilityEnergy energy = said_of(source, points, progress);
+    return {sparse_sums(energy.network.arc_capacities),
+            sparse_sums(energy.network.terminal_capacities), std::move(energy.cell_of_view)};
+}
+
+void RayCaster::add(const Share& share, VisibilityEnergy& energy) const
+{
+    EnergySums sums(energy.network);
+    add_sparse(share.arc_capacities, energy.network.arc_capacities, EnergySums::add_full_arcs);
+    add_sparse(share.terminal_capacities, energy.network.terminal_capacities,
+               [&](std::int32_t& sum, std::int32_t value) { sums.add_terminal(sum, value); });
+    require_exact(!sums.is_exceeded(), scene_);
+    for (std::size_t view = 0; view < share.cell_of_view.size(); ++view) {
+        lower(energy.cell_of_view[view], share.cell_of_view[view]);
+    }
+}
+
+void RayCaster::finish(const RaySource& source, VisibilityEnergy energy,
+                       VisibilityEnergy& all) const
+{
+    if (source.is_measured) locate_other_origins(cells_, source.origins, energy.cell_of_view);
+    if (all.network.arc_capacities.empty()) {
+        all = std::move(energy);
+        return;
+    }
+    all.cell_of_view.insert(all.cell_of_view.end(), energy.cell_of_view.begin(),
+                            energy.cell_of_view.end());
+    EnergySums sums(all.network);
+    parallel_for(cells_.cells.size(), [&](std::size_t cell) {
+        EnergySums::add_full_arcs(all.network.arc_capacities[cell],
+                                  energy.network.arc_capacities[cell]);
+        sums.add_terminal(all.network.terminal_capacities[cell],
+                          energy.network.terminal_capacities[cell]);
+    });
+    require_exact(!sums.is_exceeded(), scene_);
+}
+
+void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
+                     const Progress& progress) const
+{
+    finish(source, said_of(source, all_vertices(cells_), progress), energy);
 }
 
 } // namespace vcarve

@@ -4,19 +4,24 @@
 #include "model/ray_source.h"
 #include "model/tet_mesh.h"
 #include "model/visibility_energy.h"
+#include "steps/3_visibility/each_vertex.h"
 #include "steps/3_visibility/scales.h"
+#include "steps/3_visibility/sparse_sums.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
 namespace vcarve {
 
-/// Adds to each facet how many rays of a source cross it (Akgunduz, Zetu, Banerjee 2000, section
-/// 4.2), times the weight of the source and rounded down. Crossings that are empty begin at zero.
-/// Cost: one walk a ray, in parallel; 16 bytes a cell, and as many more for a weight other than 1.
-void cast_rays(const TetMesh& cells, const RaySource& source, Crossings& crossings,
-               const Progress& progress);
+/// What the rays to some of the points say, without the cells of which they say nothing.
+struct EnergyShare {
+    SparseSums<std::array<std::int32_t, 4>> arc_capacities;
+    SparseSums<std::int32_t> terminal_capacities;
+    std::vector<Index> cell_of_view; ///< of the origins of the source, where it is measured
+};
 
 /// After how many facets measured rays to points of a dense cloud become bundles, and after how
 /// many these become bundles of bundles.
@@ -45,10 +50,24 @@ class RayCaster {
     {
     }
 
-    /// An energy that is empty begins at zero. The cells of the origins of measured rays are
-    /// appended to VisibilityEnergy::cell_of_view. Throws InputError if a sum leaves 32 bits. Cost:
-    /// one walk a ray, in parallel; 20 bytes a cell.
+    using Share = EnergyShare;
+
+    /// Adds the terms of all rays of a source. An energy that is empty begins at zero. The cells of
+    /// the origins of measured rays are appended to VisibilityEnergy::cell_of_view. Throws
+    /// InputError if a sum leaves 32 bits. Cost: one walk a ray, in parallel; 20 bytes a cell, and
+    /// as many more where the energy is not empty.
     void cast(const RaySource& source, VisibilityEnergy& energy, const Progress& progress) const;
+
+    // The same in steps, for who shares the work with others.
+
+    /// What the rays to a run of points say by themselves.
+    VisibilityEnergy said_of(const RaySource& source, const VertexRun& points,
+                             const Progress& progress) const;
+    Share share(const RaySource& source, const VertexRun& points, const Progress& progress) const;
+    /// Adds what the rays of the same source to other points say.
+    void add(const Share& share, VisibilityEnergy& said) const;
+    /// Adds what all rays of a source say to an energy, as cast() does.
+    void finish(const RaySource& source, VisibilityEnergy said, VisibilityEnergy& energy) const;
 
   private:
     const TetMesh& cells_;

@@ -1,5 +1,7 @@
 #include "steps/4_labels/label_cells.h"
 
+#include "steps/3_visibility/count_crossings.h"
+#include "steps/3_visibility/shared_sights.h"
 #include "steps/3_visibility/trace.h"
 #include "steps/3_visibility/virtual_views.h"
 #include "steps/4_labels/bridging_facets.h"
@@ -8,11 +10,16 @@
 #include "steps/4_labels/strict_carving.h"
 
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace vcarve {
 
 namespace {
+
+// The stages that are kept.
+constexpr std::string_view kSights = "sights";
+constexpr std::string_view kVirtualSights = "virtual-sights";
 
 VirtualSights place_virtual_views(const Labelling& labelling, const Scene& scene,
                                   const VirtualViewOptions& options, Log& log)
@@ -26,34 +33,36 @@ VirtualSights place_virtual_views(const Labelling& labelling, const Scene& scene
 }
 
 /// Labels by the photographs and, where virtual views are asked for, once more with these.
-/// `cast(source, said, progress)` adds what a source knows to all that was said, `label(said)`
-/// labels by that.
+/// `cast(source, stage, said, progress)` adds what a source knows to all that was said, as a part
+/// of that stage, `label(said)` labels by that.
 template <typename Said, typename Cast, typename Label>
 Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options, StageKeeper& work,
                            const Cast& cast, const Label& label)
 {
-    const auto with = [&](const RaySource& source, Said said) {
+    const auto with = [&](const RaySource& source, std::string_view name, Said said) {
         Stage stage(work.log(), "sights");
-        cast(source, said, stage);
+        cast(source, name, said, stage);
         stage.end({{"sights", size_of(source.rays->views.size())}});
         return said;
     };
     const auto by_photographs = [&] {
-        return work.stage("sights", [&] { return with(photographs(scene), Said()); });
+        return work.stage(kSights, [&] { return with(photographs(scene), kSights, Said()); });
     };
     if (options.count == 0) return label(by_photographs());
-    return label(work.stage("virtual-sights", [&] {
+    return label(work.stage(kVirtualSights, [&] {
         Said said = by_photographs();
         const VirtualSights more = place_virtual_views(label(said), scene, options, work.log());
-        return with(more.source(options.weight), std::move(said));
+        return with(more.source(options.weight), kVirtualSights, std::move(said));
     }));
 }
 
 Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
                 StageKeeper& work)
 {
-    const auto cast = [&](const RaySource& source, Crossings& crossings, const Progress& progress) {
-        cast_rays(cells, source, crossings, progress);
+    const auto cast = [&](const RaySource& source, std::string_view stage, Crossings& crossings,
+                          const Progress& progress) {
+        cast_among_ranks(CrossingCounter(cells), source, task_of(source, stage, {}), work,
+                         crossings, progress);
     };
     const auto label = [&](const Crossings& crossings) {
         Stage stage(work.log(), "carve");
@@ -85,10 +94,11 @@ Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& opti
               StageKeeper& work)
 {
     std::optional<Scales> scales; // measured once, as a part of the first stage
-    const auto cast = [&](const RaySource& source, VisibilityEnergy& energy,
-                          const Progress& progress) {
+    const auto cast = [&](const RaySource& source, std::string_view stage,
+                          VisibilityEnergy& energy, const Progress& progress) {
         if (!scales) scales = measure_scales(cells, scene);
-        RayCaster(cells, scene, *scales, options.trace).cast(source, energy, progress);
+        cast_among_ranks(RayCaster(cells, scene, *scales, options.trace), source,
+                         task_of(source, stage, *scales), work, energy, progress);
     };
     const auto label = [&](VisibilityEnergy energy) {
         return cut(cells, scene, std::move(energy), options, work.log());

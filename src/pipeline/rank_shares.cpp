@@ -1,0 +1,74 @@
+#include "pipeline/rank_shares.h"
+
+#include "base/freed_memory.h"
+#include "steps/2_cells/kept_block.h"
+#include "steps/3_visibility/count_crossings.h"
+#include "steps/3_visibility/shared_sights.h"
+#include "steps/3_visibility/trace.h"
+
+#include <tbb/task_arena.h>
+
+#include <functional>
+#include <stdexcept>
+
+namespace vcarve {
+
+Blocks kept_blocks(std::size_t count, StageKeeper& work)
+{
+    return {count, [count, &work](std::size_t block, const std::function<BlockCells()>& make) {
+                return work.piece({"cells", block, count}, make);
+            }};
+}
+
+const Scene& RankShares::scene()
+{
+    if (!scene_) folder_.map("points", scene_.emplace());
+    return *scene_;
+}
+
+const TetMesh& RankShares::cells()
+{
+    if (!cells_) folder_.map("cells", cells_.emplace());
+    return *cells_;
+}
+
+void RankShares::triangulate(Log& log)
+{
+    BlocksTask task;
+    folder_.map(kBlocksTask, task);
+    StageKeeper work(&folder_, log);
+    Stage stage(work.log(), "triangulate");
+    triangulate_share(scene(), kept_blocks(task.count, work), rank_, stage);
+    return_freed_memory();
+}
+
+void RankShares::walk_sights(Log& log)
+{
+    SightsTask task;
+    folder_.map(kSightsTask, task);
+    const RaySource source = task.source(scene());
+    StageKeeper work(&folder_, log);
+    Stage stage(work.log(), "sights");
+    if (options_.labels.method == Method::strict) {
+        cast_share(CrossingCounter(cells()), source, task, rank_, work, stage);
+    } else {
+        const RayCaster caster(cells(), scene(), task.scales, options_.labels.trace);
+        cast_share(caster, source, task, rank_, work, stage);
+    }
+}
+
+void RankShares::work(std::string_view task, Log& log)
+{
+    tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic : options_.threads);
+    arena.execute([&] {
+        if (task == kBlocksTask) {
+            triangulate(log);
+        } else if (task == kSightsTask) {
+            walk_sights(log);
+        } else {
+            throw std::logic_error("a rank is asked for what it does not know");
+        }
+    });
+}
+
+} // namespace vcarve
