@@ -29,6 +29,11 @@ if(VCARVE_PROGRAM)
   set_target_properties(colmap-vcarve PROPERTIES
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS colmap-vcarve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  if(VCARVE_MPI)
+    set_target_properties(colmap-vcarve-mpi PROPERTIES
+      INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+    install(TARGETS colmap-vcarve-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
   install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${completion} RENAME colmap-vcarve
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

@@ -108,7 +108,8 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
             const Scene two = seen_by_two(scene, a, b);
             Crossings crossings = crossings_of(mesh, two);
             const Labels first = carve(mesh, crossings, 1);
-            CrossingCounter(mesh).cast(virtual_sights_of(two, mesh, first, 20).source(0.5), crossings, stage_);
+            CrossingCounter(mesh).cast(virtual_sights_of(two, mesh, first, 20).source(0.5),
+                                       crossings, stage_);
             const Faults left = faults_of(mesh, first, truth);
             const Faults still_left = faults_of(mesh, carve(mesh, crossings, 1), truth);
             before += left;

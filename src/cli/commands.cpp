@@ -2,31 +2,18 @@
 
 #include "base/version.h"
 #include "cli/compare_command.h"
-#include "cli/manual.h"
 #include "cli/mesh_command.h"
-#include "cli/option_parser.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <vector>
+#include <string_view>
 
-namespace vcarve {
+namespace vcarve::cli {
 
 namespace {
-
-struct Command {
-    const char* name; ///< first word of the command line; empty for the bare form
-    cli::Manual (*manual)();
-    void (*run)(const cli::ParsedArguments&);
-};
-
-/// All commands, the bare form first.
-constexpr Command kCommands[] = {
-    {"", cli::mesh_manual, cli::run_mesh},
-    {"compare", cli::compare_manual, cli::run_compare},
-};
 
 void print(const std::string& text)
 {
@@ -34,12 +21,10 @@ void print(const std::string& text)
     if (std::fflush(stdout) != 0) throw UsageError("cannot write to the standard output");
 }
 
-const Command& command_named(std::string_view name)
+const Command& command_named(std::string_view name, std::span<const Command> commands)
 {
-    for (const Command& command : kCommands) {
-        if (command.name == name) return command;
-    }
-    return kCommands[0];
+    const auto named = std::ranges::find(commands, name, &Command::name);
+    return named == commands.end() ? commands.front() : *named;
 }
 
 std::string version_text()
@@ -54,34 +39,41 @@ std::string version_text()
 }
 
 /// What the build and the README are made with: the same declarations in other forms.
-std::string generated_text(std::string_view form, const cli::Manual& manual)
+std::string generated_text(std::string_view form, const Manual& manual,
+                           std::span<const Command> commands)
 {
-    std::vector<cli::Manual> manuals;
-    for (const Command& command : kCommands) {
+    std::vector<Manual> manuals;
+    for (const Command& command : commands) {
         manuals.push_back(command.manual());
     }
-    if (form == "--help-man") return cli::man_page(manuals, versions().program);
-    if (form == "--help-bash") return cli::bash_completion(manuals);
-    if (form == "--help-markdown") return cli::markdown_options(manual);
+    if (form == "--help-man") return man_page(manuals, versions().program);
+    if (form == "--help-bash") return bash_completion(manuals);
+    if (form == "--help-markdown") return markdown_options(manual);
     return "";
 }
 
 } // namespace
 
-void run_command_line(std::span<const std::string> arguments)
+std::vector<Command> commands()
 {
-    const Command& command = command_named(arguments.empty() ? "" : arguments[0]);
-    if (command.name[0] != '\0') arguments = arguments.subspan(1);
+    return {{"", mesh_manual, [](const ParsedArguments& given) { run_mesh(given); }},
+            {"compare", compare_manual, run_compare}};
+}
 
-    const cli::Manual manual = command.manual();
+void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands)
+{
+    const Command& command = command_named(arguments.empty() ? "" : arguments[0], commands);
+    if (!command.name.empty()) arguments = arguments.subspan(1);
+
+    const Manual manual = command.manual();
     if (arguments.size() == 1) {
-        const std::string text = generated_text(arguments[0], manual);
+        const std::string text = generated_text(arguments[0], manual, commands);
         if (!text.empty()) return print(text);
     }
-    const cli::ParsedArguments given = cli::parse_arguments(arguments, manual.options);
-    if (given.has("help")) return print(cli::help_text(manual));
+    const ParsedArguments given = parse_arguments(arguments, manual.options);
+    if (given.has("help")) return print(help_text(manual));
     if (given.has("version")) return print(version_text());
     command.run(given);
 }
 
-} // namespace vcarve
+} // namespace vcarve::cli

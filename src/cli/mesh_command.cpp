@@ -133,6 +133,7 @@ struct Run {
     RunLogs logs;
     RunMemory& memory;
     WorkFolder* work; ///< null for nowhere
+    RunRanks* ranks;  ///< null for this process alone
 };
 
 /// What a model needs is said of it. Where its size only shows when it is read, or when the points
@@ -177,9 +178,14 @@ Surface surface_of(ModelInput input, const Run& run)
         Surface surface;
         Options options = arguments.options;
         options.memory = run.memory.options();
-        Reconstruction made = reconstruct_thinned(
-            std::move(input.scene), input.read, options, run.logs.told,
-            {.removed = arguments.with_report ? &surface.removed : nullptr, .work = run.work});
+        if (run.ranks != nullptr && run.work != nullptr) {
+            run.ranks->begin(run.work->job(), run.memory.most());
+        }
+        Reconstruction made =
+            reconstruct_thinned(std::move(input.scene), input.read, options, run.logs.told,
+                                {.removed = arguments.with_report ? &surface.removed : nullptr,
+                                 .work = run.work,
+                                 .ranks = run.ranks});
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
@@ -282,9 +288,20 @@ Made make_or_clear(const Run& run, Json& record)
     }
 }
 
-void run(const ParsedArguments& given)
+/// Ranks have nothing in common but a folder.
+void require_work_folder(const MeshArguments& arguments, const Processes& processes)
+{
+    if (processes.all == 1 || !arguments.work.empty()) return;
+    throw UsageError(fmt::format("{} ranks need --work FOLDER, on a file system that all of them "
+                                 "see{}",
+                                 processes.all, kSeeHelp));
+}
+
+void run(const ParsedArguments& given, RunRanks* ranks)
 {
     const MeshArguments arguments = read_mesh_arguments(given);
+    const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
+    require_work_folder(arguments, processes);
     const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
     // What is wrong with the file of a region is said before the work starts.
@@ -310,12 +327,13 @@ void run(const ParsedArguments& given)
                    {"offset", nullptr},
                    {"preview", nullptr},
                    {"options", options_json(arguments.options)},
-                   {"threads_used", threads}};
+                   {"threads_used", threads},
+                   {"ranks", processes.all}};
     record["options"].update(options_json(arguments.output));
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
-    RunMemory memory(arguments.options.memory, threads, scratch);
-    const Made made = make_or_clear({arguments, logs, memory, work.get()}, record);
+    RunMemory memory(arguments.options.memory, threads, scratch, processes);
+    const Made made = make_or_clear({arguments, logs, memory, work.get(), ranks}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());
@@ -369,10 +387,10 @@ Manual mesh_manual()
     return manual;
 }
 
-void run_mesh(const ParsedArguments& given)
+void run_mesh(const ParsedArguments& given, RunRanks* ranks)
 {
     try {
-        run(given);
+        run(given, ranks);
     } catch (const ScratchError& error) {
         throw UsageError(error.what());
     }

@@ -2,6 +2,7 @@
 
 #include "cli/manual.h"
 #include "cli/option_parser.h"
+#include "cli/run_ranks.h"
 
 namespace vcarve::cli {
 
@@ -9,7 +10,7 @@ namespace vcarve::cli {
 Manual mesh_manual();
 
 /// Throws UsageError and InputError; on success OUT.ply, and the files of --stats and
-/// --preview, are written whole.
-void run_mesh(const ParsedArguments& given);
+/// --preview, are written whole. `ranks` are the other processes that work on it; null for none.
+void run_mesh(const ParsedArguments& given, RunRanks* ranks = nullptr);
 
 } // namespace vcarve::cli

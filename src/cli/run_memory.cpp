@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <limits>
@@ -33,12 +34,13 @@ fs::path folder_beside(const fs::path& out)
     throw UsageError(fmt::format("cannot use the work folder {}: {}", folder.string(), reason));
 }
 
-std::string note_of(const BlockPlan& plan, const fs::path& folder)
+std::string note_of(const BlockPlan& plan, std::size_t ranks, const fs::path& folder)
 {
     const std::string allowed =
         plan.most == 0 ? "no limit" : byte_size_text(plan.most) + " allowed";
-    return fmt::format("about {} needed, {}: {} blocks, scratch of about {} in {}",
-                       byte_size_text(plan.needed), allowed, plan.blocks,
+    const std::string who = ranks == 1 ? "" : fmt::format(" for {} ranks", ranks);
+    return fmt::format("about {} needed, {}: {} blocks{}, scratch of about {} in {}",
+                       byte_size_text(plan.needed), allowed, plan.blocks, who,
                        byte_size_text(plan.scratch), folder.string());
 }
 
@@ -71,19 +73,40 @@ void ArrayFolder::prepare(std::int64_t bytes) const
     }
 }
 
-RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder)
-    : wanted_(wanted), threads_(threads), folder_(folder), free_(free_memory())
+RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
+                     const Processes& processes)
+    : wanted_(wanted),
+      threads_(threads),
+      folder_(folder),
+      processes_(processes),
+      free_(free_memory())
 {
+    if (free_) *free_ /= static_cast<std::int64_t>(processes_.here);
     if (!folder.is_temporary()) folder.prepare(0);
+}
+
+BlockPlan RunMemory::plan_of(const RunSize& size) const
+{
+    const BlockPlan plan = plan_blocks(size, threads_, wanted_, free_);
+    if (processes_.all == 1 || wanted_.blocks == 0) return plan;
+    // Each thread of each rank has a block, and each other rank sums of what its sights say.
+    const auto ranks = static_cast<int>(processes_.all);
+    MemoryOptions shared = wanted_;
+    if (wanted_.blocks == MemoryOptions::kAutoBlocks) {
+        shared.blocks = std::max(plan.blocks, ranks * threads_);
+    }
+    BlockPlan in_blocks = plan_blocks(size, threads_, shared, free_);
+    in_blocks.scratch += (ranks - 1) * predicted_share(size);
+    return in_blocks;
 }
 
 void RunMemory::fit(const RunSize& size, Log& log)
 {
-    const BlockPlan before = std::exchange(plan_, plan_blocks(size, threads_, wanted_, free_));
+    const BlockPlan before = std::exchange(plan_, plan_of(size));
     // What is kept in files stays there, even if what is left of a cloud would fit.
     if (before.in_blocks() && !plan_.in_blocks()) plan_ = before;
     if (!plan_.in_blocks()) return;
-    if (before.blocks != plan_.blocks) log.note(note_of(plan_, folder_.path()));
+    if (before.blocks != plan_.blocks) log.note(note_of(plan_, processes_.all, folder_.path()));
     if (scratch_) return;
     folder_.prepare(plan_.scratch);
     constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();

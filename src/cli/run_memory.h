@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/scratch_memory.h"
+#include "cli/run_ranks.h"
 #include "cli/run_record.h"
 #include "pipeline/memory.h"
 
@@ -36,7 +37,10 @@ class ArrayFolder {
 /// the latter case, for as long as the object lives.
 class RunMemory {
   public:
-    RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder);
+    /// Several processes on a machine share what it has free, and cut the model into blocks, of
+    /// which each of them has some.
+    RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
+              const Processes& processes = {});
 
     /// Once the size of a run is known, and again when more is known of it: arrays that are made
     /// from now on are where they should be. A note says how many blocks there are and why. Throws
@@ -45,15 +49,20 @@ class RunMemory {
 
     /// What reconstruct() is to be told.
     MemoryOptions options() const;
+    /// How much each process may take, in bytes; 0 for all there is.
+    std::int64_t most() const { return plan_.most; }
     /// {"blocks", "needed_bytes", "allowed_bytes", "expected_scratch_bytes", "scratch_bytes"}; the
     /// last is the most that was in the folder at a time up to now.
     Json record() const;
 
   private:
+    BlockPlan plan_of(const RunSize& size) const;
+
     MemoryOptions wanted_;
     int threads_;
     const ArrayFolder& folder_;
-    std::optional<std::int64_t> free_; ///< before the run took any
+    Processes processes_;
+    std::optional<std::int64_t> free_; ///< before the run took any, for each process
     BlockPlan plan_;
     std::optional<ScratchMemory> scratch_;
 };

@@ -234,6 +234,13 @@ std::int64_t predicted_scratch(const RunSize& size)
     return std::llround(std::min(kScratchMargin * most, 0x1p62));
 }
 
+std::int64_t predicted_share(const RunSize& size)
+{
+    // The sums of all cells, and those that are not zero once more.
+    const double sums = 2 * kNetworkCell * sizes(size.thinned, 1).cells;
+    return std::llround(std::min(sums, 0x1p62));
+}
+
 std::int64_t least_memory(const RunSize& size, int threads)
 {
     const Sizes n = sizes(size.thinned, threads);

@@ -69,4 +69,7 @@ std::int64_t least_memory(const RunSize& size, int threads);
 /// The most that arrays in the work folder take at a time, in bytes.
 std::int64_t predicted_scratch(const RunSize& size);
 
+/// The most that arrays of another rank take there, in bytes: what the sights say that it walks.
+std::int64_t predicted_share(const RunSize& size);
+
 } // namespace vcarve

@@ -22,13 +22,13 @@ Blocks kept_blocks(std::size_t count, StageKeeper& work)
 
 const Scene& RankShares::scene()
 {
-    if (!scene_) folder_.map("points", scene_.emplace());
+    if (!scene_) map_stage(folder_, "points", scene_.emplace());
     return *scene_;
 }
 
 const TetMesh& RankShares::cells()
 {
-    if (!cells_) folder_.map("cells", cells_.emplace());
+    if (!cells_) map_stage(folder_, "cells", cells_.emplace());
     return *cells_;
 }
 

@@ -66,13 +66,22 @@ class RememberingLog final : public Log {
 /// What a stage counts that wrote or read the file of another.
 Counts size_counts(std::string_view name, std::uint64_t bytes);
 
+/// What a stage made that another rank has kept, or loaded: its large arrays are mapped, to be read
+/// only, as WorkFolder::map() says. Throws InputError as that does.
+template <typename Made>
+void map_stage(const WorkFolder& folder, std::string_view name, Made& made)
+{
+    std::vector<ToldEvent> told;
+    folder.map(name, told, made);
+}
+
 /// Where the results of a run's stages go and come from: a work folder, or none. Without a folder
 /// every stage is made, and that is all.
 class StageKeeper {
   public:
     /// Stages of the run have to tell log() instead of `log`, so that what they said can be said
-    /// again. `folder`, where it is not null, has begun the job; `ranks`, where it is not null, have
-    /// that folder in common. All of them must outlive it.
+    /// again. `folder`, where it is not null, has begun the job; `ranks`, where it is not null,
+    /// have that folder in common. All of them must outlive it.
     StageKeeper(WorkFolder* folder, Log& log, Ranks* ranks = nullptr)
         : folder_(folder), ranks_(ranks), shown_(log), remembering_(log)
     {

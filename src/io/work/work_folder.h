@@ -82,8 +82,8 @@ class WorkFolder {
     std::filesystem::path folder_;
     bool goes_on_ = false;
     bool was_made_ = false; ///< by this object, or by a run that was killed
-    int lock_ = -1; ///< descriptor
-    Digest job_{};  ///< set by begin()
+    int lock_ = -1;         ///< descriptor
+    Digest job_{};          ///< set by begin()
 };
 
 /// The name under which a part of a stage is saved: "cells-3-of-8".

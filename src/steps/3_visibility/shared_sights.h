@@ -76,8 +76,8 @@ void cast_among_ranks(const Caster& caster, const RaySource& source, const Sight
     const std::size_t ranks = work.num_ranks();
     Said sum;
     const bool is_shared = work.share(kSightsTask, task, kNeededForSights, [&] {
-        sum = caster.said_of(source, share_of(*source.rays, {0, ranks}),
-                             progress.part(0.0, kWalks));
+        sum =
+            caster.said_of(source, share_of(*source.rays, {0, ranks}), progress.part(0.0, kWalks));
     });
     if (!is_shared) return caster.cast(source, said, progress);
     for (std::size_t number = 1; number < ranks; ++number) {
@@ -94,9 +94,8 @@ template <typename Caster>
 void cast_share(const Caster& caster, const RaySource& source, const SightsTask& task,
                 const Rank& rank, StageKeeper& work, const Progress& progress)
 {
-    work.piece({task.stage, rank.number, rank.of}, [&] {
-        return caster.share(source, share_of(*source.rays, rank), progress);
-    });
+    work.piece({task.stage, rank.number, rank.of},
+               [&] { return caster.share(source, share_of(*source.rays, rank), progress); });
 }
 
 template <>

@@ -31,13 +31,16 @@ SparseSums<T> sparse_sums(const Sums& sums)
     SparseSums<T> sparse;
     sparse.count = sums.size();
     const std::size_t num_runs = (sums.size() + kRun - 1) / kRun;
-    sparse.runs = parallel_collect<std::uint32_t>(num_runs, [&](std::size_t run, auto& used) {
-        const auto begin = sums.begin();
-        const bool is_zero = std::all_of(begin + static_cast<std::ptrdiff_t>(run * kRun),
-                                         begin + static_cast<std::ptrdiff_t>(end_of(run)),
-                                         [](const T& sum) { return sum == T{}; });
-        if (!is_zero) used.push_back(static_cast<std::uint32_t>(run));
-    }, 64);
+    sparse.runs = parallel_collect<std::uint32_t>(
+        num_runs,
+        [&](std::size_t run, auto& used) {
+            const auto begin = sums.begin();
+            const bool is_zero = std::all_of(begin + static_cast<std::ptrdiff_t>(run * kRun),
+                                             begin + static_cast<std::ptrdiff_t>(end_of(run)),
+                                             [](const T& sum) { return sum == T{}; });
+            if (!is_zero) used.push_back(static_cast<std::uint32_t>(run));
+        },
+        64);
     if (sparse.runs.empty()) return sparse;
     const std::size_t last = sparse.runs.back();
     sparse.values = UnsetArray<T>((sparse.runs.size() - 1) * kRun + end_of(last) - last * kRun);

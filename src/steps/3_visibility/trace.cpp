@@ -256,7 +256,7 @@ void require_exact(bool is_exact, const Scene& scene)
 } // namespace
 
 VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& points,
-                                     const Progress& progress) const
+                                    const Progress& progress) const
 {
     VisibilityEnergy energy;
     energy.unit = SightWeights::kUnit;
@@ -290,7 +290,7 @@ VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& po
 }
 
 RayCaster::Share RayCaster::share(const RaySource& source, const VertexRun& points,
-                             const Progress& progress) const
+                                  const Progress& progress) const
 {
     VisibilityEnergy energy = said_of(source, points, progress);
     return {sparse_sums(energy.network.arc_capacities),

@@ -94,8 +94,8 @@ Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& opti
               StageKeeper& work)
 {
     std::optional<Scales> scales; // measured once, as a part of the first stage
-    const auto cast = [&](const RaySource& source, std::string_view stage,
-                          VisibilityEnergy& energy, const Progress& progress) {
+    const auto cast = [&](const RaySource& source, std::string_view stage, VisibilityEnergy& energy,
+                          const Progress& progress) {
         if (!scales) scales = measure_scales(cells, scene);
         cast_among_ranks(RayCaster(cells, scene, *scales, options.trace), source,
                          task_of(source, stage, *scales), work, energy, progress);

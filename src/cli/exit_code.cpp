@@ -1,0 +1,38 @@
+#include "cli/exit_code.h"
+
+#include "vcarve/error.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace vcarve::cli {
+
+Ending ending_of(const std::function<void()>& main)
+{
+    try {
+        main();
+        return {};
+    } catch (const UsageError& error) {
+        return {2, error.what()};
+    } catch (const InputError& error) {
+        return {3, error.what()};
+    } catch (const std::bad_alloc&) {
+        return {1, ""}; // no text, for there may be no memory for it
+    } catch (const std::exception& error) {
+        return {1, std::string("internal error: ") + error.what() + ", please report"};
+    } catch (...) {
+        return {1, "internal error of an unknown kind, please report"};
+    }
+}
+
+int report(const Ending& ending)
+{
+    if (ending.exit_code == 0) return 0;
+    std::fputs("colmap-vcarve: ", stderr);
+    std::fputs(ending.sentence.empty() ? "out of memory" : ending.sentence.c_str(), stderr);
+    std::fputs("\n", stderr);
+    return ending.exit_code;
+}
+
+} // namespace vcarve::cli

@@ -1,0 +1,114 @@
+#include "mpi/follower.h"
+
+#include "base/scratch_memory.h"
+#include "base/threads.h"
+#include "cli/exit_code.h"
+#include "io/work/work_folder.h"
+#include "pipeline/rank_shares.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <atomic>
+#include <chrono>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <thread>
+
+namespace vcarve::mpi {
+
+namespace {
+
+constexpr std::chrono::milliseconds kPause(3);
+
+/// Says nothing, and stops what it is told of where that is wished.
+class QuietLog final : public Log {
+  public:
+    bool wants_stop() const override { return wants_stop_; }
+    void stop() { wants_stop_ = true; }
+
+  private:
+    std::atomic<bool> wants_stop_ = false;
+};
+
+/// What a rank has of a run.
+class JoinedRun {
+  public:
+    JoinedRun(const cli::MeshArguments& arguments, const Order& order, const Rank& rank)
+        : folder_(arguments.work, order.job), shares_(folder_, arguments.options, rank)
+    {
+        constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+        scratch_.emplace(arguments.work, order.most_memory == 0 ? kNoLimit : order.most_memory);
+    }
+
+    void work(const char* task, Log& log) { shares_.work(task, log); }
+
+  private:
+    std::optional<ScratchMemory> scratch_; ///< goes last
+    WorkFolder folder_;
+    RankShares shares_;
+};
+
+/// Does a share in a thread of its own, so that this one can hear of orders to stop.
+Reply done(const Session& session, const Order& order, const std::function<void(Log&)>& work)
+{
+    QuietLog log;
+    cli::Ending ending;
+    bool was_stopped = false;
+    std::atomic<bool> is_done = false;
+    std::thread worker([&] {
+        ending = cli::ending_of([&] {
+            try {
+                work(log);
+            } catch (const Cancelled&) {
+                was_stopped = true;
+            } catch (const ScratchError& error) {
+                throw UsageError(error.what());
+            }
+        });
+        is_done = true;
+    });
+    while (!is_done) {
+        const std::optional<Order> next = session.order();
+        if (next && next->kind == Order::Kind::stop) log.stop();
+        std::this_thread::sleep_for(kPause);
+    }
+    worker.join();
+    Reply reply = {.exit_code = ending.exit_code, .was_stopped = was_stopped ? 1 : 0};
+    if (ending.exit_code != 0) {
+        set_text(reply.sentence,
+                 fmt::format("{} failed in {}: {}", session.name(), order.task.data(),
+                             ending.sentence.empty() ? "out of memory" : ending.sentence));
+    }
+    return reply;
+}
+
+} // namespace
+
+void follow(const Session& session, const cli::MeshArguments& arguments)
+{
+    const int threads =
+        arguments.options.threads == 0 ? available_threads() : arguments.options.threads;
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    std::optional<Order> begun;
+    std::unique_ptr<JoinedRun> run;
+    for (;;) {
+        const std::optional<Order> order = session.order();
+        if (!order) {
+            std::this_thread::sleep_for(kPause);
+            continue;
+        }
+        if (order->kind == Order::Kind::end) return;
+        if (order->kind == Order::Kind::begin) begun = order;
+        if (order->kind != Order::Kind::work) continue;
+        session.send(done(session, *order, [&](Log& log) {
+            if (!run) run = std::make_unique<JoinedRun>(arguments, begun.value(), session.rank());
+            run->work(order->task.data(), log);
+        }));
+    }
+}
+
+} // namespace vcarve::mpi

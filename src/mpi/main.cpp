@@ -1,0 +1,69 @@
+// colmap-vcarve-mpi: the same command for many processes, on one machine or on many, started by
+// mpirun or srun. Rank 0 runs the command; the others do shares of it.
+#include "cli/commands.h"
+#include "cli/exit_code.h"
+#include "cli/mesh_arguments.h"
+#include "cli/mesh_command.h"
+#include "mpi/follower.h"
+#include "mpi/leader.h"
+#include "mpi/session.h"
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace vcarve;
+
+cli::Manual manual()
+{
+    cli::Manual manual = cli::mesh_manual();
+    manual.command = "colmap-vcarve-mpi";
+    manual.summary = "Turns a COLMAP model into a surface, on many machines.";
+    manual.examples = {
+        {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR",
+         "on four processes, which share the folder"},
+        {"srun colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on the nodes of a Slurm job"},
+        {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR --max-memory 8G",
+         "with 8 GB for each process"},
+    };
+    manual.footnotes.front() = {
+        "Ranks",
+        "Every rank gets the same command line. Rank 0 takes the steps, prints and writes; the "
+        "others triangulate blocks and walk lines of sight. The folder of --work has to be the "
+        "same for all. When a rank dies mpirun ends the others; the same command, given again, "
+        "goes on. The surface is that of colmap-vcarve, byte for byte."};
+    return manual;
+}
+
+void lead(const std::vector<std::string>& arguments, const mpi::Session& session,
+          const cli::Processes& processes)
+{
+    mpi::Leader others(session, processes);
+    const cli::Command command = {
+        "", manual, [&](const cli::ParsedArguments& given) { cli::run_mesh(given, &others); }};
+    cli::run_command_line(arguments, {&command, 1});
+}
+
+/// What is wrong with the command line is said by rank 0.
+void follow(const std::vector<std::string>& arguments, const mpi::Session& session)
+{
+    cli::MeshArguments read;
+    cli::ending_of(
+        [&] { read = read_mesh_arguments(cli::parse_arguments(arguments, manual().options)); });
+    mpi::follow(session, read);
+}
+
+} // namespace
+
+int main(int count, char** words)
+{
+    const mpi::Session session(&count, &words);
+    const std::vector<std::string> arguments(words + (count > 0 ? 1 : 0), words + count);
+    const cli::Processes processes = session.processes();
+    if (session.rank().number == 0) {
+        return cli::report(cli::ending_of([&] { lead(arguments, session, processes); }));
+    }
+    follow(arguments, session);
+    return 0;
+}
