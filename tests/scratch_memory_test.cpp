@@ -1,3 +1,4 @@
+#include "base/droppable_pages.h"
 #include "base/resident_limit.h"
 #include "base/scratch_memory.h"
 #include "support/temporary_folder.h"
@@ -144,6 +145,43 @@ TEST(ScratchMemory, SaysWhatIsMissingWhereTheDiskIsFull)
     void* const memory = allocate_scratch(kLeast, 16);
     EXPECT_NE(memory, nullptr) << "what is smaller still fits";
     free_scratch(memory);
+}
+
+TEST(ScratchMemory, GivesItsPlaceToAFile)
+{
+    const TemporaryFolder folder;
+    const ScratchMemory scratch(folder.path(), kNoLimit);
+    const std::string page(4096, 'a');
+    const auto path = folder.write("file", page + std::string(kLeast - 1, 'b'));
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    void* const memory = allocate_scratch(kLeast, 16);
+    ASSERT_TRUE(map_over_scratch(memory, kLeast - 1, {file, 4096}));
+    ::close(file);
+    const auto* const letters = static_cast<const char*>(memory);
+    EXPECT_EQ(letters[0], 'b');
+    EXPECT_EQ(letters[kLeast - 2], 'b');
+    EXPECT_GT(drop_next_pages(kLeast, false), 0U);
+    EXPECT_EQ(letters[kLeast - 2], 'b') << "it is read back";
+    EXPECT_EQ(num_maps_in(folder.path()), 1) << "what was there is gone";
+    EXPECT_TRUE(free_scratch(memory));
+    EXPECT_EQ(num_maps_in(folder.path()), 0);
+}
+
+TEST(ScratchMemory, GivesNoOtherPlaceToAFile)
+{
+    const TemporaryFolder folder;
+    const ScratchMemory scratch(folder.path(), kNoLimit);
+    const auto path = folder.write("file", std::string(2 * kLeast, 'b'));
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    std::vector<char> ours(2 * kLeast, 'a');
+    EXPECT_FALSE(map_over_scratch(ours.data(), kLeast, {file, 0}));
+    void* const memory = allocate_scratch(kLeast, 16);
+    EXPECT_FALSE(map_over_scratch(memory, kLeast + 1, {file, 0})) << "it is too long";
+    EXPECT_FALSE(map_over_scratch(memory, kLeast, {file, 1})) << "no page begins there";
+    EXPECT_EQ(static_cast<const char*>(memory)[0], '\0');
+    EXPECT_EQ(ours[0], 'a');
+    ::close(file);
+    EXPECT_TRUE(free_scratch(memory));
 }
 
 TEST(ScratchMemory, LeavesNumbersOfFilesToOthers)

@@ -1,3 +1,4 @@
+#include "base/scratch_memory.h"
 #include "io/work/stage_file.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/5_surface/kept_surface.h"
@@ -10,6 +11,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+#include <new>
 #include <random>
 
 namespace vcarve {
@@ -58,6 +62,21 @@ class StageFile : public testing::Test {
     Scene scene = bumpy_sphere(50, 1);
 };
 
+template <typename T>
+struct ScratchAllocator {
+    using value_type = T;
+
+    T* allocate(std::size_t count)
+    {
+        void* const memory = allocate_scratch(count * sizeof(T), alignof(T));
+        if (memory == nullptr) throw std::bad_alloc();
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t /*count*/) { free_scratch(memory); }
+    bool operator==(const ScratchAllocator&) const = default;
+};
+using ScratchNumbers = std::vector<std::uint64_t, ScratchAllocator<std::uint64_t>>;
+
 std::string replaced(std::string bytes, std::size_t at, char mask)
 {
     bytes[at] = static_cast<char>(bytes[at] ^ mask);
@@ -65,6 +84,51 @@ std::string replaced(std::string bytes, std::size_t at, char mask)
 }
 
 } // namespace
+
+TEST_F(StageFile, BeginsLargeArraysWithAPage)
+{
+    EXPECT_EQ(stage_padding(0, 100), 0) << "a small one";
+    EXPECT_EQ(stage_padding(3, 1 << 20), 4096 - kContentBegin - 3);
+    EXPECT_EQ(stage_padding(4096 - kContentBegin, 1 << 20), 0);
+    std::vector<std::uint64_t> numbers(1 << 18);
+    numbers.front() = 0x1122334455667788;
+    const std::vector<std::vector<std::uint64_t>> all = {{7}, numbers, numbers};
+    EXPECT_EQ(through_file(all), all);
+    const std::string bytes = bytes_of(path);
+    std::vector<std::size_t> places;
+    for (std::size_t at = bytes.find("\x88\x77\x66"); at != std::string::npos;
+         at = bytes.find("\x88\x77\x66", at + 1)) {
+        places.push_back(at);
+    }
+    EXPECT_THAT(places, testing::ElementsAre(4096, 4096 + (2 << 20) + 4096));
+}
+
+TEST_F(StageFile, IsMappedWhereArraysAreInScratchMemory)
+{
+    // This program's operator new gives no such memory, so an allocator does.
+    const std::vector<std::uint64_t> numbers(2 << 20, 5);
+    write(numbers);
+    const ScratchMemory scratch(folder.path(), std::numeric_limits<std::int64_t>::max());
+    const auto mapped = [&] {
+        ScratchNumbers found;
+        StageReader reader(path, label, {}, StageReader::Content::mapped);
+        reader.get(found);
+        reader.finish();
+        return found;
+    };
+    EXPECT_TRUE(std::ranges::equal(mapped(), numbers));
+
+    // What is damaged is found where it is read, and believed where it is mapped.
+    std::string bytes = bytes_of(path);
+    bytes[bytes.size() - 100] ^= 1;
+    folder.write("some.stage", bytes);
+    EXPECT_THAT(refusal<InputError>([&] { read<std::vector<std::uint64_t>>(); }),
+                HasSubstr("its content is damaged"));
+    EXPECT_FALSE(std::ranges::equal(mapped(), numbers));
+    // A file that is cut off is no more believed than any.
+    folder.write("some.stage", bytes.substr(0, bytes.size() - 4096));
+    EXPECT_THAT(refusal<InputError>(mapped), HasSubstr("but its header tells of"));
+}
 
 TEST_F(StageFile, GivesBackAScene)
 {

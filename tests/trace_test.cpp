@@ -292,6 +292,37 @@ TEST(TraceSights, LetsAnArcBeFullButNotACell)
               "needs fewer points or views");
 }
 
+TEST(TraceSights, SaysBySharesWhatItSaysAtOnce)
+{
+    // Each of two rays leaves room in an arc; both do not.
+    const Scene scene = star({kBeyondCell0});
+    const Scene twice = star({kBeyondCell0, kBeyondCell0});
+    const TetMesh mesh = triangulate(scene);
+    RaySource one = photographs(scene);
+    RaySource two = photographs(twice);
+    one.weight = two.weight = 1.5e6;
+    const Scales scales = measure_scales(mesh, scene);
+    VisibilityEnergy whole;
+    RayCaster(mesh, twice, scales, kFullWeight).cast(two, whole, {});
+
+    const RayCaster caster(mesh, scene, scales, kFullWeight);
+    VisibilityEnergy said = caster.said_of(one, all_vertices(mesh), {});
+    EXPECT_EQ(said.network.arc_capacities[0][3], 384'000'000);
+    caster.add(caster.share(one, all_vertices(mesh), {}), said);
+    VisibilityEnergy sum;
+    caster.finish(one, std::move(said), sum);
+    EXPECT_EQ(sum.network.arc_capacities, whole.network.arc_capacities);
+    EXPECT_EQ(sum.network.arc_capacities[0][3], 1 << 29);
+    EXPECT_EQ(sum.network.terminal_capacities, whole.network.terminal_capacities);
+    EXPECT_EQ(sum.network.terminal_capacities[0], 768'000'000);
+    EXPECT_EQ(refusal<InputError>([&] {
+                  caster.add(caster.share(one, all_vertices(mesh), {}), sum);
+                  caster.add(caster.share(one, all_vertices(mesh), {}), sum);
+              }),
+              "the 1 sights of the model add up to more than 32 bits hold in one cell; a surface "
+              "needs fewer points or views");
+}
+
 TEST(TraceSights, SaysNothingWithoutSights)
 {
     const Scene scene = star({});

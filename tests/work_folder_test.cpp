@@ -74,6 +74,24 @@ class LimitedFiles {
 
 } // namespace
 
+TEST_F(Work, IsJoinedByOthersThatNeitherLockNorRemoveIt)
+{
+    WorkFolder work(path);
+    work.begin(kJob);
+    {
+        const WorkFolder joined(path, work.job());
+        joined.save("part-1-of-2", {}, Numbers{4});
+        WorkFolder another(path, work.job());
+        another.clear(); // is not for it to do
+    }
+    Numbers numbers;
+    work.load("part-1-of-2", {}, numbers);
+    EXPECT_EQ(numbers, Numbers{4});
+    work.drop("part-1-of-2");
+    work.drop("part-1-of-2");
+    EXPECT_FALSE(work.has("part-1-of-2"));
+}
+
 TEST_F(Work, IsThereForTheNextRunOfTheSameJob)
 {
     leave_a_stage();

@@ -1,0 +1,219 @@
+// A run that several ranks work on, which share a work folder.
+#include "pipeline/rank_shares.h"
+#include "pipeline/thinned_scene.h"
+#include "steps/3_visibility/shared_sights.h"
+#include "support/ranks_in_turn.h"
+#include "support/scenes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace vcarve {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const Job kJob = {{"points3D.bin", "12 bytes"}};
+
+struct NotingLog final : Log {
+    void note(std::string_view sentence) override { notes.emplace_back(sentence); }
+    std::vector<std::string> notes;
+};
+
+Options in_blocks(int blocks)
+{
+    Options options;
+    options.memory.blocks = blocks;
+    return options;
+}
+
+struct Made {
+    TriMesh mesh;
+    std::vector<std::string> tasks;
+    std::vector<std::string> notes;
+};
+
+class RanksOfARun : public testing::Test {
+  protected:
+    using Meddle = std::function<void(const std::string& task)>;
+
+    Made made_by(std::size_t count, const Options& options, const Meddle& meddle = {}) const
+    {
+        WorkFolder work(folder / "work");
+        work.begin(kJob);
+        RanksInTurn ranks(work, options, count);
+        if (meddle) ranks.after_share = meddle;
+        NotingLog log;
+        Made made;
+        made.mesh = reconstruct_thinned(scene, size_of(scene), options, log,
+                                        {.work = &work, .ranks = &ranks})
+                        .mesh;
+        made.tasks = ranks.tasks;
+        made.notes = log.notes;
+        work.clear();
+        return made;
+    }
+
+    void expect_the_same_of_all(const Options& options) const
+    {
+        Log silent;
+        const TriMesh alone = reconstruct_thinned(scene, size_of(scene), options, silent).mesh;
+        ASSERT_FALSE(alone.faces.empty());
+        for (const std::size_t count : {1U, 2U, 4U, 7U}) {
+            const TriMesh mesh = made_by(count, options).mesh;
+            EXPECT_TRUE(mesh.positions == alone.positions) << count;
+            EXPECT_TRUE(mesh.faces == alone.faces) << count;
+            EXPECT_TRUE(mesh.colors == alone.colors) << count;
+        }
+    }
+
+    std::filesystem::path file_of(const std::string& stage) const
+    {
+        return folder / "work" / (stage + ".stage");
+    }
+
+    TemporaryFolder folder;
+    Scene scene = bumpy_sphere(1500, 3);
+};
+
+TEST_F(RanksOfARun, MakeTheSameSurface)
+{
+    expect_the_same_of_all(in_blocks(8));
+    expect_the_same_of_all(in_blocks(2)); // fewer than ranks
+    expect_the_same_of_all(in_blocks(0));
+}
+
+TEST_F(RanksOfARun, MakeTheSameWithVirtualViewsAndByCounting)
+{
+    Options options = in_blocks(4);
+    options.labels.virtual_views.count = 20;
+    expect_the_same_of_all(options);
+    options.labels.method = Method::strict;
+    expect_the_same_of_all(options);
+}
+
+TEST_F(RanksOfARun, MakeTheSameOfBundledSights)
+{
+    std::ranges::fill(scene.errors_px, -1.0); // as of a dense cloud
+    expect_the_same_of_all(in_blocks(4));
+}
+
+TEST_F(RanksOfARun, ShareTheBlocksAndTheSightsOfEachSource)
+{
+    Options options = in_blocks(4);
+    options.labels.virtual_views.count = 20;
+    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kBlocksTask, kSightsTask, kSightsTask));
+    EXPECT_THAT(made_by(1, options).tasks, IsEmpty()) << "nobody to share with";
+    options.memory.blocks = 0;
+    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kSightsTask, kSightsTask));
+}
+
+TEST_F(RanksOfARun, LeaveTheirSharesWhereRankZeroFindsThem)
+{
+    std::vector<std::string> found;
+    made_by(3, in_blocks(5), [&](const std::string& task) {
+        for (const auto* const name :
+             {"cells-0-of-5", "cells-1-of-5", "cells-4-of-5", "sights-1-of-3", "sights-2-of-3"}) {
+            if (std::filesystem::exists(file_of(name))) found.push_back(task + ": " + name);
+        }
+    });
+    EXPECT_THAT(found,
+                ElementsAre("blocks-to-triangulate: cells-0-of-5",
+                            "blocks-to-triangulate: cells-1-of-5",
+                            "blocks-to-triangulate: cells-4-of-5", "sights-to-walk: sights-1-of-3",
+                            "sights-to-walk: sights-2-of-3"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "work")) << "nothing is left at the end";
+}
+
+TEST_F(RanksOfARun, MakeADamagedShareAgain)
+{
+    const TriMesh whole = made_by(1, in_blocks(4)).mesh;
+    const Made mended = made_by(3, in_blocks(4), [&](const std::string& task) {
+        const auto path = file_of(task == kBlocksTask ? "cells-1-of-4" : "sights-2-of-3");
+        std::string bytes = bytes_of(path);
+        bytes[bytes.size() / 2] ^= 1;
+        std::ofstream(path, std::ios::binary) << bytes;
+        std::filesystem::remove(file_of("sights-1-of-3"));
+    });
+    EXPECT_EQ(mended.mesh.faces, whole.faces);
+    EXPECT_EQ(mended.mesh.positions, whole.positions);
+    EXPECT_THAT(mended.notes, testing::Contains(HasSubstr("cells-1-of-4.stage: its content is "
+                                                          "damaged")));
+    EXPECT_THAT(mended.notes, testing::Contains(HasSubstr("sights-2-of-3.stage: its content is "
+                                                          "damaged")));
+}
+
+TEST_F(RanksOfARun, GoOnWithTheSharesOfARunThatEnded)
+{
+    const auto end = [](const std::string& task) {
+        if (task == kSightsTask) throw std::runtime_error("a rank died");
+    };
+    EXPECT_EQ(refusal<std::runtime_error>([&] { made_by(3, in_blocks(4), end); }), "a rank died");
+    const auto written = std::filesystem::last_write_time(file_of("sights-1-of-3"));
+    std::filesystem::file_time_type found;
+    const Made mesh = made_by(3, in_blocks(4), [&](const std::string& /*task*/) {
+        found = std::filesystem::last_write_time(file_of("sights-1-of-3"));
+    });
+    EXPECT_EQ(found, written) << "it was not walked again";
+    EXPECT_THAT(mesh.tasks, ElementsAre(kSightsTask)) << "the cells were kept";
+    EXPECT_EQ(mesh.mesh.faces, made_by(1, in_blocks(4)).mesh.faces);
+}
+
+TEST_F(RanksOfARun, AreRefusedStagesOfAnotherJob)
+{
+    WorkFolder work(folder / "work");
+    work.begin(kJob);
+    work.save("points", {}, std::vector<ToldEvent>(), scene);
+    work.save(kBlocksTask, {}, BlocksTask{4});
+    WorkFolder joined(work.path(), digest_of(Job{{"points3D.bin", "13 bytes"}}));
+    const Options options = in_blocks(4);
+    RankShares shares(joined, options, {1, 2});
+    Log silent;
+    EXPECT_THAT(refusal<InputError>([&] { shares.work(kBlocksTask, silent); }),
+                HasSubstr("blocks-to-triangulate.stage: it is of another input or other options"));
+}
+
+TEST(SharesOfSights, AreAllSightsOnceAndAboutAsMany)
+{
+    const Scene scene = bumpy_sphere(500, 3);
+    for (const std::size_t count : {1U, 2U, 5U, 600U}) {
+        Index next = 0;
+        for (std::size_t number = 0; number < count; ++number) {
+            const VertexRun run = share_of(scene.tracks, {number, count});
+            EXPECT_EQ(run.first, next);
+            next = run.last;
+            const std::uint64_t sights =
+                scene.tracks.begins[run.last] - scene.tracks.begins[run.first];
+            EXPECT_NEAR(static_cast<double>(sights),
+                        static_cast<double>(scene.num_sights()) / static_cast<double>(count), 60.0);
+        }
+        EXPECT_EQ(next, scene.num_points());
+    }
+    EXPECT_EQ(share_of({}, {1, 2}).last, 0U);
+}
+
+TEST(SharesOfSights, SkipRunsOfCellsOfWhichNothingIsSaid)
+{
+    constexpr std::size_t kRun = SparseSums<std::int32_t>::kRun;
+    std::vector<std::int32_t> sums(3 * kRun + 10, 0);
+    sums[kRun] = 4;
+    sums.back() = -2;
+    const SparseSums<std::int32_t> sparse = sparse_sums(sums);
+    EXPECT_THAT(sparse.runs, ElementsAre(1, 3));
+    EXPECT_EQ(sparse.values.size(), kRun + 10);
+    std::vector<std::int32_t> twice = sums;
+    add_sparse(sparse, twice, [](std::int32_t& sum, std::int32_t value) { sum += value; });
+    EXPECT_EQ(twice[kRun], 8);
+    EXPECT_EQ(twice.back(), -4);
+    EXPECT_THAT(sparse_sums(std::vector<std::int32_t>(kRun, 0)).values, IsEmpty());
+    std::vector<std::int32_t> others(kRun);
+    EXPECT_THROW(add_sparse(sparse, others, [](auto&, auto) {}), std::logic_error);
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "io/work/work_folder.h"
+#include "pipeline/rank_shares.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+
+/// Ranks of a run without MPI: each does its share when rank 0 has done its own, in this process,
+/// and knows of the others what is in the work folder.
+class RanksInTurn final : public Ranks {
+  public:
+    RanksInTurn(const WorkFolder& work, const Options& options, std::size_t count)
+        : folder_(work.path(), work.job())
+    {
+        for (std::size_t number = 1; number < count; ++number) {
+            others_.push_back(std::make_unique<RankShares>(folder_, options, Rank{number, count}));
+        }
+    }
+
+    std::size_t count() const override { return others_.size() + 1; }
+    void share(const std::string& task, const std::function<void()>& own) override
+    {
+        tasks.push_back(task);
+        own();
+        Log silent;
+        for (const auto& other : others_) {
+            other->work(task, silent);
+        }
+        after_share(task);
+    }
+
+    std::vector<std::string> tasks;
+    std::function<void(const std::string& task)> after_share = [](const std::string&) {};
+
+  private:
+    WorkFolder folder_;
+    std::vector<std::unique_ptr<RankShares>> others_;
+};
+
+} // namespace vcarve
