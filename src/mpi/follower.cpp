@@ -36,16 +36,23 @@ class QuietLog final : public Log {
 /// What a rank has of a run.
 class JoinedRun {
   public:
-    JoinedRun(const cli::MeshArguments& arguments, const Order& order, const Rank& rank)
-        : folder_(arguments.work, order.job), shares_(folder_, arguments.options, rank)
+    JoinedRun(const cli::MeshArguments& arguments, const Order& begun, const Rank& rank)
+        : most_memory_(begun.most_memory == 0 ? std::numeric_limits<std::int64_t>::max()
+                                              : begun.most_memory),
+          folder_(arguments.work, begun.job),
+          shares_(folder_, arguments.options, rank)
     {
-        constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-        scratch_.emplace(arguments.work, order.most_memory == 0 ? kNoLimit : order.most_memory);
     }
 
-    void work(const char* task, Log& log) { shares_.work(task, log); }
+    void work(const char* task, Log& log)
+    {
+        folder_.wait_for(task);
+        if (!scratch_) scratch_.emplace(folder_.path(), most_memory_);
+        shares_.work(task, log);
+    }
 
   private:
+    std::int64_t most_memory_;
     std::optional<ScratchMemory> scratch_; ///< goes last
     WorkFolder folder_;
     RankShares shares_;

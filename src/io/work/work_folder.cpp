@@ -12,9 +12,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -245,6 +247,19 @@ fs::path WorkFolder::file_of(std::string_view stage) const
 bool WorkFolder::has(std::string_view stage) const
 {
     return fs::exists(file_of(stage));
+}
+
+void WorkFolder::wait_for(std::string_view stage) const
+{
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (!has(stage)) {
+        if (std::chrono::steady_clock::now() > end) {
+            throw UsageError(fmt::format("there is no {}; --work takes a folder on a file system "
+                                         "that all ranks see",
+                                         file_of(stage).string()));
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
 }
 
 bool WorkFolder::holds_stages() const

@@ -47,6 +47,9 @@ class WorkFolder {
     /// Whether there were stages of an earlier run when the job began.
     bool goes_on() const { return goes_on_; }
     bool has(std::string_view stage) const;
+    /// Returns when a stage is there that another process has written: network file systems show
+    /// new files to other machines late. Throws UsageError where it is not within 10 seconds.
+    void wait_for(std::string_view stage) const;
 
     /// Writes what a stage made; tells how many bytes it were. Throws UsageError where that cannot
     /// be written, and Cancelled; the file is whole or not there. Safe from many threads for
