@@ -22,10 +22,8 @@ cli::Manual manual()
     manual.summary = "Turns a COLMAP model into a surface, on many machines.";
     manual.examples = {
         {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR",
-         "on four processes, which share the folder"},
-        {"srun colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on the nodes of a Slurm job"},
-        {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR --max-memory 8G",
-         "with 8 GB for each process"},
+         "on four processes"},
+        {"srun colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on those of a Slurm job"},
     };
     manual.footnotes.front() = {
         "Ranks",
