@@ -6,9 +6,9 @@
 
 int main(int count, char** words)
 {
-    using namespace vcarve::cli;
-    return report(ending_of([&] {
+    namespace cli = vcarve::cli;
+    return cli::report(cli::ending_of([&] {
         const std::vector<std::string> arguments(words + (count > 0 ? 1 : 0), words + count);
-        run_command_line(arguments, commands());
+        cli::run_command_line(arguments, cli::commands());
     }));
 }
