@@ -107,13 +107,23 @@ TEST_F(StageFile, IsMappedWhereArraysAreInScratchMemory)
 {
     // This program's operator new gives no such memory, so an allocator does.
     const std::vector<std::uint64_t> numbers(2 << 20, 5);
-    write(numbers);
+    const std::uint64_t last = 7;
+    StageSizer sizer;
+    sizer.put(numbers);
+    sizer.put(last);
+    StageWriter writer(path, label, sizer.bytes(), {});
+    writer.put(numbers);
+    writer.put(last);
+    writer.commit();
     const ScratchMemory scratch(folder.path(), std::numeric_limits<std::int64_t>::max());
     const auto mapped = [&] {
         ScratchNumbers found;
+        std::uint64_t end = 0;
         StageReader reader(path, label, {}, StageReader::Content::mapped);
         reader.get(found);
+        reader.get(end);
         reader.finish();
+        EXPECT_EQ(end, last);
         return found;
     };
     EXPECT_TRUE(std::ranges::equal(mapped(), numbers));

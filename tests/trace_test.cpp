@@ -323,6 +323,18 @@ TEST(TraceSights, SaysBySharesWhatItSaysAtOnce)
               "needs fewer points or views");
 }
 
+TEST(TraceSights, SaysByAShareWhereTheViewIs)
+{
+    const Scene scene = star({kInCell0});
+    const TetMesh mesh = triangulate(scene);
+    const RaySource source = photographs(scene);
+    const RayCaster caster(mesh, scene, measure_scales(mesh, scene), kFullWeight);
+    VisibilityEnergy said = caster.said_of(source, {0, 4}, {}); // nobody saw these
+    EXPECT_EQ(said.cell_of_view, std::vector<Index>{kInfinite});
+    caster.add(caster.share(source, {4, 5}, {}), said);
+    EXPECT_EQ(said.cell_of_view, std::vector<Index>{0});
+}
+
 TEST(TraceSights, SaysNothingWithoutSights)
 {
     const Scene scene = star({});

@@ -21,8 +21,7 @@ cli::Manual manual()
     manual.command = "colmap-vcarve-mpi";
     manual.summary = "Turns a COLMAP model into a surface, on many machines.";
     manual.examples = {
-        {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR",
-         "on four processes"},
+        {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on four processes"},
         {"srun colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on those of a Slurm job"},
     };
     manual.footnotes.front() = {
