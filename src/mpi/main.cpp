@@ -13,7 +13,8 @@
 
 namespace {
 
-using namespace vcarve;
+namespace cli = vcarve::cli;
+namespace mpi = vcarve::mpi;
 
 cli::Manual manual()
 {

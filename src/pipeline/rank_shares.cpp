@@ -50,10 +50,11 @@ void RankShares::walk_sights(Log& log)
     StageKeeper work(&folder_, log);
     Stage stage(work.log(), "sights");
     if (options_.labels.method == Method::strict) {
-        cast_share(CrossingCounter(cells()), source, task, rank_, work, stage);
+        const CrossingCounter counter(cells());
+        CasterOfRanks(counter, work).share(source, task, rank_, stage);
     } else {
         const RayCaster caster(cells(), scene(), task.scales, options_.labels.trace);
-        cast_share(caster, source, task, rank_, work, stage);
+        CasterOfRanks(caster, work).share(source, task, rank_, stage);
     }
 }
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // Lines of sight that several ranks walk: each those to a run of points, through all cells. What
@@ -66,37 +67,46 @@ inline VertexRun share_of(const Tracks& rays, const Rank& rank)
     return {begin_of(rank.number), begin_of(rank.number + 1)};
 }
 
-/// What a caster's cast() does, with the other ranks. A share that is missing or damaged is walked
-/// here.
-template <typename Caster, typename Said>
-void cast_among_ranks(const Caster& caster, const RaySource& source, const SightsTask& task,
-                      StageKeeper& work, Said& said, const Progress& progress)
-{
-    constexpr double kWalks = 0.9; // of the time; the rest is adding what others say
-    const std::size_t ranks = work.num_ranks();
-    Said sum;
-    const bool is_shared = work.share(kSightsTask, task, kNeededForSights, [&] {
-        sum =
-            caster.said_of(source, share_of(*source.rays, {0, ranks}), progress.part(0.0, kWalks));
-    });
-    if (!is_shared) return caster.cast(source, said, progress);
-    for (std::size_t number = 1; number < ranks; ++number) {
-        const VertexRun points = share_of(*source.rays, {number, ranks});
-        caster.add(work.piece({task.stage, number, ranks},
-                              [&] { return caster.share(source, points, {}); }),
-                   sum);
-    }
-    caster.finish(source, std::move(sum), said);
-}
-
-/// The other side of it: walks the share of another rank, and keeps what it says.
+/// Casts rays by ranks: a RayCaster or a CrossingCounter, and the stages of the run. Both must
+/// outlive it.
 template <typename Caster>
-void cast_share(const Caster& caster, const RaySource& source, const SightsTask& task,
-                const Rank& rank, StageKeeper& work, const Progress& progress)
-{
-    work.piece({task.stage, rank.number, rank.of},
-               [&] { return caster.share(source, share_of(*source.rays, rank), progress); });
-}
+class CasterOfRanks {
+  public:
+    CasterOfRanks(const Caster& caster, StageKeeper& work) : caster_(caster), work_(work) {}
+
+    /// What the caster's cast() does, with the other ranks. A share that is missing or damaged is
+    /// walked here.
+    template <typename Said>
+    void cast(const RaySource& source, const SightsTask& task, Said& said,
+              const Progress& progress) const
+    {
+        constexpr double kWalks = 0.9; // of the time; the rest is adding what others say
+        const std::size_t ranks = work_.num_ranks();
+        Said sum;
+        const bool is_shared = work_.share(kSightsTask, task, kNeededForSights, [&] {
+            sum = caster_.said_of(source, share_of(*source.rays, {0, ranks}),
+                                  progress.part(0.0, kWalks));
+        });
+        if (!is_shared) return caster_.cast(source, said, progress);
+        for (std::size_t number = 1; number < ranks; ++number) {
+            caster_.add(share(source, task, {number, ranks}, {}), sum);
+        }
+        caster_.finish(source, std::move(sum), said);
+    }
+
+    /// The share of a rank, which is kept: walked by that rank, and found by the first.
+    typename Caster::Share share(const RaySource& source, const SightsTask& task, const Rank& rank,
+                                 const Progress& progress) const
+    {
+        return work_.piece({task.stage, rank.number, rank.of}, [&] {
+            return caster_.share(source, share_of(*source.rays, rank), progress);
+        });
+    }
+
+  private:
+    const Caster& caster_;
+    StageKeeper& work_;
+};
 
 template <>
 struct KeptFields<Tracks> {

@@ -59,10 +59,10 @@ Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options
 Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
                 StageKeeper& work)
 {
+    const CrossingCounter counter(cells);
     const auto cast = [&](const RaySource& source, std::string_view stage, Crossings& crossings,
                           const Progress& progress) {
-        cast_among_ranks(CrossingCounter(cells), source, task_of(source, stage, {}), work,
-                         crossings, progress);
+        CasterOfRanks(counter, work).cast(source, task_of(source, stage, {}), crossings, progress);
     };
     const auto label = [&](const Crossings& crossings) {
         Stage stage(work.log(), "carve");
@@ -97,8 +97,8 @@ Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& opti
     const auto cast = [&](const RaySource& source, std::string_view stage, VisibilityEnergy& energy,
                           const Progress& progress) {
         if (!scales) scales = measure_scales(cells, scene);
-        cast_among_ranks(RayCaster(cells, scene, *scales, options.trace), source,
-                         task_of(source, stage, *scales), work, energy, progress);
+        const RayCaster caster(cells, scene, *scales, options.trace);
+        CasterOfRanks(caster, work).cast(source, task_of(source, stage, *scales), energy, progress);
     };
     const auto label = [&](VisibilityEnergy energy) {
         return cut(cells, scene, std::move(energy), options, work.log());
