@@ -35,6 +35,7 @@ Options in_blocks(int blocks)
 struct Made {
     TriMesh mesh;
     std::vector<std::string> tasks;
+    std::vector<std::string> files;
     std::vector<std::string> notes;
 };
 
@@ -54,6 +55,7 @@ class RanksOfARun : public testing::Test {
                                         {.work = &work, .ranks = &ranks})
                         .mesh;
         made.tasks = ranks.tasks;
+        made.files = ranks.files;
         made.notes = log.notes;
         work.clear();
         return made;

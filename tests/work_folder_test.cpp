@@ -87,6 +87,7 @@ TEST_F(Work, IsJoinedByOthersThatNeitherLockNorRemoveIt)
     Numbers numbers;
     work.load("part-1-of-2", {}, numbers);
     EXPECT_EQ(numbers, Numbers{4});
+    EXPECT_NO_THROW(work.wait_for("part-1-of-2"));
     work.drop("part-1-of-2");
     work.drop("part-1-of-2");
     EXPECT_FALSE(work.has("part-1-of-2"));

@@ -32,20 +32,20 @@ const TetMesh& RankShares::cells()
     return *cells_;
 }
 
-void RankShares::triangulate(Log& log)
+void RankShares::triangulate(std::string_view file, Log& log)
 {
     BlocksTask task;
-    folder_.map(kBlocksTask, task);
+    folder_.map(file, task);
     StageKeeper work(&folder_, log);
     Stage stage(work.log(), "triangulate");
     triangulate_share(scene(), kept_blocks(task.count, work), rank_, stage);
     return_freed_memory();
 }
 
-void RankShares::walk_sights(Log& log)
+void RankShares::walk_sights(std::string_view file, Log& log)
 {
     SightsTask task;
-    folder_.map(kSightsTask, task);
+    folder_.map(file, task);
     const RaySource source = task.source(scene());
     StageKeeper work(&folder_, log);
     Stage stage(work.log(), "sights");
@@ -62,10 +62,10 @@ void RankShares::work(std::string_view task, Log& log)
 {
     tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic : options_.threads);
     arena.execute([&] {
-        if (task == kBlocksTask) {
-            triangulate(log);
-        } else if (task == kSightsTask) {
-            walk_sights(log);
+        if (task.starts_with(kBlocksTask)) {
+            triangulate(task, log);
+        } else if (task.starts_with(kSightsTask)) {
+            walk_sights(task, log);
         } else {
             throw std::logic_error("a rank is asked for what it does not know");
         }

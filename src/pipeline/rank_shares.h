@@ -17,7 +17,8 @@
 
 namespace vcarve {
 
-/// Blocks that ranks are to triangulate, under that name, and the stages it takes.
+/// Blocks that ranks are to triangulate, what the name of such a task begins with, and the stages
+/// that it takes.
 struct BlocksTask {
     std::size_t count = 0; ///< of all blocks
 };
@@ -43,8 +44,8 @@ class RankShares {
     void work(std::string_view task, Log& log);
 
   private:
-    void triangulate(Log& log);
-    void walk_sights(Log& log);
+    void triangulate(std::string_view task, Log& log);
+    void walk_sights(std::string_view task, Log& log);
     const Scene& scene();
     const TetMesh& cells();
 

@@ -2,6 +2,7 @@
 
 #include "io/work/work_folder.h"
 #include "pipeline/rank_shares.h"
+#include "steps/3_visibility/shared_sights.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 
@@ -27,17 +28,20 @@ class RanksInTurn final : public Ranks {
     std::size_t count() const override { return others_.size() + 1; }
     void share(const std::string& task, const std::function<void()>& own) override
     {
-        tasks.push_back(task);
+        const std::string kind(task.starts_with(kBlocksTask) ? kBlocksTask : kSightsTask);
+        tasks.push_back(kind);
+        files.push_back(task);
         own();
         Log silent;
         for (const auto& other : others_) {
             other->work(task, silent);
         }
-        after_share(task);
+        after_share(kind);
     }
 
-    std::vector<std::string> tasks;
-    std::function<void(const std::string& task)> after_share = [](const std::string&) {};
+    std::vector<std::string> tasks; ///< of what kind they were
+    std::vector<std::string> files; ///< what they were called
+    std::function<void(const std::string& kind)> after_share = [](const std::string&) {};
 
   private:
     WorkFolder folder_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 namespace vcarve {
 
@@ -66,6 +67,13 @@ void StageKeeper::note_unkept(std::string_view name, const UsageError& error)
 void StageKeeper::note_unusable(const InputError& error)
 {
     shown_.note(fmt::format("{}; {}", error.what(), kMadeAgain));
+}
+
+/// No task has the name of another, also of another process: a rank may still see the file of one
+/// that is over, on a network file system or of a job that was killed.
+std::string StageKeeper::name_of_task(std::string_view name)
+{
+    return fmt::format("{}-{}-{}", name, ::getpid(), ++num_tasks_);
 }
 
 void StageKeeper::tell_unusable_pieces()

@@ -109,7 +109,7 @@ class StageKeeper {
     /// How many processes work on the run.
     std::size_t num_ranks() const { return ranks_ == nullptr ? 1 : ranks_->count(); }
 
-    /// Has the other ranks do their shares of a task, whose file they find under that name, and
+    /// Has the other ranks do their shares of a task, whose file has a name that begins so, and
     /// calls own() for the share of this one. False, and nothing is done, where there are no
     /// others, or `needed`, stages that they begin with, could not be kept. Throws as
     /// Ranks::share() does, and UsageError where the task cannot be written.
@@ -127,11 +127,13 @@ class StageKeeper {
     void note_unusable(const InputError& error);
     void note_unkept(std::string_view name, const UsageError& error);
     void tell_unusable_pieces();
+    std::string name_of_task(std::string_view name);
 
     WorkFolder* folder_;
     Ranks* ranks_;
     Log& shown_;
     RememberingLog remembering_;
+    int num_tasks_ = 0;
     std::mutex mutex_;                  ///< guards what follows
     std::vector<std::string> unusable_; ///< sentences about pieces
 };
@@ -182,9 +184,10 @@ bool StageKeeper::share(std::string_view name, const Task& task,
     if (num_ranks() == 1 || folder_ == nullptr || !std::ranges::all_of(needed, is_there)) {
         return false;
     }
-    folder_->save(name, {}, task);
-    ranks_->share(std::string(name), own);
-    folder_->drop(name);
+    const std::string file = name_of_task(name);
+    folder_->save(file, {}, task);
+    ranks_->share(file, own);
+    folder_->drop(file);
     return true;
 }
 

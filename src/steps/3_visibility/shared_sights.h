@@ -20,7 +20,7 @@
 
 namespace vcarve {
 
-/// Under what name a task for ranks is kept, and the stages it needs.
+/// What the name of a task for ranks begins with, and the stages that it takes.
 inline constexpr std::string_view kSightsTask = "sights-to-walk";
 inline constexpr std::array<std::string_view, 2> kNeededForSights = {"points", "cells"};
 
