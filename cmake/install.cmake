@@ -29,7 +29,7 @@ if(VCARVE_PROGRAM)
   set_target_properties(colmap-vcarve PROPERTIES
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS colmap-vcarve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  if(VCARVE_MPI)
+  if(TARGET colmap-vcarve-mpi)
     set_target_properties(colmap-vcarve-mpi PROPERTIES
       INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
     install(TARGETS colmap-vcarve-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

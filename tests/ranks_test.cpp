@@ -124,11 +124,9 @@ TEST_F(RanksOfARun, LeaveTheirSharesWhereRankZeroFindsThem)
             if (std::filesystem::exists(file_of(name))) found.push_back(task + ": " + name);
         }
     });
-    EXPECT_THAT(found,
-                ElementsAre("blocks-to-triangulate: cells-0-of-5",
-                            "blocks-to-triangulate: cells-1-of-5",
-                            "blocks-to-triangulate: cells-4-of-5", "sights-to-walk: sights-1-of-3",
-                            "sights-to-walk: sights-2-of-3"));
+    EXPECT_THAT(found, ElementsAre("task-blocks: cells-0-of-5", "task-blocks: cells-1-of-5",
+                                   "task-blocks: cells-4-of-5", "task-sights: sights-1-of-3",
+                                   "task-sights: sights-2-of-3"));
     EXPECT_FALSE(std::filesystem::exists(folder / "work")) << "nothing is left at the end";
 }
 
@@ -177,7 +175,7 @@ TEST_F(RanksOfARun, AreRefusedStagesOfAnotherJob)
     RankShares shares(joined, options, {1, 2});
     Log silent;
     EXPECT_THAT(refusal<InputError>([&] { shares.work(kBlocksTask, silent); }),
-                HasSubstr("blocks-to-triangulate.stage: it is of another input or other options"));
+                HasSubstr("task-blocks.stage: it is of another input or other options"));
 }
 
 TEST(SharesOfSights, AreAllSightsOnceAndAboutAsMany)

@@ -251,25 +251,29 @@ bool free_scratch(void* memory) noexcept
 bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place)
 {
     Blocks& all = blocks();
-    std::map<void*, Block>::node_type block;
     {
         const std::lock_guard lock(all.mutex);
-        block = all.by_begin.extract(memory);
+        const auto known = all.by_begin.find(memory);
+        if (known == all.by_begin.end() || bytes > known->second.bytes) return false;
     }
-    if (block.empty()) return false;
-    Block& known = block.mapped();
-    const std::size_t whole_pages = (bytes + kPage - 1) / kPage * kPage;
-    bool is_mapped = false;
-    if (whole_pages <= known.bytes) {
-        known.pages = DroppablePages(); // nobody drops what is being mapped anew
-        is_mapped = ::mmap(memory, bytes, PROT_READ, MAP_SHARED | MAP_FIXED, place.file,
-                           place.begin) != MAP_FAILED;
-        if (is_mapped) known.file = File(DroppablePages::kNoFile);
-        known.pages = DroppablePages(memory, known.bytes, known.file.descriptor());
+    // Mapped elsewhere first, so that nothing is lost where that fails.
+    void* const mapped = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, place.file, place.begin);
+    if (mapped == MAP_FAILED) return false;
+    if (::mremap(mapped, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, memory) == MAP_FAILED) {
+        ::munmap(mapped, bytes);
+        return false;
     }
-    const std::lock_guard lock(all.mutex);
-    all.by_begin.insert(std::move(block));
-    return is_mapped;
+    // What was there before goes, and what is there now may be dropped in turn.
+    const auto exchange = [&](DroppablePages pages, File file) {
+        const std::lock_guard lock(all.mutex);
+        Block& block = all.by_begin.find(memory)->second;
+        std::swap(block.pages, pages);
+        std::swap(block.file, file);
+        return std::pair(std::move(pages), std::move(file));
+    };
+    exchange({}, File(DroppablePages::kNoFile));
+    exchange(DroppablePages(memory, bytes), File(DroppablePages::kNoFile));
+    return true;
 }
 
 std::optional<std::int64_t> free_space(const fs::path& folder)

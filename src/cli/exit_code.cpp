@@ -1,5 +1,6 @@
 #include "cli/exit_code.h"
 
+#include "io/work/ranks.h"
 #include "vcarve/error.h"
 
 #include <cstdio>
@@ -17,6 +18,8 @@ Ending ending_of(const std::function<void()>& main)
         return {2, error.what()};
     } catch (const InputError& error) {
         return {3, error.what()};
+    } catch (const RankError& error) {
+        return {error.exit_code(), error.what()};
     } catch (const std::bad_alloc&) {
         return {1, ""}; // no text, for there may be no memory for it
     } catch (const std::exception& error) {

@@ -73,6 +73,15 @@ void ArrayFolder::prepare(std::int64_t bytes) const
     }
 }
 
+std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted, std::size_t processes)
+{
+    if (wanted.most == 0) return std::nullopt;
+    if (wanted.most != MemoryOptions::kAutoMemory) return wanted.most;
+    const std::optional<std::int64_t> free = free_memory();
+    if (!free) return std::nullopt;
+    return *free / static_cast<std::int64_t>(processes) / 5 * 4;
+}
+
 RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
                      const Processes& processes)
     : wanted_(wanted),

@@ -33,6 +33,10 @@ class ArrayFolder {
     std::filesystem::path path_;
 };
 
+/// How much one of some processes on this machine may take, in bytes, as --max-memory says: given,
+/// or four fifths of its share of what is free now; nothing where there is no limit.
+std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted, std::size_t processes);
+
 /// Decides whether a run works in memory or in blocks, and keeps its arrays in the work folder in
 /// the latter case, for as long as the object lives.
 class RunMemory {
@@ -49,8 +53,6 @@ class RunMemory {
 
     /// What reconstruct() is to be told.
     MemoryOptions options() const;
-    /// How much each process may take, in bytes; 0 for all there is.
-    std::int64_t most() const { return plan_.most; }
     /// {"blocks", "needed_bytes", "allowed_bytes", "expected_scratch_bytes", "scratch_bytes"}; the
     /// last is the most that was in the folder at a time up to now.
     Json record() const;

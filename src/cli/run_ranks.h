@@ -2,9 +2,9 @@
 
 #include "io/work/digest.h"
 #include "io/work/ranks.h"
+#include "vcarve/options.h"
 
 #include <cstddef>
-#include <cstdint>
 
 namespace vcarve::cli {
 
@@ -20,9 +20,11 @@ class RunRanks : public Ranks {
     virtual Processes processes() const = 0;
     std::size_t count() const override { return processes().all; }
 
-    /// Tells the others, before anything is shared, which job it is and how much memory each of
-    /// them may take, in bytes; 0 for all there is.
-    virtual void begin(const Digest& job, std::int64_t most_memory) = 0;
+    /// Tells the others, before anything is shared, which job it is, and of which options.
+    virtual void begin(const Digest& job, const Digest& options) = 0;
 };
+
+/// Differs where options, or programs, make other surfaces.
+Digest digest_of_options(const Options& options);
 
 } // namespace vcarve::cli

@@ -3,6 +3,7 @@
 #include "base/scratch_memory.h"
 #include "base/threads.h"
 #include "cli/exit_code.h"
+#include "cli/run_memory.h"
 #include "io/work/work_folder.h"
 #include "pipeline/rank_shares.h"
 #include "vcarve/error.h"
@@ -36,30 +37,38 @@ class QuietLog final : public Log {
 /// What a rank has of a run.
 class JoinedRun {
   public:
-    JoinedRun(const cli::MeshArguments& arguments, const Order& begun, const Rank& rank)
-        : most_memory_(begun.most_memory == 0 ? std::numeric_limits<std::int64_t>::max()
-                                              : begun.most_memory),
+    JoinedRun(const cli::MeshArguments& arguments, const Order& begun, const Session& session,
+              const cli::Processes& processes)
+        : allowed_(cli::allowed_memory(arguments.options.memory, processes.here)),
           folder_(arguments.work, begun.job),
-          shares_(folder_, arguments.options, rank)
+          shares_(folder_, arguments.options, session.rank())
     {
+        if (begun.options != cli::digest_of_options(arguments.options)) {
+            throw UsageError("it was started with other options, or is another program, than "
+                             "rank 0");
+        }
     }
 
     void work(const char* task, Log& log)
     {
-        folder_.wait_for(task);
-        if (!scratch_) scratch_.emplace(folder_.path(), most_memory_);
+        {
+            Stage stage(log, "wait");
+            folder_.wait_for(task, stage);
+        }
+        constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+        if (!scratch_) scratch_.emplace(folder_.path(), allowed_.value_or(kNoLimit));
         shares_.work(task, log);
     }
 
   private:
-    std::int64_t most_memory_;
+    std::optional<std::int64_t> allowed_;  ///< of memory
     std::optional<ScratchMemory> scratch_; ///< goes last
     WorkFolder folder_;
     RankShares shares_;
 };
 
 /// Does a share in a thread of its own, so that this one can hear of orders to stop.
-Reply done(const Session& session, const Order& order, const std::function<void(Log&)>& work)
+Reply done(const Session& session, const std::function<void(Log&)>& work)
 {
     QuietLog log;
     cli::Ending ending;
@@ -86,7 +95,7 @@ Reply done(const Session& session, const Order& order, const std::function<void(
     Reply reply = {.exit_code = ending.exit_code, .was_stopped = was_stopped ? 1 : 0};
     if (ending.exit_code != 0) {
         set_text(reply.sentence,
-                 fmt::format("{} failed in {}: {}", session.name(), order.task.data(),
+                 fmt::format("{} failed: {}", session.name(),
                              ending.sentence.empty() ? "out of memory" : ending.sentence));
     }
     return reply;
@@ -94,13 +103,15 @@ Reply done(const Session& session, const Order& order, const std::function<void(
 
 } // namespace
 
-void follow(const Session& session, const cli::MeshArguments& arguments)
+void follow(const Session& session, const cli::Processes& processes, const ReadArguments& read)
 {
+    cli::MeshArguments arguments;
+    const cli::Ending reading = cli::ending_of([&] { arguments = read(); });
     const int threads =
         arguments.options.threads == 0 ? available_threads() : arguments.options.threads;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    std::optional<Order> begun;
+    Order begun;
     std::unique_ptr<JoinedRun> run;
     for (;;) {
         const std::optional<Order> order = session.order();
@@ -109,10 +120,11 @@ void follow(const Session& session, const cli::MeshArguments& arguments)
             continue;
         }
         if (order->kind == Order::Kind::end) return;
-        if (order->kind == Order::Kind::begin) begun = order;
+        if (order->kind == Order::Kind::begin) begun = *order;
         if (order->kind != Order::Kind::work) continue;
-        session.send(done(session, *order, [&](Log& log) {
-            if (!run) run = std::make_unique<JoinedRun>(arguments, begun.value(), session.rank());
+        session.send(done(session, [&](Log& log) {
+            if (reading.exit_code != 0) throw RankError(reading.exit_code, reading.sentence);
+            if (!run) run = std::make_unique<JoinedRun>(arguments, begun, session, processes);
             run->work(order->task.data(), log);
         }));
     }

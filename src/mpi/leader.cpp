@@ -1,27 +1,15 @@
 #include "mpi/leader.h"
 
-#include "vcarve/error.h"
-
 #include <chrono>
 #include <exception>
-#include <stdexcept>
-#include <string>
 #include <thread>
+#include <utility>
 
 namespace vcarve::mpi {
 
 namespace {
 
 constexpr std::chrono::milliseconds kPause(3);
-
-/// What the run of rank 0 ends with where another rank failed.
-[[noreturn]] void fail_as(const Reply& reply)
-{
-    const std::string sentence = reply.sentence.data();
-    if (reply.exit_code == 2) throw UsageError(sentence);
-    if (reply.exit_code == 3) throw InputError(sentence);
-    throw std::runtime_error(sentence);
-}
 
 } // namespace
 
@@ -37,28 +25,33 @@ void Leader::tell_all(const Order& order) const
     }
 }
 
-void Leader::begin(const Digest& job, std::int64_t most_memory)
+void Leader::begin(const Digest& job, const Digest& options)
 {
-    tell_all({.kind = Order::Kind::begin, .job = job, .most_memory = most_memory});
+    tell_all({.kind = Order::Kind::begin, .job = job, .options = options});
 }
 
-/// Throws what the first of them failed with, when the others have stopped.
-void Leader::wait_for_all()
+/// Waits until all others are done, and tells what the first of them failed with. Stops the others
+/// then, or where `stops` is set.
+std::optional<RankError> Leader::gather(const std::atomic<bool>& stops)
 {
-    std::optional<Reply> failure;
+    std::optional<RankError> failure;
+    bool are_stopped = false;
     for (std::size_t left = processes_.all - 1; left > 0;) {
+        if ((stops || failure) && !std::exchange(are_stopped, true)) {
+            tell_all({.kind = Order::Kind::stop});
+        }
         const std::optional<Session::Replied> replied = session_.reply();
         if (!replied) {
             std::this_thread::sleep_for(kPause);
             continue;
         }
         --left;
-        const bool has_failed = replied->reply.exit_code != 0 && replied->reply.was_stopped == 0;
-        if (!has_failed || failure) continue;
-        failure = replied->reply;
-        tell_all({.kind = Order::Kind::stop});
+        const Reply& reply = replied->reply;
+        if (reply.exit_code == 0 || reply.was_stopped != 0 || failure) continue;
+        failure.emplace(reply.exit_code, reply.sentence.data());
+        has_failed_ = true;
     }
-    if (failure) fail_as(*failure);
+    return failure;
 }
 
 void Leader::share(const std::string& task, const std::function<void()>& own)
@@ -66,19 +59,21 @@ void Leader::share(const std::string& task, const std::function<void()>& own)
     Order order = {.kind = Order::Kind::work};
     set_text(order.task, task);
     tell_all(order);
-    std::exception_ptr failure;
+    has_failed_ = false;
+    std::atomic<bool> own_failed = false;
+    std::optional<RankError> failure;
+    // Until it ends, it alone calls MPI.
+    std::thread gatherer([&] { failure = gather(own_failed); });
+    std::exception_ptr own_failure;
     try {
         own();
     } catch (...) {
-        failure = std::current_exception();
-        tell_all({.kind = Order::Kind::stop});
+        own_failure = std::current_exception();
+        own_failed = true;
     }
-    try {
-        wait_for_all();
-    } catch (...) {
-        if (!failure) throw;
-    }
-    if (failure) std::rethrow_exception(failure);
+    gatherer.join();
+    if (failure) throw RankError(*failure); // own() was stopped for it, if it failed
+    if (own_failure) std::rethrow_exception(own_failure);
 }
 
 } // namespace vcarve::mpi

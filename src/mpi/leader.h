@@ -3,10 +3,15 @@
 #include "cli/run_ranks.h"
 #include "mpi/session.h"
 
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
 namespace vcarve::mpi {
 
-/// The other ranks, for rank 0, which tells them what to do. While they work it looks a few hundred
-/// times a second whether they are done, and leaves its core to others in between.
+/// The other ranks, for rank 0, which tells them what to do. While they work a thread looks a few
+/// hundred times a second whether one is done or has failed, and sleeps in between.
 class Leader final : public cli::RunRanks {
   public:
     /// `session` must outlive it. Made by all ranks at the same time, see Session::processes().
@@ -20,15 +25,17 @@ class Leader final : public cli::RunRanks {
     ~Leader() override;
 
     cli::Processes processes() const override { return processes_; }
-    void begin(const Digest& job, std::int64_t most_memory) override;
+    void begin(const Digest& job, const Digest& options) override;
     void share(const std::string& task, const std::function<void()>& own) override;
+    bool has_failed() const override { return has_failed_; }
 
   private:
     void tell_all(const Order& order) const;
-    void wait_for_all();
+    std::optional<RankError> gather(const std::atomic<bool>& stops);
 
     const Session& session_;
     cli::Processes processes_;
+    std::atomic<bool> has_failed_ = false; ///< another rank
 };
 
 } // namespace vcarve::mpi

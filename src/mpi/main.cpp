@@ -43,15 +43,6 @@ void lead(const std::vector<std::string>& arguments, const mpi::Session& session
     cli::run_command_line(arguments, {&command, 1});
 }
 
-/// What is wrong with the command line is said by rank 0.
-void follow(const std::vector<std::string>& arguments, const mpi::Session& session)
-{
-    cli::MeshArguments read;
-    cli::ending_of(
-        [&] { read = read_mesh_arguments(cli::parse_arguments(arguments, manual().options)); });
-    mpi::follow(session, read);
-}
-
 } // namespace
 
 int main(int count, char** words)
@@ -62,6 +53,8 @@ int main(int count, char** words)
     if (session.rank().number == 0) {
         return cli::report(cli::ending_of([&] { lead(arguments, session, processes); }));
     }
-    follow(arguments, session);
+    mpi::follow(session, processes, [&] {
+        return cli::read_mesh_arguments(cli::parse_arguments(arguments, manual().options));
+    });
     return 0;
 }

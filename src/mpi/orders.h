@@ -13,7 +13,7 @@ namespace vcarve::mpi {
 /// From rank 0 to the others.
 struct Order {
     enum class Kind : std::int32_t {
-        begin, ///< a run: its job, and how much memory a rank may take
+        begin, ///< a run: its job, and a digest of its options
         work,  ///< on its share of a task
         stop,  ///< that work; also told to who has done it meanwhile
         end,   ///< of the program
@@ -21,7 +21,7 @@ struct Order {
     Kind kind = Kind::end;
     std::array<char, 64> task{}; ///< the name of its file, to work on
     Digest job{};
-    std::int64_t most_memory = 0; ///< bytes; 0 for all there is
+    Digest options{};
 };
 
 /// From another rank to rank 0, when its share is done or has failed.

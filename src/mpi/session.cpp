@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <array>
+#include <stdexcept>
 
 namespace vcarve::mpi {
 
@@ -49,8 +50,11 @@ std::optional<int> receive(Message& message, int tag)
 
 Session::Session(int* count, char*** words)
 {
-    int provided = 0; // other threads never call MPI
-    MPI_Init_thread(count, words, MPI_THREAD_FUNNELED, &provided);
+    int provided = 0;
+    MPI_Init_thread(count, words, MPI_THREAD_SERIALIZED, &provided);
+    if (provided < MPI_THREAD_SERIALIZED) {
+        throw std::runtime_error("this MPI takes calls of one thread only");
+    }
 }
 
 Session::~Session()

@@ -9,8 +9,8 @@
 
 namespace vcarve::mpi {
 
-/// MPI, begun when the object is made and ended when it goes. All calls are for the thread that
-/// made it. What a call of MPI does not do ends all ranks, as MPI's own handler of errors says.
+/// MPI, begun when the object is made and ended when it goes. One thread at a time may call. What
+/// a call of MPI does not do ends all ranks, as MPI's own handler of errors says.
 class Session {
   public:
     Session(int* count, char*** words);

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 namespace vcarve {
 
@@ -22,13 +23,21 @@ Blocks kept_blocks(std::size_t count, StageKeeper& work)
 
 const Scene& RankShares::scene()
 {
-    if (!scene_) map_stage(folder_, "points", scene_.emplace());
+    if (!scene_) {
+        Scene scene;
+        map_stage(folder_, "points", scene);
+        scene_ = std::move(scene);
+    }
     return *scene_;
 }
 
 const TetMesh& RankShares::cells()
 {
-    if (!cells_) map_stage(folder_, "cells", cells_.emplace());
+    if (!cells_) {
+        TetMesh cells;
+        map_stage(folder_, "cells", cells);
+        cells_ = std::move(cells);
+    }
     return *cells_;
 }
 

@@ -22,7 +22,7 @@ namespace vcarve {
 struct BlocksTask {
     std::size_t count = 0; ///< of all blocks
 };
-inline constexpr std::string_view kBlocksTask = "blocks-to-triangulate";
+inline constexpr std::string_view kBlocksTask = "task-blocks";
 inline constexpr std::array<std::string_view, 1> kNeededForBlocks = {"points"};
 
 /// Blocks that are parts of the stage "cells".

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 namespace vcarve {
@@ -10,6 +11,19 @@ namespace vcarve {
 struct Rank {
     std::size_t number = 0; ///< from 0
     std::size_t of = 1;
+};
+
+/// Another rank failed: what() is its sentence. The model need not be at fault.
+class RankError : public std::runtime_error {
+  public:
+    RankError(int exit_code, const std::string& sentence)
+        : std::runtime_error(sentence), exit_code_(exit_code)
+    {
+    }
+    int exit_code() const { return exit_code_; }
+
+  private:
+    int exit_code_; ///< what the program is to end with
 };
 
 /// All processes of a run, for the first of them, rank 0: it takes the run's steps, and the others
@@ -27,8 +41,10 @@ class Ranks {
 
     /// Has every other rank do its share of what the stage file `task` of the run's work folder
     /// asks for, calls own() here meanwhile, and returns when all are done. Throws what own()
-    /// throws, and UsageError or InputError with the sentence of the rank that failed.
+    /// throws, and RankError where another rank failed; then the rest is stopped.
     virtual void share(const std::string& task, const std::function<void()>& own) = 0;
+    /// Whether another rank has failed, so that own() should stop. From any thread.
+    virtual bool has_failed() const { return false; }
 };
 
 } // namespace vcarve

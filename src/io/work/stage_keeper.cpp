@@ -76,6 +76,17 @@ std::string StageKeeper::name_of_task(std::string_view name)
     return fmt::format("{}-{}-{}", name, ::getpid(), ++num_tasks_);
 }
 
+void StageKeeper::share_file(const std::string& task, const std::function<void()>& own)
+{
+    try {
+        ranks_->share(task, own);
+    } catch (...) {
+        folder_->drop(task);
+        throw;
+    }
+    folder_->drop(task);
+}
+
 void StageKeeper::tell_unusable_pieces()
 {
     const std::lock_guard lock(mutex_);

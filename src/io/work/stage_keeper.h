@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -46,13 +47,19 @@ struct KeptFields<ToldEvent> {
 /// Passes on what it is told, and remembers it.
 class RememberingLog final : public Log {
   public:
-    explicit RememberingLog(Log& shown) : shown_(shown) {}
+    /// Also wants to stop where one of `ranks` has failed, if they are not null.
+    explicit RememberingLog(Log& shown, const Ranks* ranks = nullptr) : shown_(shown), ranks_(ranks)
+    {
+    }
 
     void stage_begins(std::string_view name) override { shown_.stage_begins(name); }
     void stage_progresses(double share) override { shown_.stage_progresses(share); }
     void stage_ends(std::string_view name, const Counts& counts) override;
     void note(std::string_view sentence) override;
-    bool wants_stop() const override { return shown_.wants_stop(); }
+    bool wants_stop() const override
+    {
+        return shown_.wants_stop() || (ranks_ != nullptr && ranks_->has_failed());
+    }
 
     const std::vector<ToldEvent>& told() const { return told_; }
     /// Tells all of it, now.
@@ -60,6 +67,7 @@ class RememberingLog final : public Log {
 
   private:
     Log& shown_;
+    const Ranks* ranks_;
     std::vector<ToldEvent> told_;
 };
 
@@ -83,7 +91,7 @@ class StageKeeper {
     /// again. `folder`, where it is not null, has begun the job; `ranks`, where it is not null,
     /// have that folder in common. All of them must outlive it.
     StageKeeper(WorkFolder* folder, Log& log, Ranks* ranks = nullptr)
-        : folder_(folder), ranks_(ranks), shown_(log), remembering_(log)
+        : folder_(folder), ranks_(ranks), shown_(log), remembering_(log, ranks)
     {
     }
 
@@ -128,6 +136,7 @@ class StageKeeper {
     void note_unkept(std::string_view name, const UsageError& error);
     void tell_unusable_pieces();
     std::string name_of_task(std::string_view name);
+    void share_file(const std::string& task, const std::function<void()>& own);
 
     WorkFolder* folder_;
     Ranks* ranks_;
@@ -186,8 +195,7 @@ bool StageKeeper::share(std::string_view name, const Task& task,
     }
     const std::string file = name_of_task(name);
     folder_->save(file, {}, task);
-    ranks_->share(file, own);
-    folder_->drop(file);
+    share_file(file, own);
     return true;
 }
 

@@ -43,6 +43,12 @@ bool is_part(const std::string& name)
     return name.find(".part-") != std::string::npos;
 }
 
+/// Whether a name is one of a task for ranks, which is over when its job is.
+bool is_task(const std::string& name)
+{
+    return name.starts_with("task-");
+}
+
 /// Whether we write files of that name.
 bool is_ours(const std::string& name)
 {
@@ -199,7 +205,7 @@ WorkFolder::WorkFolder(fs::path folder)
     }
     for (const fs::path& file : files_in(folder_)) {
         const std::string name = file.filename();
-        if (is_ours(name) && is_part(name)) remove_quietly(file);
+        if (is_ours(name) && (is_part(name) || is_task(name))) remove_quietly(file);
     }
 }
 
@@ -249,11 +255,14 @@ bool WorkFolder::has(std::string_view stage) const
     return fs::exists(file_of(stage));
 }
 
-void WorkFolder::wait_for(std::string_view stage) const
+void WorkFolder::wait_for(std::string_view stage, const Progress& progress) const
 {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    // A network file system may believe for half a minute that what was not there is not there.
+    const auto begin = std::chrono::steady_clock::now();
     while (!has(stage)) {
-        if (std::chrono::steady_clock::now() > end) {
+        const std::chrono::seconds most(fs::exists(folder_) ? 60 : 5);
+        progress.tell(0.0);
+        if (std::chrono::steady_clock::now() > begin + most) {
             throw UsageError(fmt::format("there is no {}; --work takes a folder on a file system "
                                          "that all ranks see",
                                          file_of(stage).string()));

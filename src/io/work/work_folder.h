@@ -48,8 +48,9 @@ class WorkFolder {
     bool goes_on() const { return goes_on_; }
     bool has(std::string_view stage) const;
     /// Returns when a stage is there that another process has written: network file systems show
-    /// new files to other machines late. Throws UsageError where it is not within 10 seconds.
-    void wait_for(std::string_view stage) const;
+    /// new files to other machines late. Throws UsageError where it is not within a minute, or the
+    /// folder within 5 seconds, and Cancelled.
+    void wait_for(std::string_view stage, const Progress& progress = {}) const;
 
     /// Writes what a stage made; tells how many bytes it were. Throws UsageError where that cannot
     /// be written, and Cancelled; the file is whole or not there. Safe from many threads for

@@ -144,6 +144,7 @@ TetMesh joined(std::vector<BlockCells>& blocks)
 void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& rank,
                        const Progress& progress)
 {
+    if (scene.num_points() < 4) return; // refused by who makes the whole
     const std::vector<Index> first = first_points(scene.positions);
     const std::size_t count = num_blocks(blocks, scene);
     if (first.size() < 4 || rank.number >= count) return;

@@ -21,7 +21,7 @@
 namespace vcarve {
 
 /// What the name of a task for ranks begins with, and the stages that it takes.
-inline constexpr std::string_view kSightsTask = "sights-to-walk";
+inline constexpr std::string_view kSightsTask = "task-sights";
 inline constexpr std::array<std::string_view, 2> kNeededForSights = {"points", "cells"};
 
 /// Rays that ranks are to walk.
@@ -41,12 +41,18 @@ struct SightsTask {
     }
 };
 
-/// What other ranks have to be told of a source that is walked for a stage.
-inline SightsTask task_of(const RaySource& source, std::string_view stage, const Scales& scales)
+/// What sights are walked for: a stage, and what their weights are relative to.
+struct SightsOfStage {
+    std::string_view name;
+    Scales scales;
+};
+
+/// What other ranks have to be told of a source that is walked.
+inline SightsTask task_of(const RaySource& source, const SightsOfStage& stage)
 {
     SightsTask task;
-    task.stage = stage;
-    task.scales = scales;
+    task.stage = stage.name;
+    task.scales = stage.scales;
     task.of_photographs = source.is_measured;
     if (task.of_photographs) return task;
     task.origins = source.origins;
@@ -77,9 +83,11 @@ class CasterOfRanks {
     /// What the caster's cast() does, with the other ranks. A share that is missing or damaged is
     /// walked here.
     template <typename Said>
-    void cast(const RaySource& source, const SightsTask& task, Said& said,
+    void cast(const RaySource& source, const SightsOfStage& stage, Said& said,
               const Progress& progress) const
     {
+        if (work_.num_ranks() == 1) return caster_.cast(source, said, progress);
+        const SightsTask task = task_of(source, stage);
         constexpr double kWalks = 0.9; // of the time; the rest is adding what others say
         const std::size_t ranks = work_.num_ranks();
         Said sum;

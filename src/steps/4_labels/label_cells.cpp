@@ -62,7 +62,7 @@ Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& op
     const CrossingCounter counter(cells);
     const auto cast = [&](const RaySource& source, std::string_view stage, Crossings& crossings,
                           const Progress& progress) {
-        CasterOfRanks(counter, work).cast(source, task_of(source, stage, {}), crossings, progress);
+        CasterOfRanks(counter, work).cast(source, {stage, {}}, crossings, progress);
     };
     const auto label = [&](const Crossings& crossings) {
         Stage stage(work.log(), "carve");
@@ -98,7 +98,7 @@ Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& opti
                           const Progress& progress) {
         if (!scales) scales = measure_scales(cells, scene);
         const RayCaster caster(cells, scene, *scales, options.trace);
-        CasterOfRanks(caster, work).cast(source, task_of(source, stage, *scales), energy, progress);
+        CasterOfRanks(caster, work).cast(source, {stage, *scales}, energy, progress);
     };
     const auto label = [&](VisibilityEnergy energy) {
         return cut(cells, scene, std::move(energy), options, work.log());
