@@ -130,5 +130,38 @@ TEST(RunMemory, SaysThatAFolderCannotBeUsedBeforeItIsNeeded)
                 HasSubstr("cannot use the work folder"));
 }
 
+TEST(RunMemory, HasABlockForEachThreadOfEachRank)
+{
+    const TemporaryFolder folder;
+    const ArrayFolder work(folder / "work", "out.ply");
+    Notes notes;
+    {
+        RunMemory memory({}, 2, work, {.all = 3, .here = 1});
+        memory.fit(kRun, notes);
+        EXPECT_EQ(memory.options().blocks, 6);
+        EXPECT_THAT(notes.heard, ElementsAre(HasSubstr(": 6 blocks for 3 ranks, scratch of")));
+    }
+    const auto blocks_of = [&](MemoryOptions wanted) {
+        RunMemory memory(wanted, 2, work, {.all = 3, .here = 1});
+        memory.fit(kRun, notes);
+        return memory.options().blocks;
+    };
+    EXPECT_EQ(blocks_of({.blocks = 4}), 4) << "as it was asked for";
+    EXPECT_EQ(blocks_of({.blocks = 0}), 0);
+    const std::int64_t scratch_of_one = predicted_scratch(kRun);
+    RunMemory memory({}, 2, work, {.all = 3, .here = 1});
+    memory.fit(kRun, notes);
+    EXPECT_EQ(memory.record()["expected_scratch_bytes"],
+              scratch_of_one + 2 * predicted_share(kRun));
+}
+
+TEST(RunMemory, SharesWhatIsFreeAmongTheRanksOfAMachine)
+{
+    EXPECT_EQ(allowed_memory({.most = 1000}, 4), 1000) << "said for each rank";
+    EXPECT_EQ(allowed_memory({.most = 0}, 4), std::nullopt) << "no limit";
+    const auto alone = static_cast<double>(*allowed_memory({}, 1));
+    EXPECT_NEAR(static_cast<double>(*allowed_memory({}, 4)), alone / 4.0, alone / 10.0);
+}
+
 } // namespace
 } // namespace vcarve::cli
