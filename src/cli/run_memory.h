@@ -38,7 +38,8 @@ class ArrayFolder {
 class RunMemory {
   public:
     /// Several processes on a machine share what it has free, and cut the model into blocks, of
-    /// which each of them has some.
+    /// which each of them has some; where each could have all of the run in memory, arrays stay
+    /// there.
     RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
               const Processes& processes = {});
 
@@ -49,8 +50,8 @@ class RunMemory {
 
     /// What reconstruct() is to be told.
     MemoryOptions options() const;
-    /// How much each process may take, in bytes; 0 for all there is.
-    std::int64_t most() const { return plan_.most; }
+    /// What each process may take.
+    RankMemory of_each_rank() const { return {plan_.most, plan_.in_files()}; }
     /// {"blocks", "needed_bytes", "allowed_bytes", "expected_scratch_bytes", "scratch_bytes"}; the
     /// last is the most that was in the folder at a time up to now.
     Json record() const;

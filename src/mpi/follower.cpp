@@ -21,7 +21,7 @@ namespace vcarve::mpi {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPause(3);
+constexpr std::chrono::milliseconds kPause(10);
 
 /// Says nothing, and stops what it is told of where that is wished.
 class QuietLog final : public Log {
@@ -39,6 +39,10 @@ class JoinedRun {
     JoinedRun(const cli::MeshArguments& arguments, const Order& order, const Rank& rank)
         : folder_(arguments.work, order.job), shares_(folder_, arguments.options, rank)
     {
+        if (order.keeps_in_files == 0) {
+            scratch_.emplace();
+            return;
+        }
         constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
         scratch_.emplace(arguments.work, order.most_memory == 0 ? kNoLimit : order.most_memory);
     }

@@ -12,7 +12,7 @@ namespace vcarve::mpi {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPause(3);
+constexpr std::chrono::milliseconds kPause(10);
 
 /// What the run of rank 0 ends with where another rank failed.
 [[noreturn]] void fail_as(const Reply& reply)
@@ -37,9 +37,12 @@ void Leader::tell_all(const Order& order) const
     }
 }
 
-void Leader::begin(const Digest& job, std::int64_t most_memory)
+void Leader::begin(const Digest& job, const cli::RankMemory& memory)
 {
-    tell_all({.kind = Order::Kind::begin, .job = job, .most_memory = most_memory});
+    tell_all({.kind = Order::Kind::begin,
+              .keeps_in_files = memory.in_files ? 1 : 0,
+              .job = job,
+              .most_memory = memory.most});
 }
 
 /// Throws what the first of them failed with, when the others have stopped.

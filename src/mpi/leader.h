@@ -5,7 +5,7 @@
 
 namespace vcarve::mpi {
 
-/// The other ranks, for rank 0, which tells them what to do. While they work it looks a few hundred
+/// The other ranks, for rank 0, which tells them what to do. While they work it looks a hundred
 /// times a second whether they are done, and leaves its core to others in between.
 class Leader final : public cli::RunRanks {
   public:
@@ -20,7 +20,7 @@ class Leader final : public cli::RunRanks {
     ~Leader() override;
 
     cli::Processes processes() const override { return processes_; }
-    void begin(const Digest& job, std::int64_t most_memory) override;
+    void begin(const Digest& job, const cli::RankMemory& memory) override;
     void share(const std::string& task, const std::function<void()>& own) override;
 
   private:

@@ -19,7 +19,8 @@ struct Order {
         end,   ///< of the program
     };
     Kind kind = Kind::end;
-    std::array<char, 64> task{}; ///< the name of its file, to work on
+    std::int32_t keeps_in_files = 0; ///< large arrays, of a run
+    std::array<char, 64> task{};     ///< the name of its file, to work on
     Digest job{};
     std::int64_t most_memory = 0; ///< bytes; 0 for all there is
 };

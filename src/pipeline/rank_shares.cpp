@@ -20,6 +20,13 @@ Blocks kept_blocks(std::size_t count, StageKeeper& work)
             }};
 }
 
+Blocks shared_blocks(std::size_t count, StageKeeper& work)
+{
+    return {count, [count, &work](std::size_t block, const std::function<BlockCells()>& make) {
+                return work.shared_piece({"cells", block, count}, make);
+            }};
+}
+
 const Scene& RankShares::scene()
 {
     if (!scene_) map_stage(folder_, "points", scene_.emplace());

@@ -27,6 +27,9 @@ inline constexpr std::array<std::string_view, 1> kNeededForBlocks = {"points"};
 /// Blocks that are parts of the stage "cells".
 Blocks kept_blocks(std::size_t count, StageKeeper& work);
 
+/// The same when ranks have made them.
+Blocks shared_blocks(std::size_t count, StageKeeper& work);
+
 /// Does a rank's shares of a run, as the first rank asks for them. Memory: the scene and the cells,
 /// mapped from the work folder where there is a ScratchMemory, else read; and 20 bytes a cell, 16
 /// with Method::strict.

@@ -82,8 +82,8 @@ void cast_among_ranks(const Caster& caster, const RaySource& source, const Sight
     if (!is_shared) return caster.cast(source, said, progress);
     for (std::size_t number = 1; number < ranks; ++number) {
         const VertexRun points = share_of(*source.rays, {number, ranks});
-        caster.add(work.piece({task.stage, number, ranks},
-                              [&] { return caster.share(source, points, {}); }),
+        caster.add(work.shared_piece({task.stage, number, ranks},
+                                     [&] { return caster.share(source, points, {}); }),
                    sum);
     }
     caster.finish(source, std::move(sum), said);
