@@ -105,6 +105,37 @@ TEST(RunMemory, KeepsArraysInFilesWhereItWorksInBlocksAndSaysWhyOnce)
     EXPECT_EQ(allocate_scratch(ScratchMemory::kLeastBytes, 16), nullptr);
 }
 
+TEST(RunMemory, CutsForRanksAndStaysInMemoryWhereEachCouldHaveAll)
+{
+    const TemporaryFolder folder;
+    const ArrayFolder work(folder / "work", "out.ply");
+    {
+        RunMemory memory({.most = std::int64_t{1} << 30}, 3, work, {.all = 4, .here = 2});
+        Notes notes;
+        memory.fit(kRun, notes);
+        EXPECT_EQ(memory.options().blocks, 12) << "one for each thread";
+        EXPECT_FALSE(memory.of_each_rank().in_files);
+        EXPECT_EQ(memory.of_each_rank().most, std::int64_t{1} << 30);
+        EXPECT_THAT(notes.heard, ElementsAre(MatchesRegex("about [0-9.]+M needed, 1.074G allowed: "
+                                                          "12 blocks for 4 ranks, in memory")));
+        void* const array = allocate_scratch(ScratchMemory::kLeastBytes, 16);
+        EXPECT_TRUE(free_scratch(array)) << "stage files can be mapped in its place";
+        EXPECT_EQ(memory.record()["expected_scratch_bytes"], 0);
+        EXPECT_TRUE(std::filesystem::is_empty(work.path()));
+    }
+    RunSize large = kRun;
+    large.thinned.points = 10'000'000;
+    RunMemory memory({.most = std::int64_t{500} << 20}, 3, work, {.all = 4, .here = 2});
+    Notes notes;
+    memory.fit(kRun, notes);
+    EXPECT_FALSE(memory.of_each_rank().in_files);
+    memory.fit(large, notes); // what is known at first may be too little
+    EXPECT_TRUE(memory.of_each_rank().in_files);
+    EXPECT_THAT(notes.heard.back(), HasSubstr("blocks for 4 ranks, scratch of about "));
+    memory.fit(kRun, notes);
+    EXPECT_TRUE(memory.of_each_rank().in_files);
+}
+
 TEST(RunMemory, StaysInFilesWhereWhatIsLeftOfACloudWouldFit)
 {
     const TemporaryFolder folder;
