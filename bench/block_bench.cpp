@@ -2,7 +2,6 @@
 
 #include "io/colmap/find_model.h"
 #include "io/colmap/model_size.h"
-#include "io/files/mapped_file.h"
 #include "program_run.h"
 #include "run_report.h"
 
@@ -17,13 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kInMemory = "0";
-
-bool have_same_bytes(const fs::path& a, const fs::path& b)
-{
-    const MappedFile first(a);
-    const MappedFile second(b);
-    return std::ranges::equal(first.bytes(), second.bytes());
-}
 
 /// 0 where that only shows when it is read.
 std::size_t points_of(const fs::path& model)
@@ -63,11 +55,6 @@ std::vector<BlockRun> wanted_runs(const BlockRuns& runs)
         std::ranges::for_each(runs.blocks, add);
     }
     return wanted;
-}
-
-std::string megabytes(const Json& figures, const char* name)
-{
-    return fmt::format("{:.0f}", 1e-6 * figures[name].get<double>());
 }
 
 /// The figure beside that of the run in memory; "-" where there is none.

@@ -1,5 +1,7 @@
 #include "program_run.h"
 
+#include "io/files/mapped_file.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/resource.h>
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 {
     std::vector<char*> pointers(words.size() + 1, nullptr); // the last ends the list
     std::ranges::transform(words, pointers.begin(), [](std::string& word) { return word.data(); });
-    ::execv(pointers[0], pointers.data());
+    ::execvp(pointers[0], pointers.data());
     ::_exit(127);
 }
 
@@ -122,6 +124,18 @@ Json measure_program(const std::vector<std::string>& words, const std::filesyste
             {"scratch_bytes", scratch_bytes},
             {"written_bytes", moved("wchar:", "write_bytes:")},
             {"read_bytes", moved("rchar:", "read_bytes:")}};
+}
+
+std::string megabytes(const Json& figures, const char* name)
+{
+    return fmt::format("{:.0f}", 1e-6 * figures[name].get<double>());
+}
+
+bool have_same_bytes(const fs::path& a, const fs::path& b)
+{
+    const MappedFile first(a);
+    const MappedFile second(b);
+    return std::ranges::equal(first.bytes(), second.bytes());
 }
 
 } // namespace vcarve::bench

@@ -1,9 +1,10 @@
 // Measures whole runs, from files to files, against CGAL's triangulation of the same points:
 // seconds, CPU seconds and peaks of memory, stage by stage; or runs of the program in blocks
-// against those in memory. See tools/bench.
+// against those in memory, or on ranks against one process. See tools/bench.
 
 #include "block_bench.h"
 #include "measurements.h"
+#include "rank_bench.h"
 #include "run_report.h"
 
 #include <CLI/App.hpp>
@@ -18,6 +19,7 @@
 #include <exception>
 #include <fstream>
 #include <map>
+#include <thread>
 
 namespace vcarve::bench {
 
@@ -35,9 +37,11 @@ struct Arguments {
     std::vector<int> threads = {1, 2};
     std::size_t rounds = 3;
     std::vector<std::string> blocks; ///< none: runs are not measured in blocks
-    std::filesystem::path program;   ///< which is run in blocks
+    std::filesystem::path program;   ///< which is run in blocks, and beside ranks
     bool no_memory_run = false;
-    std::filesystem::path json; ///< empty: none
+    std::vector<std::size_t> ranks;     ///< none: runs are not measured on ranks
+    std::filesystem::path rank_program; ///< which they run
+    std::filesystem::path json;         ///< empty: none
 };
 
 using Rounds = std::map<int, std::vector<Json>>; ///< measurements, by the number of threads
@@ -75,15 +79,28 @@ SampleResult measure(const Sample& sample, const Arguments& arguments)
             .runs = medians_of(runs)};
 }
 
-std::string machine_line()
+std::string load_line()
 {
     std::array<double, 3> loads{};
     const bool known = ::getloadavg(loads.data(), 3) == 3;
-    return fmt::format("Load of the machine when this began: {:.1f}. Peaks are above the program's "
-                       "own memory; predicted / measured is of the whole "
-                       "process. x sequential and x parallel: times CGAL's triangulation alone, "
-                       "the latter on as many threads.",
-                       known ? loads[0] : -1.0);
+    return fmt::format("Load of the machine when this began: {:.1f}.", known ? loads[0] : -1.0);
+}
+
+std::string machine_line()
+{
+    return load_line() + " Peaks are above the program's own memory; predicted / measured is of "
+                         "the whole process. x sequential and x parallel: times CGAL's "
+                         "triangulation alone, the latter on as many threads.";
+}
+
+std::string rank_line()
+{
+    return fmt::format(
+        "{} It has {} cores, so more ranks than that cannot be as fast; CPU seconds, of all ranks "
+        "and of what starts them, suffer less from others at work. One rank works in memory, and "
+        "has nobody to share with, but keeps its stages in the work folder as the others do; one "
+        "process keeps nothing.",
+        load_line(), std::thread::hardware_concurrency());
 }
 
 /// Every noise with every share of outliers.
@@ -108,6 +125,17 @@ std::vector<SampleKind> kinds(const Arguments& arguments)
     return result;
 }
 
+/// A model made of so many points.
+Sample made_sample(const Arguments& arguments, const SampleKind& kind, std::uint64_t points)
+{
+    const auto folder = arguments.folder / fmt::format("{}_{}", name_of(kind), points);
+    in_own_process([&] {
+        make_model(folder, kind, points);
+        return Json();
+    });
+    return {folder, folder};
+}
+
 /// The models given, or models made of as many points as asked for.
 std::vector<Sample> samples(const Arguments& arguments)
 {
@@ -118,12 +146,7 @@ std::vector<Sample> samples(const Arguments& arguments)
     if (!result.empty()) return result;
     for (const SampleKind& kind : kinds(arguments)) {
         for (const std::uint64_t points : arguments.points) {
-            const auto folder = arguments.folder / fmt::format("{}_{}", name_of(kind), points);
-            in_own_process([&] {
-                make_model(folder, kind, points);
-                return Json();
-            });
-            result.push_back({folder, folder});
+            result.push_back(made_sample(arguments, kind, points));
         }
     }
     return result;
@@ -151,6 +174,42 @@ bool run_in_blocks(const Arguments& arguments)
         std::fflush(stdout);
         record.push_back(json_of(result));
         is_same = is_same && is_same_everywhere(result);
+    }
+    write_json(arguments.json, record);
+    return is_same;
+}
+
+/// Models of as many points for every rank.
+std::vector<RankModel> rank_models(const Arguments& arguments, const SampleKind& kind,
+                                   std::uint64_t points)
+{
+    std::vector<RankModel> models;
+    for (const std::size_t ranks : arguments.ranks) {
+        const Sample sample = made_sample(arguments, kind, ranks * points);
+        models.push_back({.folder = sample.model, .points = ranks * points, .ranks = ranks});
+    }
+    return models;
+}
+
+/// False where a surface was another on ranks than on one process.
+bool run_on_ranks(const Arguments& arguments)
+{
+    const RankRuns runs = {.program = arguments.program,
+                           .rank_program = arguments.rank_program,
+                           .folder = arguments.folder,
+                           .rounds = arguments.rounds};
+    Json record = Json::array();
+    bool is_same = true;
+    fmt::print("{}\n\n", rank_line());
+    for (const SampleKind& kind : kinds(arguments)) {
+        for (const std::uint64_t points : arguments.points) {
+            const auto results = measure_ranks(rank_models(arguments, kind, points), runs);
+            const std::string title = fmt::format("{}: {} points a rank", name_of(kind), points);
+            fmt::print("{}\n", rank_report(title, results));
+            std::fflush(stdout);
+            record.push_back({{"model", title}, {"runs", json_of(results)}});
+            is_same = is_same && is_same_everywhere(results);
+        }
     }
     write_json(arguments.json, record);
     return is_same;
@@ -213,6 +272,22 @@ void add_block_options(CLI::App& app, Arguments& arguments)
         ->needs(blocks);
 }
 
+void add_rank_options(CLI::App& app, Arguments& arguments)
+{
+    CLI::Option* program =
+        app.add_option("--rank-program", arguments.rank_program, "which is run on ranks")
+            ->check(CLI::ExistingFile);
+    app.add_option("--ranks", arguments.ranks,
+                   "runs it on so many ranks, each with --points of a model, beside the program "
+                   "on one process: 1,2,4")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->needs(program)
+        ->needs("--program")
+        ->excludes("--model")
+        ->excludes("--blocks");
+}
+
 } // namespace
 
 } // namespace vcarve::bench
@@ -225,12 +300,14 @@ int main(int count, char** words)
         app.add_option("--folder", arguments.folder, "where models are, or are made")->required();
         vcarve::bench::add_sample_options(app, arguments);
         vcarve::bench::add_block_options(app, arguments);
+        vcarve::bench::add_rank_options(app, arguments);
         app.add_option("--threads", arguments.threads, "1,2")->delimiter(',');
         app.add_option("--rounds", arguments.rounds, "of which medians are printed")
             ->check(CLI::PositiveNumber);
         app.add_option("--json", arguments.json, "a file for all figures");
         CLI11_PARSE(app, count, words);
         if (!arguments.blocks.empty()) return vcarve::bench::run_in_blocks(arguments) ? 0 : 1;
+        if (!arguments.ranks.empty()) return vcarve::bench::run_on_ranks(arguments) ? 0 : 1;
         vcarve::bench::run(arguments);
         return 0;
     } catch (const std::exception& error) {

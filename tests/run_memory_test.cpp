@@ -105,6 +105,38 @@ TEST(RunMemory, KeepsArraysInFilesWhereItWorksInBlocksAndSaysWhyOnce)
     EXPECT_EQ(allocate_scratch(ScratchMemory::kLeastBytes, 16), nullptr);
 }
 
+TEST(RunMemory, CutsForRanksAndStaysInMemoryWhereEachCouldHaveAll)
+{
+    const TemporaryFolder folder;
+    const ArrayFolder work(folder / "work", "out.ply");
+    {
+        RunMemory memory({.most = std::int64_t{1} << 30}, 3, work, {.all = 4, .here = 2});
+        Notes notes;
+        memory.fit(kRun, notes);
+        EXPECT_EQ(memory.options().blocks, 12) << "one for each thread";
+        EXPECT_FALSE(memory.in_files());
+        EXPECT_THAT(notes.heard, ElementsAre(MatchesRegex("about [0-9.]+M needed, 1G allowed: "
+                                                          "12 blocks for 4 ranks, in memory")));
+        void* const array = allocate_scratch(ScratchMemory::kLeastBytes, 16);
+        EXPECT_TRUE(free_scratch(array)) << "stage files can be mapped in its place";
+        EXPECT_EQ(memory.record()["expected_scratch_bytes"], 0);
+        EXPECT_TRUE(std::filesystem::is_empty(work.path()));
+    }
+    RunSize large = kRun;
+    large.thinned.points = 10'000'000;
+    RunMemory memory({.most = std::int64_t{500} << 20}, 3, work, {.all = 4, .here = 2});
+    Notes notes;
+    memory.fit(kRun, notes);
+    EXPECT_FALSE(memory.in_files());
+    memory.fit(large, notes); // what is known at first may be too little
+    EXPECT_TRUE(memory.in_files());
+    EXPECT_THAT(notes.heard.back(), HasSubstr("blocks for 4 ranks, scratch of about "));
+    EXPECT_EQ(memory.record()["expected_scratch_bytes"],
+              predicted_scratch(large) + 3 * predicted_share(large));
+    memory.fit(kRun, notes);
+    EXPECT_TRUE(memory.in_files());
+}
+
 TEST(RunMemory, StaysInFilesWhereWhatIsLeftOfACloudWouldFit)
 {
     const TemporaryFolder folder;
@@ -128,31 +160,6 @@ TEST(RunMemory, SaysThatAFolderCannotBeUsedBeforeItIsNeeded)
     const ArrayFolder work(file, "out.ply");
     EXPECT_THAT(refusal<UsageError>([&] { RunMemory({}, 1, work); }),
                 HasSubstr("cannot use the work folder"));
-}
-
-TEST(RunMemory, HasABlockForEachThreadOfEachRank)
-{
-    const TemporaryFolder folder;
-    const ArrayFolder work(folder / "work", "out.ply");
-    Notes notes;
-    {
-        RunMemory memory({}, 2, work, {.all = 3, .here = 1});
-        memory.fit(kRun, notes);
-        EXPECT_EQ(memory.options().blocks, 6);
-        EXPECT_THAT(notes.heard, ElementsAre(HasSubstr(": 6 blocks for 3 ranks, scratch of")));
-    }
-    const auto blocks_of = [&](MemoryOptions wanted) {
-        RunMemory memory(wanted, 2, work, {.all = 3, .here = 1});
-        memory.fit(kRun, notes);
-        return memory.options().blocks;
-    };
-    EXPECT_EQ(blocks_of({.blocks = 4}), 4) << "as it was asked for";
-    EXPECT_EQ(blocks_of({.blocks = 0}), 0);
-    const std::int64_t scratch_of_one = predicted_scratch(kRun);
-    RunMemory memory({}, 2, work, {.all = 3, .here = 1});
-    memory.fit(kRun, notes);
-    EXPECT_EQ(memory.record()["expected_scratch_bytes"],
-              scratch_of_one + 2 * predicted_share(kRun));
 }
 
 TEST(RunMemory, SharesWhatIsFreeAmongTheRanksOfAMachine)

@@ -30,6 +30,7 @@ using testing::MatchesRegex;
 
 constexpr std::size_t kLeast = ScratchMemory::kLeastBytes;
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
+constexpr std::size_t kAllPages = std::numeric_limits<std::size_t>::max();
 
 std::span<std::uint64_t> numbers_at(void* memory, std::size_t bytes)
 {
@@ -218,6 +219,34 @@ TEST(ScratchMemory, IsNotThereInAChildThatCouldWriteToTheParentsArrays)
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_EQ(status, 0);
     free_scratch(memory);
+}
+
+TEST(ScratchMemory, LetsAFileStandInMemoryThatIsNotInTheFolder)
+{
+    const TemporaryFolder folder;
+    const std::string content(kLeast, 'x');
+    const int file = ::open(folder.write("file", content).c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_GE(file, 0);
+    const std::int64_t before = ScratchMemory::peak_bytes();
+    const ScratchMemory scratch;
+    constexpr std::size_t kBytes = kLeast + 8192;
+    void* const memory = allocate_scratch(kBytes, 16);
+    ASSERT_NE(memory, nullptr);
+    const auto numbers = numbers_at(memory, kBytes);
+    EXPECT_THAT(numbers, testing::Each(0U));
+    std::ranges::fill(numbers, 5U);
+    drop_next_pages(kAllPages, false);
+    EXPECT_EQ(numbers.front(), 5U) << "there is no file to read it back from";
+    EXPECT_EQ(num_maps_in(folder.path()), 0);
+    EXPECT_TRUE(map_over_scratch(memory, kLeast, {file, 0}));
+    ::close(file);
+    EXPECT_EQ(num_maps_in(folder.path()), 1);
+    drop_next_pages(kAllPages, false);
+    EXPECT_EQ(static_cast<const char*>(memory)[kLeast - 1], 'x');
+    EXPECT_EQ(numbers.back(), 5U) << "what is beyond the file stays";
+    EXPECT_EQ(ScratchMemory::peak_bytes(), before);
+    EXPECT_TRUE(free_scratch(memory));
+    EXPECT_EQ(num_maps_in(folder.path()), 0);
 }
 
 TEST(ScratchMemory, ServesManyThreadsWhilePagesAreDropped)

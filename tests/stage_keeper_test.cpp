@@ -207,6 +207,23 @@ class PiecesOfKeeper : public Keeper {
     std::atomic<int> made = 0;
 };
 
+TEST_F(PiecesOfKeeper, AreBelievedWhereRanksOfThisRunHaveMadeThem)
+{
+    const auto numbers = [](StageKeeper& keeper) {
+        return keeper.piece({"numbers", 0, 1}, [] { return Numbers(50, 7); });
+    };
+    const auto shared = [](StageKeeper& keeper) {
+        return keeper.shared_piece({"numbers", 0, 1}, [] { return Numbers(50, 8); });
+    };
+    EXPECT_EQ(run(shared), Numbers(50, 8)) << "one that is not there is made";
+    EXPECT_EQ(run(numbers), Numbers(50, 8));
+    damage("numbers-0-of-1.stage");
+    const Numbers believed = run(shared);
+    EXPECT_EQ(believed.size(), 50U);
+    EXPECT_NE(believed, Numbers(50, 8));
+    EXPECT_EQ(run(numbers), Numbers(50, 7)) << "others are looked at";
+}
+
 TEST_F(PiecesOfKeeper, AreNotMadeAgain)
 {
     EXPECT_EQ(refusal<InputError>([&] { squares(20, 15); }), "killed");

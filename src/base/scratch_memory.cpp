@@ -49,11 +49,13 @@ class File {
     int descriptor_;
 };
 
-/// A file that is mapped. Its members go in the order that is needed: first nobody drops pages.
+/// A file that is mapped, or memory without one. Its members go in the order that is needed: first
+/// nobody drops pages.
 struct Block {
     File file;
     std::size_t bytes;
     DroppablePages pages;
+    std::int64_t in_folder; ///< bytes
 };
 
 /// All of them, and where new ones are made. It lives as long as the process, because arrays are
@@ -62,7 +64,7 @@ struct Block {
 struct Blocks {
     std::mutex mutex;
     std::map<void*, Block> by_begin;
-    fs::path folder; ///< where is_open
+    fs::path folder; ///< where is_open; empty for memory
     std::int64_t bytes = 0;
     std::int64_t peak_bytes = 0;
     bool is_open = false;               ///< whether arrays are kept here
@@ -160,7 +162,8 @@ std::map<void*, Block> new_block(std::size_t bytes, const fs::path& folder)
     try {
         file = kept_open(std::move(file));
         DroppablePages pages(begin, bytes, file.descriptor());
-        block.emplace(begin, Block{std::move(file), bytes, std::move(pages)});
+        block.emplace(begin, Block{std::move(file), bytes, std::move(pages),
+                                   static_cast<std::int64_t>(bytes)});
     } catch (...) {
         ::munmap(begin, bytes);
         throw;
@@ -168,12 +171,38 @@ std::map<void*, Block> new_block(std::size_t bytes, const fs::path& folder)
     return block;
 }
 
-/// Where new blocks are made now; nothing where arrays stay in memory.
+/// The same without a file.
+std::map<void*, Block> new_block_in_memory(std::size_t bytes)
+{
+    void* const begin =
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (begin == MAP_FAILED) throw std::bad_alloc();
+    std::map<void*, Block> block;
+    try {
+        block.emplace(begin, Block{File(DroppablePages::kNoFile), bytes, DroppablePages(), 0});
+    } catch (...) {
+        ::munmap(begin, bytes);
+        throw;
+    }
+    return block;
+}
+
+/// Where new blocks are made now: empty for memory; nothing where none are.
 std::optional<fs::path> present_folder()
 {
     const std::lock_guard lock(blocks().mutex);
     if (!blocks().is_open) return std::nullopt;
     return blocks().folder;
+}
+
+/// New blocks are made there from now on.
+void open_blocks(fs::path folder)
+{
+    Blocks& all = blocks();
+    const std::lock_guard lock(all.mutex);
+    if (all.is_open) throw std::logic_error("there is a ScratchMemory");
+    all.folder.swap(folder);
+    all.is_open = true;
 }
 
 } // namespace
@@ -187,15 +216,13 @@ ScratchError::ScratchError(const std::string& sentence)
 ScratchMemory::ScratchMemory(const fs::path& folder, std::int64_t most_resident)
 {
     unnamed_file(folder);
-    Blocks& all = blocks();
-    fs::path exchanged = folder;
-    {
-        const std::lock_guard lock(all.mutex);
-        if (all.is_open) throw std::logic_error("there is a ScratchMemory");
-        all.folder.swap(exchanged);
-        all.is_open = true;
-    }
+    open_blocks(folder);
     limit_.emplace(most_resident);
+}
+
+ScratchMemory::ScratchMemory()
+{
+    open_blocks({});
 }
 
 ScratchMemory::~ScratchMemory()
@@ -218,13 +245,15 @@ void* allocate_scratch(std::size_t bytes, std::size_t alignment)
     if (!folder) return nullptr;
     if (bytes > kNever / 4) throw std::bad_alloc();
     const std::size_t whole_pages = (bytes + kPage - 1) / kPage * kPage;
-    std::map<void*, Block> block = new_block(whole_pages, *folder);
+    std::map<void*, Block> block =
+        folder->empty() ? new_block_in_memory(whole_pages) : new_block(whole_pages, *folder);
     void* const begin = block.begin()->first;
+    const std::int64_t in_folder = block.begin()->second.in_folder;
     Blocks& all = blocks();
     const std::lock_guard lock(all.mutex);
     all.by_begin.merge(block);
     all.count = all.by_begin.size();
-    all.bytes += static_cast<std::int64_t>(whole_pages);
+    all.bytes += in_folder;
     all.peak_bytes = std::max(all.peak_bytes, all.bytes);
     return begin;
 }
@@ -241,7 +270,7 @@ bool free_scratch(void* memory) noexcept
         block = all.by_begin.extract(memory);
         if (block.empty()) return false;
         all.count = all.by_begin.size();
-        all.bytes -= static_cast<std::int64_t>(block.mapped().bytes);
+        all.bytes -= block.mapped().in_folder;
     }
     block.mapped().pages = DroppablePages(); // nobody drops what is unmapped
     ::munmap(memory, block.mapped().bytes);
@@ -272,7 +301,8 @@ bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place)
         return std::pair(std::move(pages), std::move(file));
     };
     exchange({}, File(DroppablePages::kNoFile));
-    exchange(DroppablePages(memory, bytes), File(DroppablePages::kNoFile));
+    const std::size_t whole_pages = (bytes + kPage - 1) / kPage * kPage;
+    exchange(DroppablePages(memory, whole_pages), File(DroppablePages::kNoFile));
     return true;
 }
 

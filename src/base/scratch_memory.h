@@ -44,6 +44,9 @@ class ScratchMemory {
     /// Throws ScratchError where no file can be made in the folder, which must exist, and
     /// std::logic_error where there is a ScratchMemory.
     ScratchMemory(const std::filesystem::path& folder, std::int64_t most_resident);
+    /// Arrays stay in memory, as where there is none, but map_over_scratch() can put files in their
+    /// place.
+    ScratchMemory();
     ScratchMemory(const ScratchMemory&) = delete;
     ScratchMemory& operator=(const ScratchMemory&) = delete;
     ~ScratchMemory();
@@ -55,10 +58,11 @@ class ScratchMemory {
     std::optional<ResidentLimit> limit_;
 };
 
-/// Memory in the work folder for an array of so many bytes, aligned to pages and filled with zeros.
-/// Null where no ScratchMemory lives, the array has fewer than kLeastBytes, or wants to be aligned
-/// to more than a page: then it is the caller's turn. Throws ScratchError where the folder takes no
-/// more, and std::bad_alloc where the process has no addresses left. Thread safe.
+/// Memory, in the work folder where the ScratchMemory has one, for an array of so many bytes,
+/// aligned to pages and filled with zeros. Null where no ScratchMemory lives, the array has fewer
+/// than kLeastBytes, or wants to be aligned to more than a page: then it is the caller's turn.
+/// Throws ScratchError where the folder takes no more, and std::bad_alloc where the process has no
+/// addresses left. Thread safe.
 void* allocate_scratch(std::size_t bytes, std::size_t alignment);
 
 /// Frees what allocate_scratch() gave and returns true; false for all other memory, which costs a

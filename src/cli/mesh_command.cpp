@@ -179,7 +179,7 @@ Surface surface_of(ModelInput input, const Run& run)
         Options options = arguments.options;
         options.memory = run.memory.options();
         if (run.ranks != nullptr && run.work != nullptr) {
-            run.ranks->begin(run.work->job(), digest_of_options(options));
+            run.ranks->begin({run.work->job(), digest_of_options(options), run.memory.in_files()});
         }
         Reconstruction made =
             reconstruct_thinned(std::move(input.scene), input.read, options, run.logs.told,

@@ -39,9 +39,12 @@ std::string note_of(const BlockPlan& plan, std::size_t ranks, const fs::path& fo
     const std::string allowed =
         plan.most == 0 ? "no limit" : byte_size_text(plan.most) + " allowed";
     const std::string who = ranks == 1 ? "" : fmt::format(" for {} ranks", ranks);
-    return fmt::format("about {} needed, {}: {} blocks{}, scratch of about {} in {}",
-                       byte_size_text(plan.needed), allowed, plan.blocks, who,
-                       byte_size_text(plan.scratch), folder.string());
+    const std::string where = plan.in_files()
+                                  ? fmt::format("scratch of about {} in {}",
+                                                byte_size_text(plan.scratch), folder.string())
+                                  : std::string("in memory");
+    return fmt::format("about {} needed, {}: {} blocks{}, {}", byte_size_text(plan.needed), allowed,
+                       plan.blocks, who, where);
 }
 
 } // namespace
@@ -105,6 +108,10 @@ BlockPlan RunMemory::plan_of(const RunSize& size) const
         shared.blocks = std::max(plan.blocks, ranks * threads_);
     }
     BlockPlan in_blocks = plan_blocks(size, threads_, shared, free_);
+    if (!plan.in_files()) {
+        in_blocks.scratch = 0;
+        return in_blocks;
+    }
     in_blocks.scratch += (ranks - 1) * predicted_share(size);
     return in_blocks;
 }
@@ -113,10 +120,15 @@ void RunMemory::fit(const RunSize& size, Log& log)
 {
     const BlockPlan before = std::exchange(plan_, plan_of(size));
     // What is kept in files stays there, even if what is left of a cloud would fit.
-    if (before.in_blocks() && !plan_.in_blocks()) plan_ = before;
+    if (before.in_files() && !plan_.in_files()) plan_ = before;
     if (!plan_.in_blocks()) return;
     if (before.blocks != plan_.blocks) log.note(note_of(plan_, processes_.all, folder_.path()));
-    if (scratch_) return;
+    if (scratch_ && before.in_files() == plan_.in_files()) return;
+    scratch_.reset();
+    if (!plan_.in_files()) {
+        scratch_.emplace();
+        return;
+    }
     folder_.prepare(plan_.scratch);
     constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
     scratch_.emplace(folder_.path(), plan_.most == 0 ? kNoLimit : plan_.most);

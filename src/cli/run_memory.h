@@ -42,7 +42,8 @@ std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted, std::siz
 class RunMemory {
   public:
     /// Several processes on a machine share what it has free, and cut the model into blocks, of
-    /// which each of them has some.
+    /// which each of them has some; where each could have all of the run in memory, arrays stay
+    /// there.
     RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
               const Processes& processes = {});
 
@@ -53,6 +54,8 @@ class RunMemory {
 
     /// What reconstruct() is to be told.
     MemoryOptions options() const;
+    /// Whether large arrays are in the work folder.
+    bool in_files() const { return plan_.in_files(); }
     /// {"blocks", "needed_bytes", "allowed_bytes", "expected_scratch_bytes", "scratch_bytes"}; the
     /// last is the most that was in the folder at a time up to now.
     Json record() const;

@@ -22,7 +22,7 @@ namespace vcarve::mpi {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPause(3);
+constexpr std::chrono::milliseconds kPause(10);
 
 /// Says nothing, and stops what it is told of where that is wished.
 class QuietLog final : public Log {
@@ -39,7 +39,8 @@ class JoinedRun {
   public:
     JoinedRun(const cli::MeshArguments& arguments, const Order& begun, const Session& session,
               const cli::Processes& processes)
-        : allowed_(cli::allowed_memory(arguments.options.memory, processes.here)),
+        : in_files_(begun.in_files != 0),
+          allowed_(cli::allowed_memory(arguments.options.memory, processes.here)),
           folder_(arguments.work, begun.job),
           shares_(folder_, arguments.options, session.rank())
     {
@@ -56,11 +57,16 @@ class JoinedRun {
             folder_.wait_for(task, stage);
         }
         constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-        if (!scratch_) scratch_.emplace(folder_.path(), allowed_.value_or(kNoLimit));
+        if (!scratch_ && in_files_) {
+            scratch_.emplace(folder_.path(), allowed_.value_or(kNoLimit));
+        } else if (!scratch_) {
+            scratch_.emplace();
+        }
         shares_.work(task, log);
     }
 
   private:
+    bool in_files_;
     std::optional<std::int64_t> allowed_;  ///< of memory
     std::optional<ScratchMemory> scratch_; ///< goes last
     WorkFolder folder_;

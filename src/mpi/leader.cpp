@@ -9,7 +9,7 @@ namespace vcarve::mpi {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPause(3);
+constexpr std::chrono::milliseconds kPause(10);
 
 } // namespace
 
@@ -25,9 +25,12 @@ void Leader::tell_all(const Order& order) const
     }
 }
 
-void Leader::begin(const Digest& job, const Digest& options)
+void Leader::begin(const cli::JobOfRanks& job)
 {
-    tell_all({.kind = Order::Kind::begin, .job = job, .options = options});
+    tell_all({.kind = Order::Kind::begin,
+              .in_files = job.in_files ? 1 : 0,
+              .job = job.job,
+              .options = job.options});
 }
 
 /// Waits until all others are done, and tells what the first of them failed with. Stops the others

@@ -10,7 +10,7 @@
 
 namespace vcarve::mpi {
 
-/// The other ranks, for rank 0, which tells them what to do. While they work a thread looks a few
+/// The other ranks, for rank 0, which tells them what to do. While they work a thread looks a
 /// hundred times a second whether one is done or has failed, and sleeps in between.
 class Leader final : public cli::RunRanks {
   public:
@@ -25,7 +25,7 @@ class Leader final : public cli::RunRanks {
     ~Leader() override;
 
     cli::Processes processes() const override { return processes_; }
-    void begin(const Digest& job, const Digest& options) override;
+    void begin(const cli::JobOfRanks& job) override;
     void share(const std::string& task, const std::function<void()>& own) override;
     bool has_failed() const override { return has_failed_; }
 

@@ -19,6 +19,7 @@ struct Order {
         end,   ///< of the program
     };
     Kind kind = Kind::end;
+    std::int32_t in_files = 0;   ///< of a run: large arrays are
     std::array<char, 64> task{}; ///< the name of its file, to work on
     Digest job{};
     Digest options{};

@@ -4,7 +4,9 @@
 #include <mpi.h>
 
 #include <array>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 namespace vcarve::mpi {
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr int kOrders = 1;
 constexpr int kReplies = 2;
+constexpr std::chrono::milliseconds kPause(1);
 
 int rank_in(MPI_Comm communicator)
 {
@@ -27,10 +30,19 @@ std::size_t size_of(MPI_Comm communicator)
     return static_cast<std::size_t>(size);
 }
 
+/// MPI_Send would keep a core busy until the other rank looks, which may be at the end of a long
+/// share of its own.
 template <typename Message>
 void send(const Message& message, int rank, int tag)
 {
-    MPI_Send(&message, sizeof(message), MPI_BYTE, rank, tag, MPI_COMM_WORLD);
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Isend(&message, sizeof(message), MPI_BYTE, rank, tag, MPI_COMM_WORLD, &request);
+    for (;;) {
+        int is_sent = 0;
+        MPI_Test(&request, &is_sent, MPI_STATUS_IGNORE);
+        if (is_sent != 0) return;
+        std::this_thread::sleep_for(kPause);
+    }
 }
 
 /// The sender of what it received; nothing where nothing has arrived.

@@ -50,9 +50,11 @@ struct BlockPlan {
     int blocks = 0;           ///< 0: it works in memory
     std::int64_t needed = 0;  ///< in memory, as predicted
     std::int64_t most = 0;    ///< how much it may take; 0 for all
-    std::int64_t scratch = 0; ///< the most that files in the work folder will hold; 0 in memory
+    std::int64_t scratch = 0; ///< the most that arrays in the work folder will take; 0 in memory
 
     bool in_blocks() const { return blocks > 0; }
+    /// Whether arrays are in the work folder.
+    bool in_files() const { return scratch > 0; }
 };
 
 /// In memory where the options ask for that, or the run fits; else in blocks, so many that those

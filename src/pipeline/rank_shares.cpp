@@ -21,6 +21,26 @@ Blocks kept_blocks(std::size_t count, StageKeeper& work)
             }};
 }
 
+SharedBlocks::SharedBlocks(std::size_t count, StageKeeper& work) : work_(work), held_(count) {}
+
+Blocks SharedBlocks::own()
+{
+    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+    if (held_.size() > threads * work_.num_ranks()) return kept_blocks(held_.size(), work_);
+    return {held_.size(), [this](std::size_t block, const std::function<BlockCells()>& make) {
+                held_[block] = make();
+                return BlockCells();
+            }};
+}
+
+Blocks SharedBlocks::all()
+{
+    return {held_.size(), [this](std::size_t block, const std::function<BlockCells()>& make) {
+                if (held_[block]) return std::move(*std::exchange(held_[block], {}));
+                return work_.shared_piece({"cells", block, held_.size()}, make);
+            }};
+}
+
 const Scene& RankShares::scene()
 {
     if (!scene_) {

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 // What the ranks of a run do beside the first, which runs reconstruct.cpp. (The lines of sight are
 // in steps/3_visibility/shared_sights.h.)
@@ -27,6 +28,22 @@ inline constexpr std::array<std::string_view, 1> kNeededForBlocks = {"points"};
 
 /// Blocks that are parts of the stage "cells".
 Blocks kept_blocks(std::size_t count, StageKeeper& work);
+
+/// Blocks that all ranks make, as the first of them sees it: it holds its own in memory where all
+/// of these are in work at a time, for then a run that is killed leaves none of them to the next.
+class SharedBlocks {
+  public:
+    /// `work` must outlive it.
+    SharedBlocks(std::size_t count, StageKeeper& work);
+
+    Blocks own();
+    /// All of them, once; to be asked for when the ranks have made them.
+    Blocks all();
+
+  private:
+    StageKeeper& work_;
+    std::vector<std::optional<BlockCells>> held_;
+};
 
 /// Does a rank's shares of a run, as the first rank asks for them. Memory: the scene and the cells,
 /// mapped from the work folder where there is a ScratchMemory, else read; and 20 bytes a cell, 16

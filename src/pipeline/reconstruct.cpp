@@ -109,11 +109,12 @@ std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, int num_blocks,
 {
     if (num_blocks <= 0) return std::nullopt;
     const auto count = static_cast<std::size_t>(num_blocks);
-    const Blocks blocks = kept_blocks(count, work);
+    SharedBlocks shared(count, work);
     // With other ranks, all blocks but those that gave up are there then.
     const bool is_shared = work.share(kBlocksTask, BlocksTask{count}, kNeededForBlocks, [&] {
-        triangulate_share(scene, blocks, {0, work.num_ranks()}, progress.part(0.0, 0.8));
+        triangulate_share(scene, shared.own(), {0, work.num_ranks()}, progress.part(0.0, 0.8));
     });
+    const Blocks blocks = is_shared ? shared.all() : kept_blocks(count, work);
     std::optional<TetMesh> cells =
         triangulate_in_blocks(scene, blocks, progress.part(is_shared ? 0.8 : 0.0, 1.0));
     if (!cells) {

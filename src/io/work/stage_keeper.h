@@ -114,6 +114,11 @@ class StageKeeper {
     template <typename Make>
     auto piece(const StagePiece& piece, const Make& make) -> decltype(make());
 
+    /// The same of a part that share() has had made, or looked at, by some rank of this run: it is
+    /// believed, and large arrays in scratch memory are mapped, to be read only.
+    template <typename Make>
+    auto shared_piece(const StagePiece& piece, const Make& make) -> decltype(make());
+
     /// How many processes work on the run.
     std::size_t num_ranks() const { return ranks_ == nullptr ? 1 : ranks_->count(); }
 
@@ -126,6 +131,9 @@ class StageKeeper {
                const Own& own);
 
   private:
+    template <typename Make, typename Take>
+    auto piece_taken_by(const Take& take, const StagePiece& piece, const Make& make)
+        -> decltype(make());
     template <typename Made>
     std::optional<Made> taken(std::string_view name);
     template <typename Made>
@@ -168,12 +176,28 @@ auto StageKeeper::stage(std::string_view name, const Make& make) -> decltype(mak
 template <typename Make>
 auto StageKeeper::piece(const StagePiece& piece, const Make& make) -> decltype(make())
 {
+    const auto load = [&](const std::string& name, auto& kept) { folder_->load(name, {}, kept); };
+    return piece_taken_by(load, piece, make);
+}
+
+template <typename Make>
+auto StageKeeper::shared_piece(const StagePiece& piece, const Make& make) -> decltype(make())
+{
+    const auto map = [&](const std::string& name, auto& kept) { folder_->map(name, kept); };
+    return piece_taken_by(map, piece, make);
+}
+
+/// Calls take(name, kept) for a part that is there.
+template <typename Make, typename Take>
+auto StageKeeper::piece_taken_by(const Take& take, const StagePiece& piece, const Make& make)
+    -> decltype(make())
+{
     if (folder_ == nullptr) return make();
     const std::string name = piece_name(piece);
     try {
         decltype(make()) kept;
         if (folder_->has(name)) {
-            folder_->load(name, {}, kept);
+            take(name, kept);
             return kept;
         }
     } catch (const InputError& error) {

@@ -35,7 +35,8 @@ std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& b
                                              const Progress& progress = {});
 
 /// Makes the blocks of which a rank's share consists, every so many-th, and hands them to `keep`,
-/// which must remember them. Blocks that give up, see above, are left to triangulate_in_blocks().
+/// which must remember them; what it returns is not looked at. Blocks that give up, see above, are
+/// left to triangulate_in_blocks().
 void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& rank,
                        const Progress& progress = {});
 

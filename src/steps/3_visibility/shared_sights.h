@@ -80,8 +80,8 @@ class CasterOfRanks {
   public:
     CasterOfRanks(const Caster& caster, StageKeeper& work) : caster_(caster), work_(work) {}
 
-    /// What the caster's cast() does, with the other ranks. A share that is missing or damaged is
-    /// walked here.
+    /// What the caster's cast() does, with the other ranks. A share that is missing, or cannot be
+    /// read, is walked here.
     template <typename Said>
     void cast(const RaySource& source, const SightsOfStage& stage, Said& said,
               const Progress& progress) const
@@ -97,12 +97,15 @@ class CasterOfRanks {
         });
         if (!is_shared) return caster_.cast(source, said, progress);
         for (std::size_t number = 1; number < ranks; ++number) {
-            caster_.add(share(source, task, {number, ranks}, {}), sum);
+            const VertexRun points = share_of(*source.rays, {number, ranks});
+            caster_.add(work_.shared_piece({task.stage, number, ranks},
+                                           [&] { return caster_.share(source, points, {}); }),
+                        sum);
         }
         caster_.finish(source, std::move(sum), said);
     }
 
-    /// The share of a rank, which is kept: walked by that rank, and found by the first.
+    /// The share of a rank, which is kept: walked by that rank, for the first.
     typename Caster::Share share(const RaySource& source, const SightsTask& task, const Rank& rank,
                                  const Progress& progress) const
     {
