@@ -116,7 +116,7 @@ TEST(RunMemory, CutsForRanksAndStaysInMemoryWhereEachCouldHaveAll)
         EXPECT_EQ(memory.options().blocks, 12) << "one for each thread";
         EXPECT_FALSE(memory.of_each_rank().in_files);
         EXPECT_EQ(memory.of_each_rank().most, std::int64_t{1} << 30);
-        EXPECT_THAT(notes.heard, ElementsAre(MatchesRegex("about [0-9.]+M needed, 1.074G allowed: "
+        EXPECT_THAT(notes.heard, ElementsAre(MatchesRegex("about [0-9.]+M needed, 1G allowed: "
                                                           "12 blocks for 4 ranks, in memory")));
         void* const array = allocate_scratch(ScratchMemory::kLeastBytes, 16);
         EXPECT_TRUE(free_scratch(array)) << "stage files can be mapped in its place";
