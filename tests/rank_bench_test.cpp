@@ -101,13 +101,13 @@ TEST(RankReport, HoldsRunsToTheFirst)
                                                       .alone = figures(9, 6),
                                                       .is_same = true},
                                                      {.model = {"b", 2'000'000, 2},
-                                                      .figures = figures(15, 20),
+                                                      .figures = figures(20, 20),
                                                       .alone = figures(18, 16),
                                                       .is_same = false}});
     EXPECT_THAT(text, HasSubstr("## terrain\n"));
     EXPECT_THAT(text, HasSubstr("| 1 | 1000000 | 10.00 | 8.00 | 8.00 | 1.00 | 1.00 | 6.00 | 1.33 | "
                                 "30 | 7 | yes |\n"));
-    EXPECT_THAT(text, HasSubstr("| 2 | 2000000 | 15.00 | 20.00 | 10.00 | 0.80 | 0.67 | 8.00 | 1.25 "
+    EXPECT_THAT(text, HasSubstr("| 2 | 2000000 | 20.00 | 20.00 | 10.00 | 0.80 | 0.50 | 8.00 | 1.25 "
                                 "| 30 | 7 | **NO** |\n"));
 }
 

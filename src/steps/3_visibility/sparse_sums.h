@@ -15,7 +15,7 @@ namespace vcarve {
 /// the points leave them: cells lie in the order of points, and most sights end near their points.
 template <typename T>
 struct SparseSums {
-    static constexpr std::size_t kRun = 1024; ///< cells
+    static constexpr std::size_t kRun = 8; ///< cells
 
     std::uint64_t count = 0;         ///< of all cells
     std::vector<std::uint32_t> runs; ///< those with a sum that is not zero, ascending
@@ -40,7 +40,7 @@ SparseSums<T> sparse_sums(const Sums& sums)
                                              [](const T& sum) { return sum == T{}; });
             if (!is_zero) used.push_back(static_cast<std::uint32_t>(run));
         },
-        64);
+        8192);
     if (sparse.runs.empty()) return sparse;
     const std::size_t last = sparse.runs.back();
     sparse.values = UnsetArray<T>((sparse.runs.size() - 1) * kRun + end_of(last) - last * kRun);
@@ -52,7 +52,7 @@ SparseSums<T> sparse_sums(const Sums& sums)
                       sums.begin() + static_cast<std::ptrdiff_t>(end_of(run)),
                       sparse.values.begin() + static_cast<std::ptrdiff_t>(k * kRun));
         },
-        16);
+        2048);
     return sparse;
 }
 
@@ -72,7 +72,7 @@ void add_sparse(const SparseSums<T>& sparse, Sums& sums, const Add& add)
                 add(sums[cell], sparse.values[k * kRun + cell - first]);
             }
         },
-        16);
+        2048);
 }
 
 } // namespace vcarve
