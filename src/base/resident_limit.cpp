@@ -54,8 +54,9 @@ std::optional<ResidentSize> resident_size()
 
 std::int64_t bytes_to_drop(const ResidentSize& now, std::int64_t most)
 {
-    // What threads bring into memory between two looks comes on top of the upper end.
-    const std::int64_t upper_end = most / 4 * 3;
+    // What threads bring into memory between two looks, and while pages are dropped, comes on top
+    // of the upper end: a quarter of the limit was seen where many processes want the processors.
+    const std::int64_t upper_end = most / 8 * 5;
     const std::int64_t lower_end = most / 2;
     const std::int64_t least_left = most / 8;
     if (now.all <= upper_end) return 0;
