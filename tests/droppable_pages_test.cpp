@@ -1,7 +1,9 @@
 #include "base/droppable_pages.h"
+#include "support/mapping_flags.h"
 #include "support/temporary_folder.h"
 
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -99,6 +101,35 @@ TEST(DroppablePages, AreLeftAloneWhenTheyAreForgotten)
     std::ranges::fill(file.letters(), 'b');
     EXPECT_EQ(drop_next_pages(kPiece, false), 0U);
     EXPECT_GT(file.resident(), 0);
+}
+
+/// Of the mapping that begins where these letters do: whether only what is touched is read.
+bool reads_touched_only(const Mapping& file)
+{
+    const std::string flags = mapping_flags(file.letters().data());
+    EXPECT_THAT(flags, testing::HasSubstr(" rd ")) << "flags are known";
+    return flags.find(" rr ") != std::string::npos;
+}
+
+TEST(ScatteredUse, HasTheSystemReadWhatIsTouchedUntilTheLastIsGone)
+{
+    const TemporaryFolder folder;
+    const Mapping file(folder / "file", kPiece);
+    const Mapping other(folder / "other", kPiece);
+    const DroppablePages pages = file.droppable();
+    const DroppablePages of_other = other.droppable();
+    EXPECT_FALSE(reads_touched_only(file));
+    {
+        const ScatteredUse use;
+        EXPECT_TRUE(reads_touched_only(file));
+        EXPECT_TRUE(reads_touched_only(other));
+        {
+            const ScatteredUse another;
+        }
+        EXPECT_TRUE(reads_touched_only(file)) << "one is left";
+    }
+    EXPECT_FALSE(reads_touched_only(file));
+    EXPECT_FALSE(reads_touched_only(other));
 }
 
 } // namespace

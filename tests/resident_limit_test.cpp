@@ -13,7 +13,7 @@ constexpr std::int64_t kMiB = std::int64_t{1} << 20;
 TEST(ResidentLimit, LetsPagesBeBelowTheLimit)
 {
     EXPECT_EQ(bytes_to_drop({.all = 0, .of_files = 0}, 1600), 0);
-    EXPECT_EQ(bytes_to_drop({.all = 1200, .of_files = 1200}, 1600), 0);
+    EXPECT_EQ(bytes_to_drop({.all = 1000, .of_files = 1000}, 1600), 0);
     EXPECT_EQ(
         bytes_to_drop({.all = 1200, .of_files = 1200}, std::numeric_limits<std::int64_t>::max()),
         0);
@@ -21,7 +21,7 @@ TEST(ResidentLimit, LetsPagesBeBelowTheLimit)
 
 TEST(ResidentLimit, DropsDownToWellBelowTheLimit)
 {
-    EXPECT_EQ(bytes_to_drop({.all = 1201, .of_files = 1201}, 1600), 401);
+    EXPECT_EQ(bytes_to_drop({.all = 1001, .of_files = 1001}, 1600), 201);
     EXPECT_EQ(bytes_to_drop({.all = 3000, .of_files = 3000}, 1600), 2200);
 }
 

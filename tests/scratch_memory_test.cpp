@@ -1,6 +1,7 @@
 #include "base/droppable_pages.h"
 #include "base/resident_limit.h"
 #include "base/scratch_memory.h"
+#include "support/mapping_flags.h"
 #include "support/temporary_folder.h"
 
 #include <fcntl.h>
@@ -75,6 +76,17 @@ TEST(ScratchMemory, IsFilledWithZerosAndKeepsWhatIsWritten)
     EXPECT_TRUE(std::ranges::all_of(numbers, [](std::uint64_t number) { return number == 0; }));
     std::ranges::fill(numbers, 42);
     EXPECT_EQ(numbers.back(), 42);
+    free_scratch(memory);
+}
+
+TEST(ScratchMemory, IsNotMappedInHugePages)
+{
+    const TemporaryFolder folder;
+    const ScratchMemory scratch(folder.path(), kNoLimit);
+    void* const memory = allocate_scratch(kLeast, 16);
+    if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage"))
+        GTEST_SKIP() << "this system has none";
+    EXPECT_THAT(mapping_flags(memory), HasSubstr(" nh "));
     free_scratch(memory);
 }
 

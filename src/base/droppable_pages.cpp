@@ -22,6 +22,7 @@ struct Ranges {
     std::mutex mutex;
     std::map<std::uintptr_t, Range> by_begin;
     std::uintptr_t dropped_to = 0;
+    int scattered_uses = 0;
 };
 
 /// It lives as long as the process: pages may be unmapped when other static things are gone.
@@ -48,11 +49,22 @@ auto range_at(const std::map<std::uintptr_t, Range>& by_begin, std::uintptr_t pl
     return next == by_begin.end() ? by_begin.begin() : next;
 }
 
+void* address_of(std::uintptr_t number)
+{
+    return reinterpret_cast<void*>(number); // NOLINT(performance-no-int-to-ptr): it was one
+}
+
+/// What the system thinks of the use of all ranges; where it does not listen, it reads too much.
+void advise(const Ranges& all, int advice)
+{
+    for (const auto& [begin, range] : all.by_begin)
+        static_cast<void>(::madvise(address_of(begin), range.bytes, advice));
+}
+
 /// Neither can fail in a way that matters: pages that stay only cost memory.
 void drop(std::uintptr_t begin, std::size_t offset, std::size_t bytes, int written_back)
 {
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): it was made from a pointer
-    static_cast<void>(::madvise(reinterpret_cast<void*>(begin + offset), bytes, MADV_DONTNEED));
+    static_cast<void>(::madvise(address_of(begin + offset), bytes, MADV_DONTNEED));
 #ifdef __linux__
     if (written_back != DroppablePages::kNoFile) {
         static_cast<void>(::sync_file_range(written_back, static_cast<off_t>(offset),
@@ -79,6 +91,20 @@ DroppablePages::~DroppablePages()
     std::map<std::uintptr_t, Range>::node_type gone; // freed without the lock
     const std::lock_guard lock(all.mutex);
     gone = all.by_begin.extract(number_of(begin_));
+}
+
+ScatteredUse::ScatteredUse()
+{
+    Ranges& all = ranges();
+    const std::lock_guard lock(all.mutex);
+    if (all.scattered_uses++ == 0) advise(all, MADV_RANDOM);
+}
+
+ScatteredUse::~ScatteredUse()
+{
+    Ranges& all = ranges();
+    const std::lock_guard lock(all.mutex);
+    if (--all.scattered_uses == 0) advise(all, MADV_NORMAL);
 }
 
 std::size_t drop_next_pages(std::size_t bytes, bool write_back)

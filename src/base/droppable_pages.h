@@ -32,6 +32,18 @@ class DroppablePages {
     const void* begin_ = nullptr;
 };
 
+/// While one lives, threads touch droppable pages here and there: of those that are in files only,
+/// the system reads what is touched, and not the megabytes around it, as it does for those who go
+/// on from where they are. Costs nothing where there are no such pages. Thread safe; it holds for
+/// the ranges that are droppable when the first is made, and until the last is gone.
+class ScatteredUse {
+  public:
+    ScatteredUse();
+    ScatteredUse(const ScatteredUse&) = delete;
+    ScatteredUse& operator=(const ScatteredUse&) = delete;
+    ~ScatteredUse();
+};
+
 /// Drops the next so many bytes of all droppable pages, at most, in turn; where there are fewer,
 /// all. With `write_back` the system also begins to write those that differ from what is on the
 /// disk, and does not wait for it. Returns how many bytes were looked at, whether they were in

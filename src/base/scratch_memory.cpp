@@ -149,6 +149,11 @@ void* map(const File& file, std::size_t bytes)
     // A child that wrote to an array would write to the parent's.
     static_cast<void>(::madvise(begin, bytes, MADV_DONTFORK));
 #endif
+#ifdef MADV_NOHUGEPAGE
+    // Where the system maps 2 MB for each byte that is touched, passes that go here and there bring
+    // gigabytes into memory before the watching thread looks again.
+    static_cast<void>(::madvise(begin, bytes, MADV_NOHUGEPAGE));
+#endif
     return begin;
 }
 

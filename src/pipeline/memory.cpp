@@ -157,7 +157,7 @@ constexpr double kBlockPoint = 600;
 constexpr double kHeapPoint = 24;
 /// Files in the work folder against what passes are predicted to need: arrays that grow stand
 /// twice.
-constexpr double kScratchMargin = 1.2;
+constexpr double kScratchMargin = 1.1;
 
 Sizes sizes(const SceneSize& size, int threads)
 {

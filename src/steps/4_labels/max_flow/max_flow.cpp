@@ -1,5 +1,6 @@
 #include "steps/4_labels/max_flow/max_flow.h"
 
+#include "base/droppable_pages.h"
 #include "base/parallel.h"
 #include "steps/4_labels/max_flow/flow_forest.h"
 
@@ -93,6 +94,8 @@ MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBloc
     FlowGraph& graph = solver_->graph;
     std::vector<FilledBlock> filled = fill_blocks(cells, std::move(network.terminal_capacities),
                                                   graph, blocks.cells, progress.part(0.0, 0.7));
+    // Merging asks for few cells of many runs of them.
+    const ScatteredUse few_of_many;
     while (filled.size() > blocks.merged)
         filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));
     solver_->forest.merge(filled);
@@ -102,6 +105,7 @@ MinimumCut::~MinimumCut() = default;
 
 void MinimumCut::add_source_capacity(std::span<const Index> cells, std::int32_t flow)
 {
+    const ScatteredUse few_of_many;
     for (const Index cell : cells)
         solver_->forest.add_source_capacity(cell, flow);
     solver_->forest.settle();
