@@ -61,6 +61,15 @@ void advise(const Ranges& all, int advice)
         static_cast<void>(::madvise(address_of(begin), range.bytes, advice));
 }
 
+std::size_t bytes_of(Ranges& all)
+{
+    const std::lock_guard lock(all.mutex);
+    std::size_t bytes = 0;
+    for (const auto& [begin, range] : all.by_begin)
+        bytes += range.bytes;
+    return bytes;
+}
+
 /// Neither can fail in a way that matters: pages that stay only cost memory.
 void drop(std::uintptr_t begin, std::size_t offset, std::size_t bytes, int written_back)
 {
@@ -113,17 +122,15 @@ std::size_t drop_next_pages(std::size_t bytes, bool write_back)
     // else's. A piece takes a fraction of a millisecond.
     constexpr std::size_t kPiece = std::size_t{4} << 20;
     Ranges& all = ranges();
+    const std::size_t most = std::min(bytes, bytes_of(all)); // once around
     std::size_t looked_at = 0;
-    std::uintptr_t first = 0;
-    while (looked_at < bytes) {
+    while (looked_at < most) {
         const std::lock_guard lock(all.mutex);
         if (all.by_begin.empty()) break;
         const auto range = range_at(all.by_begin, all.dropped_to);
         const auto& [begin, what] = *range;
         const bool is_within = all.dropped_to >= begin && all.dropped_to - begin < what.bytes;
         const std::size_t offset = is_within ? all.dropped_to - begin : 0;
-        if (begin + offset == first) break; // once around
-        if (looked_at == 0) first = begin + offset;
         const std::size_t piece = std::min(kPiece, what.bytes - offset);
         drop(begin, offset, piece, write_back ? what.file : DroppablePages::kNoFile);
         all.dropped_to = begin + offset + piece;
