@@ -78,6 +78,7 @@ std::vector<RankRun> measure_ranks(const std::vector<RankModel>& models, const R
     const fs::path on_ranks = runs.folder / "ranks.ply";
     const fs::path alone = runs.folder / "alone.ply";
     std::vector<RankRun> results;
+    results.reserve(models.size());
     for (const RankModel& model : models) {
         results.push_back({.model = model, .figures = {}, .alone = {}});
     }
