@@ -39,11 +39,10 @@ Json measure_on_ranks(const RankModel& model, const RankRuns& runs, const fs::pa
 {
     const fs::path work = runs.folder / "work";
     fs::remove_all(work);
-    const Json figures =
-        measure_program({runs.launcher, "-q", "--oversubscribe", "--bind-to", "none", "-n",
-                         std::to_string(model.ranks), runs.rank_program, "--quiet", "--threads",
-                         "1", "--work", work, model.folder, out},
-                        work);
+    Json figures = measure_program({runs.launcher, "-q", "--oversubscribe", "--bind-to", "none",
+                                    "-n", std::to_string(model.ranks), runs.rank_program, "--quiet",
+                                    "--threads", "1", "--work", work, model.folder, out},
+                                   work);
     fs::remove_all(work);
     return figures;
 }
