@@ -151,7 +151,9 @@ TEST(TriangulateBlocks, TakesInFewPointsOfOtherBlocks)
     const PointTree tree(scene.positions);
     const std::vector<Index> first = first_points(scene.positions);
     const PointRun own{5000, 7500};
-    const BlockCells block = block_cells(tree, first, own);
+    ProgressCount silent({}, own.size());
+    BlockProgress progress(silent, own.size());
+    const BlockCells block = block_cells(tree, first, own, progress);
     EXPECT_LT(block.taken_in, own.size());
     EXPECT_GT(block.taken_in, own.size() / 10);
 }

@@ -3,6 +3,7 @@
 #include "base/byte_size.h"
 #include "model/tet_mesh.h"
 #include "steps/1_points/thin.h"
+#include "steps/2_cells/triangulate.h"
 #include "vcarve/error.h"
 #include "vcarve/tri_mesh.h"
 
@@ -105,11 +106,20 @@ double filtering(const Sizes& n)
     return n.scene() + (36 + 16) * n.points;
 }
 
-/// CGAL's triangulation and the cells before they are numbered. The points as CGAL wants them are
-/// gone by then.
+/// CGAL's triangulation of the blocks in work, with the points they take in, their cells twice, as
+/// these are numbered, and the cells of the other blocks; then, as they are joined, all cells
+/// twice.
 double triangulating(const Sizes& n)
 {
-    return n.scene() + n.cgal() + sizeof(Cell) * n.cells;
+    constexpr double kTakenIn = 1.1;
+    const auto points = static_cast<std::size_t>(std::min(n.points, 0x1p62));
+    const auto threads = static_cast<std::size_t>(n.threads);
+    const auto blocks = static_cast<double>(usual_blocks(points, threads));
+    const double cells = sizeof(Cell) * n.cells;
+    if (blocks == 1.0) return n.scene() + n.cgal() + cells;
+    const double at_work = std::min(n.threads / blocks, 1.0);
+    const double triangulated = at_work * kTakenIn * n.cgal() + (1.0 + at_work) * cells;
+    return n.scene() + std::max(triangulated, 2.0 * cells);
 }
 
 /// First the edges that the distance sigma is measured by, up to six a cell of a choice of cells,

@@ -17,7 +17,6 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using Triangulation = Delaunay<CGAL::Sequential_tag>;
 using CellHandle = Triangulation::Cell_handle;
 using VertexHandle = Triangulation::Vertex_handle;
 
@@ -35,8 +34,10 @@ constexpr std::size_t kFreeLooks = 20'000; ///< points more than there are
 constexpr std::array<std::array<int, 3>, 4> kBeforeCorner = {
     {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
-/// The shares of the time that own points and others take; the rest is ordering cells.
+/// The share of the time after which own points are in, spheres are looked into for the first time,
+/// and others are in; the rest is ordering cells.
 constexpr double kOwn = 0.6;
+constexpr double kFirstLook = 0.8;
 constexpr double kForeign = 0.95;
 
 /// The triangulation of a block's own points and of the others that it takes in.
@@ -166,7 +167,7 @@ void look_into(CellHandle cell, Block& block, std::vector<Wanted>& wanted)
     }
 }
 
-std::vector<Wanted> points_in_spheres(Block& block, const Progress& progress)
+std::vector<Wanted> points_in_spheres(Block& block, BlockProgress& progress)
 {
     constexpr std::size_t kToldEvery = 1024;
     std::vector<Wanted> wanted;
@@ -174,7 +175,8 @@ std::vector<Wanted> points_in_spheres(Block& block, const Progress& progress)
     std::size_t count = 0;
     for (const CellHandle cell : block.cells().all_cell_handles()) {
         look_into(cell, block, wanted);
-        if (++count % kToldEvery == 0) progress.tell(static_cast<double>(count), all);
+        if (++count % kToldEvery != 0) continue;
+        progress.tell(kOwn + (kFirstLook - kOwn) * static_cast<double>(count) / all);
     }
     return wanted;
 }
@@ -208,7 +210,7 @@ std::vector<VertexHandle> insert_wanted(std::vector<Wanted> wanted, Block& block
 }
 
 void insert_own(Block& block, const std::vector<Index>& first, const PointRun& own,
-                const Progress& progress)
+                BlockProgress& progress)
 {
     constexpr std::size_t kToldEvery = 256;
     for (const Index point : first)
@@ -217,45 +219,21 @@ void insert_own(Block& block, const std::vector<Index>& first, const PointRun& o
     for (std::size_t i = 0; i < order.size(); ++i) {
         const auto point = static_cast<Index>(own.first + order[i]);
         if (!std::ranges::binary_search(first, point)) block.insert(point, block.last_inserted());
-        if (i % kToldEvery == 0) progress.tell(i, order.size());
+        if (i % kToldEvery != 0) continue;
+        progress.tell(kOwn * static_cast<double>(i) / static_cast<double>(order.size()));
     }
 }
 
-void insert_foreign(Block& block, const Progress& progress)
+void insert_foreign(Block& block, BlockProgress& progress)
 {
-    std::vector<Wanted> wanted = points_in_spheres(block, progress.part(0.0, 0.6));
-    double done = 0.6;
+    std::vector<Wanted> wanted = points_in_spheres(block, progress);
+    double done = kFirstLook;
     while (!wanted.empty()) {
         progress.tell(done);
-        done += 0.5 * (1.0 - done);
+        done += 0.5 * (kForeign - done);
         const std::vector<VertexHandle> inserted = insert_wanted(std::move(wanted), block);
         wanted = points_in_spheres_around(inserted, block);
     }
-}
-
-/// Whether the smallest vertex is one of `own`. That of infinity is larger than all.
-bool is_owned(CellHandle cell, const PointRun& own)
-{
-    Index smallest = kInfinite;
-    for (int i = 0; i < 4; ++i) {
-        smallest = std::min(smallest, cell->vertex(i)->info());
-    }
-    return own.contains(smallest);
-}
-
-/// The block's own cells, in the order CGAL keeps them.
-UnsetArray<Cell> owned_cells(const Triangulation& triangulation, const PointRun& own)
-{
-    Index count = 0;
-    for (const CellHandle cell : triangulation.all_cell_handles()) {
-        cell->info().value = is_owned(cell, own) ? count++ : CellNumber::kNone;
-    }
-    UnsetArray<Cell> owned;
-    owned.reserve(count);
-    for (const CellHandle cell : triangulation.all_cell_handles()) {
-        if (cell->info().value != CellNumber::kNone) owned.push_back(unordered_cell(cell));
-    }
-    return owned;
 }
 
 std::vector<OpenFacet> open_facets(const UnsetArray<Cell>& cells)
@@ -309,14 +287,14 @@ std::vector<Index> first_points(const std::vector<Vector3d>& points)
 }
 
 BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, const PointRun& own,
-                       const Progress& progress)
+                       BlockProgress& progress)
 {
     Block block(tree, own);
-    insert_own(block, first, own, progress.part(0.0, kOwn));
-    insert_foreign(block, progress.part(kOwn, kForeign));
+    insert_own(block, first, own, progress);
+    insert_foreign(block, progress);
     BlockCells result;
-    result.cells = in_canonical_order(owned_cells(block.cells(), own),
-                                      static_cast<Index>(own.first), own.size());
+    result.cells = in_canonical_order(unordered_cells(block.cells()), static_cast<Index>(own.first),
+                                      own.size());
     result.open_facets = open_facets(result.cells);
     result.taken_in = block.cells().number_of_vertices() - own.size();
     return result;

@@ -26,6 +26,26 @@ struct BlockCells {
     std::size_t taken_in = 0; ///< points of other blocks
 };
 
+/// Tells which share of a block is done to a count of all blocks' points.
+class BlockProgress {
+  public:
+    /// `all` must outlive it.
+    BlockProgress(ProgressCount& all, std::size_t points) : all_(all), points_(points) {}
+
+    /// Not less than the share told before; throws Cancelled as Progress does.
+    void tell(double share)
+    {
+        const auto done = static_cast<std::size_t>(share * static_cast<double>(points_));
+        all_.add(done - done_);
+        done_ = done;
+    }
+
+  private:
+    ProgressCount& all_;
+    std::size_t points_;
+    std::size_t done_ = 0;
+};
+
 /// Thrown where points lie on common spheres or planes up to their last digits, so many that the
 /// spheres of a block's cells cannot be told to be empty without looking at most points for each.
 struct TooManyTies {};
@@ -42,6 +62,6 @@ std::vector<Index> first_points(const std::vector<Eigen::Vector3d>& points);
 /// CGAL decides by the points alone where several lie on one sphere. `first` is first_points().
 /// Throws TooManyTies. Memory: about 450 bytes for each point inserted.
 BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, const PointRun& own,
-                       const Progress& progress = {});
+                       BlockProgress& progress);
 
 } // namespace vcarve

@@ -1,5 +1,6 @@
 #include "steps/2_cells/canonical_cells.h"
 
+#include "base/atomic_min.h"
 #include "base/parallel.h"
 #include "base/parallel_rows.h"
 #include "steps/2_cells/delaunay.h"
@@ -17,12 +18,14 @@ Index smallest_vertex(const Cell& cell)
     return std::min(cell.vertices[0], cell.vertices[1]);
 }
 
-/// Binned by smallest vertex, each bin sorted.
+/// Binned by smallest vertex, each bin sorted; without those of other vertices.
 UnsetArray<Index> canonical_order(const UnsetArray<Cell>& cells, Index first_vertex,
                                   std::size_t num_vertices)
 {
     RowTable bins = gather_rows(cells.size(), num_vertices, [&](std::size_t i, const auto& visit) {
-        visit(smallest_vertex(cells[i]) - first_vertex, static_cast<Index>(i));
+        const Index smallest = smallest_vertex(cells[i]);
+        if (smallest < first_vertex || smallest - first_vertex >= num_vertices) return;
+        visit(smallest - first_vertex, static_cast<Index>(i));
     });
     parallel_for(num_vertices, [&](std::size_t vertex) {
         const Index begin = vertex == 0 ? 0 : bins.ends[vertex - 1];
@@ -56,14 +59,13 @@ UnsetArray<Cell> in_canonical_order(const UnsetArray<Cell>& cells, Index first_v
 {
     const UnsetArray<Index> order = canonical_order(cells, first_vertex, num_vertices);
     progress.tell(0.6);
-    UnsetArray<Index> numbers(order.size());
+    UnsetArray<Index> numbers = filled_array<Index>(cells.size(), CellNumber::kNone);
     parallel_for(order.size(), [&](std::size_t i) { numbers[order[i]] = static_cast<Index>(i); });
     UnsetArray<Cell> ordered(order.size());
     parallel_for(order.size(), [&](std::size_t i) {
         Cell cell = cells[order[i]];
-        for (Index& neighbor : cell.neighbors) {
-            if (neighbor != CellNumber::kNone) neighbor = numbers[neighbor];
-        }
+        for (Index& neighbor : cell.neighbors)
+            neighbor = numbers[neighbor];
         ordered[i] = cell;
     });
     return ordered;
@@ -82,13 +84,11 @@ void complete(TetMesh& mesh)
         mesh.mirrors[i] = static_cast<std::uint8_t>(mirrors);
     });
     mesh.cell_of_vertex.assign(mesh.positions.size(), kInfinite);
-    for (std::size_t i = mesh.cells.size(); i-- > 0;) {
-        if (!mesh.cells[i].is_infinite()) {
-            for (const Index vertex : mesh.cells[i].vertices) {
-                mesh.cell_of_vertex[vertex] = static_cast<Index>(i);
-            }
-        }
-    }
+    parallel_for(mesh.cells.size(), [&](std::size_t i) {
+        if (mesh.cells[i].is_infinite()) return;
+        for (const Index vertex : mesh.cells[i].vertices)
+            atomic_min(mesh.cell_of_vertex[vertex], static_cast<Index>(i));
+    });
 }
 
 } // namespace vcarve

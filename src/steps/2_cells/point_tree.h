@@ -74,15 +74,19 @@ class PointTree {
             }
             return;
         }
-        std::array<Child, kFanout> children;
+        std::array<Child, kFanout> children; // those worth a look, the best first
         std::size_t count = 0;
         const std::size_t last = std::min(levels_[level - 1].size(), (node + 1) * kFanout);
         for (std::size_t child = node * kFanout; child < last; ++child) {
             const PointRun below = run_of(level - 1, child);
             if (search.own.first <= below.first && below.last <= search.own.last) continue;
-            children[count++] = {search.bound(levels_[level - 1][child]), child};
+            const double bound = search.bound(levels_[level - 1][child]);
+            if (bound > search.limit) continue;
+            std::size_t place = count++;
+            for (; place > 0 && children[place - 1].bound > bound; --place)
+                children[place] = children[place - 1];
+            children[place] = {bound, child};
         }
-        std::ranges::sort(children.begin(), children.begin() + count, {}, &Child::bound);
         for (std::size_t i = 0; i < count; ++i) {
             if (!(children[i].bound > search.limit)) descend(level - 1, children[i].node, search);
         }

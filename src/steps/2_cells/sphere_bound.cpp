@@ -86,22 +86,6 @@ SphereBound SphereBound::beyond(const std::array<Vector3d, 3>& corners)
     return bound;
 }
 
-double SphereBound::least_in(const Box& box) const
-{
-    double least = -std::numeric_limits<double>::min(); // where products are too small for doubles
-    for (int axis = 0; axis < 3; ++axis) {
-        const double low = box.low[axis] - corner_[axis];
-        const double high = box.high[axis] - corner_[axis];
-        const auto at = [&](double q) { return q * (volume_ * q - normal_[axis]); };
-        // A parabola that opens upwards is least at the center, any other one at an end.
-        least +=
-            volume_ > 0.0 ? at(std::clamp(center_[axis], low, high)) : std::min(at(low), at(high));
-        const double most = std::max(std::abs(low), std::abs(high));
-        least -= most * (volume_error_ * most + normal_error_[axis]);
-    }
-    return least;
-}
-
 bool SphereBound::is_within(double distance) const
 {
     // A diameter is all that lies between two points of the sphere.

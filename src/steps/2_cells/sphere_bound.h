@@ -3,7 +3,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace vcarve {
 
@@ -29,7 +32,7 @@ class SphereBound {
     /// there is inside.
     double least_in(const Box& box) const;
     /// The same of one point.
-    double least_at(const Eigen::Vector3d& point) const { return least_in({point, point}); }
+    double least_at(const Eigen::Vector3d& point) const;
 
     /// Whether all of the sphere lies nearer to each corner than so far.
     bool is_within(double distance) const;
@@ -40,6 +43,9 @@ class SphereBound {
 
     bool is_flat() const;
 
+    /// So much products may be off that are too small for doubles.
+    static constexpr double kTiny = std::numeric_limits<double>::min();
+
     Eigen::Vector3d corner_;
     double volume_ = 0.0; ///< D
     Eigen::Vector3d normal_;
@@ -47,5 +53,30 @@ class SphereBound {
     Eigen::Vector3d normal_error_;
     Eigen::Vector3d center_; ///< from the corner, where D is positive
 };
+
+// What follows is asked some hundred times a point.
+
+inline double SphereBound::least_in(const Box& box) const
+{
+    double least = -kTiny;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = box.low[axis] - corner_[axis];
+        const double high = box.high[axis] - corner_[axis];
+        const auto at = [&](double q) { return q * (volume_ * q - normal_[axis]); };
+        // A parabola that opens upwards is least at the center, any other one at an end.
+        least +=
+            volume_ > 0.0 ? at(std::clamp(center_[axis], low, high)) : std::min(at(low), at(high));
+        const double most = std::max(std::abs(low), std::abs(high));
+        least -= most * (volume_error_ * most + normal_error_[axis]);
+    }
+    return least;
+}
+
+inline double SphereBound::least_at(const Eigen::Vector3d& point) const
+{
+    const Eigen::Vector3d q = point - corner_;
+    const Eigen::Vector3d most = q.cwiseAbs();
+    return q.dot(volume_ * q - normal_) - most.dot(volume_error_ * most + normal_error_) - kTiny;
+}
 
 } // namespace vcarve

@@ -61,8 +61,9 @@ std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>&
     ProgressCount done(progress, scene.num_points());
     for_each_block(count, [&](std::size_t block) {
         const PointRun own = run_of(block, count, scene.num_points());
-        made[block] = blocks.keep(block, [&] { return block_cells(tree, first, own); });
-        done.add(own.size());
+        BlockProgress told(done, own.size());
+        made[block] = blocks.keep(block, [&] { return block_cells(tree, first, own, told); });
+        told.tell(1.0);
     });
     return made;
 }
@@ -150,16 +151,17 @@ void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& ran
     if (first.size() < 4 || rank.number >= count) return;
     const PointTree tree(scene.positions);
     const std::size_t share = (count - rank.number + rank.of - 1) / rank.of;
-    ProgressCount done(progress, share);
+    ProgressCount done(progress, scene.num_points() / rank.of);
     for_each_block(share, [&](std::size_t k) {
         const std::size_t block = rank.number + k * rank.of;
         const PointRun own = run_of(block, count, scene.num_points());
+        BlockProgress told(done, own.size());
         try {
-            blocks.keep(block, [&] { return block_cells(tree, first, own); });
+            blocks.keep(block, [&] { return block_cells(tree, first, own, told); });
         } catch (const TooManyTies&) {
             return;
         }
-        done.add(1);
+        told.tell(1.0);
     });
 }
 

@@ -1,5 +1,6 @@
 #include "steps/3_visibility/trace.h"
 
+#include "base/atomic_min.h"
 #include "base/round_half_up.h"
 #include "geometry/triangle.h"
 #include "steps/3_visibility/energy_sums.h"
@@ -10,7 +11,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -25,15 +25,6 @@ FlowNetwork empty_network(const TetMesh& mesh)
 {
     const std::size_t count = mesh.cells.size();
     return {filled_array(count, std::array<std::int32_t, 4>{}), filled_array(count, 0)};
-}
-
-/// A view on the border of cells is found in different ones; the smallest does not depend on order.
-void lower(Index& least, Index value)
-{
-    const std::atomic_ref<Index> shared(least);
-    Index seen = shared.load(std::memory_order_relaxed);
-    while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
-    }
 }
 
 /// Distance from a point to where the line through it in a direction meets a facet's plane.
@@ -281,7 +272,8 @@ VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& po
             }
         }
         terms.add_outside_terms(walk, sights, [&](std::uint32_t view, Index cell) {
-            if (source.is_measured) lower(cell_of_origin[view], cell);
+            // Of a view on the border of cells different ones are found.
+            if (source.is_measured) atomic_min(cell_of_origin[view], cell);
         });
     });
     sums.limit_full_arcs();
@@ -305,7 +297,7 @@ void RayCaster::add(const Share& share, VisibilityEnergy& energy) const
                [&](std::int32_t& sum, std::int32_t value) { sums.add_terminal(sum, value); });
     require_exact(!sums.is_exceeded(), scene_);
     for (std::size_t view = 0; view < share.cell_of_view.size(); ++view) {
-        lower(energy.cell_of_view[view], share.cell_of_view[view]);
+        atomic_min(energy.cell_of_view[view], share.cell_of_view[view]);
     }
 }
 
