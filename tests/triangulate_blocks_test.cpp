@@ -36,19 +36,6 @@ Positions terrain(int n, double height)
     return points;
 }
 
-/// Nearly on one sphere, so that the tetrahedra amid them are all slivers.
-Positions nearly_on_a_sphere(std::size_t count, double noise)
-{
-    std::mt19937_64 random(72);
-    Positions points;
-    while (points.size() < count) {
-        const Vector3d p = even_in_cube(random, -1.0, 1.0);
-        if (p.norm() > 1.0 || p.norm() < 0.1) continue;
-        points.push_back((1.0 + even(random, -noise, noise)) * p.normalized());
-    }
-    return points;
-}
-
 /// A dense cluster, and points far away from it and from each other.
 Positions with_outliers()
 {

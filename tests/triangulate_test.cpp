@@ -284,7 +284,7 @@ TEST(Triangulate, GivesTheSameArraysAtEveryPowerOfTwo)
 TEST(Triangulate, GivesTheSameArraysForOneAndTwoThreads)
 {
     expect_equal(with_threads(2, lattice(8)), with_threads(1, lattice(8)));
-    // Enough points for the parallel insertion, some of them on a lattice and some in one plane.
+    // Enough points for blocks, some of them on a lattice and some in one plane.
     Positions points = mapped(random_points(48'000, 35), 14.0, Vector3d::Constant(0.0));
     for (const Vector3d& point : lattice(14)) {
         points.push_back(point);
@@ -297,6 +297,22 @@ TEST(Triangulate, GivesTheSameArraysForOneAndTwoThreads)
     expect_canonical(one);
     expect_mutual_neighbors(one);
     expect_equal(with_threads(2, points), one);
+}
+
+TEST(Triangulate, WorksInTwoBlocksAThreadThatAreNotTooSmall)
+{
+    EXPECT_EQ(usual_blocks(10'000'000, 1), 1U);
+    EXPECT_EQ(usual_blocks(10'000'000, 2), 4U);
+    EXPECT_EQ(usual_blocks(10'000'000, 16), 32U);
+    EXPECT_EQ(usual_blocks(200'000, 16), 16U);
+    EXPECT_EQ(usual_blocks(50'000, 16), 5U);
+    EXPECT_EQ(usual_blocks(4, 2), 1U);
+}
+
+TEST(Triangulate, TakesPointsOnOneSphereAtOnceWhereBlocksWouldTakeTooLong)
+{
+    const Positions points = spatial_sort(scene_of(nearly_on_a_sphere(20'000, 0.0))).positions;
+    expect_equal(with_threads(2, points), with_threads(1, points));
 }
 
 // ---- refusals -----------------------------------------------------------------------------------

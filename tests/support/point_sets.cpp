@@ -95,6 +95,18 @@ Positions points_on_sphere()
     return points;
 }
 
+Positions nearly_on_a_sphere(std::size_t count, double noise)
+{
+    std::mt19937_64 random(72);
+    Positions points;
+    while (points.size() < count) {
+        const Vector3d p = even_in_cube(random, -1.0, 1.0);
+        if (p.norm() > 1.0 || p.norm() < 0.1) continue;
+        points.push_back((1.0 + even(random, -noise, noise)) * p.normalized());
+    }
+    return points;
+}
+
 Positions jittered(Positions points, double reach, std::uint64_t seed)
 {
     std::mt19937_64 random(seed);

@@ -28,6 +28,9 @@ Positions lattice(int n);
 Positions body_centered_lattice(int n);
 /// 30 points with whole coordinates on the sphere of radius 3 around the origin.
 Positions points_on_sphere();
+/// Off one sphere by as much as `noise`, of its radius, so that the tetrahedra amid them are all
+/// slivers.
+Positions nearly_on_a_sphere(std::size_t count, double noise);
 /// Every coordinate moved by up to `reach` at random.
 Positions jittered(Positions points, double reach, std::uint64_t seed);
 /// x -> factor * x + shift

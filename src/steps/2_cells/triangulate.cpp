@@ -22,7 +22,7 @@ namespace vcarve {
 namespace {
 
 /// Smaller blocks take in so many points of others that they are slower than no blocks (measured).
-constexpr std::size_t kLeastBlock = 12'500;
+constexpr std::size_t kLeastBlock = 10'000;
 
 /// The share of the time that the insertion of points takes; the rest is copying cells.
 constexpr double kInsertion = 0.8;
@@ -72,7 +72,9 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
 
 std::size_t usual_blocks(std::size_t points, std::size_t threads)
 {
-    return threads > 1 ? std::max<std::size_t>(std::min(2 * threads, points / kLeastBlock), 1) : 1;
+    const std::size_t most = points / kLeastBlock;
+    if (threads == 1 || most <= 1) return 1;
+    return most >= 2 * threads ? 2 * threads : std::min(most, threads);
 }
 
 TetMesh triangulate(const Scene& scene, const Progress& progress)
