@@ -51,10 +51,12 @@ TEST(SphereBound, NeverTellsThatAPointInsideIsOutside)
                                                              even_in_cube(random, -1.0, 1.0);
         if (!is_inside(corners, near)) continue;
         ++inside;
-        ASSERT_LE(bound.least_at(near), 0.0) << "height " << height;
         const Vector3d reach = even_in_cube(random, 0.0, 1.0).cwiseAbs();
-        ASSERT_LE(bound.least_in({near - reach, near}), 0.0);
-        ASSERT_LE(bound.least_in({near, near + reach}), 0.0);
+        for (const SphereBound& one : {bound, bound.within({near - reach, near + reach})}) {
+            ASSERT_LE(one.least_at(near), 0.0) << "height " << height;
+            ASSERT_LE(one.least_in({near - reach, near}), 0.0);
+            ASSERT_LE(one.least_in({near, near + reach}), 0.0);
+        }
         ASSERT_FALSE(bound.is_within(0.5 * (near - corners[0]).norm()));
     }
     EXPECT_GT(inside, 5000);
@@ -62,6 +64,7 @@ TEST(SphereBound, NeverTellsThatAPointInsideIsOutside)
 
 TEST(SphereBound, TellsWhatIsClearlyOutside)
 {
+    const Vector3d far = Vector3d::Constant(1e3);
     std::mt19937_64 random(92);
     for (const double height : {1.0, 1e-3, 1e-6, 1e-12}) {
         int told = 0;
@@ -71,7 +74,10 @@ TEST(SphereBound, TellsWhatIsClearlyOutside)
             const Vector3d q = even_in_cube(random, -2.0, 2.0);
             if (is_inside(corners, q)) continue;
             ++outside;
-            if (SphereBound::around(corners).least_at(q) > 0.0) ++told;
+            const SphereBound bound = SphereBound::around(corners);
+            const bool is_told = bound.least_at(q) > 0.0;
+            ASSERT_EQ(bound.within({-far, far}).least_at(q) > 0.0, is_told);
+            if (is_told) ++told;
         }
         EXPECT_GT(told, 0.99 * outside) << height;
     }

@@ -72,8 +72,9 @@ class Block {
     /// hull, the deepest, as far as rounding lets that be told.
     std::optional<Index> deepest_foreign(CellHandle cell)
     {
-        const SphereBound bound = sphere_of(cell);
+        SphereBound bound = sphere_of(cell);
         if (is_far_from_foreign(cell, bound)) return std::nullopt;
+        bound = bound.within(tree_.box());
         double least = 0.0;
         std::optional<Index> deepest;
         tree_.visit_foreign(

@@ -30,6 +30,8 @@ class PointTree {
     explicit PointTree(const std::vector<Eigen::Vector3d>& points);
 
     const std::vector<Eigen::Vector3d>& points() const { return points_; }
+    /// Around all points.
+    const Box& box() const { return levels_.back().front(); }
 
     /// Shows visit_point(i) points that are not in `own`, those first whose boxes have the least
     /// bound(box), and none in boxes with more than `limit`, which visit_point may lower.

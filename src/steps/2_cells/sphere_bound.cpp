@@ -86,6 +86,13 @@ SphereBound SphereBound::beyond(const std::array<Vector3d, 3>& corners)
     return bound;
 }
 
+SphereBound SphereBound::within(const Box& all) const
+{
+    SphereBound bound = *this;
+    bound.most_error_ = error_in(all);
+    return bound;
+}
+
 bool SphereBound::is_within(double distance) const
 {
     // A diameter is all that lies between two points of the sphere.

@@ -28,6 +28,9 @@ class SphereBound {
     /// Of the half space in which orientation(a, b, c, x) is positive.
     static SphereBound beyond(const std::array<Eigen::Vector3d, 3>& corners);
 
+    /// The same, asked only about what lies in a box. Most is told sooner then.
+    SphereBound within(const Box& all) const;
+
     /// At most what the polynomial is at any point of a box. Where it is positive, no point in
     /// there is inside.
     double least_in(const Box& box) const;
@@ -42,6 +45,7 @@ class SphereBound {
     static SphereBound computed(const std::array<Eigen::Vector3d, 4>& corners);
 
     bool is_flat() const;
+    double error_in(const Box& box) const;
 
     /// So much products may be off that are too small for doubles.
     static constexpr double kTiny = std::numeric_limits<double>::min();
@@ -52,31 +56,38 @@ class SphereBound {
     double volume_error_ = 0.0; ///< at most what D is off by
     Eigen::Vector3d normal_error_;
     Eigen::Vector3d center_; ///< from the corner, where D is positive
+    double most_error_ = std::numeric_limits<double>::infinity(); ///< where it will be asked about
 };
 
 // What follows is asked some hundred times a point.
 
+/// At most what rounding adds at any point of a box.
+inline double SphereBound::error_in(const Box& box) const
+{
+    const Eigen::Vector3d most =
+        (box.low - corner_).cwiseAbs().cwiseMax((box.high - corner_).cwiseAbs());
+    return most.dot(volume_error_ * most + normal_error_) + kTiny;
+}
+
 inline double SphereBound::least_in(const Box& box) const
 {
-    double least = -kTiny;
+    const Eigen::Vector3d low = box.low - corner_;
+    const Eigen::Vector3d high = box.high - corner_;
+    const auto at = [&](double q, int axis) { return q * (volume_ * q - normal_[axis]); };
+    double least = 0.0;
+    // A parabola that opens upwards is least at the center, any other one at an end.
     for (int axis = 0; axis < 3; ++axis) {
-        const double low = box.low[axis] - corner_[axis];
-        const double high = box.high[axis] - corner_[axis];
-        const auto at = [&](double q) { return q * (volume_ * q - normal_[axis]); };
-        // A parabola that opens upwards is least at the center, any other one at an end.
-        least +=
-            volume_ > 0.0 ? at(std::clamp(center_[axis], low, high)) : std::min(at(low), at(high));
-        const double most = std::max(std::abs(low), std::abs(high));
-        least -= most * (volume_error_ * most + normal_error_[axis]);
+        least += volume_ > 0.0 ? at(std::clamp(center_[axis], low[axis], high[axis]), axis)
+                               : std::min(at(low[axis], axis), at(high[axis], axis));
     }
-    return least;
+    return least - (least > most_error_ ? most_error_ : error_in(box));
 }
 
 inline double SphereBound::least_at(const Eigen::Vector3d& point) const
 {
     const Eigen::Vector3d q = point - corner_;
-    const Eigen::Vector3d most = q.cwiseAbs();
-    return q.dot(volume_ * q - normal_) - most.dot(volume_error_ * most + normal_error_) - kTiny;
+    const double least = q.dot(volume_ * q - normal_);
+    return least - (least > most_error_ ? most_error_ : error_in({point, point}));
 }
 
 } // namespace vcarve
