@@ -226,6 +226,22 @@ TEST(Triangulate, FillsTheHullOfCosphericalPoints)
     EXPECT_EQ(volume_6(body_centered), 6.0 * 27.0);
 }
 
+/// The corners of all cells, each with the name it has in the order before; all ascending.
+std::vector<std::array<Index, 4>> renamed_cells(const TetMesh& mesh,
+                                                const std::vector<Index>& order)
+{
+    std::vector<std::array<Index, 4>> renamed;
+    for (const Cell& cell : mesh.cells) {
+        auto vertices = cell.vertices;
+        for (Index& vertex : vertices) {
+            vertex = vertex == kInfinite ? kInfinite : order[vertex];
+        }
+        renamed.push_back(sorted(vertices));
+    }
+    std::sort(renamed.begin(), renamed.end());
+    return renamed;
+}
+
 TEST(Triangulate, HasTheSameCellsForPermutedPoints)
 {
     Positions mixed = lattice(5);
@@ -239,15 +255,7 @@ TEST(Triangulate, HasTheSameCellsForPermutedPoints)
             const auto order = random_order(points.size(), seed);
             const TetMesh permuted = triangulation_of(reordered(points, order));
             ASSERT_EQ(permuted.cells.size(), mesh.cells.size());
-            std::vector<std::array<Index, 4>> renamed;
-            for (const Cell& cell : permuted.cells) {
-                auto vertices = cell.vertices;
-                for (Index& vertex : vertices) {
-                    vertex = vertex == kInfinite ? kInfinite : order[vertex];
-                }
-                renamed.push_back(sorted(vertices));
-            }
-            std::sort(renamed.begin(), renamed.end());
+            const std::vector<std::array<Index, 4>> renamed = renamed_cells(permuted, order);
             for (std::size_t i = 0; i < renamed.size(); ++i) {
                 ASSERT_EQ(renamed[i], sorted(mesh.cells[i].vertices)) << points.size() << " points";
             }
