@@ -52,6 +52,7 @@ TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)
 TEST(StageRecorder, ChargesMemoryToTheStageThatHeldIt)
 {
     constexpr std::int64_t kBytes = 64 << 20;
+    reset_peak_memory(); // of tests before, in the same process
     Log nothing;
     StageRecorder recorder(nothing);
     Stage large(recorder, "large");
