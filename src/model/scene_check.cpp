@@ -1,12 +1,12 @@
 #include "model/scene_check.h"
 
+#include "base/atomic_min.h"
 #include "base/parallel.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <string_view>
 
@@ -49,17 +49,14 @@ bool is_track(std::span<const std::uint32_t> row, std::size_t num_views)
 void require_tracks(const Scene& scene)
 {
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-    std::atomic<std::size_t> first_wrong = kNone;
+    std::size_t first_wrong = kNone;
     parallel_for(scene.num_points(), [&](std::size_t point) {
-        if (is_track(scene.tracks[point], scene.views.size())) return;
-        std::size_t before = first_wrong;
-        while (point < before && !first_wrong.compare_exchange_weak(before, point)) {
-        }
+        if (!is_track(scene.tracks[point], scene.views.size())) atomic_min(first_wrong, point);
     });
     if (first_wrong == kNone) return;
     throw UsageError(fmt::format("the track of point {} of the scene is not a row of ascending "
                                  "numbers of views below {}",
-                                 first_wrong.load(), scene.views.size()));
+                                 first_wrong, scene.views.size()));
 }
 
 } // namespace

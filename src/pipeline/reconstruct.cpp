@@ -26,7 +26,9 @@
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -104,11 +106,9 @@ Scene crop(Scene scene, const Region* region, Log& log)
 }
 
 /// The same cells as triangulate(), made in so many blocks, each of which is kept by itself.
-std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, int num_blocks, StageKeeper& work,
-                                             const Progress& progress)
+TetMesh triangulate_in_blocks(const Scene& scene, std::size_t count, StageKeeper& work,
+                              const Progress& progress)
 {
-    if (num_blocks <= 0) return std::nullopt;
-    const auto count = static_cast<std::size_t>(num_blocks);
     SharedBlocks shared(count, work);
     // With other ranks, all blocks but those that gave up are there then.
     const bool is_shared = work.share(kBlocksTask, BlocksTask{count}, kNeededForBlocks, [&] {
@@ -117,20 +117,20 @@ std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, int num_blocks,
     const Blocks blocks = is_shared ? shared.all() : kept_blocks(count, work);
     std::optional<TetMesh> cells =
         triangulate_in_blocks(scene, blocks, progress.part(is_shared ? 0.8 : 0.0, 1.0));
-    if (!cells) {
-        work.log().note("the points lie on common spheres or planes up to their last digits, so "
-                        "they are triangulated at once, which takes more memory");
-    }
-    return cells;
+    if (cells) return std::move(*cells);
+    work.log().note("the points lie on common spheres or planes up to their last digits, so they "
+                    "are triangulated at once, which takes more memory");
+    return triangulate_at_once(scene, progress);
 }
 
 TetMesh triangulate(const Scene& scene, int num_blocks, StageKeeper& work)
 {
     Stage stage(work.log(), "triangulate");
-    std::optional<TetMesh> cells = triangulate_in_blocks(scene, num_blocks, work, stage);
-    if (!cells) cells = triangulate(scene, stage);
-    stage.end({{"cells", size_of(cells->cells.size())}});
-    return std::move(*cells);
+    const auto count = static_cast<std::size_t>(std::max(num_blocks, 0));
+    TetMesh cells =
+        count == 0 ? triangulate(scene, stage) : triangulate_in_blocks(scene, count, work, stage);
+    stage.end({{"cells", size_of(cells.cells.size())}});
+    return cells;
 }
 
 /// The points that are carved with, and the part of space that the surface is wanted of.

@@ -1,5 +1,6 @@
 #include "io/dense/visibility.h"
 
+#include "base/atomic_min.h"
 #include "base/parallel.h"
 #include "vcarve/error.h"
 
@@ -20,14 +21,6 @@ constexpr std::size_t kNumberBytes = 4; ///< of a point's count of views, and of
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 /// So many points are found between two calls of Progress::tell.
 constexpr std::uint64_t kPointsBetweenTells = 65536;
-
-/// Lowers a number that several threads know.
-void lower_to(std::atomic<std::size_t>& least, std::size_t value)
-{
-    std::size_t before = least;
-    while (value < before && !least.compare_exchange_weak(before, value)) {
-    }
-}
 
 /// Fills the rows of tracks, whose begins are known, in parallel.
 class RowFiller {
@@ -77,7 +70,7 @@ class RowFiller {
         for (std::size_t i = 0; i < row.size(); ++i) {
             const std::uint32_t image = image_at(point, tracks_.begins[point] + i);
             if (image >= file_order_.size()) {
-                lower_to(first_wrong_, point);
+                atomic_min(first_wrong_, point);
                 return;
             }
             row[i] = file_order_[image];
@@ -89,7 +82,7 @@ class RowFiller {
     std::span<const char> bytes_;
     std::span<const std::uint32_t> file_order_;
     Tracks& tracks_;
-    std::atomic<std::size_t> first_wrong_ = kNone;
+    std::size_t first_wrong_ = kNone; ///< lowered by many threads
     std::atomic<bool> repeats_ = false;
 };
 

@@ -50,11 +50,20 @@ TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress
     return mesh;
 }
 
-/// Inserts point after point. CGAL's insertion of many at once does the same, but does not tell how
-/// far it is.
+} // namespace
+
+std::size_t usual_blocks(std::size_t points, std::size_t threads)
+{
+    const std::size_t most = points / kLeastBlock;
+    if (threads == 1 || most <= 1) return 1;
+    return most >= 2 * threads ? 2 * threads : std::min(most, threads);
+}
+
 TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
 {
+    // CGAL's insertion of many points at once does the same, but does not tell how far it is.
     constexpr std::size_t kToldEvery = 256;
+    require_four_points(scene.num_points());
     Triangulation triangulation;
     {
         const UnsetArray<std::uint32_t> order = insertion_order(scene.num_points());
@@ -68,18 +77,8 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
     return flatten(triangulation, scene, progress.part(kInsertion, 1.0));
 }
 
-} // namespace
-
-std::size_t usual_blocks(std::size_t points, std::size_t threads)
-{
-    const std::size_t most = points / kLeastBlock;
-    if (threads == 1 || most <= 1) return 1;
-    return most >= 2 * threads ? 2 * threads : std::min(most, threads);
-}
-
 TetMesh triangulate(const Scene& scene, const Progress& progress)
 {
-    require_four_points(scene.num_points());
     const int threads = tbb::this_task_arena::max_concurrency();
     const std::size_t blocks = usual_blocks(scene.num_points(), static_cast<std::size_t>(threads));
     if (blocks > 1) {

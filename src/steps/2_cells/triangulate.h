@@ -22,4 +22,8 @@ std::size_t usual_blocks(std::size_t points, std::size_t threads);
 /// or triangulate_in_blocks() gives up.
 TetMesh triangulate(const Scene& scene, const Progress& progress = {});
 
+/// The same, made by one thread and not in blocks: for points that triangulate_in_blocks() has
+/// given up already.
+TetMesh triangulate_at_once(const Scene& scene, const Progress& progress = {});
+
 } // namespace vcarve

@@ -151,7 +151,7 @@ void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& ran
     if (first.size() < 4 || rank.number >= count) return;
     const PointTree tree(scene.positions);
     const std::size_t share = (count - rank.number + rank.of - 1) / rank.of;
-    ProgressCount done(progress, scene.num_points() / rank.of);
+    ProgressCount done(progress, share * scene.num_points() / count);
     for_each_block(share, [&](std::size_t k) {
         const std::size_t block = rank.number + k * rank.of;
         const PointRun own = run_of(block, count, scene.num_points());
