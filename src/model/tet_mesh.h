@@ -29,6 +29,8 @@ struct alignas(32) Cell {
     std::array<Index, 4> neighbors;
 
     bool is_infinite() const { return vertices[3] == kInfinite; }
+    /// The first slot whose facet has an end: of an infinite cell only facet 3 has one.
+    int first_bounded_slot() const { return is_infinite() ? 3 : 0; }
 };
 static_assert(sizeof(Cell) == 32);
 

@@ -14,15 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Whether some view of a point's track sees it from the side the unit normal points to.
-bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Vector3d& normal)
-{
-    const auto track = scene.tracks[point];
-    return std::any_of(track.begin(), track.end(), [&](std::uint32_t view) {
-        return stands_before(scene.views[view].center, scene.positions[point], normal);
-    });
-}
-
 /// How many views saw the least seen corner from the front.
 std::int32_t face_support(const TriMesh& mesh, const Scene& scene, const Face& face)
 {
@@ -41,6 +32,14 @@ std::int32_t face_support(const TriMesh& mesh, const Scene& scene, const Face& f
 }
 
 } // namespace
+
+bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Vector3d& normal)
+{
+    const auto track = scene.tracks[point];
+    return std::any_of(track.begin(), track.end(), [&](std::uint32_t view) {
+        return stands_before(scene.views[view].center, scene.positions[point], normal);
+    });
+}
 
 bool is_seen(const Scene& scene, const Face& points, const Vector3d& normal)
 {

@@ -11,8 +11,12 @@
 
 namespace vcarve {
 
+/// Whether some view of a point's track sees it from the side the unit normal points to, at under
+/// about 87 degrees.
+bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Eigen::Vector3d& normal);
+
 /// Whether a face over points of the scene has been seen: each corner by some view of its point's
-/// track that the face turns its front to, at under about 87 degrees.
+/// track that the face turns its front to.
 bool is_seen(const Scene& scene, const Face& points, const Eigen::Vector3d& normal);
 
 /// Which faces have been seen. Needs TriMesh::points. Cost: O(sights), in parallel.

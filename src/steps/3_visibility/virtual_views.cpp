@@ -131,7 +131,7 @@ std::vector<Vector3d> outward_normals(const TetMesh& mesh, const Labels& labels)
     std::vector<Vector3d> normals(mesh.positions.size(), Vector3d::Zero());
     for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
         const Cell& cell = mesh.cells[i];
-        for (int slot = 0; slot < 4 && labels[i] == Label::inside; ++slot) {
+        for (int slot = cell.first_bounded_slot(); slot < 4 && labels[i] == Label::inside; ++slot) {
             if (labels[cell.neighbors[slot]] == Label::inside) {
                 continue;
             }

@@ -18,7 +18,8 @@ std::pair<Index, int> key(const CellFacet& facet)
     return {facet.cell, facet.slot};
 }
 
-/// The corners of a facet, counter-clockwise seen from outside its cell.
+} // namespace
+
 Face face_of(const TetMesh& cells, const CellFacet& facet)
 {
     const auto& corners = cells.cells[facet.cell].vertices;
@@ -26,15 +27,13 @@ Face face_of(const TetMesh& cells, const CellFacet& facet)
     return {corners[a], corners[c], corners[b]};
 }
 
-} // namespace
-
 std::vector<CellFacet> boundary_facets(const TetMesh& cells, const Labels& labels)
 {
     return parallel_collect<CellFacet>(cells.cells.size(), [&](std::size_t cell, auto& facets) {
         if (labels[cell] == Label::outside) {
             return;
         }
-        for (int slot = 0; slot < 4; ++slot) {
+        for (int slot = cells.cells[cell].first_bounded_slot(); slot < 4; ++slot) {
             if (labels[cells.cells[cell].neighbors[slot]] == Label::outside) {
                 facets.push_back({static_cast<Index>(cell), slot});
             }
@@ -100,6 +99,7 @@ void Boundary::update(const Labels& labels, std::span<const Index> changed_cells
 {
     std::map<Index, std::vector<std::uint32_t>> rows; // at vertices of these cells, faces of theirs
     const auto look_at = [&](const CellFacet& facet) {
+        if (facet.slot < cells_.cells[facet.cell].first_bounded_slot()) return;
         if (labels[facet.cell] == Label::inside &&
             labels[cells_.other_side(facet).cell] == Label::outside) {
             const std::uint32_t face = find_or_add(facet);

@@ -16,8 +16,12 @@
 namespace vcarve {
 
 /// All facets between an inside and an outside cell, given from the inside one, in the order of the
-/// cells. Cost: O(cells), in parallel.
+/// cells; those between two infinite cells, which have no end, are left out. Cost: O(cells), in
+/// parallel.
 std::vector<CellFacet> boundary_facets(const TetMesh& cells, const Labels& labels);
+
+/// The corners of a facet, counter-clockwise seen from outside its cell.
+Face face_of(const TetMesh& cells, const CellFacet& facet);
 
 /// Where a facet stands among those of a boundary, which are in the order of the cells.
 /// Precondition: it is one of them. Cost: O(log facets).

@@ -6,6 +6,7 @@
 #include "steps/3_visibility/virtual_views.h"
 #include "steps/4_labels/bridging_facets.h"
 #include "steps/4_labels/cut.h"
+#include "steps/4_labels/hull_faces.h"
 #include "steps/4_labels/needles.h"
 #include "steps/4_labels/strict_carving.h"
 
@@ -79,14 +80,18 @@ Labelling cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
     Stage stage(log, "cut");
     const std::int32_t one_sight = energy.unit;
     const Progress progress(stage);
+    const std::vector<Index> uncrossed = uncrossed_hull_cells(cells, energy.network);
     MinimumCut minimum = cut(cells, std::move(energy), options.cut, progress.part(0.0, 0.6));
     DoubtedLabels doubted = doubt_bridging_facets(
         cells, scene, minimum, {options.bridging, one_sight}, progress.part(0.6, 0.9));
     const std::int64_t needles = take_back_needles(scene, options.needles, doubted.labelling);
-    stage.end({{"inside", doubted.labelling.num_inside()},
+    const std::int64_t inside = doubted.labelling.num_inside();
+    const std::int64_t on_hull = go_on_along_hull(scene, uncrossed, doubted.labelling);
+    stage.end({{"inside", inside},
                {"bridging facets doubted", doubted.doubts},
                {"cells taken back", doubted.taken_back},
-               {"needles", needles}});
+               {"needles", needles},
+               {"faces of the hull", on_hull}});
     return std::move(doubted.labelling);
 }
 

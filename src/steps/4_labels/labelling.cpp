@@ -1,5 +1,7 @@
 #include "steps/4_labels/labelling.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -24,6 +26,15 @@ const Boundary& Labelling::boundary()
 std::vector<CellFacet> Labelling::facets() const
 {
     return boundary_ ? boundary_->facets_in_order() : boundary_facets(*cells_, labels_);
+}
+
+void Labelling::close_hull()
+{
+    const auto beyond = parallel_collect<Index>(labels_.size(), [&](std::size_t i, auto& found) {
+        if (labels_[i] == Label::inside && cells_->cells[i].is_infinite())
+            found.push_back(static_cast<Index>(i));
+    });
+    set(beyond, Label::outside);
 }
 
 void Labelling::set(std::span<const Index> some_cells, Label label)

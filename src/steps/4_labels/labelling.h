@@ -30,6 +30,8 @@ class Labelling {
     /// Gives some cells a label. Cost: where the boundary is at hand, that of Boundary::update, so
     /// that few cells at a time are meant.
     void set(std::span<const Index> some_cells, Label label);
+    /// Calls all infinite cells outside, so that the boundary is closed. Cost: O(cells).
+    void close_hull();
     /// Frees the memory of the boundary.
     void forget_boundary() { boundary_.reset(); }
 

@@ -40,6 +40,7 @@ SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceW
     Stage stage(log, "surface");
     const Region* const region = wishes.region;
     Removals removals(wishes.removed);
+    if (options.closed) labelling.close_hull();
     const std::vector<CellFacet> facets = labelling.facets();
     labelling.forget_boundary(); // the surface is numbered and measured anew
     TriMesh surface = extract_surface(labelling.cells(), facets, scene);

@@ -1,0 +1,155 @@
+#include "geometry/triangle.h"
+#include "steps/4_labels/hull_faces.h"
+#include "support/made_cells.h"
+#include "support/scenes.h"
+#include "vcarve/error.h"
+#include "vcarve/reconstruct.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Points on a sphere of radius 1, evenly below the lid at z = 0.3, each seen by all views.
+std::vector<MadePoint> round_room(const std::vector<std::uint32_t>& views)
+{
+    constexpr int kPoints = 600;
+    std::vector<MadePoint> points;
+    for (int i = 0; i < kPoints; ++i) {
+        const double z = 1.0 - 2.0 * (i + 0.5) / kPoints;
+        const double turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+        const double radius = std::sqrt(1.0 - z * z);
+        if (z < 0.3)
+            points.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, views});
+    }
+    return points;
+}
+
+const std::vector<Vector3d> kWithin = {
+    {0.1, 0.0, 0.0}, {-0.2, 0.1, 0.1}, {0.0, -0.2, -0.1}, {0.1, 0.2, -0.2}};
+
+/// The room with all cells outside, as sights from within leave them.
+struct FreeRoom {
+    explicit FreeRoom(Scene made)
+        : scene(std::move(made)),
+          mesh(triangulate(scene)),
+          labelling(mesh, Labels(mesh.cells.size(), Label::outside))
+    {
+        network.arc_capacities = filled_array(mesh.cells.size(), std::array<std::int32_t, 4>{});
+    }
+
+    std::int64_t go_on() { return go_on_along_hull(scene, uncrossed(), labelling); }
+    std::vector<Index> uncrossed() const { return uncrossed_hull_cells(mesh, network); }
+    std::int64_t num_on_hull() const
+    {
+        return std::ranges::count_if(mesh.cells,
+                                     [](const Cell& cell) { return cell.is_infinite(); });
+    }
+    /// Whether a facet of the hull goes across the lid: to its middle, a way of .95; edges on walls
+    /// are much shorter.
+    bool is_on_lid(Index cell) const
+    {
+        const auto& [a, b, c, infinite] = mesh.cells[cell].vertices;
+        const auto length = [&](Index v, Index w) {
+            return (mesh.positions[v] - mesh.positions[w]).norm();
+        };
+        return std::max({length(a, b), length(b, c), length(c, a)}) > 0.7;
+    }
+
+    Scene scene;
+    TetMesh mesh;
+    Labelling labelling;
+    FlowNetwork network;
+};
+
+TEST(GoOnAlongHull, ShowsTheWallsOfARoomBehindWhichNoPointsLie)
+{
+    FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
+    const std::int64_t found = room.go_on();
+    const std::vector<CellFacet> facets = room.labelling.facets();
+    EXPECT_EQ(found, size_of(facets.size()));
+    EXPECT_GT(found, room.num_on_hull() * 9 / 10);
+    for (const CellFacet& facet : facets) {
+        EXPECT_EQ(facet.slot, 3) << "only facets of the hull have an end";
+        const Face face = face_of(room.mesh, facet);
+        EXPECT_LT(face_normal(room.mesh.positions, face).dot(room.mesh.positions[face[0]]), 0.0)
+            << "walls look into the room";
+    }
+}
+
+TEST(GoOnAlongHull, IsStoppedByTheBoundaryBeingClosed)
+{
+    FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
+    ASSERT_GT(room.go_on(), 0);
+    room.labelling.close_hull();
+    EXPECT_TRUE(room.labelling.facets().empty());
+}
+
+TEST(GoOnAlongHull, LeavesWhatIsSeenFromBeyond)
+{
+    // Views far out at all sides besides: nothing tells the inner side from the outer one.
+    std::vector<Vector3d> views = kWithin;
+    for (const double far : {-9.0, 9.0}) {
+        views.insert(views.end(), {{far, 0.0, 0.0}, {0.0, far, 0.0}, {0.0, 0.0, far}});
+    }
+    FreeRoom room(make_scene(views, round_room({0, 1, 2, 3, 4, 5, 6, 7, 8, 9})));
+    EXPECT_EQ(room.go_on(), 0);
+}
+
+TEST(GoOnAlongHull, LeavesWhatNoViewSawFromWithin)
+{
+    FreeRoom room(make_scene({{0.0, 0.0, 9.0}, {0.5, 0.0, 9.0}}, round_room({0, 1})));
+    room.go_on();
+    for (const CellFacet& facet : room.labelling.facets()) {
+        const Face face = face_of(room.mesh, facet);
+        EXPECT_LT(room.mesh.positions[face[0]].z(), 0.25) << "seen from its back from above";
+    }
+}
+
+TEST(GoOnAlongHull, LeavesFacetsThatSightsCross)
+{
+    FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
+    const std::vector<Index> all = room.uncrossed();
+    ASSERT_EQ(size_of(all.size()), room.num_on_hull());
+    const CellFacet outwards = room.mesh.other_side({all[3], 3});
+    room.network.arc_capacities[outwards.cell][outwards.slot] = 1;
+    room.network.arc_capacities[all[5]][3] = 1;
+    std::vector<Index> expected = all;
+    expected.erase(expected.begin() + 5);
+    expected.erase(expected.begin() + 3);
+    EXPECT_EQ(room.uncrossed(), expected);
+}
+
+TEST(GoOnAlongHull, LeavesTheLidWhichTurnsOffTheSurface)
+{
+    std::vector<MadePoint> points = round_room({0, 1, 2, 3});
+    points.push_back({{0.0, 0.0, 0.4}, {0, 1, 2, 3}}); // so that the lid is a fan
+    FreeRoom room(make_scene(kWithin, points));
+    const auto is_on_lid = [&](Index cell) { return room.is_on_lid(cell); };
+    ASSERT_TRUE(std::ranges::any_of(room.uncrossed(), is_on_lid));
+    room.go_on();
+    for (const CellFacet& facet : room.labelling.facets()) {
+        EXPECT_FALSE(room.is_on_lid(facet.cell));
+    }
+}
+
+TEST(Reconstruct, FindsTheWallsOfARoomSeenFromWithinOnly)
+{
+    Log log;
+    Scene scene = make_scene(kWithin, round_room({0, 1, 2, 3}));
+    const TriMesh mesh = reconstruct(scene, {}, log).mesh;
+    EXPECT_GT(mesh.faces.size(), 650U);
+    Options closed;
+    closed.surface.closed = true;
+    EXPECT_THROW(reconstruct(scene, closed, log), InputError) << "nothing lies behind the walls";
+}
+
+} // namespace
+} // namespace vcarve
