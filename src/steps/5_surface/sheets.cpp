@@ -4,75 +4,14 @@
 #include "mesh/local_edges.h"
 #include "mesh/surface_normals.h"
 #include "steps/1_points/looked_at_ball.h"
-#include "steps/4_labels/boundary.h"
+#include "steps/5_surface/onlookers.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace vcarve {
 
 namespace {
-
-/// Whether a facet is kept, for facets in ascending order.
-class KeptFacets {
-  public:
-    KeptFacets(const std::vector<CellFacet>& facets, const FaceFlags& keep)
-        : facets_(facets), keep_(keep)
-    {
-    }
-
-    bool operator()(const CellFacet& facet) const { return keep_[place_of(facet, facets_)] != 0; }
-
-  private:
-    const std::vector<CellFacet>& facets_;
-    const FaceFlags& keep_;
-};
-
-/// All views, and what there is of the boundary for them to see.
-struct Onlookers {
-    const FaceVisibility& visibility;
-    const KeptFacets& is_kept;
-
-    /// Whether for one of those that see a place ask(view) says yes.
-    template <typename Ask>
-    bool any_that_sees(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const
-    {
-        const std::size_t num_views = visibility.scene().views.size();
-        for (std::uint32_t view = 0; view < num_views; ++view) {
-            if (visibility.sees_among(view, facet, place, is_kept) && ask(view)) return true;
-        }
-        return false;
-    }
-
-    bool see(const CellFacet& facet, const Eigen::Vector3d& place) const
-    {
-        return any_that_sees(facet, place, [](std::uint32_t) { return true; });
-    }
-
-    /// Whether one of them would look onto the back of a kept face, were this one away.
-    bool would_see_a_back(const CellFacet& facet, const Eigen::Vector3d& place) const
-    {
-        return any_that_sees(facet, place, [&](std::uint32_t view) {
-            return visibility.met_behind(view, facet, place, is_kept) ==
-                   FaceVisibility::Meets::back;
-        });
-    }
-};
-
-bool hides_a_back(const CellFacet& facet, const Onlookers& onlookers)
-{
-    return std::ranges::any_of(onlookers.visibility.places_on(facet), [&](const auto& place) {
-        return onlookers.would_see_a_back(facet, place);
-    });
-}
-
-/// Whether no view sees half of the places on a facet or more.
-bool is_mostly_unseen(const CellFacet& facet, const Onlookers& onlookers)
-{
-    const std::vector<Eigen::Vector3d> places = onlookers.visibility.places_on(facet);
-    const auto num_seen = std::ranges::count_if(
-        places, [&](const auto& place) { return onlookers.see(facet, place); });
-    return 2 * static_cast<std::size_t>(num_seen) < places.size();
-}
 
 /// Whether a face goes on with the surface at one of its corners.
 bool goes_on(std::size_t face, const SurfaceNormals& normals)
@@ -123,40 +62,129 @@ std::vector<std::uint32_t> those_that(const std::vector<std::uint32_t>& faces, c
         16);
 }
 
+/// Takes sheets off a boundary.
+class Peeling {
+  public:
+    Peeling(const TriMesh& boundary, const std::vector<CellFacet>& facets,
+            const FaceVisibility& visibility, FaceFlags& keep)
+        : boundary_(boundary),
+          facets_(facets),
+          visibility_(visibility),
+          keep_(keep),
+          faces_at_(boundary.faces, boundary.positions.size()),
+          onlookers_(visibility, facets, keep)
+    {
+    }
+
+    /// From the rim inwards, of the long faces those that turn off the surface or are mostly
+    /// unseen.
+    void take_off_long(const std::vector<std::uint32_t>& long_faces);
+    /// From the rim inwards, faces of any size of which views see next to nothing.
+    void take_off_hardly_seen();
+    /// Of faces longer than any thing there is, those that are mostly unseen, wherever they are.
+    void take_off_vast(const std::vector<std::uint32_t>& vast_faces);
+
+    std::int64_t peeled() const { return peeled_; }
+
+  private:
+    static constexpr int kRounds = 20;
+    static constexpr double kMostly = 0.5;
+
+    bool is_open_at(std::uint32_t face) const
+    {
+        return keep_[face] != 0 && (visibility_.is_on_hull(facets_[face]) ||
+                                    is_at_rim(face, boundary_.faces, faces_at_, keep_));
+    }
+    bool may_go(std::uint32_t face) const
+    {
+        return !onlookers_.would_see_a_back_behind(facets_[face]);
+    }
+    void take_off(const std::vector<std::uint32_t>& sheets)
+    {
+        for (const std::uint32_t face : sheets) {
+            keep_[face] = 0;
+        }
+        peeled_ += static_cast<std::int64_t>(sheets.size());
+    }
+    std::vector<std::uint32_t> faces_around(const std::vector<std::uint32_t>& gone) const;
+
+    const TriMesh& boundary_;
+    const std::vector<CellFacet>& facets_;
+    const FaceVisibility& visibility_;
+    FaceFlags& keep_;
+    VertexFaces faces_at_;
+    Onlookers onlookers_;
+    std::int64_t peeled_ = 0;
+};
+
+void Peeling::take_off_long(const std::vector<std::uint32_t>& long_faces)
+{
+    for (int round = 0; round < kRounds; ++round) {
+        const LocalEdges edges(boundary_.positions, boundary_.faces, keep_);
+        const SurfaceNormals normals(boundary_.positions, boundary_.faces, edges);
+        const auto is_sheet = [&](std::uint32_t face) {
+            return is_open_at(face) &&
+                   (!goes_on(face, normals) || onlookers_.see_less_than(kMostly, facets_[face])) &&
+                   may_go(face);
+        };
+        const std::vector<std::uint32_t> sheets = those_that(long_faces, is_sheet);
+        take_off(sheets);
+        if (sheets.empty()) break;
+    }
+}
+
+/// The kept faces at the corners of faces that are gone, ascending.
+std::vector<std::uint32_t> Peeling::faces_around(const std::vector<std::uint32_t>& gone) const
+{
+    std::vector<std::uint32_t> around;
+    for (const std::uint32_t face : gone) {
+        for (const std::uint32_t corner : boundary_.faces[face]) {
+            std::ranges::copy_if(faces_at_[corner], std::back_inserter(around),
+                                 [&](std::uint32_t other) { return keep_[other] != 0; });
+        }
+    }
+    std::ranges::sort(around);
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    return around;
+}
+
+void Peeling::take_off_hardly_seen()
+{
+    constexpr double kHardly = 1.0 / 6.0; // one place of seven
+    auto gone = parallel_collect<std::uint32_t>(keep_.size(), [&](std::size_t face, auto& found) {
+        if (keep_[face] == 0) found.push_back(static_cast<std::uint32_t>(face));
+    });
+    for (int round = 0; round < kRounds && !gone.empty(); ++round) {
+        gone = those_that(faces_around(gone), [&](std::uint32_t face) {
+            return is_open_at(face) && onlookers_.see_less_than(kHardly, facets_[face]) &&
+                   may_go(face);
+        });
+        take_off(gone);
+    }
+}
+
+void Peeling::take_off_vast(const std::vector<std::uint32_t>& vast_faces)
+{
+    take_off(those_that(vast_faces, [&](std::uint32_t face) {
+        return keep_[face] != 0 && onlookers_.see_less_than(kMostly, facets_[face]) && may_go(face);
+    }));
+}
+
 } // namespace
 
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
                          const FaceVisibility& visibility, const SheetOptions& options,
                          FaceFlags& keep)
 {
-    constexpr int kRounds = 20;
+    constexpr double kVast = 4.0; ///< x max_sheet
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
-    const std::vector<std::uint32_t> large = faces_with_long_edges(boundary, keep, long_edge);
-    if (large.empty()) return 0;
-    const VertexFaces faces_at(boundary.faces, boundary.positions.size());
-    const KeptFacets is_kept(facets, keep);
-    const Onlookers onlookers{visibility, is_kept};
-    std::int64_t peeled = 0;
-    for (int round = 0; round < kRounds; ++round) {
-        const LocalEdges edges(boundary.positions, boundary.faces, keep);
-        const SurfaceNormals normals(boundary.positions, boundary.faces, edges);
-        const auto is_sheet = [&](std::uint32_t face) {
-            const CellFacet& facet = facets[face];
-            if (keep[face] == 0) return false;
-            if (!visibility.is_on_hull(facet) && !is_at_rim(face, boundary.faces, faces_at, keep))
-                return false;
-            return (!goes_on(face, normals) || is_mostly_unseen(facet, onlookers)) &&
-                   !hides_a_back(facet, onlookers);
-        };
-        const std::vector<std::uint32_t> sheets = those_that(large, is_sheet);
-        for (const std::uint32_t face : sheets) {
-            keep[face] = 0;
-        }
-        peeled += static_cast<std::int64_t>(sheets.size());
-        if (sheets.empty()) break;
-    }
-    return peeled;
+    const auto long_faces = faces_with_long_edges(boundary, keep, long_edge);
+    Peeling peeling(boundary, facets, visibility, keep);
+    if (!long_faces.empty()) peeling.take_off_long(long_faces);
+    peeling.take_off_hardly_seen();
+    peeling.take_off_vast(faces_with_long_edges(boundary, keep, kVast * long_edge));
+    return peeling.peeled();
 }
 
 } // namespace vcarve
