@@ -5,8 +5,10 @@
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/5_surface/extract.h"
 #include "steps/5_surface/removals.h"
+#include "steps/5_surface/rims.h"
 #include "vcarve/error.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -32,6 +34,15 @@ std::int64_t leave_region(const TriMesh& surface, const Region& region, FaceFlag
     return left;
 }
 
+/// The other faces.
+FaceFlags without(const FaceFlags& keep)
+{
+    FaceFlags others(keep.size());
+    std::ranges::transform(keep, others.begin(),
+                           [](std::uint8_t flag) -> std::uint8_t { return flag == 0 ? 1 : 0; });
+    return others;
+}
+
 } // namespace
 
 SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceWishes& wishes,
@@ -53,11 +64,15 @@ SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceW
         stage.progress(0.4);
         keep = supported_faces(surface, facets, visibility, scene, options.support);
         removals.note(keep, Removal::unseen);
+        const FaceFlags unseen = without(keep);
         stage.progress(0.7);
         if (region != nullptr) cropped = leave_region(surface, *region, keep);
         removals.note(keep, Removal::outside_region);
         sheets = peel_sheets(surface, facets, visibility, options.sheets, keep);
         removals.note(keep, Removal::sheet);
+        round_off_rims(surface, facets, visibility, unseen, keep);
+        if (region != nullptr) leave_region(surface, *region, keep);
+        removals.note(keep, Removal::outside_region);
     } else if (region != nullptr) {
         cropped = leave_region(surface, *region, keep);
         removals.note(keep, Removal::outside_region);

@@ -10,6 +10,7 @@ void Removals::note(const FaceFlags& keep, Removal reason)
     if (wanted_ == nullptr) return;
     why_.resize(keep.size(), kKept);
     for (std::size_t face = 0; face < keep.size(); ++face) {
+        if (keep[face] != 0) why_[face] = kKept;
         if (keep[face] == 0 && why_[face] == kKept) why_[face] = static_cast<std::uint8_t>(reason);
     }
 }

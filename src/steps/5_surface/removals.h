@@ -19,7 +19,7 @@ class Removals {
     explicit Removals(RemovedFaces* wanted) : wanted_(wanted) {}
 
     /// Of the faces of a boundary, those that have lost their flag since the last time lost it for
-    /// this reason.
+    /// this reason; those that have got it back are not taken away.
     void note(const FaceFlags& keep, Removal reason);
     /// Adds the faces that were noted. `boundary` is what the flags are of.
     void add_noted(const TriMesh& boundary);
