@@ -91,7 +91,7 @@ class Rim {
 void round_off_rims(const TriMesh& boundary, const std::vector<CellFacet>& facets,
                     const FaceVisibility& visibility, const FaceFlags& may_return, FaceFlags& keep)
 {
-    constexpr double kMostLocal = 3.0;
+    constexpr double kMostLocal = 6.0;
     constexpr double kMostUsual = 4.0;
     const Rim rim(boundary, may_return, keep);
     const std::vector<std::uint32_t> candidates = rim.candidates();

@@ -150,7 +150,7 @@ std::vector<std::uint32_t> Peeling::faces_around(const std::vector<std::uint32_t
 
 void Peeling::take_off_hardly_seen()
 {
-    constexpr double kHardly = 1.0 / 6.0; // one place of seven
+    constexpr double kHardly = 0.25; // one place of seven, two of ten
     auto gone = parallel_collect<std::uint32_t>(keep_.size(), [&](std::size_t face, auto& found) {
         if (keep_[face] == 0) found.push_back(static_cast<std::uint32_t>(face));
     });
