@@ -1,4 +1,5 @@
 #include "geometry/triangle.h"
+#include "steps/5_surface/make_surface.h"
 #include "steps/5_surface/rims.h"
 #include "steps/5_surface/sheets.h"
 #include "support/made_cells.h"
@@ -108,8 +109,18 @@ TEST(RoundOffRims, PutsBackWhatMayReturnOnly)
 
 TEST(RoundOffRims, LeavesLargeFaces)
 {
-    const Slab slab(8.0);
+    const Slab slab(5.8); // less than six local edges, more than four usual faces
     EXPECT_EQ(slab.rounded(slab.top, slab.rest), slab.top);
+}
+
+TEST(SeenSurface, EndsBehindTheBendWhereItTurnsOutOfSight)
+{
+    Slab slab;
+    Log log;
+    const SeenSurface seen =
+        seen_surface({slab.made.mesh, slab.made.labels}, slab.made.scene, {}, {}, log);
+    EXPECT_EQ(size_of(seen.faces.faces.size()),
+              std::ranges::count(slab.rounded(slab.top, slab.rest), 1));
 }
 
 TEST(RoundOffRims, LeavesWhatNoViewSeesTheEdgeOf)
