@@ -106,14 +106,23 @@ bool FaceVisibility::is_seen(const CellFacet& facet) const
         return std::ranges::any_of(places,
                                    [&](const Vector3d& place) { return sees(view, facet, place); });
     };
-    for (const int corner : kFacetCorners[facet.slot]) {
-        const auto track = scene_.tracks[cells_.cells[facet.cell].vertices[corner]];
-        if (std::ranges::any_of(track, sees_some)) return true;
-    }
-    for (std::uint32_t view = 0; view < scene_.views.size(); ++view) {
-        if (sees_some(view)) return true;
-    }
-    return false;
+    return any_view(facet, sees_some);
+}
+
+bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
+{
+    const Vector3d normal = outward(cells_, facet).normalized();
+    return std::ranges::all_of(kFacetCorners[facet.slot], [&](int corner) {
+        const Index vertex = cells_.cells[facet.cell].vertices[corner];
+        const Vector3d& place = cells_.positions[vertex];
+        bool is_seen = false;
+        for (const std::uint32_t view : scene_.tracks[vertex]) {
+            if (!stands_before(scene_.views[view].center, place, normal)) continue;
+            if (faces(view, facet, place)) return true;
+            is_seen = true;
+        }
+        return !is_seen;
+    });
 }
 
 FaceVisibility::Crossed FaceVisibility::met_beyond(std::uint32_t view, const CellFacet& facet,
@@ -139,18 +148,20 @@ FaceVisibility::Crossed FaceVisibility::crossed_at(const CellFacet& ahead) const
     return leaves ? Crossed{ahead, Meets::back} : Crossed{beyond, Meets::front};
 }
 
-std::vector<FaceVisibility::Crossed> FaceVisibility::boundary_along(const CellFacet& facet,
-                                                                    const Vector3d& place,
-                                                                    const Vector3d& target) const
+bool FaceVisibility::along_boundary(const CellFacet& facet, const Vector3d& place,
+                                    const Vector3d& target,
+                                    const std::function<bool(const Crossed&)>& goes_on) const
 {
-    std::vector<Crossed> crossed;
-    const auto note = [&](const CellFacet& ahead) {
+    bool passes = false; // through the facet itself, which comes first
+    const auto look = [&](const CellFacet& ahead) {
         const Crossed met = crossed_at(ahead);
-        if (met.side != Meets::nothing) crossed.push_back(met);
+        if (met.side == Meets::nothing) return true;
+        if (passes) return goes_on(met);
+        passes = true;
         return true;
     };
-    SightWalk(cells_).through_facet(facet, place, target, note);
-    return crossed;
+    SightWalk(cells_).through_facet(facet, place, target, look);
+    return passes;
 }
 
 } // namespace vcarve

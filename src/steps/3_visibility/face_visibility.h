@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace vcarve {
@@ -54,6 +55,15 @@ class FaceVisibility {
     bool sees_among(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                     const IsKept& is_kept) const;
 
+    /// Whether ask(view) says yes for some view. Those that saw a corner of the facet, the
+    /// likeliest to see it, are asked first.
+    template <typename Ask>
+    bool any_view(const CellFacet& facet, const Ask& ask) const;
+
+    /// Whether images tell what is seen of a facet: of the views before a corner that saw it, one
+    /// shows it at least. Where a lens or a pose is wrong they do not.
+    bool is_told_by_images(const CellFacet& facet) const;
+
     /// Whether nothing but infinity lies before a facet.
     bool is_on_hull(const CellFacet& facet) const
     {
@@ -76,10 +86,12 @@ class FaceVisibility {
 
     Crossed crossed_at(const CellFacet& ahead) const;
 
-    /// What a line crosses of the boundary out of a facet's cell from a place on it to a target, in
-    /// order, the facet itself first. Empty where the line does not clearly pass through the facet.
-    std::vector<Crossed> boundary_along(const CellFacet& facet, const Eigen::Vector3d& place,
-                                        const Eigen::Vector3d& target) const;
+    /// Walks along a line out of a facet's cell, from a place on the facet to a target, and calls
+    /// goes_on(crossed) for what it crosses of the boundary behind the facet itself, until that
+    /// says no. False where the line does not clearly pass through the facet.
+    bool along_boundary(const CellFacet& facet, const Eigen::Vector3d& place,
+                        const Eigen::Vector3d& target,
+                        const std::function<bool(const Crossed&)>& goes_on) const;
 
     const TetMesh& cells_;
     const Labels& labels_;
@@ -87,15 +99,31 @@ class FaceVisibility {
     double reach_ = 0.0; ///< longer than any line within the hull
 };
 
+template <typename Ask>
+bool FaceVisibility::any_view(const CellFacet& facet, const Ask& ask) const
+{
+    for (const int corner : kFacetCorners[facet.slot]) {
+        for (const std::uint32_t view : scene_.tracks[cells_.cells[facet.cell].vertices[corner]]) {
+            if (ask(view)) return true;
+        }
+    }
+    for (std::uint32_t view = 0; view < scene_.views.size(); ++view) {
+        if (ask(view)) return true;
+    }
+    return false;
+}
+
 template <typename IsKept>
 bool FaceVisibility::sees_among(std::uint32_t view, const CellFacet& facet,
                                 const Eigen::Vector3d& place, const IsKept& is_kept) const
 {
     if (!faces(view, facet, place)) return false;
-    const auto between = boundary_along(facet, place, scene_.views[view].center);
-    return !between.empty() &&
-           std::none_of(between.begin() + 1, between.end(),
-                        [&](const Crossed& crossed) { return is_kept(crossed.facet); });
+    bool is_free = true;
+    const auto goes_on = [&](const Crossed& crossed) {
+        is_free = !is_kept(crossed.facet);
+        return is_free;
+    };
+    return along_boundary(facet, place, scene_.views[view].center, goes_on) && is_free;
 }
 
 template <typename IsKept>
@@ -104,11 +132,13 @@ FaceVisibility::Meets FaceVisibility::met_behind(std::uint32_t view, const CellF
                                                  const IsKept& is_kept) const
 {
     const Eigen::Vector3d way = (place - scene_.views[view].center).normalized();
-    const auto met = boundary_along(cells_.other_side(facet), place, place + reach_ * way);
-    for (std::size_t i = 1; i < met.size(); ++i) { // the first is the facet itself
-        if (is_kept(met[i].facet)) return met[i].side;
-    }
-    return Meets::nothing;
+    Meets met = Meets::nothing;
+    along_boundary(cells_.other_side(facet), place, place + reach_ * way,
+                   [&](const Crossed& crossed) {
+                       if (is_kept(crossed.facet)) met = crossed.side;
+                       return met == Meets::nothing;
+                   });
+    return met;
 }
 
 } // namespace vcarve

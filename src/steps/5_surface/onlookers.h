@@ -73,11 +73,9 @@ class Onlookers {
     template <typename Ask>
     bool any_that_sees(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const
     {
-        const std::size_t num_views = visibility_.scene().views.size();
-        for (std::uint32_t view = 0; view < num_views; ++view) {
-            if (visibility_.sees_among(view, facet, place, is_kept_) && ask(view)) return true;
-        }
-        return false;
+        return visibility_.any_view(facet, [&](std::uint32_t view) {
+            return visibility_.sees_among(view, facet, place, is_kept_) && ask(view);
+        });
     }
 
     const FaceVisibility& visibility_;

@@ -95,6 +95,11 @@ class Peeling {
         return keep_[face] != 0 && (visibility_.is_on_hull(facets_[face]) ||
                                     is_at_rim(face, boundary_.faces, faces_at_, keep_));
     }
+    bool is_seen_less_than(double share, std::uint32_t face) const
+    {
+        return visibility_.is_told_by_images(facets_[face]) &&
+               onlookers_.see_less_than(share, facets_[face]);
+    }
     bool may_go(std::uint32_t face) const
     {
         return !onlookers_.would_see_a_back_behind(facets_[face]);
@@ -124,8 +129,7 @@ void Peeling::take_off_long(const std::vector<std::uint32_t>& long_faces)
         const SurfaceNormals normals(boundary_.positions, boundary_.faces, edges);
         const auto is_sheet = [&](std::uint32_t face) {
             return is_open_at(face) &&
-                   (!goes_on(face, normals) || onlookers_.see_less_than(kMostly, facets_[face])) &&
-                   may_go(face);
+                   (!goes_on(face, normals) || is_seen_less_than(kMostly, face)) && may_go(face);
         };
         const std::vector<std::uint32_t> sheets = those_that(long_faces, is_sheet);
         take_off(sheets);
@@ -156,8 +160,7 @@ void Peeling::take_off_hardly_seen()
     });
     for (int round = 0; round < kRounds && !gone.empty(); ++round) {
         gone = those_that(faces_around(gone), [&](std::uint32_t face) {
-            return is_open_at(face) && onlookers_.see_less_than(kHardly, facets_[face]) &&
-                   may_go(face);
+            return is_open_at(face) && is_seen_less_than(kHardly, face) && may_go(face);
         });
         take_off(gone);
     }
@@ -166,7 +169,7 @@ void Peeling::take_off_hardly_seen()
 void Peeling::take_off_vast(const std::vector<std::uint32_t>& vast_faces)
 {
     take_off(those_that(vast_faces, [&](std::uint32_t face) {
-        return keep_[face] != 0 && onlookers_.see_less_than(kMostly, facets_[face]) && may_go(face);
+        return keep_[face] != 0 && is_seen_less_than(kMostly, face) && may_go(face);
     }));
 }
 
