@@ -13,6 +13,8 @@ namespace vcarve {
 using Index = std::uint32_t;
 inline constexpr Index kInfinite = 0xffffffffU; ///< the vertex all infinite cells share
 
+inline constexpr int kHullSlot = 3; ///< of an infinite cell: its facet of the convex hull
+
 /// A tetrahedron. neighbors[i] lies across facet i, the facet opposite vertices[i].
 ///
 ///            3              vertices are ordered so that orientation(v0, v1, v2, v3) is positive:
@@ -29,8 +31,8 @@ struct alignas(32) Cell {
     std::array<Index, 4> neighbors;
 
     bool is_infinite() const { return vertices[3] == kInfinite; }
-    /// The first slot whose facet has an end: of an infinite cell only facet 3 has one.
-    int first_bounded_slot() const { return is_infinite() ? 3 : 0; }
+    /// The first slot whose facet has an end: of an infinite cell only that of the hull has one.
+    int first_bounded_slot() const { return is_infinite() ? kHullSlot : 0; }
 };
 static_assert(sizeof(Cell) == 32);
 

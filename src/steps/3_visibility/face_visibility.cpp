@@ -117,8 +117,9 @@ bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
         const Vector3d& place = cells_.positions[vertex];
         bool is_seen = false;
         for (const std::uint32_t view : scene_.tracks[vertex]) {
-            if (!stands_before(scene_.views[view].center, place, normal)) continue;
-            if (faces(view, facet, place)) return true;
+            const View& eye = scene_.views[view];
+            if (!stands_before(eye.center, place, normal)) continue;
+            if (view_shows(eye, scene_.cameras[eye.camera], place)) return true;
             is_seen = true;
         }
         return !is_seen;

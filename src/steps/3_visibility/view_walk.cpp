@@ -57,7 +57,6 @@ ViewWalk::First ViewWalk::way_out(const SightFrame& frame) const
 /// Combinatorica 10, 1990).
 ViewWalk::First ViewWalk::way_into_hull(const SightFrame& frame) const
 {
-    constexpr int kHullSlot = 3;
     Index cell = cell_;
     // No facet comes twice, so the number of cells is never reached.
     for (std::size_t steps = 0; steps < mesh_.cells.size(); ++steps) {

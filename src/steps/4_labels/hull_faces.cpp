@@ -18,8 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kHullSlot = 3; ///< of an infinite cell: its facet of the hull
-
 /// Whether a facet of the hull is a surface seen from within the hull.
 bool is_seen_from_within(const TetMesh& cells, const Scene& scene, Index infinite)
 {

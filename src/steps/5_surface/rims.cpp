@@ -93,6 +93,7 @@ void round_off_rims(const TriMesh& boundary, const std::vector<CellFacet>& facet
 {
     constexpr double kMostLocal = 6.0;
     constexpr double kMostUsual = 4.0;
+    if (std::ranges::count(may_return, 1) == 0) return;
     const Rim rim(boundary, may_return, keep);
     const std::vector<std::uint32_t> candidates = rim.candidates();
     if (candidates.empty()) return;

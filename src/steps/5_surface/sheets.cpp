@@ -183,6 +183,7 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
     const auto long_faces = faces_with_long_edges(boundary, keep, long_edge);
+    if (long_faces.empty() && std::ranges::count(keep, 0) == 0) return 0; // there is no rim
     Peeling peeling(boundary, facets, visibility, keep);
     if (!long_faces.empty()) peeling.take_off_long(long_faces);
     peeling.take_off_hardly_seen();
