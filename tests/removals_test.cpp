@@ -130,8 +130,7 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     EXPECT_EQ(count(removed, Removal::outside_region), log.all["surface outside the region"]);
     EXPECT_EQ(count(removed, Removal::small_piece),
               log.all["surface faces"] - static_cast<std::int64_t>(mesh.faces.size()));
-    for (const Removal reason :
-         {Removal::unseen, Removal::outside_region, Removal::small_piece}) {
+    for (const Removal reason : {Removal::unseen, Removal::outside_region, Removal::small_piece}) {
         EXPECT_GT(count(removed, reason), 0) << kRemovalNames[static_cast<std::size_t>(reason)];
     }
     EXPECT_EQ(removed.mesh.faces.size(), removed.reasons.size());
