@@ -93,6 +93,10 @@ TEST(ClosingLine, NamesTheLimitThatManyPointsFellTo)
     outcome.low_angle = 0;
     EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if parts are missing, try a larger "
                              "--max-error: 20 % of the points fell to it");
+    outcome.high_error = 0;
+    outcome.stray = 6600;
+    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if parts are missing, try a larger "
+                             "--stray-spacing: 30 % of the points fell to it");
 }
 
 TEST(ClosingLine, DoesNotProposePointsOfOneView)
@@ -132,17 +136,23 @@ TEST(ClosingLine, SaysThatSparsePointsAreFew)
 
 TEST(RunOutcome, IsMadeOfWhatTheStagesCount)
 {
-    const RunOutcome outcome = outcome_of(
-        {{"filter",
-          {{"points", 70}, {"of", 100}, {"few views", 10}, {"high error", 15}, {"low angle", 5}}},
-         {"open", {{"rays of the views", 40}, {"of", 4000}}},
-         {"orient", {{"sights on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
-         {"write", {{"faces", 99}, {"vertices", 50}}}});
+    const RunOutcome outcome =
+        outcome_of({{"filter",
+                     {{"points", 70},
+                      {"of", 100},
+                      {"few views", 10},
+                      {"high error", 15},
+                      {"low angle", 5},
+                      {"stray", 3}}},
+                    {"open", {{"rays of the views", 40}, {"of", 4000}}},
+                    {"orient", {{"sights on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
+                    {"write", {{"faces", 99}, {"vertices", 50}}}});
     EXPECT_EQ(outcome.points, 70);
     EXPECT_EQ(outcome.points_before, 100);
     EXPECT_EQ(outcome.few_views, 10);
     EXPECT_EQ(outcome.high_error, 15);
     EXPECT_EQ(outcome.low_angle, 5);
+    EXPECT_EQ(outcome.stray, 3);
     EXPECT_EQ(outcome.open, 0.01);
     EXPECT_EQ(outcome.boundary_edges, 12);
     EXPECT_EQ(outcome.faces, 99);

@@ -1,4 +1,4 @@
-#include "steps/2_cells/point_tree.h"
+#include "geometry/point_tree.h"
 #include "support/point_sets.h"
 
 #include <gtest/gtest.h>

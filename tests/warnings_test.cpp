@@ -66,7 +66,8 @@ TEST(Warnings, NameTheOptionThatManyPointsFellTo)
 
 TEST(Warnings, SayNothingOfFewDroppedPoints)
 {
-    for (const char* reason : {"low angle", "few views", "high error", "duplicate", "non-finite"}) {
+    for (const char* reason :
+         {"low angle", "few views", "high error", "duplicate", "non-finite", "stray"}) {
         EXPECT_EQ(warnings_of(good_figures(), filtered(reason, 199)), Sentences()) << reason;
     }
 }

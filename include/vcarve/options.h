@@ -10,9 +10,10 @@ namespace vcarve {
 
 /// Which points are good enough to carve with.
 struct FilterOptions {
-    int min_views = 2;          ///< --min-views
-    double max_error_px = 4.0;  ///< --max-error
-    double min_angle_deg = 1.0; ///< --min-angle
+    int min_views = 2;           ///< --min-views
+    double max_error_px = 4.0;   ///< --max-error
+    double min_angle_deg = 1.0;  ///< --min-angle
+    double stray_spacing = 16.0; ///< --stray-spacing
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
@@ -33,6 +34,12 @@ struct FilterOptions {
              .unit = "deg",
              .help = "Drop points whose sights all meet at a smaller angle; 0 keeps all.",
              .max = 180.0});
+        options.number(stray_spacing,
+                       {.name = "stray-spacing",
+                        .unit = "times",
+                        .help = "Drop points of two views that stand this many times the usual "
+                                "spacing away from others, as seen from their views, or two thirds "
+                                "of that where their error is large; 0 keeps all."});
     }
 };
 

@@ -64,6 +64,7 @@ void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
     if (options.min_views > 2) propose(outcome.few_views, "a smaller --min-views");
     propose(outcome.high_error, "a larger --max-error");
     propose(outcome.low_angle, "a smaller --min-angle");
+    propose(outcome.stray, "a larger --stray-spacing");
     if (proposals.empty() && outcome.points < kFew && !outcome.is_dense) {
         proposals.push_back(
             fmt::format("{} points are few, more images or dense points (stereo_fusion) show more",
@@ -99,6 +100,7 @@ RunOutcome outcome_of(const CountsOfStages& counts)
     outcome.few_views = count_of(counts, "filter", "few views");
     outcome.high_error = count_of(counts, "filter", "high error");
     outcome.low_angle = count_of(counts, "filter", "low angle");
+    outcome.stray = count_of(counts, "filter", "stray");
     return outcome;
 }
 

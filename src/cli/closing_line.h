@@ -21,6 +21,7 @@ struct RunOutcome {
     std::int64_t few_views = 0;     ///< of these, dropped by --min-views
     std::int64_t high_error = 0;    ///< ... by --max-error
     std::int64_t low_angle = 0;     ///< ... by --min-angle
+    std::int64_t stray = 0;         ///< ... by --stray-spacing
     bool is_dense = false;
     bool has_report = false;
     static constexpr double kLong = 10.0;

@@ -67,6 +67,7 @@ const kReasons = [
   ["few views", "few views", (o) => "seen by fewer than " + o["min-views"] + " views (--min-views)"],
   ["high error", "high error", (o) => "reprojection error over " + o["max-error"] + " px (--max-error)"],
   ["low angle", "small angle", (o) => "sights meet at less than " + o["min-angle"] + "° (--min-angle)"],
+  ["stray", "stray", (o) => "of two views, and " + o["stray-spacing"] + " times the usual spacing from others (--stray-spacing)"],
 ];
 function fillFilter() {
   const stage = record.stages.find((one) => one.name === "filter");

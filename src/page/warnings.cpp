@@ -38,6 +38,7 @@ constexpr Reason kReasons[] = {
     {"few views", "min-views", "too few views saw them"},
     {"high error", "max-error", "they were measured too badly"},
     {"low angle", "min-angle", "their sights meet at too small an angle to tell how far they are"},
+    {"stray", "stray-spacing", "two views saw them, and no others stand near"},
 };
 
 void warn_of_dropped_points(std::vector<std::string>& warnings, const Json& record)

@@ -15,6 +15,7 @@
 #include "steps/1_points/filter.h"
 #include "steps/1_points/region.h"
 #include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/stray_points.h"
 #include "steps/1_points/thin.h"
 #include "steps/2_cells/triangulate.h"
 #include "steps/2_cells/triangulate_blocks.h"
@@ -80,7 +81,8 @@ Scene filter(Scene scene, const FilterOptions& options, Log& log)
     const Progress progress(stage);
     FilteredPoints filtered = filter_points(std::move(scene), options, progress.part(0.0, 0.6));
     progress.tell(0.6);
-    Scene sorted = spatial_sort(std::move(filtered.scene), progress.part(0.6, 1.0));
+    Scene sorted = spatial_sort(std::move(filtered.scene), progress.part(0.6, 0.9));
+    const std::int64_t stray = drop_stray_points(sorted, options);
     const FilterReport& dropped = filtered.report;
     stage.end({{"points", size_of(sorted.num_points())},
                {"of", num_points},
@@ -88,7 +90,8 @@ Scene filter(Scene scene, const FilterOptions& options, Log& log)
                {"duplicate", dropped.duplicate},
                {"few views", dropped.few_views},
                {"high error", dropped.high_error},
-               {"low angle", dropped.low_angle}});
+               {"low angle", dropped.low_angle},
+               {"stray", stray}});
     return sorted;
 }
 

@@ -5,6 +5,7 @@
 #include "steps/2_cells/delaunay.h"
 #include "steps/2_cells/insertion_order.h"
 #include "steps/2_cells/refusals.h"
+#include "steps/2_cells/sphere_bound.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
+#include "geometry/point_tree.h"
 #include "model/tet_mesh.h"
-#include "steps/2_cells/point_tree.h"
 
 #include <array>
 #include <cstddef>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "geometry/box.h"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -9,12 +11,6 @@
 #include <limits>
 
 namespace vcarve {
-
-/// A box along the axes.
-struct Box {
-    Eigen::Vector3d low;
-    Eigen::Vector3d high;
-};
 
 /// How far inside the sphere around a tetrahedron a point lies, or how far beyond a plane: a
 /// polynomial that is negative there, with a bound of what rounding adds. It has the signs of

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "model/tet_mesh.h"
-#include "steps/2_cells/sphere_bound.h"
+#include "geometry/box.h"
 
 #include <Eigen/Core>
 

@@ -1,4 +1,4 @@
-#include "steps/2_cells/point_tree.h"
+#include "geometry/point_tree.h"
 
 #include "base/parallel.h"
 
@@ -7,17 +7,6 @@
 #include <limits>
 
 namespace vcarve {
-
-namespace {
-
-double distance_between(const Box& a, const Box& b)
-{
-    const Eigen::Vector3d gap =
-        (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(Eigen::Vector3d::Zero());
-    return gap.norm();
-}
-
-} // namespace
 
 PointTree::PointTree(const std::vector<Eigen::Vector3d>& points) : points_(points)
 {

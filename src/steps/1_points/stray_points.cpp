@@ -1,0 +1,144 @@
+#include "steps/1_points/stray_points.h"
+
+#include "base/index_limit.h"
+#include "base/median.h"
+#include "base/parallel.h"
+#include "geometry/point_tree.h"
+#include "model/measured_range.h"
+#include "model/scene_points.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// More than the points that one false match after another may put near each other.
+constexpr std::size_t kCrowd = 4;
+
+/// Which points are seen so seldom that they may be stray.
+std::vector<std::uint32_t> seldom_seen_points(const Scene& scene)
+{
+    constexpr std::size_t kFew = 2;
+    return parallel_collect<std::uint32_t>(scene.num_points(), [&](std::size_t i, auto& found) {
+        const auto track = scene.tracks[i];
+        if (track.size() <= kFew && !has_measured_range(scene, track))
+            found.push_back(static_cast<std::uint32_t>(i));
+    });
+}
+
+/// How alone points stand: the distance to the 4th nearest of the others over that to the nearest
+/// view that saw the point.
+class Solitude {
+  public:
+    explicit Solitude(const Scene& scene) : scene_(scene), tree_(scene.positions) {}
+
+    /// Whether a point stands so much alone or more.
+    bool is_at_least(double solitude, std::size_t point) const
+    {
+        const double distance = solitude * distance_to_views(point);
+        return reach(point, distance) >= distance;
+    }
+
+    /// Of the median point; estimated, where they are many, from points evenly spread among them.
+    double median() const
+    {
+        constexpr std::size_t kEnough = 8192;
+        const std::size_t stride = 1 + scene_.num_points() / kEnough;
+        std::vector<double> some((scene_.num_points() + stride - 1) / stride);
+        const auto look = [&](std::size_t i) {
+            some[i] = reach(i * stride, kUnlimited) / distance_to_views(i * stride);
+        };
+        parallel_for(some.size(), look, 64);
+        return median_in_place(some);
+    }
+
+  private:
+    double distance_to_views(std::size_t point) const
+    {
+        double nearest = kUnlimited;
+        for (const std::uint32_t view : scene_.tracks[point]) {
+            nearest = std::min(nearest, (scene_.views[view].center - place(point)).norm());
+        }
+        return nearest;
+    }
+
+    /// The distance to the 4th nearest other point, at most so far.
+    double reach(std::size_t point, double most) const
+    {
+        const Box here{place(point), place(point)};
+        std::array<double, kCrowd> nearest;
+        nearest.fill(most);
+        const auto look_at = [&](std::size_t other) {
+            const double distance = (place(other) - here.low).norm();
+            if (!(distance < nearest.back())) return;
+            nearest.back() = distance;
+            std::ranges::sort(nearest);
+        };
+        tree_.visit_foreign(
+            {point, point + 1}, nearest.back(),
+            [&](const Box& box) { return distance_between(here, box); }, look_at);
+        return nearest.back();
+    }
+
+    const Vector3d& place(std::size_t point) const { return scene_.positions[point]; }
+
+    const Scene& scene_;
+    PointTree tree_;
+};
+
+/// The error that 5 % of the points with a known one exceed; none where there are none.
+double large_error(const Scene& scene)
+{
+    constexpr std::size_t kWorst = 20; // one in so many
+    std::vector<double> errors = scene.errors_px;
+    std::erase_if(errors, [](double error) { return !(error >= 0.0); });
+    if (errors.empty()) return kUnlimited;
+    const auto worst = errors.end() - 1 - static_cast<std::ptrdiff_t>(errors.size() / kWorst);
+    std::ranges::nth_element(errors, worst);
+    return *worst;
+}
+
+/// Leaves all points but some, which ascend.
+void drop_points(Scene& scene, const std::vector<std::uint32_t>& dropped)
+{
+    const auto kept =
+        parallel_collect<std::uint32_t>(scene.num_points(), [&](std::size_t i, auto& found) {
+            const auto point = static_cast<std::uint32_t>(i);
+            if (!std::ranges::binary_search(dropped, point)) found.push_back(point);
+        });
+    const auto track_of = [&](std::size_t i) { return scene.tracks[kept[i]]; };
+    keep_points(scene, kept, make_tracks(kept.size(), track_of));
+}
+
+} // namespace
+
+std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options)
+{
+    constexpr double kWithLargeError = 2.0 / 3.0; // of stray_spacing
+    if (options.stray_spacing == 0.0 || scene.num_points() <= kCrowd) return 0;
+    const std::vector<std::uint32_t> candidates = seldom_seen_points(scene);
+    if (candidates.empty()) return 0;
+    const Solitude solitude(scene);
+    const double most = options.stray_spacing * solitude.median();
+    if (!(most > 0.0)) return 0; // half of them were seen by none
+    const double large = large_error(scene);
+    const auto is_stray = [&](std::uint32_t point) {
+        const bool is_bad = scene.errors_px[point] > large;
+        return solitude.is_at_least(is_bad ? kWithLargeError * most : most, point);
+    };
+    const auto stray = parallel_collect<std::uint32_t>(
+        candidates.size(),
+        [&](std::size_t i, auto& found) {
+            if (is_stray(candidates[i])) found.push_back(candidates[i]);
+        },
+        64);
+    if (!stray.empty()) drop_points(scene, stray);
+    return static_cast<std::int64_t>(stray.size());
+}
+
+} // namespace vcarve
