@@ -81,6 +81,8 @@ TEST(StrayPoints, GoSoonerWhereTheirErrorIsLarge)
     EXPECT_EQ(num_stray(scene), 0);
     scene.errors_px.assign(scene.num_points(), -1.0); // not known
     EXPECT_EQ(num_stray(scene), 0);
+    scene.errors_px[7] = 0.5; // of those that are known, as large as any
+    EXPECT_EQ(num_stray(scene), 0);
 }
 
 TEST(StrayPoints, StayInACrowd)

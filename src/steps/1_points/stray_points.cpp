@@ -31,6 +31,18 @@ std::vector<std::uint32_t> seldom_seen_points(const Scene& scene)
     });
 }
 
+/// Some points, evenly spread among all, to estimate by what is usual; all where they are few.
+std::vector<std::uint32_t> spread_sample(const Scene& scene)
+{
+    constexpr std::size_t kEnough = 8192;
+    const std::size_t stride = 1 + scene.num_points() / kEnough;
+    std::vector<std::uint32_t> sample;
+    for (std::size_t point = 0; point < scene.num_points(); point += stride) {
+        sample.push_back(static_cast<std::uint32_t>(point));
+    }
+    return sample;
+}
+
 /// How alone points stand: the distance to the 4th nearest of the others over that to the nearest
 /// view that saw the point.
 class Solitude {
@@ -41,20 +53,18 @@ class Solitude {
     bool is_at_least(double solitude, std::size_t point) const
     {
         const double distance = solitude * distance_to_views(point);
-        return reach(point, distance) >= distance;
+        return !has_crowd_along(point, distance) && reach(point, distance) >= distance;
     }
 
-    /// Of the median point; estimated, where they are many, from points evenly spread among them.
-    double median() const
+    /// Of the median one of some points.
+    double median(const std::vector<std::uint32_t>& points) const
     {
-        constexpr std::size_t kEnough = 8192;
-        const std::size_t stride = 1 + scene_.num_points() / kEnough;
-        std::vector<double> some((scene_.num_points() + stride - 1) / stride);
+        std::vector<double> all(points.size());
         const auto look = [&](std::size_t i) {
-            some[i] = reach(i * stride, kUnlimited) / distance_to_views(i * stride);
+            all[i] = reach(points[i], kUnlimited) / distance_to_views(points[i]);
         };
-        parallel_for(some.size(), look, 64);
-        return median_in_place(some);
+        parallel_for(all.size(), look, 64);
+        return median_in_place(all);
     }
 
   private:
@@ -65,6 +75,20 @@ class Solitude {
             nearest = std::min(nearest, (scene_.views[view].center - place(point)).norm());
         }
         return nearest;
+    }
+
+    /// Whether four of the points that come just before or after it lie nearer than so far. Of
+    /// most points that is so, and no others need be looked at.
+    bool has_crowd_along(std::size_t point, double distance) const
+    {
+        constexpr std::size_t kSome = 4;
+        const std::size_t first = point - std::min(point, kSome);
+        const std::size_t last = std::min(scene_.num_points(), point + kSome + 1);
+        std::size_t num_near = 0;
+        for (std::size_t other = first; other < last; ++other) {
+            if (other != point && (place(other) - place(point)).norm() < distance) ++num_near;
+        }
+        return num_near >= kCrowd;
     }
 
     /// The distance to the 4th nearest other point, at most so far.
@@ -91,12 +115,15 @@ class Solitude {
     PointTree tree_;
 };
 
-/// The error that 5 % of the points with a known one exceed; none where there are none.
-double large_error(const Scene& scene)
+/// The error that 5 % of those of some points exceed that have a known one; unlimited where none
+/// has.
+double large_error(const Scene& scene, const std::vector<std::uint32_t>& points)
 {
     constexpr std::size_t kWorst = 20; // one in so many
-    std::vector<double> errors = scene.errors_px;
-    std::erase_if(errors, [](double error) { return !(error >= 0.0); });
+    std::vector<double> errors;
+    for (const std::uint32_t point : points) {
+        if (scene.errors_px[point] >= 0.0) errors.push_back(scene.errors_px[point]);
+    }
     if (errors.empty()) return kUnlimited;
     const auto worst = errors.end() - 1 - static_cast<std::ptrdiff_t>(errors.size() / kWorst);
     std::ranges::nth_element(errors, worst);
@@ -124,9 +151,10 @@ std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options)
     const std::vector<std::uint32_t> candidates = seldom_seen_points(scene);
     if (candidates.empty()) return 0;
     const Solitude solitude(scene);
-    const double most = options.stray_spacing * solitude.median();
+    const std::vector<std::uint32_t> usual = spread_sample(scene);
+    const double most = options.stray_spacing * solitude.median(usual);
     if (!(most > 0.0)) return 0; // half of them were seen by none
-    const double large = large_error(scene);
+    const double large = large_error(scene, usual);
     const auto is_stray = [&](std::uint32_t point) {
         const bool is_bad = scene.errors_px[point] > large;
         return solitude.is_at_least(is_bad ? kWithLargeError * most : most, point);
