@@ -139,7 +139,7 @@ TEST(PeelSheets, TakesWhatIsHardlySeenOffTheRimHoweverSmall)
     EXPECT_EQ(slab.peeled(slab.all(), 0.9), slab.all()) << "there is no rim";
 }
 
-TEST(PeelSheets, TakesWhatIsVastAndMostlyUnseenFromAnywhere)
+TEST(PeelSheets, TakesWhatIsLongAndMostlyUnseenFromAnywhere)
 {
     const Slab slab;
     EXPECT_EQ(slab.peeled(slab.all(), 0.01), slab.top);

@@ -17,8 +17,8 @@ constexpr double kSide = 6.0;
 constexpr double kHeight = 3.0;
 constexpr double kTop = 15.0; ///< of the box around
 
-// The diagonal of what was looked at is 9.
-constexpr SheetOptions kThird = {.max_sheet = 0.3};
+// The diagonal of what was looked at is 9, and sheets that views see are twice as long as others.
+constexpr SheetOptions kThird = {.max_sheet = 0.15};
 constexpr double kLong = 2.7;
 
 /// Points a step apart on the walls of a hall without a ceiling, and on the rim of its floor, whose
@@ -100,10 +100,10 @@ struct Hall {
         return keep;
     }
     /// `keep` without the first of the long faces of the lid, where its rim then is.
-    FaceFlags opened(FaceFlags keep) const
+    FaceFlags opened(FaceFlags keep, double edge = kLong) const
     {
         for (std::size_t face = 0; face < keep.size(); ++face) {
-            if (parts[face] != Part::lid || longest_edge(face) < kLong) continue;
+            if (parts[face] != Part::lid || longest_edge(face) < edge) continue;
             keep[face] = 0;
             break;
         }
@@ -138,7 +138,18 @@ TEST(PeelSheets, TakesTheLidOffAnOpenHallFromItsRimButNotItsPlainFloor)
     expect_peeled(hall, kThird, keep, without_lid);
 }
 
-TEST(PeelSheets, TakesNothingOutOfTheMiddle)
+TEST(PeelSheets, TakesOffWhatViewsSeeOnlyIfItIsTwiceAsLong)
+{
+    constexpr double kTwice = 5.4; // a length between those of the faces of the lid
+    const Hall hall;
+    const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}), kTwice);
+    const FaceFlags rest = hall.without(keep, Part::lid, kTwice);
+    ASSERT_NE(rest, keep);
+    ASSERT_NE(hall.without(rest, Part::lid, kTwice / 2.0), rest);
+    expect_peeled(hall, {.max_sheet = kTwice / 2.0 / 9.0}, keep, rest);
+}
+
+TEST(PeelSheets, TakesNothingSeenOutOfTheMiddle)
 {
     const Hall hall;
     const FaceFlags keep = hall.all_but({Part::top, Part::around});
@@ -150,7 +161,7 @@ TEST(PeelSheets, LeavesWhatIsNoLongerThanTheShare)
     const Hall hall;
     const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}));
     ASSERT_NE(hall.without(keep, Part::lid, 9.0 * 0.5), keep);
-    expect_peeled(hall, {.max_sheet = 0.95}, keep, keep);
+    expect_peeled(hall, {.max_sheet = 0.475}, keep, keep);
 }
 
 TEST(PeelSheets, TakesNoneWhereNotAsked)

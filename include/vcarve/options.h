@@ -270,9 +270,9 @@ struct SupportOptions {
     }
 };
 
-/// Which faces at the rim are taken off.
+/// Which long faces are taken off.
 struct SheetOptions {
-    double max_sheet = 0.13; ///< --max-sheet
+    double max_sheet = 0.12; ///< --max-sheet
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
@@ -280,10 +280,11 @@ struct SheetOptions {
         options.number(max_sheet,
                        {.name = "max-sheet",
                         .unit = "x extent",
-                        .help = "Take off faces from the rim with an edge longer than this share "
-                                "of what was looked at, if they go on with the surface at no "
-                                "corner or are hardly seen, and no back of a face comes to light "
-                                "behind them; 0 takes off none.",
+                        .help = "Take off faces with an edge longer than this share of what was "
+                                "looked at if views see less than half of them, and from the rim "
+                                "those twice as long that go on with the surface at no corner, "
+                                "unless the back of a face comes to light behind them; 0 takes off "
+                                "none.",
                         .max = 1.0});
     }
 };

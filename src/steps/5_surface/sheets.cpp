@@ -34,19 +34,23 @@ bool is_at_rim(std::uint32_t face, const std::vector<Face>& faces, const VertexF
     return is_gone_at(a, b) || is_gone_at(b, c) || is_gone_at(c, a);
 }
 
-/// The kept faces with an edge so long, ascending.
-std::vector<std::uint32_t> faces_with_long_edges(const TriMesh& boundary, const FaceFlags& keep,
-                                                 double longest)
+/// Whether a face has an edge so long.
+bool has_edge_of(double length, std::uint32_t face, const TriMesh& boundary)
 {
     const auto is_long = [&](std::uint32_t from, std::uint32_t to) {
-        return (boundary.positions[to] - boundary.positions[from]).norm() >= longest;
+        return (boundary.positions[to] - boundary.positions[from]).norm() >= length;
     };
+    const auto& [a, b, c] = boundary.faces[face];
+    return is_long(a, b) || is_long(b, c) || is_long(c, a);
+}
+
+/// The kept faces with an edge so long, ascending.
+std::vector<std::uint32_t> faces_with_edges_of(double length, const TriMesh& boundary,
+                                               const FaceFlags& keep)
+{
     return parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t i, auto& large) {
-        const auto& [a, b, c] = boundary.faces[i];
-        if (keep[i] == 0) return;
-        if (is_long(a, b) || is_long(b, c) || is_long(c, a)) {
-            large.push_back(static_cast<std::uint32_t>(i));
-        }
+        const auto face = static_cast<std::uint32_t>(i);
+        if (keep[i] != 0 && has_edge_of(length, face, boundary)) large.push_back(face);
     });
 }
 
@@ -76,13 +80,11 @@ class Peeling {
     {
     }
 
-    /// From the rim inwards, of the long faces those that turn off the surface or are mostly
-    /// unseen.
-    void take_off_long(const std::vector<std::uint32_t>& long_faces);
+    /// Of the faces with an edge so long those that are mostly unseen, wherever they are, and from
+    /// the rim inwards those twice as long that turn off the surface.
+    void take_off_long(double long_edge);
     /// From the rim inwards, faces of any size of which views see next to nothing.
     void take_off_hardly_seen();
-    /// Of faces longer than any thing there is, those that are mostly unseen, wherever they are.
-    void take_off_vast(const std::vector<std::uint32_t>& vast_faces);
 
     std::int64_t peeled() const { return peeled_; }
 
@@ -122,16 +124,21 @@ class Peeling {
     std::int64_t peeled_ = 0;
 };
 
-void Peeling::take_off_long(const std::vector<std::uint32_t>& long_faces)
+void Peeling::take_off_long(double long_edge)
 {
-    for (int round = 0; round < kRounds; ++round) {
+    constexpr double kTwice = 2.0; // shorter ones that are seen may be plain walls
+    const std::vector<std::uint32_t> long_faces = faces_with_edges_of(long_edge, boundary_, keep_);
+    for (int round = 0; round < kRounds && !long_faces.empty(); ++round) {
         const LocalEdges edges(boundary_.positions, boundary_.faces, keep_);
         const SurfaceNormals normals(boundary_.positions, boundary_.faces, edges);
-        const auto is_sheet = [&](std::uint32_t face) {
-            return is_open_at(face) &&
-                   (!goes_on(face, normals) || is_seen_less_than(kMostly, face)) && may_go(face);
+        const auto turns_off = [&](std::uint32_t face) {
+            return is_open_at(face) && has_edge_of(kTwice * long_edge, face, boundary_) &&
+                   !goes_on(face, normals);
         };
-        const std::vector<std::uint32_t> sheets = those_that(long_faces, is_sheet);
+        const std::vector<std::uint32_t> sheets = those_that(long_faces, [&](std::uint32_t face) {
+            return keep_[face] != 0 && (turns_off(face) || is_seen_less_than(kMostly, face)) &&
+                   may_go(face);
+        });
         take_off(sheets);
         if (sheets.empty()) break;
     }
@@ -166,28 +173,17 @@ void Peeling::take_off_hardly_seen()
     }
 }
 
-void Peeling::take_off_vast(const std::vector<std::uint32_t>& vast_faces)
-{
-    take_off(those_that(vast_faces, [&](std::uint32_t face) {
-        return keep_[face] != 0 && is_seen_less_than(kMostly, face) && may_go(face);
-    }));
-}
-
 } // namespace
 
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
                          const FaceVisibility& visibility, const SheetOptions& options,
                          FaceFlags& keep)
 {
-    constexpr double kVast = 4.0; ///< x max_sheet
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
-    const auto long_faces = faces_with_long_edges(boundary, keep, long_edge);
-    if (long_faces.empty() && std::ranges::count(keep, 0) == 0) return 0; // there is no rim
     Peeling peeling(boundary, facets, visibility, keep);
-    if (!long_faces.empty()) peeling.take_off_long(long_faces);
+    peeling.take_off_long(long_edge);
     peeling.take_off_hardly_seen();
-    peeling.take_off_vast(faces_with_long_edges(boundary, keep, kVast * long_edge));
     return peeling.peeled();
 }
 
