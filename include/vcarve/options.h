@@ -272,7 +272,7 @@ struct SupportOptions {
 
 /// Which long faces are taken off.
 struct SheetOptions {
-    double max_sheet = 0.12; ///< --max-sheet
+    double max_sheet = 0.115; ///< --max-sheet
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
