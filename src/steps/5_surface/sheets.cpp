@@ -80,9 +80,9 @@ class Peeling {
     {
     }
 
-    /// Of the faces with an edge so long those that are mostly unseen, wherever they are, and from
-    /// the rim inwards those twice as long that turn off the surface.
-    void take_off_long(double long_edge);
+    /// Of the long faces those that are mostly unseen, wherever they are, and from the rim inwards
+    /// those with an edge so long that turn off the surface.
+    void take_off_long(const std::vector<std::uint32_t>& long_faces, double sheet_edge);
     /// From the rim inwards, faces of any size of which views see next to nothing.
     void take_off_hardly_seen();
 
@@ -124,15 +124,13 @@ class Peeling {
     std::int64_t peeled_ = 0;
 };
 
-void Peeling::take_off_long(double long_edge)
+void Peeling::take_off_long(const std::vector<std::uint32_t>& long_faces, double sheet_edge)
 {
-    constexpr double kTwice = 2.0; // shorter ones that are seen may be plain walls
-    const std::vector<std::uint32_t> long_faces = faces_with_edges_of(long_edge, boundary_, keep_);
     for (int round = 0; round < kRounds && !long_faces.empty(); ++round) {
         const LocalEdges edges(boundary_.positions, boundary_.faces, keep_);
         const SurfaceNormals normals(boundary_.positions, boundary_.faces, edges);
         const auto turns_off = [&](std::uint32_t face) {
-            return is_open_at(face) && has_edge_of(kTwice * long_edge, face, boundary_) &&
+            return is_open_at(face) && has_edge_of(sheet_edge, face, boundary_) &&
                    !goes_on(face, normals);
         };
         const std::vector<std::uint32_t> sheets = those_that(long_faces, [&](std::uint32_t face) {
@@ -179,10 +177,13 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
                          const FaceVisibility& visibility, const SheetOptions& options,
                          FaceFlags& keep)
 {
+    constexpr double kTwice = 2.0; // shorter ones that are seen may be plain walls
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
+    const auto long_faces = faces_with_edges_of(long_edge, boundary, keep);
+    if (long_faces.empty() && std::ranges::count(keep, 0) == 0) return 0; // there is no rim
     Peeling peeling(boundary, facets, visibility, keep);
-    peeling.take_off_long(long_edge);
+    peeling.take_off_long(long_faces, kTwice * long_edge);
     peeling.take_off_hardly_seen();
     return peeling.peeled();
 }
