@@ -17,8 +17,8 @@ constexpr double kSide = 6.0;
 constexpr double kHeight = 3.0;
 constexpr double kTop = 15.0; ///< of the box around
 
-// The diagonal of what was looked at is 9, and sheets that views see are twice as long as others.
-constexpr SheetOptions kThird = {.max_sheet = 0.15};
+// The diagonal of what was looked at is 9. Faces that views see go from twice the length on.
+constexpr SheetOptions kSeenFromLong = {.max_sheet = 0.15};
 constexpr double kLong = 2.7;
 
 /// Points a step apart on the walls of a hall without a ceiling, and on the rim of its floor, whose
@@ -135,7 +135,7 @@ TEST(PeelSheets, TakesTheLidOffAnOpenHallFromItsRimButNotItsPlainFloor)
     const FaceFlags without_floor = hall.without(keep, Part::hall, kLong);
     ASSERT_NE(without_lid, keep);
     ASSERT_NE(without_floor, keep) << "the floor has faces as long";
-    expect_peeled(hall, kThird, keep, without_lid);
+    expect_peeled(hall, kSeenFromLong, keep, without_lid);
 }
 
 TEST(PeelSheets, TakesOffWhatViewsSeeOnlyIfItIsTwiceAsLong)
@@ -153,7 +153,7 @@ TEST(PeelSheets, TakesNothingSeenOutOfTheMiddle)
 {
     const Hall hall;
     const FaceFlags keep = hall.all_but({Part::top, Part::around});
-    expect_peeled(hall, kThird, keep, keep);
+    expect_peeled(hall, kSeenFromLong, keep, keep);
 }
 
 TEST(PeelSheets, LeavesWhatIsNoLongerThanTheShare)
@@ -175,7 +175,7 @@ TEST(PeelSheets, LeavesALidThatHidesTheBackOfAKeptFace)
 {
     const Hall hall;
     const FaceFlags keep = hall.opened(hall.all_but({Part::around}));
-    expect_peeled(hall, kThird, keep, keep);
+    expect_peeled(hall, kSeenFromLong, keep, keep);
 }
 
 TEST(PeelSheets, TakesUnseenFacesOfTheHullAndThenWhatTheyWereBehind)
@@ -186,14 +186,14 @@ TEST(PeelSheets, TakesUnseenFacesOfTheHullAndThenWhatTheyWereBehind)
     testing::aim(hall.made.scene.views[1], {3.0, 3.0, -200.0});
     const FaceFlags keep = hall.opened(hall.all_but({}));
     const FaceFlags open = hall.opened(hall.all_but({Part::top, Part::around}));
-    expect_peeled(hall, kThird, keep, hall.without(open, Part::lid, kLong));
+    expect_peeled(hall, kSeenFromLong, keep, hall.without(open, Part::lid, kLong));
 }
 
 TEST(PeelSheets, TakesNoFaceThatIsNotKept)
 {
     const Hall hall;
     const FaceFlags none(hall.parts.size(), 0);
-    expect_peeled(hall, kThird, none, none);
+    expect_peeled(hall, kSeenFromLong, none, none);
 }
 
 TEST(PeelSheets, TakesTheSameFromOneThreadAndTwo)
@@ -201,7 +201,7 @@ TEST(PeelSheets, TakesTheSameFromOneThreadAndTwo)
     const Hall hall;
     const auto by = [&](int threads) {
         FaceFlags keep = hall.all_but({});
-        testing::with_threads(threads, [&] { return hall.peel(kThird, keep); });
+        testing::with_threads(threads, [&] { return hall.peel(kSeenFromLong, keep); });
         return keep;
     };
     EXPECT_EQ(by(1), by(2));

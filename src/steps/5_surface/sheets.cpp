@@ -177,13 +177,13 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
                          const FaceVisibility& visibility, const SheetOptions& options,
                          FaceFlags& keep)
 {
-    constexpr double kTwice = 2.0; // shorter ones that are seen may be plain walls
+    constexpr double kSeen = 2.0; // times as long: shorter faces that views see may be plain walls
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
     const auto long_faces = faces_with_edges_of(long_edge, boundary, keep);
     if (long_faces.empty() && std::ranges::count(keep, 0) == 0) return 0; // there is no rim
     Peeling peeling(boundary, facets, visibility, keep);
-    peeling.take_off_long(long_faces, kTwice * long_edge);
+    peeling.take_off_long(long_faces, kSeen * long_edge);
     peeling.take_off_hardly_seen();
     return peeling.peeled();
 }
