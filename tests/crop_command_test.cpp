@@ -44,8 +44,8 @@ TEST_F(CropOfScene, IsCountedAndRecorded)
                                            "but seen through it\\)"));
     const auto record = nlohmann::json::parse(bytes_of(stats));
     EXPECT_EQ(record["options"]["crop"], "auto");
-    EXPECT_EQ(record["stages"][3]["name"], "crop");
-    const auto& counts = record["stages"][3]["counts"];
+    EXPECT_EQ(record["stages"][4]["name"], "crop");
+    const auto& counts = record["stages"][4]["counts"];
     EXPECT_LT(counts["points"], counts["of points"]);
     EXPECT_GT(counts["points"].get<double>(), 0.85 * counts["of points"].get<double>());
 }

@@ -103,6 +103,27 @@ TEST(GoOnAlongHull, LeavesWhatIsSeenFromBeyond)
     EXPECT_EQ(room.go_on(), 0);
 }
 
+TEST(GoOnAlongHull, LeavesWhatAViewBeyondHasInItsImage)
+{
+    // A view below the room that saw none of its points looks at its floor's back.
+    std::vector<Vector3d> views = kWithin;
+    views.emplace_back(0.0, 0.0, -9.0);
+    Scene scene = make_scene(views, round_room({0, 1, 2, 3}));
+    FreeRoom room(scene);
+    room.go_on();
+    const std::vector<CellFacet> facets = room.labelling.facets();
+    EXPECT_FALSE(facets.empty());
+    for (const CellFacet& facet : facets) {
+        const Face face = face_of(room.mesh, facet);
+        const Vector3d to_view = views.back() - room.mesh.positions[face[0]];
+        EXPECT_GE(face_normal(room.mesh.positions, face).dot(to_view), 0.0);
+    }
+
+    // Nor does it matter once it looks elsewhere.
+    const auto blind = FreeRoom(make_scene(kWithin, round_room({0, 1, 2, 3}))).go_on();
+    EXPECT_LT(size_of(facets.size()), blind);
+}
+
 TEST(GoOnAlongHull, LeavesWhatNoViewSawFromWithin)
 {
     FreeRoom room(make_scene({{0.0, 0.0, 9.0}, {0.5, 0.0, 9.0}}, round_room({0, 1})));

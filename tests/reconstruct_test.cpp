@@ -242,8 +242,9 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     };
     Recorder log;
     reconstruct(bumpy_sphere(500, 8), {}, log);
-    const std::vector<std::string> expected = {"memory",  "filter", "triangulate", "sights", "cut",
-                                               "surface", "clean",  "open",        "orient"};
+    const std::vector<std::string> expected = {"memory", "filter", "creases", "triangulate",
+                                               "sights", "cut",    "surface", "clean",
+                                               "open",   "orient"};
     EXPECT_EQ(log.begun, expected);
     EXPECT_EQ(log.ended, expected);
 
@@ -251,11 +252,31 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     Options with_virtual_views;
     with_virtual_views.labels.virtual_views.count = 10;
     reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
-    const std::vector<std::string> labelled_twice = {"memory",  "filter",  "triangulate", "sights",
-                                                     "cut",     "virtual", "sights",      "cut",
-                                                     "surface", "clean",   "open",        "orient"};
+    const std::vector<std::string> labelled_twice = {
+        "memory", "filter", "creases", "triangulate", "sights", "cut",   "virtual",
+        "sights", "cut",    "surface", "clean",       "open",   "orient"};
     EXPECT_EQ(twice.begun, labelled_twice);
     EXPECT_EQ(twice.ended, labelled_twice);
+}
+
+/// How many vertices of a mesh are no points of the model but were added to them.
+std::int64_t num_added(const Reconstruction& made)
+{
+    return std::ranges::count_if(made.mesh.points, [&](std::uint32_t point) {
+        return point != kNoPoint && made.scene.point_ids[point] == kNoPointId;
+    });
+}
+
+TEST(Reconstruct, AddsPointsAlongCreasesUnlessThePapersOwnMethodIsWanted)
+{
+    const Scene scene = read_colmap_model(VCARVE_FIXTURES "/scene/sparse/0", ModelFormat::binary);
+    EXPECT_GT(num_added(run(scene)), 50);
+    Options options;
+    options.creases.reach = 0.0;
+    EXPECT_EQ(num_added(run(scene, options)), 0);
+    options = {};
+    options.labels.method = Method::strict;
+    EXPECT_EQ(num_added(run(scene, options)), 0);
 }
 
 } // namespace

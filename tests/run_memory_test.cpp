@@ -124,7 +124,7 @@ TEST(RunMemory, CutsForRanksAndStaysInMemoryWhereEachCouldHaveAll)
     }
     RunSize large = kRun;
     large.thinned.points = 10'000'000;
-    RunMemory memory({.most = std::int64_t{500} << 20}, 3, work, {.all = 4, .here = 2});
+    RunMemory memory({.most = std::int64_t{800} << 20}, 3, work, {.all = 4, .here = 2});
     Notes notes;
     memory.fit(kRun, notes);
     EXPECT_FALSE(memory.in_files());

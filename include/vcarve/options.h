@@ -43,6 +43,24 @@ struct FilterOptions {
     }
 };
 
+/// Where points are added.
+struct CreaseOptions {
+    double reach = 14.0; ///< --crease-reach
+
+    /// Shows the visitor each of them.
+    void visit(OptionVisitor& options)
+    {
+        options.number(reach,
+                       {.name = "crease-reach",
+                        .unit = "x spacing",
+                        .help = "Add points where two flat parts of the surface meet and both have "
+                                "points no farther than so many times their spacing from there, as "
+                                "at the foot of a wall, where images show no features; 0 adds "
+                                "none.",
+                        .max = 1000.0});
+    }
+};
+
 /// Which points of a dense cloud become one.
 struct ThinOptions {
     double merge_px = 1.8; ///< --merge-px
@@ -406,6 +424,7 @@ struct MemoryOptions {
 /// Everything a run can be told, step by step.
 struct Options {
     FilterOptions points;   ///< which points are kept
+    CreaseOptions creases;  ///< where points are added
     ThinOptions thin;       ///< which points become one
     CropOptions crop;       ///< which part of space counts
     DenoiseOptions denoise; ///< how far points move
@@ -419,6 +438,7 @@ struct Options {
     void visit(OptionVisitor& options)
     {
         points.visit(options);
+        creases.visit(options);
         thin.visit(options);
         crop.visit(options);
         denoise.visit(options);

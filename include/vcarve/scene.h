@@ -55,6 +55,9 @@ struct Tracks {
     }
 };
 
+/// COLMAP's id of no point: what a point has that is none of the model's but was added to it.
+inline constexpr std::uint64_t kNoPointId = 0xffffffffffffffffU;
+
 /// What COLMAP reconstructed: views, points, and the sights between them.
 /// The arrays positions, colors, errors_px, point_ids and tracks run parallel, one entry a point;
 /// so do the normals, where there are any.

@@ -17,7 +17,7 @@ namespace vcarve {
 namespace {
 
 /// Code, libraries and small things; the stack of a thread, and what allocators keep for it.
-constexpr double kProgram = 9e6;
+constexpr double kProgram = 11.5e6;
 constexpr double kThread = 0.5e6;
 
 constexpr double kCellsPerPoint = 6.8;
@@ -106,6 +106,15 @@ double filtering(const Sizes& n)
     return n.scene() + (36 + 16) * n.points;
 }
 
+/// A k-d tree, the points around each point, what they tell, and those of flat parts once more.
+double finding_creases(const Sizes& n)
+{
+    constexpr double kTree = 40 + 13;
+    constexpr double kAround = 12 * 4 + 3 * 8;
+    constexpr double kOfRegion = 2 * 4 + 24;
+    return n.scene() + n.points * (kTree + kAround + kOfRegion);
+}
+
 /// CGAL's triangulation of the blocks in work, with the points they take in, their cells twice, as
 /// these are numbered, and the cells of the other blocks; then, as they are joined, all cells
 /// twice.
@@ -165,6 +174,8 @@ constexpr double kBlockPoint = 600;
 /// What a run in blocks has in the heap, a point: arrays that are too small for files of their own
 /// (22 bytes were measured of 5 M points).
 constexpr double kHeapPoint = 24;
+/// The same while creases are looked for: the nodes of the k-d tree, and the points of regions.
+constexpr double kHeapCreasePoint = 42;
 /// Files in the work folder against what passes are predicted to need: arrays that grow stand
 /// twice.
 constexpr double kScratchMargin = 1.1;
@@ -209,7 +220,8 @@ std::vector<StageMemory> predicted_memory(const RunSize& size, int threads)
     add("read", size.in_parts ? thinning(all, n) : reading(all));
     if (size.read.is_dense && !size.in_parts) add("thin", all.scene() + thinning(all, n));
     add("filter", filtering(n));
-    if (size.read.is_dense) add("denoise", denoising(n));
+    add(size.read.is_dense ? "denoise" : "creases",
+        size.read.is_dense ? denoising(n) : finding_creases(n));
     add("triangulate", triangulating(n));
     add("sights", tracing(n));
     add("cut", cutting(n));
@@ -254,7 +266,8 @@ std::int64_t predicted_share(const RunSize& size)
 std::int64_t least_memory(const RunSize& size, int threads)
 {
     const Sizes n = sizes(size.thinned, threads);
-    return std::llround(std::min(kProgram + kThread * n.threads + kHeapPoint * n.points, 0x1p62));
+    const double point = kHeapPoint + (size.read.is_dense ? 0.0 : kHeapCreasePoint);
+    return std::llround(std::min(kProgram + kThread * n.threads + point * n.points, 0x1p62));
 }
 
 BlockPlan plan_blocks(const RunSize& size, int threads, const MemoryOptions& wanted,

@@ -17,6 +17,7 @@ struct Cost {
 constexpr Cost kReadPoint{0.1e-6, 0.0};
 constexpr Cost kReadDensePoint{0.95e-6, 0.75}; // merging it, too
 constexpr Cost kFilterPoint{0.65e-6, 0.8};
+constexpr Cost kCreasePoint{2.9e-6, 0.75};
 constexpr Cost kCropPoint{0.3e-6, 0.8};
 constexpr Cost kDenoisePoint{1.9e-6, 0.95};
 constexpr Cost kTriangulatePoint{5e-6, 0.98};
@@ -99,6 +100,9 @@ void add_points(Stages& stages, const Sizes& n, const Options& options)
     const bool is_thinned = n.is_dense && options.thin.merge_px > 0.0;
     stages.add("read", is_thinned ? kReadDensePoint : kReadPoint, n.read_points);
     stages.add("filter", kFilterPoint, n.points);
+    if (!n.is_dense && options.creases.reach > 0.0 && options.labels.method != Method::strict) {
+        stages.add("creases", kCreasePoint, n.points);
+    }
     if (options.crop.region.kind != RegionChoice::Kind::everything) {
         stages.add("crop", kCropPoint, n.points);
     }

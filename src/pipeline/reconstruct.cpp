@@ -10,6 +10,7 @@
 #include "pipeline/rank_shares.h"
 #include "pipeline/thinned_scene.h"
 #include "steps/1_points/center.h"
+#include "steps/1_points/crease_points.h"
 #include "steps/1_points/crop.h"
 #include "steps/1_points/denoise.h"
 #include "steps/1_points/filter.h"
@@ -95,6 +96,18 @@ Scene filter(Scene scene, const FilterOptions& options, Log& log)
     return sorted;
 }
 
+/// None where the paper's own method is wanted, which is of the points that are given.
+void add_creases(Scene& scene, const Options& options, Log& log)
+{
+    const double reach = options.creases.reach;
+    if (reach == 0.0 || options.labels.method == Method::strict) return;
+    if (has_dense_points(scene)) return;
+    Stage stage(log, "creases");
+    const CreaseReport report = add_crease_points(scene, options.creases, stage);
+    return_freed_memory();
+    stage.end({{"points added", report.added}, {"planes", report.planes}});
+}
+
 /// The scene itself where there is no region.
 Scene crop(Scene scene, const Region* region, Log& log)
 {
@@ -144,7 +157,11 @@ struct Carvers {
 
 Carvers prepare(Scene scene, const Options& options, StageKeeper& work)
 {
-    const auto filtered = [&] { return filter(std::move(scene), options.points, work.log()); };
+    const auto filtered = [&] {
+        Scene points = filter(std::move(scene), options.points, work.log());
+        add_creases(points, options, work.log());
+        return points;
+    };
     std::unique_ptr<Region> region;
     const bool is_cropped = options.crop.region.kind != RegionChoice::Kind::everything;
     if (is_cropped) { // the region is found among points that it drops

@@ -5,10 +5,12 @@
 #include "mesh/local_edges.h"
 #include "mesh/surface_normals.h"
 #include "mesh/used_vertices.h"
+#include "model/camera.h"
 #include "model/scene_points.h"
 #include "steps/3_visibility/face_evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 
@@ -18,14 +20,33 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Whether a view beyond a facet of the hull shows a corner of it, the middle of an edge or its
+/// own: nothing lies between them, so the view sees it.
+bool is_seen_from_beyond(const TetMesh& cells, const Scene& scene, const Face& face,
+                         const Vector3d& inwards)
+{
+    const Vector3d& a = cells.positions[face[0]];
+    const Vector3d& b = cells.positions[face[1]];
+    const Vector3d& c = cells.positions[face[2]];
+    const std::array<Vector3d, 7> places = {
+        a, b, c, (a + b) / 2, (b + c) / 2, (c + a) / 2, (a + b + c) / 3};
+    if (std::ranges::any_of(
+            face, [&](std::uint32_t point) { return is_seen_from_front(scene, point, -inwards); }))
+        return true;
+    return std::ranges::any_of(scene.views, [&](const View& view) {
+        return inwards.dot(view.center - a) < 0.0 &&
+               std::ranges::any_of(places, [&](const Vector3d& place) {
+                   return view_shows(view, scene.cameras[view.camera], place);
+               });
+    });
+}
+
 /// Whether a facet of the hull is a surface seen from within the hull.
 bool is_seen_from_within(const TetMesh& cells, const Scene& scene, Index infinite)
 {
     const Face face = face_of(cells, {infinite, kHullSlot});
     const Vector3d inwards = face_normal(cells.positions, face);
-    return is_seen(scene, face, inwards) && std::ranges::none_of(face, [&](std::uint32_t point) {
-               return is_seen_from_front(scene, point, -inwards);
-           });
+    return is_seen(scene, face, inwards) && !is_seen_from_beyond(cells, scene, face, inwards);
 }
 
 /// Facets of the hull and the faces of a boundary around them, over vertices of their own. How long

@@ -14,10 +14,15 @@ namespace {
 
 constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53; // doubles hold whole numbers up to it
 
+bool is_of_model(std::uint32_t point, const Scene& scene)
+{
+    return point != kNoPoint && scene.point_ids[point] != kNoPointId;
+}
+
 void require_exact_ids(const TriMesh& mesh, const Scene& scene)
 {
     for (const std::uint32_t point : mesh.points) {
-        if (point != kNoPoint && scene.point_ids[point] > kLargestId) {
+        if (is_of_model(point, scene) && scene.point_ids[point] > kLargestId) {
             throw InputError(fmt::format("point {} cannot be written with --attributes: a PLY file "
                                          "holds ids up to {} only",
                                          scene.point_ids[point], kLargestId));
@@ -36,11 +41,10 @@ Provenance find_provenance(const TriMesh& mesh, const Scene& scene)
     found.errors_px.assign(mesh.positions.size(), -1.0F);
     parallel_for(mesh.positions.size(), [&](std::size_t vertex) {
         const std::uint32_t point = mesh.points[vertex];
-        if (point == kNoPoint) {
-            return;
-        }
-        found.point_ids[vertex] = static_cast<std::int64_t>(scene.point_ids[point]);
+        if (point == kNoPoint) return;
         found.num_views[vertex] = static_cast<std::int32_t>(scene.tracks[point].size());
+        if (!is_of_model(point, scene)) return;
+        found.point_ids[vertex] = static_cast<std::int64_t>(scene.point_ids[point]);
         const double error = scene.errors_px[point];
         found.errors_px[vertex] = error < 0.0 ? -1.0F : static_cast<float>(error);
     });

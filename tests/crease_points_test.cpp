@@ -1,0 +1,352 @@
+#include "steps/1_points/crease_points.h"
+#include "steps/1_points/spatial_sort.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+using Views = std::vector<std::uint32_t>;
+
+/// Cameras look along z; y points down.
+const std::vector<Vector3d> kCenters = {{-0.5, 0, -6}, {0, -0.3, -6}, {0.5, 0, -6}};
+const Views kAll = {0, 1, 2};
+
+constexpr double kSpacing = 0.1;
+
+/// Points about so far apart on a rectangle, a little off rows and columns: `at(u, v)` with u and v
+/// from `low` to `high`.
+template <typename At>
+std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& high,
+                            const Views& views, const At& at)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> off(-0.02, 0.02);
+    std::vector<MadePoint> points;
+    for (double u = low[0]; u <= high[0]; u += kSpacing) {
+        for (double v = low[1]; v <= high[1]; v += kSpacing) {
+            points.push_back({at(u + off(random), v + off(random)), views});
+        }
+    }
+    return points;
+}
+
+Scene together(const std::vector<std::vector<MadePoint>>& parts,
+               const std::vector<Vector3d>& centers = kCenters)
+{
+    std::vector<MadePoint> points;
+    for (const auto& part : parts) {
+        points.insert(points.end(), part.begin(), part.end());
+    }
+    return spatial_sort(make_scene(centers, points));
+}
+
+/// The wall z = 0, from so far above the floor y = 1 on.
+std::vector<MadePoint> wall(double gap, const Views& views = kAll)
+{
+    return flat({-1.0, -0.6}, {1.0, 1.0 - gap}, views,
+                [](double u, double v) { return Vector3d(u, v, 0.0); });
+}
+
+/// The floor, from so far before the wall on.
+std::vector<MadePoint> ground(double gap, const Views& views = kAll)
+{
+    return flat({-1.0, gap}, {1.0, 1.6}, views,
+                [](double u, double v) { return Vector3d(u, 1.0, -v); });
+}
+
+/// The points of a scene that are none of the model's.
+std::vector<std::size_t> added_points(const Scene& scene)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        if (scene.point_ids[i] == kNoPointId) found.push_back(i);
+    }
+    return found;
+}
+
+std::int64_t num_added(Scene scene, const CreaseOptions& options = {})
+{
+    return add_crease_points(scene, options).added;
+}
+
+/// The distance to the nearest of some other points.
+double distance_to_others(const Scene& scene, std::size_t point,
+                          const std::vector<std::size_t>& points)
+{
+    double least = 1e9;
+    for (const std::size_t other : points) {
+        const double distance = (scene.positions[other] - scene.positions[point]).norm();
+        if (other != point) least = std::min(least, distance);
+    }
+    return least;
+}
+
+Views track_of(const Scene& scene, std::size_t point)
+{
+    return {scene.tracks[point].begin(), scene.tracks[point].end()};
+}
+
+TEST(CreasePoints, AreAddedAlongTheFootOfAWall)
+{
+    const Scene before = together({wall(0.35), ground(0.35)});
+    Scene scene = before;
+    const CreaseReport report = add_crease_points(scene, {});
+    const std::vector<std::size_t> added = added_points(scene);
+    EXPECT_EQ(report.planes, 2);
+    EXPECT_EQ(report.added, std::ssize(added));
+    EXPECT_EQ(scene.num_points(), before.num_points() + added.size());
+    // 2 long, a point every .7 of what is estimated for the spacing
+    EXPECT_GE(added.size(), 20U);
+    EXPECT_LE(added.size(), 40U);
+    EXPECT_EQ(scene.colors.size(), scene.num_points());
+    EXPECT_TRUE(scene.normals.empty());
+}
+
+TEST(CreasePoints, StandOnTheCreaseApartFromEachOther)
+{
+    Scene scene = together({wall(0.35), ground(0.35)});
+    add_crease_points(scene, {});
+    const std::vector<std::size_t> added = added_points(scene);
+    for (const std::size_t i : added) {
+        EXPECT_NEAR(scene.positions[i].y(), 1.0, 0.002 * kSpacing);
+        EXPECT_NEAR(scene.positions[i].z(), 0.0, 0.002 * kSpacing);
+        EXPECT_LT(std::abs(scene.positions[i].x()), 1.02);
+        EXPECT_EQ(track_of(scene, i), kAll);
+        EXPECT_EQ(scene.errors_px[i], 0.5);
+        EXPECT_GT(distance_to_others(scene, i, added), 0.5 * kSpacing);
+    }
+}
+
+TEST(CreasePoints, LeaveTheModelsPointsAsTheyAre)
+{
+    const Scene before = together({wall(0.35), ground(0.35)});
+    Scene scene = before;
+    add_crease_points(scene, {});
+    EXPECT_EQ(spatial_sort(scene).positions, scene.positions);
+    std::size_t kept = 0;
+    for (std::size_t old = 0; old < before.num_points(); ++old) {
+        const auto at = std::ranges::find(scene.point_ids, before.point_ids[old]);
+        ASSERT_NE(at, scene.point_ids.end());
+        const auto now = static_cast<std::size_t>(at - scene.point_ids.begin());
+        kept += scene.positions[now] == before.positions[old] &&
+                scene.colors[now] == before.colors[old];
+    }
+    EXPECT_EQ(kept, before.num_points());
+}
+
+TEST(CreasePoints, HaveTheColourOfAPointBesideThem)
+{
+    Scene scene = together({wall(0.35), ground(0.35)});
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        const bool is_left = scene.positions[i].x() < 0.0;
+        scene.colors[i] = is_left ? Color{255, 0, 0} : Color{0, 255, 0};
+        scene.errors_px[i] = is_left ? 0.25 : 0.75;
+    }
+    add_crease_points(scene, {});
+    for (const std::size_t i : added_points(scene)) {
+        if (std::abs(scene.positions[i].x()) < 3 * kSpacing) continue;
+        const bool is_left = scene.positions[i].x() < 0.0;
+        EXPECT_EQ(scene.colors[i], (is_left ? Color{255, 0, 0} : Color{0, 255, 0}));
+        EXPECT_EQ(scene.errors_px[i], is_left ? 0.25 : 0.75);
+    }
+}
+
+TEST(CreasePoints, GoAsFarAsTheReach)
+{
+    // The spacing is estimated to be .1; both gaps are 8 of it, or 20.
+    EXPECT_GT(num_added(together({wall(0.8), ground(0.8)})), 10);
+    EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}), {.reach = 5.0}), 0);
+    const auto high = flat({-1.0, -2.0}, {1.0, -1.0}, kAll,
+                           [](double u, double v) { return Vector3d(u, v, 0.0); });
+    EXPECT_EQ(num_added(together({high, ground(0.35)})), 0);
+    EXPECT_EQ(num_added(together({wall(0.35), ground(0.35)}), {.reach = 0.0}), 0);
+}
+
+TEST(CreasePoints, NeedPointsOfBothPlanesToBothSides)
+{
+    // The floor is known to the right only, the wall to the left of .5 only.
+    auto right = ground(0.35);
+    std::erase_if(right, [](const MadePoint& p) { return p.position.x() < -0.2; });
+    auto left = wall(0.35);
+    std::erase_if(left, [](const MadePoint& p) { return p.position.x() > 0.5; });
+    Scene scene = together({left, right});
+    add_crease_points(scene, {});
+    const std::vector<std::size_t> added = added_points(scene);
+    EXPECT_GT(added.size(), 4U);
+    for (const std::size_t i : added) {
+        EXPECT_GT(scene.positions[i].x(), -0.23);
+        EXPECT_LT(scene.positions[i].x(), 0.53);
+    }
+}
+
+TEST(CreasePoints, AreNotAddedWhereOthersStandBetween)
+{
+    // A rough hedge along the foot of the wall.
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> along(-1.0, 1.0);
+    std::uniform_real_distribution<double> across(0.0, 0.2);
+    std::vector<MadePoint> hedge;
+    hedge.reserve(600);
+    for (int i = 0; i < 600; ++i) {
+        hedge.push_back({{along(random), 1.0 - across(random), -across(random)}, kAll});
+    }
+    EXPECT_LE(num_added(together({wall(0.35), ground(0.35), hedge})), 2);
+}
+
+TEST(CreasePoints, AreNotAddedWherePointsAreAlready)
+{
+    Scene scene = together({wall(0.35), ground(0.35)});
+    const std::int64_t first = add_crease_points(scene, {}).added;
+    EXPECT_GT(first, 20);
+    EXPECT_LE(num_added(scene), first / 10);
+}
+
+TEST(CreasePoints, AreNotAddedWherePlanesHardlyBend)
+{
+    const auto slope = [](double degrees) {
+        const double angle = degrees / 180.0 * std::acos(-1.0);
+        return flat({-1.0, 0.2}, {1.0, 1.0}, kAll, [=](double u, double v) {
+            return Vector3d(u, v * std::cos(angle), v * std::sin(angle));
+        });
+    };
+    const auto upper = flat({-1.0, -1.0}, {1.0, -0.2}, kAll,
+                            [](double u, double v) { return Vector3d(u, v, 0.0); });
+    EXPECT_EQ(num_added(together({upper, slope(25.0)})), 0);
+    EXPECT_GT(num_added(together({upper, slope(35.0)})), 10);
+}
+
+TEST(CreasePoints, AreNotAddedOnRoundThings)
+{
+    std::vector<MadePoint> ball;
+    for (int i = 0; i < 4000; ++i) {
+        const double z = 1.0 - 2.0 * (i + 0.5) / 4000;
+        const double turn = i * std::acos(-1.0) * (3.0 - std::sqrt(5.0));
+        const double radius = std::sqrt(1.0 - z * z);
+        ball.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, kAll});
+    }
+    std::erase_if(ball, [](const MadePoint& point) { return point.position.z() > 0.0; });
+    EXPECT_EQ(num_added(together({ball})), 0);
+}
+
+TEST(CreasePoints, AreSeenFromBeforeBothPlanesOfACorner)
+{
+    // The last view saw the wall's points, but stands below the floor.
+    std::vector<Vector3d> centers = kCenters;
+    centers.emplace_back(0.0, 2.0, -6.0);
+    Scene scene = together({wall(0.35, {0, 1, 3}), ground(0.35)}, centers);
+    ASSERT_GT(add_crease_points(scene, {}).added, 10);
+    for (const std::size_t i : added_points(scene)) {
+        EXPECT_EQ(track_of(scene, i), kAll);
+    }
+    // Only one stands before both.
+    Scene hidden = together({wall(0.35, {2, 3}), ground(0.35, {2})}, centers);
+    EXPECT_EQ(add_crease_points(hidden, {}).added, 0);
+}
+
+TEST(CreasePoints, AreSeenFromBeforeOnePlaneOfAnEdge)
+{
+    // A box's edge along y, seen from both sides of it by some views each.
+    const std::vector<Vector3d> centers = {{-3, 0, -6}, {-3, 0.2, -6}, {3, 0, -6}, {3, 0.2, -6}};
+    const auto side = [&](double slope, const Views& views) {
+        return flat({-0.8, 0.2}, {0.8, 1.2}, views,
+                    [=](double u, double v) { return Vector3d(slope * v, u, 3.0 * v); });
+    };
+    Scene scene = together({side(-1.0, {0, 1}), side(1.0, {2, 3})}, centers);
+    ASSERT_GT(add_crease_points(scene, {}).added, 5);
+    const Views all = {0, 1, 2, 3};
+    for (const std::size_t i : added_points(scene)) {
+        EXPECT_EQ(track_of(scene, i), all);
+    }
+}
+
+TEST(CreasePoints, AreSeenWithinImagesOnly)
+{
+    // The first view's image ends above the floor's edge: it saw the wall only.
+    std::vector<Vector3d> centers = kCenters;
+    centers[0] = {0.0, -2.2, -6.0};
+    Scene scene = together({wall(0.35), ground(0.35, {1, 2})}, centers);
+    ASSERT_GT(add_crease_points(scene, {}).added, 10);
+    for (const std::size_t i : added_points(scene)) {
+        EXPECT_EQ(track_of(scene, i), Views({1, 2}));
+    }
+}
+
+TEST(CreasePoints, AreNotAddedToDenseClouds)
+{
+    Scene scene = together({wall(0.35), ground(0.35)});
+    scene.errors_px[3] = -1.0;
+    EXPECT_EQ(num_added(scene), 0);
+}
+
+TEST(CreasePoints, AreNotAddedToFewPoints)
+{
+    for (int count = 0; count < 14; ++count) {
+        std::vector<MadePoint> points(static_cast<std::size_t>(count));
+        for (int i = 0; i < count; ++i) {
+            points[i] = {{0.1 * i, 0.03 * i * i, 0.0}, kAll};
+        }
+        EXPECT_EQ(num_added(make_scene(kCenters, points)), 0);
+    }
+}
+
+/// The farthest that points of one scene lie from where a move takes those of the other.
+double farthest_off(const Scene& there, const Scene& here, double scale, const Vector3d& shift)
+{
+    double most = 0.0;
+    for (std::size_t i = 0; i < here.num_points(); ++i) {
+        const Vector3d place = scale * here.positions[i] + shift;
+        most = std::max(most, (there.positions[i] - place).norm());
+    }
+    return most;
+}
+
+TEST(CreasePoints, AreTheSameInOtherUnitsAndElsewhere)
+{
+    const Scene scene = together({wall(0.35), ground(0.35)});
+    Scene here = scene;
+    add_crease_points(here, {});
+    for (const double scale : {1.0 / 1024.0, 1e-3, 37.3, 1e6}) {
+        const Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
+        Scene there = moved(scene, scale, Quaterniond::Identity(), shift);
+        add_crease_points(there, {});
+        ASSERT_EQ(there.point_ids, here.point_ids) << scale;
+        EXPECT_EQ(there.tracks.views, here.tracks.views);
+        EXPECT_LT(farthest_off(there, here, scale, shift), 1e-12 * scale);
+    }
+}
+
+TEST(CreasePoints, AreAsManyInASceneThatIsTurned)
+{
+    const Scene scene = together({wall(0.35), ground(0.35)});
+    const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+    EXPECT_EQ(num_added(moved(scene, 1.0, turn, Vector3d::Zero())), num_added(scene));
+}
+
+TEST(CreasePoints, OfOneCreaseLieOnNoPlane)
+{
+    // Along a hull rounding would tell which cells they make.
+    Scene scene = together({wall(0.35), ground(0.35)});
+    add_crease_points(scene, {});
+    const std::vector<std::size_t> added = added_points(scene);
+    ASSERT_GT(added.size(), 8U);
+    for (std::size_t i = 0; i + 3 < added.size(); ++i) {
+        Eigen::Matrix3d edges;
+        for (int k = 0; k < 3; ++k) {
+            edges.col(k) = scene.positions[added[i + k + 1]] - scene.positions[added[i]];
+        }
+        EXPECT_GT(std::abs(edges.determinant()), 1e-12 * std::pow(kSpacing, 3));
+    }
+}
+
+} // namespace
+} // namespace vcarve

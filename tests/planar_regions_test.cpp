@@ -1,0 +1,144 @@
+#include "steps/1_points/planar_regions.h"
+#include "steps/1_points/spatial_sort.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+const std::vector<Vector3d> kCenters = {{0, 0, -6}, {1, 0, -6}, {0, 0, 6}, {1, 0, 6}};
+const std::vector<std::uint32_t> kBefore = {0, 1};
+const std::vector<std::uint32_t> kBehind = {2, 3};
+
+/// Points with this spacing across z, so far off it at most.
+std::vector<MadePoint> wall(double z, double spacing, const std::vector<std::uint32_t>& views,
+                            double noise = 0.0)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> off(-1.0, 1.0);
+    std::vector<MadePoint> points;
+    for (double x = -1.0; x < 1.0; x += spacing) {
+        for (double y = -1.0; y < 1.0; y += spacing) {
+            points.push_back({{x + 0.2 * spacing * off(random), y + 0.2 * spacing * off(random),
+                               z + noise * off(random)},
+                              views});
+        }
+    }
+    return points;
+}
+
+PlanarRegions regions_of(const Scene& scene)
+{
+    return planar_regions(scene, NearestNeighbors(scene.positions), {});
+}
+
+Scene sorted(std::vector<MadePoint> points, const std::vector<MadePoint>& more = {})
+{
+    points.insert(points.end(), more.begin(), more.end());
+    return spatial_sort(make_scene(kCenters, points));
+}
+
+TEST(PlanarRegions, TakeInAllOfAWall)
+{
+    const Scene scene = sorted(wall(0.5, 0.1, kBefore));
+    const PlanarRegions found = regions_of(scene);
+    ASSERT_EQ(found.regions.size(), 1U);
+    const PlanarRegion& region = found.regions[0];
+    EXPECT_EQ(region.points.size(), scene.num_points());
+    EXPECT_TRUE(std::ranges::is_sorted(region.points));
+    EXPECT_NEAR(region.plane.center.z(), 0.5, 1e-12);
+    EXPECT_NEAR(region.plane.normal.z(), -1.0, 1e-12) << "towards the views";
+    EXPECT_NEAR(region.spacing, 0.1, 0.015);
+    ASSERT_EQ(found.spacings.size(), scene.num_points());
+}
+
+TEST(PlanarRegions, AreSeenFromOneSide)
+{
+    // A thin board, whose sides are nearer to each other than its points
+    const Scene scene = sorted(wall(-0.005, 0.1, kBefore), wall(0.005, 0.1, kBehind));
+    const PlanarRegions found = regions_of(scene);
+    ASSERT_EQ(found.regions.size(), 2U);
+    for (const PlanarRegion& region : found.regions) {
+        const double side = region.plane.normal.z();
+        EXPECT_NEAR(std::abs(side), 1.0, 1e-9);
+        for (const std::uint32_t point : region.points) {
+            EXPECT_EQ(scene.tracks[point][0], side < 0.0 ? 0U : 2U);
+        }
+    }
+}
+
+TEST(PlanarRegions, LeaveWhatStandsOffThem)
+{
+    // By half a spacing, as a picture on a wall
+    const auto picture = wall(0.0, 0.1, kBefore);
+    std::vector<MadePoint> points;
+    for (MadePoint point : picture) {
+        const bool is_picture = std::abs(point.position.x()) < 0.4;
+        if (is_picture) point.position.z() = -0.05;
+        points.push_back(point);
+    }
+    const Scene scene = sorted(points);
+    const PlanarRegions found = regions_of(scene);
+    ASSERT_GE(found.regions.size(), 2U);
+    for (const PlanarRegion& region : found.regions) {
+        const double z = scene.positions[region.points[0]].z();
+        for (const std::uint32_t point : region.points) {
+            EXPECT_EQ(scene.positions[point].z(), z);
+        }
+    }
+}
+
+TEST(PlanarRegions, MayBeALittleRough)
+{
+    const auto largest = [](double noise) {
+        const Scene scene = sorted(wall(0.0, 0.1, kBefore, noise));
+        std::size_t most = 0;
+        for (const PlanarRegion& region : regions_of(scene).regions) {
+            most = std::max(most, region.points.size());
+        }
+        return static_cast<double>(most) / static_cast<double>(scene.num_points());
+    };
+    EXPECT_EQ(largest(0.005), 1.0);
+    EXPECT_LT(largest(0.08), 0.5);
+}
+
+TEST(PlanarRegions, HaveTwelvePointsOrMore)
+{
+    std::vector<MadePoint> points;
+    for (int i = 0; i < 13; ++i) {
+        const double angle = 2.4 * i;
+        points.push_back(
+            {{std::sqrt(i) * std::cos(angle), std::sqrt(i) * std::sin(angle), 0.0}, kBefore});
+    }
+    EXPECT_EQ(regions_of(sorted(points)).regions.size(), 1U);
+    points.back().position.z() = 3.0;
+    points[11].position.z() = -3.0;
+    EXPECT_TRUE(regions_of(sorted(points)).regions.empty());
+    points.resize(12);
+    EXPECT_TRUE(regions_of(sorted(points)).regions.empty());
+    EXPECT_TRUE(regions_of(sorted(points)).spacings.empty());
+}
+
+TEST(PlanarRegions, KeepTheirPointsToThemselves)
+{
+    const Scene scene = bumpy_sphere(2000, 8);
+    const Scene ordered = spatial_sort(scene);
+    std::vector<int> taken(ordered.num_points(), 0);
+    for (const PlanarRegion& region : regions_of(ordered).regions) {
+        EXPECT_GE(region.points.size(), 12U);
+        for (const std::uint32_t point : region.points) {
+            EXPECT_EQ(taken[point]++, 0);
+        }
+    }
+}
+
+} // namespace
+} // namespace vcarve
