@@ -316,11 +316,9 @@ class Creases {
 /// Leaves out places less than half a step from one before.
 void keep_apart(std::vector<Place>& places)
 {
-    std::vector<Vector3d> positions;
-    for (const Place& place : places) {
-        positions.push_back(place.position);
-    }
-    if (positions.empty()) return;
+    if (places.empty()) return;
+    std::vector<Vector3d> positions(places.size());
+    std::ranges::transform(places, positions.begin(), &Place::position);
     const PointTree tree(positions);
     std::vector<char> is_kept(places.size(), 1);
     for (std::size_t i = 0; i < places.size(); ++i) {
