@@ -18,10 +18,11 @@ std::vector<Index> uncrossed_hull_cells(const TetMesh& cells, const FlowNetwork&
 /// the walls of a room or at the rim of a plain, no cell lies behind them but infinite ones, which
 /// the cut takes for outside; so the surface would end there. Of the `uncrossed` cells those are
 /// called inside before which an outside cell lies, whose facet of the hull is seen from within (at
-/// each corner) and by no view beyond that has it in its image, is at most ten times as long as the
-/// edges around, and goes on with the surface (within 37 degrees) at one corner or more. Then the
-/// boundary has such facets of the hull, and borders where they end. Returns how many there are.
-/// Cost: O(uncrossed x views), in parallel, and the boundary where it is not at hand.
+/// each corner) and from beyond by none (no view there saw a corner or has it in its image), is at
+/// most ten times as long as the edges around, and goes on with the surface (within 37 degrees) at
+/// one corner or more. Then the boundary has such facets of the hull, and borders where they end.
+/// Returns how many there are. Cost: O(uncrossed x views) at most, in parallel, and the boundary
+/// where it is not at hand.
 std::int64_t go_on_along_hull(const Scene& scene, const std::vector<Index>& uncrossed,
                               Labelling& labelling);
 
