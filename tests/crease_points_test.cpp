@@ -189,6 +189,60 @@ TEST(CreasePoints, NeedPointsOfBothPlanesToBothSides)
     }
 }
 
+TEST(CreasePoints, LeaveGapsWhereOnePlaneIsNotKnown)
+{
+    auto floor = ground(0.35); // which goes around what is not known
+    std::erase_if(floor, [](const MadePoint& p) {
+        return std::abs(p.position.x()) < 0.6 && p.position.z() > -1.1;
+    });
+    Scene scene = together({wall(0.35), floor});
+    add_crease_points(scene, {.reach = 6.0}); // .6 along the crease, too
+    const std::vector<std::size_t> added = added_points(scene);
+    EXPECT_GT(added.size(), 6U);
+    for (const std::size_t i : added) {
+        EXPECT_GT(std::abs(scene.positions[i].x()), 0.58);
+    }
+}
+
+TEST(CreasePoints, OfTwoCreasesSideBySideStandApart)
+{
+    // Two walls one behind the other by less than points of a crease stand apart
+    const auto part = [](double low, double high, double z) {
+        return flat({low, -0.6}, {high, 0.65}, kAll,
+                    [=](double u, double v) { return Vector3d(u, v, z); });
+    };
+    Scene scene = together({part(-1.0, 0.4, 0.0), part(-0.4, 1.0, 0.02), ground(0.15)});
+    const CreaseReport report = add_crease_points(scene, {});
+    EXPECT_GE(report.planes, 3);
+    const std::vector<std::size_t> added = added_points(scene);
+    const auto is_behind = [&](std::size_t i) { return scene.positions[i].z() > 0.01; };
+    EXPECT_GT(std::ranges::count_if(added, is_behind), 4);
+    EXPECT_LT(std::ranges::count_if(added, is_behind), std::ssize(added) - 4);
+    for (const std::size_t i : added) {
+        EXPECT_GT(distance_to_others(scene, i, added), 0.025);
+    }
+}
+
+TEST(CreasePoints, AreSeenByTheViewsOfAllPointsEquallyNear)
+{
+    // In the middle the column there is next, and after it those to both sides.
+    std::vector<MadePoint> points;
+    for (int column = -10; column <= 10; ++column) {
+        const Views views = column < 0 ? Views{0, 1} : column > 0 ? Views{1, 2} : Views{1};
+        for (int row = 0; row < 12; ++row) {
+            points.push_back({{0.1 * column, 0.7 - 0.1 * row, 0.0}, views});
+            points.push_back({{0.1 * column, 1.0, -0.3 - 0.1 * row}, views});
+        }
+    }
+    Scene scene = together({points});
+    add_crease_points(scene, {});
+    const std::vector<std::size_t> added = added_points(scene);
+    const auto middle = std::ranges::find_if(
+        added, [&](std::size_t i) { return std::abs(scene.positions[i].x()) < 0.01; });
+    ASSERT_NE(middle, added.end());
+    EXPECT_EQ(track_of(scene, *middle), kAll);
+}
+
 TEST(CreasePoints, AreNotAddedWhereOthersStandBetween)
 {
     // A rough hedge along the foot of the wall.
