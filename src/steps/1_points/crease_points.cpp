@@ -106,9 +106,9 @@ struct Foot {
 /// A place for a new point.
 struct Place {
     Vector3d position;
-    double step; ///< to the next one of its crease
-    std::uint32_t beside;
-    std::vector<std::uint32_t> track;
+    double step = 0.0;        ///< to the next one of its crease
+    std::uint32_t beside = 0; ///< the point of the model next to it
+    std::vector<std::uint32_t> track = {};
 };
 
 /// Finds where the flat parts of a scene meet.
@@ -150,10 +150,10 @@ class Creases {
     struct Crease {
         Pair pair;
         std::array<const PlanarRegion*, 2> regions;
-        Line line;
-        double spacing;                        ///< the larger one
-        std::array<std::vector<Foot>, 2> feet; ///< of either's points near the line, along it
-        bool stands_out;                       ///< as the edge of a box, not as a wall's foot
+        Line line = {};
+        double spacing = 0.0;                       ///< the larger one
+        std::array<std::vector<Foot>, 2> feet = {}; ///< of either's points near the line, along it
+        bool stands_out = false;                    ///< as the edge of a box, not as a wall's foot
     };
 
     void add_places(const Pair& pair, std::vector<Place>& found) const
