@@ -220,8 +220,8 @@ std::vector<StageMemory> predicted_memory(const RunSize& size, int threads)
     add("read", size.in_parts ? thinning(all, n) : reading(all));
     if (size.read.is_dense && !size.in_parts) add("thin", all.scene() + thinning(all, n));
     add("filter", filtering(n));
-    add(size.read.is_dense ? "denoise" : "creases",
-        size.read.is_dense ? denoising(n) : finding_creases(n));
+    if (size.read.is_dense) add("denoise", denoising(n));
+    if (!size.read.is_dense) add("creases", finding_creases(n));
     add("triangulate", triangulating(n));
     add("sights", tracing(n));
     add("cut", cutting(n));

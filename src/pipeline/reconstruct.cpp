@@ -104,7 +104,6 @@ void add_creases(Scene& scene, const Options& options, Log& log)
     if (has_dense_points(scene)) return;
     Stage stage(log, "creases");
     const CreaseReport report = add_crease_points(scene, options.creases, stage);
-    return_freed_memory();
     stage.end({{"points added", report.added}, {"planes", report.planes}});
 }
 

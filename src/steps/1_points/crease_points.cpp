@@ -10,13 +10,13 @@
 #include "steps/1_points/spatial_sort.h"
 
 #include <CGAL/box_intersection_d.h>
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <iterator>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -314,7 +314,7 @@ class Creases {
 };
 
 /// Leaves out places less than half a step from one before.
-void keep_apart(std::vector<Place>& places)
+void leave_out_near_ones(std::vector<Place>& places)
 {
     if (places.empty()) return;
     std::vector<Vector3d> positions(places.size());
@@ -359,7 +359,7 @@ CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options, const
         places = creases.places(progress.part(0.7, 0.9));
         report.planes = std::ssize(planes.regions);
     }
-    keep_apart(places);
+    leave_out_near_ones(places);
     report.added = std::ssize(places);
     if (places.empty()) return report;
     for (const Place& place : places) {

@@ -5,6 +5,7 @@
 #include "geometry/nearest_neighbors.h"
 #include "model/camera.h"
 #include "model/measured_range.h"
+#include "model/towards_views.h"
 #include "steps/1_points/lexicographic_sort.h"
 
 #include <Eigen/Eigenvalues>
@@ -144,11 +145,7 @@ Vector3d fitted_normal(const Scene& scene, const Neighborhoods& neighborhoods, s
     }
     Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
     const Vector3d normal = solver.computeDirect(spread).eigenvectors().col(0);
-    Vector3d to_views = Vector3d::Zero();
-    for (const std::uint32_t v : scene.tracks[point]) {
-        to_views += (scene.views[v].center - position).normalized();
-    }
-    return normal.dot(to_views) < 0.0 ? Vector3d(-normal) : normal;
+    return normal.dot(towards_views(scene, point)) < 0.0 ? Vector3d(-normal) : normal;
 }
 
 /// Normals of the surface at the points: the cloud's or fitted ones, then filtered.

@@ -3,6 +3,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "model/scene_points.h"
+#include "model/towards_views.h"
 
 #include <CGAL/Shape_detection/Region_growing/Region_growing.h>
 #include <CGAL/property_map.h>
@@ -99,16 +100,6 @@ struct Surroundings {
         bends[i] = kExact * std::round(fit_plane(positions, all).deviation / spacings[i] / kExact);
     }
 };
-
-/// Where the views that saw a point are, all taken together.
-Vector3d towards_views(const Scene& scene, std::size_t point)
-{
-    Vector3d sum = Vector3d::Zero();
-    for (const std::uint32_t view : scene.tracks[point]) {
-        sum += (scene.views[view].center - scene.positions[point]).normalized();
-    }
-    return sum;
-}
 
 /// What CGAL asks for the neighbours of a point.
 class Neighbors {

@@ -24,10 +24,10 @@ struct PlanarRegion {
     std::vector<std::uint32_t> points; ///< ascending
 };
 
-/// How far points stand apart around each point, from its 12 nearest.
+/// The flat parts of a scene.
 struct PlanarRegions {
     std::vector<PlanarRegion> regions; ///< the flattest first
-    std::vector<double> spacings;      ///< per point
+    std::vector<double> spacings;      ///< per point: how far its 12 nearest stand apart
 };
 
 /// Parts of the surface that are flat, by growing regions from the flattest points on (Poppinga,
