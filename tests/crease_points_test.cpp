@@ -168,7 +168,8 @@ TEST(CreasePoints, GoAsFarAsTheReach)
     EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}), {.reach = 5.0}), 0);
     const auto high = flat({-1.0, -2.0}, {1.0, -1.0}, kAll,
                            [](double u, double v) { return Vector3d(u, v, 0.0); });
-    EXPECT_EQ(num_added(together({high, ground(0.35)})), 0);
+    EXPECT_GT(num_added(together({high, ground(0.35)})), 10);
+    EXPECT_EQ(num_added(together({high, ground(0.35)}), {.reach = 18.0}), 0);
     EXPECT_EQ(num_added(together({wall(0.35), ground(0.35)}), {.reach = 0.0}), 0);
 }
 
@@ -255,6 +256,39 @@ TEST(CreasePoints, AreNotAddedWhereOthersStandBetween)
         hedge.push_back({{along(random), 1.0 - across(random), -across(random)}, kAll});
     }
     EXPECT_LE(num_added(together({wall(0.35), ground(0.35), hedge})), 2);
+}
+
+/// Points behind the wall, near and far, that views before it see beneath the wall.
+std::vector<MadePoint> beneath()
+{
+    return flat({-1.6, 0.5}, {1.6, 0.8}, kAll, [](double u, double v) {
+        return Vector3d(u, v, 1.5 + 0.5 * std::sin(40.0 * u + 100.0 * v));
+    });
+}
+
+TEST(CreasePoints, AreNotAddedWhereOneLooksThrough)
+{
+    const auto floor = ground(0.35);
+    const std::int64_t without = num_added(together({wall(0.8), floor}));
+    EXPECT_GT(without, 20);
+    EXPECT_EQ(num_added(together({wall(0.8), floor, beneath()})), 0);
+    // Beneath the right half alone.
+    auto half = beneath();
+    std::erase_if(half, [](const MadePoint& p) { return p.position.x() < 0.0; });
+    Scene scene = together({wall(0.8), floor, half});
+    add_crease_points(scene, {});
+    const std::vector<std::size_t> added = added_points(scene);
+    EXPECT_GT(std::ssize(added), without / 3);
+    for (const std::size_t i : added) {
+        EXPECT_LT(scene.positions[i].x(), 0.1);
+    }
+}
+
+TEST(CreasePoints, AreAddedWhereFewerLookThroughThanSeeThem)
+{
+    const std::vector<std::vector<MadePoint>> parts = {
+        wall(0.8), ground(0.35), {{{0.2, 0.6, 1.5}, {0, 1}}, {{-0.5, 0.7, 1.5}, {1, 2}}}};
+    EXPECT_EQ(num_added(together(parts)), num_added(together({wall(0.8), ground(0.35)})));
 }
 
 TEST(CreasePoints, AreNotAddedWherePointsAreAlready)

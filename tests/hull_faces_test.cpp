@@ -54,13 +54,14 @@ struct FreeRoom {
     }
     /// Whether a facet of the hull goes across the lid: to its middle, a way of .95; edges on walls
     /// are much shorter.
-    bool is_on_lid(Index cell) const
+    bool is_on_lid(Index cell) const { return longest_edge(cell) > 0.7; }
+    double longest_edge(Index cell) const
     {
         const auto& [a, b, c, infinite] = mesh.cells[cell].vertices;
         const auto length = [&](Index v, Index w) {
             return (mesh.positions[v] - mesh.positions[w]).norm();
         };
-        return std::max({length(a, b), length(b, c), length(c, a)}) > 0.7;
+        return std::max({length(a, b), length(b, c), length(c, a)});
     }
 
     Scene scene;
@@ -159,6 +160,37 @@ TEST(GoOnAlongHull, LeavesTheLidWhichTurnsOffTheSurface)
     for (const CellFacet& facet : room.labelling.facets()) {
         EXPECT_FALSE(room.is_on_lid(facet.cell));
     }
+}
+
+/// How many facets of the hull go on from a flat bowl, whose points are 1 apart, to a point so far
+/// from its rim.
+std::int64_t num_going_on(double far)
+{
+    std::vector<MadePoint> points;
+    const auto add = [&](double x, double y) {
+        points.push_back({{x, y, 1e-4 * (x * x + y * y)}, {0, 1}});
+    };
+    for (int i = -5; i <= 5; ++i) {
+        for (int k = -5; k <= 5; ++k) {
+            add(i, k + 0.01 * i);
+        }
+    }
+    add(5.0 + far, 0.0);
+    FreeRoom plain(make_scene({{0.0, 1.0, 50.0}, {2.0, 0.0, 50.0}}, points));
+    plain.go_on();
+    std::int64_t num_long = 0;
+    for (const CellFacet& facet : plain.labelling.facets()) {
+        num_long += plain.longest_edge(facet.cell) > 0.9 * far ? 1 : 0;
+    }
+    return num_long;
+}
+
+TEST(GoOnAlongHull, GoesUpToTwentyTimesTheEdgesAround)
+{
+    // At the corners of some facets the usual edge is up to 2.
+    EXPECT_GT(num_going_on(15.0), 0);
+    EXPECT_GT(num_going_on(30.0), 0);
+    EXPECT_EQ(num_going_on(45.0), 0);
 }
 
 TEST(Reconstruct, FindsTheWallsOfARoomSeenFromWithinOnly)

@@ -48,6 +48,35 @@ TEST(TriangleTree, SaysWhatEachTriangleSays)
     EXPECT_LT(met, 1900);
 }
 
+TEST(TriangleTree, ShowsEachTriangleThatIsMetOnce)
+{
+    std::mt19937_64 engine(8);
+    std::vector<Triangle> triangles(40);
+    for (Triangle& triangle : triangles) { // some without area
+        triangle = {random_place(engine), random_place(engine), random_place(engine)};
+    }
+    const TriangleTree tree(triangles);
+    std::size_t met = 0;
+    for (int asked = 0; asked < 500; ++asked) {
+        const Vector3d from = random_place(engine);
+        const Vector3d to = random_place(engine);
+        if (from == to) continue;
+        std::vector<std::size_t> expected;
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const auto& [a, b, c] = triangles[i];
+            if (!collinear(a, b, c) && meets_triangle(from, to, triangles[i]))
+                expected.push_back(i);
+        }
+        std::vector<std::size_t> shown;
+        tree.visit_met(from, to, [&](std::size_t i) { shown.push_back(i); });
+        std::ranges::sort(shown);
+        EXPECT_EQ(shown, expected);
+        met += shown.size();
+    }
+    EXPECT_GT(met, 500U);
+    TriangleTree({}).visit_met({1, 0, 1}, {1, 0, -1}, [](std::size_t) { FAIL(); });
+}
+
 TEST(TriangleTree, LeavesOutTrianglesWithoutArea)
 {
     const std::vector<Triangle> flat = {{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(2, 0, 0)}};

@@ -45,7 +45,7 @@ struct FilterOptions {
 
 /// Where points are added.
 struct CreaseOptions {
-    double reach = 14.0; ///< --crease-reach
+    double reach = 28.0; ///< --crease-reach
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)

@@ -1,24 +1,17 @@
 #include "steps/1_points/crease_points.h"
 
-#include "base/parallel.h"
 #include "geometry/nearest_neighbors.h"
 #include "geometry/point_tree.h"
-#include "model/camera.h"
-#include "model/scene_points.h"
 #include "model/scene_size.h"
+#include "steps/1_points/crease_places.h"
 #include "steps/1_points/planar_regions.h"
+#include "steps/1_points/sights_through.h"
 #include "steps/1_points/spatial_sort.h"
-
-#include <CGAL/box_intersection_d.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,297 +21,50 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How far apart the points of a crease stand, in spacings of the regions that meet there.
-constexpr double kStep = 0.7;
-
-/// What rounding may make of equal lengths, as a share of them: points in rows and columns are at
-/// many equal distances, and it shall not matter where they lie.
-constexpr double kRounding = 1e-6;
-
-Box grown(const Box& box, double by)
+/// Leaves out places where as many sights of every so-manieth point pass through the surface that
+/// there would be, if a crease were there, as come from there: where none is, one looks through.
+void leave_out_seen_through(const Scene& scene, const std::vector<double>& spacings,
+                            std::vector<CreasePlace>& places, std::size_t every,
+                            const Progress& progress)
 {
-    return {box.low.array() - by, box.high.array() + by};
+    std::vector<std::array<Vector3d, 3>> triangles;
+    std::vector<std::size_t> place_of;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        for (const Strip& strip : places[i].strips) {
+            triangles.push_back({strip[0], strip[1], strip[2]});
+            triangles.push_back({strip[2], strip[3], strip[0]});
+            place_of.insert(place_of.end(), 2, i);
+        }
+    }
+    const auto counts = sights_through(scene, triangles, spacings, every, progress);
+    std::vector<std::size_t> through(places.size());
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        through[place_of[i]] += counts[i];
+    }
+    std::size_t next = 0;
+    std::erase_if(places,
+                  [&](const CreasePlace& place) { return through[next++] >= place.track.size(); });
 }
 
-/// The points of a planar region, where they can be looked up.
-struct Patch {
-    const PlanarRegion* region;
-    std::vector<Vector3d> positions;
-    PointTree tree;
-
-    Patch(const PlanarRegion& of, const std::vector<Vector3d>& all)
-        : region(&of), positions(values_at(of.points, all)), tree(positions)
-    {
-    }
-};
-
-/// Two patches by their places among all.
-using Pair = std::array<std::uint32_t, 2>;
-
-/// The pairs of patches that lie no farther apart than `reach` of their spacings, ascending.
-std::vector<Pair> near_pairs(const std::vector<Patch>& patches, double reach)
+/// Leaves out places that the sights of all points pass through. Most of those, in the open, a few
+/// points tell already.
+void leave_out_seen_through(const Scene& scene, const std::vector<double>& spacings,
+                            std::vector<CreasePlace>& places, const Progress& progress)
 {
-    using Boxed = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
-    std::vector<Boxed> boxes;
-    for (std::uint32_t i = 0; i < patches.size(); ++i) {
-        const Box box = grown(patches[i].tree.box(), reach * patches[i].region->spacing);
-        boxes.emplace_back(CGAL::Bbox_3(box.low.x(), box.low.y(), box.low.z(), box.high.x(),
-                                        box.high.y(), box.high.z()),
-                           i);
+    double begin = 0.0;
+    for (const std::size_t every : {16, 1}) {
+        const double end = begin + (every == 1 ? 0.8 : 0.2);
+        leave_out_seen_through(scene, spacings, places, every, progress.part(begin, end));
+        begin = end;
     }
-    std::vector<Pair> pairs;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Boxed& a, const Boxed& b) {
-        pairs.push_back({std::min(a.info(), b.info()), std::max(a.info(), b.info())});
-    });
-    std::ranges::sort(pairs);
-    return pairs;
 }
-
-/// A line, by a point on it and its direction.
-struct Line {
-    Vector3d origin;
-    Vector3d direction; ///< unit
-
-    Vector3d at(double along) const { return origin + along * direction; }
-};
-
-/// Where two planes meet that are not parallel.
-Line intersection(const Plane& a, const Plane& b)
-{
-    const Vector3d middle = 0.5 * (a.center + b.center);
-    const double cosine = a.normal.dot(b.normal);
-    const double height_a = a.normal.dot(a.center - middle);
-    const double height_b = b.normal.dot(b.center - middle);
-    const double sine_sq = 1.0 - cosine * cosine;
-    return {middle + ((height_a - cosine * height_b) * a.normal +
-                      (height_b - cosine * height_a) * b.normal) /
-                         sine_sq,
-            a.normal.cross(b.normal).normalized()};
-}
-
-/// The foot of the perpendicular from a point of a region to a line.
-struct Foot {
-    double along; ///< the line, from its origin
-    double off;   ///< from the line to the point
-    std::uint32_t point;
-};
-
-/// A place for a new point.
-struct Place {
-    Vector3d position;
-    double step = 0.0;        ///< to the next one of its crease
-    std::uint32_t beside = 0; ///< the point of the model next to it
-    std::vector<std::uint32_t> track = {};
-};
-
-/// Finds where the flat parts of a scene meet.
-class Creases {
-  public:
-    Creases(const Scene& scene, const NearestNeighbors& tree, const PlanarRegions& planes,
-            double reach)
-        : scene_(scene),
-          tree_(tree),
-          planes_(planes),
-          reach_(reach),
-          region_of_(scene.num_points(), kNone)
-    {
-        patches_.reserve(planes.regions.size()); // their trees refer to their positions
-        for (const PlanarRegion& region : planes.regions) {
-            for (const std::uint32_t point : region.points) {
-                region_of_[point] = static_cast<std::uint32_t>(patches_.size());
-            }
-            patches_.emplace_back(region, scene.positions);
-        }
-    }
-
-    /// The places along all creases, in an order that does not depend on the threads.
-    std::vector<Place> places(const Progress& progress) const
-    {
-        const std::vector<Pair> pairs = near_pairs(patches_, reach_);
-        ProgressCount count(progress, pairs.size());
-        const auto look = [&](std::size_t i, std::vector<Place>& found) {
-            add_places(pairs[i], found);
-            count.add(1);
-        };
-        return parallel_collect<Place>(pairs.size(), look, 64);
-    }
-
-  private:
-    static constexpr std::uint32_t kNone = 0xffffffffU;
-
-    /// What meets at a crease.
-    struct Crease {
-        Pair pair;
-        std::array<const PlanarRegion*, 2> regions;
-        Line line = {};
-        double spacing = 0.0;                       ///< the larger one
-        std::array<std::vector<Foot>, 2> feet = {}; ///< of either's points near the line, along it
-        bool stands_out = false;                    ///< as the edge of a box, not as a wall's foot
-    };
-
-    void add_places(const Pair& pair, std::vector<Place>& found) const
-    {
-        constexpr double kMostCosine = 0.866; // of 30 degrees
-        Crease crease{.pair = pair,
-                      .regions = {patches_[pair[0]].region, patches_[pair[1]].region}};
-        const Plane& a = crease.regions[0]->plane;
-        const Plane& b = crease.regions[1]->plane;
-        if (std::abs(a.normal.dot(b.normal)) > kMostCosine) return;
-        crease.line = intersection(a, b);
-        crease.spacing = std::max(crease.regions[0]->spacing, crease.regions[1]->spacing);
-        crease.feet = {feet(crease, 0), feet(crease, 1)};
-        if (crease.feet[0].empty() || crease.feet[1].empty()) return;
-        crease.stands_out = height_of(crease, 0) + height_of(crease, 1) <= 0.0;
-        const double step = kStep * crease.spacing;
-        const auto low =
-            std::ranges::max(crease.feet[0].front().along, crease.feet[1].front().along);
-        const auto high =
-            std::ranges::min(crease.feet[0].back().along, crease.feet[1].back().along);
-        const double last = std::floor(high / step + kRounding);
-        for (double i = std::ceil(low / step - kRounding); i <= last; ++i) {
-            add_place(crease, {.position = place_at(crease, i, step), .step = step}, i * step,
-                      found);
-        }
-    }
-
-    /// The i-th place, a little off the line, to either side of both planes, as i² and i³ tell: of
-    /// points on one line along a hull rounding would tell which cells there are.
-    static Vector3d place_at(const Crease& crease, double i, double step)
-    {
-        constexpr double kOff = 1e-3; // of a step, at most
-        constexpr std::array<double, 2> kIrrational = {0.6180339887, 0.4142135624};
-        const std::array<double, 2> turns = {kIrrational[0] * i * i, kIrrational[1] * i * i * i};
-        Vector3d place = crease.line.at(i * step);
-        for (std::size_t side = 0; side < 2; ++side) {
-            const double off = 2.0 * (turns[side] - std::floor(turns[side])) - 1.0;
-            place += kOff * step * off * crease.regions[side]->plane.normal;
-        }
-        return place;
-    }
-
-    /// Of the points of one region those near the line where the other region is near, too.
-    std::vector<Foot> feet(const Crease& crease, std::size_t side) const
-    {
-        const Patch& patch = patches_[crease.pair[side]];
-        const Box other =
-            grown(patches_[crease.pair[1 - side]].tree.box(), reach_ * crease.spacing);
-        std::vector<Foot> found;
-        const auto look_at = [&](std::size_t i) {
-            const Vector3d way = patch.positions[i] - crease.line.origin;
-            const double along = way.dot(crease.line.direction);
-            const double off = (way - along * crease.line.direction).norm();
-            const std::uint32_t point = patch.region->points[i];
-            const double spacing = std::min(patch.region->spacing, planes_.spacings[point]);
-            if (off <= reach_ * spacing) found.push_back({along, off, point});
-        };
-        const double touching = 0.0;
-        patch.tree.visit_foreign(
-            {0, 0}, touching, [&](const Box& box) { return distance_between(box, other); },
-            look_at);
-        std::ranges::sort(found, {},
-                          [](const Foot& foot) { return std::tie(foot.along, foot.point); });
-        return found;
-    }
-
-    /// How high one region's points near the crease lie over the plane of the other, all together.
-    double height_of(const Crease& crease, std::size_t side) const
-    {
-        double sum = 0.0;
-        for (const Foot& foot : crease.feet[side]) {
-            sum += crease.regions[1 - side]->plane.normal.dot(scene_.positions[foot.point] -
-                                                              crease.line.origin);
-        }
-        return sum;
-    }
-
-    void add_place(const Crease& crease, Place place, double along, std::vector<Place>& found) const
-    {
-        std::vector<std::uint32_t> beside;
-        for (const std::vector<Foot>& feet : crease.feet) {
-            if (!adds_nearest(feet, along, reach_ * crease.spacing, beside)) return;
-        }
-        if (!is_between(crease, place)) return;
-        place.beside = beside.front();
-        place.track = views_of(crease, place.position, beside);
-        if (place.track.size() >= 2) found.push_back(std::move(place));
-    }
-
-    /// Adds the points of the two feet next to a place, if there are feet within so far to both
-    /// sides along the line.
-    static bool adds_nearest(const std::vector<Foot>& feet, double along, double within,
-                             std::vector<std::uint32_t>& points)
-    {
-        constexpr std::size_t kNext = 2;
-        const double slack = kRounding * within;
-        const auto first = std::ranges::lower_bound(feet, along - within, {}, &Foot::along);
-        const auto last = std::ranges::upper_bound(feet, along + within, {}, &Foot::along);
-        if (first == last || first->along > along + slack) return false;
-        if (std::prev(last)->along < along - slack) return false;
-        std::vector<std::pair<double, std::uint32_t>> near;
-        for (const Foot& foot : std::span(first, last)) {
-            near.emplace_back(std::hypot(foot.along - along, foot.off), foot.point);
-        }
-        std::ranges::sort(near);
-        const double most = near[std::min(kNext, near.size()) - 1].first + slack;
-        for (const auto& [distance, point] : near) {
-            if (distance <= most) points.push_back(point);
-        }
-        return true;
-    }
-
-    /// Whether the points around a place are those of the two regions, and none is at the place.
-    bool is_between(const Crease& crease, const Place& place) const
-    {
-        constexpr double kThere = 0.3; // of a step
-        constexpr std::size_t kLook = 8;
-        constexpr std::ptrdiff_t kMost = 5;
-        std::vector<NearestNeighbors::Neighbor> nearest;
-        tree_.find(place.position, kLook, nearest);
-        const auto is_theirs = [&](const NearestNeighbors::Neighbor& near) {
-            const std::uint32_t region = region_of_[near.point];
-            return region == crease.pair[0] || region == crease.pair[1];
-        };
-        const double there = kThere * place.step;
-        return nearest.front().distance_sq >= there * there &&
-               std::ranges::count_if(nearest, is_theirs) >= kMost;
-    }
-
-    /// The views of some points that can see a place of the crease.
-    std::vector<std::uint32_t> views_of(const Crease& crease, const Vector3d& place,
-                                        const std::vector<std::uint32_t>& points) const
-    {
-        std::vector<std::uint32_t> views;
-        for (const std::uint32_t point : points) {
-            std::ranges::copy(scene_.tracks[point], std::back_inserter(views));
-        }
-        std::ranges::sort(views);
-        views.erase(std::unique(views.begin(), views.end()), views.end());
-        std::erase_if(views, [&](std::uint32_t index) {
-            const View& view = scene_.views[index];
-            const auto is_before = [&](const PlanarRegion* region) {
-                return region->plane.normal.dot(view.center - place) > 0.0;
-            };
-            const bool is_seen = crease.stands_out ? std::ranges::any_of(crease.regions, is_before)
-                                                   : std::ranges::all_of(crease.regions, is_before);
-            return !is_seen || !view_shows(view, scene_.cameras[view.camera], place);
-        });
-        return views;
-    }
-
-    const Scene& scene_;
-    const NearestNeighbors& tree_;
-    const PlanarRegions& planes_;
-    double reach_;
-    std::vector<Patch> patches_;
-    std::vector<std::uint32_t> region_of_;
-};
 
 /// Leaves out places less than half a step from one before.
-void leave_out_near_ones(std::vector<Place>& places)
+void leave_out_near_ones(std::vector<CreasePlace>& places)
 {
     if (places.empty()) return;
     std::vector<Vector3d> positions(places.size());
-    std::ranges::transform(places, positions.begin(), &Place::position);
+    std::ranges::transform(places, positions.begin(), &CreasePlace::position);
     const PointTree tree(positions);
     std::vector<char> is_kept(places.size(), 1);
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -332,10 +78,10 @@ void leave_out_near_ones(std::vector<Place>& places)
             });
     }
     std::size_t next = 0;
-    std::erase_if(places, [&](const Place&) { return is_kept[next++] == 0; });
+    std::erase_if(places, [&](const CreasePlace&) { return is_kept[next++] == 0; });
 }
 
-void add_point(Scene& scene, const Place& place)
+void add_point(Scene& scene, const CreasePlace& place)
 {
     scene.positions.push_back(place.position);
     scene.colors.push_back(scene.colors[place.beside]);
@@ -350,19 +96,19 @@ void add_point(Scene& scene, const Place& place)
 CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options, const Progress& progress)
 {
     if (options.reach == 0.0 || has_dense_points(scene)) return {};
-    std::vector<Place> places;
+    std::vector<CreasePlace> places;
     CreaseReport report;
     {
         const NearestNeighbors tree(scene.positions);
-        const PlanarRegions planes = planar_regions(scene, tree, progress.part(0.0, 0.7));
-        const Creases creases(scene, tree, planes, options.reach);
-        places = creases.places(progress.part(0.7, 0.9));
+        const PlanarRegions planes = planar_regions(scene, tree, progress.part(0.0, 0.5));
+        places = crease_places(scene, tree, planes, options.reach, progress.part(0.5, 0.7));
+        leave_out_seen_through(scene, planes.spacings, places, progress.part(0.7, 0.9));
         report.planes = std::ssize(planes.regions);
     }
     leave_out_near_ones(places);
     report.added = std::ssize(places);
     if (places.empty()) return report;
-    for (const Place& place : places) {
+    for (const CreasePlace& place : places) {
         add_point(scene, place);
     }
     scene = spatial_sort(std::move(scene), progress.part(0.9, 1.0));

@@ -24,14 +24,15 @@ struct CreaseReport {
 /// `crease_reach` spacings of it to both sides along it, where most of the points around are
 /// theirs and none is there yet. Its views are those that saw the nearest points of both, if they
 /// show the place and stand before both planes, or, where the edge stands out, before one; fewer
-/// than two make no point. A new point has the colour and the error of the point next to it, and
-/// the id kNoPointId.
+/// than two make no point. Nor does a place through whose strips of surface, from there to the
+/// nearest points of either region, as many sights pass as come from there. A new point has the
+/// colour and the error of the point next to it, and the id kNoPointId.
 ///
 /// Scenes with points whose error is not known, which are dense, stay as they are. The points
 /// follow each other in space, as spatial_sort() puts them, before and after. The result does not
 /// depend on the number of threads nor, up to rounding, on where the scene lies and how large it
 /// is. Cost: that of planar_regions, of a sort, and O(log points) for each point of a region that
-/// lies near another; 90 bytes a point.
+/// lies near another and for each sight; 90 bytes a point.
 CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options,
                                const Progress& progress = {});
 

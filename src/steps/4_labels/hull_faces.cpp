@@ -103,7 +103,7 @@ std::vector<Index> uncrossed_hull_cells(const TetMesh& cells, const FlowNetwork&
 std::int64_t go_on_along_hull(const Scene& scene, const std::vector<Index>& uncrossed,
                               Labelling& labelling)
 {
-    constexpr double kMostEdges = 10.0;
+    constexpr double kMostEdges = 20.0;
     constexpr double kGoesOn = 0.8; // cosine, about 37 degrees
     constexpr double kNotKnown = -1.0;
     const TetMesh& cells = labelling.cells();

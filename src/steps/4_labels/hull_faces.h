@@ -19,7 +19,7 @@ std::vector<Index> uncrossed_hull_cells(const TetMesh& cells, const FlowNetwork&
 /// the cut takes for outside; so the surface would end there. Of the `uncrossed` cells those are
 /// called inside before which an outside cell lies, whose facet of the hull is seen from within (at
 /// each corner) and from beyond by none (no view there saw a corner or has it in its image), is at
-/// most ten times as long as the edges around, and goes on with the surface (within 37 degrees) at
+/// most 20 times as long as the edges around, and goes on with the surface (within 37 degrees) at
 /// one corner or more. Then the boundary has such facets of the hull, and borders where they end.
 /// Returns how many there are. Cost: O(uncrossed x views) at most, in parallel, and the boundary
 /// where it is not at hand.
