@@ -243,10 +243,11 @@ class Creases {
         }
         place.beside = beside[0].front();
         place.track = views_of(crease, place.position, beside);
+        if (place.track.size() < 2) return;
         for (std::size_t side = 0; side < 2; ++side) {
             place.strips[side] = strip(crease, place, beside[side]);
         }
-        if (place.track.size() >= 2) found.push_back(std::move(place));
+        found.push_back(std::move(place));
     }
 
     /// The feet within so far of a place along the line; none if they are not to both sides of it.

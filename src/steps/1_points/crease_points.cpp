@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -21,42 +23,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Leaves out places where as many sights of every so-manieth point pass through the surface that
-/// there would be, if a crease were there, as come from there: where none is, one looks through.
-void leave_out_seen_through(const Scene& scene, const std::vector<double>& spacings,
-                            std::vector<CreasePlace>& places, std::size_t every,
-                            const Progress& progress)
-{
-    std::vector<std::array<Vector3d, 3>> triangles;
-    std::vector<std::size_t> place_of;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        for (const Strip& strip : places[i].strips) {
-            triangles.push_back({strip[0], strip[1], strip[2]});
-            triangles.push_back({strip[2], strip[3], strip[0]});
-            place_of.insert(place_of.end(), 2, i);
-        }
-    }
-    const auto counts = sights_through(scene, triangles, spacings, every, progress);
-    std::vector<std::size_t> through(places.size());
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        through[place_of[i]] += counts[i];
-    }
-    std::size_t next = 0;
-    std::erase_if(places,
-                  [&](const CreasePlace& place) { return through[next++] >= place.track.size(); });
-}
-
-/// Leaves out places that the sights of all points pass through. Most of those, in the open, a few
-/// points tell already.
+/// Leaves out places where as many sights pass through the surface that there would be, if a crease
+/// were there, as come from there: where none is, one looks through.
 void leave_out_seen_through(const Scene& scene, const std::vector<double>& spacings,
                             std::vector<CreasePlace>& places, const Progress& progress)
 {
-    double begin = 0.0;
-    for (const std::size_t every : {16, 1}) {
-        const double end = begin + (every == 1 ? 0.8 : 0.2);
-        leave_out_seen_through(scene, spacings, places, every, progress.part(begin, end));
-        begin = end;
+    std::vector<std::array<Vector3d, 3>> triangles;
+    for (const CreasePlace& place : places) {
+        for (const Strip& strip : place.strips) {
+            triangles.push_back({strip[0], strip[1], strip[2]});
+            triangles.push_back({strip[2], strip[3], strip[0]});
+        }
     }
+    const std::vector<std::uint32_t> counts = sights_through(scene, triangles, spacings, progress);
+    auto next = counts.begin();
+    std::erase_if(places, [&](const CreasePlace& place) {
+        const auto first = std::exchange(next, next + 2 * std::ssize(place.strips));
+        return std::accumulate(first, next, std::size_t{0}) >= place.track.size();
+    });
 }
 
 /// Leaves out places less than half a step from one before.

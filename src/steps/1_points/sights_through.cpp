@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 std::vector<std::uint32_t> sights_through(const Scene& scene,
                                           std::span<const std::array<Vector3d, 3>> triangles,
-                                          const std::vector<double>& margins, std::size_t every,
+                                          const std::vector<double>& margins,
                                           const Progress& progress)
 {
     constexpr double kMostOfSight = 0.5;
@@ -22,8 +22,7 @@ std::vector<std::uint32_t> sights_through(const Scene& scene,
     const auto count = [&](std::size_t triangle) {
         std::atomic_ref(counts[triangle]).fetch_add(1, std::memory_order_relaxed);
     };
-    parallel_for((scene.num_points() + every - 1) / every, progress, [&](std::size_t i) {
-        const std::size_t point = i * every;
+    parallel_for(scene.num_points(), progress, [&](std::size_t point) {
         for (const std::uint32_t view : scene.tracks[point]) {
             const Vector3d& center = scene.views[view].center;
             const Vector3d way = center - scene.positions[point];
