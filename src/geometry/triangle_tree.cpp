@@ -6,8 +6,10 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Simple_cartesian.h>
 #include <boost/iterator/function_output_iterator.hpp>
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,61 @@ Kernel::Point_3 to_point(const Vector3d& position)
     return {position.x(), position.y(), position.z()};
 }
 
+/// The largest coordinate, or more.
+double magnitude(const CGAL::Bbox_3& box)
+{
+    return std::abs(box.xmin()) + std::abs(box.xmax()) + std::abs(box.ymin()) +
+           std::abs(box.ymax()) + std::abs(box.zmin()) + std::abs(box.zmax());
+}
+
+/// A segment that is asked about, and the same for questions that need not be exact.
+class Question {
+  public:
+    Question(const Vector3d& from, const Vector3d& to)
+        : exact_(to_point(from), to_point(to)),
+          rough_({from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}),
+          magnitude_(magnitude(exact_.bbox()))
+    {
+    }
+
+    bool meets(const Kernel::Triangle_3& triangle) const
+    {
+        return CGAL::do_intersect(exact_, triangle);
+    }
+    /// Said of boxes a little off, too, so that rounding leaves out none that is met.
+    bool may_meet(const CGAL::Bbox_3& box) const
+    {
+        constexpr double kRounding = 1e-12;
+        const double off = kRounding * (magnitude_ + magnitude(box));
+        return CGAL::do_intersect(rough_, CGAL::Bbox_3(box.xmin() - off, box.ymin() - off,
+                                                       box.zmin() - off, box.xmax() + off,
+                                                       box.ymax() + off, box.zmax() + off));
+    }
+
+  private:
+    Kernel::Segment_3 exact_;
+    CGAL::Simple_cartesian<double>::Segment_3 rough_;
+    double magnitude_;
+};
+
+/// What CGAL asks a question about: triangles exactly, and boxes, of which there are many more,
+/// not.
+class Traits : public CGAL::AABB_traits<Kernel, Primitive> {
+  public:
+    struct Do_intersect { // a name of CGAL's
+        bool operator()(const Question& question, const CGAL::Bbox_3& box) const
+        {
+            return question.may_meet(box);
+        }
+        bool operator()(const Question& question, const Primitive& triangle) const
+        {
+            return question.meets(triangle.datum());
+        }
+    };
+
+    static Do_intersect do_intersect_object() { return {}; }
+};
+
 } // namespace
 
 struct TriangleTree::Tree {
@@ -38,7 +95,7 @@ struct TriangleTree::Tree {
 
     Triangles triangles;
     std::vector<std::size_t> places; ///< of each among all
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree;
+    CGAL::AABB_tree<Traits> tree;
 };
 
 TriangleTree::TriangleTree(std::span<const std::array<Vector3d, 3>> triangles)
@@ -58,8 +115,7 @@ TriangleTree::~TriangleTree() = default;
 
 bool TriangleTree::is_met(const Vector3d& from, const Vector3d& to) const
 {
-    return tree_ != nullptr &&
-           tree_->tree.do_intersect(Kernel::Segment_3(to_point(from), to_point(to)));
+    return tree_ != nullptr && tree_->tree.do_intersect(Question(from, to));
 }
 
 void TriangleTree::visit_met(const Vector3d& from, const Vector3d& to, const Visitor& visit) const
@@ -67,8 +123,7 @@ void TriangleTree::visit_met(const Vector3d& from, const Vector3d& to, const Vis
     if (tree_ == nullptr) return;
     const auto begin = tree_->triangles.cbegin();
     tree_->tree.all_intersected_primitives(
-        Kernel::Segment_3(to_point(from), to_point(to)),
-        boost::make_function_output_iterator([&](const Primitive::Id& met) {
+        Question(from, to), boost::make_function_output_iterator([&](const Primitive::Id& met) {
             visit(tree_->places[static_cast<std::size_t>(met - begin)]);
         }));
 }
