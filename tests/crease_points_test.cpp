@@ -74,7 +74,10 @@ std::vector<std::size_t> added_points(const Scene& scene)
     return found;
 }
 
-std::int64_t num_added(Scene scene, const CreaseOptions& options = {})
+/// None along borders.
+const CreaseOptions kOnCreases = {.border_gap = 0.0};
+
+std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnCreases)
 {
     return add_crease_points(scene, options).added;
 }
@@ -100,7 +103,7 @@ TEST(CreasePoints, AreAddedAlongTheFootOfAWall)
 {
     const Scene before = together({wall(0.35), ground(0.35)});
     Scene scene = before;
-    const CreaseReport report = add_crease_points(scene, {});
+    const CreaseReport report = add_crease_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_EQ(report.planes, 2);
     EXPECT_EQ(report.added, std::ssize(added));
@@ -115,7 +118,7 @@ TEST(CreasePoints, AreAddedAlongTheFootOfAWall)
 TEST(CreasePoints, StandOnTheCreaseApartFromEachOther)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
-    add_crease_points(scene, {});
+    add_crease_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     for (const std::size_t i : added) {
         EXPECT_NEAR(scene.positions[i].y(), 1.0, 0.002 * kSpacing);
@@ -131,7 +134,7 @@ TEST(CreasePoints, LeaveTheModelsPointsAsTheyAre)
 {
     const Scene before = together({wall(0.35), ground(0.35)});
     Scene scene = before;
-    add_crease_points(scene, {});
+    add_crease_points(scene, kOnCreases);
     EXPECT_EQ(spatial_sort(scene).positions, scene.positions);
     std::size_t kept = 0;
     for (std::size_t old = 0; old < before.num_points(); ++old) {
@@ -152,7 +155,7 @@ TEST(CreasePoints, HaveTheColourOfAPointBesideThem)
         scene.colors[i] = is_left ? Color{255, 0, 0} : Color{0, 255, 0};
         scene.errors_px[i] = is_left ? 0.25 : 0.75;
     }
-    add_crease_points(scene, {});
+    add_crease_points(scene, kOnCreases);
     for (const std::size_t i : added_points(scene)) {
         if (std::abs(scene.positions[i].x()) < 3 * kSpacing) continue;
         const bool is_left = scene.positions[i].x() < 0.0;
@@ -165,12 +168,13 @@ TEST(CreasePoints, GoAsFarAsTheReach)
 {
     // The spacing is estimated to be .1; both gaps are 8 of it, or 20.
     EXPECT_GT(num_added(together({wall(0.8), ground(0.8)})), 10);
-    EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}), {.reach = 5.0}), 0);
+    EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}), {.reach = 5.0, .border_gap = 0.0}), 0);
     const auto high = flat({-1.0, -2.0}, {1.0, -1.0}, kAll,
                            [](double u, double v) { return Vector3d(u, v, 0.0); });
     EXPECT_GT(num_added(together({high, ground(0.35)})), 10);
-    EXPECT_EQ(num_added(together({high, ground(0.35)}), {.reach = 18.0}), 0);
-    EXPECT_EQ(num_added(together({wall(0.35), ground(0.35)}), {.reach = 0.0}), 0);
+    EXPECT_EQ(num_added(together({high, ground(0.35)}), {.reach = 18.0, .border_gap = 0.0}), 0);
+    EXPECT_EQ(num_added(together({wall(0.35), ground(0.35)}), {.reach = 0.0, .border_gap = 0.0}),
+              0);
 }
 
 TEST(CreasePoints, NeedPointsOfBothPlanesToBothSides)
@@ -181,7 +185,7 @@ TEST(CreasePoints, NeedPointsOfBothPlanesToBothSides)
     auto left = wall(0.35);
     std::erase_if(left, [](const MadePoint& p) { return p.position.x() > 0.5; });
     Scene scene = together({left, right});
-    add_crease_points(scene, {});
+    add_crease_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(added.size(), 4U);
     for (const std::size_t i : added) {
@@ -197,7 +201,7 @@ TEST(CreasePoints, LeaveGapsWhereOnePlaneIsNotKnown)
         return std::abs(p.position.x()) < 0.6 && p.position.z() > -1.1;
     });
     Scene scene = together({wall(0.35), floor});
-    add_crease_points(scene, {.reach = 6.0}); // .6 along the crease, too
+    add_crease_points(scene, {.reach = 6.0, .border_gap = 0.0}); // .6 along the crease, too
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(added.size(), 6U);
     for (const std::size_t i : added) {
@@ -213,7 +217,7 @@ TEST(CreasePoints, OfTwoCreasesSideBySideStandApart)
                     [=](double u, double v) { return Vector3d(u, v, z); });
     };
     Scene scene = together({part(-1.0, 0.4, 0.0), part(-0.4, 1.0, 0.02), ground(0.15)});
-    const CreaseReport report = add_crease_points(scene, {});
+    const CreaseReport report = add_crease_points(scene, kOnCreases);
     EXPECT_GE(report.planes, 3);
     const std::vector<std::size_t> added = added_points(scene);
     const auto is_behind = [&](std::size_t i) { return scene.positions[i].z() > 0.01; };
@@ -236,7 +240,7 @@ TEST(CreasePoints, AreSeenByTheViewsOfAllPointsEquallyNear)
         }
     }
     Scene scene = together({points});
-    add_crease_points(scene, {});
+    add_crease_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     const auto middle = std::ranges::find_if(
         added, [&](std::size_t i) { return std::abs(scene.positions[i].x()) < 0.01; });
@@ -276,7 +280,7 @@ TEST(CreasePoints, AreNotAddedWhereOneLooksThrough)
     auto half = beneath();
     std::erase_if(half, [](const MadePoint& p) { return p.position.x() < 0.0; });
     Scene scene = together({wall(0.8), floor, half});
-    add_crease_points(scene, {});
+    add_crease_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(std::ssize(added), without / 3);
     for (const std::size_t i : added) {
@@ -294,7 +298,7 @@ TEST(CreasePoints, AreAddedWhereFewerLookThroughThanSeeThem)
 TEST(CreasePoints, AreNotAddedWherePointsAreAlready)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
-    const std::int64_t first = add_crease_points(scene, {}).added;
+    const std::int64_t first = add_crease_points(scene, kOnCreases).added;
     EXPECT_GT(first, 20);
     EXPECT_LE(num_added(scene), first / 10);
 }
@@ -332,13 +336,13 @@ TEST(CreasePoints, AreSeenFromBeforeBothPlanesOfACorner)
     std::vector<Vector3d> centers = kCenters;
     centers.emplace_back(0.0, 2.0, -6.0);
     Scene scene = together({wall(0.35, {0, 1, 3}), ground(0.35)}, centers);
-    ASSERT_GT(add_crease_points(scene, {}).added, 10);
+    ASSERT_GT(add_crease_points(scene, kOnCreases).added, 10);
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), kAll);
     }
     // Only one stands before both.
     Scene hidden = together({wall(0.35, {2, 3}), ground(0.35, {2})}, centers);
-    EXPECT_EQ(add_crease_points(hidden, {}).added, 0);
+    EXPECT_EQ(add_crease_points(hidden, kOnCreases).added, 0);
 }
 
 TEST(CreasePoints, AreSeenFromBeforeOnePlaneOfAnEdge)
@@ -350,7 +354,7 @@ TEST(CreasePoints, AreSeenFromBeforeOnePlaneOfAnEdge)
                     [=](double u, double v) { return Vector3d(slope * v, u, 3.0 * v); });
     };
     Scene scene = together({side(-1.0, {0, 1}), side(1.0, {2, 3})}, centers);
-    ASSERT_GT(add_crease_points(scene, {}).added, 5);
+    ASSERT_GT(add_crease_points(scene, kOnCreases).added, 5);
     const Views all = {0, 1, 2, 3};
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), all);
@@ -363,7 +367,7 @@ TEST(CreasePoints, AreSeenWithinImagesOnly)
     std::vector<Vector3d> centers = kCenters;
     centers[0] = {0.0, -2.2, -6.0};
     Scene scene = together({wall(0.35), ground(0.35, {1, 2})}, centers);
-    ASSERT_GT(add_crease_points(scene, {}).added, 10);
+    ASSERT_GT(add_crease_points(scene, kOnCreases).added, 10);
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), Views({1, 2}));
     }
@@ -402,11 +406,11 @@ TEST(CreasePoints, AreTheSameInOtherUnitsAndElsewhere)
 {
     const Scene scene = together({wall(0.35), ground(0.35)});
     Scene here = scene;
-    add_crease_points(here, {});
+    add_crease_points(here, kOnCreases);
     for (const double scale : {1.0 / 1024.0, 1e-3, 37.3, 1e6}) {
         const Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
         Scene there = moved(scene, scale, Quaterniond::Identity(), shift);
-        add_crease_points(there, {});
+        add_crease_points(there, kOnCreases);
         ASSERT_EQ(there.point_ids, here.point_ids) << scale;
         EXPECT_EQ(there.tracks.views, here.tracks.views);
         EXPECT_LT(farthest_off(there, here, scale, shift), 1e-12 * scale);
@@ -424,7 +428,7 @@ TEST(CreasePoints, OfOneCreaseLieOnNoPlane)
 {
     // Along a hull rounding would tell which cells they make.
     Scene scene = together({wall(0.35), ground(0.35)});
-    add_crease_points(scene, {});
+    add_crease_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     ASSERT_GT(added.size(), 8U);
     for (std::size_t i = 0; i + 3 < added.size(); ++i) {

@@ -357,6 +357,21 @@ TEST(TraceSights, SoftensWhatIsNearThePoint)
               (UnsetArray<std::int32_t>{79, 0, 0, 0, 0, 0, -256, 0}));
 }
 
+TEST(TraceSights, SaysNothingBehindAPointAlongABorder)
+{
+    Scene scene = star({kBeyondCell0});
+    scene.point_ids[4] = kBorderPointId;
+    const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
+    ArcCapacities arc_capacities = no_arc_capacities();
+    arc_capacities[0][3] = 256;
+    EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
+    EXPECT_EQ(energy.network.terminal_capacities,
+              (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, 0, 0}));
+    scene.point_ids[4] = kNoPointId; // on a crease
+    EXPECT_EQ(traced(triangulate(scene), scene, kFullWeight).network.terminal_capacities,
+              (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
+}
+
 TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
 {
     Scene scene = make_scene(

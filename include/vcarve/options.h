@@ -45,7 +45,11 @@ struct FilterOptions {
 
 /// Where points are added.
 struct CreaseOptions {
-    double reach = 28.0; ///< --crease-reach
+    double reach = 28.0;     ///< --crease-reach
+    double border_gap = 3.0; ///< --border-gap
+
+    /// Whether points are added anywhere.
+    bool add_any() const { return reach > 0.0 || border_gap > 0.0; }
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
@@ -58,6 +62,13 @@ struct CreaseOptions {
                                 "at the foot of a wall, where images show no features; 0 adds "
                                 "none.",
                         .max = 1000.0});
+        options.number(border_gap,
+                       {.name = "border-gap",
+                        .unit = "x spacing",
+                        .help = "Add points where a flat part of the surface ends and sights pass "
+                                "by no farther than so many times the spacing of its points, as "
+                                "at the eaves of a roof; 0 adds none.",
+                        .max = 100.0});
     }
 };
 

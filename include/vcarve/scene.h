@@ -55,8 +55,17 @@ struct Tracks {
     }
 };
 
-/// COLMAP's id of no point: what a point has that is none of the model's but was added to it.
+/// COLMAP's id of no point: what a point has that is none of the model's but was added to it, along
+/// a crease.
 inline constexpr std::uint64_t kNoPointId = 0xffffffffffffffffU;
+/// What a point has that was added along a border.
+inline constexpr std::uint64_t kBorderPointId = kNoPointId - 1;
+
+/// Whether a point with this id is none of the model's but was added to it.
+inline constexpr bool is_added_point(std::uint64_t id)
+{
+    return id >= kBorderPointId;
+}
 
 /// What COLMAP reconstructed: views, points, and the sights between them.
 /// The arrays positions, colors, errors_px, point_ids and tracks run parallel, one entry a point;

@@ -92,14 +92,16 @@ void parallel_for_with_list(std::size_t count, const Body& body, std::size_t gra
 }
 
 /// What visit(i, items) appends to `items` for the i in [0, count), in the order of i, from as many
-/// threads as the surrounding tbb arena has. A thread visits `grain` of them at a time. Needs the
-/// memory of the result twice.
+/// threads as the surrounding tbb arena has. A thread visits `grain` of them at a time, after which
+/// `progress` is told how many are done; it ends early, by throwing Cancelled, where the run is to
+/// stop. Needs the memory of the result twice.
 template <typename Item, typename Visit>
-std::vector<Item> parallel_collect(std::size_t count, const Visit& visit, std::size_t grain = 16384)
+std::vector<Item> parallel_collect(std::size_t count, const Progress& progress, const Visit& visit,
+                                   std::size_t grain = 16384)
 {
     std::vector<std::vector<Item>> blocks((count + grain - 1) / grain);
     parallel_for(
-        blocks.size(),
+        blocks.size(), progress,
         [&](std::size_t block) {
             std::vector<Item> items;
             for (std::size_t i = block * grain; i < std::min(count, (block + 1) * grain); ++i) {
@@ -123,6 +125,13 @@ std::vector<Item> parallel_collect(std::size_t count, const Visit& visit, std::s
         },
         1);
     return all;
+}
+
+/// The same, which tells nobody.
+template <typename Item, typename Visit>
+std::vector<Item> parallel_collect(std::size_t count, const Visit& visit, std::size_t grain = 16384)
+{
+    return parallel_collect<Item>(count, Progress(), visit, grain);
 }
 
 /// The sum over i in [0, count) of value(i), by `plus` from `zero`: within runs of 1024 in the

@@ -100,7 +100,7 @@ void add_points(Stages& stages, const Sizes& n, const Options& options)
     const bool is_thinned = n.is_dense && options.thin.merge_px > 0.0;
     stages.add("read", is_thinned ? kReadDensePoint : kReadPoint, n.read_points);
     stages.add("filter", kFilterPoint, n.points);
-    if (!n.is_dense && options.creases.reach > 0.0 && options.labels.method != Method::strict) {
+    if (!n.is_dense && options.creases.add_any() && options.labels.method != Method::strict) {
         stages.add("creases", kCreasePoint, n.points);
     }
     if (options.crop.region.kind != RegionChoice::Kind::everything) {

@@ -99,12 +99,13 @@ Scene filter(Scene scene, const FilterOptions& options, Log& log)
 /// None where the paper's own method is wanted, which is of the points that are given.
 void add_creases(Scene& scene, const Options& options, Log& log)
 {
-    const double reach = options.creases.reach;
-    if (reach == 0.0 || options.labels.method == Method::strict) return;
+    if (!options.creases.add_any() || options.labels.method == Method::strict) return;
     if (has_dense_points(scene)) return;
     Stage stage(log, "creases");
     const CreaseReport report = add_crease_points(scene, options.creases, stage);
-    stage.end({{"points added", report.added}, {"planes", report.planes}});
+    stage.end({{"points added", report.added},
+               {"along borders", report.along_borders},
+               {"planes", report.planes}});
 }
 
 /// The scene itself where there is no region.

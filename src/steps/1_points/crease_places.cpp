@@ -3,8 +3,7 @@
 #include "base/parallel.h"
 #include "geometry/box.h"
 #include "geometry/point_tree.h"
-#include "model/camera.h"
-#include "model/scene_points.h"
+#include "steps/1_points/patch.h"
 
 #include <CGAL/box_intersection_d.h>
 #include <Eigen/Geometry>
@@ -27,26 +26,10 @@ using Eigen::Vector3d;
 /// How far apart the points of a crease stand, in spacings of the regions that meet there.
 constexpr double kStep = 0.7;
 
-/// What rounding may make of equal lengths, as a share of them: points in rows and columns are at
-/// many equal distances, and it shall not matter where they lie.
-constexpr double kRounding = 1e-6;
-
 Box grown(const Box& box, double by)
 {
     return {box.low.array() - by, box.high.array() + by};
 }
-
-/// The points of a planar region, where they can be looked up.
-struct Patch {
-    const PlanarRegion* region;
-    std::vector<Vector3d> positions;
-    PointTree tree;
-
-    Patch(const PlanarRegion& of, const std::vector<Vector3d>& all)
-        : region(&of), positions(values_at(of.points, all)), tree(positions)
-    {
-    }
-};
 
 /// Two patches by their places among all.
 using Pair = std::array<std::uint32_t, 2>;
@@ -130,12 +113,10 @@ class Creases {
     std::vector<CreasePlace> places(const Progress& progress) const
     {
         const std::vector<Pair> pairs = near_pairs(patches_, reach_);
-        ProgressCount count(progress, pairs.size());
         const auto look = [&](std::size_t i, std::vector<CreasePlace>& found) {
             add_places(pairs[i], found);
-            count.add(1);
         };
-        return parallel_collect<CreasePlace>(pairs.size(), look, 64);
+        return parallel_collect<CreasePlace>(pairs.size(), progress, look, 64);
     }
 
   private:
@@ -171,7 +152,7 @@ class Creases {
             std::ranges::min(crease.feet[0].back().along, crease.feet[1].back().along);
         const double last = std::floor(high / step + kRounding);
         for (double i = std::ceil(low / step - kRounding); i <= last; ++i) {
-            add_place(crease, {.position = place_at(crease, i, step), .step = step}, i * step,
+            add_place(crease, {{.position = place_at(crease, i, step), .step = step}}, i * step,
                       found);
         }
     }
@@ -266,20 +247,11 @@ class Creases {
     static std::vector<std::uint32_t> nearest(std::span<const Foot> feet, double along,
                                               double slack)
     {
-        constexpr std::size_t kNext = 2;
-        using Near = std::pair<double, std::uint32_t>;
         std::vector<Near> near(feet.size());
         std::ranges::transform(feet, near.begin(), [&](const Foot& foot) {
             return Near(std::hypot(foot.along - along, foot.off), foot.point);
         });
-        const auto last = near.begin() + static_cast<std::ptrdiff_t>(std::min(kNext, near.size()));
-        std::ranges::nth_element(near, last - 1);
-        const double most = (last - 1)->first + slack;
-        std::erase_if(near, [&](const Near& foot) { return foot.first > most; });
-        std::ranges::sort(near);
-        std::vector<std::uint32_t> points(near.size());
-        std::ranges::transform(near, points.begin(), &Near::second);
-        return points;
+        return nearest_two(std::move(near), slack);
     }
 
     /// The surface that there would be between a place and the points of one side next to it: as
@@ -326,22 +298,15 @@ class Creases {
     views_of(const Crease& crease, const Vector3d& place,
              const std::array<std::vector<std::uint32_t>, 2>& beside) const
     {
-        std::vector<std::uint32_t> views;
-        for (const std::vector<std::uint32_t>& points : beside) {
-            for (const std::uint32_t point : points) {
-                std::ranges::copy(scene_.tracks[point], std::back_inserter(views));
-            }
-        }
-        std::ranges::sort(views);
-        views.erase(std::unique(views.begin(), views.end()), views.end());
-        std::erase_if(views, [&](std::uint32_t index) {
-            const View& view = scene_.views[index];
+        std::vector<std::uint32_t> points = beside[0];
+        std::ranges::copy(beside[1], std::back_inserter(points));
+        std::vector<std::uint32_t> views = views_showing(scene_, points, place);
+        std::erase_if(views, [&](std::uint32_t view) {
             const auto is_before = [&](const PlanarRegion* region) {
-                return region->plane.normal.dot(view.center - place) > 0.0;
+                return region->plane.normal.dot(scene_.views[view].center - place) > 0.0;
             };
-            const bool is_seen = crease.stands_out ? std::ranges::any_of(crease.regions, is_before)
-                                                   : std::ranges::all_of(crease.regions, is_before);
-            return !is_seen || !view_shows(view, scene_.cameras[view.camera], place);
+            return crease.stands_out ? std::ranges::none_of(crease.regions, is_before)
+                                     : !std::ranges::all_of(crease.regions, is_before);
         });
         return views;
     }

@@ -2,13 +2,13 @@
 
 #include "base/progress.h"
 #include "geometry/nearest_neighbors.h"
+#include "steps/1_points/added_place.h"
 #include "steps/1_points/planar_regions.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace vcarve {
@@ -17,12 +17,8 @@ namespace vcarve {
 using Strip = std::array<Eigen::Vector3d, 4>;
 
 /// A place for a point on a crease.
-struct CreasePlace {
-    Eigen::Vector3d position;
-    double step = 0.0;                     ///< to the next one of its crease
-    std::uint32_t beside = 0;              ///< the point of the model next to it
-    std::vector<std::uint32_t> track = {}; ///< the views that can see it, ascending; two at least
-    std::array<Strip, 2> strips = {};      ///< of surface, if it is one, to the points beside it
+struct CreasePlace : AddedPlace {
+    std::array<Strip, 2> strips = {}; ///< of surface, if it is one, to the points beside it
 };
 
 /// The places along the lines where two of a scene's planar regions may meet, as far as these alone

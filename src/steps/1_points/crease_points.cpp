@@ -3,6 +3,8 @@
 #include "geometry/nearest_neighbors.h"
 #include "geometry/point_tree.h"
 #include "model/scene_size.h"
+#include "steps/1_points/added_place.h"
+#include "steps/1_points/border_places.h"
 #include "steps/1_points/crease_places.h"
 #include "steps/1_points/planar_regions.h"
 #include "steps/1_points/sights_through.h"
@@ -44,11 +46,11 @@ void leave_out_seen_through(const Scene& scene, const std::vector<double>& spaci
 }
 
 /// Leaves out places less than half a step from one before.
-void leave_out_near_ones(std::vector<CreasePlace>& places)
+void leave_out_near_ones(std::vector<AddedPlace>& places)
 {
     if (places.empty()) return;
     std::vector<Vector3d> positions(places.size());
-    std::ranges::transform(places, positions.begin(), &CreasePlace::position);
+    std::ranges::transform(places, positions.begin(), &AddedPlace::position);
     const PointTree tree(positions);
     std::vector<char> is_kept(places.size(), 1);
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -62,15 +64,15 @@ void leave_out_near_ones(std::vector<CreasePlace>& places)
             });
     }
     std::size_t next = 0;
-    std::erase_if(places, [&](const CreasePlace&) { return is_kept[next++] == 0; });
+    std::erase_if(places, [&](const AddedPlace&) { return is_kept[next++] == 0; });
 }
 
-void add_point(Scene& scene, const CreasePlace& place)
+void add_point(Scene& scene, const AddedPlace& place)
 {
     scene.positions.push_back(place.position);
     scene.colors.push_back(scene.colors[place.beside]);
     scene.errors_px.push_back(scene.errors_px[place.beside]);
-    scene.point_ids.push_back(kNoPointId);
+    scene.point_ids.push_back(place.id);
     if (!scene.normals.empty()) scene.normals.emplace_back(Eigen::Vector3f::Zero());
     scene.tracks.push_back(place.track);
 }
@@ -79,20 +81,31 @@ void add_point(Scene& scene, const CreasePlace& place)
 
 CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options, const Progress& progress)
 {
-    if (options.reach == 0.0 || has_dense_points(scene)) return {};
-    std::vector<CreasePlace> places;
+    if (!options.add_any() || has_dense_points(scene)) return {};
+    std::vector<AddedPlace> places;
     CreaseReport report;
     {
         const NearestNeighbors tree(scene.positions);
         const PlanarRegions planes = planar_regions(scene, tree, progress.part(0.0, 0.5));
-        places = crease_places(scene, tree, planes, options.reach, progress.part(0.5, 0.7));
-        leave_out_seen_through(scene, planes.spacings, places, progress.part(0.7, 0.9));
         report.planes = std::ssize(planes.regions);
+        if (options.reach > 0.0) {
+            std::vector<CreasePlace> creases =
+                crease_places(scene, tree, planes, options.reach, progress.part(0.5, 0.6));
+            leave_out_seen_through(scene, planes.spacings, creases, progress.part(0.6, 0.75));
+            places.assign(std::make_move_iterator(creases.begin()),
+                          std::make_move_iterator(creases.end()));
+        }
+        if (options.border_gap > 0.0) {
+            std::ranges::move(
+                border_places(scene, tree, planes, options.border_gap, progress.part(0.75, 0.9)),
+                std::back_inserter(places));
+        }
     }
     leave_out_near_ones(places);
     report.added = std::ssize(places);
+    report.along_borders = std::ranges::count(places, kBorderPointId, &AddedPlace::id);
     if (places.empty()) return report;
-    for (const CreasePlace& place : places) {
+    for (const AddedPlace& place : places) {
         add_point(scene, place);
     }
     scene = spatial_sort(std::move(scene), progress.part(0.9, 1.0));

@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 #include "geometry/triangle_tree.h"
 
-#include <algorithm>
 #include <atomic>
 
 namespace vcarve {
@@ -15,7 +14,6 @@ std::vector<std::uint32_t> sights_through(const Scene& scene,
                                           const std::vector<double>& margins,
                                           const Progress& progress)
 {
-    constexpr double kMostOfSight = 0.5;
     std::vector<std::uint32_t> counts(triangles.size());
     if (triangles.empty()) return counts;
     const TriangleTree tree(triangles);
@@ -23,14 +21,9 @@ std::vector<std::uint32_t> sights_through(const Scene& scene,
         std::atomic_ref(counts[triangle]).fetch_add(1, std::memory_order_relaxed);
     };
     parallel_for(scene.num_points(), progress, [&](std::size_t point) {
-        for (const std::uint32_t view : scene.tracks[point]) {
-            const Vector3d& center = scene.views[view].center;
-            const Vector3d way = center - scene.positions[point];
-            const double length = way.norm();
-            if (length == 0.0) continue;
-            const double left_out = std::min(margins[point] / length, kMostOfSight);
-            tree.visit_met(scene.positions[point] + left_out * way, center, count);
-        }
+        visit_sights(scene, point, margins[point], [&](const Vector3d& from, const Vector3d& to) {
+            tree.visit_met(from, to, count);
+        });
     });
     return counts;
 }

@@ -1,0 +1,262 @@
+#include "steps/1_points/border_places.h"
+
+#include "base/parallel.h"
+#include "geometry/box.h"
+#include "geometry/triangle_tree.h"
+#include "steps/1_points/patch.h"
+#include "steps/1_points/sights_through.h"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangulation = CGAL::Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<
+                CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>>>;
+
+/// Coordinates in a plane.
+class PlaneFrame {
+  public:
+    explicit PlaneFrame(const Plane& plane)
+        : center_(plane.center), x_(plane.normal.unitOrthogonal()), y_(plane.normal.cross(x_))
+    {
+    }
+
+    Vector2d in_plane(const Vector3d& place) const
+    {
+        return {x_.dot(place - center_), y_.dot(place - center_)};
+    }
+    Vector3d in_space(const Vector2d& place) const
+    {
+        return center_ + place.x() * x_ + place.y() * y_;
+    }
+
+  private:
+    Vector3d center_;
+    Vector3d x_;
+    Vector3d y_;
+};
+
+/// A rectangle in the plane of a patch around its points and what is so near.
+std::array<Vector3d, 4> rectangle_around(const Patch& patch, const PlaneFrame& frame, double near)
+{
+    Eigen::AlignedBox2d box;
+    for (const Vector3d& position : patch.positions) {
+        box.extend(frame.in_plane(position));
+    }
+    const Vector2d low = box.min().array() - near;
+    const Vector2d high = box.max().array() + near;
+    return {frame.in_space(low), frame.in_space({high.x(), low.y()}), frame.in_space(high),
+            frame.in_space({low.x(), high.y()})};
+}
+
+/// Where a sight passes through the plane of a patch.
+struct Passage {
+    std::uint32_t patch;
+    Vector2d place; ///< in the plane
+};
+
+/// Whether a patch has a point so near to a place.
+bool has_point_near(const Patch& patch, const Vector3d& place, double near)
+{
+    constexpr double kDone = -1.0; // no box is so near
+    const Box here{place, place};
+    double most = near;
+    patch.tree.visit_foreign(
+        {0, 0}, most, [&](const Box& box) { return distance_between(here, box); },
+        [&](std::size_t i) {
+            if ((patch.positions[i] - place).norm() <= near) most = kDone;
+        });
+    return most == kDone;
+}
+
+/// A point of a patch beside a passage through its plane.
+struct Pair {
+    double apart; ///< how far
+    std::uint32_t point;
+    std::uint32_t passage;
+
+    auto operator<=>(const Pair&) const = default;
+};
+
+/// The pairs of neighbours in the Delaunay triangulation of places in a plane, of which the first
+/// so many are points and the others passages, that are no farther apart than `most`; the nearest
+/// first.
+std::vector<Pair> pairs_beside(const std::vector<Vector2d>& places, std::size_t num_points,
+                               double most)
+{
+    std::vector<std::pair<Kernel::Point_2, std::uint32_t>> numbered(places.size());
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+        numbered[i] = {{places[i].x(), places[i].y()}, i};
+    }
+    const Triangulation triangulation(numbered.begin(), numbered.end());
+    std::vector<Pair> pairs;
+    for (const auto& [face, slot] : triangulation.finite_edges()) {
+        const auto [point, passage] = std::minmax({face->vertex(Triangulation::ccw(slot))->info(),
+                                                   face->vertex(Triangulation::cw(slot))->info()});
+        if (point >= num_points || passage < num_points) continue;
+        const double apart = (places[passage] - places[point]).norm();
+        if (apart <= most) pairs.push_back({apart, point, passage});
+    }
+    std::ranges::sort(pairs);
+    return pairs;
+}
+
+/// Finds where the flat parts of a scene end.
+class Borders {
+  public:
+    Borders(const Scene& scene, const NearestNeighbors& tree, const PlanarRegions& planes,
+            double gap)
+        : scene_(scene), tree_(tree), planes_(planes), gap_(gap)
+    {
+        constexpr std::size_t kFewest = 20;      // smaller ones are often no planes
+        patches_.reserve(planes.regions.size()); // their trees refer to their positions
+        for (const PlanarRegion& region : planes.regions) {
+            if (region.points.size() < kFewest) continue;
+            patches_.emplace_back(region, scene.positions);
+            frames_.emplace_back(region.plane);
+        }
+    }
+
+    /// The places along all borders, in an order that does not depend on the threads.
+    std::vector<AddedPlace> places(const Progress& progress) const
+    {
+        const std::vector<Passage> passages = this->passages(progress.part(0.0, 0.6));
+        const auto look = [&](std::size_t patch, std::vector<AddedPlace>& found) {
+            add_places(patch, passages, found);
+        };
+        return parallel_collect<AddedPlace>(patches_.size(), progress.part(0.6, 1.0), look, 1);
+    }
+
+  private:
+    /// How far from the points of a patch passages count.
+    double near(std::size_t patch) const { return gap_ * patches_[patch].region->spacing; }
+
+    /// The passages of all sights through the planes of patches near their points, by patch.
+    std::vector<Passage> passages(const Progress& progress) const
+    {
+        std::vector<std::array<Vector3d, 3>> triangles;
+        for (std::size_t i = 0; i < patches_.size(); ++i) {
+            const auto [a, b, c, d] = rectangle_around(patches_[i], frames_[i], near(i));
+            triangles.push_back({a, b, c});
+            triangles.push_back({c, d, a});
+        }
+        const TriangleTree tree(triangles);
+        const auto look = [&](std::size_t point, std::vector<Passage>& found) {
+            visit_sights(scene_, point, planes_.spacings[point],
+                         [&](const Vector3d& from, const Vector3d& to) {
+                             add_passages(tree, from, to, found);
+                         });
+        };
+        std::vector<Passage> found =
+            parallel_collect<Passage>(scene_.num_points(), progress, look, 4096);
+        std::ranges::stable_sort(found, {}, &Passage::patch);
+        return found;
+    }
+
+    void add_passages(const TriangleTree& tree, const Vector3d& from, const Vector3d& to,
+                      std::vector<Passage>& found) const
+    {
+        thread_local std::vector<std::uint32_t> met;
+        met.clear();
+        tree.visit_met(from, to, [&](std::size_t triangle) {
+            met.push_back(static_cast<std::uint32_t>(triangle / 2));
+        });
+        std::ranges::sort(met);
+        met.erase(std::unique(met.begin(), met.end()), met.end());
+        for (const std::uint32_t patch : met) {
+            const Plane& plane = patches_[patch].region->plane;
+            const double before = plane.normal.dot(from - plane.center);
+            const double behind = plane.normal.dot(to - plane.center);
+            if (before == behind) continue; // in the plane
+            const Vector3d place = from + before / (before - behind) * (to - from);
+            if (has_point_near(patches_[patch], place, near(patch)))
+                found.push_back({patch, frames_[patch].in_plane(place)});
+        }
+    }
+
+    void add_places(std::size_t patch, const std::vector<Passage>& all,
+                    std::vector<AddedPlace>& found) const
+    {
+        constexpr double kShare = 0.3; // of the way from the point to the passage
+        const auto passages = std::ranges::equal_range(all, patch, {}, &Passage::patch);
+        if (passages.empty()) return;
+        const std::vector<Vector3d>& points = patches_[patch].positions;
+        std::vector<Vector2d> places;
+        for (const Vector3d& position : points) {
+            places.push_back(frames_[patch].in_plane(position));
+        }
+        std::ranges::transform(passages, std::back_inserter(places), &Passage::place);
+        for (const Pair& pair : pairs_beside(places, points.size(), near(patch))) {
+            const Vector3d beyond = frames_[patch].in_space(places[pair.passage]);
+            add_place(patch, points[pair.point] + kShare * (beyond - points[pair.point]), found);
+        }
+    }
+
+    void add_place(std::size_t patch, const Vector3d& position,
+                   std::vector<AddedPlace>& found) const
+    {
+        constexpr double kThere = 0.2; // spacings
+        constexpr std::size_t kLook = 8;
+        constexpr std::size_t kMost = 5;
+        const PlanarRegion& region = *patches_[patch].region;
+        std::vector<NearestNeighbors::Neighbor> around;
+        tree_.find(position, kLook, around);
+        const double there = kThere * region.spacing;
+        if (around.front().distance_sq < there * there) return;
+        std::vector<Near> own;
+        for (const NearestNeighbors::Neighbor& near : around) {
+            if (std::ranges::binary_search(region.points, near.point))
+                own.emplace_back(std::sqrt(near.distance_sq), near.point);
+        }
+        if (own.size() < kMost) return;
+        const std::vector<std::uint32_t> beside = nearest_two(own, kRounding * region.spacing);
+        AddedPlace place{.position = position,
+                         .step = region.spacing,
+                         .id = kBorderPointId,
+                         .beside = beside.front()};
+        place.track = views_showing(scene_, beside, position);
+        std::erase_if(place.track, [&](std::uint32_t view) {
+            return region.plane.normal.dot(scene_.views[view].center - position) <= 0.0;
+        });
+        if (place.track.size() >= 2) found.push_back(std::move(place));
+    }
+
+    const Scene& scene_;
+    const NearestNeighbors& tree_;
+    const PlanarRegions& planes_;
+    double gap_;
+    std::vector<Patch> patches_;
+    std::vector<PlaneFrame> frames_;
+};
+
+} // namespace
+
+std::vector<AddedPlace> border_places(const Scene& scene, const NearestNeighbors& tree,
+                                      const PlanarRegions& planes, double gap,
+                                      const Progress& progress)
+{
+    if (planes.regions.empty()) return {};
+    return Borders(scene, tree, planes, gap).places(progress);
+}
+
+} // namespace vcarve

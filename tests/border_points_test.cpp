@@ -1,0 +1,312 @@
+#include "steps/1_points/crease_points.h"
+#include "steps/1_points/spatial_sort.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+using Views = std::vector<std::uint32_t>;
+
+/// Cameras look along z; y points down.
+const std::vector<Vector3d> kCenters = {{-0.5, 0, -6}, {0, -0.3, -6}, {0.5, 0, -6}};
+const Views kAll = {0, 1, 2};
+
+/// None on creases.
+const CreaseOptions kOnBorders = {.reach = 0.0};
+
+constexpr double kSpacing = 0.1;
+
+/// Points about so far apart on a rectangle, a little off rows and columns: `at(u, v)` with u and v
+/// from `low` to `high`.
+template <typename At>
+std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& high,
+                            const Views& views, const At& at)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> off(-0.02, 0.02);
+    std::vector<MadePoint> points;
+    for (double u = low[0]; u <= high[0]; u += kSpacing) {
+        for (double v = low[1]; v <= high[1]; v += kSpacing) {
+            points.push_back({at(u + off(random), v + off(random)), views});
+        }
+    }
+    return points;
+}
+
+/// A board that the views look at, 1 wide and .8 high.
+std::vector<MadePoint> board(const Views& views = kAll)
+{
+    return flat({-0.5, -0.4}, {0.5, 0.4}, views,
+                [](double u, double v) { return Vector3d(u, v, 0.0); });
+}
+
+/// What stands far behind it, rough and denser than it as the views see both.
+std::vector<MadePoint> backdrop(const Views& views = kAll)
+{
+    return flat({-1.6, -1.4}, {1.6, 1.4}, views, [](double u, double v) {
+        return Vector3d(u, v, 1.5 + 0.3 * std::sin(40.0 * u + 100.0 * v));
+    });
+}
+
+Scene together(const std::vector<std::vector<MadePoint>>& parts,
+               const std::vector<Vector3d>& centers = kCenters)
+{
+    std::vector<MadePoint> points;
+    for (const auto& part : parts) {
+        points.insert(points.end(), part.begin(), part.end());
+    }
+    return spatial_sort(make_scene(centers, points));
+}
+
+/// The backdrop as far as the views see it past the board.
+std::vector<MadePoint> seen_backdrop()
+{
+    std::vector<MadePoint> seen = backdrop();
+    std::erase_if(seen, [](const MadePoint& point) {
+        return std::ranges::any_of(kCenters, [&](const Vector3d& center) {
+            const double share = center.z() / (center.z() - point.position.z());
+            const Vector3d at = center + share * (point.position - center);
+            return std::abs(at.x()) < 0.55 && std::abs(at.y()) < 0.45;
+        });
+    });
+    return seen;
+}
+
+std::vector<std::size_t> added_points(const Scene& scene)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        if (scene.point_ids[i] == kBorderPointId) found.push_back(i);
+    }
+    return found;
+}
+
+std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnBorders)
+{
+    return add_crease_points(scene, options).along_borders;
+}
+
+Views track_of(const Scene& scene, std::size_t point)
+{
+    return {scene.tracks[point].begin(), scene.tracks[point].end()};
+}
+
+TEST(BorderPoints, AreAddedAroundABoard)
+{
+    const Scene before = together({board(), seen_backdrop()});
+    Scene scene = before;
+    const CreaseReport report = add_crease_points(scene, kOnBorders);
+    const std::vector<std::size_t> added = added_points(scene);
+    EXPECT_EQ(report.added, std::ssize(added));
+    EXPECT_EQ(report.along_borders, std::ssize(added));
+    EXPECT_EQ(scene.num_points(), before.num_points() + added.size());
+    // Of the border, 3.6 long, most of the length has points.
+    EXPECT_GT(added.size(), 20U);
+    EXPECT_LT(added.size(), 70U);
+    for (const std::size_t i : added) {
+        const Vector3d& at = scene.positions[i];
+        EXPECT_LT(std::abs(at.z()), 0.01 * kSpacing);
+        const double beyond = std::max(std::abs(at.x()) - 0.5, std::abs(at.y()) - 0.4);
+        EXPECT_GT(beyond, -0.5 * kSpacing) << "amid the board";
+        EXPECT_LT(beyond, 1.0 * kSpacing) << "off the board";
+        EXPECT_EQ(track_of(scene, i), kAll);
+        EXPECT_EQ(scene.errors_px[i], 0.5);
+    }
+}
+
+TEST(BorderPoints, StandOnAllSides)
+{
+    Scene scene = together({board(), seen_backdrop()});
+    add_crease_points(scene, kOnBorders);
+    std::array<int, 4> sides{};
+    for (const std::size_t i : added_points(scene)) {
+        const Vector3d& at = scene.positions[i];
+        sides[0] += at.x() < -0.47;
+        sides[1] += at.x() > 0.47;
+        sides[2] += at.y() < -0.37;
+        sides[3] += at.y() > 0.37;
+    }
+    EXPECT_GE(std::ranges::min(sides), 3);
+}
+
+TEST(BorderPoints, StandApart)
+{
+    Scene scene = together({board(), seen_backdrop()});
+    add_crease_points(scene, kOnBorders);
+    const std::vector<std::size_t> added = added_points(scene);
+    for (const std::size_t i : added) {
+        for (std::size_t other = 0; other < scene.num_points(); ++other) {
+            if (other == i) continue;
+            const bool is_added = scene.point_ids[other] == kBorderPointId;
+            EXPECT_GT((scene.positions[other] - scene.positions[i]).norm(),
+                      (is_added ? 0.4 : 0.15) * kSpacing);
+        }
+    }
+}
+
+TEST(BorderPoints, AreNoneWhereNoSightPasses)
+{
+    EXPECT_EQ(num_added(together({board()})), 0);
+    // Only to the right of it
+    auto right = seen_backdrop();
+    std::erase_if(right, [](const MadePoint& point) { return point.position.x() < 0.7; });
+    Scene scene = together({board(), right});
+    add_crease_points(scene, kOnBorders);
+    const std::vector<std::size_t> added = added_points(scene);
+    EXPECT_GE(added.size(), 4U);
+    for (const std::size_t i : added) {
+        EXPECT_GT(scene.positions[i].x(), 0.2);
+    }
+}
+
+TEST(BorderPoints, GoAsFarAsTheGap)
+{
+    // Nothing is seen past the board within 2.5 spacings of it.
+    auto far = seen_backdrop();
+    std::erase_if(far, [](const MadePoint& point) {
+        return std::ranges::any_of(kCenters, [&](const Vector3d& center) {
+            const double share = center.z() / (center.z() - point.position.z());
+            const Vector3d at = center + share * (point.position - center);
+            return std::abs(at.x()) < 0.75 && std::abs(at.y()) < 0.65;
+        });
+    });
+    const Scene scene = together({board(), far});
+    EXPECT_GT(num_added(scene, {.reach = 0.0, .border_gap = 4.0}), 8);
+    EXPECT_EQ(num_added(scene, {.reach = 0.0, .border_gap = 1.5}), 0);
+    EXPECT_EQ(num_added(together({board(), seen_backdrop()}), {.reach = 0.0, .border_gap = 0.0}),
+              0);
+}
+
+TEST(BorderPoints, AreNoneOfFewPoints)
+{
+    auto small = board();
+    std::erase_if(small, [](const MadePoint& point) {
+        return std::abs(point.position.x()) > 0.18 || std::abs(point.position.y()) > 0.23;
+    });
+    ASSERT_LT(small.size(), 20U);
+    ASSERT_GE(small.size(), 12U);
+    std::vector<MadePoint> far; // seen past its border, all around it
+    for (int i = 0; i < 400; ++i) {
+        const double turn = 0.1 * i;
+        const double radius = 0.4 + 0.001 * i;
+        far.push_back(
+            {{radius * std::cos(turn), radius * std::sin(turn), 1.5 + 0.5 * std::sin(i * i)},
+             kAll});
+    }
+    EXPECT_EQ(num_added(together({small, far})), 0);
+}
+
+TEST(BorderPoints, AreNoneWhereTheSurfaceGoesOn)
+{
+    // Sights pass close to a ball's flat parts, but the ball goes on there.
+    std::vector<MadePoint> ball;
+    for (int i = 0; i < 4000; ++i) {
+        const double z = 1.0 - 2.0 * (i + 0.5) / 4000;
+        const double turn = i * std::acos(-1.0) * (3.0 - std::sqrt(5.0));
+        const double radius = std::sqrt(1.0 - z * z);
+        if (z < -0.2) ball.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, kAll});
+    }
+    EXPECT_LE(num_added(together({ball})), 4);
+}
+
+TEST(BorderPoints, AreSeenFromBeforeThePlaneAndWithinImages)
+{
+    // The last view stands behind the board, and saw points of it all the same; the one before has
+    // an image that ends above its lower part.
+    std::vector<Vector3d> centers = kCenters;
+    centers.emplace_back(0.0, -3.0, -6.0);
+    centers.emplace_back(0.0, 0.0, 6.0);
+    Scene scene = together({board({0, 1, 2, 3, 4}), seen_backdrop()}, centers);
+    ASSERT_GT(add_crease_points(scene, kOnBorders).added, 10);
+    int above = 0;
+    for (const std::size_t i : added_points(scene)) {
+        const Views track = track_of(scene, i);
+        EXPECT_EQ(std::ranges::count(track, 4U), 0);
+        EXPECT_TRUE(std::ranges::includes(track, kAll));
+        above += static_cast<int>(std::ranges::count(track, 3U));
+    }
+    EXPECT_LT(above, std::ssize(added_points(scene)));
+}
+
+TEST(BorderPoints, NeedTwoViews)
+{
+    // Behind the board there are views of its points, before it one.
+    const std::vector<Vector3d> centers = {
+        {0, 0, -6}, {1, 0, 6}, {-1, 0, 6}, {0.5, 0, -6}, {-0.5, 0, -6}};
+    auto far = seen_backdrop();
+    for (MadePoint& point : far) {
+        point.views = {3, 4};
+    }
+    const Scene scene = together({board({0, 1, 2}), far}, centers);
+    EXPECT_EQ(num_added(scene), 0);
+}
+
+TEST(BorderPoints, AreNotAddedToDenseClouds)
+{
+    Scene scene = together({board(), seen_backdrop()});
+    scene.errors_px[3] = -1.0;
+    EXPECT_EQ(num_added(scene), 0);
+}
+
+TEST(BorderPoints, StandWithCreasePointsButNotAtThem)
+{
+    // A floor before the board, whose crease points stand at the board's lower border.
+    const auto floor = flat({-0.5, 0.05}, {0.5, 1.0}, kAll,
+                            [](double u, double v) { return Vector3d(u, 0.45, -v); });
+    Scene scene = together({board(), floor, seen_backdrop()});
+    const CreaseReport report = add_crease_points(scene, {});
+    EXPECT_GT(report.along_borders, 10);
+    EXPECT_GT(report.added - report.along_borders, 5);
+    for (const std::size_t i : added_points(scene)) {
+        for (std::size_t other = 0; other < scene.num_points(); ++other) {
+            if (scene.point_ids[other] != kNoPointId) continue;
+            EXPECT_GT((scene.positions[other] - scene.positions[i]).norm(), 0.4 * kSpacing);
+        }
+    }
+}
+
+TEST(BorderPoints, AreTheSameInOtherUnitsAndElsewhere)
+{
+    const Scene scene = together({board(), seen_backdrop()});
+    Scene here = scene;
+    add_crease_points(here, kOnBorders);
+    for (const double scale : {1.0 / 1024.0, 37.3, 1e6}) {
+        const Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
+        Scene there = moved(scene, scale, Quaterniond::Identity(), shift);
+        add_crease_points(there, kOnBorders);
+        // How they follow each other is up to rounding, as all points of the board have one depth.
+        const std::vector<std::size_t> added = added_points(here);
+        const std::vector<std::size_t> added_there = added_points(there);
+        ASSERT_EQ(added_there.size(), added.size());
+        for (const std::size_t i : added) {
+            const Vector3d place = scale * here.positions[i] + shift;
+            const auto at = std::ranges::find_if(added_there, [&](std::size_t k) {
+                return (there.positions[k] - place).norm() < 1e-9 * scale;
+            });
+            ASSERT_NE(at, added_there.end());
+            EXPECT_EQ(track_of(there, *at), track_of(here, i));
+        }
+    }
+}
+
+TEST(BorderPoints, AreAsManyInASceneThatIsTurned)
+{
+    const Scene scene = together({board(), seen_backdrop()});
+    const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+    EXPECT_EQ(num_added(moved(scene, 1.0, turn, Vector3d::Zero())), num_added(scene));
+}
+
+} // namespace
+} // namespace vcarve
