@@ -211,46 +211,60 @@ TEST(BorderPoints, AreNoneOfFewPoints)
 TEST(BorderPoints, AreNoneWhereTheSurfaceGoesOn)
 {
     // Sights pass close to a ball's flat parts, but the ball goes on there.
+    constexpr int kCount = 8000;
     std::vector<MadePoint> ball;
-    for (int i = 0; i < 4000; ++i) {
-        const double z = 1.0 - 2.0 * (i + 0.5) / 4000;
+    for (int i = 0; i < kCount; ++i) {
+        const double z = 1.0 - 2.0 * (i + 0.5) / kCount;
         const double turn = i * std::acos(-1.0) * (3.0 - std::sqrt(5.0));
         const double radius = std::sqrt(1.0 - z * z);
         if (z < -0.2) ball.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, kAll});
     }
-    EXPECT_LE(num_added(together({ball})), 4);
+    EXPECT_LE(num_added(together({ball})), 20);
 }
 
-TEST(BorderPoints, AreSeenFromBeforeThePlaneAndWithinImages)
+TEST(BorderPoints, AreSeenWithinImages)
 {
-    // The last view stands behind the board, and saw points of it all the same; the one before has
-    // an image that ends above its lower part.
+    // The last view's image ends above the lower part of the board.
     std::vector<Vector3d> centers = kCenters;
     centers.emplace_back(0.0, -3.0, -6.0);
-    centers.emplace_back(0.0, 0.0, 6.0);
-    Scene scene = together({board({0, 1, 2, 3, 4}), seen_backdrop()}, centers);
+    Scene scene = together({board({0, 1, 2, 3}), seen_backdrop()}, centers);
     ASSERT_GT(add_crease_points(scene, kOnBorders).added, 10);
-    int above = 0;
+    std::ptrdiff_t above = 0;
     for (const std::size_t i : added_points(scene)) {
         const Views track = track_of(scene, i);
-        EXPECT_EQ(std::ranges::count(track, 4U), 0);
         EXPECT_TRUE(std::ranges::includes(track, kAll));
-        above += static_cast<int>(std::ranges::count(track, 3U));
+        above += std::ranges::count(track, 3U);
     }
     EXPECT_LT(above, std::ssize(added_points(scene)));
 }
 
+/// The last one stands behind the steep board.
+const std::vector<Vector3d> kBesideSteep = {{1, 0, -6}, {1.5, -0.3, -6}, {2, 0, -6}, {-2.5, 0, -6}};
+
+/// A board that three views look at from the right, and what they see past its upper border.
+Scene steep_board(const Views& views)
+{
+    const auto steep = flat({-0.5, -0.4}, {0.5, 0.4}, views,
+                            [](double u, double v) { return Vector3d(0.2 * u, v, u); });
+    const auto far = flat({-1.0, -0.95}, {-0.2, -0.62}, {0, 1, 2}, [](double u, double v) {
+        return Vector3d(u, v, 1.5 + 0.2 * std::sin(40.0 * u + 100.0 * v));
+    });
+    return together({steep, far}, kBesideSteep);
+}
+
+TEST(BorderPoints, AreSeenFromBeforeThePlane)
+{
+    Scene scene = steep_board({0, 1, 2, 3});
+    ASSERT_GT(add_crease_points(scene, kOnBorders).added, 3);
+    for (const std::size_t i : added_points(scene)) {
+        EXPECT_EQ(track_of(scene, i), kAll);
+    }
+}
+
 TEST(BorderPoints, NeedTwoViews)
 {
-    // Behind the board there are views of its points, before it one.
-    const std::vector<Vector3d> centers = {
-        {0, 0, -6}, {1, 0, 6}, {-1, 0, 6}, {0.5, 0, -6}, {-0.5, 0, -6}};
-    auto far = seen_backdrop();
-    for (MadePoint& point : far) {
-        point.views = {3, 4};
-    }
-    const Scene scene = together({board({0, 1, 2}), far}, centers);
-    EXPECT_EQ(num_added(scene), 0);
+    EXPECT_GT(num_added(steep_board({0, 1, 3})), 3);
+    EXPECT_EQ(num_added(steep_board({0, 3})), 0);
 }
 
 TEST(BorderPoints, AreNotAddedToDenseClouds)
