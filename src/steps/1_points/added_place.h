@@ -13,7 +13,7 @@ namespace vcarve {
 
 /// A place for a point that a scene shall get.
 struct AddedPlace {
-    Eigen::Vector3d position;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
     double step = 0.0;                     ///< how far such places stand apart
     std::uint64_t id = kNoPointId;         ///< of the point
     std::uint32_t beside = 0;              ///< the point of the model next to it

@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 #include "geometry/box.h"
 #include "geometry/triangle_tree.h"
-#include "steps/1_points/patch.h"
 #include "steps/1_points/sights_through.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -72,7 +71,8 @@ std::array<Vector3d, 4> rectangle_around(const Patch& patch, const PlaneFrame& f
 /// Where a sight passes through the plane of a patch.
 struct Passage {
     std::uint32_t patch;
-    Vector2d place; ///< in the plane
+    std::uint32_t point; ///< of the sight
+    Vector2d place;      ///< in the plane
 };
 
 /// Whether a patch has a point so near to a place.
@@ -124,27 +124,22 @@ std::vector<Pair> pairs_beside(const std::vector<Vector2d>& places, std::size_t 
 /// Finds where the flat parts of a scene end.
 class Borders {
   public:
-    Borders(const Scene& scene, const NearestNeighbors& tree, const PlanarRegions& planes,
-            double gap)
-        : scene_(scene), tree_(tree), planes_(planes), gap_(gap)
+    Borders(const Scene& scene, const NearestNeighbors& tree, const FlatParts& parts, double gap)
+        : scene_(scene), tree_(tree), parts_(parts), patches_(parts.patches), gap_(gap)
     {
-        constexpr std::size_t kFewest = 20;      // smaller ones are often no planes
-        patches_.reserve(planes.regions.size()); // their trees refer to their positions
-        for (const PlanarRegion& region : planes.regions) {
-            if (region.points.size() < kFewest) continue;
-            patches_.emplace_back(region, scene.positions);
-            frames_.emplace_back(region.plane);
+        for (const Patch& patch : patches_) {
+            frames_.emplace_back(patch.region->plane);
         }
     }
 
     /// The places along all borders, in an order that does not depend on the threads.
-    std::vector<AddedPlace> places(const Progress& progress) const
+    std::vector<BorderPlace> places(const Progress& progress) const
     {
         const std::vector<Passage> passages = this->passages(progress.part(0.0, 0.6));
-        const auto look = [&](std::size_t patch, std::vector<AddedPlace>& found) {
+        const auto look = [&](std::size_t patch, std::vector<BorderPlace>& found) {
             add_places(patch, passages, found);
         };
-        return parallel_collect<AddedPlace>(patches_.size(), progress.part(0.6, 1.0), look, 1);
+        return parallel_collect<BorderPlace>(patches_.size(), progress.part(0.6, 1.0), look, 1);
     }
 
   private:
@@ -154,18 +149,30 @@ class Borders {
     /// The passages of all sights through the planes of patches near their points, by patch.
     std::vector<Passage> passages(const Progress& progress) const
     {
+        constexpr std::size_t kFewest = 20; // smaller ones are often no planes
         std::vector<std::array<Vector3d, 3>> triangles;
-        for (std::size_t i = 0; i < patches_.size(); ++i) {
+        std::vector<std::uint32_t> owners; // of both triangles of a patch
+        for (std::uint32_t i = 0; i < patches_.size(); ++i) {
+            if (patches_[i].positions.size() < kFewest) continue;
+            owners.push_back(i);
             const auto [a, b, c, d] = rectangle_around(patches_[i], frames_[i], near(i));
             triangles.push_back({a, b, c});
             triangles.push_back({c, d, a});
         }
         const TriangleTree tree(triangles);
         const auto look = [&](std::size_t point, std::vector<Passage>& found) {
-            visit_sights(scene_, point, planes_.spacings[point],
-                         [&](const Vector3d& from, const Vector3d& to) {
-                             add_passages(tree, from, to, found);
-                         });
+            thread_local std::vector<std::uint32_t> met;
+            const auto through = [&](const Vector3d& from, const Vector3d& to) {
+                met.clear();
+                tree.visit_met(from, to,
+                               [&](std::size_t triangle) { met.push_back(owners[triangle / 2]); });
+                std::ranges::sort(met);
+                met.erase(std::unique(met.begin(), met.end()), met.end());
+                for (const std::uint32_t patch : met) {
+                    add_passage(patch, static_cast<std::uint32_t>(point), from, to, found);
+                }
+            };
+            visit_sights(scene_, point, parts_.planes.spacings[point], through);
         };
         std::vector<Passage> found =
             parallel_collect<Passage>(scene_.num_points(), progress, look, 4096);
@@ -173,29 +180,21 @@ class Borders {
         return found;
     }
 
-    void add_passages(const TriangleTree& tree, const Vector3d& from, const Vector3d& to,
-                      std::vector<Passage>& found) const
+    /// That of the sight of a point through the plane of a patch, if it is near the patch's points.
+    void add_passage(std::uint32_t patch, std::uint32_t point, const Vector3d& from,
+                     const Vector3d& to, std::vector<Passage>& found) const
     {
-        thread_local std::vector<std::uint32_t> met;
-        met.clear();
-        tree.visit_met(from, to, [&](std::size_t triangle) {
-            met.push_back(static_cast<std::uint32_t>(triangle / 2));
-        });
-        std::ranges::sort(met);
-        met.erase(std::unique(met.begin(), met.end()), met.end());
-        for (const std::uint32_t patch : met) {
-            const Plane& plane = patches_[patch].region->plane;
-            const double before = plane.normal.dot(from - plane.center);
-            const double behind = plane.normal.dot(to - plane.center);
-            if (before == behind) continue; // in the plane
-            const Vector3d place = from + before / (before - behind) * (to - from);
-            if (has_point_near(patches_[patch], place, near(patch)))
-                found.push_back({patch, frames_[patch].in_plane(place)});
-        }
+        const Plane& plane = patches_[patch].region->plane;
+        const double before = plane.normal.dot(from - plane.center);
+        const double behind = plane.normal.dot(to - plane.center);
+        if (before == behind) return; // in the plane
+        const Vector3d place = from + before / (before - behind) * (to - from);
+        if (has_point_near(patches_[patch], place, near(patch)))
+            found.push_back({patch, point, frames_[patch].in_plane(place)});
     }
 
     void add_places(std::size_t patch, const std::vector<Passage>& all,
-                    std::vector<AddedPlace>& found) const
+                    std::vector<BorderPlace>& found) const
     {
         constexpr double kShare = 0.3; // of the way from the point to the passage
         const auto passages = std::ranges::equal_range(all, patch, {}, &Passage::patch);
@@ -207,56 +206,58 @@ class Borders {
         }
         std::ranges::transform(passages, std::back_inserter(places), &Passage::place);
         for (const Pair& pair : pairs_beside(places, points.size(), near(patch))) {
-            const Vector3d beyond = frames_[patch].in_space(places[pair.passage]);
-            add_place(patch, points[pair.point] + kShare * (beyond - points[pair.point]), found);
+            const Vector3d& point = points[pair.point];
+            const Passage& passage = passages[pair.passage - points.size()];
+            BorderPlace place{{.step = patches_[patch].region->spacing, .id = kBorderPointId}};
+            place.region = static_cast<std::uint32_t>(patch);
+            place.passage = frames_[patch].in_space(passage.place);
+            place.seen = passage.point;
+            place.position = point + kShare * (place.passage - point);
+            if (is_right(place)) found.push_back(std::move(place));
         }
     }
 
-    void add_place(std::size_t patch, const Vector3d& position,
-                   std::vector<AddedPlace>& found) const
+    /// Whether a place is to have a point; it is told what stands beside it and who sees it.
+    bool is_right(BorderPlace& place) const
     {
         constexpr double kThere = 0.2; // spacings
         constexpr std::size_t kLook = 8;
         constexpr std::size_t kMost = 5;
-        const PlanarRegion& region = *patches_[patch].region;
+        const PlanarRegion& region = *patches_[place.region].region;
         std::vector<NearestNeighbors::Neighbor> around;
-        tree_.find(position, kLook, around);
+        tree_.find(place.position, kLook, around);
         const double there = kThere * region.spacing;
-        if (around.front().distance_sq < there * there) return;
+        if (around.front().distance_sq < there * there) return false;
         std::vector<Near> own;
         for (const NearestNeighbors::Neighbor& near : around) {
-            if (std::ranges::binary_search(region.points, near.point))
+            if (parts_.region_of[near.point] == place.region)
                 own.emplace_back(std::sqrt(near.distance_sq), near.point);
         }
-        if (own.size() < kMost) return;
+        if (own.size() < kMost) return false;
         const std::vector<std::uint32_t> beside = nearest_two(own, kRounding * region.spacing);
-        AddedPlace place{.position = position,
-                         .step = region.spacing,
-                         .id = kBorderPointId,
-                         .beside = beside.front()};
-        place.track = views_showing(scene_, beside, position);
+        place.beside = beside.front();
+        place.track = views_showing(scene_, beside, place.position);
         std::erase_if(place.track, [&](std::uint32_t view) {
-            return region.plane.normal.dot(scene_.views[view].center - position) <= 0.0;
+            return region.plane.normal.dot(scene_.views[view].center - place.position) <= 0.0;
         });
-        if (place.track.size() >= 2) found.push_back(std::move(place));
+        return place.track.size() >= 2;
     }
 
     const Scene& scene_;
     const NearestNeighbors& tree_;
-    const PlanarRegions& planes_;
+    const FlatParts& parts_;
+    const std::vector<Patch>& patches_;
     double gap_;
-    std::vector<Patch> patches_;
     std::vector<PlaneFrame> frames_;
 };
 
 } // namespace
 
-std::vector<AddedPlace> border_places(const Scene& scene, const NearestNeighbors& tree,
-                                      const PlanarRegions& planes, double gap,
-                                      const Progress& progress)
+std::vector<BorderPlace> border_places(const Scene& scene, const NearestNeighbors& tree,
+                                       const FlatParts& parts, double gap, const Progress& progress)
 {
-    if (planes.regions.empty()) return {};
-    return Borders(scene, tree, planes, gap).places(progress);
+    if (parts.patches.empty()) return {};
+    return Borders(scene, tree, parts, gap).places(progress);
 }
 
 } // namespace vcarve

@@ -3,7 +3,6 @@
 #include "base/parallel.h"
 #include "geometry/box.h"
 #include "geometry/point_tree.h"
-#include "steps/1_points/patch.h"
 
 #include <CGAL/box_intersection_d.h>
 #include <Eigen/Geometry>
@@ -92,27 +91,15 @@ struct Foot {
 /// Finds where the flat parts of a scene meet.
 class Creases {
   public:
-    Creases(const Scene& scene, const NearestNeighbors& tree, const PlanarRegions& planes,
-            double reach)
-        : scene_(scene),
-          tree_(tree),
-          planes_(planes),
-          reach_(reach),
-          region_of_(scene.num_points(), kNone)
+    Creases(const Scene& scene, const NearestNeighbors& tree, const FlatParts& parts, double reach)
+        : scene_(scene), tree_(tree), parts_(parts), reach_(reach)
     {
-        patches_.reserve(planes.regions.size()); // their trees refer to their positions
-        for (const PlanarRegion& region : planes.regions) {
-            for (const std::uint32_t point : region.points) {
-                region_of_[point] = static_cast<std::uint32_t>(patches_.size());
-            }
-            patches_.emplace_back(region, scene.positions);
-        }
     }
 
     /// The places along all creases, in an order that does not depend on the threads.
     std::vector<CreasePlace> places(const Progress& progress) const
     {
-        const std::vector<Pair> pairs = near_pairs(patches_, reach_);
+        const std::vector<Pair> pairs = near_pairs(parts_.patches, reach_);
         const auto look = [&](std::size_t i, std::vector<CreasePlace>& found) {
             add_places(pairs[i], found);
         };
@@ -120,8 +107,6 @@ class Creases {
     }
 
   private:
-    static constexpr std::uint32_t kNone = 0xffffffffU;
-
     /// What meets at a crease.
     struct Crease {
         Pair pair;
@@ -136,7 +121,7 @@ class Creases {
     {
         constexpr double kMostCosine = 0.866; // of 30 degrees
         Crease crease{.pair = pair,
-                      .regions = {patches_[pair[0]].region, patches_[pair[1]].region}};
+                      .regions = {parts_.patches[pair[0]].region, parts_.patches[pair[1]].region}};
         const Plane& a = crease.regions[0]->plane;
         const Plane& b = crease.regions[1]->plane;
         if (std::abs(a.normal.dot(b.normal)) > kMostCosine) return;
@@ -175,16 +160,16 @@ class Creases {
     /// Of the points of one region those near the line where the other region is near, too.
     std::vector<Foot> feet(const Crease& crease, std::size_t side) const
     {
-        const Patch& patch = patches_[crease.pair[side]];
+        const Patch& patch = parts_.patches[crease.pair[side]];
         const Box other =
-            grown(patches_[crease.pair[1 - side]].tree.box(), reach_ * crease.spacing);
+            grown(parts_.patches[crease.pair[1 - side]].tree.box(), reach_ * crease.spacing);
         std::vector<Foot> found;
         const auto look_at = [&](std::size_t i) {
             const Vector3d way = patch.positions[i] - crease.line.origin;
             const double along = way.dot(crease.line.direction);
             const double off = (way - along * crease.line.direction).norm();
             const std::uint32_t point = patch.region->points[i];
-            const double spacing = std::min(patch.region->spacing, planes_.spacings[point]);
+            const double spacing = std::min(patch.region->spacing, parts_.planes.spacings[point]);
             if (off <= reach_ * spacing) found.push_back({along, off, point});
         };
         const double most = reach_ * patch.region->spacing;
@@ -285,7 +270,7 @@ class Creases {
         std::vector<NearestNeighbors::Neighbor> nearest;
         tree_.find(place.position, kLook, nearest);
         const auto is_theirs = [&](const NearestNeighbors::Neighbor& near) {
-            const std::uint32_t region = region_of_[near.point];
+            const std::uint32_t region = parts_.region_of[near.point];
             return region == crease.pair[0] || region == crease.pair[1];
         };
         const double there = kThere * place.step;
@@ -313,19 +298,17 @@ class Creases {
 
     const Scene& scene_;
     const NearestNeighbors& tree_;
-    const PlanarRegions& planes_;
+    const FlatParts& parts_;
     double reach_;
-    std::vector<Patch> patches_;
-    std::vector<std::uint32_t> region_of_;
 };
 
 } // namespace
 
 std::vector<CreasePlace> crease_places(const Scene& scene, const NearestNeighbors& tree,
-                                       const PlanarRegions& planes, double reach,
+                                       const FlatParts& parts, double reach,
                                        const Progress& progress)
 {
-    return Creases(scene, tree, planes, reach).places(progress);
+    return Creases(scene, tree, parts, reach).places(progress);
 }
 
 } // namespace vcarve

@@ -3,7 +3,7 @@
 #include "base/progress.h"
 #include "geometry/nearest_neighbors.h"
 #include "steps/1_points/added_place.h"
-#include "steps/1_points/planar_regions.h"
+#include "steps/1_points/flat_parts.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
@@ -21,12 +21,12 @@ struct CreasePlace : AddedPlace {
     std::array<Strip, 2> strips = {}; ///< of surface, if it is one, to the points beside it
 };
 
-/// The places along the lines where two of a scene's planar regions may meet, as far as these alone
+/// The places along the lines where two of a scene's flat parts may meet, as far as these alone
 /// tell (add_crease_points() has the rules), in an order that does not depend on the threads. The
 /// tree is of the scene's points. Cost: O(log points) for each point of a region that lies near
 /// another, in parallel.
 std::vector<CreasePlace> crease_places(const Scene& scene, const NearestNeighbors& tree,
-                                       const PlanarRegions& planes, double reach,
+                                       const FlatParts& parts, double reach,
                                        const Progress& progress);
 
 } // namespace vcarve

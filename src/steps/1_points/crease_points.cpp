@@ -6,7 +6,8 @@
 #include "steps/1_points/added_place.h"
 #include "steps/1_points/border_places.h"
 #include "steps/1_points/crease_places.h"
-#include "steps/1_points/planar_regions.h"
+#include "steps/1_points/flat_parts.h"
+#include "steps/1_points/foot_places.h"
 #include "steps/1_points/sights_through.h"
 #include "steps/1_points/spatial_sort.h"
 
@@ -86,19 +87,20 @@ CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options, const
     CreaseReport report;
     {
         const NearestNeighbors tree(scene.positions);
-        const PlanarRegions planes = planar_regions(scene, tree, progress.part(0.0, 0.5));
-        report.planes = std::ssize(planes.regions);
+        const FlatParts parts = flat_parts(scene, tree, progress.part(0.0, 0.5));
+        report.planes = std::ssize(parts.planes.regions);
         if (options.reach > 0.0) {
             std::vector<CreasePlace> creases =
-                crease_places(scene, tree, planes, options.reach, progress.part(0.5, 0.6));
-            leave_out_seen_through(scene, planes.spacings, creases, progress.part(0.6, 0.75));
-            places.assign(std::make_move_iterator(creases.begin()),
-                          std::make_move_iterator(creases.end()));
+                crease_places(scene, tree, parts, options.reach, progress.part(0.5, 0.6));
+            leave_out_seen_through(scene, parts.planes.spacings, creases, progress.part(0.6, 0.75));
+            std::ranges::move(creases, std::back_inserter(places));
         }
         if (options.border_gap > 0.0) {
-            std::ranges::move(
-                border_places(scene, tree, planes, options.border_gap, progress.part(0.75, 0.9)),
-                std::back_inserter(places));
+            std::vector<BorderPlace> borders =
+                border_places(scene, tree, parts, options.border_gap, progress.part(0.75, 0.9));
+            std::vector<AddedPlace> feet = foot_places(scene, tree, parts, borders);
+            std::ranges::move(borders, std::back_inserter(places));
+            std::ranges::move(feet, std::back_inserter(places));
         }
     }
     leave_out_near_ones(places);

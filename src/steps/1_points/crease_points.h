@@ -32,10 +32,18 @@ struct CreaseReport {
 /// A planar region of 20 points or more ends between its points and the places where sights pass
 /// through its plane. Of each two of these that are neighbours in the plane's Delaunay
 /// triangulation and no farther apart than `border_gap` spacings, the way from the point to the
-/// passage gets a point at three tenths, unless one is near. Its views are those that saw the
-/// region's two points nearest to it, if they show the place and stand before the plane. Behind a
-/// border there may be anything, so these points' sights carve and say nothing of what lies behind
-/// them (RayCaster).
+/// passage gets a point at three tenths, where most of the points around are the region's (a
+/// surface that bends goes on) and none is near. Its views are those that saw the region's two
+/// points nearest to it, if they show the place and stand before the plane. Behind a border there
+/// may be anything, so these points' sights carve and say nothing of what lies behind them
+/// (RayCaster).
+///
+/// Below a border, as the eaves of a roof, a wall may stand of which no point is known. Where the
+/// sight that passes by ends on the ground, another region, at least a spacing below, the ground
+/// gets a point right below the passage if it has points within four of its spacings away from the
+/// border, none towards it (what stands there hides them), and none near. Its views are those that
+/// saw the nearest two of these, if they show the place, stand before the ground and on this side
+/// of the wall. It counts as a border point.
 ///
 /// A new point has the colour and the error of the point next to it, and the id kNoPointId along a
 /// crease, kBorderPointId along a border. Scenes with points whose error is not known, which are
