@@ -115,12 +115,26 @@ TEST(BorderPoints, AreAddedAroundABoard)
     // Of the border, 3.6 long, most of the length has points.
     EXPECT_GT(added.size(), 20U);
     EXPECT_LT(added.size(), 70U);
-    for (const std::size_t i : added) {
+}
+
+TEST(BorderPoints, StandInThePlaneNextToTheBoard)
+{
+    Scene scene = together({board(), seen_backdrop()});
+    add_crease_points(scene, kOnBorders);
+    for (const std::size_t i : added_points(scene)) {
         const Vector3d& at = scene.positions[i];
         EXPECT_LT(std::abs(at.z()), 0.01 * kSpacing);
         const double beyond = std::max(std::abs(at.x()) - 0.5, std::abs(at.y()) - 0.4);
         EXPECT_GT(beyond, -0.5 * kSpacing) << "amid the board";
         EXPECT_LT(beyond, 1.0 * kSpacing) << "off the board";
+    }
+}
+
+TEST(BorderPoints, AreSeenByWhoSawThePointsBesideThem)
+{
+    Scene scene = together({board(), seen_backdrop()});
+    add_crease_points(scene, kOnBorders);
+    for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), kAll);
         EXPECT_EQ(scene.errors_px[i], 0.5);
     }

@@ -68,7 +68,7 @@ class Question {
 /// not.
 class Traits : public CGAL::AABB_traits<Kernel, Primitive> {
   public:
-    struct Do_intersect { // a name of CGAL's
+    struct Meets {
         bool operator()(const Question& question, const CGAL::Bbox_3& box) const
         {
             return question.may_meet(box);
@@ -79,7 +79,7 @@ class Traits : public CGAL::AABB_traits<Kernel, Primitive> {
         }
     };
 
-    static Do_intersect do_intersect_object() { return {}; }
+    static Meets do_intersect_object() { return {}; }
 };
 
 } // namespace

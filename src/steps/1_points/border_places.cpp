@@ -13,10 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -94,8 +94,6 @@ struct Pair {
     double apart; ///< how far
     std::uint32_t point;
     std::uint32_t passage;
-
-    auto operator<=>(const Pair&) const = default;
 };
 
 /// The pairs of neighbours in the Delaunay triangulation of places in a plane, of which the first
@@ -117,7 +115,8 @@ std::vector<Pair> pairs_beside(const std::vector<Vector2d>& places, std::size_t 
         const double apart = (places[passage] - places[point]).norm();
         if (apart <= most) pairs.push_back({apart, point, passage});
     }
-    std::ranges::sort(pairs);
+    std::ranges::sort(
+        pairs, {}, [](const Pair& pair) { return std::tie(pair.apart, pair.point, pair.passage); });
     return pairs;
 }
 
@@ -197,13 +196,15 @@ class Borders {
                     std::vector<BorderPlace>& found) const
     {
         constexpr double kShare = 0.3; // of the way from the point to the passage
-        const auto passages = std::ranges::equal_range(all, patch, {}, &Passage::patch);
+        const auto first = std::ranges::lower_bound(all, patch, {}, &Passage::patch);
+        const auto last = std::ranges::upper_bound(all, patch, {}, &Passage::patch);
+        const std::span<const Passage> passages(first, last);
         if (passages.empty()) return;
         const std::vector<Vector3d>& points = patches_[patch].positions;
-        std::vector<Vector2d> places;
-        for (const Vector3d& position : points) {
-            places.push_back(frames_[patch].in_plane(position));
-        }
+        std::vector<Vector2d> places(points.size());
+        std::ranges::transform(points, places.begin(), [&](const Vector3d& position) {
+            return frames_[patch].in_plane(position);
+        });
         std::ranges::transform(passages, std::back_inserter(places), &Passage::place);
         for (const Pair& pair : pairs_beside(places, points.size(), near(patch))) {
             const Vector3d& point = points[pair.point];
