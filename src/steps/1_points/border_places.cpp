@@ -145,7 +145,8 @@ class Borders {
     /// How far from the points of a patch passages count.
     double near(std::size_t patch) const { return gap_ * patches_[patch].region->spacing; }
 
-    /// The passages of all sights through the planes of patches near their points, by patch.
+    /// The passages of sights through the planes of patches near their points, by patch: of each
+    /// point's sights the first and the last one, since those between pass between them.
     std::vector<Passage> passages(const Progress& progress) const
     {
         constexpr std::size_t kFewest = 20; // smaller ones are often no planes
@@ -171,7 +172,11 @@ class Borders {
                     add_passage(patch, static_cast<std::uint32_t>(point), from, to, found);
                 }
             };
-            visit_sights(scene_, point, parts_.planes.spacings[point], through);
+            const auto track = scene_.tracks[point];
+            if (track.empty()) return;
+            for (const std::uint32_t view : {track.front(), track.back()}) {
+                visit_sight(scene_, point, view, parts_.planes.spacings[point], through);
+            }
         };
         std::vector<Passage> found =
             parallel_collect<Passage>(scene_.num_points(), progress, look, 4096);

@@ -21,9 +21,11 @@ std::vector<std::uint32_t> sights_through(const Scene& scene,
         std::atomic_ref(counts[triangle]).fetch_add(1, std::memory_order_relaxed);
     };
     parallel_for(scene.num_points(), progress, [&](std::size_t point) {
-        visit_sights(scene, point, margins[point], [&](const Vector3d& from, const Vector3d& to) {
-            tree.visit_met(from, to, count);
-        });
+        for (const std::uint32_t view : scene.tracks[point]) {
+            visit_sight(
+                scene, point, view, margins[point],
+                [&](const Vector3d& from, const Vector3d& to) { tree.visit_met(from, to, count); });
+        }
     });
     return counts;
 }
