@@ -17,7 +17,7 @@ struct Cost {
 constexpr Cost kReadPoint{0.1e-6, 0.0};
 constexpr Cost kReadDensePoint{0.95e-6, 0.75}; // merging it, too
 constexpr Cost kFilterPoint{0.65e-6, 0.8};
-constexpr Cost kCreasePoint{2.9e-6, 0.75};
+constexpr Cost kCreasePoint{7.0e-6, 0.84};
 constexpr Cost kCropPoint{0.3e-6, 0.8};
 constexpr Cost kDenoisePoint{1.9e-6, 0.95};
 constexpr Cost kTriangulatePoint{5e-6, 0.98};
