@@ -6,10 +6,9 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Simple_cartesian.h>
 #include <boost/iterator/function_output_iterator.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -27,40 +26,43 @@ Kernel::Point_3 to_point(const Vector3d& position)
     return {position.x(), position.y(), position.z()};
 }
 
-/// The largest coordinate, or more.
-double magnitude(const CGAL::Bbox_3& box)
-{
-    return std::abs(box.xmin()) + std::abs(box.xmax()) + std::abs(box.ymin()) +
-           std::abs(box.ymax()) + std::abs(box.zmin()) + std::abs(box.zmax());
-}
-
-/// A segment that is asked about, and the same for questions that need not be exact.
+/// A segment that is asked about.
 class Question {
   public:
     Question(const Vector3d& from, const Vector3d& to)
-        : exact_(to_point(from), to_point(to)),
-          rough_({from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}),
-          magnitude_(magnitude(exact_.bbox()))
+        : segment_(to_point(from), to_point(to)),
+          from_(from),
+          per_way_((to - from).array().inverse()),
+          magnitude_(from.lpNorm<1>() + to.lpNorm<1>())
     {
     }
 
+    /// Exact.
     bool meets(const Kernel::Triangle_3& triangle) const
     {
-        return CGAL::do_intersect(exact_, triangle);
+        return CGAL::do_intersect(segment_, triangle);
     }
-    /// Said of boxes a little off, too, so that rounding leaves out none that is met.
+    /// Said of boxes a little off, too, so that rounding leaves out none that is met: the shares of
+    /// the way between the planes of two sides have one in common for all three directions.
     bool may_meet(const CGAL::Bbox_3& box) const
     {
         constexpr double kRounding = 1e-12;
-        const double off = kRounding * (magnitude_ + magnitude(box));
-        return CGAL::do_intersect(rough_, CGAL::Bbox_3(box.xmin() - off, box.ymin() - off,
-                                                       box.zmin() - off, box.xmax() + off,
-                                                       box.ymax() + off, box.zmax() + off));
+        const Array3d low(box.xmin(), box.ymin(), box.zmin());
+        const Array3d high(box.xmax(), box.ymax(), box.zmax());
+        const double off = kRounding * (magnitude_ + low.abs().sum() + high.abs().sum());
+        const Array3d a = (low - off - from_) * per_way_;
+        const Array3d b = (high + off - from_) * per_way_;
+        const double enters = a.min(b).maxCoeff();
+        const double leaves = a.max(b).minCoeff();
+        return enters <= std::min(leaves, 1.0) && leaves >= 0.0;
     }
 
   private:
-    Kernel::Segment_3 exact_;
-    CGAL::Simple_cartesian<double>::Segment_3 rough_;
+    using Array3d = Eigen::Array3d;
+
+    Kernel::Segment_3 segment_;
+    Array3d from_;
+    Array3d per_way_; ///< infinite where the segment stays at one coordinate
     double magnitude_;
 };
 
