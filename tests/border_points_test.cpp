@@ -1,6 +1,5 @@
 #include "steps/1_points/crease_points.h"
-#include "steps/1_points/spatial_sort.h"
-#include "support/scenes.h"
+#include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -16,34 +15,10 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-using Views = std::vector<std::uint32_t>;
-
-/// Cameras look along z; y points down.
-const std::vector<Vector3d> kCenters = {{-0.5, 0, -6}, {0, -0.3, -6}, {0.5, 0, -6}};
-const Views kAll = {0, 1, 2};
+using namespace flat_scenes;
 
 /// None on creases.
 const CreaseOptions kOnBorders = {.reach = 0.0};
-
-constexpr double kSpacing = 0.1;
-
-/// Points about so far apart on a rectangle, a little off rows and columns: `at(u, v)` with u and v
-/// from `low` to `high`.
-template <typename At>
-std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& high,
-                            const Views& views, const At& at)
-{
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> off(-0.02, 0.02);
-    std::vector<MadePoint> points;
-    for (double u = low[0]; u <= high[0]; u += kSpacing) {
-        for (double v = low[1]; v <= high[1]; v += kSpacing) {
-            points.push_back({at(u + off(random), v + off(random)), views});
-        }
-    }
-    return points;
-}
 
 /// A board that the views look at, 1 wide and .8 high.
 std::vector<MadePoint> board(const Views& views = kAll)
@@ -58,16 +33,6 @@ std::vector<MadePoint> backdrop(const Views& views = kAll)
     return flat({-1.6, -1.4}, {1.6, 1.4}, views, [](double u, double v) {
         return Vector3d(u, v, 1.5 + 0.3 * std::sin(40.0 * u + 100.0 * v));
     });
-}
-
-Scene together(const std::vector<std::vector<MadePoint>>& parts,
-               const std::vector<Vector3d>& centers = kCenters)
-{
-    std::vector<MadePoint> points;
-    for (const auto& part : parts) {
-        points.insert(points.end(), part.begin(), part.end());
-    }
-    return spatial_sort(make_scene(centers, points));
 }
 
 /// The backdrop as far as the views see it past the board.
@@ -86,21 +51,12 @@ std::vector<MadePoint> seen_backdrop()
 
 std::vector<std::size_t> added_points(const Scene& scene)
 {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < scene.num_points(); ++i) {
-        if (scene.point_ids[i] == kBorderPointId) found.push_back(i);
-    }
-    return found;
+    return points_with_id(scene, kBorderPointId);
 }
 
 std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnBorders)
 {
     return add_crease_points(scene, options).along_borders;
-}
-
-Views track_of(const Scene& scene, std::size_t point)
-{
-    return {scene.tracks[point].begin(), scene.tracks[point].end()};
 }
 
 TEST(BorderPoints, AreAddedAroundABoard)
@@ -225,15 +181,7 @@ TEST(BorderPoints, AreNoneOfFewPoints)
 TEST(BorderPoints, AreNoneWhereTheSurfaceGoesOn)
 {
     // Sights pass close to a ball's flat parts, but the ball goes on there.
-    constexpr int kCount = 8000;
-    std::vector<MadePoint> ball;
-    for (int i = 0; i < kCount; ++i) {
-        const double z = 1.0 - 2.0 * (i + 0.5) / kCount;
-        const double turn = i * std::acos(-1.0) * (3.0 - std::sqrt(5.0));
-        const double radius = std::sqrt(1.0 - z * z);
-        if (z < -0.2) ball.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, kAll});
-    }
-    EXPECT_LE(num_added(together({ball})), 20);
+    EXPECT_LE(num_added(together({ball(8000, -0.2)})), 20);
 }
 
 TEST(BorderPoints, AreSeenWithinImages)

@@ -1,6 +1,6 @@
 #include "steps/1_points/crease_points.h"
 #include "steps/1_points/spatial_sort.h"
-#include "support/scenes.h"
+#include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -14,41 +14,7 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-using Views = std::vector<std::uint32_t>;
-
-/// Cameras look along z; y points down.
-const std::vector<Vector3d> kCenters = {{-0.5, 0, -6}, {0, -0.3, -6}, {0.5, 0, -6}};
-const Views kAll = {0, 1, 2};
-
-constexpr double kSpacing = 0.1;
-
-/// Points about so far apart on a rectangle, a little off rows and columns: `at(u, v)` with u and v
-/// from `low` to `high`.
-template <typename At>
-std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& high,
-                            const Views& views, const At& at)
-{
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> off(-0.02, 0.02);
-    std::vector<MadePoint> points;
-    for (double u = low[0]; u <= high[0]; u += kSpacing) {
-        for (double v = low[1]; v <= high[1]; v += kSpacing) {
-            points.push_back({at(u + off(random), v + off(random)), views});
-        }
-    }
-    return points;
-}
-
-Scene together(const std::vector<std::vector<MadePoint>>& parts,
-               const std::vector<Vector3d>& centers = kCenters)
-{
-    std::vector<MadePoint> points;
-    for (const auto& part : parts) {
-        points.insert(points.end(), part.begin(), part.end());
-    }
-    return spatial_sort(make_scene(centers, points));
-}
+using namespace flat_scenes;
 
 /// The wall z = 0, from so far above the floor y = 1 on.
 std::vector<MadePoint> wall(double gap, const Views& views = kAll)
@@ -67,11 +33,7 @@ std::vector<MadePoint> ground(double gap, const Views& views = kAll)
 /// The points of a scene that are none of the model's.
 std::vector<std::size_t> added_points(const Scene& scene)
 {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < scene.num_points(); ++i) {
-        if (scene.point_ids[i] == kNoPointId) found.push_back(i);
-    }
-    return found;
+    return points_with_id(scene, kNoPointId);
 }
 
 /// None along borders.
@@ -92,11 +54,6 @@ double distance_to_others(const Scene& scene, std::size_t point,
         if (other != point) least = std::min(least, distance);
     }
     return least;
-}
-
-Views track_of(const Scene& scene, std::size_t point)
-{
-    return {scene.tracks[point].begin(), scene.tracks[point].end()};
 }
 
 TEST(CreasePoints, AreAddedAlongTheFootOfAWall)
@@ -319,15 +276,7 @@ TEST(CreasePoints, AreNotAddedWherePlanesHardlyBend)
 
 TEST(CreasePoints, AreNotAddedOnRoundThings)
 {
-    std::vector<MadePoint> ball;
-    for (int i = 0; i < 4000; ++i) {
-        const double z = 1.0 - 2.0 * (i + 0.5) / 4000;
-        const double turn = i * std::acos(-1.0) * (3.0 - std::sqrt(5.0));
-        const double radius = std::sqrt(1.0 - z * z);
-        ball.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, kAll});
-    }
-    std::erase_if(ball, [](const MadePoint& point) { return point.position.z() > 0.0; });
-    EXPECT_EQ(num_added(together({ball})), 0);
+    EXPECT_EQ(num_added(together({ball(4000, 0.0)})), 0);
 }
 
 TEST(CreasePoints, AreSeenFromBeforeBothPlanesOfACorner)

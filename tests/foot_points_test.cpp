@@ -1,6 +1,6 @@
 #include "steps/1_points/crease_points.h"
 #include "steps/1_points/spatial_sort.h"
-#include "support/scenes.h"
+#include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -76,11 +76,8 @@ Scene scene_of(const Roof& roof)
 std::vector<std::size_t> feet(Scene& scene)
 {
     add_crease_points(scene, {});
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < scene.num_points(); ++i) {
-        if (scene.point_ids[i] == kBorderPointId && scene.positions[i].z() > 0.9)
-            found.push_back(i);
-    }
+    std::vector<std::size_t> found = flat_scenes::points_with_id(scene, kBorderPointId);
+    std::erase_if(found, [&](std::size_t i) { return scene.positions[i].z() <= 0.9; });
     return found;
 }
 

@@ -43,6 +43,17 @@ class PointTree {
         descend(top, 0, Search<Bound, VisitPoint>{own, limit, bound, visit_point});
     }
 
+    /// The same of the distance to a place: shows visit_point(i) all points that are no farther
+    /// from it than `limit` and not in `own`, and some that are farther.
+    template <typename VisitPoint>
+    void visit_near(const Eigen::Vector3d& place, const PointRun& own, const double& limit,
+                    const VisitPoint& visit_point) const
+    {
+        const Box here{place, place};
+        visit_foreign(
+            own, limit, [&](const Box& box) { return distance_between(here, box); }, visit_point);
+    }
+
     /// Of each leaf with points of `own` the distance from its box to the nearest point that is not
     /// in `own`; infinite where there is none.
     std::vector<double> distances_to_foreign(const PointRun& own) const;

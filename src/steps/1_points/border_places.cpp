@@ -1,7 +1,6 @@
 #include "steps/1_points/border_places.h"
 
 #include "base/parallel.h"
-#include "geometry/box.h"
 #include "geometry/triangle_tree.h"
 #include "steps/1_points/sights_through.h"
 
@@ -79,13 +78,10 @@ struct Passage {
 bool has_point_near(const Patch& patch, const Vector3d& place, double near)
 {
     constexpr double kDone = -1.0; // no box is so near
-    const Box here{place, place};
     double most = near;
-    patch.tree.visit_foreign(
-        {0, 0}, most, [&](const Box& box) { return distance_between(here, box); },
-        [&](std::size_t i) {
-            if ((patch.positions[i] - place).norm() <= near) most = kDone;
-        });
+    patch.tree.visit_near(place, {0, 0}, most, [&](std::size_t i) {
+        if ((patch.positions[i] - place).norm() <= near) most = kDone;
+    });
     return most == kDone;
 }
 

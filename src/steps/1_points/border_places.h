@@ -24,7 +24,7 @@ struct BorderPlace : AddedPlace {
 /// places where sights pass through its plane, no farther from them than `gap` of the part's
 /// spacings (add_crease_points() has the rules). In an order that does not depend on the threads,
 /// some of them closer to each other than their steps. The tree is of the scene's points. Cost:
-/// O(sights log parts + passages log passages), in parallel, and 64 bytes for each passage of a
+/// O(sights log parts + passages log passages), in parallel, and 48 bytes for each passage of a
 /// sight through the plane of a part near its points.
 std::vector<BorderPlace> border_places(const Scene& scene, const NearestNeighbors& tree,
                                        const FlatParts& parts, double gap,

@@ -55,14 +55,11 @@ void leave_out_near_ones(std::vector<AddedPlace>& places)
     const PointTree tree(positions);
     std::vector<char> is_kept(places.size(), 1);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const Box here{positions[i], positions[i]};
         const double near = 0.5 * places[i].step;
-        tree.visit_foreign(
-            {i, places.size()}, near, [&](const Box& box) { return distance_between(here, box); },
-            [&](std::size_t other) {
-                const bool is_near = (positions[other] - positions[i]).norm() < near;
-                if (is_near && is_kept[other] != 0) is_kept[i] = 0;
-            });
+        tree.visit_near(positions[i], {i, places.size()}, near, [&](std::size_t other) {
+            const bool is_near = (positions[other] - positions[i]).norm() < near;
+            if (is_near && is_kept[other] != 0) is_kept[i] = 0;
+        });
     }
     std::size_t next = 0;
     std::erase_if(places, [&](const AddedPlace&) { return is_kept[next++] == 0; });

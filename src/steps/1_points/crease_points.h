@@ -49,8 +49,9 @@ struct CreaseReport {
 /// crease, kBorderPointId along a border. Scenes with points whose error is not known, which are
 /// dense, stay as they are. The points follow each other in space, as spatial_sort() puts them,
 /// before and after. The result does not depend on the number of threads nor, up to rounding, on
-/// where the scene lies and how large it is. Cost: that of planar_regions, of a sort, and O(log
-/// points) for each point of a region that lies near another and for each sight; 90 bytes a point.
+/// where the scene lies and how large it is. Cost: that of planar_regions, of crease_places,
+/// sights_through, border_places and foot_places, and of a sort; 90 bytes a point, and what
+/// passages take (border_places).
 CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options,
                                const Progress& progress = {});
 

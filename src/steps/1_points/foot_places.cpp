@@ -1,7 +1,6 @@
 #include "steps/1_points/foot_places.h"
 
 #include "base/parallel.h"
-#include "geometry/box.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,18 +21,15 @@ std::vector<Near> points_outward(const Patch& ground, const Vector3d& foot, cons
     constexpr double kDone = -1.0;  // no box is so near
     const double spacing = ground.region->spacing;
     const double reach = kReach * spacing;
-    const Box here{foot, foot};
     double most = reach;
     std::vector<Near> found;
-    ground.tree.visit_foreign(
-        {0, 0}, most, [&](const Box& box) { return distance_between(here, box); },
-        [&](std::size_t i) {
-            const Vector3d way = ground.positions[i] - foot;
-            const double distance = way.norm();
-            if (distance > reach) return;
-            if (way.dot(outward) < -kInward * spacing) most = kDone;
-            found.emplace_back(distance, ground.region->points[i]);
-        });
+    ground.tree.visit_near(foot, {0, 0}, most, [&](std::size_t i) {
+        const Vector3d way = ground.positions[i] - foot;
+        const double distance = way.norm();
+        if (distance > reach) return;
+        if (way.dot(outward) < -kInward * spacing) most = kDone;
+        found.emplace_back(distance, ground.region->points[i]);
+    });
     if (most == kDone) found.clear();
     return found;
 }

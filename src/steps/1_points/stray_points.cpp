@@ -94,18 +94,15 @@ class Solitude {
     /// The distance to the 4th nearest other point, at most so far.
     double reach(std::size_t point, double most) const
     {
-        const Box here{place(point), place(point)};
         std::array<double, kCrowd> nearest;
         nearest.fill(most);
         const auto look_at = [&](std::size_t other) {
-            const double distance = (place(other) - here.low).norm();
+            const double distance = (place(other) - place(point)).norm();
             if (!(distance < nearest.back())) return;
             nearest.back() = distance;
             std::ranges::sort(nearest);
         };
-        tree_.visit_foreign(
-            {point, point + 1}, nearest.back(),
-            [&](const Box& box) { return distance_between(here, box); }, look_at);
+        tree_.visit_near(place(point), {point, point + 1}, nearest.back(), look_at);
         return nearest.back();
     }
 

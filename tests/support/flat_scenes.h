@@ -1,0 +1,81 @@
+#pragma once
+
+#include "steps/1_points/spatial_sort.h"
+#include "support/scenes.h"
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace vcarve::flat_scenes {
+
+using Views = std::vector<std::uint32_t>;
+
+/// Cameras look along z; y points down.
+inline const std::vector<Eigen::Vector3d> kCenters = {{-0.5, 0, -6}, {0, -0.3, -6}, {0.5, 0, -6}};
+inline const Views kAll = {0, 1, 2};
+
+inline constexpr double kSpacing = 0.1;
+
+/// Points about so far apart on a rectangle, a little off rows and columns: `at(u, v)` with u and v
+/// from `low` to `high`.
+template <typename At>
+std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& high,
+                            const Views& views, const At& at)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> off(-0.02, 0.02);
+    std::vector<MadePoint> points;
+    for (double u = low[0]; u <= high[0]; u += kSpacing) {
+        for (double v = low[1]; v <= high[1]; v += kSpacing) {
+            points.push_back({at(u + off(random), v + off(random)), views});
+        }
+    }
+    return points;
+}
+
+inline Scene together(const std::vector<std::vector<MadePoint>>& parts,
+                      const std::vector<Eigen::Vector3d>& centers = kCenters)
+{
+    std::vector<MadePoint> points;
+    for (const auto& part : parts) {
+        points.insert(points.end(), part.begin(), part.end());
+    }
+    return spatial_sort(make_scene(centers, points));
+}
+
+/// The points of a scene that have an id.
+inline std::vector<std::size_t> points_with_id(const Scene& scene, std::uint64_t id)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        if (scene.point_ids[i] == id) found.push_back(i);
+    }
+    return found;
+}
+
+inline Views track_of(const Scene& scene, std::size_t point)
+{
+    return {scene.tracks[point].begin(), scene.tracks[point].end()};
+}
+
+/// Points of a ball of radius 1 around the origin, so many on all of it, along a spiral; those
+/// with a z below so much alone.
+inline std::vector<MadePoint> ball(int count, double most_z)
+{
+    std::vector<MadePoint> points;
+    for (int i = 0; i < count; ++i) {
+        const double z = 1.0 - 2.0 * (i + 0.5) / count;
+        if (z >= most_z) continue;
+        const double turn = i * std::acos(-1.0) * (3.0 - std::sqrt(5.0));
+        const double radius = std::sqrt(1.0 - z * z);
+        points.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, kAll});
+    }
+    return points;
+}
+
+} // namespace vcarve::flat_scenes
