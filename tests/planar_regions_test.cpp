@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -125,6 +126,23 @@ TEST(PlanarRegions, HaveTwelvePointsOrMore)
     points.resize(12);
     EXPECT_TRUE(regions_of(sorted(points)).regions.empty());
     EXPECT_TRUE(regions_of(sorted(points)).spacings.empty());
+}
+
+TEST(PlanarRegions, TellWhichPointsHaveNeighborsToOneSide)
+{
+    const Scene scene = sorted(wall(0.5, 0.1, kBefore));
+    const PlanarRegions found = regions_of(scene);
+    ASSERT_EQ(found.is_one_sided.size(), scene.num_points());
+    const auto is_inner = [](const Vector3d& at) {
+        return at.head<2>().cwiseAbs().maxCoeff() < 0.95;
+    };
+    std::array<std::array<int, 2>, 2> counts{}; // inner, one-sided
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        ++counts[is_inner(scene.positions[i]) ? 1 : 0][found.is_one_sided[i] != 0 ? 1 : 0];
+    }
+    EXPECT_EQ(counts[1][1], 0);
+    EXPECT_EQ(counts[0][0] + counts[0][1], 80) << "of 21 by 21";
+    EXPECT_GE(counts[0][1], 72);
 }
 
 TEST(PlanarRegions, KeepTheirPointsToThemselves)

@@ -54,12 +54,13 @@ class PlaneFrame {
     Vector3d y_;
 };
 
-/// A rectangle in the plane of a patch around its points and what is so near.
-std::array<Vector3d, 4> rectangle_around(const Patch& patch, const PlaneFrame& frame, double near)
+/// A rectangle in a plane around some places in it and what is so near.
+std::array<Vector3d, 4> rectangle_around(const std::vector<Vector2d>& places,
+                                         const PlaneFrame& frame, double near)
 {
     Eigen::AlignedBox2d box;
-    for (const Vector3d& position : patch.positions) {
-        box.extend(frame.in_plane(position));
+    for (const Vector2d& place : places) {
+        box.extend(place);
     }
     const Vector2d low = box.min().array() - near;
     const Vector2d high = box.max().array() + near;
@@ -141,17 +142,33 @@ class Borders {
     /// How far from the points of a patch passages count.
     double near(std::size_t patch) const { return gap_ * patches_[patch].region->spacing; }
 
+    /// The places in the plane of a patch of its points that have neighbours to one side only, as
+    /// those along a border have.
+    std::vector<Vector2d> one_sided(std::uint32_t patch) const
+    {
+        std::vector<Vector2d> places;
+        for (std::size_t i = 0; i < patches_[patch].positions.size(); ++i) {
+            if (parts_.planes.is_one_sided[patches_[patch].region->points[i]] != 0)
+                places.push_back(frames_[patch].in_plane(patches_[patch].positions[i]));
+        }
+        return places;
+    }
+
     /// The passages of sights through the planes of patches near their points, by patch: of each
-    /// point's sights the first and the last one, since those between pass between them.
+    /// point's sights the first and the last one, since those between pass between them. Patches
+    /// that hardly end anywhere, as those of something round, are not asked.
     std::vector<Passage> passages(const Progress& progress) const
     {
-        constexpr std::size_t kFewest = 20; // smaller ones are often no planes
+        constexpr std::size_t kFewest = 20;        // smaller ones are often no planes
+        constexpr std::size_t kFewestOneSided = 3; // by chance one or two are anywhere
         std::vector<std::array<Vector3d, 3>> triangles;
         std::vector<std::uint32_t> owners; // of both triangles of a patch
         for (std::uint32_t i = 0; i < patches_.size(); ++i) {
             if (patches_[i].positions.size() < kFewest) continue;
+            const std::vector<Vector2d> one_sided = this->one_sided(i);
+            if (one_sided.size() < kFewestOneSided) continue;
             owners.push_back(i);
-            const auto [a, b, c, d] = rectangle_around(patches_[i], frames_[i], near(i));
+            const auto [a, b, c, d] = rectangle_around(one_sided, frames_[i], near(i));
             triangles.push_back({a, b, c});
             triangles.push_back({c, d, a});
         }

@@ -59,14 +59,38 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, const Points& poin
             std::sqrt(std::max(solver.eigenvalues()[0], 0.0))};
 }
 
+/// The largest angle between directions from a point in a plane to others that follow each other
+/// around it.
+double largest_gap(const std::vector<Vector3d>& positions, std::size_t point, const Around& around,
+                   const Vector3d& normal)
+{
+    const Vector3d x = normal.unitOrthogonal();
+    const Vector3d y = normal.cross(x);
+    std::array<double, kAround> angles{};
+    std::ranges::transform(around, angles.begin(), [&](std::uint32_t other) {
+        const Vector3d way = positions[other] - positions[point];
+        return std::atan2(y.dot(way), x.dot(way));
+    });
+    std::ranges::sort(angles);
+    double largest = angles.front() + 2.0 * std::numbers::pi - angles.back();
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+        largest = std::max(largest, angles[i] - angles[i - 1]);
+    }
+    return largest;
+}
+
 /// The points around every point, and what they tell.
 struct Surroundings {
     std::vector<Around> around;
     std::vector<double> spacings;
     std::vector<double> bends; ///< how far they lie from a plane, in spacings, rounded
+    std::vector<char> is_one_sided;
 
     Surroundings(const Scene& scene, const NearestNeighbors& tree, const Progress& progress)
-        : around(scene.num_points()), spacings(scene.num_points()), bends(scene.num_points())
+        : around(scene.num_points()),
+          spacings(scene.num_points()),
+          bends(scene.num_points()),
+          is_one_sided(scene.num_points())
     {
         parallel_for(around.size(), progress,
                      [&](std::size_t i) { look_around(scene.positions, tree, i); });
@@ -97,7 +121,11 @@ struct Surroundings {
         spacings[i] = std::sqrt(nearest.back().distance_sq * std::numbers::pi / kAround);
         // Rounded, since points without noise are flat but for the last digits.
         constexpr double kExact = 1e-3;
-        bends[i] = kExact * std::round(fit_plane(positions, all).deviation / spacings[i] / kExact);
+        const FittedPlane fitted = fit_plane(positions, all);
+        bends[i] = kExact * std::round(fitted.deviation / spacings[i] / kExact);
+        constexpr double kOneSided = std::numbers::pi * 150.0 / 180.0;
+        is_one_sided[i] = static_cast<char>(
+            largest_gap(positions, i, around[i], fitted.plane.normal) > kOneSided);
     }
 };
 
@@ -197,6 +225,7 @@ PlanarRegions planar_regions(const Scene& scene, const NearestNeighbors& tree,
             {flat.plane(), median_in_place(spacings), {points.begin(), points.end()}});
     }));
     found.spacings = std::move(surroundings.spacings);
+    found.is_one_sided = std::move(surroundings.is_one_sided);
     return found;
 }
 

@@ -28,6 +28,7 @@ struct PlanarRegion {
 struct PlanarRegions {
     std::vector<PlanarRegion> regions; ///< the flattest first
     std::vector<double> spacings;      ///< per point: how far its 12 nearest stand apart
+    std::vector<char> is_one_sided; ///< per point: whether these leave 150 degrees free around it
 };
 
 /// Parts of the surface that are flat, by growing regions from the flattest points on (Poppinga,
@@ -36,7 +37,7 @@ struct PlanarRegions {
 /// than a seventh of the spacing around; its plane is fitted anew whenever its points have doubled.
 /// Regions of fewer than 12 points are none. The tree is of the scene's points. The result does not
 /// depend on the number of threads nor on where the scene lies or how large it is, up to rounding.
-/// Cost: O(points log points + sights), the search for neighbours in parallel, and 64 bytes a
+/// Cost: O(points log points + sights), the search for neighbours in parallel, and 65 bytes a
 /// point.
 PlanarRegions planar_regions(const Scene& scene, const NearestNeighbors& tree,
                              const Progress& progress);
