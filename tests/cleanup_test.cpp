@@ -115,13 +115,20 @@ TEST(CleanSurface, DropsUnreferencedVerticesAndKeepsTheOrderOfTheRest)
     EXPECT_EQ(clean.counts.removed_vertices, 2);
 }
 
-TEST(CleanSurface, RemovesSmallPieces)
+/// A tetrahedron so large, beside octahedra with edges of 1.4.
+TriMesh with_tetrahedron(double size)
 {
     TriMesh mesh;
-    mesh.positions = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
+    mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
     mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
     append(mesh, octahedron(), 10);
     append(mesh, octahedron(), 20);
+    return mesh;
+}
+
+TEST(CleanSurface, RemovesSmallPieces)
+{
+    const TriMesh mesh = with_tetrahedron(5.0);
     const Cleaned some = cleaned(mesh, {.min_component_faces = 8, .max_hole_edges = 0});
     EXPECT_EQ(some.counts.removed_components, 1);
     EXPECT_EQ(some.counts.removed_vertices, 4);
@@ -130,6 +137,23 @@ TEST(CleanSurface, RemovesSmallPieces)
     const Cleaned all = cleaned(mesh, kKeepAll);
     EXPECT_EQ(all.counts.removed_components, 0);
     EXPECT_EQ(all.mesh.faces.size(), 20U);
+}
+
+TEST(CleanSurface, RemovesCompactPiecesOfHalfAsManyFacesOnly)
+{
+    const auto num_removed = [](const TriMesh& mesh, int min_faces) {
+        const CleanupOptions options{.min_component_faces = min_faces, .max_hole_edges = 0};
+        return cleaned(mesh, options).counts.removed_components;
+    };
+    EXPECT_EQ(num_removed(with_tetrahedron(1.0), 8), 0);
+    EXPECT_EQ(num_removed(with_tetrahedron(1.0), 9), 1);
+    EXPECT_EQ(num_removed(with_tetrahedron(1.9), 8), 0);
+    EXPECT_EQ(num_removed(with_tetrahedron(2.1), 8), 1) << "its edges are 3 long";
+    EXPECT_EQ(num_removed(with_tetrahedron(2.1), 4), 0);
+    TriMesh open = with_tetrahedron(1.0);
+    open.faces.erase(open.faces.begin());
+    EXPECT_EQ(num_removed(open, 6), 1);
+    EXPECT_EQ(num_removed(open, 3), 0);
 }
 
 TEST(CleanSurface, NeverRemovesTheLargestPiece)

@@ -112,7 +112,7 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     add_crumb(scene);
     Options options;
     options.surface.cleanup.max_hole_edges = 0;
-    options.surface.cleanup.min_component_faces = 300;
+    options.surface.cleanup.min_component_faces = 600; // half of that where pieces are closed
     options.surface.sheets.max_sheet = 0.05;
     options.crop.region.kind = RegionChoice::Kind::box;
     options.crop.region.low = Vector3d(-2, -2, -0.9);

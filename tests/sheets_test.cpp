@@ -17,9 +17,10 @@ constexpr double kSide = 6.0;
 constexpr double kHeight = 3.0;
 constexpr double kTop = 15.0; ///< of the box around
 
-// The diagonal of what was looked at is 9. Faces that views see go from twice the length on.
-constexpr SheetOptions kSeenFromLong = {.max_sheet = 0.15};
+// The diagonal of what was looked at is 9. The view sees the lid whole: it goes from 3.5 times the
+// length on.
 constexpr double kLong = 2.7;
+constexpr SheetOptions kSeenFromLong = {.max_sheet = kLong / 3.5 / 9.0};
 
 /// Points a step apart on the walls of a hall without a ceiling, and on the rim of its floor, whose
 /// middle is plain; all seen from a view on the floor that looks up and shows everything above it.
@@ -138,15 +139,25 @@ TEST(PeelSheets, TakesTheLidOffAnOpenHallFromItsRimButNotItsPlainFloor)
     expect_peeled(hall, kSeenFromLong, keep, without_lid);
 }
 
-TEST(PeelSheets, TakesOffWhatViewsSeeOnlyIfItIsTwiceAsLong)
+TEST(PeelSheets, TakesOffWhatViewsSeeOnlyIfItIsSeveralTimesAsLong)
 {
-    constexpr double kTwice = 5.4; // a length between those of the faces of the lid
+    constexpr double kVast = 5.4; // a length between those of the faces of the lid
     const Hall hall;
-    const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}), kTwice);
-    const FaceFlags rest = hall.without(keep, Part::lid, kTwice);
+    const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}), kVast);
+    const FaceFlags rest = hall.without(keep, Part::lid, kVast);
     ASSERT_NE(rest, keep);
-    ASSERT_NE(hall.without(rest, Part::lid, kTwice / 2.0), rest);
-    expect_peeled(hall, {.max_sheet = kTwice / 2.0 / 9.0}, keep, rest);
+    ASSERT_NE(hall.without(rest, Part::lid, kVast / 1.7), rest);
+    expect_peeled(hall, {.max_sheet = kVast / 3.5 / 9.0}, keep, rest);
+}
+
+TEST(PeelSheets, TakesOffWhatViewsSeeInPartIfItIsTwiceAsLong)
+{
+    Hall hall;
+    hall.made.scene.cameras[0].params = {270.0, 270.0, 320.0, 240.0}; // of the lid the middle
+    const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}));
+    const FaceFlags rest = hall.without(keep, Part::lid, kLong);
+    ASSERT_NE(rest, keep);
+    expect_peeled(hall, {.max_sheet = kLong / 2.0 / 9.0}, keep, rest);
 }
 
 TEST(PeelSheets, TakesNothingSeenOutOfTheMiddle)

@@ -311,9 +311,9 @@ struct SheetOptions {
                         .unit = "x extent",
                         .help = "Take off faces with an edge longer than this share of what was "
                                 "looked at if views see less than half of them, and from the rim "
-                                "those twice as long that go on with the surface at no corner, "
-                                "unless the back of a face comes to light behind them; 0 takes off "
-                                "none.",
+                                "those that go on with the surface at no corner and are twice as "
+                                "long, or 3.5 times if views see all of them, unless the back of a "
+                                "face comes to light behind them; 0 takes off none.",
                         .max = 1.0});
     }
 };
@@ -329,7 +329,9 @@ struct CleanupOptions {
         options.count(min_component_faces,
                       {.name = "min-component",
                        .unit = "faces",
-                       .help = "Remove pieces of the surface with fewer faces; 0 keeps all."});
+                       .help =
+                           "Remove pieces of the surface with fewer faces, or of half as many if "
+                           "they are closed and have no long faces; 0 keeps all."});
         options.count(max_hole_edges,
                       {.name = "max-hole",
                        .unit = "edges",

@@ -30,12 +30,13 @@ struct CleanSurface {
 /// A manifold, consistently oriented surface, as the one mesh that is worked on from then on, from
 /// any consistently oriented triangle soup with shared vertices. In this order: edges and vertices
 /// that are not manifold are taken apart (split_nonmanifold.h), small pieces deleted, the largest
-/// never, small holes of the rest filled (fill_holes.h; the outer rim of an open piece is no hole,
-/// and one that comes twice to one place stays open). Vertices and faces that stay keep their
-/// order, colours and points travel along, and every vertex gets the area-weighted mean of its
-/// faces' normals (zero where none of them has an area). What this does not do: move a vertex, turn
-/// a face round, join pieces, or remove self-intersections.
-/// Cost: O(faces), mostly in parallel.
+/// never, and closed ones without faces longer than usual only if they have less than half as many
+/// faces as asked for (a lone tetrahedron of common size stands where points are), small holes of
+/// the rest filled (fill_holes.h; the outer rim of an open piece is no hole, and one that comes
+/// twice to one place stays open). Vertices and faces that stay keep their order, colours and
+/// points travel along, and every vertex gets the area-weighted mean of its faces' normals (zero
+/// where none of them has an area). What this does not do: move a vertex, turn a face round, join
+/// pieces, or remove self-intersections. Cost: O(faces), mostly in parallel.
 CleanSurface clean_surface(TriMesh soup, const CleanupOptions& options);
 
 } // namespace vcarve

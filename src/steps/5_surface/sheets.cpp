@@ -80,9 +80,9 @@ class Peeling {
     {
     }
 
-    /// Of the long faces those that are mostly unseen, wherever they are, and from the rim inwards
-    /// those with an edge so long that turn off the surface.
-    void take_off_long(const std::vector<std::uint32_t>& long_faces, double sheet_edge);
+    /// Of the faces with an edge so long those that are mostly unseen, wherever they are, and from
+    /// the rim inwards those several times as long that turn off the surface.
+    void take_off_long(const std::vector<std::uint32_t>& long_faces, double long_edge);
     /// From the rim inwards, faces of any size of which views see next to nothing.
     void take_off_hardly_seen();
 
@@ -101,6 +101,19 @@ class Peeling {
     {
         return visibility_.is_told_by_images(facets_[face]) &&
                onlookers_.see_less_than(share, facets_[face]);
+    }
+    bool is_seen_whole(std::uint32_t face) const
+    {
+        return visibility_.is_told_by_images(facets_[face]) &&
+               !onlookers_.see_less_than(1.0, facets_[face]);
+    }
+    /// Whether a face that views see is so long that it may go nevertheless.
+    bool is_vast(std::uint32_t face, double long_edge) const
+    {
+        constexpr double kSeenInPart = 2.0; // times as long; shorter ones may be plain walls
+        constexpr double kSeenWhole = 3.5;  // even if a view sees every place on it
+        return has_edge_of(kSeenInPart * long_edge, face, boundary_) &&
+               (has_edge_of(kSeenWhole * long_edge, face, boundary_) || !is_seen_whole(face));
     }
     bool may_go(std::uint32_t face) const
     {
@@ -124,14 +137,13 @@ class Peeling {
     std::int64_t peeled_ = 0;
 };
 
-void Peeling::take_off_long(const std::vector<std::uint32_t>& long_faces, double sheet_edge)
+void Peeling::take_off_long(const std::vector<std::uint32_t>& long_faces, double long_edge)
 {
     for (int round = 0; round < kRounds && !long_faces.empty(); ++round) {
         const LocalEdges edges(boundary_.positions, boundary_.faces, keep_);
         const SurfaceNormals normals(boundary_.positions, boundary_.faces, edges);
         const auto turns_off = [&](std::uint32_t face) {
-            return is_open_at(face) && has_edge_of(sheet_edge, face, boundary_) &&
-                   !goes_on(face, normals);
+            return is_open_at(face) && !goes_on(face, normals) && is_vast(face, long_edge);
         };
         const std::vector<std::uint32_t> sheets = those_that(long_faces, [&](std::uint32_t face) {
             return keep_[face] != 0 && (turns_off(face) || is_seen_less_than(kMostly, face)) &&
@@ -177,13 +189,12 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
                          const FaceVisibility& visibility, const SheetOptions& options,
                          FaceFlags& keep)
 {
-    constexpr double kSeen = 2.0; // times as long: shorter faces that views see may be plain walls
     if (options.max_sheet == 0.0) return 0;
     const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
     const auto long_faces = faces_with_edges_of(long_edge, boundary, keep);
     if (long_faces.empty() && std::ranges::count(keep, 0) == 0) return 0; // there is no rim
     Peeling peeling(boundary, facets, visibility, keep);
-    peeling.take_off_long(long_faces, kSeen * long_edge);
+    peeling.take_off_long(long_faces, long_edge);
     peeling.take_off_hardly_seen();
     return peeling.peeled();
 }
