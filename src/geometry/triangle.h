@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -41,6 +42,18 @@ inline Eigen::Vector3d face_normal(std::span<const Eigen::Vector3d> positions,
                                    const std::array<std::uint32_t, 3>& face)
 {
     return scaled_normal(positions, face).normalized();
+}
+
+inline double longest_edge(const std::array<Eigen::Vector3d, 3>& corners)
+{
+    const auto& [a, b, c] = corners;
+    return std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+}
+
+inline double longest_edge(std::span<const Eigen::Vector3d> positions,
+                           const std::array<std::uint32_t, 3>& face)
+{
+    return longest_edge({positions[face[0]], positions[face[1]], positions[face[2]]});
 }
 
 } // namespace vcarve

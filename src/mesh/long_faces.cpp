@@ -47,7 +47,7 @@ double long_area(const TriMesh& mesh, double times)
     const auto areas_of = [&](std::size_t i) {
         const Face& face = mesh.faces[i];
         const double area = face_area(mesh.positions, face);
-        const bool is_long = std::ranges::max(edge_lengths(mesh, face)) > most;
+        const bool is_long = longest_edge(mesh.positions, face) > most;
         return Areas{.all = area, .of_long = is_long ? area : 0.0};
     };
     const auto plus = [](const Areas& a, const Areas& b) {

@@ -1,5 +1,7 @@
 #include "page/face_grid.h"
 
+#include "geometry/triangle.h"
+
 #include <algorithm>
 
 namespace vcarve {
@@ -13,13 +15,7 @@ std::vector<double> longest_edges(const TriMesh& mesh)
     std::vector<double> lengths;
     lengths.reserve(mesh.faces.size());
     for (const Face& face : mesh.faces) {
-        double longest = 0.0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Eigen::Vector3d edge =
-                mesh.positions[face[(i + 1) % 3]] - mesh.positions[face[i]];
-            longest = std::max(longest, edge.norm());
-        }
-        lengths.push_back(longest);
+        lengths.push_back(longest_edge(mesh.positions, face));
     }
     return lengths;
 }

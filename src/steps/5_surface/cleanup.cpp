@@ -3,6 +3,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "base/union_find.h"
+#include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
 #include "steps/5_surface/fill_holes.h"
 #include "steps/5_surface/split_nonmanifold.h"
@@ -38,57 +39,48 @@ void delete_with_vertices(HalfEdgeMesh& mesh, FaceHandle face)
     }
 }
 
-/// The longest edge of every face.
-std::vector<double> longest_edges(const HalfEdgeMesh& mesh)
+/// From which edge on a face is long: twice the longest edge of the median face.
+double long_edge(const HalfEdgeMesh& mesh)
 {
+    constexpr double kLong = 2.0;
     std::vector<double> lengths(mesh.n_faces());
     parallel_for(lengths.size(), [&](std::size_t face) {
-        for (const EdgeHandle edge : mesh.fe_range(handle_at<FaceHandle>(face))) {
-            lengths[face] = std::max(lengths[face], mesh.calc_edge_length(edge));
-        }
+        lengths[face] = longest_edge(mesh.triangle(handle_at<FaceHandle>(face)));
     });
-    return lengths;
+    return kLong * median_in_place(lengths);
 }
 
-/// What is to be known of a piece.
-struct Piece {
-    std::int64_t faces = 0;
-    bool is_compact = true; ///< closed, and none of its faces is long
-};
-
-/// Of each piece, at its first face.
-std::vector<Piece> measure_pieces(const HalfEdgeMesh& mesh, UnionFind& pieces)
-{
-    constexpr double kLong = 2.0; // times as long as the median face
-    const std::vector<double> lengths = longest_edges(mesh);
-    std::vector<double> by_length = lengths;
-    const double most = lengths.empty() ? 0.0 : kLong * median_in_place(by_length);
-    std::vector<Piece> found(lengths.size());
-    for (std::uint32_t i = 0; i < lengths.size(); ++i) {
-        Piece& piece = found[pieces.root(i)];
-        ++piece.faces;
-        if (lengths[i] > most || mesh.is_boundary(handle_at<FaceHandle>(i)))
-            piece.is_compact = false;
-    }
-    return found;
-}
-
-/// Deletes pieces of fewer faces, compact ones of fewer than half as many; of the largest ones the
-/// first stays in any case. Returns how many pieces went.
+/// Deletes pieces of fewer faces, and of fewer than half as many those that are compact: closed,
+/// without a long face. Of the largest ones the first stays in any case. Returns how many pieces
+/// went.
 std::int64_t delete_small_pieces(HalfEdgeMesh& mesh, int min_faces)
 {
     UnionFind pieces = find_pieces(mesh);
     const auto num_faces = static_cast<std::uint32_t>(mesh.n_faces());
-    const std::vector<Piece> found = measure_pieces(mesh, pieces);
-    const auto largest = std::ranges::max_element(found, {}, &Piece::faces) - found.begin();
-    const auto is_small = [&](std::uint32_t piece) {
-        const auto [faces, is_compact] = found[piece];
-        return piece != largest && (is_compact ? 2 * faces : faces) < min_faces;
-    };
-    std::int64_t num_small = 0;
+    std::vector<std::int64_t> sizes(num_faces, 0); // of a piece at its first face
     for (std::uint32_t face = 0; face < num_faces; ++face) {
+        ++sizes[pieces.root(face)];
+    }
+    const auto largest = std::ranges::max_element(sizes) - sizes.begin();
+    const auto may_go = [&](std::uint32_t piece) {
+        return piece != largest && sizes[piece] < min_faces;
+    };
+    std::vector<std::uint32_t> faces; // of the pieces that may go
+    for (std::uint32_t face = 0; face < num_faces; ++face) {
+        if (may_go(pieces.root(face))) faces.push_back(face);
+    }
+    if (faces.empty()) return 0;
+    const double most = long_edge(mesh);
+    std::vector<char> is_compact(num_faces, 1); // a piece at its first face
+    for (const std::uint32_t i : faces) {
+        const auto face = handle_at<FaceHandle>(i);
+        if (mesh.is_boundary(face) || longest_edge(mesh.triangle(face)) > most)
+            is_compact[pieces.root(i)] = 0;
+    }
+    std::int64_t num_small = 0;
+    for (const std::uint32_t face : faces) {
         const std::uint32_t piece = pieces.root(face);
-        if (!is_small(piece)) continue;
+        if (is_compact[piece] != 0 && 2 * sizes[piece] >= min_faces) continue;
         delete_with_vertices(mesh, handle_at<FaceHandle>(face));
         num_small += piece == face ? 1 : 0;
     }

@@ -1,6 +1,7 @@
 #include "steps/5_surface/sheets.h"
 
 #include "base/parallel.h"
+#include "geometry/triangle.h"
 #include "mesh/local_edges.h"
 #include "mesh/surface_normals.h"
 #include "steps/1_points/looked_at_ball.h"
@@ -37,11 +38,7 @@ bool is_at_rim(std::uint32_t face, const std::vector<Face>& faces, const VertexF
 /// Whether a face has an edge so long.
 bool has_edge_of(double length, std::uint32_t face, const TriMesh& boundary)
 {
-    const auto is_long = [&](std::uint32_t from, std::uint32_t to) {
-        return (boundary.positions[to] - boundary.positions[from]).norm() >= length;
-    };
-    const auto& [a, b, c] = boundary.faces[face];
-    return is_long(a, b) || is_long(b, c) || is_long(c, a);
+    return longest_edge(boundary.positions, boundary.faces[face]) >= length;
 }
 
 /// The kept faces with an edge so long, ascending.

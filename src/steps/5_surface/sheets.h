@@ -15,12 +15,11 @@ namespace vcarve {
 /// diameter of what was looked at (looked_at_ball) if views see less than half of it. One with an
 /// edge of twice that length also goes if it goes on with the small faces around none of its
 /// corners, but only from the rim of the kept faces inwards, and from the hull; of three and a half
-/// times that length if views see all of it. Then faces of any
-/// length go from the rim inwards of which views see less than a quarter. No face goes where a view
-/// would look onto the back of a kept face through the gap. Repeated while sheets come to the rim.
-/// `boundary` is the surface of `facets`, which ascend, face by face. Returns how many faces it
-/// took from `keep`. Cost: O(faces) a round, and some walks a view for each long face and each at
-/// the rim; mostly in parallel.
+/// times that length if views see all of it. Then faces of any length go from the rim inwards of
+/// which views see less than a quarter. No face goes where a view would look onto the back of a
+/// kept face through the gap. Repeated while sheets come to the rim. `boundary` is the surface of
+/// `facets`, which ascend, face by face. Returns how many faces it took from `keep`. Cost: O(faces)
+/// a round, and some walks a view for each long face and each at the rim; mostly in parallel.
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
                          const FaceVisibility& visibility, const SheetOptions& options,
                          FaceFlags& keep);
