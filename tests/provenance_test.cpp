@@ -214,7 +214,7 @@ TEST_F(WrittenAttributes, AreThoseOfTheModel)
         ASSERT_EQ(row[kId + 1], static_cast<double>(at_place_.at(point.place).size()));
         ASSERT_EQ(static_cast<float>(row[kId + 2]), static_cast<float>(point.error_px));
     }
-    EXPECT_GT(num_points, num_vertices_ * 9 / 10);
+    EXPECT_GT(num_points, num_vertices_ * 3 / 4); // others are of creases, or where faces end
 }
 
 TEST_F(WrittenAttributes, TellTheSupportOfEveryFace)

@@ -1,3 +1,4 @@
+#include "model/keypoints.h"
 #include "steps/5_surface/sheets.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
@@ -158,6 +159,26 @@ TEST(PeelSheets, TakesOffWhatViewsSeeInPartIfItIsTwiceAsLong)
     const FaceFlags rest = hall.without(keep, Part::lid, kLong);
     ASSERT_NE(rest, keep);
     expect_peeled(hall, {.max_sheet = kLong / 2.0 / 9.0}, keep, rest);
+}
+
+TEST(PeelSheets, TakesOffWhatHangsBeforeTheSkyIfItIsTwiceAsLong)
+{
+    Hall hall;
+    View& view = hall.made.scene.views[0];
+    const Camera& camera = hall.made.scene.cameras[view.camera];
+    const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}));
+    const FaceFlags rest = hall.without(keep, Part::lid, kLong);
+    const SheetOptions options = {.max_sheet = kLong / 2.0 / 9.0};
+    ASSERT_NE(rest, keep);
+    for (double u = 1.0; u < static_cast<double>(camera.width_px); u += 4.0) {
+        for (double v = 1.0; v < static_cast<double>(camera.height_px); v += 4.0) {
+            count_keypoint(view, camera, {u, v});
+        }
+    }
+    expect_peeled(hall, options, keep, keep);
+    view.keypoints.assign(view.keypoints.size(), 0);
+    count_keypoint(view, camera, {1.0, 1.0}); // a corner of the image, not on the lid
+    expect_peeled(hall, options, keep, rest);
 }
 
 TEST(PeelSheets, TakesNothingSeenOutOfTheMiddle)

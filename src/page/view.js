@@ -51,7 +51,7 @@ function rampColour(share, ramp = kRamp) {
 }
 
 /// By the number of the reason why a face was taken away.
-const kRemoved = [[222, 143, 5], [2, 115, 178], [148, 148, 148], [204, 120, 188]];
+const kRemoved = [[222, 143, 5], [2, 115, 178], [148, 148, 148], [204, 120, 188], [2, 158, 115]];
 
 const css = (colour) => "rgb(" + colour.join(" ") + ")";
 
@@ -186,7 +186,7 @@ function removedFaces(removed) {
     made.setAttribute("position", new THREE.BufferAttribute(new Float32Array(own), 3));
     group.add(new THREE.Mesh(made, new THREE.MeshBasicMaterial({
       color: new THREE.Color(css(kRemoved[reason]).replace(/ /g, ",")), side: THREE.DoubleSide, transparent: true,
-      opacity: name === "unseen" ? 0.15 : 0.7, depthWrite: false })));
+      opacity: ["unseen", "trimmed"].includes(name) ? 0.15 : 0.7, depthWrite: false })));
   }
   return group;
 }

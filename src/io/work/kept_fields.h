@@ -45,6 +45,7 @@ struct KeptFields<View> {
         field(view.name);
         field(view.cam_from_world);
         field(view.center);
+        field(view.keypoints);
     }
 };
 

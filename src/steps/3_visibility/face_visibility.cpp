@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::array<Vector3d, 3> corners_of(const TetMesh& mesh, const CellFacet& facet)
+std::array<Vector3d, 3> facet_corners(const TetMesh& mesh, const CellFacet& facet)
 {
     const auto& [a, b, c] = kFacetCorners[facet.slot];
     const auto& vertices = mesh.cells[facet.cell].vertices;
@@ -25,38 +25,27 @@ std::array<Vector3d, 3> corners_of(const TetMesh& mesh, const CellFacet& facet)
 /// Towards the outside; not of unit length.
 Vector3d outward(const TetMesh& mesh, const CellFacet& facet)
 {
-    const auto [a, b, c] = corners_of(mesh, facet); // counter-clockwise from inside
+    const auto [a, b, c] = facet_corners(mesh, facet); // counter-clockwise from inside
     return scaled_normal(a, c, b);
 }
 
 } // namespace
 
-bool stands_before(const Vector3d& center, const Vector3d& place, const Vector3d& normal)
+bool stands_before(const Vector3d& center, const Vector3d& place, const Vector3d& normal,
+                   double cosine)
 {
-    constexpr double kGrazing = 0.05; // cosine
     const Vector3d way = center - place;
     const double height = normal.dot(way);
-    return height > 0.0 && height > kGrazing * way.norm(); // most need no root
+    return height > 0.0 && height > cosine * way.norm(); // most need no root
 }
 
-FaceVisibility::FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene)
-    : cells_(cells), labels_(labels), scene_(scene)
-{
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& position : cells.positions) {
-        box.extend(position);
-    }
-    if (!box.isEmpty()) reach_ = 2.0 * box.diagonal().norm();
-}
-
-std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
+std::vector<Vector3d> places_on(const std::array<Vector3d, 3>& corners)
 {
     constexpr double kNear = 0.8;
     constexpr double kFar = 0.1;
     constexpr double kHalf = 0.475;
     constexpr double kRim = 0.05;
     constexpr double kThin = 0.2;
-    const auto corners = corners_of(cells_, facet);
     const Vector3d& a = corners[0];
     const Vector3d& b = corners[1];
     const Vector3d& c = corners[2];
@@ -77,11 +66,47 @@ std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
     return places;
 }
 
+FaceVisibility::FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene)
+    : cells_(cells), labels_(labels), scene_(scene)
+{
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& position : cells.positions) {
+        box.extend(position);
+    }
+    if (!box.isEmpty()) reach_ = 2.0 * box.diagonal().norm();
+}
+
+std::array<Vector3d, 3> FaceVisibility::corners_of(const CellFacet& facet) const
+{
+    return facet_corners(cells_, facet);
+}
+
+std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
+{
+    return vcarve::places_on(corners_of(facet));
+}
+
+std::vector<Vector3d> FaceVisibility::grid_on(const CellFacet& facet) const
+{
+    constexpr int kToASide = 6;
+    const auto [a, b, c] = corners_of(facet);
+    std::vector<Vector3d> places;
+    for (int i = 0; i < kToASide; ++i) {
+        for (int j = 0; i + j < kToASide; ++j) {
+            const double u = (i + 1.0 / 3.0) / kToASide;
+            const double v = (j + 1.0 / 3.0) / kToASide;
+            places.emplace_back(a + u * (b - a) + v * (c - a));
+        }
+    }
+    return places;
+}
+
 /// Whether a view stands before a facet at a place that its image shows.
-bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
+bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vector3d& place,
+                           double cosine) const
 {
     const View& eye = scene_.views[view];
-    return stands_before(eye.center, place, outward(cells_, facet).normalized()) &&
+    return stands_before(eye.center, place, outward(cells_, facet).normalized(), cosine) &&
            view_shows(eye, scene_.cameras[eye.camera], place);
 }
 

@@ -7,16 +7,25 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace vcarve {
 
-/// Whether a view at `center` stands before a place with this unit normal, by more than a graze: at
-/// under about 87 degrees off the normal. Never where the normal is zero.
+/// Cosine of the angle off the normal up to which a view sees a face by more than a graze: about 87
+/// degrees.
+inline constexpr double kGrazing = 0.05;
+
+/// Whether a view at `center` stands before a place with this unit normal, so that the cosine of
+/// the angle off the normal is above the given one. Never where the normal is zero.
 bool stands_before(const Eigen::Vector3d& center, const Eigen::Vector3d& place,
-                   const Eigen::Vector3d& normal);
+                   const Eigen::Vector3d& normal, double cosine = kGrazing);
+
+/// Places spread over a triangle: its middle, and near its corners and the middles of its edges; on
+/// a long thin one also so near its corners as its shortest edge is long. At most 10.
+std::vector<Eigen::Vector3d> places_on(const std::array<Eigen::Vector3d, 3>& corners);
 
 /// What the views see of the boundary between inside and outside cells. A view sees a place on a
 /// boundary facet if its image shows the place, the facet turns its front, the outside, to the
@@ -37,9 +46,13 @@ class FaceVisibility {
 
     const Scene& scene() const { return scene_; }
 
-    /// Places spread over a facet: its middle, and near its corners and the middles of its edges;
-    /// on a long thin one also so near its corners as its shortest edge is long. At most 10.
+    std::array<Eigen::Vector3d, 3> corners_of(const CellFacet& facet) const;
+
+    /// Places spread over a facet, as over any triangle.
     std::vector<Eigen::Vector3d> places_on(const CellFacet& facet) const;
+
+    /// 21 places spread evenly over a facet.
+    std::vector<Eigen::Vector3d> grid_on(const CellFacet& facet) const;
 
     /// Cost: a walk through the cells up to the view, where the view stands before the facet and
     /// its image shows the place.
@@ -50,10 +63,11 @@ class FaceVisibility {
     /// before it and shows it in its image.
     bool is_seen(const CellFacet& facet) const;
 
-    /// The same where of the boundary only the facets are there that is_kept(facet) names.
+    /// The same where of the boundary only the facets are there that is_kept(facet) names. A view
+    /// that stands lower before the facet than a cosine of its angle says does not see it.
     template <typename IsKept>
     bool sees_among(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
-                    const IsKept& is_kept) const;
+                    const IsKept& is_kept, double cosine = kGrazing) const;
 
     /// Whether ask(view) says yes for some view. Those that saw a corner of the facet, the
     /// likeliest to see it, are asked first.
@@ -82,7 +96,8 @@ class FaceVisibility {
                        const Eigen::Vector3d& place) const;
 
   private:
-    bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
+    bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
+               double cosine = kGrazing) const;
 
     Crossed crossed_at(const CellFacet& ahead) const;
 
@@ -115,9 +130,10 @@ bool FaceVisibility::any_view(const CellFacet& facet, const Ask& ask) const
 
 template <typename IsKept>
 bool FaceVisibility::sees_among(std::uint32_t view, const CellFacet& facet,
-                                const Eigen::Vector3d& place, const IsKept& is_kept) const
+                                const Eigen::Vector3d& place, const IsKept& is_kept,
+                                double cosine) const
 {
-    if (!faces(view, facet, place)) return false;
+    if (!faces(view, facet, place, cosine)) return false;
     bool is_free = true;
     const auto goes_on = [&](const Crossed& crossed) {
         is_free = !is_kept(crossed.facet);

@@ -203,12 +203,21 @@ void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop)
     }
 }
 
+bool is_fillable(const HalfEdgeMesh& mesh, const BoundaryLoop& loop, int max_edges)
+{
+    return loop.size() <= static_cast<std::size_t>(std::max(max_edges, 0)) && !is_rim(mesh, loop) &&
+           !touches_itself(mesh, loop);
+}
+
 std::int64_t fill_holes(HalfEdgeMesh& mesh, int max_edges)
 {
+    const auto was_trimmed = [&](HalfedgeHandle edge) {
+        return mesh.has_scene_points() &&
+               mesh.data(mesh.from_vertex_handle(edge)).scene_point == kNoPoint;
+    };
     std::int64_t num_filled = 0;
     for (const BoundaryLoop& loop : boundary_loops(mesh)) {
-        if (loop.size() > static_cast<std::size_t>(std::max(max_edges, 0))) continue;
-        if (is_rim(mesh, loop) || touches_itself(mesh, loop)) continue;
+        if (!is_fillable(mesh, loop, max_edges) || std::ranges::any_of(loop, was_trimmed)) continue;
         fill_hole(mesh, loop);
         ++num_filled;
     }

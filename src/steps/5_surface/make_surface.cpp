@@ -6,6 +6,7 @@
 #include "steps/5_surface/extract.h"
 #include "steps/5_surface/removals.h"
 #include "steps/5_surface/rims.h"
+#include "steps/5_surface/trim.h"
 #include "vcarve/error.h"
 
 #include <algorithm>
@@ -56,15 +57,17 @@ SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceW
     labelling.forget_boundary(); // the surface is numbered and measured anew
     TriMesh surface = extract_surface(labelling.cells(), facets, scene);
     stage.progress(0.2);
+    const FaceVisibility visibility(labelling.cells(), labelling.labels(), scene);
     FaceFlags keep(facets.size(), 1);
+    FaceFlags unseen;
     std::int64_t sheets = 0;
     std::int64_t cropped = 0;
+    std::int64_t trimmed = 0;
+    stage.progress(0.4);
     if (!options.closed) {
-        const FaceVisibility visibility(labelling.cells(), labelling.labels(), scene);
-        stage.progress(0.4);
         keep = supported_faces(surface, facets, visibility, scene, options.support);
         removals.note(keep, Removal::unseen);
-        const FaceFlags unseen = without(keep);
+        unseen = without(keep);
         stage.progress(0.7);
         if (region != nullptr) cropped = leave_region(surface, *region, keep);
         removals.note(keep, Removal::outside_region);
@@ -77,18 +80,25 @@ SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceW
         cropped = leave_region(surface, *region, keep);
         removals.note(keep, Removal::outside_region);
     }
-    removals.add_noted(surface);
-    surface = with_faces(std::move(surface), keep);
+    const std::int64_t dropped = std::ranges::count(keep, 0);
     SeenSurface seen;
-    // What a region leaves out is not open.
+    // What a region leaves out is not open, nor what is trimmed, which no view sees.
     if (!options.closed && region == nullptr) {
         seen.openness =
             measure_openness(labelling.cells(), labelling.labels(), facets, keep, scene);
     }
-    const std::int64_t dropped = size_of(facets.size() - surface.faces.size());
+    if (!options.closed) {
+        TrimmedFaces faces = trim_faces(surface, facets, visibility, {unseen, options}, keep);
+        trimmed = faces.count;
+        seen.filled = std::move(faces.filled);
+        removals.note(keep, Removal::trimmed);
+    }
+    removals.add_noted(surface);
+    surface = with_faces(std::move(surface), keep);
     Counts counts = {{"faces", size_of(surface.faces.size())},
                      {"unseen", dropped - sheets - cropped},
-                     {"sheets", sheets}};
+                     {"sheets", sheets},
+                     {"trimmed", trimmed}};
     if (region != nullptr) counts.emplace_back("outside the region", cropped);
     stage.end(counts);
     if (surface.faces.empty() && cropped > 0) {
@@ -119,10 +129,10 @@ CleanSurface clean(TriMesh surface, const SurfaceOptions& options, Log& log)
 }
 
 /// How much of what the views look at is open, holes that were filled left out.
-void tell_openness(const Openness& openness, const CleanSurface& cleaned, Log& log)
+void tell_openness(const Openness& openness, std::vector<std::array<Eigen::Vector3d, 3>> filled,
+                   const CleanSurface& cleaned, Log& log)
 {
     Stage stage(log, "open");
-    std::vector<std::array<Eigen::Vector3d, 3>> filled;
     for (std::size_t i = cleaned.first_filled; i < cleaned.mesh->n_faces(); ++i) {
         filled.push_back(cleaned.mesh->triangle(handle_at<OpenMesh::FaceHandle>(i)));
     }
@@ -136,7 +146,7 @@ std::unique_ptr<HalfEdgeMesh> mended_surface(SeenSurface seen, RemovedFaces* rem
 {
     CleanSurface cleaned = clean(std::move(seen.faces), options, log);
     Removals(removed).add_deleted(*cleaned.mesh, cleaned.first_filled);
-    if (seen.openness) tell_openness(*seen.openness, cleaned, log);
+    if (seen.openness) tell_openness(*seen.openness, std::move(seen.filled), cleaned, log);
     return std::move(cleaned.mesh);
 }
 

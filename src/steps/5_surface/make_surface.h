@@ -12,8 +12,12 @@
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
+#include <Eigen/Core>
+
+#include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace vcarve {
 
@@ -28,6 +32,7 @@ struct SeenSurface {
     TriMesh faces; ///< with TriMesh::points
     /// What they leave open; not known where all faces are kept, or a region leaves some out.
     std::optional<Openness> openness;
+    std::vector<std::array<Eigen::Vector3d, 3>> filled; ///< triangles in holes of these
 };
 
 /// Of the boundary of a labelling (extract.h) the faces that views support (support.h, sheets.h),

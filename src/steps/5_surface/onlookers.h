@@ -1,12 +1,14 @@
 #pragma once
 
 #include "mesh/vertex_faces.h"
+#include "model/keypoints.h"
 #include "steps/3_visibility/face_visibility.h"
 #include "steps/4_labels/boundary.h"
 
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace vcarve {
@@ -42,6 +44,13 @@ class Onlookers {
         return any_that_sees(facet, place, [](std::uint32_t) { return true; });
     }
 
+    /// The same where a graze counts as well.
+    bool see_or_graze(const CellFacet& facet, const Eigen::Vector3d& place) const
+    {
+        return any_that_sees(
+            facet, place, [](std::uint32_t) { return true; }, 0.0);
+    }
+
     /// Whether they see less than so large a share of the places on a facet.
     bool see_less_than(double share, const CellFacet& facet) const
     {
@@ -53,6 +62,27 @@ class Onlookers {
             if (seen >= enough) return false;
         }
         return true;
+    }
+
+    /// How densely keypoints lie where the images show a facet, in the mean over the lines on which
+    /// they see it (keypoint_density). Nothing where no keypoints are known there.
+    std::optional<double> keypoints_on(const CellFacet& facet) const
+    {
+        const Scene& scene = visibility_.scene();
+        double sum = 0.0;
+        double lines = 0.0;
+        for (const Eigen::Vector3d& place : visibility_.grid_on(facet)) {
+            for (std::uint32_t view = 0; view < scene.views.size(); ++view) {
+                if (!visibility_.sees_among(view, facet, place, is_kept_)) continue;
+                const View& eye = scene.views[view];
+                const auto density = keypoint_density(eye, scene.cameras[eye.camera], place);
+                if (!density) continue;
+                sum += *density;
+                lines += 1.0;
+            }
+        }
+        if (lines == 0.0) return std::nullopt;
+        return sum / lines;
     }
 
     /// Whether one of them would look onto the back of a kept face, were this facet away.
@@ -69,12 +99,13 @@ class Onlookers {
     }
 
   private:
-    /// Whether for one of those that see a place ask(view) says yes.
+    /// Whether for one of those that see a place, by more than a cosine, ask(view) says yes.
     template <typename Ask>
-    bool any_that_sees(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const
+    bool any_that_sees(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask,
+                       double cosine = kGrazing) const
     {
         return visibility_.any_view(facet, [&](std::uint32_t view) {
-            return visibility_.sees_among(view, facet, place, is_kept_) && ask(view);
+            return visibility_.sees_among(view, facet, place, is_kept_, cosine) && ask(view);
         });
     }
 

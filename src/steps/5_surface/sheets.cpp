@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 namespace vcarve {
 
@@ -80,14 +81,15 @@ class Peeling {
     /// Of the faces with an edge so long those that are mostly unseen, wherever they are, and from
     /// the rim inwards those several times as long that turn off the surface.
     void take_off_long(const std::vector<std::uint32_t>& long_faces, double long_edge);
-    /// From the rim inwards, faces of any size of which views see next to nothing.
-    void take_off_hardly_seen();
+    /// From the rim inwards, faces of any size of which views see nothing.
+    void take_off_unseen();
 
     std::int64_t peeled() const { return peeled_; }
 
   private:
     static constexpr int kRounds = 20;
     static constexpr double kMostly = 0.5;
+    static constexpr double kNothing = 0.12; // no place of seven, one of ten
 
     bool is_open_at(std::uint32_t face) const
     {
@@ -108,9 +110,17 @@ class Peeling {
     bool is_vast(std::uint32_t face, double long_edge) const
     {
         constexpr double kSeenInPart = 2.0; // times as long; shorter ones may be plain walls
-        constexpr double kSeenWhole = 3.5;  // even if a view sees every place on it
+        constexpr double kSeenWhole = 3.5;  // even if views see every place on it, and something
         return has_edge_of(kSeenInPart * long_edge, face, boundary_) &&
-               (has_edge_of(kSeenWhole * long_edge, face, boundary_) || !is_seen_whole(face));
+               (has_edge_of(kSeenWhole * long_edge, face, boundary_) || !is_seen_whole(face) ||
+                stands_before_nothing(face));
+    }
+    /// Whether images show next to no keypoints on a face, as where it hangs before the sky.
+    bool stands_before_nothing(std::uint32_t face) const
+    {
+        constexpr double kFew = 1.0 / 3.0;
+        const std::optional<double> density = onlookers_.keypoints_on(facets_[face]);
+        return density && *density < kFew;
     }
     bool may_go(std::uint32_t face) const
     {
@@ -139,12 +149,13 @@ void Peeling::take_off_long(const std::vector<std::uint32_t>& long_faces, double
     for (int round = 0; round < kRounds && !long_faces.empty(); ++round) {
         const LocalEdges edges(boundary_.positions, boundary_.faces, keep_);
         const SurfaceNormals normals(boundary_.positions, boundary_.faces, edges);
-        const auto turns_off = [&](std::uint32_t face) {
-            return is_open_at(face) && !goes_on(face, normals) && is_vast(face, long_edge);
+        const auto is_sheet = [&](std::uint32_t face) {
+            if (goes_on(face, normals)) return is_seen_less_than(kNothing, face);
+            return (is_open_at(face) && is_vast(face, long_edge)) ||
+                   is_seen_less_than(kMostly, face);
         };
         const std::vector<std::uint32_t> sheets = those_that(long_faces, [&](std::uint32_t face) {
-            return keep_[face] != 0 && (turns_off(face) || is_seen_less_than(kMostly, face)) &&
-                   may_go(face);
+            return keep_[face] != 0 && is_sheet(face) && may_go(face);
         });
         take_off(sheets);
         if (sheets.empty()) break;
@@ -166,15 +177,14 @@ std::vector<std::uint32_t> Peeling::faces_around(const std::vector<std::uint32_t
     return around;
 }
 
-void Peeling::take_off_hardly_seen()
+void Peeling::take_off_unseen()
 {
-    constexpr double kHardly = 0.25; // one place of seven, two of ten
     auto gone = parallel_collect<std::uint32_t>(keep_.size(), [&](std::size_t face, auto& found) {
         if (keep_[face] == 0) found.push_back(static_cast<std::uint32_t>(face));
     });
     for (int round = 0; round < kRounds && !gone.empty(); ++round) {
         gone = those_that(faces_around(gone), [&](std::uint32_t face) {
-            return is_open_at(face) && is_seen_less_than(kHardly, face) && may_go(face);
+            return is_open_at(face) && is_seen_less_than(kNothing, face) && may_go(face);
         });
         take_off(gone);
     }
@@ -192,7 +202,7 @@ std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& 
     if (long_faces.empty() && std::ranges::count(keep, 0) == 0) return 0; // there is no rim
     Peeling peeling(boundary, facets, visibility, keep);
     peeling.take_off_long(long_faces, long_edge);
-    peeling.take_off_hardly_seen();
+    peeling.take_off_unseen();
     return peeling.peeled();
 }
 

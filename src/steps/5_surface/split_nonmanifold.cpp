@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "geometry/predicates.h"
+#include "mesh/add_vertex.h"
 #include "mesh/fans.h"
 
 #include <Eigen/Geometry>
@@ -140,16 +141,6 @@ Crowd sew_edges(SewnSoup& soup)
     return crowd;
 }
 
-/// Adds a vertex with the attributes of `original`.
-std::uint32_t add_copy(TriMesh& mesh, std::uint32_t original)
-{
-    const auto copy = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.push_back(Vector3d(mesh.positions[original]));
-    if (!mesh.colors.empty()) mesh.colors.push_back(Color(mesh.colors[original]));
-    if (!mesh.points.empty()) mesh.points.push_back(std::uint32_t(mesh.points[original]));
-    return copy;
-}
-
 /// The corners of vertices whose corners do not all hang together through seams, ascending.
 std::vector<HalfEdge> corners_to_separate(const SewnSoup& soup)
 {
@@ -189,18 +180,6 @@ std::int64_t separate_vertices(SewnSoup& soup)
         });
     }
     return static_cast<std::int64_t>(split.size());
-}
-
-std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b)
-{
-    const std::uint32_t middle = add_copy(mesh, a);
-    mesh.positions[middle] = mesh.positions[a] + (mesh.positions[b] - mesh.positions[a]) / 2;
-    for (std::size_t i = 0; i < 3 && !mesh.colors.empty(); ++i) {
-        mesh.colors[middle][i] =
-            static_cast<std::uint8_t>((mesh.colors[a][i] + mesh.colors[b][i] + 1) / 2);
-    }
-    if (!mesh.points.empty()) mesh.points[middle] = kNoPoint;
-    return middle;
 }
 
 /// Splits a face a b c at `middle`, a point of its half-edge a -> b, into a middle c, which keeps

@@ -1,0 +1,88 @@
+#include "mesh/edge_halving.h"
+
+#include "mesh/add_vertex.h"
+
+#include <Eigen/Core>
+
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+/// A face with another vertex instead of one of its own.
+Face with(Face face, std::uint32_t corner, std::uint32_t other)
+{
+    std::ranges::replace(face, corner, other);
+    return face;
+}
+
+} // namespace
+
+std::array<std::uint32_t, 2> longest_edge_of(std::span<const Eigen::Vector3d> positions,
+                                             const Face& face)
+{
+    constexpr double kEqual = 1.0 - 1e-9; // but for rounding
+    const auto squared_length = [&](std::size_t i) {
+        return (positions[face[i]] - positions[face[(i + 1) % 3]]).squaredNorm();
+    };
+    const double longest = std::max({squared_length(0), squared_length(1), squared_length(2)});
+    std::array<std::uint32_t, 2> found = {face[0], face[0]};
+    bool is_found = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (squared_length(i) < kEqual * longest) continue;
+        const auto [a, b] = std::minmax(face[i], face[(i + 1) % 3]);
+        const std::array edge = {a, b};
+        if (!is_found || edge < found) found = edge;
+        is_found = true;
+    }
+    return found;
+}
+
+EdgeHalving::EdgeHalving(TriMesh& mesh, const FaceFlags& flags)
+    : mesh_(mesh), faces_at_(mesh.faces, mesh.positions.size(), flags)
+{
+}
+
+std::vector<EdgeHalving::HalvedFace> EdgeHalving::halve(std::uint32_t a, std::uint32_t b)
+{
+    Halving halving = {{a, b}, add_midpoint(mesh_, a, b), {}, {}};
+    std::vector<std::uint32_t> at_middle;
+    std::vector<std::uint32_t> at_b(faces_at_[b].begin(), faces_at_[b].end());
+    for (const std::uint32_t face : faces_at_[a]) {
+        const Face whole = mesh_.faces[face];
+        if (std::ranges::count(whole, b) == 0) continue;
+        const auto other_half = static_cast<std::uint32_t>(mesh_.faces.size());
+        mesh_.faces[face] = with(whole, b, halving.middle);
+        mesh_.faces.push_back(with(whole, a, halving.middle));
+        at_middle.insert(at_middle.end(), {face, other_half});
+        std::ranges::replace(at_b, face, other_half);
+        const std::uint32_t across = *std::ranges::find_if(
+            whole, [&](std::uint32_t corner) { return corner != a && corner != b; });
+        std::vector<std::uint32_t> at_across(faces_at_[across].begin(), faces_at_[across].end());
+        at_across.push_back(other_half);
+        faces_at_.replace(across, std::move(at_across));
+        halving.halved.push_back({face, other_half});
+        halving.whole.push_back(whole);
+    }
+    faces_at_.replace(b, std::move(at_b));
+    faces_at_.replace(halving.middle, std::move(at_middle));
+    done_.push_back(std::move(halving));
+    return done_.back().halved;
+}
+
+/// Whether a halving's halves are what it made of them.
+bool EdgeHalving::is_as_left(const Halving& halving) const
+{
+    const auto [a, b] = halving.edge;
+    for (std::size_t i = 0; i < halving.halved.size(); ++i) {
+        const Face& whole = halving.whole[i];
+        if (mesh_.faces[halving.halved[i].face] != with(whole, b, halving.middle) ||
+            mesh_.faces[halving.halved[i].other_half] != with(whole, a, halving.middle)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace vcarve

@@ -1,0 +1,199 @@
+#include "steps/5_surface/trim.h"
+
+#include "base/parallel.h"
+#include "geometry/triangle.h"
+#include "mesh/edge_halving.h"
+#include "steps/1_points/looked_at_ball.h"
+#include "steps/5_surface/holes_beside.h"
+#include "steps/5_surface/onlookers.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// How much views see of a piece.
+enum class Seen : std::uint8_t { none, part, all };
+
+/// Trims the faces of a boundary.
+class Trimming {
+  public:
+    Trimming(TriMesh& boundary, const std::vector<CellFacet>& facets,
+             const FaceVisibility& visibility, double long_edge, FaceFlags& keep)
+        : boundary_(boundary),
+          facets_(facets),
+          visibility_(visibility),
+          long_edge_(long_edge),
+          keep_(keep),
+          whole_(keep),
+          onlookers_(visibility, facets, whole_),
+          halving_(boundary, keep),
+          origins_(keep.size() - facets.size(), kNoOrigin)
+    {
+    }
+
+    /// Takes the flags off the pieces of faces that no view sees, and divides no more than that
+    /// asks for. Returns how many faces lost a piece.
+    std::int64_t trim(std::vector<std::uint32_t> faces);
+
+  private:
+    static constexpr std::uint32_t kNoOrigin = 0xffffffffU; ///< of what fills holes
+
+    std::array<Vector3d, 3> corners_of(std::uint32_t face) const
+    {
+        const auto& [a, b, c] = boundary_.faces[face];
+        return {boundary_.positions[a], boundary_.positions[b], boundary_.positions[c]};
+    }
+    /// The face of the boundary that a face is, or is a piece of.
+    std::uint32_t origin_of(std::uint32_t face) const
+    {
+        return face < facets_.size() ? face : origins_[face - facets_.size()];
+    }
+
+    Seen seen_of(std::uint32_t piece) const;
+    bool is_short(std::uint32_t piece) const;
+    std::vector<std::uint32_t> halve(const std::vector<std::uint32_t>& pieces);
+    void join_halves();
+
+    TriMesh& boundary_;
+    const std::vector<CellFacet>& facets_;
+    const FaceVisibility& visibility_;
+    double long_edge_;
+    FaceFlags& keep_;
+    const FaceFlags whole_; ///< what was kept before, which hides what is behind it
+    Onlookers onlookers_;
+    EdgeHalving halving_;
+    std::vector<std::uint32_t> origins_; ///< of the faces that were added
+};
+
+Seen Trimming::seen_of(std::uint32_t piece) const
+{
+    const CellFacet& facet = facets_[origin_of(piece)];
+    const std::vector<Vector3d> places = places_on(corners_of(piece));
+    const auto is_seen = [&](const Vector3d& place) {
+        return onlookers_.see_or_graze(facet, place);
+    };
+    const bool first = is_seen(places[0]);
+    const bool is_same_everywhere =
+        std::ranges::all_of(places.begin() + 1, places.end(),
+                            [&](const Vector3d& place) { return is_seen(place) == first; });
+    if (!is_same_everywhere) return Seen::part;
+    return first ? Seen::all : Seen::none;
+}
+
+/// Whether a piece is not worth halving.
+bool Trimming::is_short(std::uint32_t piece) const
+{
+    constexpr double kShort = 0.25;
+    constexpr double kSmallPart = 0.07; // of the longest edge of the whole face; no power of 1/2
+    const double whole = longest_edge(visibility_.corners_of(facets_[origin_of(piece)]));
+    return longest_edge(corners_of(piece)) <= std::max(kShort * long_edge_, kSmallPart * whole);
+}
+
+/// Halves pieces at their longest edges, and whatever else is at these. Returns the halves of the
+/// pieces, ascending.
+std::vector<std::uint32_t> Trimming::halve(const std::vector<std::uint32_t>& pieces)
+{
+    std::set<std::uint32_t> whole(pieces.begin(), pieces.end());
+    std::set<std::uint32_t> halves;
+    for (const std::uint32_t piece : pieces) {
+        if (!whole.contains(piece)) continue; // halved along with another
+        const auto [a, b] = longest_edge_of(boundary_.positions, boundary_.faces[piece]);
+        for (const auto& [face, other_half] : halving_.halve(a, b)) {
+            keep_.push_back(std::uint8_t(keep_[face]));
+            origins_.push_back(origin_of(face));
+            if (whole.erase(face) > 0 || halves.contains(face)) halves.insert({face, other_half});
+        }
+    }
+    return {halves.begin(), halves.end()};
+}
+
+/// Joins halves again that are both kept or both not.
+void Trimming::join_halves()
+{
+    const auto gone = halving_.take_back(
+        [&](std::uint32_t face, std::uint32_t other) { return keep_[face] == keep_[other]; });
+    FaceFlags is_gone(boundary_.faces.size(), 0);
+    for (const std::uint32_t face : gone) {
+        is_gone[face] = 1;
+    }
+    std::size_t left = facets_.size(); // none of the faces before was added
+    for (std::size_t face = left; face < boundary_.faces.size(); ++face) {
+        if (is_gone[face] != 0) continue;
+        boundary_.faces[left] = boundary_.faces[face];
+        keep_[left] = keep_[face];
+        origins_[left - facets_.size()] = origins_[face - facets_.size()];
+        ++left;
+    }
+    boundary_.faces.resize(left);
+    keep_.resize(left);
+    origins_.resize(left - facets_.size());
+}
+
+std::int64_t Trimming::trim(std::vector<std::uint32_t> faces)
+{
+    for (std::vector<std::uint32_t>& pieces = faces; !pieces.empty();) {
+        std::vector<Seen> seen(pieces.size());
+        parallel_for(
+            pieces.size(), [&](std::size_t i) { seen[i] = seen_of(pieces[i]); }, 4);
+        std::vector<std::uint32_t> mixed;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (seen[i] == Seen::none) keep_[pieces[i]] = 0;
+            if (seen[i] == Seen::part && !is_short(pieces[i])) mixed.push_back(pieces[i]);
+        }
+        pieces = halve(mixed);
+    }
+    join_halves();
+    std::set<std::uint32_t> trimmed; // what fills holes stays
+    for (std::uint32_t face = 0; face < keep_.size(); ++face) {
+        if (keep_[face] == 0 && whole_[origin_of(face)] != 0) trimmed.insert(origin_of(face));
+    }
+    return static_cast<std::int64_t>(trimmed.size());
+}
+
+} // namespace
+
+namespace {
+
+/// The corners of the faces from a number on.
+std::vector<std::array<Vector3d, 3>> triangles_from(std::size_t first, const TriMesh& mesh)
+{
+    std::vector<std::array<Vector3d, 3>> triangles;
+    for (std::size_t face = first; face < mesh.faces.size(); ++face) {
+        const auto& [a, b, c] = mesh.faces[face];
+        triangles.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
+    }
+    return triangles;
+}
+
+} // namespace
+
+TrimmedFaces trim_faces(TriMesh& boundary, const std::vector<CellFacet>& facets,
+                        const FaceVisibility& visibility, const TrimRules& rules, FaceFlags& keep)
+{
+    constexpr double kLarge = 0.5;
+    TrimmedFaces trimmed;
+    if (rules.options.sheets.max_sheet == 0.0) return trimmed;
+    const double long_edge =
+        rules.options.sheets.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
+    auto large = parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t face, auto& found) {
+        if (keep[face] == 0 || rules.unseen[face] != 0) return;
+        if (longest_edge(boundary.positions, boundary.faces[face]) < kLarge * long_edge) return;
+        found.push_back(static_cast<std::uint32_t>(face));
+    });
+    std::erase_if(large,
+                  [&](std::uint32_t face) { return !visibility.is_told_by_images(facets[face]); });
+    if (large.empty()) return trimmed;
+    fill_holes_beside(large, rules.options.cleanup.max_hole_edges, boundary, keep);
+    trimmed.filled = triangles_from(facets.size(), boundary);
+    trimmed.count = Trimming(boundary, facets, visibility, long_edge, keep).trim(std::move(large));
+    return trimmed;
+}
+
+} // namespace vcarve

@@ -1,0 +1,527 @@
+#include "geometry/triangle.h"
+#include "mesh/check.h"
+#include "steps/1_points/looked_at_ball.h"
+#include "steps/5_surface/onlookers.h"
+#include "steps/5_surface/trim.h"
+#include "support/made_cells.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using testing::aim;
+using testing::LabelledScene;
+
+/// Three corners of a base at height 0, which faces down, and an apex above it. The first two are
+/// the ends of the longest edge.
+const std::array<Vector3d, 4> kTent = {Vector3d(-4, -3, 0), Vector3d(5, -2, 0), Vector3d(-1, 4, 0),
+                                       Vector3d(0.1, -0.2, 3)};
+const double kLongest = std::sqrt(82.0); ///< of the edges of a tent
+const Vector3d kAside{40, 3, 0};         ///< where the second tent stands
+
+/// A view that looks straight up. At focal length 500 an image reaches 0.64 times the distance to
+/// the sides, and 0.48 times up and down.
+struct Eye {
+    Vector3d center;
+    double focal = 500.0;
+};
+
+/// Two tents far from each other, and a smaller one below the first if wanted. A view above sees
+/// the sides of both whole. Only this one saw their points, so that of the bases nothing tells but
+/// the images of the other views, which come after it. Of the third nobody saw a point.
+Scene tents(const std::vector<Eye>& eyes, bool has_third)
+{
+    std::vector<MadePoint> points;
+    for (const Vector3d& place : {Vector3d(0, 0, 0), kAside}) {
+        for (const Vector3d& corner : kTent) {
+            points.push_back({corner + place, {0}});
+        }
+    }
+    if (has_third) {
+        for (const Vector3d& corner : kTent) {
+            points.push_back({0.4 * corner + Vector3d(0.2, -0.6, -10), {}});
+        }
+    }
+    for (const double x : {-60.0, 100.0}) {
+        for (const double y : {-61.0, 70.0}) {
+            points.push_back({{x, y, -80.0}, {}});
+            points.push_back({{x, y, 85.0}, {}});
+        }
+    }
+    std::vector<Vector3d> centers = {{20, 1, 60}};
+    for (const Eye& eye : eyes) {
+        centers.push_back(eye.center);
+    }
+    Scene scene = make_scene(centers, points);
+    scene.cameras[0].params = {60.0, 60.0, 320.0, 240.0};
+    aim(scene.views[0], {20, 1, 0});
+    for (std::size_t i = 0; i < eyes.size(); ++i) {
+        scene.cameras.push_back(scene.cameras[0]);
+        scene.cameras.back().params = {eyes[i].focal, eyes[i].focal, 320.0, 240.0};
+        scene.views[i + 1].camera = static_cast<std::uint32_t>(i + 1);
+    }
+    return scene;
+}
+
+/// A piece of a face after trimming.
+struct Piece {
+    std::size_t origin;
+    std::array<Vector3d, 3> corners;
+    bool is_kept;
+};
+
+/// Whether a place on the plane of a triangle lies on the triangle, but for rounding.
+bool lies_on(const std::array<Vector3d, 3>& corners, const Vector3d& place, double slack = 1e-9)
+{
+    const Vector3d normal = scaled_normal(corners[0], corners[1], corners[2]);
+    if (std::abs(normal.normalized().dot(place - corners[0])) > 1e-9) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector3d& a = corners[i];
+        const Vector3d& b = corners[(i + 1) % 3];
+        if (scaled_normal(a, b, place).dot(normal) < -slack * normal.squaredNorm()) return false;
+    }
+    return true;
+}
+
+Vector3d middle_of(const std::array<Vector3d, 3>& corners)
+{
+    return (corners[0] + corners[1] + corners[2]) / 3.0;
+}
+
+struct Tents {
+    explicit Tents(const std::vector<Eye>& eyes, bool has_third = false)
+        : Tents(tents(eyes, has_third), has_third)
+    {
+    }
+    Tents(Scene scene, bool has_third)
+        : made(std::move(scene),
+               [&](const TetMesh& mesh) {
+                   Labels labels(mesh.cells.size(), Label::outside);
+                   labels.at(testing::cell_of(mesh, {0, 1, 2, 3})) = Label::inside;
+                   labels.at(testing::cell_of(mesh, {4, 5, 6, 7})) = Label::inside;
+                   if (has_third) {
+                       labels.at(testing::cell_of(mesh, {8, 9, 10, 11})) = Label::inside;
+                   }
+                   return labels;
+               }),
+          boundary(made.surface),
+          keep(made.facets.size(), 1),
+          unseen(made.facets.size(), 0)
+    {
+    }
+
+    /// The face over these points of the scene.
+    std::size_t face_of(const std::array<Index, 3>& points) const
+    {
+        const auto face = std::ranges::find_if(made.corners, [&](const Face& corners) {
+            return std::ranges::is_permutation(corners, points);
+        });
+        EXPECT_NE(face, made.corners.end());
+        return static_cast<std::size_t>(face - made.corners.begin());
+    }
+    std::size_t base() const { return face_of({0, 1, 2}); }
+    std::size_t base_aside() const { return face_of({4, 5, 6}); }
+
+    /// Trims where the length that max_sheet stands for is this one.
+    std::int64_t trim(double long_edge, int max_hole_edges = 12)
+    {
+        SurfaceOptions options;
+        options.sheets.max_sheet = long_edge / 2.0 / looked_at_ball(made.scene).radius;
+        options.cleanup.max_hole_edges = max_hole_edges;
+        kept_before = keep;
+        const TrimmedFaces trimmed =
+            trim_faces(boundary, made.facets, made.visibility, {unseen, options}, keep);
+        filled = trimmed.filled;
+        return trimmed.count;
+    }
+    bool is_as_before() const
+    {
+        return boundary.faces == made.surface.faces && keep == kept_before;
+    }
+
+    std::array<Vector3d, 3> corners_of(const Face& face) const
+    {
+        return {boundary.positions[face[0]], boundary.positions[face[1]],
+                boundary.positions[face[2]]};
+    }
+    std::array<Vector3d, 3> whole(std::size_t face) const
+    {
+        return made.visibility.corners_of(made.facets[face]);
+    }
+    /// All faces with the ones they are pieces of.
+    std::vector<Piece> pieces() const
+    {
+        std::vector<Piece> found;
+        for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
+            const auto corners = corners_of(boundary.faces[i]);
+            for (std::size_t origin = 0; origin < made.facets.size(); ++origin) {
+                if (lies_on(whole(origin), middle_of(corners)))
+                    found.push_back({origin, corners, keep[i] != 0});
+            }
+        }
+        return found;
+    }
+    double area(std::size_t face, std::optional<bool> is_kept = {}) const
+    {
+        double sum = 0.0;
+        for (const Piece& piece : pieces()) {
+            const auto& [a, b, c] = piece.corners;
+            if (piece.origin == face && (!is_kept || piece.is_kept == *is_kept))
+                sum += triangle_area(a, b, c);
+        }
+        return sum;
+    }
+    double whole_area(std::size_t face) const
+    {
+        const auto [a, b, c] = whole(face);
+        return triangle_area(a, b, c);
+    }
+    /// Whether a view sees a place on a face, with what was kept before in between.
+    bool is_seen(std::size_t face, const Vector3d& place) const
+    {
+        const Onlookers onlookers(made.visibility, made.facets, kept_before);
+        return onlookers.see_or_graze(made.facets[face], place);
+    }
+    std::int64_t places_seen(const Piece& piece) const
+    {
+        return std::ranges::count_if(places_on(piece.corners), [&](const Vector3d& place) {
+            return is_seen(piece.origin, place);
+        });
+    }
+
+    LabelledScene made;
+    TriMesh boundary;
+    FaceFlags keep;
+    FaceFlags unseen;
+    FaceFlags kept_before;
+    std::vector<std::array<Vector3d, 3>> filled;
+};
+
+/// Many places spread evenly over a triangle.
+std::vector<Vector3d> many_places_on(const std::array<Vector3d, 3>& corners)
+{
+    constexpr int kToASide = 90;
+    const auto& [a, b, c] = corners;
+    std::vector<Vector3d> places;
+    for (int i = 0; i < kToASide; ++i) {
+        for (int j = 0; i + j < kToASide; ++j) {
+            const double u = (i + 1.0 / 3.0) / kToASide;
+            const double v = (j + 1.0 / 3.0) / kToASide;
+            places.emplace_back(a + u * (b - a) + v * (c - a));
+        }
+    }
+    return places;
+}
+
+/// What shows all of the second base.
+const Eye kShowsAside{Vector3d(0, 0, -30) + kAside};
+
+/// The image ends on the first base.
+Tents half_shown()
+{
+    return Tents({{{-4, -1.5, -7}}, kShowsAside});
+}
+
+/// All is shown of the bases, but the third tent hides part of the first.
+Tents half_hidden()
+{
+    return Tents({{{-0.6, -1.5, -30}}, kShowsAside}, true);
+}
+
+/// How much views see of a face, and how much of that was taken away.
+struct SeenArea {
+    double seen = 0.0;
+    double lost = 0.0;
+};
+
+SeenArea seen_area(const Tents& tents, std::size_t face)
+{
+    const std::vector<Piece> pieces = tents.pieces();
+    const std::vector<Vector3d> places = many_places_on(tents.whole(face));
+    const double each = tents.whole_area(face) / static_cast<double>(places.size());
+    SeenArea area;
+    for (const Vector3d& place : places) {
+        if (!tents.is_seen(face, place)) continue;
+        area.seen += each;
+        const bool lies_on_kept = std::ranges::any_of(pieces, [&](const Piece& piece) {
+            return piece.origin == face && piece.is_kept && lies_on(piece.corners, place);
+        });
+        if (!lies_on_kept) area.lost += each;
+    }
+    return area;
+}
+
+/// Fails unless the pieces of each face make it up, and no vertex lies inside an edge.
+void expect_whole(const Tents& tents)
+{
+    const std::vector<Piece> pieces = tents.pieces();
+    EXPECT_EQ(pieces.size(), tents.boundary.faces.size()) << "each lies on one face";
+    for (const Piece& piece : pieces) {
+        for (const Vector3d& corner : piece.corners) {
+            EXPECT_TRUE(lies_on(tents.whole(piece.origin), corner));
+        }
+        const auto& [a, b, c] = piece.corners;
+        const auto& [p, q, r] = tents.whole(piece.origin);
+        EXPECT_GT(scaled_normal(a, b, c).dot(scaled_normal(p, r, q)), 0.0);
+    }
+    for (std::size_t face = 0; face < tents.made.facets.size(); ++face) {
+        EXPECT_NEAR(tents.area(face), tents.whole_area(face), 1e-9) << "face " << face;
+    }
+    const MeshCheck check = check_mesh(tents.boundary);
+    EXPECT_TRUE(check.is_closed());
+    EXPECT_TRUE(check.is_manifold());
+    EXPECT_EQ(check.orientation_faults, 0);
+    EXPECT_EQ(tents.keep.size(), tents.boundary.faces.size());
+}
+
+/// How many faces lost a piece.
+std::int64_t faces_that_lost(const Tents& tents)
+{
+    std::set<std::size_t> found;
+    for (const Piece& piece : tents.pieces()) {
+        if (!piece.is_kept) found.insert(piece.origin);
+    }
+    return static_cast<std::int64_t>(found.size());
+}
+
+TEST(TrimFaces, KeepsWhatAnImageShows)
+{
+    // Pieces end within a quarter of the length, or 0.07 times that of the face, of what is seen.
+    for (const auto& [long_edge, most_more] : {std::pair(4.0, 2.0), std::pair(1.0, 1.1)}) {
+        Tents tents = half_shown();
+        EXPECT_EQ(tents.trim(long_edge), 1);
+        expect_whole(tents);
+        const SeenArea area = seen_area(tents, tents.base());
+        ASSERT_GT(area.seen, 0.4 * tents.whole_area(tents.base()));
+        ASSERT_LT(area.seen, 0.6 * tents.whole_area(tents.base()));
+        EXPECT_EQ(area.lost, 0.0);
+        EXPECT_GT(tents.area(tents.base(), true), area.seen);
+        EXPECT_LT(tents.area(tents.base(), true), area.seen + most_more);
+    }
+}
+
+TEST(TrimFaces, KeepsWhatIsNotHidden)
+{
+    for (const auto& [long_edge, most_more] : {std::pair(4.0, 2.5), std::pair(1.0, 2.2)}) {
+        Tents tents = half_hidden();
+        tents.trim(long_edge);
+        expect_whole(tents);
+        const SeenArea area = seen_area(tents, tents.base());
+        ASSERT_GT(area.seen, 0.6 * tents.whole_area(tents.base()));
+        ASSERT_LT(area.seen, 0.7 * tents.whole_area(tents.base()));
+        EXPECT_LT(area.lost, 0.002 * area.seen) << "between the places that are asked about";
+        EXPECT_GT(tents.area(tents.base(), true), area.seen);
+        EXPECT_LT(tents.area(tents.base(), true), area.seen + most_more);
+    }
+}
+
+TEST(TrimFaces, KeepsThePiecesThatAreSeenAndNoOthers)
+{
+    // Of halves that went and were joined, one place may be seen between those of the halves.
+    constexpr int kBetween = 1;
+    for (const bool is_hidden : {false, true}) {
+        for (const double long_edge : {1.0, 4.0, 12.0}) {
+            Tents tents = is_hidden ? half_hidden() : half_shown();
+            tents.trim(long_edge);
+            for (const Piece& piece : tents.pieces()) {
+                if (longest_edge(tents.whole(piece.origin)) < 0.5 * long_edge) continue;
+                const auto seen = tents.places_seen(piece);
+                EXPECT_TRUE(piece.is_kept ? seen > 0 : seen <= kBetween)
+                    << middle_of(piece.corners).transpose() << " at " << long_edge;
+            }
+        }
+    }
+}
+
+TEST(TrimFaces, CountsTheFacesThatLostAPiece)
+{
+    Tents tents = half_hidden();
+    const std::int64_t count = tents.trim(1.0);
+    EXPECT_EQ(count, faces_that_lost(tents));
+    EXPECT_EQ(count, 4) << "the base, and the sides of the tent below, which the first one hides";
+}
+
+TEST(TrimFaces, TakesFacesThatNoViewSeesWhole)
+{
+    Tents tents({kShowsAside});
+    EXPECT_EQ(tents.trim(1.0), 1);
+    EXPECT_EQ(tents.boundary.faces, tents.made.surface.faces);
+    FaceFlags expected(tents.made.facets.size(), 1);
+    expected[tents.base()] = 0;
+    EXPECT_EQ(tents.keep, expected);
+}
+
+TEST(TrimFaces, LeavesFacesThatAreSeenWhole)
+{
+    Tents tents = half_shown();
+    tents.trim(1.0);
+    const auto sides_and_base = {tents.face_of({4, 5, 7}), tents.face_of({5, 6, 7}),
+                                 tents.face_of({4, 6, 7}), tents.base_aside()};
+    for (const std::size_t face : sides_and_base) {
+        EXPECT_EQ(tents.boundary.faces[face], tents.made.surface.faces[face]);
+        EXPECT_EQ(tents.keep[face], 1);
+        EXPECT_EQ(std::ranges::count_if(tents.pieces(),
+                                        [&](const Piece& piece) { return piece.origin == face; }),
+                  1);
+    }
+    // Beside the base they are halved along, and all pieces stay.
+    for (const std::size_t face :
+         {tents.face_of({0, 1, 3}), tents.face_of({1, 2, 3}), tents.face_of({0, 2, 3})}) {
+        EXPECT_NEAR(tents.area(face, true), tents.whole_area(face), 1e-9);
+    }
+}
+
+TEST(TrimFaces, LeavesFacesThatAreKeptUnseen)
+{
+    Tents tents = half_shown();
+    tents.unseen[tents.base()] = 1;
+    EXPECT_EQ(tents.trim(1.0), 0);
+    EXPECT_TRUE(tents.is_as_before());
+}
+
+TEST(TrimFaces, LeavesFacesThatAreNotKept)
+{
+    Tents tents = half_shown();
+    tents.keep[tents.base()] = 0;
+    EXPECT_EQ(tents.trim(1.0, 0), 0);
+    EXPECT_TRUE(tents.is_as_before());
+}
+
+TEST(TrimFaces, LeavesAllWhereNotAsked)
+{
+    Tents tents = half_shown();
+    EXPECT_EQ(tents.trim(0.0), 0);
+    EXPECT_TRUE(tents.is_as_before());
+    EXPECT_EQ(tents.boundary.positions.size(), tents.made.surface.positions.size());
+}
+
+TEST(TrimFaces, LeavesFacesShorterThanHalfTheLength)
+{
+    Tents tents = half_shown();
+    EXPECT_EQ(tents.trim(2.0 * kLongest * 1.01), 0);
+    EXPECT_TRUE(tents.is_as_before());
+    EXPECT_EQ(tents.trim(2.0 * kLongest * 0.99), 1);
+    EXPECT_FALSE(tents.is_as_before());
+}
+
+TEST(TrimFaces, LeavesFacesOfWhichImagesDoNotTell)
+{
+    // The view saw the corners of the base, of which its image shows but two.
+    Scene scene = tents({{{-4, -1.5, -7}}, kShowsAside}, false);
+    Tracks tracks;
+    for (Index point = 0; point < scene.num_points(); ++point) {
+        const std::vector<std::uint32_t> both = {0, 1};
+        tracks.push_back(point < 3 ? std::span(both) : scene.tracks[point]);
+    }
+    scene.tracks = std::move(tracks);
+    Tents tents(std::move(scene), false);
+    EXPECT_EQ(tents.trim(1.0), 0);
+    EXPECT_TRUE(tents.is_as_before());
+}
+
+TEST(TrimFaces, KeepsWhatAViewGrazes)
+{
+    Scene scene = tents({{{15, 0, -0.5}}, kShowsAside}, false); // 88 degrees off the normal
+    aim(scene.views[1], {0, 0, 0});
+    Tents tents(std::move(scene), false);
+    const Vector3d middle = middle_of(tents.whole(tents.base()));
+    ASSERT_FALSE(tents.made.visibility.sees(1, tents.made.facets[tents.base()], middle));
+    EXPECT_EQ(tents.trim(1.0), 0);
+    EXPECT_TRUE(tents.is_as_before());
+}
+
+TEST(TrimFaces, LooksThroughWhatIsNotKept)
+{
+    Tents tents = half_hidden();
+    for (const Face& face : {Face{8, 9, 10}, Face{8, 9, 11}, Face{8, 10, 11}, Face{9, 10, 11}}) {
+        tents.keep[tents.face_of(face)] = 0;
+    }
+    EXPECT_EQ(tents.trim(1.0), 0);
+    EXPECT_TRUE(tents.is_as_before());
+}
+
+TEST(TrimFaces, AddsVerticesThatAreNoPoints)
+{
+    Tents tents = half_shown();
+    tents.trim(1.0);
+    const TriMesh& before = tents.made.surface;
+    const std::size_t first = before.positions.size();
+    ASSERT_GT(tents.boundary.positions.size(), first);
+    ASSERT_EQ(tents.boundary.points.size(), tents.boundary.positions.size());
+    ASSERT_EQ(tents.boundary.colors.size(), tents.boundary.positions.size());
+    for (std::size_t vertex = 0; vertex < tents.boundary.points.size(); ++vertex) {
+        EXPECT_EQ(tents.boundary.points[vertex], vertex < first ? before.points[vertex] : kNoPoint);
+    }
+}
+
+TEST(TrimFaces, JoinsPiecesAgainThatAreAllKept)
+{
+    // Not seen is the tip beyond x = 3.3, but of no piece all places lie there: the last is that
+    // with corners (5, -2), (2, 1) and (2.75, -2.25), whose longest edge is 4.24.
+    Tents tents({{{3.3 - 0.64 * 12, 0.5, -12}}, kShowsAside});
+    EXPECT_EQ(tents.trim(17.5), 0);
+    EXPECT_TRUE(tents.is_as_before());
+    EXPECT_GT(tents.boundary.positions.size(), tents.made.surface.positions.size())
+        << "it was halved";
+}
+
+TEST(TrimFaces, HalvesToASixteenthAtMost)
+{
+    Tents fine = half_shown();
+    fine.trim(1.0);
+    Tents finest = half_shown();
+    finest.trim(0.1);
+    EXPECT_EQ(finest.boundary.faces, fine.boundary.faces);
+    EXPECT_EQ(finest.keep, fine.keep);
+}
+
+TEST(TrimFaces, FillsHolesBesideBefore)
+{
+    Tents tents = half_shown();
+    const std::size_t side = tents.face_of({0, 1, 3}); // at the edge of the base that is divided
+    tents.keep[side] = 0;
+    EXPECT_EQ(tents.trim(1.0), 1) << "what fills it is no face that lost something";
+    ASSERT_EQ(tents.filled.size(), 1U);
+    EXPECT_TRUE(std::ranges::is_permutation(tents.filled[0], tents.whole(side)));
+    EXPECT_NEAR(tents.area(side, true), tents.whole_area(side), 1e-9);
+    EXPECT_EQ(tents.keep[side], 0);
+    TriMesh rest = tents.boundary;
+    rest.faces.erase(rest.faces.begin() + static_cast<std::ptrdiff_t>(side));
+    EXPECT_TRUE(check_mesh(rest).is_closed()) << "what fills it is halved along";
+    EXPECT_EQ(check_mesh(rest).orientation_faults, 0);
+}
+
+TEST(TrimFaces, FillsNoHolesOfMoreEdges)
+{
+    Tents tents = half_shown();
+    const std::size_t side = tents.face_of({0, 1, 3});
+    tents.keep[side] = 0;
+    EXPECT_EQ(tents.trim(1.0, 2), 1);
+    EXPECT_TRUE(tents.filled.empty());
+    EXPECT_EQ(tents.area(side, true), 0.0);
+}
+
+TEST(TrimFaces, IsTheSameFromOneThreadAndTwo)
+{
+    const auto by = [&](int threads) {
+        Tents tents = half_hidden();
+        testing::with_threads(threads, [&] { return tents.trim(1.0); });
+        return std::pair(tents.boundary.faces, tents.keep);
+    };
+    EXPECT_EQ(by(1), by(2));
+}
+
+} // namespace
+} // namespace vcarve
