@@ -209,22 +209,6 @@ struct Tents {
     std::vector<std::array<Vector3d, 3>> filled;
 };
 
-/// Many places spread evenly over a triangle.
-std::vector<Vector3d> many_places_on(const std::array<Vector3d, 3>& corners)
-{
-    constexpr int kToASide = 90;
-    const auto& [a, b, c] = corners;
-    std::vector<Vector3d> places;
-    for (int i = 0; i < kToASide; ++i) {
-        for (int j = 0; i + j < kToASide; ++j) {
-            const double u = (i + 1.0 / 3.0) / kToASide;
-            const double v = (j + 1.0 / 3.0) / kToASide;
-            places.emplace_back(a + u * (b - a) + v * (c - a));
-        }
-    }
-    return places;
-}
-
 /// What shows all of the second base.
 const Eye kShowsAside{Vector3d(0, 0, -30) + kAside};
 
@@ -249,7 +233,7 @@ struct SeenArea {
 SeenArea seen_area(const Tents& tents, std::size_t face)
 {
     const std::vector<Piece> pieces = tents.pieces();
-    const std::vector<Vector3d> places = many_places_on(tents.whole(face));
+    const std::vector<Vector3d> places = grid_on(tents.whole(face), 90);
     const double each = tents.whole_area(face) / static_cast<double>(places.size());
     SeenArea area;
     for (const Vector3d& place : places) {

@@ -50,10 +50,16 @@ inline double longest_edge(const std::array<Eigen::Vector3d, 3>& corners)
     return std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
 }
 
+inline std::array<Eigen::Vector3d, 3> corners_of(std::span<const Eigen::Vector3d> positions,
+                                                 const std::array<std::uint32_t, 3>& face)
+{
+    return {positions[face[0]], positions[face[1]], positions[face[2]]};
+}
+
 inline double longest_edge(std::span<const Eigen::Vector3d> positions,
                            const std::array<std::uint32_t, 3>& face)
 {
-    return longest_edge({positions[face[0]], positions[face[1]], positions[face[2]]});
+    return longest_edge(corners_of(positions, face));
 }
 
 } // namespace vcarve

@@ -66,6 +66,20 @@ std::vector<Vector3d> places_on(const std::array<Vector3d, 3>& corners)
     return places;
 }
 
+std::vector<Vector3d> grid_on(const std::array<Vector3d, 3>& corners, int to_a_side)
+{
+    const auto& [a, b, c] = corners;
+    std::vector<Vector3d> places;
+    for (int i = 0; i < to_a_side; ++i) {
+        for (int j = 0; i + j < to_a_side; ++j) {
+            const double u = (i + 1.0 / 3.0) / to_a_side;
+            const double v = (j + 1.0 / 3.0) / to_a_side;
+            places.emplace_back(a + u * (b - a) + v * (c - a));
+        }
+    }
+    return places;
+}
+
 FaceVisibility::FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene)
     : cells_(cells), labels_(labels), scene_(scene)
 {
@@ -84,21 +98,6 @@ std::array<Vector3d, 3> FaceVisibility::corners_of(const CellFacet& facet) const
 std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
 {
     return vcarve::places_on(corners_of(facet));
-}
-
-std::vector<Vector3d> FaceVisibility::grid_on(const CellFacet& facet) const
-{
-    constexpr int kToASide = 6;
-    const auto [a, b, c] = corners_of(facet);
-    std::vector<Vector3d> places;
-    for (int i = 0; i < kToASide; ++i) {
-        for (int j = 0; i + j < kToASide; ++j) {
-            const double u = (i + 1.0 / 3.0) / kToASide;
-            const double v = (j + 1.0 / 3.0) / kToASide;
-            places.emplace_back(a + u * (b - a) + v * (c - a));
-        }
-    }
-    return places;
 }
 
 /// Whether a view stands before a facet at a place that its image shows.

@@ -27,6 +27,9 @@ bool stands_before(const Eigen::Vector3d& center, const Eigen::Vector3d& place,
 /// a long thin one also so near its corners as its shortest edge is long. At most 10.
 std::vector<Eigen::Vector3d> places_on(const std::array<Eigen::Vector3d, 3>& corners);
 
+/// Places spread evenly over a triangle, so many along each side.
+std::vector<Eigen::Vector3d> grid_on(const std::array<Eigen::Vector3d, 3>& corners, int to_a_side);
+
 /// What the views see of the boundary between inside and outside cells. A view sees a place on a
 /// boundary facet if its image shows the place, the facet turns its front, the outside, to the
 /// view, by more than a graze, and the way between them leads through outside cells only. Facets
@@ -50,9 +53,6 @@ class FaceVisibility {
 
     /// Places spread over a facet, as over any triangle.
     std::vector<Eigen::Vector3d> places_on(const CellFacet& facet) const;
-
-    /// 21 places spread evenly over a facet.
-    std::vector<Eigen::Vector3d> grid_on(const CellFacet& facet) const;
 
     /// Cost: a walk through the cells up to the view, where the view stands before the facet and
     /// its image shows the place.

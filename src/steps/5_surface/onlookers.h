@@ -68,10 +68,11 @@ class Onlookers {
     /// they see it (keypoint_density). Nothing where no keypoints are known there.
     std::optional<double> keypoints_on(const CellFacet& facet) const
     {
+        constexpr int kToASide = 6;
         const Scene& scene = visibility_.scene();
         double sum = 0.0;
         double lines = 0.0;
-        for (const Eigen::Vector3d& place : visibility_.grid_on(facet)) {
+        for (const Eigen::Vector3d& place : grid_on(visibility_.corners_of(facet), kToASide)) {
             for (std::uint32_t view = 0; view < scene.views.size(); ++view) {
                 if (!visibility_.sees_among(view, facet, place, is_kept_)) continue;
                 const View& eye = scene.views[view];

@@ -192,12 +192,17 @@ void Peeling::take_off_unseen()
 
 } // namespace
 
+double sheet_edge(const Scene& scene, const SheetOptions& options)
+{
+    return options.max_sheet * 2.0 * looked_at_ball(scene).radius;
+}
+
 std::int64_t peel_sheets(const TriMesh& boundary, const std::vector<CellFacet>& facets,
                          const FaceVisibility& visibility, const SheetOptions& options,
                          FaceFlags& keep)
 {
     if (options.max_sheet == 0.0) return 0;
-    const double long_edge = options.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
+    const double long_edge = sheet_edge(visibility.scene(), options);
     const auto long_faces = faces_with_edges_of(long_edge, boundary, keep);
     if (long_faces.empty() && std::ranges::count(keep, 0) == 0) return 0; // there is no rim
     Peeling peeling(boundary, facets, visibility, keep);

@@ -9,6 +9,10 @@
 
 namespace vcarve {
 
+/// From which length of its longest edge on a face may be a sheet: `max_sheet` times the diameter
+/// of what was looked at. Cost: as looked_at_ball().
+double sheet_edge(const Scene& scene, const SheetOptions& options);
+
 /// Takes off the sheets with which the cut closes what was looked at towards its rim: the lid over
 /// a hall without a ceiling, skirts from the edge of the ground, faces between far walls. They are
 /// seen, but nothing was seen on them. A face goes whose longest edge is over `max_sheet` times the

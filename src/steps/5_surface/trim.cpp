@@ -3,9 +3,9 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_halving.h"
-#include "steps/1_points/looked_at_ball.h"
 #include "steps/5_surface/holes_beside.h"
 #include "steps/5_surface/onlookers.h"
+#include "steps/5_surface/sheets.h"
 
 #include <algorithm>
 #include <array>
@@ -47,8 +47,7 @@ class Trimming {
 
     std::array<Vector3d, 3> corners_of(std::uint32_t face) const
     {
-        const auto& [a, b, c] = boundary_.faces[face];
-        return {boundary_.positions[a], boundary_.positions[b], boundary_.positions[c]};
+        return vcarve::corners_of(boundary_.positions, boundary_.faces[face]);
     }
     /// The face of the boundary that a face is, or is a piece of.
     std::uint32_t origin_of(std::uint32_t face) const
@@ -157,17 +156,12 @@ std::int64_t Trimming::trim(std::vector<std::uint32_t> faces)
     return static_cast<std::int64_t>(trimmed.size());
 }
 
-} // namespace
-
-namespace {
-
 /// The corners of the faces from a number on.
 std::vector<std::array<Vector3d, 3>> triangles_from(std::size_t first, const TriMesh& mesh)
 {
     std::vector<std::array<Vector3d, 3>> triangles;
     for (std::size_t face = first; face < mesh.faces.size(); ++face) {
-        const auto& [a, b, c] = mesh.faces[face];
-        triangles.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
+        triangles.push_back(corners_of(mesh.positions, mesh.faces[face]));
     }
     return triangles;
 }
@@ -180,8 +174,7 @@ TrimmedFaces trim_faces(TriMesh& boundary, const std::vector<CellFacet>& facets,
     constexpr double kLarge = 0.5;
     TrimmedFaces trimmed;
     if (rules.options.sheets.max_sheet == 0.0) return trimmed;
-    const double long_edge =
-        rules.options.sheets.max_sheet * 2.0 * looked_at_ball(visibility.scene()).radius;
+    const double long_edge = sheet_edge(visibility.scene(), rules.options.sheets);
     auto large = parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t face, auto& found) {
         if (keep[face] == 0 || rules.unseen[face] != 0) return;
         if (longest_edge(boundary.positions, boundary.faces[face]) < kLarge * long_edge) return;
