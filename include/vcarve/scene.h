@@ -37,7 +37,7 @@ struct View {
     Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the frame of Scene::positions
     /// How many keypoints lie in each cell of a grid over the image (kKeypointCells to a side, row
     /// by row), with a point or without, of some that are spread over all; empty where not known.
-    std::vector<std::uint16_t> keypoints;
+    std::vector<std::uint16_t> keypoints{};
 };
 
 /// Which views saw which point: one row of view indices per point, rows stored end to end.
