@@ -42,11 +42,11 @@ struct Measured {
 
 constexpr Measured kMeasured[] = {
     // F, blocked, unsupported, seen right, torn, open
-    {"scene", {0.8071, 0.0575, 0.0378, 0.7740, 0.0000, 0.0728}},
-    {"air", {0.7194, 0.0440, 0.0280, 0.7118, 0.0000, 0.0254}},
-    {"room", {0.6723, 0.0605, 0.0206, 0.6791, 0.0000, 0.1943}},
-    {"dense_room", {0.7197, 0.0344, 0.0248, 0.7017, 0.0001, 0.2084}, "room"},
-    {"scanned_room", {0.9069, 0.0354, 0.0136, 0.9009, 0.0000, 0.0013}, "room"},
+    {"scene", {0.8076, 0.0575, 0.0362, 0.7740, 0.0000, 0.0727}},
+    {"air", {0.7185, 0.0440, 0.0264, 0.7118, 0.0000, 0.0254}},
+    {"room", {0.6726, 0.0605, 0.0244, 0.6791, 0.0000, 0.1943}},
+    {"dense_room", {0.7200, 0.0344, 0.0234, 0.7017, 0.0001, 0.2084}, "room"},
+    {"scanned_room", {0.9072, 0.0354, 0.0130, 0.9009, 0.0000, 0.0013}, "room"},
     {"paper/cube_with_cavity", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
     {"paper/boissonnat", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
     {"paper/cubicles", {0.9902, 0.0039, 0.0000, 0.9904, 0.0000, 0.0008}},
@@ -56,7 +56,7 @@ constexpr Measured kMeasured[] = {
 /// What no fixture may exceed.
 constexpr std::pair<const char*, double> kMost[] = {
     {"/views/back_faces_seen", 0.001}, {"/views/hidden_sights", 0.002},
-    {"/views/missed_points", 0.006},   {"/views/seen_boundary_edges", 70},
+    {"/views/missed_points", 0.006},   {"/views/seen_boundary_edges", 60},
     {"/size/nonmanifold_edges", 0},    {"/size/nonmanifold_vertices", 0},
     {"/size/orientation_faults", 0},
 };

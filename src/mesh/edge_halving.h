@@ -17,8 +17,10 @@ std::array<std::uint32_t, 2> longest_edge_of(std::span<const Eigen::Vector3d> po
                                              const Face& face);
 
 /// Halves edges of a surface together with all faces at them, so that no vertex ever lies inside an
-/// edge of another face (M.-C. Rivara, "Algorithms for refining triangular grids suitable for
-/// adaptive and multigrid techniques", IJNME 1984). Keeps a reference to the mesh, which others may
+/// edge of another face. Faces are halved at their longest edges as by M.-C. Rivara ("Algorithms
+/// for refining triangular grids suitable for adaptive and multigrid techniques", IJNME 1984), but
+/// those beside at the same edge, whether it is their longest or not: no more of them than asked
+/// for, at the price of narrower ones. Keeps a reference to the mesh, which others may
 /// not change meanwhile.
 class EdgeHalving {
   public:

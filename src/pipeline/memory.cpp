@@ -5,6 +5,7 @@
 #include "steps/1_points/thin.h"
 #include "steps/2_cells/triangulate.h"
 #include "vcarve/error.h"
+#include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
 #include <fmt/format.h>
@@ -24,11 +25,11 @@ constexpr double kCellsPerPoint = 6.8;
 constexpr double kFacesPerPoint = 2.0; ///< of a closed surface through all points
 
 /// Scene: position, colour, error, id and begin of the track; a normal, where there are any; index
-/// of a view; a view with its name.
+/// of a view; a view with its name and its counts of keypoints.
 constexpr double kScenePoint = 24 + 3 + 8 + 8 + 8;
 constexpr double kSceneNormal = 12;
 constexpr double kSceneSight = 4;
-constexpr double kSceneView = 256;
+constexpr double kSceneView = 256 + kKeypointCells * kKeypointCells * sizeof(std::uint16_t);
 
 /// CGAL: a cell holds 4 vertices, 4 neighbours, its state and index; a vertex its point, a cell and
 /// its index; both with some room to grow.

@@ -44,13 +44,55 @@ FaceFlags without(const FaceFlags& keep)
     return others;
 }
 
+/// The surface of a labelling, face by face that of facets which ascend.
+struct ClosedSurface {
+    const TriMesh& surface;
+    const std::vector<CellFacet>& facets;
+    const FaceVisibility& visibility;
+};
+
+/// Which faces of a boundary are kept.
+struct Choice {
+    FaceFlags keep;
+    FaceFlags unseen; ///< not kept before rims were rounded off
+    std::int64_t sheets = 0;
+    std::int64_t cropped = 0;
+};
+
+Choice all_faces(const TriMesh& surface, const Region* region, Removals& removals)
+{
+    Choice choice;
+    choice.keep.assign(surface.faces.size(), 1);
+    if (region != nullptr) choice.cropped = leave_region(surface, *region, choice.keep);
+    removals.note(choice.keep, Removal::outside_region);
+    return choice;
+}
+
+/// Without what no view sees, and without sheets.
+Choice faces_to_keep(const ClosedSurface& boundary, const Scene& scene, const Region* region,
+                     const SurfaceOptions& options, Removals& removals)
+{
+    const auto& [surface, facets, visibility] = boundary;
+    Choice choice;
+    choice.keep = supported_faces(surface, facets, visibility, scene, options.support);
+    removals.note(choice.keep, Removal::unseen);
+    choice.unseen = without(choice.keep);
+    if (region != nullptr) choice.cropped = leave_region(surface, *region, choice.keep);
+    removals.note(choice.keep, Removal::outside_region);
+    choice.sheets = peel_sheets(surface, facets, visibility, options.sheets, choice.keep);
+    removals.note(choice.keep, Removal::sheet);
+    round_off_rims(surface, facets, visibility, choice.unseen, choice.keep);
+    if (region != nullptr) leave_region(surface, *region, choice.keep);
+    removals.note(choice.keep, Removal::outside_region);
+    return choice;
+}
+
 } // namespace
 
 SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceWishes& wishes,
                          const SurfaceOptions& options, Log& log)
 {
     Stage stage(log, "surface");
-    const Region* const region = wishes.region;
     Removals removals(wishes.removed);
     if (options.closed) labelling.close_hull();
     const std::vector<CellFacet> facets = labelling.facets();
@@ -58,50 +100,35 @@ SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceW
     TriMesh surface = extract_surface(labelling.cells(), facets, scene);
     stage.progress(0.2);
     const FaceVisibility visibility(labelling.cells(), labelling.labels(), scene);
-    FaceFlags keep(facets.size(), 1);
-    FaceFlags unseen;
-    std::int64_t sheets = 0;
-    std::int64_t cropped = 0;
-    std::int64_t trimmed = 0;
     stage.progress(0.4);
-    if (!options.closed) {
-        keep = supported_faces(surface, facets, visibility, scene, options.support);
-        removals.note(keep, Removal::unseen);
-        unseen = without(keep);
-        stage.progress(0.7);
-        if (region != nullptr) cropped = leave_region(surface, *region, keep);
-        removals.note(keep, Removal::outside_region);
-        sheets = peel_sheets(surface, facets, visibility, options.sheets, keep);
-        removals.note(keep, Removal::sheet);
-        round_off_rims(surface, facets, visibility, unseen, keep);
-        if (region != nullptr) leave_region(surface, *region, keep);
-        removals.note(keep, Removal::outside_region);
-    } else if (region != nullptr) {
-        cropped = leave_region(surface, *region, keep);
-        removals.note(keep, Removal::outside_region);
-    }
-    const std::int64_t dropped = std::ranges::count(keep, 0);
+    Choice choice = options.closed ? all_faces(surface, wishes.region, removals)
+                                   : faces_to_keep({surface, facets, visibility}, scene,
+                                                   wishes.region, options, removals);
+    const std::int64_t dropped = std::ranges::count(choice.keep, 0);
+    stage.progress(0.7);
     SeenSurface seen;
+    std::int64_t trimmed = 0;
     // What a region leaves out is not open, nor what is trimmed, which no view sees.
-    if (!options.closed && region == nullptr) {
+    if (!options.closed && wishes.region == nullptr) {
         seen.openness =
-            measure_openness(labelling.cells(), labelling.labels(), facets, keep, scene);
+            measure_openness(labelling.cells(), labelling.labels(), facets, choice.keep, scene);
     }
     if (!options.closed) {
-        TrimmedFaces faces = trim_faces(surface, facets, visibility, {unseen, options}, keep);
+        TrimmedFaces faces =
+            trim_faces(surface, facets, visibility, {choice.unseen, options}, choice.keep);
         trimmed = faces.count;
         seen.filled = std::move(faces.filled);
-        removals.note(keep, Removal::trimmed);
+        removals.note(choice.keep, Removal::trimmed);
     }
     removals.add_noted(surface);
-    surface = with_faces(std::move(surface), keep);
+    surface = with_faces(std::move(surface), choice.keep);
     Counts counts = {{"faces", size_of(surface.faces.size())},
-                     {"unseen", dropped - sheets - cropped},
-                     {"sheets", sheets},
+                     {"unseen", dropped - choice.sheets - choice.cropped},
+                     {"sheets", choice.sheets},
                      {"trimmed", trimmed}};
-    if (region != nullptr) counts.emplace_back("outside the region", cropped);
+    if (wishes.region != nullptr) counts.emplace_back("outside the region", choice.cropped);
     stage.end(counts);
-    if (surface.faces.empty() && cropped > 0) {
+    if (surface.faces.empty() && choice.cropped > 0) {
         throw InputError("no face of the surface lies within the region of --crop");
     }
     if (surface.faces.empty()) {

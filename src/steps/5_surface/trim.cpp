@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_halving.h"
+#include "mesh/straight_rims.h"
 #include "steps/5_surface/holes_beside.h"
 #include "steps/5_surface/onlookers.h"
 #include "steps/5_surface/sheets.h"
@@ -17,6 +18,9 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
+
+/// From which share of the length of a sheet on a face is trimmed.
+constexpr double kLarge = 0.5;
 
 /// How much views see of a piece.
 enum class Seen : std::uint8_t { none, part, all };
@@ -34,6 +38,7 @@ class Trimming {
           whole_(keep),
           onlookers_(visibility, facets, whole_),
           halving_(boundary, keep),
+          first_middle_(static_cast<std::uint32_t>(boundary.positions.size())),
           origins_(keep.size() - facets.size(), kNoOrigin)
     {
     }
@@ -43,7 +48,7 @@ class Trimming {
     std::int64_t trim(std::vector<std::uint32_t> faces);
 
   private:
-    static constexpr std::uint32_t kNoOrigin = 0xffffffffU; ///< of what fills holes
+    static constexpr std::uint32_t kNoOrigin = kNoPlane; ///< of what fills holes
 
     std::array<Vector3d, 3> corners_of(std::uint32_t face) const
     {
@@ -55,10 +60,11 @@ class Trimming {
         return face < facets_.size() ? face : origins_[face - facets_.size()];
     }
 
+    std::vector<Vector3d> places_on(std::uint32_t piece) const;
     Seen seen_of(std::uint32_t piece) const;
     bool is_short(std::uint32_t piece) const;
     std::vector<std::uint32_t> halve(const std::vector<std::uint32_t>& pieces);
-    void join_halves();
+    void join_pieces();
 
     TriMesh& boundary_;
     const std::vector<CellFacet>& facets_;
@@ -68,13 +74,26 @@ class Trimming {
     const FaceFlags whole_; ///< what was kept before, which hides what is behind it
     Onlookers onlookers_;
     EdgeHalving halving_;
+    std::uint32_t first_middle_;         ///< of the vertices that halving adds
     std::vector<std::uint32_t> origins_; ///< of the faces that were added
 };
+
+/// Where a piece is looked at: more closely where it is large, since more of it could go unseen.
+std::vector<Vector3d> Trimming::places_on(std::uint32_t piece) const
+{
+    constexpr int kToASide = 4;
+    const std::array<Vector3d, 3> corners = corners_of(piece);
+    std::vector<Vector3d> places = vcarve::places_on(corners);
+    if (longest_edge(corners) < kLarge * long_edge_) return places;
+    const std::vector<Vector3d> more = grid_on(corners, kToASide);
+    places.insert(places.end(), more.begin(), more.end());
+    return places;
+}
 
 Seen Trimming::seen_of(std::uint32_t piece) const
 {
     const CellFacet& facet = facets_[origin_of(piece)];
-    const std::vector<Vector3d> places = places_on(corners_of(piece));
+    const std::vector<Vector3d> places = places_on(piece);
     const auto is_seen = [&](const Vector3d& place) {
         return onlookers_.see_or_graze(facet, place);
     };
@@ -113,13 +132,20 @@ std::vector<std::uint32_t> Trimming::halve(const std::vector<std::uint32_t>& pie
     return {halves.begin(), halves.end()};
 }
 
-/// Joins halves again that are both kept or both not.
-void Trimming::join_halves()
+/// Joins halves again that are both kept or both not, and takes vertices out of straight rims.
+void Trimming::join_pieces()
 {
-    const auto gone = halving_.take_back(
+    const auto joined = halving_.take_back(
         [&](std::uint32_t face, std::uint32_t other) { return keep_[face] == keep_[other]; });
     FaceFlags is_gone(boundary_.faces.size(), 0);
-    for (const std::uint32_t face : gone) {
+    for (const std::uint32_t face : joined) {
+        is_gone[face] = 1;
+        keep_[face] = 0;
+    }
+    const auto plane_of = [&](std::uint32_t face) { return origin_of(face); };
+    const auto first_face = static_cast<std::uint32_t>(facets_.size());
+    for (const std::uint32_t face :
+         straighten_rims(first_middle_, first_face, plane_of, boundary_, keep_)) {
         is_gone[face] = 1;
     }
     std::size_t left = facets_.size(); // none of the faces before was added
@@ -148,7 +174,7 @@ std::int64_t Trimming::trim(std::vector<std::uint32_t> faces)
         }
         pieces = halve(mixed);
     }
-    join_halves();
+    join_pieces();
     std::set<std::uint32_t> trimmed; // what fills holes stays
     for (std::uint32_t face = 0; face < keep_.size(); ++face) {
         if (keep_[face] == 0 && whole_[origin_of(face)] != 0) trimmed.insert(origin_of(face));
@@ -171,7 +197,6 @@ std::vector<std::array<Vector3d, 3>> triangles_from(std::size_t first, const Tri
 TrimmedFaces trim_faces(TriMesh& boundary, const std::vector<CellFacet>& facets,
                         const FaceVisibility& visibility, const TrimRules& rules, FaceFlags& keep)
 {
-    constexpr double kLarge = 0.5;
     TrimmedFaces trimmed;
     if (rules.options.sheets.max_sheet == 0.0) return trimmed;
     const double long_edge = sheet_edge(visibility.scene(), rules.options.sheets);
