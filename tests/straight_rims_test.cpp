@@ -135,10 +135,38 @@ TEST(StraightenRims, LooksAtFacesWithAFlagOnly)
     EXPECT_TRUE(sheet.straighten(3).empty()) << "the vertex is no longer between two on a line";
 }
 
+TEST(StraightenRims, LeavesVerticesWhereTwoFansMeet)
+{
+    Sheet sheet = halved();
+    sheet.mesh.positions.emplace_back(1, -3, 0);
+    sheet.mesh.positions.emplace_back(2.5, -3, 0);
+    sheet.mesh.faces.push_back({3, 4, 5});
+    sheet.keep.push_back(1);
+    EXPECT_TRUE(sheet.straighten(3).empty()) << "the other fan holds the vertex";
+}
+
+TEST(StraightenRims, LeavesTheTipOfASlit)
+{
+    // The rim comes back from the vertex on the way it went there.
+    Sheet sheet({{4, 0, 0}, {5, 0, 0}, {3, 3, 0}, {0, 0, 0}, {3, -3, 0}, {2, 0, 0}},
+                {{0, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 1, 5}});
+    EXPECT_TRUE(sheet.straighten(5).empty());
+}
+
+TEST(StraightenRims, TakesNoOffenceAtRoundingFarFromTheOrigin)
+{
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+    Sheet sheet = combed();
+    for (Vector3d& position : sheet.mesh.positions) {
+        position = turn * position + Vector3d(5e5, 4.6e6, 100.0);
+    }
+    EXPECT_EQ(sheet.straighten(4).size(), 3U);
+}
+
 TEST(StraightenRims, NeverMakesAnEdgeThatIsThere)
 {
     // The ends of the straight rim are joined on the other side of the line already.
-    Sheet sheet({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {2, 0, 0}, {2, -3, 0}, {2, -1, 0}},
+    Sheet sheet({{0, 0, 0}, {4, 0, 0}, {1, 3, 0}, {2, 0, 0}, {2, -3, 0}},
                 {{0, 3, 2}, {3, 1, 2}, {0, 4, 1}});
     EXPECT_TRUE(sheet.straighten(3).empty());
     EXPECT_EQ(sheet.kept().size(), 3U);

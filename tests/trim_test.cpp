@@ -511,6 +511,7 @@ TEST(TrimFaces, LeavesNoVerticesInStraightRims)
     Tents tents = half_shown();
     tents.trim(1.0);
     const std::vector<Piece> pieces = tents.pieces();
+    ASSERT_EQ(pieces.size(), tents.boundary.faces.size()) << "each lies on one face";
     const auto plane_of = [&](std::uint32_t face) {
         return static_cast<std::uint32_t>(pieces[face].origin);
     };

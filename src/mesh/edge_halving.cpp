@@ -1,23 +1,13 @@
 #include "mesh/edge_halving.h"
 
 #include "mesh/add_vertex.h"
+#include "mesh/face_corners.h"
 
 #include <Eigen/Core>
 
 #include <utility>
 
 namespace vcarve {
-
-namespace {
-
-/// A face with another vertex instead of one of its own.
-Face with(Face face, std::uint32_t corner, std::uint32_t other)
-{
-    std::ranges::replace(face, corner, other);
-    return face;
-}
-
-} // namespace
 
 std::array<std::uint32_t, 2> longest_edge_of(std::span<const Eigen::Vector3d> positions,
                                              const Face& face)

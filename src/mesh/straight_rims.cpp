@@ -1,9 +1,9 @@
 #include "mesh/straight_rims.h"
 
 #include "geometry/triangle.h"
+#include "mesh/face_corners.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 namespace vcarve {
@@ -60,20 +60,6 @@ class Straightening {
     FaceFlags& keep_;
     VertexFaces faces_at_;
 };
-
-/// A face from a corner on.
-Face turned_to(const Face& face, std::uint32_t corner)
-{
-    if (face[0] == corner) return face;
-    if (face[1] == corner) return {face[1], face[2], face[0]};
-    return {face[2], face[0], face[1]};
-}
-
-Face with(Face face, std::uint32_t corner, std::uint32_t other)
-{
-    std::ranges::replace(face, corner, other);
-    return face;
-}
 
 /// Nothing unless the faces make one fan in one plane.
 std::optional<Fan> Straightening::fan_of(std::uint32_t vertex) const

@@ -35,7 +35,8 @@ void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop);
 bool is_fillable(const HalfEdgeMesh& mesh, const BoundaryLoop& loop, int max_edges);
 
 /// Fills such holes, but where the mesh knows its points none with a vertex that is no point: there
-/// faces were trimmed (trim.h). Returns how many there were.
+/// faces were trimmed (trim.h). The hole of a face that was trimmed away whole has none and is
+/// filled again. Returns how many there were.
 std::int64_t fill_holes(HalfEdgeMesh& mesh, int max_edges);
 
 } // namespace vcarve

@@ -54,7 +54,7 @@ struct ClosedSurface {
 /// Which faces of a boundary are kept.
 struct Choice {
     FaceFlags keep;
-    FaceFlags unseen; ///< not kept before rims were rounded off
+    FaceFlags unseen; ///< by all views; those that are kept round a rim off
     std::int64_t sheets = 0;
     std::int64_t cropped = 0;
 };

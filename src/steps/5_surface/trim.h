@@ -15,7 +15,7 @@ namespace vcarve {
 
 /// What to trim. Holds references.
 struct TrimRules {
-    const FaceFlags& unseen; ///< faces that were not kept before rims were rounded off
+    const FaceFlags& unseen; ///< faces that no view sees; if kept, they round a rim off
     const SurfaceOptions& options;
 };
 
@@ -30,15 +30,15 @@ struct TrimmedFaces {
 /// edge, and its pieces again, until views see all places on a piece, or none, or its longest edge
 /// is no longer than a quarter of that, or a sixteenth of the face's. Pieces of which no view sees
 /// a place go; a graze is enough to keep one. Pieces as large as the faces that are trimmed are
-/// looked at in ten places more. Faces beside are halved along (edge_halving.h), and
-/// halves that are both kept, or both not, joined again; straight rims get no vertices
-/// (straight_rims.h), so what is kept has no cracks, but what is not may have. Before that, holes
-/// along such faces are filled (holes_beside.h). `boundary` is the surface of `facets`, which
-/// ascend, face by face; what is added comes after them and has flags of its own. Added vertices
-/// are no points of the scene. Faces that are `unseen` were put back to round a rim off and stay as
-/// they are; all others are trimmed, whether kept for what views see or for their points. Where
-/// `max_sheet` is 0, nothing is trimmed. Cost: O(faces), and walks from places on each piece to the
-/// views, in parallel.
+/// looked at in nine places more. Faces beside are halved along (edge_halving.h), so what is kept
+/// has no cracks, and halves that are both kept, or both not, joined again. Vertices in straight
+/// rims are taken out where they can be (straight_rims.h); what is not kept may have cracks there.
+/// Before all that, holes along such faces are filled (holes_beside.h). `boundary` is the surface
+/// of `facets`, which ascend, face by face; what is added comes after them and has flags of its
+/// own. Added vertices are no points of the scene. Faces that are `unseen` and those of which
+/// images do not tell (is_told_by_images) stay as they are; all others are trimmed, whether kept
+/// for what views see or for their points. Where `max_sheet` is 0, nothing is trimmed. Cost:
+/// O(faces), and walks from places on each piece to the views, in parallel.
 TrimmedFaces trim_faces(TriMesh& boundary, const std::vector<CellFacet>& facets,
                         const FaceVisibility& visibility, const TrimRules& rules, FaceFlags& keep);
 
