@@ -2,6 +2,7 @@
 #include "mesh/add_vertex.h"
 #include "mesh/check.h"
 #include "mesh/edge_halving.h"
+#include "support/tetra_grid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,6 +21,7 @@ using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
+using vcarve::testing::volume;
 
 constexpr auto kAlways = [](std::uint32_t, std::uint32_t) { return true; };
 constexpr auto kNever = [](std::uint32_t, std::uint32_t) { return false; };
@@ -63,15 +65,6 @@ TriMesh two_wedges()
                   {0, 3, 2}, {1, 2, 3}, {0, 5, 4}, {1, 4, 5}};
     mark_vertices(mesh);
     return mesh;
-}
-
-double volume_of(const TriMesh& mesh)
-{
-    double sixfold = 0.0;
-    for (const auto& [a, b, c] : mesh.faces) {
-        sixfold += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c]));
-    }
-    return sixfold / 6.0;
 }
 
 /// The edges of a mesh, the lower vertex first.
@@ -213,7 +206,7 @@ TEST(EdgeHalving, HalvesAllFacesAtANonManifoldEdge)
     EXPECT_EQ(after.nonmanifold_edges, 2) << "its halves";
     EXPECT_EQ(after.boundary_edges, 0);
     EXPECT_NEAR(after.area, before.area, 1e-12);
-    EXPECT_NEAR(volume_of(mesh), volume_of(two_wedges()), 1e-12);
+    EXPECT_NEAR(volume(mesh), volume(two_wedges()), 1e-12);
 }
 
 TEST(EdgeHalving, LeavesFacesWithoutAFlagAlone)
@@ -241,7 +234,7 @@ TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeHoweverOftenRepeated)
         ASSERT_EQ(after.faces, before.faces + 80) << "two more for each";
         ASSERT_EQ(after.vertices, before.vertices + 40);
         ASSERT_NEAR(after.area, before.area, 1e-9);
-        ASSERT_NEAR(volume_of(mesh), volume_of(octahedron()), 1e-9);
+        ASSERT_NEAR(volume(mesh), volume(octahedron()), 1e-9);
         for (std::size_t v = 6; v < mesh.points.size(); ++v) {
             ASSERT_EQ(mesh.points[v], kNoPoint);
         }
@@ -384,7 +377,7 @@ TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeWhenSomeIsTakenBack)
         ASSERT_TRUE(check.is_closed());
         ASSERT_TRUE(check.is_manifold());
         ASSERT_EQ(check.orientation_faults, 0);
-        ASSERT_NEAR(volume_of(rest), volume_of(octahedron()), 1e-9);
+        ASSERT_NEAR(volume(rest), volume(octahedron()), 1e-9);
         ASSERT_NEAR(check.area, check_mesh(octahedron()).area, 1e-9);
     }
 }

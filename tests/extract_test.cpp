@@ -4,6 +4,7 @@
 #include "steps/5_surface/orient.h"
 #include "support/half_edges.h"
 #include "support/scenes.h"
+#include "support/tetra_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -14,16 +15,7 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-
-double volume(const TriMesh& mesh)
-{
-    double volume_6 = 0.0;
-    for (const Face& face : mesh.faces) {
-        volume_6 +=
-            mesh.positions[face[0]].dot(mesh.positions[face[1]].cross(mesh.positions[face[2]]));
-    }
-    return volume_6 / 6.0;
-}
+using testing::volume;
 
 TEST(ExtractSurface, OfOneCellIsItsFourFacetsSeenFromOutside)
 {

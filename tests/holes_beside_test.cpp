@@ -1,5 +1,6 @@
 #include "mesh/check.h"
 #include "steps/5_surface/holes_beside.h"
+#include "steps/5_surface/support.h"
 
 #include <gtest/gtest.h>
 
@@ -47,15 +48,7 @@ struct Grid {
     {
         fill_holes_beside(some, max_edges, mesh, keep);
     }
-    TriMesh kept() const
-    {
-        TriMesh rest = mesh;
-        rest.faces.clear();
-        for (std::size_t face = 0; face < keep.size(); ++face) {
-            if (keep[face] != 0) rest.faces.push_back(mesh.faces[face]);
-        }
-        return rest;
-    }
+    TriMesh kept() const { return with_faces(mesh, keep); }
 
     std::uint32_t side;
     TriMesh mesh;

@@ -7,6 +7,7 @@
 #include "steps/4_labels/strict_carving.h"
 #include "steps/5_surface/extract.h"
 #include "support/cast_sights.h"
+#include "support/tetra_grid.h"
 #include "vcarve/io.h"
 
 #include <gtest/gtest.h>
@@ -41,21 +42,12 @@ std::vector<Corners> sorted_faces(const TriMesh& mesh)
     return result;
 }
 
-double enclosed_volume(const TriMesh& mesh)
-{
-    double sum = 0.0;
-    for (const auto& [a, b, c] : mesh.faces) {
-        sum += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c]));
-    }
-    return sum / 6.0;
-}
-
 struct Object {
     std::string name;
     double volume;
 };
 
-class PaperObject : public testing::TestWithParam<Object> {
+class PaperObject : public ::testing::TestWithParam<Object> {
   protected:
     std::filesystem::path folder() const
     {
@@ -72,15 +64,15 @@ TEST_P(PaperObject, IsCarvedExactly)
     const Labels labels = carve(cells, crossings_of(cells, scene), 1);
     const TriMesh carved = extract_surface(cells, labels, scene);
     EXPECT_EQ(sorted_faces(carved), sorted_faces(read_ply(folder() / "solid.ply")));
-    EXPECT_NEAR(enclosed_volume(carved), GetParam().volume, 1e-12 * GetParam().volume);
+    EXPECT_NEAR(testing::volume(carved), GetParam().volume, 1e-12 * GetParam().volume);
 }
 
 // Volumes by hand from the boxes each solid is made of.
 INSTANTIATE_TEST_SUITE_P(Paper, PaperObject,
-                         testing::Values(Object{"cube_with_cavity", 64.0 - 10.0},
-                                         Object{"boissonnat", 68.0 - 6.0},
-                                         Object{"cubicles", 27.0 + 1.5 * (6.0 + 3.0 + 2.25)},
-                                         Object{"desk", 9.0 + 4.5 + 15.75 + 2.8125}),
+                         ::testing::Values(Object{"cube_with_cavity", 64.0 - 10.0},
+                                           Object{"boissonnat", 68.0 - 6.0},
+                                           Object{"cubicles", 27.0 + 1.5 * (6.0 + 3.0 + 2.25)},
+                                           Object{"desk", 9.0 + 4.5 + 15.75 + 2.8125}),
                          [](const auto& object) { return object.param.name; });
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "geometry/triangle.h"
 #include "mesh/check.h"
 #include "mesh/straight_rims.h"
+#include "steps/5_surface/support.h"
 
 #include <gtest/gtest.h>
 
@@ -25,14 +26,7 @@ struct Sheet {
         keep.assign(mesh.faces.size(), 1);
     }
 
-    std::vector<Face> kept() const
-    {
-        std::vector<Face> found;
-        for (std::size_t face = 0; face < keep.size(); ++face) {
-            if (keep[face] != 0) found.push_back(mesh.faces[face]);
-        }
-        return found;
-    }
+    std::vector<Face> kept() const { return with_faces(mesh, keep).faces; }
     double area() const
     {
         double sum = 0.0;

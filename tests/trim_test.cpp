@@ -3,6 +3,7 @@
 #include "mesh/straight_rims.h"
 #include "steps/1_points/looked_at_ball.h"
 #include "steps/5_surface/onlookers.h"
+#include "steps/5_surface/support.h"
 #include "steps/5_surface/trim.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
@@ -152,30 +153,17 @@ struct Tents {
         return boundary.faces == made.surface.faces && keep == kept_before;
     }
 
-    std::array<Vector3d, 3> corners_of(const Face& face) const
-    {
-        return {boundary.positions[face[0]], boundary.positions[face[1]],
-                boundary.positions[face[2]]};
-    }
     std::array<Vector3d, 3> whole(std::size_t face) const
     {
         return made.visibility.corners_of(made.facets[face]);
     }
-    TriMesh kept() const
-    {
-        TriMesh surface = boundary;
-        surface.faces.clear();
-        for (std::size_t i = 0; i < keep.size(); ++i) {
-            if (keep[i] != 0) surface.faces.push_back(boundary.faces[i]);
-        }
-        return surface;
-    }
+    TriMesh kept() const { return with_faces(boundary, keep); }
     /// All faces with the ones they are pieces of.
     std::vector<Piece> pieces() const
     {
         std::vector<Piece> found;
         for (std::size_t i = 0; i < boundary.faces.size(); ++i) {
-            const auto corners = corners_of(boundary.faces[i]);
+            const auto corners = corners_of(boundary.positions, boundary.faces[i]);
             for (std::size_t origin = 0; origin < made.facets.size(); ++origin) {
                 if (lies_on(whole(origin), middle_of(corners)))
                     found.push_back({origin, corners, keep[i] != 0});
