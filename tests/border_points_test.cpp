@@ -26,7 +26,7 @@ using flat_scenes::track_of;
 using flat_scenes::Views;
 
 /// None on creases.
-const CreaseOptions kOnBorders = {.reach = 0.0};
+const CreaseOptions kOnBorders = {.reach = 0.0, .blank_step = 0.0};
 
 /// A board that the views look at, 1 wide and .8 high.
 std::vector<MadePoint> board(const Views& views = kAll)
@@ -155,9 +155,10 @@ TEST(BorderPoints, GoAsFarAsTheGap)
     // Nothing is seen past the board within 2.5 spacings of it.
     const auto far = seen_backdrop(0.25);
     const Scene scene = together({board(), far});
-    EXPECT_GT(num_added(scene, {.reach = 0.0, .border_gap = 4.0}), 8);
-    EXPECT_EQ(num_added(scene, {.reach = 0.0, .border_gap = 1.5}), 0);
-    EXPECT_EQ(num_added(together({board(), seen_backdrop()}), {.reach = 0.0, .border_gap = 0.0}),
+    EXPECT_GT(num_added(scene, {.reach = 0.0, .border_gap = 4.0, .blank_step = 0.0}), 8);
+    EXPECT_EQ(num_added(scene, {.reach = 0.0, .border_gap = 1.5, .blank_step = 0.0}), 0);
+    EXPECT_EQ(num_added(together({board(), seen_backdrop()}),
+                        {.reach = 0.0, .border_gap = 0.0, .blank_step = 0.0}),
               0);
 }
 

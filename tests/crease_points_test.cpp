@@ -37,7 +37,7 @@ std::vector<std::size_t> added_points(const Scene& scene)
 }
 
 /// None along borders.
-const CreaseOptions kOnCreases = {.border_gap = 0.0};
+const CreaseOptions kOnCreases = {.border_gap = 0.0, .blank_step = 0.0};
 
 std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnCreases)
 {
@@ -125,12 +125,17 @@ TEST(CreasePoints, GoAsFarAsTheReach)
 {
     // The spacing is estimated to be .1; both gaps are 8 of it, or 20.
     EXPECT_GT(num_added(together({wall(0.8), ground(0.8)})), 10);
-    EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}), {.reach = 5.0, .border_gap = 0.0}), 0);
+    EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}),
+                        {.reach = 5.0, .border_gap = 0.0, .blank_step = 0.0}),
+              0);
     const auto high = flat({-1.0, -2.0}, {1.0, -1.0}, kAll,
                            [](double u, double v) { return Vector3d(u, v, 0.0); });
     EXPECT_GT(num_added(together({high, ground(0.35)})), 10);
-    EXPECT_EQ(num_added(together({high, ground(0.35)}), {.reach = 18.0, .border_gap = 0.0}), 0);
-    EXPECT_EQ(num_added(together({wall(0.35), ground(0.35)}), {.reach = 0.0, .border_gap = 0.0}),
+    EXPECT_EQ(num_added(together({high, ground(0.35)}),
+                        {.reach = 18.0, .border_gap = 0.0, .blank_step = 0.0}),
+              0);
+    EXPECT_EQ(num_added(together({wall(0.35), ground(0.35)}),
+                        {.reach = 0.0, .border_gap = 0.0, .blank_step = 0.0}),
               0);
 }
 
@@ -158,7 +163,8 @@ TEST(CreasePoints, LeaveGapsWhereOnePlaneIsNotKnown)
         return std::abs(p.position.x()) < 0.6 && p.position.z() > -1.1;
     });
     Scene scene = together({wall(0.35), floor});
-    add_crease_points(scene, {.reach = 6.0, .border_gap = 0.0}); // .6 along the crease, too
+    add_crease_points(
+        scene, {.reach = 6.0, .border_gap = 0.0, .blank_step = 0.0}); // .6 along the crease, too
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(added.size(), 6U);
     for (const std::size_t i : added) {

@@ -133,7 +133,7 @@ TEST(FootPoints, AreNoneWhereOneSeesTheGroundBeneath)
 TEST(FootPoints, AreNoneWithoutBorders)
 {
     Scene scene = scene_of({});
-    EXPECT_EQ(add_crease_points(scene, {.border_gap = 0.0}).along_borders, 0);
+    EXPECT_EQ(add_crease_points(scene, {.border_gap = 0.0, .blank_step = 0.0}).along_borders, 0);
 }
 
 } // namespace

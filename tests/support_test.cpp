@@ -127,6 +127,48 @@ TEST(SupportedFaces, DropAFaceWithACornerThatNobodySaw)
     EXPECT_EQ(supported(made, {.max_gap_edge = 0.0}), wall_but(made, unseen));
 }
 
+/// The wall before which the view stands at 5 degrees, in its image only; one point stands out, so
+/// that the face behind it is turned away by so much.
+Scene wall_with_crest(double turned_deg)
+{
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    Scene scene = without_tracks(wall(), all_points(wall()));
+    Vector3d& crest = scene.positions[at(5, 5)];
+    const Vector3d way(0.0, -std::cos(5.0 * kDegree), -std::sin(5.0 * kDegree));
+    View& view = scene.views[0];
+    view.center = crest + 60.0 * way;
+    view.cam_from_world = Eigen::Quaterniond::FromTwoVectors(-way, Vector3d::UnitZ());
+    crest.z() -= std::sqrt(0.75) * std::tan(turned_deg * kDegree);
+    return scene;
+}
+
+/// How many faces of the wall with a crest are kept.
+std::ptrdiff_t num_kept_beside_crest(double turned_deg)
+{
+    const LabelledScene made(wall_with_crest(turned_deg), [](const TetMesh& mesh) {
+        return testing::labels_where(
+            mesh, [&](Index cell) { return testing::middle(mesh, cell).z() > -0.1; });
+    });
+    const FaceFlags keep = supported(made, {.max_gap_edge = 0.0});
+    std::ptrdiff_t kept = 0;
+    for (std::size_t face = 0; face < keep.size(); ++face) {
+        const bool is_wall = std::ranges::all_of(made.corners[face], [&](Index corner) {
+            return std::abs(made.mesh.positions[corner].z()) < 1.0;
+        });
+        if (is_wall && keep[face] != 0) ++kept;
+    }
+    return kept;
+}
+
+TEST(SupportedFaces, KeepAFaceAmidSeenOnesThatAViewSeesAtOneDegree)
+{
+    const std::ptrdiff_t all = 2 * (kSide - 1) * (kSide - 1);
+    EXPECT_EQ(num_kept_beside_crest(1.0), all);
+    EXPECT_EQ(num_kept_beside_crest(2.5), all);
+    EXPECT_EQ(num_kept_beside_crest(3.5), all); // 1.5 degrees are left
+    EXPECT_EQ(num_kept_beside_crest(4.2), all - 1);
+}
+
 TEST(SupportedFaces, DropAWallSeenOnlyFromBehind)
 {
     Scene scene = wall();

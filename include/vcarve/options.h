@@ -47,9 +47,10 @@ struct FilterOptions {
 struct CreaseOptions {
     double reach = 28.0;     ///< --crease-reach
     double border_gap = 3.0; ///< --border-gap
+    double blank_step = 2.0; ///< --blank-step
 
     /// Whether points are added anywhere.
-    bool add_any() const { return reach > 0.0 || border_gap > 0.0; }
+    bool add_any() const { return reach > 0.0 || border_gap > 0.0 || blank_step > 0.0; }
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
@@ -68,6 +69,13 @@ struct CreaseOptions {
                         .help = "Add points where a flat part of the surface ends and sights pass "
                                 "by no farther than so many times the spacing of its points, as "
                                 "at the eaves of a roof; 0 adds none.",
+                        .max = 100.0});
+        options.number(blank_step,
+                       {.name = "blank-step",
+                        .unit = "x spacing",
+                        .help = "Add points so many times their spacing apart amid a flat part of "
+                                "the surface where views look at it but images show no features, "
+                                "as on a plain floor; 0 adds none.",
                         .max = 100.0});
     }
 };
@@ -286,7 +294,7 @@ struct LabelOptions {
 
 /// Which faces that no view sees are kept.
 struct SupportOptions {
-    double max_gap_edge = 3.0; ///< --max-gap-edge
+    double max_gap_edge = 2.5; ///< --max-gap-edge
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)

@@ -66,11 +66,13 @@ struct Tracks {
 inline constexpr std::uint64_t kNoPointId = 0xffffffffffffffffU;
 /// What a point has that was added along a border.
 inline constexpr std::uint64_t kBorderPointId = kNoPointId - 1;
+/// The same of a point that was added where a flat part of the surface is blank.
+inline constexpr std::uint64_t kBlankPointId = kNoPointId - 2;
 
 /// Whether a point with this id is none of the model's but was added to it.
 inline constexpr bool is_added_point(std::uint64_t id)
 {
-    return id >= kBorderPointId;
+    return id >= kBlankPointId;
 }
 
 /// What COLMAP reconstructed: views, points, and the sights between them.

@@ -105,6 +105,7 @@ void add_creases(Scene& scene, const Options& options, Log& log)
     const CreaseReport report = add_crease_points(scene, options.creases, stage);
     stage.end({{"points added", report.added},
                {"along borders", report.along_borders},
+               {"in blanks", report.in_blanks},
                {"planes", report.planes}});
 }
 

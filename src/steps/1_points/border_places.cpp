@@ -2,12 +2,12 @@
 
 #include "base/parallel.h"
 #include "geometry/triangle_tree.h"
+#include "steps/1_points/plane_frame.h"
 #include "steps/1_points/sights_through.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -30,29 +30,6 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangulation = CGAL::Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<
                 CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>>>;
-
-/// Coordinates in a plane.
-class PlaneFrame {
-  public:
-    explicit PlaneFrame(const Plane& plane)
-        : center_(plane.center), x_(plane.normal.unitOrthogonal()), y_(plane.normal.cross(x_))
-    {
-    }
-
-    Vector2d in_plane(const Vector3d& place) const
-    {
-        return {x_.dot(place - center_), y_.dot(place - center_)};
-    }
-    Vector3d in_space(const Vector2d& place) const
-    {
-        return center_ + place.x() * x_ + place.y() * y_;
-    }
-
-  private:
-    Vector3d center_;
-    Vector3d x_;
-    Vector3d y_;
-};
 
 /// A rectangle in a plane around some places in it and what is so near.
 std::array<Vector3d, 4> rectangle_around(const std::vector<Vector2d>& places,

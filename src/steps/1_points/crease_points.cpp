@@ -4,6 +4,7 @@
 #include "geometry/point_tree.h"
 #include "model/scene_size.h"
 #include "steps/1_points/added_place.h"
+#include "steps/1_points/blank_places.h"
 #include "steps/1_points/border_places.h"
 #include "steps/1_points/crease_places.h"
 #include "steps/1_points/flat_parts.h"
@@ -94,15 +95,21 @@ CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options, const
         }
         if (options.border_gap > 0.0) {
             std::vector<BorderPlace> borders =
-                border_places(scene, tree, parts, options.border_gap, progress.part(0.75, 0.9));
+                border_places(scene, tree, parts, options.border_gap, progress.part(0.75, 0.85));
             std::vector<AddedPlace> feet = foot_places(scene, tree, parts, borders);
             std::ranges::move(borders, std::back_inserter(places));
             std::ranges::move(feet, std::back_inserter(places));
+        }
+        if (options.blank_step > 0.0) {
+            std::vector<AddedPlace> blanks =
+                blank_places(scene, tree, parts, options.blank_step, progress.part(0.85, 0.9));
+            std::ranges::move(blanks, std::back_inserter(places));
         }
     }
     leave_out_near_ones(places);
     report.added = std::ssize(places);
     report.along_borders = std::ranges::count(places, kBorderPointId, &AddedPlace::id);
+    report.in_blanks = std::ranges::count(places, kBlankPointId, &AddedPlace::id);
     if (places.empty()) return report;
     for (const AddedPlace& place : places) {
         add_point(scene, place);

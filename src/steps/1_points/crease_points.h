@@ -13,13 +13,14 @@ struct CreaseReport {
     std::int64_t planes = 0;        ///< flat parts of the surface
     std::int64_t added = 0;         ///< points
     std::int64_t along_borders = 0; ///< of those
+    std::int64_t in_blanks = 0;     ///< of those
 };
 
 /// Adds points along the creases where two flat parts of the surface meet, at the foot of a wall,
-/// in a corner of a room, along the edge of a box, and along the borders where one ends. Feature
-/// detectors find few points there, so that the Delaunay triangulation cuts corners off or spans
-/// them, and no labelling of its cells can give them back. (Point sets are structured so by Lafarge
-/// & Alliez 2013, who know no views.)
+/// in a corner of a room, along the edge of a box, along the borders where one ends, and amid one
+/// where it is blank. Feature detectors find few points there, so that the Delaunay triangulation
+/// cuts corners off or spans them, and no labelling of its cells can give them back. (Point sets
+/// are structured so by Lafarge & Alliez 2013, who know no views.)
 ///
 /// Two planar regions (planar_regions) whose planes stand at 30 degrees or more to each other meet
 /// along a line. It gets a point every seven tenths of their spacing where both have points within
@@ -45,13 +46,21 @@ struct CreaseReport {
 /// saw the nearest two of these, if they show the place, stand before the ground and on this side
 /// of the wall. It counts as a border point.
 ///
+/// Amid a planar region of 40 points or more, within their convex hull, its plane is divided into
+/// squares with sides of `blank_step` spacings. One without points of the region gets one in its
+/// middle if none is near, if no sight passes through it, if at least two views look at it, and if
+/// it hangs together with the region's points by such squares. The views that are asked are those
+/// that saw the region's four points nearest to it, if they show the place and stand before the
+/// plane, but not those that stand before a flat part which covers the place, as a roof does the
+/// ground (Covers); whether they look at it what their images show beside it tells (ShownPoints).
+///
 /// A new point has the colour and the error of the point next to it, and the id kNoPointId along a
-/// crease, kBorderPointId along a border. Scenes with points whose error is not known, which are
-/// dense, stay as they are. The points follow each other in space, as spatial_sort() puts them,
-/// before and after. The result does not depend on the number of threads nor, up to rounding, on
-/// where the scene lies and how large it is. Cost: that of planar_regions, of crease_places,
-/// sights_through, border_places and foot_places, and of a sort; 90 bytes a point, and what
-/// passages take (border_places).
+/// crease, kBorderPointId along a border, kBlankPointId amid a region. Scenes with points whose
+/// error is not known, which are dense, stay as they are. The points follow each other in space, as
+/// spatial_sort() puts them, before and after. The result does not depend on the number of threads
+/// nor, up to rounding, on where the scene lies and how large it is. Cost: that of planar_regions,
+/// of crease_places, sights_through, border_places, foot_places and blank_places, and of a sort; 90
+/// bytes a point, and what passages take (border_places).
 CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options,
                                const Progress& progress = {});
 

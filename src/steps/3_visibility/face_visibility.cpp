@@ -109,9 +109,10 @@ bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vec
            view_shows(eye, scene_.cameras[eye.camera], place);
 }
 
-bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
+bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place,
+                          double cosine) const
 {
-    if (!faces(view, facet, place)) return false;
+    if (!faces(view, facet, place, cosine)) return false;
     // Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
     const auto leads_on = [&](const CellFacet& ahead) {
         return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
@@ -121,14 +122,14 @@ bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vect
     return SightWalk(cells_).through_facet(facet, place, center, leads_on).cell == kInfinite;
 }
 
-bool FaceVisibility::is_seen(const CellFacet& facet) const
+bool FaceVisibility::is_seen(const CellFacet& facet, double cosine) const
 {
     const std::vector<Vector3d> places = places_on(facet);
     const Vector3d normal = outward(cells_, facet);
     const auto sees_some = [&](std::uint32_t view) {
         if (normal.dot(scene_.views[view].center - places[0]) <= 0.0) return false; // most are
-        return std::ranges::any_of(places,
-                                   [&](const Vector3d& place) { return sees(view, facet, place); });
+        return std::ranges::any_of(
+            places, [&](const Vector3d& place) { return sees(view, facet, place, cosine); });
     };
     return any_view(facet, sees_some);
 }

@@ -54,17 +54,19 @@ class FaceVisibility {
     /// Places spread over a facet, as over any triangle.
     std::vector<Eigen::Vector3d> places_on(const CellFacet& facet) const;
 
+    /// A view that stands lower before the facet than a cosine of its angle says does not see it.
     /// Cost: a walk through the cells up to the view, where the view stands before the facet and
     /// its image shows the place.
-    bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
+    bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
+              double cosine = kGrazing) const;
 
     /// Whether some view sees one of the places on a facet. The views that saw its corners are
     /// asked first. Cost: where no view sees it, a walk for each place and view that stands
     /// before it and shows it in its image.
-    bool is_seen(const CellFacet& facet) const;
+    bool is_seen(const CellFacet& facet, double cosine = kGrazing) const;
 
-    /// The same where of the boundary only the facets are there that is_kept(facet) names. A view
-    /// that stands lower before the facet than a cosine of its angle says does not see it.
+    /// The same of a place where of the boundary only the facets are there that is_kept(facet)
+    /// names.
     template <typename IsKept>
     bool sees_among(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                     const IsKept& is_kept, double cosine = kGrazing) const;

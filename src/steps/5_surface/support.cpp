@@ -100,6 +100,38 @@ FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdg
     return small_patches(mesh, gaps, [&](std::uint32_t face) { return length(face) <= vast; });
 }
 
+/// At how many of its edges a face has one of some others beside it, which are given at their
+/// vertices.
+std::ptrdiff_t num_beside(const std::vector<Face>& faces, std::uint32_t face,
+                          const VertexFaces& others_at)
+{
+    return std::ranges::count_if(std::array{0, 1, 2}, [&](int corner) {
+        const std::uint32_t to = faces[face][(corner + 1) % 3];
+        return std::ranges::any_of(others_at[faces[face][corner]], [&](std::uint32_t other) {
+            return other != face && std::ranges::count(faces[other], to) > 0;
+        });
+    });
+}
+
+/// The faces in slits between seen ones: no larger than usual, beside seen ones at two edges or
+/// more, and seen themselves by views that stand lower before them than is asked of others. So are
+/// faces along a crest that all views look at from its foot.
+FaceNumbers slit_faces(const TriMesh& mesh, const std::vector<CellFacet>& facets,
+                       const FaceVisibility& visibility, const FaceFlags& seen,
+                       const LocalEdges& edges)
+{
+    constexpr double kUsual = 3.0; ///< x the median edge around
+    constexpr double kLow = 0.02;  ///< cosine, about 1 degree above the face
+    const VertexFaces seen_at(mesh.faces, mesh.positions.size(), seen);
+    const auto look = [&](std::size_t i, FaceNumbers& slits) {
+        const auto face = static_cast<std::uint32_t>(i);
+        if (seen[i] != 0 || !(edges.relative_size(i) <= kUsual)) return;
+        if (num_beside(mesh.faces, face, seen_at) >= 2 && visibility.is_seen(facets[i], kLow))
+            slits.push_back(face);
+    };
+    return parallel_collect<std::uint32_t>(seen.size(), look, 64);
+}
+
 } // namespace
 
 FaceFlags supported_faces(const TriMesh& boundary, const std::vector<CellFacet>& facets,
@@ -114,6 +146,9 @@ FaceFlags supported_faces(const TriMesh& boundary, const std::vector<CellFacet>&
         },
         64);
     const LocalEdges edges(boundary.positions, boundary.faces, keep);
+    for (const std::uint32_t face : slit_faces(boundary, facets, visibility, keep, edges)) {
+        keep[face] = 1;
+    }
     const auto is_bare = [&](std::uint32_t face) { return visibility.is_on_hull(facets[face]); };
     for (const std::uint32_t face :
          gap_faces(boundary, keep, edges, is_bare, options.max_gap_edge)) {

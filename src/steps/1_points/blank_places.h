@@ -1,0 +1,22 @@
+#pragma once
+
+#include "base/progress.h"
+#include "geometry/nearest_neighbors.h"
+#include "steps/1_points/added_place.h"
+#include "steps/1_points/flat_parts.h"
+#include "vcarve/scene.h"
+
+#include <vector>
+
+namespace vcarve {
+
+/// The places amid flat parts that are blank: views look at them, but no point was found there, as
+/// on a plain floor. They stand near the middles of squares with sides of `step` spacings of the
+/// part's points (add_crease_points() has the rules). Part after part, in an order that does not
+/// depend on the threads. The tree is of the scene's points. Cost: O(blank squares x views log
+/// points + sights log squares), in parallel; 100 bytes a sight of the views that are asked, as
+/// many at a time as there are threads.
+std::vector<AddedPlace> blank_places(const Scene& scene, const NearestNeighbors& tree,
+                                     const FlatParts& parts, double step, const Progress& progress);
+
+} // namespace vcarve

@@ -1,0 +1,69 @@
+#include "steps/1_points/shown_points.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Unit vectors from a place to some points.
+std::vector<Vector3d> ways_to(const std::vector<std::uint32_t>& points, const Scene& scene,
+                              const Vector3d& from)
+{
+    std::vector<Vector3d> ways(points.size());
+    std::ranges::transform(points, ways.begin(), [&](std::uint32_t point) -> Vector3d {
+        return (scene.positions[point] - from).normalized();
+    });
+    return ways;
+}
+
+} // namespace
+
+ShownPoints::ShownPoints(const Scene& scene, std::uint32_t view, std::vector<std::uint32_t> points)
+    : scene_(scene),
+      center_(scene.views[view].center),
+      points_(std::move(points)),
+      ways_(ways_to(points_, scene, center_)),
+      tree_(ways_)
+{
+}
+
+bool ShownPoints::look_at(const Vector3d& place, const FlatParts& parts, std::uint32_t part) const
+{
+    constexpr std::array<std::size_t, 2> kLook = {8, 40}; // most find what they need among a few
+    constexpr double kClearly = 0.5;                      // spacings
+    const PlanarRegion& region = *parts.patches[part].region;
+    const Vector3d& normal = region.plane.normal;
+    const double far = (place - center_).norm();
+    const Vector3d way = (place - center_) / far;
+    // In the image: towards the horizon of the plane.
+    const Vector3d onward = (normal - way.dot(normal) * way).normalized();
+    const auto is_onward = [&](std::uint32_t shown) {
+        const Vector3d beside = ways_[shown] - way;
+        const double along = onward.dot(beside);
+        return along > 0.0 && (beside - along * onward).norm() <= along;
+    };
+    const auto is_own = [&](std::uint32_t point) { return parts.region_of[point] == part; };
+    const auto hides = [&](std::uint32_t point) {
+        const Vector3d& position = scene_.positions[point];
+        return (position - center_).norm() < far &&
+               normal.dot(position - region.plane.center) > kClearly * region.spacing;
+    };
+    thread_local std::vector<NearestNeighbors::Neighbor> shown;
+    for (const std::size_t count : kLook) {
+        tree_.find(way, count, shown);
+        if (!is_own(points_[shown.front().point])) return false;
+        const auto next = std::ranges::find_if(
+            shown, is_onward, [](const NearestNeighbors::Neighbor& near) { return near.point; });
+        if (next == shown.end()) continue;
+        const std::uint32_t point = points_[next->point];
+        return is_own(point) || !hides(point);
+    }
+    return true;
+}
+
+} // namespace vcarve
