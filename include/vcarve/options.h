@@ -294,7 +294,7 @@ struct LabelOptions {
 
 /// Which faces that no view sees are kept.
 struct SupportOptions {
-    double max_gap_edge = 2.5; ///< --max-gap-edge
+    double max_gap_edge = 2.25; ///< --max-gap-edge
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)

@@ -129,7 +129,7 @@ class Blanks {
     /// them: no more a patch, about, than it has points, and those next to these first.
     std::vector<Blank> squares_without_points() const
     {
-        constexpr std::size_t kFewest = 40; // a smaller part may be a piece of something round
+        constexpr std::size_t kFewest = 100; // a smaller part may be a piece of something round
         const auto look = [&](std::size_t i, std::vector<Blank>& found) {
             const auto patch = static_cast<std::uint32_t>(i);
             const std::vector<Vector3d>& points = parts_.patches[patch].positions;

@@ -46,7 +46,7 @@ struct CreaseReport {
 /// saw the nearest two of these, if they show the place, stand before the ground and on this side
 /// of the wall. It counts as a border point.
 ///
-/// Amid a planar region of 40 points or more, within their convex hull, its plane is divided into
+/// Amid a planar region of 100 points or more, within their convex hull, its plane is divided into
 /// squares with sides of `blank_step` spacings. One without points of the region gets one in its
 /// middle if none is near, if no sight passes through it, if at least two views look at it, and if
 /// it hangs together with the region's points by such squares. The views that are asked are those
