@@ -35,9 +35,7 @@ ShownPoints::ShownPoints(const Scene& scene, std::uint32_t view, std::vector<std
 bool ShownPoints::look_at(const Vector3d& place, const FlatParts& parts, std::uint32_t part) const
 {
     constexpr std::array<std::size_t, 2> kLook = {8, 40}; // most find what they need among a few
-    constexpr double kClearly = 0.5;                      // spacings
-    const PlanarRegion& region = *parts.patches[part].region;
-    const Vector3d& normal = region.plane.normal;
+    const Vector3d& normal = parts.patches[part].region->plane.normal;
     const double far = (place - center_).norm();
     const Vector3d way = (place - center_) / far;
     // In the image: towards the horizon of the plane.
@@ -49,9 +47,7 @@ bool ShownPoints::look_at(const Vector3d& place, const FlatParts& parts, std::ui
     };
     const auto is_own = [&](std::uint32_t point) { return parts.region_of[point] == part; };
     const auto hides = [&](std::uint32_t point) {
-        const Vector3d& position = scene_.positions[point];
-        return (position - center_).norm() < far &&
-               normal.dot(position - region.plane.center) > kClearly * region.spacing;
+        return (scene_.positions[point] - center_).norm() < far;
     };
     thread_local std::vector<NearestNeighbors::Neighbor> shown;
     for (const std::size_t count : kLook) {
