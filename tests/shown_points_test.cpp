@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -38,7 +39,7 @@ bool looks_at_floor(const std::vector<Vector3d>& points)
     parts.region_of.front() = 0;
     std::vector<std::uint32_t> all(points.size());
     std::iota(all.begin(), all.end(), 0U);
-    return ShownPoints(scene, 0, all).look_at(Vector3d::Zero(), parts, 0);
+    return ShownPoints(scene, 0, all).looks_at(Vector3d::Zero(), parts, 0);
 }
 
 TEST(ShownPoints, LookAtAFloorThatAloneIsShownThere)

@@ -16,7 +16,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <span>
 #include <utility>
 
 namespace vcarve {
@@ -26,23 +25,23 @@ namespace {
 using Eigen::Vector3d;
 
 /// Walks over the squares of a grid, ring by ring around some, through those that may_enter(square)
-/// lets it enter, and calls visit(square) for each of these. Ends after the ring in which `most`
-/// were visited.
+/// lets it enter, and calls visit(square) for each of these, `most` at most.
 template <typename MayEnter, typename Visit>
 void spread(std::set<Square> from, std::size_t most, const MayEnter& may_enter, const Visit& visit)
 {
     std::vector<Square> ring(from.begin(), from.end());
     std::set<Square>& reached = from;
-    for (std::size_t visited = 0; !ring.empty() && visited < most;) {
+    std::size_t visited = 0;
+    while (!ring.empty()) {
         std::vector<Square> next;
         for (const Square& square : ring) {
             for (const Square& beside : squares_beside(square)) {
                 if (!reached.insert(beside).second || !may_enter(beside)) continue;
+                if (visited++ == most) return;
                 visit(beside);
                 next.push_back(beside);
             }
         }
-        visited += next.size();
         ring = std::move(next);
     }
 }
@@ -83,14 +82,17 @@ Vector3d place_in(const Square& square, const PlaneGrid& grid, const Vector3d& n
            kOff * grid.side() * off * normal;
 }
 
-/// A square of a patch's plane in which the patch has no point, and a place in it.
-struct Blank : AddedPlace {
+/// A square of a patch's plane in which the patch has no point.
+struct PatchSquare {
     std::uint32_t patch = 0;
     Square square;
 };
 
-/// Whether a view looks at a blank.
-struct Question {
+/// One of them, and a place in it.
+struct Blank : AddedPlace, PatchSquare {};
+
+/// A view that looks at a blank.
+struct Look {
     std::uint32_t view;
     std::uint32_t blank;
 };
@@ -108,11 +110,12 @@ class Blanks {
 
     std::vector<AddedPlace> places(const Progress& progress) const
     {
-        std::vector<Blank> blanks = squares_without_points();
-        keep_tracks_that_look(blanks, progress.part(0.0, 0.6));
+        std::vector<Blank> blanks =
+            places_in(squares_without_points(progress.part(0.0, 0.1)), progress.part(0.1, 0.3));
+        keep_tracks_that_look(blanks, progress.part(0.3, 0.7));
         std::erase_if(blanks, [](const Blank& blank) { return blank.track.size() < 2; });
-        leave_out_seen_through(blanks, progress.part(0.6, 1.0));
-        return beside_points(std::move(blanks));
+        leave_out_seen_through(blanks, progress.part(0.7, 1.0));
+        return connected(blanks);
     }
 
   private:
@@ -125,15 +128,15 @@ class Blanks {
         return squares;
     }
 
-    /// The squares without points within the hull of each patch, with the views that may look at
-    /// them: no more a patch, about, than it has points, and those next to these first.
-    std::vector<Blank> squares_without_points() const
+    /// The squares without points within the hull of each patch: no more of a patch than it has
+    /// points, those next to these first.
+    std::vector<PatchSquare> squares_without_points(const Progress& progress) const
     {
         constexpr std::size_t kFewest = 100; // a smaller part may be a piece of something round
-        const auto look = [&](std::size_t i, std::vector<Blank>& found) {
+        const auto look = [&](std::size_t i, std::vector<PatchSquare>& found) {
             const auto patch = static_cast<std::uint32_t>(i);
             const std::vector<Vector3d>& points = parts_.patches[patch].positions;
-            if (points.size() < kFewest) return;
+            if (points.size() < kFewest || !grids_[patch].can_number(points)) return;
             const PlaneHull hull(points, grids_[patch].frame());
             spread(
                 squares_with_points(patch), points.size(),
@@ -142,9 +145,21 @@ class Blanks {
                         grids_[patch].corners_of(square),
                         [&](const Vector3d& corner) { return hull.contains(corner); });
                 },
-                [&](const Square& square) { found.push_back(blank_in(patch, square)); });
+                [&](const Square& square) {
+                    found.push_back({patch, square});
+                });
         };
-        return parallel_collect<Blank>(grids_.size(), look, 1);
+        return parallel_collect<PatchSquare>(grids_.size(), progress, look, 1);
+    }
+
+    /// A place in each square, with the views that may look at it.
+    std::vector<Blank> places_in(const std::vector<PatchSquare>& squares,
+                                 const Progress& progress) const
+    {
+        const auto look = [&](std::size_t i, std::vector<Blank>& blanks) {
+            blanks.push_back(blank_in(squares[i].patch, squares[i].square));
+        };
+        return parallel_collect<Blank>(squares.size(), progress, look, 64);
     }
 
     Blank blank_in(std::uint32_t patch, const Square& square) const
@@ -155,8 +170,7 @@ class Blanks {
         Blank blank{{.position = place_in(square, grids_[patch], normal),
                      .step = grids_[patch].side(),
                      .id = kBlankPointId},
-                    patch,
-                    square};
+                    {patch, square}};
         const std::vector<std::uint32_t> beside =
             nearest_few(parts_.patches[patch], blank.position);
         blank.beside = beside.front();
@@ -190,17 +204,16 @@ class Blanks {
                 if (!asked[view].empty()) points[view].push_back(point);
             }
         }
-        const auto ask = [&](std::size_t i, std::vector<Question>& looked) {
+        const auto ask = [&](std::size_t i, std::vector<Look>& looks) {
             const auto view = static_cast<std::uint32_t>(i);
             if (asked[view].empty()) return;
             const ShownPoints shown(scene_, view, std::move(points[view]));
             for (const std::uint32_t blank : asked[view]) {
-                if (shown.look_at(blanks[blank].position, parts_, blanks[blank].patch))
-                    looked.push_back({view, blank});
+                if (shown.looks_at(blanks[blank].position, parts_, blanks[blank].patch))
+                    looks.push_back({view, blank});
             }
         };
-        for (const auto& [view, blank] :
-             parallel_collect<Question>(asked.size(), progress, ask, 1)) {
+        for (const auto& [view, blank] : parallel_collect<Look>(asked.size(), progress, ask, 1)) {
             blanks[blank].track.push_back(view);
         }
     }
@@ -223,7 +236,7 @@ class Blanks {
 
     /// Of blanks, which are in the order of their patches, those that hang together with their
     /// patch's points, and have no point near.
-    std::vector<AddedPlace> beside_points(std::vector<Blank> blanks) const
+    std::vector<AddedPlace> connected(const std::vector<Blank>& blanks) const
     {
         const auto look = [&](std::size_t patch, std::vector<AddedPlace>& found) {
             const auto own = std::ranges::equal_range(blanks, patch, {}, &Blank::patch);

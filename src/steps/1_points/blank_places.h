@@ -14,8 +14,9 @@ namespace vcarve {
 /// on a plain floor. They stand near the middles of squares with sides of `step` spacings of the
 /// part's points (add_crease_points() has the rules). Part after part, in an order that does not
 /// depend on the threads. The tree is of the scene's points. Cost: O(blank squares x views log
-/// points + sights log squares), in parallel; 100 bytes a sight of the views that are asked, as
-/// many at a time as there are threads.
+/// points + sights log squares), in parallel, but for the hull of each part; about 500 bytes a
+/// blank square, of which there are no more than points, and 100 bytes a sight of a view for each
+/// thread.
 std::vector<AddedPlace> blank_places(const Scene& scene, const NearestNeighbors& tree,
                                      const FlatParts& parts, double step, const Progress& progress);
 

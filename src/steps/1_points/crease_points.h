@@ -47,12 +47,13 @@ struct CreaseReport {
 /// of the wall. It counts as a border point.
 ///
 /// Amid a planar region of 100 points or more, within their convex hull, its plane is divided into
-/// squares with sides of `blank_step` spacings. One without points of the region gets one in its
-/// middle if none is near, if no sight passes through it, if at least two views look at it, and if
-/// it hangs together with the region's points by such squares. The views that are asked are those
-/// that saw the region's four points nearest to it, if they show the place and stand before the
-/// plane, but not those that stand before a flat part which covers the place, as a roof does the
-/// ground (Covers); whether they look at it what their images show beside it tells (ShownPoints).
+/// squares with sides of `blank_step` spacings. One without points of the region gets one near
+/// its middle if none of the scene's is near, if no sight passes through it, if at least two views
+/// look at it, and if it hangs together with the region's points by such squares, of which as many
+/// are asked as the region has points. The views that are asked are those that saw the region's
+/// four points nearest to it, if they show the place and stand before the plane, but not those that
+/// stand before a flat part which covers the place, as a roof does the ground (Covers); whether
+/// they look at it what their images show beside it tells (ShownPoints).
 ///
 /// A new point has the colour and the error of the point next to it, and the id kNoPointId along a
 /// crease, kBorderPointId along a border, kBlankPointId amid a region. Scenes with points whose

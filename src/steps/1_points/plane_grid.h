@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace vcarve {
 
@@ -30,6 +32,14 @@ class PlaneGrid {
     double side() const { return side_; }
     const PlaneFrame& frame() const { return frame_; }
 
+    /// Whether whole numbers tell the squares of all these places apart.
+    bool can_number(const std::vector<Eigen::Vector3d>& places) const
+    {
+        constexpr double kMost = 1e15;
+        return std::ranges::all_of(places, [&](const Eigen::Vector3d& place) {
+            return frame_.in_plane(place).norm() < kMost * side_; // nor if it is no number
+        });
+    }
     Square square_of(const Eigen::Vector3d& place) const
     {
         const Eigen::Array2d steps = frame_.in_plane(place).array() / side_ + kShift;

@@ -1,7 +1,7 @@
 #include "steps/1_points/plane_hull.h"
 
-#include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/convex_hull_2.h>
+#include <CGAL/enum.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -32,8 +32,21 @@ Vector3d PlaneHull::in_space(const Kernel::Point_2& at) const
 
 bool PlaneHull::contains(const Vector3d& place) const
 {
-    return CGAL::bounded_side_2(corners_.begin(), corners_.end(), in_plane(place), Kernel()) !=
-           CGAL::ON_UNBOUNDED_SIDE;
+    if (corners_.size() < 3) return false;
+    const Kernel::Point_2 at = in_plane(place);
+    const auto is_left_of = [&](const Kernel::Point_2& from, const Kernel::Point_2& to) {
+        return CGAL::orientation(from, to, at) != CGAL::RIGHT_TURN;
+    };
+    // The last corner to whose left the place lies, as seen from the first one.
+    const auto next = std::partition_point(
+        corners_.begin() + 1, corners_.end(),
+        [&](const Kernel::Point_2& corner) { return is_left_of(corners_.front(), corner); });
+    if (next == corners_.begin() + 1) return false;
+    if (next == corners_.end()) { // on the last side, or beyond it
+        return CGAL::collinear(corners_.front(), at, corners_.back()) &&
+               CGAL::collinear_are_ordered_along_line(corners_.front(), at, corners_.back());
+    }
+    return is_left_of(*(next - 1), *next);
 }
 
 std::vector<std::array<Vector3d, 3>> PlaneHull::triangles() const

@@ -15,7 +15,8 @@ class PlaneHull {
   public:
     PlaneHull(const std::vector<Eigen::Vector3d>& places, const PlaneFrame& frame);
 
-    /// Whether a place in the plane lies within it or on its border. Cost: O(corners).
+    /// Whether a place in the plane lies within it or on its border. Cost: O(log
+    /// corners).
     bool contains(const Eigen::Vector3d& place) const;
     /// The hull in triangles; none where it has no area.
     std::vector<std::array<Eigen::Vector3d, 3>> triangles() const;

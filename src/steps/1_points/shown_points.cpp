@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <utility>
 
 namespace vcarve {
@@ -10,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Unit vectors from a place to some points.
+/// Unit vectors from a place to some points; zero to one at the place itself.
 std::vector<Vector3d> ways_to(const std::vector<std::uint32_t>& points, const Scene& scene,
                               const Vector3d& from)
 {
@@ -32,7 +33,7 @@ ShownPoints::ShownPoints(const Scene& scene, std::uint32_t view, std::vector<std
 {
 }
 
-bool ShownPoints::look_at(const Vector3d& place, const FlatParts& parts, std::uint32_t part) const
+bool ShownPoints::looks_at(const Vector3d& place, const FlatParts& parts, std::uint32_t part) const
 {
     constexpr std::array<std::size_t, 2> kLook = {8, 40}; // most find what they need among a few
     const Vector3d& normal = parts.patches[part].region->plane.normal;

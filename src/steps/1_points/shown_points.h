@@ -21,11 +21,11 @@ class ShownPoints {
 
     /// Whether the view looks at a place in the plane of a flat part before which it stands, as far
     /// as the points tell. The one that it shows nearest to the place must be the part's own. And
-    /// so must be the next of the nearest 40 that it shows onward, within 45 degrees of the way
+    /// so must be, of the nearest 40, the first that it shows onward, within 45 degrees of the way
     /// that leads on along the plane away from the view, unless it is farther from the view than
     /// the place: what stands on a plane hides it from the foot up to the top, and there the
     /// thing's own points show. Cost: O(log points).
-    bool look_at(const Eigen::Vector3d& place, const FlatParts& parts, std::uint32_t part) const;
+    bool looks_at(const Eigen::Vector3d& place, const FlatParts& parts, std::uint32_t part) const;
 
   private:
     const Scene& scene_;

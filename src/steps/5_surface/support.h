@@ -13,7 +13,7 @@ namespace vcarve {
 /// Which faces of a boundary to keep by what the views see. A face is kept if each of its corners
 /// was seen from the front of the face by some view of the corner's point, or if some view sees a
 /// part of it: nothing that a view sees is dropped for lack of points. Views that stand lower than
-/// 3 degrees before a face do not count, but for faces of usual size beside kept ones at two edges,
+/// 3 degrees before a face do not count, but for faces of usual size beside seen ones at two edges,
 /// for which one degree will do, lest crests have slits. What no view sees, the shell behind walls
 /// and under floors, is not kept, but for small patches amid kept faces. `boundary` is
 /// the surface of `facets`, face by face, and needs TriMesh::points. Cost: O(faces + sights), and
