@@ -2,7 +2,6 @@
 
 #include "steps/1_points/plane_frame.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <Eigen/Core>
 
 #include <array>
@@ -15,20 +14,15 @@ class PlaneHull {
   public:
     PlaneHull(const std::vector<Eigen::Vector3d>& places, const PlaneFrame& frame);
 
-    /// Whether a place in the plane lies within it or on its border. Cost: O(log
-    /// corners).
+    /// Whether a place in the plane lies within it or on its border; never where it has no area.
+    /// Cost: O(log corners).
     bool contains(const Eigen::Vector3d& place) const;
     /// The hull in triangles; none where it has no area.
     std::vector<std::array<Eigen::Vector3d, 3>> triangles() const;
 
   private:
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-    Kernel::Point_2 in_plane(const Eigen::Vector3d& place) const;
-    Eigen::Vector3d in_space(const Kernel::Point_2& at) const;
-
     PlaneFrame frame_;
-    std::vector<Kernel::Point_2> corners_; ///< counter-clockwise
+    std::vector<Eigen::Vector2d> corners_; ///< in the plane, counter-clockwise
 };
 
 } // namespace vcarve
