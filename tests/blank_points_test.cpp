@@ -90,7 +90,13 @@ TEST(BlankPoints, AreAddedWhereAFloorIsBlank)
     // One for each square of two spacings, about, of an area of 1, but for those with a point.
     EXPECT_GE(added.size(), 10U);
     EXPECT_LE(added.size(), 25U);
-    for (const std::size_t i : added) {
+}
+
+TEST(BlankPoints, StandOnTheFloorAmidTheBlank)
+{
+    Scene scene = together({floor_with_blank()});
+    add_crease_points(scene, kInBlanks);
+    for (const std::size_t i : added_points(scene)) {
         EXPECT_NEAR(height(scene.positions[i]), 0.0, 0.01 * kSpacing);
         EXPECT_LT(off_middle(scene.positions[i]), 0.5);
         EXPECT_EQ(track_of(scene, i), kAll);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -25,10 +26,10 @@ Vector3d shown(double right, double above, double behind)
 /// first point is the floor's, the others are not.
 bool looks_at_floor(const std::vector<Vector3d>& points)
 {
-    std::vector<MadePoint> made;
-    for (const Vector3d& point : points) {
-        made.push_back({point, {0}});
-    }
+    std::vector<MadePoint> made(points.size());
+    std::ranges::transform(points, made.begin(), [](const Vector3d& point) {
+        return MadePoint{point, {0}};
+    });
     const Scene scene = make_scene({{0, 0, -6}}, made);
     FlatParts parts;
     const double half = std::sqrt(0.5);

@@ -16,6 +16,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 namespace vcarve {
@@ -239,7 +240,9 @@ class Blanks {
     std::vector<AddedPlace> connected(const std::vector<Blank>& blanks) const
     {
         const auto look = [&](std::size_t patch, std::vector<AddedPlace>& found) {
-            const auto own = std::ranges::equal_range(blanks, patch, {}, &Blank::patch);
+            const auto first = std::ranges::lower_bound(blanks, patch, {}, &Blank::patch);
+            const auto last = std::ranges::upper_bound(blanks, patch, {}, &Blank::patch);
+            const std::span<const Blank> own(first, last);
             if (own.empty()) return;
             std::map<Square, const Blank*> blank_of;
             for (const Blank& blank : own) {
