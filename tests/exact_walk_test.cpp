@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace vcarve {
 namespace {
@@ -139,6 +140,27 @@ TEST(CellsAroundVertex, AreAllThatHoldIt)
             ASSERT_EQ(found, expected) << named.name << ", vertex " << vertex;
         }
     }
+}
+
+TEST(CellsAroundVertex, AreAllOfManyWithinABall)
+{
+    Positions points = {Vector3d::Zero()};
+    for (int i = 0; i < 500; ++i) {
+        const double z = 1.0 - 2.0 * (i + 0.5) / 500;
+        points.emplace_back(std::sqrt(1.0 - z * z) * std::cos(2.4 * i),
+                            std::sqrt(1.0 - z * z) * std::sin(2.4 * i), z);
+    }
+    const TetMesh mesh = triangulation_of(points);
+    const auto middle = static_cast<Index>(
+        std::ranges::find(mesh.positions, Vector3d(Vector3d::Zero())) - mesh.positions.begin());
+    const auto expected = std::ranges::count_if(mesh.cells, [&](const Cell& cell) {
+        return std::ranges::count(cell.vertices, middle) == 1;
+    });
+    auto found = cells_around_vertex(mesh, middle, mesh.cell_of_vertex[middle]);
+    EXPECT_GT(expected, 900);
+    EXPECT_EQ(std::ssize(found), expected);
+    std::ranges::sort(found);
+    EXPECT_EQ(std::ranges::adjacent_find(found), found.end());
 }
 
 // ---- against brute force ------------------------------------------------------------------------

@@ -3,6 +3,9 @@
 #include "geometry/predicates.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <unordered_set>
+#include <vector>
 
 namespace vcarve {
 
@@ -58,20 +61,39 @@ bool lies_between(const Eigen::Vector3d& from, const Eigen::Vector3d& middle,
            (from[axis] > middle[axis] && middle[axis] > to[axis]);
 }
 
+/// Which cells were met: a sorted list of a few, a table of many, as around a point within a ball,
+/// amid which inserting would take too long.
+class MetCells {
+  public:
+    /// Whether a cell was not met before; now it was.
+    bool add(Index cell)
+    {
+        if (!many_.empty()) return many_.insert(cell).second;
+        const auto at = std::lower_bound(few_.begin(), few_.end(), cell);
+        if (at != few_.end() && *at == cell) return false;
+        few_.insert(at, cell);
+        if (few_.size() > kFew) many_.insert(few_.begin(), few_.end());
+        return true;
+    }
+
+  private:
+    static constexpr std::size_t kFew = 256;
+
+    std::vector<Index> few_;
+    std::unordered_set<Index> many_;
+};
+
 } // namespace
 
 std::vector<Index> cells_around_vertex(const TetMesh& mesh, Index vertex, Index start)
 {
     std::vector<Index> star{start};
-    std::vector<Index> sorted{start};
+    MetCells met;
+    met.add(start);
     for (std::size_t i = 0; i < star.size(); ++i) {
         for (const Index neighbor : mesh.cells[star[i]].neighbors) {
-            const auto at = std::lower_bound(sorted.begin(), sorted.end(), neighbor);
-            const bool is_new = at == sorted.end() || *at != neighbor;
-            if (is_new && has_vertex(mesh.cells[neighbor], vertex)) {
-                sorted.insert(at, neighbor);
+            if (has_vertex(mesh.cells[neighbor], vertex) && met.add(neighbor))
                 star.push_back(neighbor);
-            }
         }
     }
     return star;
