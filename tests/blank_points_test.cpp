@@ -13,7 +13,6 @@
 namespace vcarve {
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using flat_scenes::flat;
 using flat_scenes::kAll;
@@ -266,28 +265,22 @@ TEST(BlankPoints, NeedTwoViews)
     EXPECT_EQ(num_added(together({points})), 0);
 }
 
-TEST(BlankPoints, AreTheSameInOtherUnitsElsewhereAndForAnyThreads)
+TEST(BlankPoints, AreTheSameInOtherUnitsAndElsewhere)
 {
-    const Scene scene = together({floor_with_blank(0.5)});
-    Scene here = scene;
-    add_crease_points(here, kInBlanks);
-    const std::vector<std::size_t> added = added_points(here);
-    for (const double scale : {1.0, 1.0 / 1024.0, 37.3, 1e6}) {
-        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-        const Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
-        Scene there = moved(scene, scale, Quaterniond::Identity(), shift);
-        add_crease_points(there, kInBlanks);
-        const std::vector<std::size_t> added_there = added_points(there);
-        ASSERT_EQ(added_there.size(), added.size());
-        for (const std::size_t i : added) {
-            const Vector3d place = scale * here.positions[i] + shift;
-            const auto at = std::ranges::find_if(added_there, [&](std::size_t k) {
-                return (there.positions[k] - place).norm() < 1e-6 * kSpacing * scale;
-            });
-            ASSERT_NE(at, added_there.end());
-            EXPECT_EQ(track_of(there, *at), track_of(here, i));
-        }
-    }
+    flat_scenes::expect_same_elsewhere(together({floor_with_blank(0.5)}), kInBlanks, kBlankPointId,
+                                       {1.0, 1.0 / 1024.0, 37.3, 1e6}, 1e-6 * kSpacing);
+}
+
+TEST(BlankPoints, AreTheSameForAnyNumberOfThreads)
+{
+    Scene several = together({floor_with_blank(0.5)});
+    Scene one = several;
+    add_crease_points(several, kInBlanks);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    add_crease_points(one, kInBlanks);
+    EXPECT_EQ(one.positions, several.positions);
+    EXPECT_EQ(one.tracks.views, several.tracks.views);
+    EXPECT_EQ(one.point_ids, several.point_ids);
 }
 
 } // namespace

@@ -277,26 +277,8 @@ TEST(BorderPoints, StandWithCreasePointsButNotAtThem)
 
 TEST(BorderPoints, AreTheSameInOtherUnitsAndElsewhere)
 {
-    const Scene scene = together({board(), seen_backdrop()});
-    Scene here = scene;
-    add_crease_points(here, kOnBorders);
-    for (const double scale : {1.0 / 1024.0, 37.3, 1e6}) {
-        const Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
-        Scene there = moved(scene, scale, Quaterniond::Identity(), shift);
-        add_crease_points(there, kOnBorders);
-        // How they follow each other is up to rounding, as all points of the board have one depth.
-        const std::vector<std::size_t> added = added_points(here);
-        const std::vector<std::size_t> added_there = added_points(there);
-        ASSERT_EQ(added_there.size(), added.size());
-        for (const std::size_t i : added) {
-            const Vector3d place = scale * here.positions[i] + shift;
-            const auto at = std::ranges::find_if(added_there, [&](std::size_t k) {
-                return (there.positions[k] - place).norm() < 1e-9 * scale;
-            });
-            ASSERT_NE(at, added_there.end());
-            EXPECT_EQ(track_of(there, *at), track_of(here, i));
-        }
-    }
+    flat_scenes::expect_same_elsewhere(together({board(), seen_backdrop()}), kOnBorders,
+                                       kBorderPointId, {1.0 / 1024.0, 37.3, 1e6}, 1e-9);
 }
 
 TEST(BorderPoints, AreAsManyInASceneThatIsTurned)

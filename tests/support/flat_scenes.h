@@ -1,10 +1,14 @@
 #pragma once
 
+#include "steps/1_points/crease_points.h"
 #include "steps/1_points/spatial_sort.h"
 #include "support/scenes.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -76,6 +80,31 @@ inline std::vector<MadePoint> ball(int count, double most_z)
         points.push_back({{radius * std::cos(turn), radius * std::sin(turn), z}, kAll});
     }
     return points;
+}
+
+/// Expects the points that are added to a scene with an id to be the same in other units and
+/// elsewhere, up to so much of a unit. How they follow each other is up to rounding.
+inline void expect_same_elsewhere(const Scene& scene, const CreaseOptions& options,
+                                  std::uint64_t id, const std::vector<double>& scales, double off)
+{
+    Scene here = scene;
+    add_crease_points(here, options);
+    const std::vector<std::size_t> added = points_with_id(here, id);
+    for (const double scale : scales) {
+        const Eigen::Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
+        Scene there = moved(scene, scale, Eigen::Quaterniond::Identity(), shift);
+        add_crease_points(there, options);
+        const std::vector<std::size_t> added_there = points_with_id(there, id);
+        ASSERT_EQ(added_there.size(), added.size());
+        for (const std::size_t i : added) {
+            const Eigen::Vector3d place = scale * here.positions[i] + shift;
+            const auto at = std::ranges::find_if(added_there, [&](std::size_t k) {
+                return (there.positions[k] - place).norm() < off * scale;
+            });
+            ASSERT_NE(at, added_there.end());
+            EXPECT_EQ(track_of(there, *at), track_of(here, i));
+        }
+    }
 }
 
 } // namespace vcarve::flat_scenes

@@ -102,7 +102,7 @@ struct Look {
 class Blanks {
   public:
     Blanks(const Scene& scene, const NearestNeighbors& tree, const FlatParts& parts, double step)
-        : scene_(scene), tree_(tree), parts_(parts), covers_(parts)
+        : scene_(scene), tree_(tree), parts_(parts)
     {
         for (const Patch& patch : parts.patches) {
             grids_.emplace_back(patch.region->plane, step * patch.region->spacing);
@@ -111,8 +111,9 @@ class Blanks {
 
     std::vector<AddedPlace> places(const Progress& progress) const
     {
-        std::vector<Blank> blanks =
-            places_in(squares_without_points(progress.part(0.0, 0.1)), progress.part(0.1, 0.3));
+        const auto squares = squares_without_points(progress.part(0.0, 0.1));
+        if (squares.empty()) return {};
+        std::vector<Blank> blanks = places_in(squares, progress.part(0.1, 0.3));
         keep_tracks_that_look(blanks, progress.part(0.3, 0.7));
         std::erase_if(blanks, [](const Blank& blank) { return blank.track.size() < 2; });
         leave_out_seen_through(blanks, progress.part(0.7, 1.0));
@@ -157,27 +158,29 @@ class Blanks {
     std::vector<Blank> places_in(const std::vector<PatchSquare>& squares,
                                  const Progress& progress) const
     {
+        const Covers covers(parts_);
         const auto look = [&](std::size_t i, std::vector<Blank>& blanks) {
-            blanks.push_back(blank_in(squares[i].patch, squares[i].square));
+            blanks.push_back(blank_in(squares[i], covers));
         };
         return parallel_collect<Blank>(squares.size(), progress, look, 64);
     }
 
-    Blank blank_in(std::uint32_t patch, const Square& square) const
+    Blank blank_in(const PatchSquare& in, const Covers& covers) const
     {
+        const auto& [patch, square] = in;
         constexpr double kClearly = 0.5; // spacings over its plane
         const PlanarRegion& region = *parts_.patches[patch].region;
         const Vector3d& normal = region.plane.normal;
         Blank blank{{.position = place_in(square, grids_[patch], normal),
                      .step = grids_[patch].side(),
                      .id = kBlankPointId},
-                    {patch, square}};
+                    in};
         const std::vector<std::uint32_t> beside =
             nearest_few(parts_.patches[patch], blank.position);
         blank.beside = beside.front();
         blank.track = views_showing(scene_, beside, blank.position);
         const std::vector<std::uint32_t> over =
-            covers_.over(blank.position, normal, kClearly * region.spacing);
+            covers.over(blank.position, normal, kClearly * region.spacing);
         std::erase_if(blank.track, [&](std::uint32_t view) {
             const Vector3d& center = scene_.views[view].center;
             return normal.dot(center - blank.position) <= 0.0 ||
@@ -269,7 +272,6 @@ class Blanks {
     const Scene& scene_;
     const NearestNeighbors& tree_;
     const FlatParts& parts_;
-    Covers covers_;
     std::vector<PlaneGrid> grids_; ///< of each patch
 };
 
