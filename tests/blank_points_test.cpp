@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -100,6 +102,49 @@ TEST(BlankPoints, StandOnTheFloorAmidTheBlank)
         EXPECT_LT(off_middle(scene.positions[i]), 0.5);
         EXPECT_EQ(track_of(scene, i), kAll);
         EXPECT_EQ(scene.errors_px[i], 0.5);
+    }
+}
+
+TEST(BlankPoints, HaveTheMeanColourOfTheFourPointsNext)
+{
+    Scene before = together({floor_with_blank()});
+    for (std::size_t i = 0; i < before.num_points(); ++i) {
+        const auto value = static_cast<std::uint8_t>(37 * i % 251);
+        before.colors[i] = {value, static_cast<std::uint8_t>(255 - value), 9};
+    }
+    Scene scene = before;
+    add_crease_points(scene, kInBlanks);
+    for (const std::size_t i : added_points(scene)) {
+        std::vector<std::pair<double, std::size_t>> others;
+        for (std::size_t other = 0; other < before.num_points(); ++other) {
+            others.emplace_back((before.positions[other] - scene.positions[i]).norm(), other);
+        }
+        std::ranges::sort(others);
+        double red = 0.0;
+        for (const auto& [distance, other] : std::span(others).first<4>()) {
+            red += before.colors[other][0] / 4.0;
+        }
+        EXPECT_EQ(scene.colors[i][0], std::round(red));
+        EXPECT_NEAR(scene.colors[i][1], 255.0 - red, 0.5);
+        EXPECT_EQ(scene.colors[i][2], 9);
+    }
+}
+
+TEST(BlankPoints, AreNoneNextToAPointOfAnythingElse)
+{
+    const std::vector<MadePoint> floor = floor_with_blank();
+    Scene scene = together({floor});
+    add_crease_points(scene, kInBlanks);
+    const Vector3d there = scene.positions[added_points(scene).front()];
+    const double step = kInBlanks.blank_step * kSpacing;
+    for (const double beside : {0.2, 0.8}) {
+        const Vector3d thing = there + on_floor(0.0, 0.0, beside * step);
+        Scene with_thing = together({floor, {{thing, {0}}}}); // the other views see the floor there
+        add_crease_points(with_thing, kInBlanks);
+        const auto is_there = [&](std::size_t i) {
+            return (with_thing.positions[i] - there).norm() < 0.05 * step;
+        };
+        EXPECT_EQ(std::ranges::any_of(added_points(with_thing), is_there), beside > 0.5) << beside;
     }
 }
 

@@ -48,6 +48,30 @@ TEST(PointTree, ShowsAllPointsInABoxThatIsAskedFor)
     EXPECT_GT(shown, 0);
 }
 
+TEST(PointTree, FindsThePointsNearestToAPlace)
+{
+    for (const std::size_t count : {0, 1, 17, 2000}) {
+        const Positions points = random_points(count, 64);
+        const PointTree tree(points);
+        for (const Vector3d& place : random_points(20, 65)) {
+            std::vector<double> distances;
+            for (const Vector3d& point : points) {
+                distances.push_back((point - place).norm());
+            }
+            std::ranges::sort(distances);
+            for (const std::size_t wanted : {0, 1, 4, 40}) {
+                std::vector<PointTree::Near> nearest(3); // of a call before
+                tree.find_nearest(place, wanted, nearest);
+                ASSERT_EQ(nearest.size(), std::min(wanted, count));
+                for (std::size_t i = 0; i < nearest.size(); ++i) {
+                    EXPECT_EQ(nearest[i].distance, distances[i]);
+                    EXPECT_EQ(nearest[i].distance, (points[nearest[i].point] - place).norm());
+                }
+            }
+        }
+    }
+}
+
 TEST(PointTree, KnowsTheDistancesToTheNearestForeignPoint)
 {
     const Positions points = random_points(500, 63);

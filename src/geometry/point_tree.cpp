@@ -34,6 +34,24 @@ PointTree::PointTree(const std::vector<Eigen::Vector3d>& points) : points_(point
     }
 }
 
+void PointTree::find_nearest(const Eigen::Vector3d& place, std::size_t count,
+                             std::vector<Near>& nearest) const
+{
+    nearest.clear();
+    if (points_.empty() || count == 0) return;
+    double most = std::numeric_limits<double>::infinity();
+    visit_near(place, {0, 0}, most, [&](std::size_t i) {
+        const double distance = (points_[i] - place).norm();
+        if (nearest.size() == count) {
+            if (!(distance < most)) return;
+            nearest.pop_back();
+        }
+        nearest.insert(std::ranges::upper_bound(nearest, distance, {}, &Near::distance),
+                       {distance, i});
+        if (nearest.size() == count) most = nearest.back().distance;
+    });
+}
+
 std::vector<double> PointTree::distances_to_foreign(const PointRun& own) const
 {
     std::vector<double> distances;

@@ -54,6 +54,17 @@ class PointTree {
             own, limit, [&](const Box& box) { return distance_between(here, box); }, visit_point);
     }
 
+    /// A point, and how far it is.
+    struct Near {
+        double distance;
+        std::size_t point;
+    };
+
+    /// Fills `nearest` with the `count` points nearest to a place, or all if there are fewer, the
+    /// nearest first.
+    void find_nearest(const Eigen::Vector3d& place, std::size_t count,
+                      std::vector<Near>& nearest) const;
+
     /// Of each leaf with points of `own` the distance from its box to the nearest point that is not
     /// in `own`; infinite where there is none.
     std::vector<double> distances_to_foreign(const PointRun& own) const;

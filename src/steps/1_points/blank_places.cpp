@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -51,16 +50,12 @@ void spread(std::set<Square> from, std::size_t most, const MayEnter& may_enter, 
 std::vector<std::uint32_t> nearest_few(const Patch& patch, const Vector3d& place)
 {
     constexpr std::size_t kFew = 4;
-    std::vector<Near> nearest;
-    double most = std::numeric_limits<double>::infinity();
-    patch.tree.visit_near(place, {0, 0}, most, [&](std::size_t i) {
-        const Near near{(patch.positions[i] - place).norm(), patch.region->points[i]};
-        nearest.insert(std::ranges::upper_bound(nearest, near), near);
-        if (nearest.size() > kFew) nearest.pop_back();
-        if (nearest.size() == kFew) most = nearest.back().first;
-    });
+    std::vector<PointTree::Near> nearest;
+    patch.tree.find_nearest(place, kFew, nearest);
     std::vector<std::uint32_t> points(nearest.size());
-    std::ranges::transform(nearest, points.begin(), &Near::second);
+    std::ranges::transform(nearest, points.begin(), [&](const PointTree::Near& near) {
+        return patch.region->points[near.point];
+    });
     return points;
 }
 
@@ -154,36 +149,40 @@ class Blanks {
         return parallel_collect<PatchSquare>(grids_.size(), progress, look, 1);
     }
 
-    /// A place in each square, with the views that may look at it.
+    /// A place in each square, unless a point is near, with the views that may look at it.
     std::vector<Blank> places_in(const std::vector<PatchSquare>& squares,
                                  const Progress& progress) const
     {
         const Covers covers(parts_);
         const auto look = [&](std::size_t i, std::vector<Blank>& blanks) {
-            blanks.push_back(blank_in(squares[i], covers));
+            const auto& [patch, square] = squares[i];
+            const PlaneGrid& grid = grids_[patch];
+            const Vector3d place =
+                place_in(square, grid, parts_.patches[patch].region->plane.normal);
+            if (!has_point_near(place, grid.side())) {
+                blanks.push_back(blank_in(squares[i], place, covers));
+            }
         };
         return parallel_collect<Blank>(squares.size(), progress, look, 64);
     }
 
-    Blank blank_in(const PatchSquare& in, const Covers& covers) const
+    Blank blank_in(const PatchSquare& in, const Vector3d& place, const Covers& covers) const
     {
-        const auto& [patch, square] = in;
         constexpr double kClearly = 0.5; // spacings over its plane
+        const std::uint32_t patch = in.patch;
         const PlanarRegion& region = *parts_.patches[patch].region;
         const Vector3d& normal = region.plane.normal;
-        Blank blank{{.position = place_in(square, grids_[patch], normal),
+        Blank blank{{.position = place,
                      .step = grids_[patch].side(),
-                     .id = kBlankPointId},
+                     .id = kBlankPointId,
+                     .beside = nearest_few(parts_.patches[patch], place)},
                     in};
-        const std::vector<std::uint32_t> beside =
-            nearest_few(parts_.patches[patch], blank.position);
-        blank.beside = beside.front();
-        blank.track = views_showing(scene_, beside, blank.position);
+        blank.track = views_showing(scene_, blank.beside, place);
         const std::vector<std::uint32_t> over =
-            covers.over(blank.position, normal, kClearly * region.spacing);
+            covers.over(place, normal, kClearly * region.spacing);
         std::erase_if(blank.track, [&](std::uint32_t view) {
             const Vector3d& center = scene_.views[view].center;
-            return normal.dot(center - blank.position) <= 0.0 ||
+            return normal.dot(center - place) <= 0.0 ||
                    std::ranges::any_of(over, [&](std::uint32_t cover) {
                        const Plane& plane = parts_.patches[cover].region->plane;
                        return plane.normal.dot(center - plane.center) > 0.0;
@@ -254,19 +253,16 @@ class Blanks {
             spread(
                 squares_with_points(static_cast<std::uint32_t>(patch)), own.size(),
                 [&](const Square& square) { return blank_of.contains(square); },
-                [&](const Square& square) {
-                    const Blank& blank = *blank_of.at(square);
-                    if (!has_point_near(blank)) found.push_back(blank);
-                });
+                [&](const Square& square) { found.push_back(*blank_of.at(square)); });
         };
         return parallel_collect<AddedPlace>(parts_.patches.size(), look, 1);
     }
 
-    bool has_point_near(const Blank& blank) const
+    bool has_point_near(const Vector3d& place, double side) const
     {
-        std::vector<NearestNeighbors::Neighbor> nearest;
-        tree_.find(blank.position, 1, nearest);
-        return nearest.front().distance_sq < 0.25 * blank.step * blank.step;
+        thread_local std::vector<NearestNeighbors::Neighbor> nearest;
+        tree_.find(place, 1, nearest);
+        return nearest.front().distance_sq < 0.25 * side * side;
     }
 
     const Scene& scene_;

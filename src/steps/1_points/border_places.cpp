@@ -232,7 +232,7 @@ class Borders {
         }
         if (own.size() < kMost) return false;
         const std::vector<std::uint32_t> beside = nearest_two(own, kRounding * region.spacing);
-        place.beside = beside.front();
+        place.beside = {beside.front()};
         place.track = views_showing(scene_, beside, place.position);
         std::erase_if(place.track, [&](std::uint32_t view) {
             return region.plane.normal.dot(scene_.views[view].center - place.position) <= 0.0;

@@ -207,7 +207,7 @@ class Creases {
         for (std::size_t side = 0; side < 2; ++side) {
             beside[side] = nearest(near[side], along, kRounding * crease.spacing);
         }
-        place.beside = beside[0].front();
+        place.beside = {beside[0].front()};
         place.track = views_of(crease, place.position, beside);
         if (place.track.size() < 2) return;
         for (std::size_t side = 0; side < 2; ++side) {

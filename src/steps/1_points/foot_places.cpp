@@ -60,7 +60,7 @@ void add_foot(const Scene& scene, const NearestNeighbors& tree, const FlatParts&
     tree.find(foot.position, 1, around);
     if (around.front().distance_sq < kThere * kThere * spacing * spacing) return;
     const std::vector<std::uint32_t> beside = nearest_two(near, kRounding * spacing);
-    foot.beside = beside.front();
+    foot.beside = {beside.front()};
     foot.track = views_showing(scene, beside, foot.position);
     std::erase_if(foot.track, [&](std::uint32_t view) {
         const Vector3d way = scene.views[view].center - foot.position;

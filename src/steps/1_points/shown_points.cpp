@@ -41,8 +41,8 @@ bool ShownPoints::looks_at(const Vector3d& place, const FlatParts& parts, std::u
     const Vector3d way = (place - center_) / far;
     // In the image: towards the horizon of the plane.
     const Vector3d onward = (normal - way.dot(normal) * way).normalized();
-    const auto is_onward = [&](std::uint32_t shown) {
-        const Vector3d beside = ways_[shown] - way;
+    const auto is_onward = [&](std::size_t other) {
+        const Vector3d beside = ways_[other] - way;
         const double along = onward.dot(beside);
         return along > 0.0 && (beside - along * onward).norm() <= along;
     };
@@ -50,12 +50,11 @@ bool ShownPoints::looks_at(const Vector3d& place, const FlatParts& parts, std::u
     const auto hides = [&](std::uint32_t point) {
         return (scene_.positions[point] - center_).norm() < far;
     };
-    thread_local std::vector<NearestNeighbors::Neighbor> shown;
+    thread_local std::vector<PointTree::Near> shown;
     for (const std::size_t count : kLook) {
-        tree_.find(way, count, shown);
+        tree_.find_nearest(way, count, shown);
         if (!is_own(points_[shown.front().point])) return false;
-        const auto next = std::ranges::find_if(
-            shown, is_onward, [](const NearestNeighbors::Neighbor& near) { return near.point; });
+        const auto next = std::ranges::find_if(shown, is_onward, &PointTree::Near::point);
         if (next == shown.end()) continue;
         const std::uint32_t point = points_[next->point];
         return is_own(point) || !hides(point);
