@@ -48,25 +48,40 @@ TEST(PointTree, ShowsAllPointsInABoxThatIsAskedFor)
     EXPECT_GT(shown, 0);
 }
 
+/// The distances from a place to all points, ascending.
+std::vector<double> distances_to(const Positions& points, const Vector3d& place)
+{
+    std::vector<double> distances;
+    for (const Vector3d& point : points) {
+        distances.push_back((point - place).norm());
+    }
+    std::ranges::sort(distances);
+    return distances;
+}
+
+/// The distances to those that the tree finds, of which each is the one it tells.
+std::vector<double> distances_found(const PointTree& tree, const Vector3d& place, std::size_t count)
+{
+    std::vector<PointTree::Near> nearest(3); // of a call before
+    tree.find_nearest(place, count, nearest);
+    std::vector<double> found;
+    for (const auto& [distance, point] : nearest) {
+        found.push_back((tree.points()[point] - place).norm());
+        EXPECT_EQ(distance, found.back());
+    }
+    return found;
+}
+
 TEST(PointTree, FindsThePointsNearestToAPlace)
 {
     for (const std::size_t count : {0, 1, 17, 2000}) {
         const Positions points = random_points(count, 64);
         const PointTree tree(points);
         for (const Vector3d& place : random_points(20, 65)) {
-            std::vector<double> distances;
-            for (const Vector3d& point : points) {
-                distances.push_back((point - place).norm());
-            }
-            std::ranges::sort(distances);
-            for (const std::size_t wanted : {0, 1, 4, 40}) {
-                std::vector<PointTree::Near> nearest(3); // of a call before
-                tree.find_nearest(place, wanted, nearest);
-                ASSERT_EQ(nearest.size(), std::min(wanted, count));
-                for (std::size_t i = 0; i < nearest.size(); ++i) {
-                    EXPECT_EQ(nearest[i].distance, distances[i]);
-                    EXPECT_EQ(nearest[i].distance, (points[nearest[i].point] - place).norm());
-                }
+            std::vector<double> expected = distances_to(points, place);
+            for (const std::size_t wanted : {40, 4, 1, 0}) {
+                expected.resize(std::min(wanted, count));
+                EXPECT_EQ(distances_found(tree, place, wanted), expected);
             }
         }
     }
