@@ -3,6 +3,8 @@
 #include "base/parallel_rows.h"
 #include "vcarve/tri_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -37,5 +39,19 @@ class VertexFaces {
     RowTable table_;
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> replaced_; ///< by vertex
 };
+
+inline constexpr std::array<int, 3> kCorners = {0, 1, 2}; ///< of a face
+
+/// Shows visit(other) the other faces that have the edge of a face from a corner to the next, in
+/// either direction, of those that are given at the vertices. Cost: O(faces at the corner).
+template <typename Visit>
+void visit_beside(std::span<const Face> faces, std::uint32_t face, int corner,
+                  const VertexFaces& faces_at, const Visit& visit)
+{
+    const std::uint32_t to = faces[face][(corner + 1) % 3];
+    for (const std::uint32_t other : faces_at[faces[face][corner]]) {
+        if (other != face && std::ranges::count(faces[other], to) > 0) visit(other);
+    }
+}
 
 } // namespace vcarve

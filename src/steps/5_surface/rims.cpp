@@ -42,15 +42,11 @@ class Rim {
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint32_t from = boundary_.faces[face][corner];
             const std::uint32_t to = boundary_.faces[face][(corner + 1) % 3];
-            std::uint32_t kept = 0;
-            int num_kept = 0;
-            for (const std::uint32_t other : faces_at_[from]) {
-                if (keep_[other] == 0 || std::ranges::count(boundary_.faces[other], to) == 0)
-                    continue;
-                kept = other;
-                ++num_kept;
-            }
-            if (num_kept == 1) visit(kept, place_at_edge(kept, from, to));
+            std::vector<std::uint32_t> kept;
+            visit_beside(boundary_.faces, face, corner, faces_at_, [&](std::uint32_t other) {
+                if (keep_[other] != 0) kept.push_back(other);
+            });
+            if (kept.size() == 1) visit(kept.front(), place_at_edge(kept.front(), from, to));
         }
     }
 

@@ -27,13 +27,12 @@ bool goes_on(std::size_t face, const SurfaceNormals& normals)
 bool is_at_rim(std::uint32_t face, const std::vector<Face>& faces, const VertexFaces& faces_at,
                const FaceFlags& keep)
 {
-    const auto is_gone_at = [&](std::uint32_t from, std::uint32_t to) {
-        return std::ranges::any_of(faces_at[from], [&](std::uint32_t other) {
-            return keep[other] == 0 && std::ranges::count(faces[other], to) > 0;
-        });
-    };
-    const auto& [a, b, c] = faces[face];
-    return is_gone_at(a, b) || is_gone_at(b, c) || is_gone_at(c, a);
+    return std::ranges::any_of(kCorners, [&](int corner) {
+        bool is_gone = false;
+        visit_beside(faces, face, corner, faces_at,
+                     [&](std::uint32_t other) { is_gone = is_gone || keep[other] == 0; });
+        return is_gone;
+    });
 }
 
 /// Whether a face has an edge so long.

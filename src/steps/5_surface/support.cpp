@@ -106,11 +106,10 @@ FaceNumbers gap_faces(const TriMesh& mesh, const FaceFlags& seen, const LocalEdg
 std::ptrdiff_t num_beside(const std::vector<Face>& faces, std::uint32_t face,
                           const VertexFaces& others_at)
 {
-    return std::ranges::count_if(std::array{0, 1, 2}, [&](int corner) {
-        const std::uint32_t to = faces[face][(corner + 1) % 3];
-        return std::ranges::any_of(others_at[faces[face][corner]], [&](std::uint32_t other) {
-            return other != face && std::ranges::count(faces[other], to) > 0;
-        });
+    return std::ranges::count_if(kCorners, [&](int corner) {
+        bool is_beside = false;
+        visit_beside(faces, face, corner, others_at, [&](std::uint32_t) { is_beside = true; });
+        return is_beside;
     });
 }
 
