@@ -16,9 +16,11 @@ namespace vcarve {
 
 /// Writes a COLMAP model in text into `folder`: points on the unit ball around `middle`, along a
 /// spiral and so without chance, each seen by those of six views, four away along the axes, that
-/// face it.
+/// face it. With lumps so high, as shares of the radius, they do not all lie on one sphere, whose
+/// cells take long to tell.
 inline void write_ball_model(const std::filesystem::path& folder, int num_points,
-                             const Eigen::Vector3d& middle = Eigen::Vector3d::Zero())
+                             const Eigen::Vector3d& middle = Eigen::Vector3d::Zero(),
+                             double lumps = 0.0)
 {
     // Rotations that take the axis of a view to the camera's z, as w x y z; the centre is -4 times
     // it.
@@ -48,7 +50,8 @@ inline void write_ball_model(const std::filesystem::path& folder, int num_points
         const double angle = std::numbers::pi * (3.0 - std::sqrt(5.0)) * i;
         const double radius = std::sqrt(1.0 - z * z);
         const Eigen::Vector3d p(radius * std::cos(angle), radius * std::sin(angle), z);
-        const Eigen::Vector3d place = p + middle;
+        const Eigen::Array3d waves = (9.0 * p.array() + Eigen::Array3d(0, 1, 2)).sin();
+        const Eigen::Vector3d place = (1.0 + lumps * waves.prod()) * p + middle;
         fmt::format_to(std::back_inserter(points), "{} {} 200 100 50 0.5", i + 1,
                        fmt::join(place, " "));
         // The face towards an axis is seen from there: unit ball, view at 4, so from 1/4 on.
