@@ -19,7 +19,8 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::Not;
 
-/// Large enough for arrays in files, and not all on one sphere, which is not divided into blocks.
+/// Large enough for arrays in files, and with lumps, since points of one sphere are not divided
+/// into blocks.
 class ProgramInBlocks : public testing::Test {
   protected:
     ProgramInBlocks() { write_ball_model(ball, 120'000, Eigen::Vector3d::Zero(), 0.05); }

@@ -61,7 +61,8 @@ class PointTree {
     };
 
     /// Fills `nearest` with the `count` points nearest to a place, or all if there are fewer, the
-    /// nearest first.
+    /// nearest first. Which of points equally far are left out depends on the points alone. Safe
+    /// from many threads. Cost: O(log points + count) where the points follow each other in space.
     void find_nearest(const Eigen::Vector3d& place, std::size_t count,
                       std::vector<Near>& nearest) const;
 

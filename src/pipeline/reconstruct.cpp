@@ -135,7 +135,7 @@ TetMesh triangulate_in_blocks(const Scene& scene, std::size_t count, StageKeeper
     std::optional<TetMesh> cells =
         triangulate_in_blocks(scene, blocks, progress.part(is_shared ? 0.8 : 0.0, 1.0));
     if (cells) return std::move(*cells);
-    work.log().note("the points lie on common spheres or planes up to their last digits, so they "
+    work.log().note("so many points lie on common spheres or planes, or next to them, that they "
                     "are triangulated at once, which takes more memory");
     return triangulate_at_once(scene, progress);
 }

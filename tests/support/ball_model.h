@@ -16,8 +16,8 @@ namespace vcarve {
 
 /// Writes a COLMAP model in text into `folder`: points on the unit ball around `middle`, along a
 /// spiral and so without chance, each seen by those of six views, four away along the axes, that
-/// face it. With lumps so high, as shares of the radius, they do not all lie on one sphere, whose
-/// cells take long to tell.
+/// face it. With lumps the radius varies by up to such a share of it: points of one sphere are not
+/// triangulated in blocks (TooManyTies). Who sees a point is told as without them.
 inline void write_ball_model(const std::filesystem::path& folder, int num_points,
                              const Eigen::Vector3d& middle = Eigen::Vector3d::Zero(),
                              double lumps = 0.0)

@@ -238,7 +238,7 @@ class Blanks {
     }
 
     /// Of blanks, which are in the order of their patches, those that hang together with their
-    /// patch's points, and have no point near.
+    /// patch's points.
     std::vector<AddedPlace> connected(const std::vector<Blank>& blanks) const
     {
         const auto look = [&](std::size_t patch, std::vector<AddedPlace>& found) {

@@ -55,8 +55,8 @@ struct CreaseReport {
 /// stand before a flat part which covers the place, as a roof does the ground (Covers); whether
 /// they look at it what their images show beside it tells (ShownPoints).
 ///
-/// A new point has the colour and the error of the point next to it, amid a region the mean colour
-/// of the four, and the id kNoPointId along a
+/// A new point has the error of the point next to it and its colour, amid a region the mean colour
+/// of the region's four nearest, and the id kNoPointId along a
 /// crease, kBorderPointId along a border, kBlankPointId amid a region. Scenes with points whose
 /// error is not known, which are dense, stay as they are. The points follow each other in space, as
 /// spatial_sort() puts them, before and after. The result does not depend on the number of threads

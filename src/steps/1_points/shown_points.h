@@ -18,6 +18,8 @@ class ShownPoints {
     /// The points must be some of those that the view saw, at least one, and follow each other in
     /// space as the scene's do, or looking up takes longer. Cost: O(points), and 32 bytes a point.
     ShownPoints(const Scene& scene, std::uint32_t view, std::vector<std::uint32_t> points);
+    ShownPoints(const ShownPoints&) = delete; // the tree refers to the ways of this one
+    ShownPoints& operator=(const ShownPoints&) = delete;
 
     /// Whether the view looks at a place in the plane of a flat part before which it stands, as far
     /// as the points tell. The one that it shows nearest to the place must be the part's own. And

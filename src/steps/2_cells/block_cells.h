@@ -46,8 +46,8 @@ class BlockProgress {
     std::size_t done_ = 0;
 };
 
-/// Thrown where points lie on common spheres or planes up to their last digits, so many that the
-/// spheres of a block's cells cannot be told to be empty without looking at most points for each.
+/// Thrown where points lie on common spheres or planes, or next to them, so many that the spheres
+/// of a block's cells cannot be told to be empty without looking at most points for each.
 struct TooManyTies {};
 
 /// Points that span space, and the farthest ones in 14 directions: what each block begins with, so

@@ -27,10 +27,10 @@ struct Blocks {
 /// each other, each triangulated by itself with a few points of the others (see block_cells.h).
 /// As many blocks are in work at a time as there are threads. Needs points that follow each other
 /// in space, as spatial_sort() puts them; throws as triangulate() does. Nothing where points lie on
-/// common spheres or planes up to their last digits, as some made ones do, and so many that blocks
-/// would take far too long; triangulate() takes these. Cost: a block takes in more
-/// points of others the smaller it is; of 100,000 points and more, less than a fifth. Memory:
-/// CGAL's structure of the blocks in work, and the cells twice.
+/// common spheres or planes, or next to them, as on a ball, and so many that blocks would take far
+/// too long; triangulate() takes these. Cost: a block takes in more points of others the smaller it
+/// is; of 100,000 points and more, less than a fifth. Memory: CGAL's structure of the blocks in
+/// work, and the cells twice.
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& blocks,
                                              const Progress& progress = {});
 

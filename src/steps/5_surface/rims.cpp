@@ -6,7 +6,6 @@
 #include "steps/5_surface/onlookers.h"
 
 #include <algorithm>
-#include <array>
 
 namespace vcarve {
 
@@ -42,11 +41,14 @@ class Rim {
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint32_t from = boundary_.faces[face][corner];
             const std::uint32_t to = boundary_.faces[face][(corner + 1) % 3];
-            std::vector<std::uint32_t> kept;
+            std::uint32_t kept = 0;
+            int num_kept = 0;
             visit_beside(boundary_.faces, face, corner, faces_at_, [&](std::uint32_t other) {
-                if (keep_[other] != 0) kept.push_back(other);
+                if (keep_[other] == 0) return;
+                kept = other;
+                ++num_kept;
             });
-            if (kept.size() == 1) visit(kept.front(), place_at_edge(kept.front(), from, to));
+            if (num_kept == 1) visit(kept, place_at_edge(kept, from, to));
         }
     }
 
