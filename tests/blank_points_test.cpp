@@ -79,6 +79,13 @@ std::int64_t num_added(Scene scene, const CreaseOptions& options = kInBlanks)
     return add_crease_points(scene, options).in_blanks;
 }
 
+/// A scene with the points of its blanks, of which there must be some.
+Scene filled(Scene scene)
+{
+    EXPECT_GE(add_crease_points(scene, kInBlanks).in_blanks, 10);
+    return scene;
+}
+
 TEST(BlankPoints, AreAddedWhereAFloorIsBlank)
 {
     const Scene before = together({floor_with_blank()});
@@ -95,8 +102,7 @@ TEST(BlankPoints, AreAddedWhereAFloorIsBlank)
 
 TEST(BlankPoints, StandOnTheFloorAmidTheBlank)
 {
-    Scene scene = together({floor_with_blank()});
-    ASSERT_GE(add_crease_points(scene, kInBlanks).in_blanks, 10);
+    const Scene scene = filled(together({floor_with_blank()}));
     for (const std::size_t i : added_points(scene)) {
         EXPECT_NEAR(height(scene.positions[i]), 0.0, 0.01 * kSpacing);
         EXPECT_LT(off_middle(scene.positions[i]), 0.5);
@@ -112,8 +118,7 @@ TEST(BlankPoints, HaveTheMeanColourOfTheFourPointsNext)
         const auto value = static_cast<std::uint8_t>(37 * i % 251);
         before.colors[i] = {value, static_cast<std::uint8_t>(255 - value), 9};
     }
-    Scene scene = before;
-    ASSERT_GE(add_crease_points(scene, kInBlanks).in_blanks, 10);
+    const Scene scene = filled(before);
     for (const std::size_t i : added_points(scene)) {
         std::vector<std::pair<double, std::size_t>> others;
         for (std::size_t other = 0; other < before.num_points(); ++other) {

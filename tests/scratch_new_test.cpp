@@ -15,14 +15,11 @@ namespace vcarve {
 namespace {
 
 using testing::ContainsRegex;
-using testing::HasSubstr;
 using testing::MatchesRegex;
-using testing::Not;
 
 /// Large enough for arrays in files, and with lumps, since points of one sphere are not divided
 /// into blocks.
-class ProgramInBlocks : public testing::Test {
-  protected:
+struct ProgramInBlocks : testing::Test {
     ProgramInBlocks() { write_ball_model(ball, 120'000, Eigen::Vector3d::Zero(), 0.05); }
 
     Outcome run(std::vector<std::string> arguments) const
