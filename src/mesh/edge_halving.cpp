@@ -47,8 +47,8 @@ std::vector<EdgeHalving::HalvedFace> EdgeHalving::halve(std::uint32_t a, std::ui
         mesh_.faces.push_back(with(whole, a, halving.middle));
         at_middle.insert(at_middle.end(), {face, other_half});
         std::ranges::replace(at_b, face, other_half);
-        const std::uint32_t across = *std::ranges::find_if(
-            whole, [&](std::uint32_t corner) { return corner != a && corner != b; });
+        const Face from_a = turned_to(whole, a);
+        const std::uint32_t across = from_a[1] == b ? from_a[2] : from_a[1];
         std::vector<std::uint32_t> at_across(faces_at_[across].begin(), faces_at_[across].end());
         at_across.push_back(other_half);
         faces_at_.replace(across, std::move(at_across));
