@@ -40,6 +40,14 @@ TEST(NearestNeighbors, AreThoseFoundBySorting)
     }
 }
 
+TEST(NearestNeighbors, SayWhetherOneIsNearer)
+{
+    const NearestNeighbors tree({{0, 0, 0}, {10, 0, 0}});
+    EXPECT_FALSE(tree.has_nearer({3, 4, 0}, 5.0)); // as far, not nearer
+    EXPECT_TRUE(tree.has_nearer({3, 4, 0}, 5.001));
+    EXPECT_FALSE(NearestNeighbors({}).has_nearer({3, 4, 0}, 5.0));
+}
+
 TEST(NearestNeighbors, AreAllWhereThereAreFewer)
 {
     std::vector<NearestNeighbors::Neighbor> nearest(3);

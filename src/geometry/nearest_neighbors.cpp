@@ -61,4 +61,11 @@ void NearestNeighbors::find(const Eigen::Vector3d& place, std::size_t count,
     }
 }
 
+bool NearestNeighbors::has_nearer(const Eigen::Vector3d& place, double distance) const
+{
+    thread_local std::vector<Neighbor> nearest;
+    find(place, 1, nearest);
+    return !nearest.empty() && nearest.front().distance_sq < distance * distance;
+}
+
 } // namespace vcarve

@@ -28,6 +28,9 @@ class NearestNeighbors {
     /// from many threads. Cost: O(log points + count).
     void find(const Eigen::Vector3d& place, std::size_t count,
               std::vector<Neighbor>& nearest) const;
+    /// Whether any point is nearer to a place than so far. Safe from many threads. Cost: O(log
+    /// points).
+    bool has_nearer(const Eigen::Vector3d& place, double distance) const;
 
   private:
     struct Search;

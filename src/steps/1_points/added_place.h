@@ -11,14 +11,13 @@
 
 namespace vcarve {
 
-/// A place for a point that a scene shall get.
+/// A place for a point that a scene shall get. It has one point beside it at least.
 struct AddedPlace {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    double step = 0.0;             ///< how far such places stand apart
-    std::uint64_t id = kNoPointId; ///< of the point
-    std::vector<std::uint32_t> beside =
-        {}; ///< points of the model next to it, one at least; nearest first
-    std::vector<std::uint32_t> track = {}; ///< the views that can see it, ascending; two at least
+    double step = 0.0;                      ///< how far such places stand apart
+    std::uint64_t id = kNoPointId;          ///< of the point
+    std::vector<std::uint32_t> beside = {}; ///< the model's points next to it, the nearest first
+    std::vector<std::uint32_t> track = {};  ///< the views that can see it, ascending; two at least
 };
 
 /// What rounding may make of equal lengths, as a share of them: points in rows and columns are at

@@ -159,7 +159,7 @@ class Blanks {
             const PlaneGrid& grid = grids_[patch];
             const Vector3d place =
                 place_in(square, grid, parts_.patches[patch].region->plane.normal);
-            if (!has_point_near(place, grid.side())) {
+            if (!tree_.has_nearer(place, 0.5 * grid.side())) {
                 blanks.push_back(blank_in(squares[i], place, covers));
             }
         };
@@ -256,13 +256,6 @@ class Blanks {
                 [&](const Square& square) { found.push_back(*blank_of.at(square)); });
         };
         return parallel_collect<AddedPlace>(parts_.patches.size(), look, 1);
-    }
-
-    bool has_point_near(const Vector3d& place, double side) const
-    {
-        thread_local std::vector<NearestNeighbors::Neighbor> nearest;
-        tree_.find(place, 1, nearest);
-        return nearest.front().distance_sq < 0.25 * side * side;
     }
 
     const Scene& scene_;

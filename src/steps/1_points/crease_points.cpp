@@ -2,6 +2,7 @@
 
 #include "geometry/nearest_neighbors.h"
 #include "geometry/point_tree.h"
+#include "model/mean_color.h"
 #include "model/scene_size.h"
 #include "steps/1_points/added_place.h"
 #include "steps/1_points/blank_places.h"
@@ -66,22 +67,11 @@ void leave_out_near_ones(std::vector<AddedPlace>& places)
     std::erase_if(places, [&](const AddedPlace&) { return is_kept[next++] == 0; });
 }
 
-Color mean_color(const Scene& scene, const std::vector<std::uint32_t>& points)
-{
-    Vector3d sum = Vector3d::Zero();
-    for (const std::uint32_t point : points) {
-        const Color& color = scene.colors[point];
-        sum += Vector3d(color[0], color[1], color[2]);
-    }
-    const Vector3d mean = (sum / static_cast<double>(points.size())).array().round();
-    return {static_cast<std::uint8_t>(mean[0]), static_cast<std::uint8_t>(mean[1]),
-            static_cast<std::uint8_t>(mean[2])};
-}
-
 void add_point(Scene& scene, const AddedPlace& place)
 {
     scene.positions.push_back(place.position);
-    scene.colors.push_back(mean_color(scene, place.beside));
+    const auto once = [](std::uint32_t) { return 1.0; };
+    scene.colors.push_back(mean_color(scene, place.beside, once));
     scene.errors_px.push_back(scene.errors_px[place.beside.front()]);
     scene.point_ids.push_back(place.id);
     if (!scene.normals.empty()) scene.normals.emplace_back(Eigen::Vector3f::Zero());

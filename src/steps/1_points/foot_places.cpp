@@ -56,9 +56,7 @@ void add_foot(const Scene& scene, const NearestNeighbors& tree, const FlatParts&
 
     const std::vector<Near> near = points_outward(ground, foot.position, outward);
     if (near.size() < 2) return;
-    std::vector<NearestNeighbors::Neighbor> around;
-    tree.find(foot.position, 1, around);
-    if (around.front().distance_sq < kThere * kThere * spacing * spacing) return;
+    if (tree.has_nearer(foot.position, kThere * spacing)) return;
     const std::vector<std::uint32_t> beside = nearest_two(near, kRounding * spacing);
     foot.beside = {beside.front()};
     foot.track = views_showing(scene, beside, foot.position);

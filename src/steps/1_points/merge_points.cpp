@@ -1,6 +1,7 @@
 #include "steps/1_points/merge_points.h"
 
 #include "base/parallel.h"
+#include "model/mean_color.h"
 #include "model/scene_points.h"
 #include "model/united_tracks.h"
 
@@ -39,14 +40,8 @@ class Members {
 
     Color mean_color() const
     {
-        Vector3d sum = Vector3d::Zero();
-        for (const std::uint32_t place : places_) {
-            const Color& color = points_.scene.colors[place];
-            sum += weight(place) * Vector3d(color[0], color[1], color[2]);
-        }
-        const Vector3d mean = (sum / weight_).array().round();
-        return {static_cast<std::uint8_t>(mean[0]), static_cast<std::uint8_t>(mean[1]),
-                static_cast<std::uint8_t>(mean[2])};
+        return vcarve::mean_color(points_.scene, places_,
+                                  [&](std::uint32_t place) { return weight(place); });
     }
 
     Vector3f mean_normal() const
