@@ -96,7 +96,7 @@ TEST(DroppablePages, AreLeftAloneWhenTheyAreForgotten)
     {
         DroppablePages pages = file.droppable();
         const DroppablePages moved = std::move(pages);
-        EXPECT_EQ(drop_next_pages(kPiece, false), kPiece) << "what was moved is still known";
+        EXPECT_GE(drop_next_pages(kPiece, false), kPiece) << "what was moved is still known";
     }
     std::ranges::fill(file.letters(), 'b');
     EXPECT_EQ(drop_next_pages(kPiece, false), 0U);
