@@ -19,7 +19,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr std::size_t kPoints = 3000;
+constexpr std::size_t kPoints = 2000;
 
 Reconstruction run(const Scene& scene, const Options& options = {})
 {
@@ -210,12 +210,12 @@ TEST(Reconstruct, SmoothsAndSimplifiesTheSameForAnyNumberOfThreads)
     const Scene scene = bumpy_sphere(kPoints, 2);
     Options one;
     one.refine.smooth.iterations = 2;
-    one.refine.simplify.faces = 3000;
+    one.refine.simplify.faces = 2500;
     one.threads = 1;
     Options two = one;
     two.threads = 2;
     const TriMesh mesh = run(scene, one).mesh;
-    EXPECT_LE(mesh.faces.size(), 3000U);
+    EXPECT_LE(mesh.faces.size(), 2500U);
     expect_same_mesh(mesh, run(scene, two).mesh);
 }
 

@@ -119,7 +119,7 @@ std::vector<Case> cases()
     Case refined{.name = "ClosedAndRefined", .kept = usual.kept};
     refined.options.surface.closed = true;
     refined.options.refine.smooth.iterations = 2;
-    refined.options.refine.simplify.faces = 1000;
+    refined.options.refine.simplify.faces = 2000;
     return {usual, looked_around, strict, strict_around, cropped, refined};
 }
 

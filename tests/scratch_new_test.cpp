@@ -20,7 +20,7 @@ using testing::MatchesRegex;
 /// Large enough for arrays in files, and with lumps, since points of one sphere are not divided
 /// into blocks.
 struct ProgramInBlocks : testing::Test {
-    ProgramInBlocks() { write_ball_model(ball, 120'000, Eigen::Vector3d::Zero(), 0.05); }
+    ProgramInBlocks() { write_ball_model(ball, 60'000, Eigen::Vector3d::Zero(), 0.05); }
 
     Outcome run(std::vector<std::string> arguments) const
     {
@@ -54,20 +54,20 @@ TEST_F(ProgramInBlocks, WritesTheSameSurface)
 
 TEST_F(ProgramInBlocks, TakesBlocksWhereMemoryDoesNotDoAndSaysSo)
 {
-    const Outcome outcome = run({"--max-memory", "60M", "--threads", "1"});
+    const Outcome outcome = run({"--max-memory", "30M", "--threads", "1"});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, ContainsRegex("about [0-9.]+M needed, 60M allowed: [0-9]+ blocks, "
+    EXPECT_THAT(outcome.err, ContainsRegex("about [0-9.]+M needed, 30M allowed: [0-9]+ blocks, "
                                            "scratch of about [0-9.]+M in .*out.ply.scratch-"));
     EXPECT_EQ(folder.num_entries(), 2U) << "the ball and the surface";
 }
 
 TEST_F(ProgramInBlocks, RefusesInsteadWhereNoBlocksAreWanted)
 {
-    const Outcome outcome = run({"--max-memory", "60M", "--blocks", "0"});
+    const Outcome outcome = run({"--max-memory", "30M", "--blocks", "0"});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err,
-                MatchesRegex("(.|\n)*colmap-vcarve: .*ball: 120000 points with [0-9]+ sights need "
-                             "about [0-9.]+M of memory, and --max-memory allows 60M\n"));
+                MatchesRegex("(.|\n)*colmap-vcarve: .*ball: 60000 points with [0-9]+ sights need "
+                             "about [0-9.]+M of memory, and --max-memory allows 30M\n"));
 }
 
 TEST_F(ProgramInBlocks, NamesAScratchFolderThatDoesNotDo)

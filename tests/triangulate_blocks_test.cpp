@@ -163,7 +163,7 @@ TEST(TriangulateBlocks, RefusesWhatTheWholeRefuses)
 /// Each of their cells has nearly all points on its sphere.
 TEST(TriangulateBlocks, LeavesPointsOnOneSphereToTheWhole)
 {
-    const Scene scene = spatial_sort(scene_of(nearly_on_a_sphere(30'000, 0.0)));
+    const Scene scene = spatial_sort(scene_of(nearly_on_a_sphere(10'000, 0.0)));
     EXPECT_FALSE(triangulate_in_blocks(scene, {.count = 4}).has_value());
 }
 
