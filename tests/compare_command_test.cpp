@@ -1,6 +1,6 @@
 // The command `compare`, run as the user runs it.
 #include "support/ball_model.h"
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -19,25 +19,19 @@ using testing::MatchesRegex;
 using testing::Not;
 using testing::StartsWith;
 
-Outcome run(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), VCARVE_PROGRAM);
-    return Subprocess(arguments).wait();
-}
-
 /// A model of a ball and its surface as this program makes it.
 class CompareOnBall : public testing::Test {
   protected:
     CompareOnBall()
     {
         write_ball_model(model, 400);
-        EXPECT_EQ(run({"--quiet", model, mesh}).exit_code, 0);
+        EXPECT_EQ(run_program({"--quiet", model, mesh}).exit_code, 0);
     }
 
     Outcome compare(std::vector<std::string> more) const
     {
         more.insert(more.begin(), {"compare", model, "--samples", "2000"});
-        return run(more);
+        return run_program(more);
     }
 
     nlohmann::json figures(const std::vector<std::string>& more) const
@@ -50,12 +44,9 @@ class CompareOnBall : public testing::Test {
     }
 
     /// Expects the command to fail with this code and no table, and gives its sentence.
-    std::string sentence_of(int exit_code, const std::vector<std::string>& more) const
+    std::string refusal_of(int exit_code, const std::vector<std::string>& more) const
     {
-        const Outcome outcome = compare(more);
-        EXPECT_EQ(outcome.exit_code, exit_code);
-        EXPECT_THAT(outcome.out, IsEmpty());
-        return outcome.err;
+        return sentence_of_run(exit_code, compare(more));
     }
 
     /// A program that stands in for COLMAP.
@@ -118,9 +109,9 @@ TEST_F(CompareOnBall, UnderstandsTheOffsetOfAFile)
     write_ball_model(far_ball, 400, {5e5, 4.6e6, 100.0});
     const auto figures_of = [&](const std::string& offset) {
         const std::string written = folder / (offset + ".ply");
-        EXPECT_EQ(run({"--quiet", far_ball, written, "--offset", offset}).exit_code, 0);
-        EXPECT_EQ(run({"compare", "--quiet", far_ball, written, "--truth", written, "--samples",
-                       "2000", "--json", json})
+        EXPECT_EQ(run_program({"--quiet", far_ball, written, "--offset", offset}).exit_code, 0);
+        EXPECT_EQ(run_program({"compare", "--quiet", far_ball, written, "--truth", written,
+                               "--samples", "2000", "--json", json})
                       .exit_code,
                   0);
         nlohmann::json record = nlohmann::json::parse(bytes_of(json))["meshes"][0];
@@ -147,20 +138,20 @@ TEST_F(CompareOnBall, GivesTheSameFiguresForAnyNumberOfThreads)
 
 TEST_F(CompareOnBall, SaysWhatItExpectedWhereOperandsAreMissing)
 {
-    EXPECT_EQ(sentence_of(2, {}), "colmap-vcarve: expected a model and meshes, MODEL A.ply ..., "
-                                  "but got " +
-                                      model + " (see colmap-vcarve compare --help)\n");
+    EXPECT_EQ(refusal_of(2, {}), "colmap-vcarve: expected a model and meshes, MODEL A.ply ..., "
+                                 "but got " +
+                                     model + " (see colmap-vcarve compare --help)\n");
 }
 
 TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
 {
     const std::string nowhere = folder / "nowhere";
-    EXPECT_EQ(sentence_of(3, {mesh, nowhere}),
+    EXPECT_EQ(refusal_of(3, {mesh, nowhere}),
               "colmap-vcarve: " + nowhere + ": the file does not exist\n");
-    EXPECT_EQ(sentence_of(2, {mesh, "--json", nowhere + "/a.json"}),
+    EXPECT_EQ(refusal_of(2, {mesh, "--json", nowhere + "/a.json"}),
               "colmap-vcarve: cannot write " + nowhere + "/a.json: the folder " + nowhere +
                   " does not exist\n");
-    EXPECT_EQ(sentence_of(2, {mesh, "--json", mesh}),
+    EXPECT_EQ(refusal_of(2, {mesh, "--json", mesh}),
               "colmap-vcarve: --json would replace the mesh " + mesh + "\n");
 }
 
@@ -209,7 +200,7 @@ TEST_F(CompareOnBall, PutsThePapersBaselinesBesideAMesh)
 
 TEST_F(CompareOnBall, RefusesAnAlphaThatLeavesNothing)
 {
-    EXPECT_EQ(sentence_of(3, {"--quiet", "--baselines", "--alpha", "0.001"}),
+    EXPECT_EQ(refusal_of(3, {"--quiet", "--baselines", "--alpha", "0.001"}),
               "colmap-vcarve: no cell is as small as --alpha 0.001 asks for: 1 is the smallest "
               "that keeps all points\n");
 }
@@ -294,10 +285,10 @@ TEST_F(CompareOnBall, LeavesNothingBehindWhenItIsInterrupted)
 
 TEST(Compare, HasAHelpOfItsOwnAndAPlaceInTheManPage)
 {
-    EXPECT_THAT(run({"compare", "--help"}).out,
+    EXPECT_THAT(run_program({"compare", "--help"}).out,
                 HasSubstr("\nUsage: colmap-vcarve compare MODEL A.ply [B.ply ...] [options]\n"));
-    const std::string man = run({"--help-man"}).out;
-    const std::string completion = run({"--help-bash"}).out;
+    const std::string man = run_program({"--help-man"}).out;
+    const std::string completion = run_program({"--help-bash"}).out;
     EXPECT_THAT(man, HasSubstr("\\-\\-colmap\\-timeout"));
     EXPECT_THAT(completion, HasSubstr("--colmap-timeout"));
 }

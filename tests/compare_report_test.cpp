@@ -1,7 +1,7 @@
 // The option --report of compare, run as the user runs it.
 #include "support/ball_model.h"
 #include "support/page_parts.h"
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -16,14 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Not;
-
-Outcome run(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), VCARVE_PROGRAM);
-    return Subprocess(arguments).wait();
-}
 
 /// A model of a ball, its surface, and a coarser one.
 class CompareReportOfBall : public testing::Test {
@@ -31,23 +24,20 @@ class CompareReportOfBall : public testing::Test {
     CompareReportOfBall()
     {
         write_ball_model(ball, 400);
-        EXPECT_EQ(run({"--quiet", ball, mesh}).exit_code, 0);
-        EXPECT_EQ(run({"--quiet", ball, coarse, "--simplify", "100"}).exit_code, 0);
+        EXPECT_EQ(run_program({"--quiet", ball, mesh}).exit_code, 0);
+        EXPECT_EQ(run_program({"--quiet", ball, coarse, "--simplify", "100"}).exit_code, 0);
     }
 
     Outcome compare(std::vector<std::string> more) const
     {
         more.insert(more.begin(), {"compare", ball, "--samples", "2000"});
-        return run(more);
+        return run_program(more);
     }
 
     /// Expects the command to fail with this code and no table, and gives its sentence.
-    std::string sentence_of(int exit_code, const std::vector<std::string>& more) const
+    std::string refusal_of(int exit_code, const std::vector<std::string>& more) const
     {
-        const Outcome outcome = compare(more);
-        EXPECT_EQ(outcome.exit_code, exit_code);
-        EXPECT_THAT(outcome.out, IsEmpty());
-        return outcome.err;
+        return sentence_of_run(exit_code, compare(more));
     }
 
     TemporaryFolder folder;
@@ -166,26 +156,26 @@ TEST_F(CompareReportOfBall, ShowsWhatIsLeftWhereAMeshCouldNotBeMade)
 
 TEST_F(CompareReportOfBall, IsRefusedUnderAnotherName)
 {
-    EXPECT_EQ(sentence_of(2, {mesh, "--report", "out.txt"}),
+    EXPECT_EQ(refusal_of(2, {mesh, "--report", "out.txt"}),
               "colmap-vcarve: cannot write out.txt: the name of a report must end with .html or "
               ".htm\n");
 }
 
 TEST_F(CompareReportOfBall, IsRefusedWhereAnotherOutputOrAnInputIs)
 {
-    EXPECT_EQ(sentence_of(2, {mesh, "--report", page, "--json", page}),
+    EXPECT_EQ(refusal_of(2, {mesh, "--report", page, "--json", page}),
               "colmap-vcarve: --report and --json cannot both be written to " + page + "\n");
     std::filesystem::copy(mesh, page);
-    EXPECT_EQ(sentence_of(2, {page, coarse, "--report", page}),
+    EXPECT_EQ(refusal_of(2, {page, coarse, "--report", page}),
               "colmap-vcarve: --report would replace the mesh " + page + "\n");
-    EXPECT_EQ(sentence_of(2, {mesh, "--truth", page, "--report", page}),
+    EXPECT_EQ(refusal_of(2, {mesh, "--truth", page, "--report", page}),
               "colmap-vcarve: --report would replace the mesh " + page + "\n");
     EXPECT_EQ(bytes_of(page), bytes_of(mesh));
 }
 
 TEST_F(CompareReportOfBall, IsRefusedBeforeTheWorkWhereItCannotBeWritten)
 {
-    EXPECT_THAT(sentence_of(2, {mesh, "--report", folder / "none/out.html"}),
+    EXPECT_THAT(refusal_of(2, {mesh, "--report", folder / "none/out.html"}),
                 HasSubstr("the folder " + (folder / "none").string() + " does not exist"));
 }
 
@@ -195,7 +185,7 @@ TEST_F(CompareReportOfBall, IsNotLeftBehindByARunThatFails)
                               "property double y\nproperty double z\nelement face 0\n"
                               "property list uchar int vertex_indices\nend_header\n");
     const std::size_t before = folder.num_entries();
-    EXPECT_THAT(sentence_of(3, {mesh, folder / "empty.ply", "--report", page, "--json", json}),
+    EXPECT_THAT(refusal_of(3, {mesh, folder / "empty.ply", "--report", page, "--json", json}),
                 HasSubstr("no faces"));
     EXPECT_EQ(folder.num_entries(), before);
 }

@@ -2,7 +2,7 @@
 #include "io/colmap/colmap_model.h"
 #include "support/ball_model.h"
 #include "support/dense_workspace.h"
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -18,12 +18,6 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::Not;
 using testing::StartsWith;
-
-Outcome run(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), VCARVE_PROGRAM);
-    return Subprocess(arguments).wait();
-}
 
 /// A workspace of a ball: 300 sparse points, and 600 dense ones with normals.
 class ProgramOnDenseBall : public testing::Test {
@@ -49,7 +43,7 @@ class ProgramOnDenseBall : public testing::Test {
     {
         std::vector<std::string> arguments = input;
         arguments.insert(arguments.end(), {out, "--quiet"});
-        const Outcome outcome = run(arguments);
+        const Outcome outcome = run_program(arguments);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return bytes_of(out);
     }
@@ -59,7 +53,7 @@ class ProgramOnDenseBall : public testing::Test {
     {
         std::vector<std::string> arguments = {"compare", "--quiet"};
         arguments.insert(arguments.end(), input.begin(), input.end());
-        const std::string printed = run(arguments).out;
+        const std::string printed = run_program(arguments).out;
         const std::size_t begin = printed.find("Measured against");
         return begin == std::string::npos ? printed : printed.substr(begin, 30);
     }
@@ -74,7 +68,7 @@ class ProgramOnDenseBall : public testing::Test {
 TEST_F(ProgramOnDenseBall, MeshesTheDensePointsAndSaysSo)
 {
     const std::string stats = folder / "stats.json";
-    const Outcome outcome = run({dense, out, "--stats", stats});
+    const Outcome outcome = run_program({dense, out, "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + fused));
     EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points (6 views, "));
@@ -107,36 +101,36 @@ TEST_F(ProgramOnDenseBall, MakesTheSameBytesOfTextAndOfTheCloudNamedAnyWay)
 TEST_F(ProgramOnDenseBall, MeshesACloudWithoutAFileByTheNearestViews)
 {
     std::filesystem::remove(fused + ".vis");
-    const Outcome outcome = run({dense, out, "--sights", "nearest"});
+    const Outcome outcome = run_program({dense, out, "--sights", "nearest"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("no file tells which views saw them"));
     EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points (6 views, "));
-    EXPECT_EQ(run({fused, out}).exit_code, 3);
-    EXPECT_EQ(run({dense, out, "--sights", "nearest", "--points", "sparse"}).exit_code, 2);
+    EXPECT_EQ(run_program({fused, out}).exit_code, 3);
+    EXPECT_EQ(run_program({dense, out, "--sights", "nearest", "--points", "sparse"}).exit_code, 2);
 }
 
 TEST_F(ProgramOnDenseBall, DropsAPointThatIsNotFinite)
 {
     cloud.positions[7].y() = std::numeric_limits<double>::quiet_NaN();
     write_cloud(CloudEncoding::binary);
-    EXPECT_THAT(run({dense, out}).err,
+    EXPECT_THAT(run_program({dense, out}).err,
                 HasSubstr("493 of 600 points (1 non-finite, 106 few views)"));
 }
 
 TEST_F(ProgramOnDenseBall, RefusesBrokenInputWithASentenceAndLeavesNothing)
 {
     folder.write("dense/fused.ply.vis", std::string(8, '\0'));
-    const Outcome outcome = run({dense, out});
+    const Outcome outcome = run_program({dense, out});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("colmap-vcarve: " + fused + ".vis: tells of 0 points, but " +
                                        fused + " has 600\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
-    EXPECT_EQ(run({fused, out, "--points", "sparse"}).exit_code, 2);
+    EXPECT_EQ(run_program({fused, out, "--points", "sparse"}).exit_code, 2);
 }
 
 TEST_F(ProgramOnDenseBall, RefusesWhatNeedsTooMuchMemoryBeforeItIsRead)
 {
-    const Outcome outcome = run({dense, out, "--max-memory", "1M"});
+    const Outcome outcome = run_program({dense, out, "--max-memory", "1M"});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("dense: 600 points with "));
     EXPECT_THAT(outcome.err, Not(HasSubstr("\nread ")));
@@ -158,24 +152,24 @@ TEST_F(ProgramOnDenseBall, IsComparedWithWhatColmapMakesOfTheWorkspace)
         folder.write("mesher", "#!/bin/sh\necho \"$@\" > '" + words.string() + "'; exit 1\n");
     std::filesystem::permissions(script, std::filesystem::perms::owner_all);
     const std::string colmap = script.string();
-    const Outcome outcome = run({"compare", dense, "--colmap", colmap});
+    const Outcome outcome = run_program({"compare", dense, "--colmap", colmap});
     EXPECT_THAT(bytes_of(words), StartsWith("delaunay_mesher --input_type dense --input_path " +
                                             dense + " --output_path "));
     EXPECT_THAT(outcome.out, MatchesRegex("\\| +\\| colmap-vcarve \\|\n(.|\n)*"));
     EXPECT_THAT(outcome.out, HasSubstr("\nMeasured against 493 points "));
-    run({"compare", dense, "--points", "sparse", "--colmap", colmap});
+    run_program({"compare", dense, "--points", "sparse", "--colmap", colmap});
     EXPECT_THAT(bytes_of(words), StartsWith("delaunay_mesher --input_type sparse --input_path " +
                                             dense + "/sparse --output_path "));
     const Outcome other =
-        run({"compare", dense + "/sparse", "--points", fused, "--colmap", colmap});
+        run_program({"compare", dense + "/sparse", "--points", fused, "--colmap", colmap});
     EXPECT_THAT(other.out, HasSubstr("\nMeasured against 493 points "));
 }
 
 TEST_F(ProgramOnDenseBall, IsNotComparedWithColmapWhereThatCannotBeToldOfThePoints)
 {
     std::filesystem::rename(fused, folder / "dense/other.ply");
-    const Outcome outcome = run({"compare", dense, "--points", folder / "dense/other.ply",
-                                 "--visibility", fused + ".vis", "--colmap", "colmap"});
+    const Outcome outcome = run_program({"compare", dense, "--points", folder / "dense/other.ply",
+                                         "--visibility", fused + ".vis", "--colmap", "colmap"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err, "colmap-vcarve: --colmap cannot be told to take the points of " + dense +
                                "/other.ply: COLMAP's mesher reads fused.ply, fused.ply.vis and "

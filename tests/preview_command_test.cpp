@@ -1,7 +1,7 @@
 // The options --preview and --view, run as the user runs them.
 #include "support/ball_model.h"
+#include "support/program.h"
 #include "support/read_png.h"
-#include "support/subprocess.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -18,7 +18,6 @@ namespace {
 using testing::Contains;
 using testing::ContainsRegex;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Not;
 
 // The images of the ball have 1000 x 1000 pixels.
@@ -28,24 +27,9 @@ constexpr int kCaption = 2 * 14 + 8;
 const Rgb kBackground = {236, 239, 243};
 const Rgb kBacks = {255, 0, 255};
 
-Outcome run(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), VCARVE_PROGRAM);
-    return Subprocess(arguments).wait();
-}
-
 class PreviewOfBall : public testing::Test {
   protected:
     PreviewOfBall() { write_ball_model(ball, 400); }
-
-    /// Expects the program to fail with this code, and gives its sentence.
-    std::string sentence_of(int exit_code, const std::vector<std::string>& arguments) const
-    {
-        const Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.exit_code, exit_code);
-        EXPECT_THAT(outcome.out, IsEmpty());
-        return outcome.err;
-    }
 
     TemporaryFolder folder;
     std::string ball = folder / "ball";
@@ -55,7 +39,7 @@ class PreviewOfBall : public testing::Test {
 
 TEST_F(PreviewOfBall, ShowsTheSurfaceBesideItsNormals)
 {
-    const Outcome outcome = run({ball, out, "--preview", png});
+    const Outcome outcome = run_program({ball, out, "--preview", png});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, ContainsRegex("preview +1,227,664 pixels of out.ply +[0-9.]+ s\n"));
     const ReadPng shown = read_png(png);
@@ -78,12 +62,12 @@ TEST_F(PreviewOfBall, ShowsTheSurfaceBesideItsNormals)
 
 TEST_F(PreviewOfBall, NamesTheSurfaceAndTheImageAboveIt)
 {
-    ASSERT_EQ(run({"--quiet", ball, out, "--preview", png}).exit_code, 0);
+    ASSERT_EQ(run_program({"--quiet", ball, out, "--preview", png}).exit_code, 0);
     const ReadPng shown = read_png(png);
     ASSERT_EQ(shown.width, kWidth);
     EXPECT_THAT(shown.colors(0, 0, 200, kCaption), Contains(Rgb{34, 38, 46}));
     EXPECT_THAT(shown.colors(kPanel + 8, 0, kWidth, kCaption), Contains(kBacks));
-    ASSERT_EQ(run({"--quiet", ball, folder / "other.ply", "--preview", png}).exit_code, 0);
+    ASSERT_EQ(run_program({"--quiet", ball, folder / "other.ply", "--preview", png}).exit_code, 0);
     const ReadPng other = read_png(png);
     EXPECT_TRUE(shown.bytes != other.bytes);
     const auto below = static_cast<std::ptrdiff_t>(3) * kWidth * kCaption;
@@ -95,7 +79,9 @@ TEST_F(PreviewOfBall, IsTheSameForAnyNumberOfThreads)
 {
     std::vector<std::string> written;
     for (const char* threads : {"1", "2", "3"}) {
-        ASSERT_EQ(run({"--quiet", ball, out, "--preview", png, "--threads", threads}).exit_code, 0);
+        ASSERT_EQ(
+            run_program({"--quiet", ball, out, "--preview", png, "--threads", threads}).exit_code,
+            0);
         written.push_back(bytes_of(png));
     }
     EXPECT_FALSE(written[0].empty());
@@ -107,8 +93,8 @@ TEST_F(PreviewOfBall, LooksFromWhereItIsTold)
     const std::string stats = folder / "stats.json";
     std::vector<std::string> written;
     for (const char* view : {"auto", "+z.jpg", "top", "orbit"}) {
-        ASSERT_EQ(run({"--quiet", ball, out, "--preview", png, std::string("--view=") + view,
-                       "--stats", stats})
+        ASSERT_EQ(run_program({"--quiet", ball, out, "--preview", png,
+                               std::string("--view=") + view, "--stats", stats})
                       .exit_code,
                   0);
         const auto record = nlohmann::json::parse(bytes_of(stats));
@@ -124,14 +110,14 @@ TEST_F(PreviewOfBall, LooksFromWhereItIsTold)
 
 TEST_F(PreviewOfBall, HasARowAMeshInACompare)
 {
-    ASSERT_EQ(run({"--quiet", ball, out}).exit_code, 0);
+    ASSERT_EQ(run_program({"--quiet", ball, out}).exit_code, 0);
     const std::string inside_out = folder / "inside_out.ply";
     folder.write("inside_out.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\n"
                                    "property double y\nproperty double z\nelement face 1\n"
                                    "property list uchar int vertex_indices\nend_header\n"
                                    "0 -9 -9\n0 9 -9\n0 0 9\n3 0 1 2\n");
     const Outcome outcome =
-        run({"compare", ball, out, inside_out, "--samples", "2000", "--preview", png});
+        run_program({"compare", ball, out, inside_out, "--samples", "2000", "--preview", png});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("pixels of out.ply"));
     EXPECT_THAT(outcome.err, HasSubstr("pixels of inside_out.ply"));

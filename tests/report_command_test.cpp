@@ -1,6 +1,6 @@
 #include "support/ball_model.h"
 #include "support/page_parts.h"
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -16,13 +16,6 @@ using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 using testing::Not;
 
-Outcome run(const std::vector<std::string>& arguments)
-{
-    std::vector<std::string> words = {VCARVE_PROGRAM};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return Subprocess(words).wait();
-}
-
 class ReportOfBall : public testing::Test {
   protected:
     ReportOfBall() { write_ball_model(ball, 400); }
@@ -36,7 +29,7 @@ class ReportOfBall : public testing::Test {
 
 TEST_F(ReportOfBall, HoldsTheRecordThatStatsWrites)
 {
-    ASSERT_EQ(run({ball, out, "--report", page, "--stats", stats}).exit_code, 0);
+    ASSERT_EQ(run_program({ball, out, "--report", page, "--stats", stats}).exit_code, 0);
     const Json record = Json::parse(bytes_of(stats));
     EXPECT_EQ(part_of(bytes_of(page), "record"), record);
     EXPECT_EQ(record["command"],
@@ -54,7 +47,7 @@ TEST_F(ReportOfBall, ShowsTheSameForAnyNumberOfThreads)
     std::vector<Json> scenes;
     std::vector<Json> reports;
     for (const char* threads : {"1", "2", "3"}) {
-        ASSERT_EQ(run({ball, out, "--report", page, "--threads", threads}).exit_code, 0);
+        ASSERT_EQ(run_program({ball, out, "--report", page, "--threads", threads}).exit_code, 0);
         scenes.push_back(part_of(bytes_of(page), "scene"));
         reports.push_back(part_of(bytes_of(page), "record")["report"]);
     }
@@ -69,7 +62,7 @@ TEST_F(ReportOfBall, LetsNoNameOfAnImageBreakOut)
     std::string images = bytes_of(ball + "/images.txt");
     images.replace(images.find("+z"), 2, "</script><img/src=x/onerror=alert(1)>");
     folder.write("ball/images.txt", images);
-    ASSERT_EQ(run({ball, out, "--report", page}).exit_code, 0);
+    ASSERT_EQ(run_program({ball, out, "--report", page}).exit_code, 0);
     const std::string written = bytes_of(page);
     EXPECT_THAT(written, Not(HasSubstr("<img/src")));
     EXPECT_EQ(part_of(written, "scene")["views"][0]["name"],
@@ -79,7 +72,7 @@ TEST_F(ReportOfBall, LetsNoNameOfAnImageBreakOut)
 TEST_F(ReportOfBall, QuotesTheCommandAsAShellNeedsIt)
 {
     const std::string odd = folder / "it's $ours.ply";
-    ASSERT_EQ(run({ball, odd, "--stats", stats}).exit_code, 0);
+    ASSERT_EQ(run_program({ball, odd, "--stats", stats}).exit_code, 0);
     const std::string quoted = fmt::format("'{}/it'\\''s $ours.ply'", folder.path().string());
     EXPECT_EQ(Json::parse(bytes_of(stats))["command"],
               fmt::format("colmap-vcarve {} {} --stats {}", ball, quoted, stats));
@@ -87,7 +80,7 @@ TEST_F(ReportOfBall, QuotesTheCommandAsAShellNeedsIt)
 
 TEST_F(ReportOfBall, IsRefusedUnderAnotherName)
 {
-    const Outcome outcome = run({ball, out, "--report", "out.txt"});
+    const Outcome outcome = run_program({ball, out, "--report", "out.txt"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err,
               "colmap-vcarve: cannot write out.txt: the name of a report must end with "
@@ -97,7 +90,7 @@ TEST_F(ReportOfBall, IsRefusedUnderAnotherName)
 
 TEST_F(ReportOfBall, IsRefusedBeforeTheWorkWhereItCannotBeWritten)
 {
-    const Outcome outcome = run({ball, out, "--report", folder / "none/out.html"});
+    const Outcome outcome = run_program({ball, out, "--report", folder / "none/out.html"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("none"));
     EXPECT_FALSE(std::filesystem::exists(out));
@@ -105,7 +98,7 @@ TEST_F(ReportOfBall, IsRefusedBeforeTheWorkWhereItCannotBeWritten)
 
 TEST_F(ReportOfBall, IsRefusedWhereTheRecordIsWritten)
 {
-    const Outcome outcome = run({ball, out, "--report", page, "--stats", page});
+    const Outcome outcome = run_program({ball, out, "--report", page, "--stats", page});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err,
               "colmap-vcarve: --report and --stats cannot both be written to " + page + "\n");

@@ -1,6 +1,6 @@
 // Laser scans, given to the program as the user gives them.
 #include "support/dense_workspace.h"
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -16,12 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
-
-Outcome run(std::vector<std::string> arguments)
-{
-    arguments.insert(arguments.begin(), VCARVE_PROGRAM);
-    return Subprocess(arguments).wait();
-}
 
 /// Points on the unit ball, which two scanners measured from 3 away on both sides; each is on the
 /// side of its scanner.
@@ -70,7 +64,7 @@ class ProgramOnScannedBall : public testing::Test {
 TEST_F(ProgramOnScannedBall, MeshesAScanWithoutAModelAndDropsNoPointForItsOneView)
 {
     const std::string stats = folder / "stats.json";
-    const Outcome outcome = run({scan, out, "--merge-px", "0", "--stats", stats});
+    const Outcome outcome = run_program({scan, out, "--merge-px", "0", "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + scan +
                                         ", measured by the scanners of which it tells at every "
@@ -84,17 +78,17 @@ TEST_F(ProgramOnScannedBall, MeshesAScanWithoutAModelAndDropsNoPointForItsOneVie
 
 TEST_F(ProgramOnScannedBall, TakesOnePlaceForAllPoints)
 {
-    const Outcome outcome = run({bare, out, "--scanner", "0,0,3"});
+    const Outcome outcome = run_program({bare, out, "--scanner", "0,0,3"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + bare +
                                         ", measured by a scanner at 0, 0, 3\nread         325 "
                                         "points (1 views, 325 sights)"));
-    EXPECT_EQ(run({bare, out, "--scanner", "file"}).exit_code, 3);
+    EXPECT_EQ(run_program({bare, out, "--scanner", "file"}).exit_code, 3);
 }
 
 TEST_F(ProgramOnScannedBall, SaysWhatACloudWithoutScannersNeeds)
 {
-    const Outcome outcome = run({bare, out});
+    const Outcome outcome = run_program({bare, out});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("no COLMAP model, looked for "));
     EXPECT_THAT(outcome.err, HasSubstr("; " + bare +
@@ -105,7 +99,7 @@ TEST_F(ProgramOnScannedBall, SaysWhatACloudWithoutScannersNeeds)
 
 TEST_F(ProgramOnScannedBall, RefusesTwoOpinionsOnWhereTheScannerStood)
 {
-    const Outcome outcome = run({scan, out, "--scanner", "0,0,3"});
+    const Outcome outcome = run_program({scan, out, "--scanner", "0,0,3"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("--scanner 0,0,3 is one place for all points, but " + scan +
                                        " tells itself where the scanner of each stood\n"));
@@ -113,12 +107,12 @@ TEST_F(ProgramOnScannedBall, RefusesTwoOpinionsOnWhereTheScannerStood)
 
 TEST_F(ProgramOnScannedBall, MeasuresMeshesByTheScan)
 {
-    EXPECT_EQ(run({scan, out, "--quiet"}).exit_code, 0);
+    EXPECT_EQ(run_program({scan, out, "--quiet"}).exit_code, 0);
     EXPECT_THAT(
-        run({"compare", "--quiet", scan, out}).out,
+        run_program({"compare", "--quiet", scan, out}).out,
         HasSubstr("Measured against 650 points with at least 2 views or a measured range and 2 "
                   "views; "));
-    const Outcome colmap = run({"compare", "--quiet", scan, "--colmap", "colmap"});
+    const Outcome colmap = run_program({"compare", "--quiet", scan, "--colmap", "colmap"});
     EXPECT_EQ(colmap.exit_code, 2);
     EXPECT_EQ(colmap.err, "colmap-vcarve: --colmap cannot be told to take the points of " + scan +
                               ": COLMAP's mesher knows no scanners\n");
