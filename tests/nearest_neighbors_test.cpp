@@ -20,17 +20,25 @@ std::vector<Vector3d> random_points(std::uint64_t count)
     return points;
 }
 
+/// All points by their squared distances to a place.
+std::vector<std::pair<double, std::uint32_t>> sorted_from(const Vector3d& place,
+                                                          const std::vector<Vector3d>& points)
+{
+    std::vector<std::pair<double, std::uint32_t>> sorted;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        sorted.emplace_back((points[i] - place).squaredNorm(), i);
+    }
+    std::ranges::sort(sorted);
+    return sorted;
+}
+
 TEST(NearestNeighbors, AreThoseFoundBySorting)
 {
     const std::vector<Vector3d> points = random_points(500);
     const NearestNeighbors tree(points);
     std::vector<NearestNeighbors::Neighbor> nearest;
     for (const Vector3d& place : random_points(50)) {
-        std::vector<std::pair<double, std::uint32_t>> sorted;
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            sorted.emplace_back((points[i] - place).squaredNorm(), i);
-        }
-        std::ranges::sort(sorted);
+        const auto sorted = sorted_from(place, points);
         tree.find(place, 7, nearest);
         ASSERT_EQ(nearest.size(), 7U);
         for (std::size_t k = 0; k < nearest.size(); ++k) {
