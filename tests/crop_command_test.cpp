@@ -1,5 +1,5 @@
 #include "support/ball_model.h"
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 #include "vcarve/io.h"
 
@@ -16,9 +16,9 @@ class CropOfScene : public testing::Test {
   protected:
     Outcome run(const std::vector<std::string>& words) const
     {
-        std::vector<std::string> all = {VCARVE_PROGRAM, scene, out};
+        std::vector<std::string> all = {scene, out};
         all.insert(all.end(), words.begin(), words.end());
-        return Subprocess(all).wait();
+        return run_program(all);
     }
     /// Expects the program to fail with this code and to leave nothing behind, and gives its
     /// sentence.

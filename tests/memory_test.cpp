@@ -1,8 +1,8 @@
 #include "pipeline/memory.h"
 #include "support/ball_model.h"
 #include "support/dense_workspace.h"
+#include "support/program.h"
 #include "support/scenes.h"
-#include "support/subprocess.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 #include "vcarve/reconstruct.h"
@@ -102,11 +102,9 @@ MeasuredRun run_on(const std::filesystem::path& model, int threads)
     const TemporaryFolder folder;
     const std::string stats = folder / "stats.json";
     MeasuredRun run;
-    const int exit_code =
-        Subprocess({VCARVE_PROGRAM, "--quiet", "--threads", std::to_string(threads), "--stats",
-                    stats, model, folder / "out.ply"})
-            .wait()
-            .exit_code;
+    const int exit_code = run_program({"--quiet", "--threads", std::to_string(threads), "--stats",
+                                       stats, model, folder / "out.ply"})
+                              .exit_code;
     EXPECT_EQ(exit_code, 0);
     const auto record = nlohmann::json::parse(std::ifstream(stats));
     EXPECT_TRUE(record["peak_memory_is_per_stage"]);
@@ -183,9 +181,8 @@ TEST(Program, LeavesThePeakOfTheProcessToTheSystemUnlessStagesAreAskedFor)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "ball", 30'000);
-    const Outcome plain = Subprocess({VCARVE_PROGRAM, "--quiet", "--threads", "1", folder / "ball",
-                                      folder / "out.ply"})
-                              .wait();
+    const Outcome plain =
+        run_program({"--quiet", "--threads", "1", folder / "ball", folder / "out.ply"});
     EXPECT_GE(plain.peak_memory_bytes, 0.9 * run_on(folder / "ball", 1).peak);
 }
 

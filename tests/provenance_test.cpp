@@ -1,6 +1,6 @@
 #include "steps/5_surface/provenance.h"
+#include "support/program.h"
 #include "support/scenes.h"
-#include "support/subprocess.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 
@@ -150,10 +150,9 @@ std::vector<std::vector<double>> read_rows(const std::filesystem::path& path)
 std::vector<std::vector<double>> rows_of_run(const std::vector<std::string>& arguments)
 {
     const TemporaryFolder folder;
-    std::vector<std::string> words = {VCARVE_PROGRAM, scene_folder(), folder / "out.ply", "--ascii",
-                                      "--quiet"};
+    std::vector<std::string> words = {scene_folder(), folder / "out.ply", "--ascii", "--quiet"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    EXPECT_EQ(Subprocess(words).wait().exit_code, 0);
+    EXPECT_EQ(run_program(words).exit_code, 0);
     return read_rows(folder / "out.ply");
 }
 

@@ -1,6 +1,6 @@
 // The program's operator new, seen from outside.
 #include "support/ball_model.h"
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 #include <fmt/format.h>
@@ -24,8 +24,8 @@ struct ProgramInBlocks : testing::Test {
 
     Outcome run(std::vector<std::string> arguments) const
     {
-        arguments.insert(arguments.begin(), {VCARVE_PROGRAM, ball, out});
-        return Subprocess(arguments).wait();
+        arguments.insert(arguments.begin(), {ball, out});
+        return run_program(arguments);
     }
     nlohmann::json memory_of(std::vector<std::string> arguments) const
     {
@@ -81,7 +81,7 @@ TEST_F(ProgramInBlocks, NamesAScratchFolderThatDoesNotDo)
 
 TEST_F(ProgramInBlocks, LeavesNoFilesWhenItIsEnded)
 {
-    Subprocess program({VCARVE_PROGRAM, ball, out, "--blocks", "2"});
+    Subprocess program(program_with({ball, out, "--blocks", "2"}));
     while (program.err_so_far().find("triangulate ") == std::string::npos && program.is_running()) {
         ::usleep(1000);
     }

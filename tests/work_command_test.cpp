@@ -1,5 +1,5 @@
 // colmap-vcarve --work DIR, as its users meet it.
-#include "support/subprocess.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 #include <gmock/gmock.h>
@@ -21,14 +21,11 @@ class WorkOfProgram : public testing::Test {
   protected:
     std::vector<std::string> words(const std::vector<std::string>& more) const
     {
-        std::vector<std::string> all = {VCARVE_PROGRAM, scene, out, "--work", work};
+        std::vector<std::string> all = {scene, out, "--work", work};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
-    Outcome run(const std::vector<std::string>& more) const
-    {
-        return Subprocess(words(more)).wait();
-    }
+    Outcome run(const std::vector<std::string>& more) const { return run_program(words(more)); }
 
     TemporaryFolder folder;
     std::string scene = VCARVE_FIXTURES "/scene/sparse/0";
@@ -40,7 +37,7 @@ class WorkOfProgram : public testing::Test {
 
 TEST_F(WorkOfProgram, ChangesNothingAndGoes)
 {
-    ASSERT_EQ(Subprocess({VCARVE_PROGRAM, scene, out, "--quiet"}).wait().exit_code, 0);
+    ASSERT_EQ(run_program({scene, out, "--quiet"}).exit_code, 0);
     const std::string expected = bytes_of(out);
     const Outcome outcome = run({});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -101,7 +98,7 @@ TEST_F(WorkOfProgram, OfOtherOptionsOrInputIsRefused)
 TEST_F(WorkOfProgram, IsOneRunsAtATime)
 {
     // So many views take their time.
-    Subprocess first(words({"--virtual-views=300"}));
+    Subprocess first(program_with(words({"--virtual-views=300"})));
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!fs::exists(work + "/points.stage") && std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -115,11 +112,11 @@ TEST_F(WorkOfProgram, IsOneRunsAtATime)
 
 TEST_F(WorkOfProgram, IsToBeAFolderOfItsOwn)
 {
-    Outcome outcome = Subprocess({VCARVE_PROGRAM, scene, out, "--keep-work"}).wait();
+    Outcome outcome = run_program({scene, out, "--keep-work"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("--keep-work keeps the folder of --work, which was not "
                                        "given"));
-    outcome = Subprocess({VCARVE_PROGRAM, scene, out, "--work="}).wait();
+    outcome = run_program({scene, out, "--work="});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("--work"));
     folder.write("work/mine.txt", "mine");
