@@ -1,0 +1,57 @@
+#include "model/pixel_covariance.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+
+namespace vcarve {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+struct Sight {
+    Vector3d way; ///< from the view to the point
+    double focal_px = 0.0;
+    bool measures_range = false;
+
+    auto rank() const { return std::tuple(way.x(), way.y(), way.z(), focal_px, measures_range); }
+};
+
+/// In an order that does not depend on that of the views, and so rounding does not.
+std::vector<Sight> ordered_sights(const Scene& scene, std::size_t point,
+                                  const std::vector<double>& focals_px)
+{
+    std::vector<Sight> sights;
+    sights.reserve(scene.tracks[point].size());
+    for (const std::uint32_t v : scene.tracks[point]) {
+        const View& view = scene.views[v];
+        sights.push_back({scene.positions[point] - view.center, focals_px[view.camera],
+                          scene.cameras[view.camera].measures_range});
+    }
+    std::ranges::sort(sights, {}, &Sight::rank);
+    return sights;
+}
+
+} // namespace
+
+Matrix3d covariance_of_a_pixel(const Scene& scene, std::size_t point,
+                               const std::vector<double>& focals_px)
+{
+    Matrix3d information = Matrix3d::Zero();
+    for (const Sight& sight : ordered_sights(scene, point, focals_px)) {
+        const double distance_sq = sight.way.squaredNorm();
+        const double pixels_sq = sight.focal_px * sight.focal_px / distance_sq;
+        Matrix3d across = Matrix3d::Identity();
+        if (!sight.measures_range) across -= sight.way * sight.way.transpose() / distance_sq;
+        information += pixels_sq * across;
+    }
+    const double scale = information.trace() / 3.0;
+    if (!(information.determinant() > 1e-12 * scale * scale * scale)) return Matrix3d::Zero();
+    return information.inverse();
+}
+
+} // namespace vcarve
