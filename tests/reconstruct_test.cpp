@@ -244,7 +244,7 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     reconstruct(bumpy_sphere(500, 8), {}, log);
     const std::vector<std::string> expected = {"memory", "filter", "creases", "triangulate",
                                                "sights", "cut",    "surface", "clean",
-                                               "open",   "orient"};
+                                               "open",   "settle", "orient"};
     EXPECT_EQ(log.begun, expected);
     EXPECT_EQ(log.ended, expected);
 
@@ -253,10 +253,40 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     with_virtual_views.labels.virtual_views.count = 10;
     reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
     const std::vector<std::string> labelled_twice = {
-        "memory", "filter", "creases", "triangulate", "sights", "cut",   "virtual",
-        "sights", "cut",    "surface", "clean",       "open",   "orient"};
+        "memory", "filter", "creases", "triangulate", "sights", "cut",    "virtual",
+        "sights", "cut",    "surface", "clean",       "open",   "settle", "orient"};
     EXPECT_EQ(twice.begun, labelled_twice);
     EXPECT_EQ(twice.ended, labelled_twice);
+}
+
+/// How many vertices are not where the points of theirs are.
+std::int64_t num_moved(const Reconstruction& made)
+{
+    std::int64_t moved = 0;
+    for (std::size_t v = 0; v < made.mesh.positions.size(); ++v) {
+        const std::uint32_t point = made.mesh.points[v];
+        if (point == kNoPoint) continue;
+        moved += made.mesh.positions[v] != made.scene.positions[point] ? 1 : 0;
+    }
+    return moved;
+}
+
+TEST(Reconstruct, SettlesVerticesUnlessThePapersOwnMethodIsWantedOrPointsWereMovedBefore)
+{
+    const Scene scene = bumpy_sphere(kPoints, 9);
+    const Reconstruction settled = run(scene);
+    EXPECT_GT(num_moved(settled), static_cast<std::int64_t>(kPoints / 2));
+    Options options;
+    options.denoise.denoise = 0.0;
+    const Reconstruction unsettled = run(scene, options);
+    EXPECT_EQ(num_moved(unsettled), 0);
+    EXPECT_EQ(unsettled.mesh.faces, settled.mesh.faces) << "labels know nothing of it";
+    options = {};
+    options.labels.method = Method::strict;
+    EXPECT_EQ(num_moved(run(scene, options)), 0);
+    Scene dense = scene;
+    std::ranges::fill(dense.errors_px, -1.0);
+    EXPECT_EQ(num_moved(run(dense)), 0);
 }
 
 /// How many vertices of a mesh are no points of the model but were added to them.

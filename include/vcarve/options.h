@@ -116,7 +116,7 @@ struct CropOptions {
     }
 };
 
-/// How far the points of a dense cloud are moved.
+/// How far the points of a dense cloud are moved, or the vertices of a sparse one's surface.
 struct DenoiseOptions {
     double denoise = 2.0; ///< --denoise
 
@@ -129,7 +129,8 @@ struct DenoiseOptions {
              .unit = "sigma",
              .help = "Move points of a dense cloud, those without a reprojection error, within so "
                      "many standard deviations of their own to the surface that the points around "
-                     "agree on; 0 moves none.",
+                     "agree on; of a sparse model, the vertices of the finished surface (not with "
+                     "--method strict). 0 moves none.",
              .max = 100.0});
     }
 };

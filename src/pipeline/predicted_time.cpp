@@ -32,6 +32,7 @@ constexpr Cost kStrictSurfacePoint{45e-6, 0.9}; // more of it is seen by no sigh
 constexpr Cost kSurfaceView{0.7e-3, 0.9};       // looks at faces that may be sheets
 constexpr Cost kOpen{40e-3, 0.9};
 constexpr Cost kCleanPoint{0.47e-6, 0.6};
+constexpr Cost kSettlePoint{1.3e-6, 0.95};
 constexpr Cost kGuardSight{13e-6, 0.95};
 constexpr Cost kSmoothPoint{150e-6, 0.95}; // an iteration
 constexpr Cost kSimplifyFace{0.5e-3, 0.0}; // that goes
@@ -156,6 +157,12 @@ void add_surface(Stages& stages, const Sizes& n, const Options& options)
     if (!options.surface.closed && !is_cropped) stages.add("open", kOpen, 1.0);
 }
 
+void add_settling(Stages& stages, const Sizes& n, const Options& options)
+{
+    if (n.is_dense || options.denoise.denoise == 0.0) return;
+    if (options.labels.method != Method::strict) stages.add("settle", kSettlePoint, n.points);
+}
+
 void add_refining(Stages& stages, const Sizes& n, const RefineOptions& options)
 {
     constexpr double kFacesPerPoint = 1.8;
@@ -176,6 +183,7 @@ PredictedTimes predicted_times(const SceneSize& read, const Options& options, in
     add_points(stages, n, options);
     add_labels(stages, n, options.labels);
     add_surface(stages, n, options);
+    add_settling(stages, n, options);
     add_refining(stages, n, options.refine);
     stages.add("orient", kOrientPoint, n.points);
     stages.add("write", kWritePoint, n.points);

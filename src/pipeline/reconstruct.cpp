@@ -25,6 +25,7 @@
 #include "steps/5_surface/make_surface.h"
 #include "steps/5_surface/orient.h"
 #include "steps/6_refine/refine.h"
+#include "steps/6_refine/settle.h"
 
 #include <tbb/task_arena.h>
 
@@ -191,6 +192,19 @@ CarvedSurface carve(const Carvers& carvers, bool wants_removed, const Options& o
     return carved;
 }
 
+/// Points of a dense cloud were moved before; with the paper's own method all stay.
+void settle(HalfEdgeMesh& mesh, const Scene& scene, const Options& options, Log& log)
+{
+    if (options.denoise.denoise == 0.0 || options.labels.method == Method::strict) return;
+    if (has_dense_points(scene)) return;
+    Stage stage(log, "settle");
+    const SettleCounts counts = settle_vertices(mesh, scene, options.denoise, stage);
+    stage.end({{"vertices moved", counts.moved},
+               {"of", counts.vertices},
+               {"held back", counts.held},
+               {"thousandths of a pixel of noise", std::llround(1000.0 * counts.noise_px)}});
+}
+
 /// Checks which way the surface faces, and hands it over.
 TriMesh orient(const HalfEdgeMesh& mesh, const Scene& scene, Log& log)
 {
@@ -222,6 +236,7 @@ Reconstruction run_steps(Scene scene, const RunSize& size, const Options& option
     scene = std::move(carvers.scene);
     const std::unique_ptr<HalfEdgeMesh> mesh =
         mended_surface(std::move(carved.seen), extras.removed, options.surface, log);
+    settle(*mesh, scene, options, log);
     refine(*mesh, scene, options.refine, log);
     TriMesh surface = orient(*mesh, scene, log);
     return {std::move(scene), std::move(surface)};
