@@ -24,6 +24,7 @@
 #include "steps/5_surface/kept_surface.h"
 #include "steps/5_surface/make_surface.h"
 #include "steps/5_surface/orient.h"
+#include "steps/6_refine/flip_ridges.h"
 #include "steps/6_refine/refine.h"
 #include "steps/6_refine/settle.h"
 
@@ -198,10 +199,14 @@ void settle(HalfEdgeMesh& mesh, const Scene& scene, const Options& options, Log&
     if (options.denoise.denoise == 0.0 || options.labels.method == Method::strict) return;
     if (has_dense_points(scene)) return;
     Stage stage(log, "settle");
-    const SettleCounts counts = settle_vertices(mesh, scene, options.denoise, stage);
+    const Progress progress(stage);
+    const SettleCounts counts =
+        settle_vertices(mesh, scene, options.denoise, progress.part(0.0, 0.7));
+    const std::int64_t flipped = flip_ridges(mesh, progress.part(0.7, 0.8));
     stage.end({{"vertices moved", counts.moved},
                {"of", counts.vertices},
                {"held back", counts.held},
+               {"edges flipped", flipped},
                {"thousandths of a pixel of noise", std::llround(1000.0 * counts.noise_px)}});
 }
 

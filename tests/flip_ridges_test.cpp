@@ -1,0 +1,217 @@
+#include "base/random_number.h"
+#include "geometry/triangle.h"
+#include "mesh/check.h"
+#include "mesh/half_edge_mesh.h"
+#include "steps/6_refine/flip_ridges.h"
+#include "support/half_edges.h"
+#include "support/made_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <set>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+using testing::half_edges;
+
+/// A grid of places (x, y, rise(x, y)) with x and y from -half to half, two faces a square, seen
+/// from above.
+TriMesh height_field(int half, const std::function<double(int, int)>& rise)
+{
+    TriMesh mesh;
+    const auto side = static_cast<std::uint32_t>(2 * half + 1);
+    for (int x = -half; x <= half; ++x) {
+        for (int y = -half; y <= half; ++y) {
+            mesh.positions.emplace_back(x, y, rise(x, y));
+        }
+    }
+    for (std::uint32_t x = 0; x + 1 < side; ++x) {
+        for (std::uint32_t y = 0; y + 1 < side; ++y) {
+            const std::uint32_t a = side * x + y;
+            const std::uint32_t b = a + side;
+            mesh.faces.push_back({a, b, b + 1});
+            mesh.faces.push_back({a, b + 1, a + 1});
+        }
+    }
+    return mesh;
+}
+
+double bump(int x, int y)
+{
+    return 1.2 * random_number(3, static_cast<std::uint64_t>(1000 * (x + 100) + y + 100));
+}
+
+struct Flipped {
+    TriMesh mesh;
+    std::int64_t count = 0;
+};
+
+Flipped flipped(const TriMesh& mesh)
+{
+    HalfEdgeMesh surface = half_edges(mesh);
+    const std::int64_t count = flip_ridges(surface);
+    return {tri_mesh(surface), count};
+}
+
+/// The faces, each from its least vertex on.
+std::set<Face> faces_of(const TriMesh& mesh)
+{
+    std::set<Face> faces;
+    for (Face face : mesh.faces) {
+        std::ranges::rotate(face, std::ranges::min_element(face));
+        faces.insert(face);
+    }
+    return faces;
+}
+
+/// The edges of one face only, from the lesser vertex on.
+std::set<std::array<std::uint32_t, 2>> rim_of(const TriMesh& mesh)
+{
+    std::set<std::array<std::uint32_t, 2>> rim;
+    for (const Face& face : mesh.faces) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::array<std::uint32_t, 2> edge = {std::min(face[i], face[(i + 1) % 3]),
+                                                       std::max(face[i], face[(i + 1) % 3])};
+            if (!rim.erase(edge)) rim.insert(edge);
+        }
+    }
+    return rim;
+}
+
+/// The height of a surface seen from above, at (x, y).
+double height_at(const TriMesh& mesh, double x, double y)
+{
+    double height = -std::numeric_limits<double>::infinity();
+    for (const Face& face : mesh.faces) {
+        const Vector3d& a = mesh.positions[face[0]];
+        const Vector3d& b = mesh.positions[face[1]];
+        const Vector3d& c = mesh.positions[face[2]];
+        const auto turn = [&](const Vector3d& p, const Vector3d& q) {
+            return (q.x() - p.x()) * (y - p.y()) - (q.y() - p.y()) * (x - p.x());
+        };
+        if (turn(a, b) < 0.0 || turn(b, c) < 0.0 || turn(c, a) < 0.0) continue;
+        const Vector3d normal = scaled_normal(a, b, c);
+        const double z = a.z() - (normal.x() * (x - a.x()) + normal.y() * (y - a.y())) / normal.z();
+        height = std::max(height, z);
+    }
+    return height;
+}
+
+/// The valley of z = slope |x|, whose bottom is bridged in every second place.
+TriMesh bridged_valley(double slope, bool is_bridged)
+{
+    constexpr int kHalf = 5;
+    const auto valley = [&](int x, int) { return slope * std::abs(x); };
+    HalfEdgeMesh surface = half_edges(height_field(kHalf, valley));
+    const auto at = [](int x, int y) {
+        return OpenMesh::VertexHandle((2 * kHalf + 1) * (x + kHalf) + y + kHalf);
+    };
+    for (int y = -kHalf + 1; is_bridged && y + 1 < kHalf; y += 2) {
+        const auto bottom = surface.edge_handle(surface.find_halfedge(at(0, y), at(0, y + 1)));
+        surface.flip(bottom);
+    }
+    return tri_mesh(surface);
+}
+
+TEST(FlipRidges, TakesBridgesOutOfAValley)
+{
+    const TriMesh bridged = bridged_valley(0.25, true);
+    const TriMesh valley = bridged_valley(0.25, false);
+    ASSERT_NE(faces_of(bridged), faces_of(valley));
+    const Flipped result = flipped(bridged);
+    EXPECT_EQ(result.count, 4);
+    EXPECT_EQ(faces_of(result.mesh), faces_of(valley));
+    EXPECT_EQ(result.mesh.positions, valley.positions);
+    EXPECT_EQ(flipped(valley).count, 0);
+}
+
+TEST(FlipRidges, LeavesWhatTurnsTooFar)
+{
+    EXPECT_EQ(flipped(bridged_valley(0.5, true)).count, 0);
+}
+
+TEST(FlipRidges, IsNowhereHigherThanBefore)
+{
+    constexpr int kHalf = 10;
+    const TriMesh before = height_field(kHalf, bump);
+    const Flipped result = flipped(before);
+    EXPECT_GT(result.count, 30);
+    double lowered = 0.0;
+    for (std::uint64_t i = 0; i < 2000; ++i) {
+        const double x = kHalf * (2.0 * random_number(7, 2 * i) - 1.0);
+        const double y = kHalf * (2.0 * random_number(7, 2 * i + 1) - 1.0);
+        const double sunk = height_at(before, x, y) - height_at(result.mesh, x, y);
+        EXPECT_GT(sunk, -1e-9);
+        lowered = std::max(lowered, sunk);
+    }
+    EXPECT_GT(lowered, 0.1);
+}
+
+TEST(FlipRidges, KeepsVerticesRimsAndAManifold)
+{
+    const TriMesh before = height_field(10, bump);
+    const Flipped result = flipped(before);
+    EXPECT_EQ(result.mesh.positions, before.positions);
+    EXPECT_EQ(result.mesh.faces.size(), before.faces.size());
+    EXPECT_EQ(rim_of(result.mesh), rim_of(before));
+    const MeshCheck check = check_mesh(result.mesh);
+    EXPECT_TRUE(check.is_manifold());
+    EXPECT_EQ(check.orientation_faults, 0);
+    EXPECT_EQ(check.degenerate_faces, 0);
+    EXPECT_EQ(check.euler_characteristic, check_mesh(before).euler_characteristic);
+}
+
+TEST(FlipRidges, LeavesNothingToGain)
+{
+    const Flipped once = flipped(height_field(10, bump));
+    EXPECT_EQ(flipped(once.mesh).count, 0);
+}
+
+TEST(FlipRidges, LeavesAPlane)
+{
+    EXPECT_EQ(flipped(height_field(4, [](int x, int y) { return 0.1 * x - 0.2 * y; })).count, 0);
+}
+
+TEST(FlipRidges, GivesNormalsOfTheNewFaces)
+{
+    HalfEdgeMesh surface = half_edges(height_field(10, bump));
+    flip_ridges(surface);
+    for (const auto vertex : surface.vertices()) {
+        EXPECT_EQ(surface.normal(vertex), vertex_normal(surface, vertex));
+    }
+}
+
+TEST(FlipRidges, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
+{
+    const TriMesh mesh = height_field(10, bump);
+    const auto by = [&](int threads) {
+        return testing::with_threads(threads, [&] { return flipped(mesh).mesh.faces; });
+    };
+    const std::vector<Face> one = by(1);
+    EXPECT_EQ(one, by(2));
+    EXPECT_EQ(one, by(3));
+    TriMesh larger = mesh;
+    for (Vector3d& position : larger.positions) {
+        position *= 1024.0;
+    }
+    EXPECT_EQ(flipped(larger).mesh.faces, one);
+}
+
+TEST(FlipRidges, GivesTheSameForFacesInAnyOrder)
+{
+    const TriMesh mesh = height_field(10, bump);
+    TriMesh reversed = mesh;
+    std::ranges::reverse(reversed.faces);
+    EXPECT_EQ(faces_of(flipped(reversed).mesh), faces_of(flipped(mesh).mesh));
+}
+
+} // namespace
+} // namespace vcarve
