@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 
 namespace vcarve {
@@ -119,6 +120,38 @@ TriMesh bridged_valley(double slope, bool is_bridged)
         surface.flip(bottom);
     }
     return tri_mesh(surface);
+}
+
+double angle_of(const Vector3d& a, const Vector3d& b)
+{
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The sum of the angles between the normals of faces beside each other.
+double bend_of(const TriMesh& mesh)
+{
+    std::map<std::array<std::uint32_t, 2>, Vector3d> open;
+    double bend = 0.0;
+    for (const Face& face : mesh.faces) {
+        const Vector3d normal = scaled_normal(mesh.positions[face[0]], mesh.positions[face[1]],
+                                              mesh.positions[face[2]]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t from = face[i];
+            const std::uint32_t to = face[(i + 1) % 3];
+            const auto other = open.find({to, from});
+            if (other != open.end()) bend += angle_of(normal, other->second);
+            open[{from, to}] = normal;
+        }
+    }
+    return bend;
+}
+
+TEST(FlipRidges, BendsTheWholeSurfaceLessWithEachFlip)
+{
+    const TriMesh before = height_field(10, bump);
+    const Flipped result = flipped(before);
+    EXPECT_GT(result.count, 30);
+    EXPECT_LT(bend_of(result.mesh), bend_of(before) - 0.01 * static_cast<double>(result.count));
 }
 
 TEST(FlipRidges, TakesBridgesOutOfAValley)

@@ -83,10 +83,9 @@ double gain_of_flip(const HalfEdgeMesh& mesh, EdgeHandle edge)
     const Vector3d dca = normal_of(d, c, a);
     const Vector3d cdb = normal_of(c, d, b);
     const bool is_ridge = abc.dot(d - a) < 0.0;
-    const bool is_convex = dca.dot(abc + bad) > 0.0 && cdb.dot(abc + bad) > 0.0;
-    if (!is_ridge || !is_convex || bad.isZero(0.0)) return 0.0;
+    if (!is_ridge || bad.isZero(0.0) || dca.isZero(0.0) || cdb.isZero(0.0)) return 0.0;
     const double turn = angle_between(abc, bad);
-    const double turn_after = angle_between(dca, cdb);
+    const double turn_after = angle_between(dca, cdb); // over a right angle if they fold over
     if (turn > kMostTurn || turn_after > kMostTurn) return 0.0;
     double gain = turn - turn_after;
     const std::array<const Vector3d*, 4> before = {&abc, &abc, &bad, &bad};
