@@ -35,23 +35,26 @@ Vectors of_vertices(const HalfEdgeMesh& mesh, const Value& value)
     return values;
 }
 
+template <typename Item>
+void sort_unique(std::vector<Item>& items)
+{
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
 /// The vertices beside a vertex, and those across the edges opposite to it; ascending.
 void collect_around(const HalfEdgeMesh& mesh, VertexHandle vertex,
                     std::vector<std::uint32_t>& around)
 {
     around.clear();
-    const auto add = [&](VertexHandle other) {
-        around.push_back(static_cast<std::uint32_t>(index(other)));
-    };
     for (const auto out : mesh.voh_range(vertex)) {
-        add(mesh.to_vertex_handle(out));
-        if (mesh.is_boundary(out)) continue;
-        const auto across = mesh.opposite_halfedge_handle(mesh.next_halfedge_handle(out));
-        if (!mesh.is_boundary(across))
-            add(mesh.to_vertex_handle(mesh.next_halfedge_handle(across)));
+        around.push_back(static_cast<std::uint32_t>(index(out.to())));
+        if (out.is_boundary()) continue;
+        const auto across = out.next().opp();
+        if (across.is_boundary()) continue;
+        around.push_back(static_cast<std::uint32_t>(index(across.next().to())));
     }
-    std::ranges::sort(around);
-    around.erase(std::ranges::unique(around).begin(), around.end());
+    sort_unique(around);
     std::erase(around, static_cast<std::uint32_t>(index(vertex)));
 }
 
@@ -133,13 +136,6 @@ Faces turning(const HalfEdgeMesh& mesh, const Vectors& ways, std::size_t count,
     return parallel_collect<FaceHandle>(count, [&](std::size_t i, Faces& faces) {
         if (turns(mesh, ways, face_at(i))) faces.push_back(face_at(i));
     });
-}
-
-template <typename Handle>
-void sort_unique(std::vector<Handle>& handles)
-{
-    std::sort(handles.begin(), handles.end());
-    handles.erase(std::unique(handles.begin(), handles.end()), handles.end());
 }
 
 /// Halves ways, or ends them, until no face turns too far. How many vertices that holds.
