@@ -151,7 +151,7 @@ TEST(FlipRidges, BendsTheWholeSurfaceLessWithEachFlip)
     const TriMesh before = height_field(10, bump);
     const Flipped result = flipped(before);
     EXPECT_GT(result.count, 30);
-    EXPECT_LT(bend_of(result.mesh), bend_of(before) - 0.01 * static_cast<double>(result.count));
+    EXPECT_LT(bend_of(result.mesh), bend_of(before) - 0.2 * static_cast<double>(result.count));
 }
 
 TEST(FlipRidges, TakesBridgesOutOfAValley)
