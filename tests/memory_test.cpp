@@ -142,8 +142,9 @@ TEST(PredictedMemory, IsWhatTheProgramNeeds)
         {"sights", 1.26}, {"cut", 1.29},    {"surface", 1.05}, {"clean", 1.03}}; // as measured
     double most = 0.0;
     for (const StageMemory& stage : run.predicted) {
-        // What allocators keep differs from run to run.
-        EXPECT_NEAR(run.ratio(stage), expected.at(stage.stage), 0.15) << stage.stage;
+        // What allocators keep differs from run to run, and of a program that was linked a moment
+        // ago more pages are resident than later.
+        EXPECT_NEAR(run.ratio(stage), expected.at(stage.stage), 0.2) << stage.stage;
         most = std::max(most, static_cast<double>(stage.bytes));
     }
     EXPECT_GE(most / run.peak, kLeastPredicted);

@@ -32,7 +32,7 @@ constexpr Cost kStrictSurfacePoint{45e-6, 0.9}; // more of it is seen by no sigh
 constexpr Cost kSurfaceView{0.7e-3, 0.9};       // looks at faces that may be sheets
 constexpr Cost kOpen{40e-3, 0.9};
 constexpr Cost kCleanPoint{0.47e-6, 0.6};
-constexpr Cost kSettlePoint{1.3e-6, 0.95};
+constexpr Cost kSettlePoint{2.8e-6, 0.7};
 constexpr Cost kGuardSight{13e-6, 0.95};
 constexpr Cost kSmoothPoint{150e-6, 0.95}; // an iteration
 constexpr Cost kSimplifyFace{0.5e-3, 0.0}; // that goes
