@@ -148,7 +148,7 @@ double bend_of(const TriMesh& mesh)
 
 TEST(FlipRidges, BendsTheWholeSurfaceLessWithEachFlip)
 {
-    const TriMesh before = height_field(10, bump);
+    const TriMesh before = height_field(40, bump);
     const Flipped result = flipped(before);
     EXPECT_GT(result.count, 30);
     EXPECT_LT(bend_of(result.mesh), bend_of(before) - 0.2 * static_cast<double>(result.count));
@@ -169,6 +169,27 @@ TEST(FlipRidges, TakesBridgesOutOfAValley)
 TEST(FlipRidges, LeavesWhatTurnsTooFar)
 {
     EXPECT_EQ(flipped(bridged_valley(0.5, true)).count, 0);
+}
+
+TEST(FlipRidges, LeavesEdgesBesideAFaceSoThinThatRoundingDecidesOnItsNormal)
+{
+    // The face beside a bridge at the edge from (0, 0) to (1, 1); its corner (1, 0) comes next to
+    // it.
+    for (const double height : {1e-9, 0.1}) {
+        TriMesh mesh = bridged_valley(0.25, true);
+        const auto at = [&](int x, int y) {
+            return static_cast<std::uint32_t>(11 * (x + 5) + y + 5);
+        };
+        mesh.positions[at(1, 0)] = (mesh.positions[at(0, 0)] + mesh.positions[at(1, 1)]) / 2.0 +
+                                   height * Vector3d(1.0, -1.0, 0.25);
+        const std::set<Face> before = faces_of(mesh);
+        const std::set<Face> after = faces_of(flipped(mesh).mesh);
+        TriMesh bridge_alone;
+        bridge_alone.faces = {{at(-1, 0), at(0, 0), at(1, 1)}};
+        const std::set<Face> bridge = faces_of(bridge_alone);
+        ASSERT_TRUE(std::ranges::includes(before, bridge));
+        EXPECT_EQ(std::ranges::includes(after, bridge), height < 0.01) << height;
+    }
 }
 
 TEST(FlipRidges, IsNowhereHigherThanBefore)
@@ -204,7 +225,7 @@ TEST(FlipRidges, KeepsVerticesRimsAndAManifold)
 
 TEST(FlipRidges, LeavesNothingToGain)
 {
-    const Flipped once = flipped(height_field(10, bump));
+    const Flipped once = flipped(height_field(40, bump));
     EXPECT_EQ(flipped(once.mesh).count, 0);
 }
 
