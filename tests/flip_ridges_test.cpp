@@ -3,6 +3,7 @@
 #include "mesh/check.h"
 #include "mesh/half_edge_mesh.h"
 #include "steps/6_refine/flip_ridges.h"
+#include "support/grid_faces.h"
 #include "support/half_edges.h"
 #include "support/made_cells.h"
 
@@ -28,20 +29,12 @@ using testing::half_edges;
 TriMesh height_field(int half, const std::function<double(int, int)>& rise)
 {
     TriMesh mesh;
-    const auto side = static_cast<std::uint32_t>(2 * half + 1);
     for (int x = -half; x <= half; ++x) {
         for (int y = -half; y <= half; ++y) {
             mesh.positions.emplace_back(x, y, rise(x, y));
         }
     }
-    for (std::uint32_t x = 0; x + 1 < side; ++x) {
-        for (std::uint32_t y = 0; y + 1 < side; ++y) {
-            const std::uint32_t a = side * x + y;
-            const std::uint32_t b = a + side;
-            mesh.faces.push_back({a, b, b + 1});
-            mesh.faces.push_back({a, b + 1, a + 1});
-        }
-    }
+    mesh.faces = testing::grid_faces(static_cast<std::uint32_t>(2 * half + 1));
     return mesh;
 }
 

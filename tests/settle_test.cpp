@@ -1,5 +1,6 @@
 #include "mesh/half_edge_mesh.h"
 #include "steps/6_refine/settle.h"
+#include "support/grid_faces.h"
 #include "support/half_edges.h"
 #include "support/made_cells.h"
 #include "support/noisy_ground.h"
@@ -57,19 +58,11 @@ bool is_on_rim(const Scene& ground, std::uint32_t vertex)
 /// The surface of the ground: two faces for four points of its grid, seen from above.
 TriMesh surface_of(const Scene& ground)
 {
-    const std::uint32_t side = side_of(ground);
     TriMesh mesh;
     mesh.positions = ground.positions;
     mesh.points.resize(mesh.positions.size());
     std::iota(mesh.points.begin(), mesh.points.end(), 0U);
-    for (std::uint32_t x = 0; x + 1 < side; ++x) {
-        for (std::uint32_t y = 0; y + 1 < side; ++y) {
-            const std::uint32_t a = side * x + y;
-            const std::uint32_t b = a + side;
-            mesh.faces.push_back({a, b, b + 1});
-            mesh.faces.push_back({a, b + 1, a + 1});
-        }
-    }
+    mesh.faces = testing::grid_faces(side_of(ground));
     return mesh;
 }
 

@@ -1,6 +1,7 @@
 #include "base/random_number.h"
 #include "compare/surface_tree.h"
 #include "geometry/predicates.h"
+#include "support/grid_faces.h"
 #include "support/measured_scenes.h"
 
 #include <Eigen/Geometry>
@@ -167,13 +168,9 @@ TriMesh hills(std::uint32_t n)
             const double height = 0.5 * random_number(31, i * (n + 1) + j) / n;
             mesh.positions.emplace_back(static_cast<double>(i) / n, static_cast<double>(j) / n,
                                         height);
-            if (i == n || j == n) continue;
-            const std::uint32_t a = i * (n + 1) + j;
-            const std::uint32_t b = a + n + 1;
-            mesh.faces.push_back({a, b, b + 1});
-            mesh.faces.push_back({a, b + 1, a + 1});
         }
     }
+    mesh.faces = testing::grid_faces(n + 1);
     return mesh;
 }
 

@@ -1,7 +1,6 @@
 #include "geometry/bilateral_filter.h"
 
 #include "base/median_of_some.h"
-#include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,11 +52,11 @@ Height BilateralFilter::height(std::size_t point, double gate) const
     double squares = 0.0;
     double all_weights = 0.0;
     for (const std::uint32_t other : neighborhoods_.around(point)) {
-        const Vector3d way = points_.positions[point] - points_.positions[other];
-        const double cosine = points_.normals[point].dot(points_.normals[other]);
-        const double variance = points_.variances[point] + points_.variances[other];
-        if (!(points_.variances[other] > 0.0)) continue;
-        const double height = points_.normals[other].dot(way);
+        const Vector3d way = positions_[point] - positions_[other];
+        const double cosine = normals_[point].dot(normals_[other]);
+        const double variance = variances_[point] + variances_[other];
+        if (!(variances_[other] > 0.0)) continue;
+        const double height = normals_[other].dot(way);
         const double of_all =
             std::exp(log_nearness(way.squaredNorm(), neighborhoods_.reach_sq(point)) +
                      log_likeness(cosine)) /
@@ -75,24 +74,31 @@ Height BilateralFilter::height(std::size_t point, double gate) const
 
 Vector3d BilateralFilter::estimate(std::size_t point, double gate) const
 {
-    const Vector3d& position = points_.positions[point];
-    const double variance = points_.variances[point];
+    const Vector3d& position = positions_[point];
+    const double variance = variances_[point];
     if (!(variance > 0.0)) return position;
     const Height above = height(point, gate);
     const double most = gate / std::sqrt(variance);
     const double way = above.value / (variance + above.variance);
-    return position - std::clamp(way, -most, most) * points_.spreads[point];
+    return position - std::clamp(way, -most, most) * spreads_[point];
 }
 
 double BilateralFilter::noise_px() const
 {
     constexpr double kSigmaOfMedian = 1.4826; // of a normal distribution
     constexpr double kAll = 1e100;            // no plane is too far
-    return kSigmaOfMedian * median_of_some(points_.variances.size(), [&](std::size_t i) {
+    return kSigmaOfMedian * median_of_some(variances_.size(), [&](std::size_t i) {
                constexpr double kUnknown = -1.0;
-               const double variance = points_.variances[i];
+               const double variance = variances_[i];
                if (!(variance > 0.0)) return kUnknown;
                return std::abs(height(i, kAll).value) / std::sqrt(variance);
+           });
+}
+
+double BilateralFilter::noise_in_spacings() const
+{
+    return noise_px() * median_of_some(variances_.size(), [&](std::size_t i) {
+               return std::sqrt(variances_[i] / neighborhoods_.spacing_sq(i));
            });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/parallel.h"
 #include "geometry/neighborhoods.h"
 
 #include <Eigen/Core>
@@ -7,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -22,17 +24,6 @@ std::vector<Eigen::Vector3d> filtered_normals(std::span<const Eigen::Vector3d> p
                                               std::span<const Eigen::Vector3d> normals,
                                               const Neighborhoods& neighborhoods);
 
-/// Points of a surface that are known up to noise; one entry a point in each array. Holds
-/// references.
-struct NoisyPoints {
-    std::span<const Eigen::Vector3d> positions;
-    std::span<const Eigen::Vector3d> normals; ///< unit, of the surface
-    /// What noise of one pixel makes of a point: its covariance times the normal, and that along
-    /// the normal. Zero where a point says nothing of where the surface is.
-    std::span<const Eigen::Vector3d> spreads;
-    std::span<const double> variances;
-};
-
 /// How far a point lies above the surface, and how uncertain the surface is there.
 struct Height {
     double value = 0.0;
@@ -44,9 +35,24 @@ struct Height {
 /// it, across their normals, each as much as it is near, like in its normal, and certain.
 class BilateralFilter {
   public:
-    BilateralFilter(const NoisyPoints& points, const Neighborhoods& neighborhoods)
-        : points_(points), neighborhoods_(neighborhoods)
+    /// Of points with unit `normals` of the surface there. covariance_of(i) is what noise of one
+    /// pixel makes of a point, zero where it says nothing of where the surface is. Holds a
+    /// reference to the positions. Cost: a call for each point, in parallel.
+    template <typename Covariance>
+    BilateralFilter(std::span<const Eigen::Vector3d> positions,
+                    std::vector<Eigen::Vector3d> normals, Neighborhoods neighborhoods,
+                    const Covariance& covariance_of)
+        : positions_(positions),
+          normals_(std::move(normals)),
+          neighborhoods_(std::move(neighborhoods)),
+          spreads_(positions.size()),
+          variances_(positions.size())
     {
+        parallel_for(positions.size(), [&](std::size_t i) {
+            const Eigen::Matrix3d covariance = covariance_of(i);
+            spreads_[i] = covariance * normals_[i];
+            variances_[i] = normals_[i].dot(spreads_[i]);
+        });
     }
 
     /// Planes count less, the farther they are for `gate` pixels of noise, and not if they are much
@@ -62,9 +68,15 @@ class BilateralFilter {
     /// surface is; of many, of every so manieth. Cost: O(points x neighbours), in parallel.
     double noise_px() const;
 
+    /// The same of their heights, over the distances between points: the median.
+    double noise_in_spacings() const;
+
   private:
-    NoisyPoints points_;
-    const Neighborhoods& neighborhoods_;
+    std::span<const Eigen::Vector3d> positions_;
+    std::vector<Eigen::Vector3d> normals_;
+    Neighborhoods neighborhoods_;
+    std::vector<Eigen::Vector3d> spreads_; ///< the covariance times the normal
+    std::vector<double> variances_;        ///< along the normal
 };
 
 } // namespace vcarve

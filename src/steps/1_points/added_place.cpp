@@ -1,5 +1,6 @@
 #include "steps/1_points/added_place.h"
 
+#include "base/sort_unique.h"
 #include "model/camera.h"
 
 #include <algorithm>
@@ -28,8 +29,7 @@ std::vector<std::uint32_t> views_showing(const Scene& scene, std::span<const std
     for (const std::uint32_t point : points) {
         std::ranges::copy(scene.tracks[point], std::back_inserter(views));
     }
-    std::ranges::sort(views);
-    views.erase(std::unique(views.begin(), views.end()), views.end());
+    sort_unique(views);
     std::erase_if(views, [&](std::uint32_t index) {
         const View& view = scene.views[index];
         return !view_shows(view, scene.cameras[view.camera], place);

@@ -1,6 +1,7 @@
 #include "steps/1_points/border_places.h"
 
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "geometry/triangle_tree.h"
 #include "steps/1_points/plane_frame.h"
 #include "steps/1_points/sights_through.h"
@@ -157,8 +158,7 @@ class Borders {
                 met.clear();
                 tree.visit_met(from, to,
                                [&](std::size_t triangle) { met.push_back(owners[triangle / 2]); });
-                std::ranges::sort(met);
-                met.erase(std::unique(met.begin(), met.end()), met.end());
+                sort_unique(met);
                 for (const std::uint32_t patch : met) {
                     add_passage(patch, static_cast<std::uint32_t>(point), from, to, found);
                 }

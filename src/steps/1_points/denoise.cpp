@@ -1,6 +1,5 @@
 #include "steps/1_points/denoise.h"
 
-#include "base/median_of_some.h"
 #include "base/parallel.h"
 #include "geometry/bilateral_filter.h"
 #include "geometry/neighborhoods.h"
@@ -72,70 +71,31 @@ Vectors surface_normals(const Scene& scene, const Neighborhoods& neighborhoods)
     return filtered_normals(scene.positions, normals, neighborhoods);
 }
 
-/// Estimates where the points are, each from itself and those around.
-class Denoiser {
-  public:
-    Denoiser(const Scene& scene, std::size_t num_around, const Progress& progress)
-        : scene_(scene),
-          neighborhoods_(nearest_neighborhoods(scene.positions, num_around, progress)),
-          normals_(surface_normals(scene, neighborhoods_)),
-          spreads_(scene.num_points()),
-          variances_(scene.num_points())
-    {
-        const std::vector<double> focals_px = mean_focals_px(scene.cameras);
-        parallel_for(variances_.size(), [&](std::size_t i) {
-            spreads_[i] = covariance_of_a_pixel(scene, i, focals_px) * normals_[i];
-            variances_[i] = normals_[i].dot(spreads_[i]);
-        });
-    }
-
-    /// The standard deviation of the points' places in the images.
-    double noise_px() const { return filter().noise_px(); }
-
-    /// The same of their heights, over the distances between points: the median.
-    double noise_in_spacings() const
-    {
-        return noise_px() * median_of_some(scene_.num_points(), [&](std::size_t i) {
-                   return std::sqrt(variances_[i] / neighborhoods_.spacing_sq(i));
-               });
-    }
-
-    /// Where a point is (BilateralFilter::estimate), unless its reprojection error is known.
-    Vector3d estimate(std::size_t point, double gate) const
-    {
-        if (scene_.errors_px[point] >= 0.0) return scene_.positions[point];
-        return filter().estimate(point, gate);
-    }
-
-  private:
-    BilateralFilter filter() const
-    {
-        return {{scene_.positions, normals_, spreads_, variances_}, neighborhoods_};
-    }
-
-    const Scene& scene_;
-    Neighborhoods neighborhoods_;
-    Vectors normals_;
-    Vectors spreads_;
-    std::vector<double> variances_;
-};
+BilateralFilter filter_of(const Scene& scene, std::size_t num_around, const Progress& progress)
+{
+    Neighborhoods neighborhoods = nearest_neighborhoods(scene.positions, num_around, progress);
+    Vectors normals = surface_normals(scene, neighborhoods);
+    const std::vector<double> focals_px = mean_focals_px(scene.cameras);
+    return {scene.positions, std::move(normals), std::move(neighborhoods),
+            [&](std::size_t point) { return covariance_of_a_pixel(scene, point, focals_px); }};
+}
 
 /// Whether a scan is so exact that its points stand out of the surface by next to nothing beside
 /// the distances between them. What is taken for noise there is what the surface is like.
-bool is_exact_scan(const Scene& scene, const Denoiser& denoiser)
+bool is_exact_scan(const Scene& scene, const BilateralFilter& filter)
 {
     constexpr double kExact = 0.083;
-    return has_scanners(scene) && denoiser.noise_in_spacings() < kExact;
+    return has_scanners(scene) && filter.noise_in_spacings() < kExact;
 }
 
-Denoiser make_denoiser(const Scene& scene, const Progress& progress)
+BilateralFilter filter_of(const Scene& scene, const Progress& progress)
 {
     constexpr double kNoisy = 0.4;
     if (knows_all_normals(scene)) {
-        Denoiser denoiser(scene, kFewAround, progress.part(0.0, 0.6));
-        if (denoiser.noise_in_spacings() < kNoisy) return denoiser;
+        BilateralFilter filter = filter_of(scene, kFewAround, progress.part(0.0, 0.6));
+        if (filter.noise_in_spacings() < kNoisy) return filter;
     }
-    return {scene, kManyAround, progress.part(0.6, 1.0)};
+    return filter_of(scene, kManyAround, progress.part(0.6, 1.0));
 }
 
 } // namespace
@@ -161,14 +121,16 @@ DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const 
     constexpr std::size_t kLeastPoints = 4; // a point and three around it
     DenoiseReport report;
     if (scene.num_points() < kLeastPoints) return report;
-    const Denoiser denoiser = make_denoiser(scene, progress.part(0.0, 0.7));
+    const BilateralFilter filter = filter_of(scene, progress.part(0.0, 0.7));
     progress.tell(0.8);
-    report.noise_px = denoiser.noise_px();
+    report.noise_px = filter.noise_px();
     const double gate = options.denoise * report.noise_px;
-    if (!(gate > 0.0) || is_exact_scan(scene, denoiser)) return report;
+    if (!(gate > 0.0) || is_exact_scan(scene, filter)) return report;
     Vectors estimates(scene.num_points());
-    parallel_for(estimates.size(), progress.part(0.85, 1.0),
-                 [&](std::size_t i) { estimates[i] = denoiser.estimate(i, gate); });
+    parallel_for(estimates.size(), progress.part(0.85, 1.0), [&](std::size_t i) {
+        const bool is_matched = scene.errors_px[i] >= 0.0;
+        estimates[i] = is_matched ? scene.positions[i] : filter.estimate(i, gate);
+    });
     keep_apart(estimates, scene.positions);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (estimates[i] != scene.positions[i]) ++report.moved;

@@ -1,5 +1,6 @@
 #include "steps/2_cells/block_cells.h"
 
+#include "base/sort_unique.h"
 #include "geometry/predicates.h"
 #include "steps/2_cells/canonical_cells.h"
 #include "steps/2_cells/delaunay.h"
@@ -283,8 +284,7 @@ std::vector<Index> first_points(const std::vector<Vector3d>& points)
         first.push_back(static_cast<Index>(low - points.begin()));
         first.push_back(static_cast<Index>(high - points.begin()));
     }
-    std::ranges::sort(first);
-    first.erase(std::unique(first.begin(), first.end()), first.end());
+    sort_unique(first);
     return first;
 }
 

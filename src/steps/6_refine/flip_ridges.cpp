@@ -161,13 +161,12 @@ constexpr double kLeastGain = 0.2;
 std::int64_t flip_ridges(HalfEdgeMesh& mesh, const Progress& progress)
 {
     RidgeFlipper flipper(mesh);
-    std::vector<Flip> flips = parallel_collect<Flip>(mesh.n_edges(), progress,
-                                                     [&](std::size_t i, std::vector<Flip>& found) {
-                                                         const auto edge = handle_at<EdgeHandle>(i);
-                                                         const double gain = flipper.gain(edge);
-                                                         if (gain > kLeastGain)
-                                                             found.push_back({gain, edge});
-                                                     });
+    const auto collect = [&](std::size_t i, std::vector<Flip>& found) {
+        const auto edge = handle_at<EdgeHandle>(i);
+        const double gain = flipper.gain(edge);
+        if (gain > kLeastGain) found.push_back({gain, edge});
+    };
+    std::vector<Flip> flips = parallel_collect<Flip>(mesh.n_edges(), progress, collect);
     std::vector<double> gains(mesh.n_edges()); // of the edges that are queued
     for (const Flip& flip : flips) {
         gains[index(flip.edge)] = flip.gain;

@@ -2,11 +2,12 @@
 
 #include "base/median_of_some.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "geometry/bilateral_filter.h"
-#include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/camera.h"
 #include "model/pixel_covariance.h"
+#include "steps/6_refine/face_turn.h"
 
 #include <algorithm>
 #include <array>
@@ -33,13 +34,6 @@ Vectors of_vertices(const HalfEdgeMesh& mesh, const Value& value)
     parallel_for(values.size(),
                  [&](std::size_t v) { values[v] = value(handle_at<VertexHandle>(v)); });
     return values;
-}
-
-template <typename Item>
-void sort_unique(std::vector<Item>& items)
-{
-    std::sort(items.begin(), items.end());
-    items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 /// The vertices beside a vertex, and those across the edges opposite to it; ascending.
@@ -106,24 +100,16 @@ double noise_of_errors_px(const Scene& scene)
 }
 
 /// Whether a face turns too far if its corners go so far.
-bool turns(const HalfEdgeMesh& mesh, const Vectors& ways, FaceHandle face)
+bool is_turned_by(const HalfEdgeMesh& mesh, const Vectors& ways, FaceHandle face)
 {
-    constexpr double kLeastCosine = 0.5;
     if (mesh.is_deleted(face)) return false;
-    const std::array<VertexHandle, 3> corners = mesh.corners(face);
-    std::array<Vector3d, 3> after;
-    bool is_moved = false;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vector3d& way = ways[index(corners[i])];
-        after[i] = mesh.point(corners[i]) + way;
-        is_moved = is_moved || !way.isZero(0.0);
+    const std::array<Vector3d, 3> before = mesh.triangle(face);
+    std::array<Vector3d, 3> after = before;
+    std::size_t i = 0;
+    for (const VertexHandle corner : mesh.corners(face)) {
+        after[i++] += ways[index(corner)];
     }
-    if (!is_moved) return false;
-    const auto [a, b, c] = mesh.triangle(face);
-    const Vector3d old_normal = scaled_normal(a, b, c);
-    const Vector3d new_normal = scaled_normal(after[0], after[1], after[2]);
-    const double scale = old_normal.norm() * new_normal.norm();
-    return !(old_normal.dot(new_normal) > kLeastCosine * scale);
+    return after != before && turns_too_far(before, after);
 }
 
 using Faces = std::vector<FaceHandle>;
@@ -134,7 +120,7 @@ Faces turning(const HalfEdgeMesh& mesh, const Vectors& ways, std::size_t count,
               const FaceAt& face_at)
 {
     return parallel_collect<FaceHandle>(count, [&](std::size_t i, Faces& faces) {
-        if (turns(mesh, ways, face_at(i))) faces.push_back(face_at(i));
+        if (is_turned_by(mesh, ways, face_at(i))) faces.push_back(face_at(i));
     });
 }
 
@@ -167,70 +153,50 @@ std::int64_t hold_back(const HalfEdgeMesh& mesh, Vectors& ways)
     return static_cast<std::int64_t>(halvings.size()) - std::ranges::count(halvings, 0);
 }
 
-/// The ways of the vertices to the surface that those around agree on.
-class Settler {
-  public:
-    Settler(const HalfEdgeMesh& mesh, const Scene& scene, const Progress& progress)
-        : mesh_(mesh),
-          scene_(scene),
-          positions_(of_vertices(mesh, [&](VertexHandle v) { return mesh.point(v); })),
-          neighborhoods_(ring_neighborhoods(mesh, positions_, progress)),
-          normals_(of_vertices(mesh, [&](VertexHandle v) { return vertex_normal(mesh, v); })),
-          spreads_(positions_.size(), Vector3d::Zero()),
-          variances_(positions_.size())
-    {
-        normals_ = filtered_normals(positions_, normals_, neighborhoods_);
-        const std::vector<double> focals_px = mean_focals_px(scene.cameras);
-        parallel_for(positions_.size(), [&](std::size_t v) {
-            const std::uint32_t point = point_of(v);
-            if (point == kNoPoint) return;
-            spreads_[v] = covariance_of_a_pixel(scene, point, focals_px) * normals_[v];
-            variances_[v] = normals_[v].dot(spreads_[v]);
-        });
-    }
+std::uint32_t point_of(const HalfEdgeMesh& mesh, std::size_t v)
+{
+    return mesh.data(handle_at<VertexHandle>(v)).scene_point;
+}
 
-    double noise_px() const { return filter().noise_px(); }
+BilateralFilter filter_of(const HalfEdgeMesh& mesh, const Vectors& positions, const Scene& scene,
+                          const Progress& progress)
+{
+    Neighborhoods neighborhoods = ring_neighborhoods(mesh, positions, progress);
+    const Vectors normals =
+        of_vertices(mesh, [&](VertexHandle v) { return vertex_normal(mesh, v); });
+    Vectors filtered = filtered_normals(positions, normals, neighborhoods);
+    const std::vector<double> focals_px = mean_focals_px(scene.cameras);
+    return {positions, std::move(filtered), std::move(neighborhoods),
+            [&](std::size_t v) -> Eigen::Matrix3d {
+                const std::uint32_t point = point_of(mesh, v);
+                if (point == kNoPoint) return Eigen::Matrix3d::Zero();
+                return covariance_of_a_pixel(scene, point, focals_px);
+            }};
+}
 
-    Vectors ways(double gate, const Progress& progress) const
-    {
-        constexpr double kMost = 0.25; // of the spacing
-        Vectors ways(positions_.size(), Vector3d::Zero());
-        const std::vector<double> spacings = vertex_spacings(mesh_);
-        parallel_for(ways.size(), progress, [&](std::size_t v) {
-            if (!may_move(v)) return;
-            const Vector3d way = filter().estimate(v, gate) - positions_[v];
-            const double most = kMost * spacings[v];
-            ways[v] = way.norm() > most ? Vector3d(way * (most / way.norm())) : way;
-        });
-        return ways;
-    }
+bool may_move(const HalfEdgeMesh& mesh, const Scene& scene, std::size_t v)
+{
+    const auto vertex = handle_at<VertexHandle>(v);
+    const std::uint32_t point = point_of(mesh, v);
+    return !mesh.is_deleted(vertex) && !mesh.is_boundary(vertex) && point != kNoPoint &&
+           is_matched(scene, point);
+}
 
-  private:
-    BilateralFilter filter() const
-    {
-        return {{positions_, normals_, spreads_, variances_}, neighborhoods_};
-    }
-
-    std::uint32_t point_of(std::size_t v) const
-    {
-        return mesh_.data(handle_at<VertexHandle>(v)).scene_point;
-    }
-
-    bool may_move(std::size_t v) const
-    {
-        const auto vertex = handle_at<VertexHandle>(v);
-        return !mesh_.is_deleted(vertex) && !mesh_.is_boundary(vertex) && point_of(v) != kNoPoint &&
-               is_matched(scene_, point_of(v));
-    }
-
-    const HalfEdgeMesh& mesh_;
-    const Scene& scene_;
-    Vectors positions_;
-    Neighborhoods neighborhoods_;
-    Vectors normals_;
-    Vectors spreads_;
-    std::vector<double> variances_;
-};
+/// From the vertices that may move to where the filter has them.
+Vectors ways_to_surface(const HalfEdgeMesh& mesh, const Vectors& positions, const Scene& scene,
+                        const BilateralFilter& filter, double gate, const Progress& progress)
+{
+    constexpr double kMost = 0.25; // of the spacing
+    Vectors ways(positions.size(), Vector3d::Zero());
+    const std::vector<double> spacings = vertex_spacings(mesh);
+    parallel_for(ways.size(), progress, [&](std::size_t v) {
+        if (!may_move(mesh, scene, v)) return;
+        const Vector3d way = filter.estimate(v, gate) - positions[v];
+        const double most = kMost * spacings[v];
+        ways[v] = way.norm() > most ? Vector3d(way * (most / way.norm())) : way;
+    });
+    return ways;
+}
 
 } // namespace
 
@@ -241,11 +207,12 @@ SettleCounts settle_vertices(HalfEdgeMesh& mesh, const Scene& scene, const Denoi
     counts.vertices = num_vertices_left(mesh);
     counts.noise_px = noise_of_errors_px(scene);
     if (!(options.denoise * counts.noise_px > 0.0)) return counts;
-    const Settler settler(mesh, scene, progress.part(0.0, 0.5));
-    counts.noise_px = std::min(counts.noise_px, settler.noise_px());
+    const Vectors positions = of_vertices(mesh, [&](VertexHandle v) { return mesh.point(v); });
+    const BilateralFilter filter = filter_of(mesh, positions, scene, progress.part(0.0, 0.5));
+    counts.noise_px = std::min(counts.noise_px, filter.noise_px());
     const double gate = options.denoise * counts.noise_px;
     if (!(gate > 0.0)) return counts;
-    Vectors ways = settler.ways(gate, progress.part(0.6, 0.9));
+    Vectors ways = ways_to_surface(mesh, positions, scene, filter, gate, progress.part(0.6, 0.9));
     counts.held = hold_back(mesh, ways);
     for (const VertexHandle vertex : mesh.vertices()) {
         const Vector3d& way = ways[index(vertex)];

@@ -18,14 +18,14 @@ struct SettleCounts {
 };
 
 /// Settles vertices on the surface that those around agree on, within the uncertainty of their
-/// points: the bilateral filter of bilateral_filter.h, over the 16 nearest vertices of the two
-/// rings around each, with the normals of the surface. How uncertain a point is in which direction,
-/// its sights tell (pixel_covariance.h). How many pixels its places in images are off, reprojection
-/// errors tell: the median over the points of their mean error, over what the mean length of an
-/// error is for a deviation of one pixel, and for what fitting the point took away,
-/// sqrt(pi / 2) sqrt((2 n - 3) / (2 n)) with n views; but no more than heights above the surface
-/// tell, where errors are large since cameras are known badly. So which cells are inside was told
-/// by points as they are, and only then noise is taken off.
+/// points: the bilateral filter of bilateral_filter.h, over the vertices beside each and across the
+/// edges opposite to it, the 16 nearest of them, with the normals of the surface. How uncertain a
+/// point is in which direction, its sights tell (pixel_covariance.h). How many pixels its places in
+/// images are off, reprojection errors tell: the median over the points of their mean error, over
+/// what the mean length of an error is for a deviation of one pixel, and for what fitting the point
+/// took away, sqrt(pi / 2) sqrt((2 n - 3) / (2 n)) with n views; but no more than heights above the
+/// surface tell, where errors are large since cameras are known badly. So which cells are inside
+/// was told by points as they are, and only then noise is taken off.
 ///
 /// A vertex moves by at most `options.denoise` standard deviations and a quarter of its spacing,
 /// and half or a quarter of that, or stays, where a face around it would turn by more than 60

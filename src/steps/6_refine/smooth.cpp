@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
+#include "steps/6_refine/face_turn.h"
 
 #include <Eigen/Geometry>
 #include <OpenMesh/Tools/Smoother/SmootherT.hh>
@@ -202,7 +203,6 @@ class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> 
 
     bool may_be_at(VertexHandle vertex, const Vector3d& place)
     {
-        constexpr double kLeastCosine = 0.5;
         for (const auto face : mesh_.vf_range(vertex)) {
             Triangle before;
             Triangle after;
@@ -212,10 +212,7 @@ class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> 
                 after[i] = corner == vertex ? place : before[i];
                 ++i;
             }
-            const Vector3d old_normal = twice_area(before);
-            const Vector3d new_normal = twice_area(after);
-            const double scale = old_normal.norm() * new_normal.norm();
-            if (!(old_normal.dot(new_normal) > kLeastCosine * scale)) return false;
+            if (turns_too_far(before, after)) return false;
             if (guard_.blocks(after)) {
                 held_[index(vertex)] = 1;
                 return false;
