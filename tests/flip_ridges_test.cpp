@@ -16,6 +16,8 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <set>
 
 namespace vcarve {
@@ -145,6 +147,73 @@ TEST(FlipRidges, BendsTheWholeSurfaceLessWithEachFlip)
     const Flipped result = flipped(before);
     EXPECT_GT(result.count, 30);
     EXPECT_LT(bend_of(result.mesh), bend_of(before) - 0.2 * static_cast<double>(result.count));
+}
+
+Vector3d normal_of(const TriMesh& mesh, const Face& face)
+{
+    return scaled_normal(mesh.positions, face);
+}
+
+/// The corner of a face that is none of these two.
+std::uint32_t apex_of(const Face& face, std::uint32_t from, std::uint32_t to)
+{
+    return *std::ranges::find_if(
+        face, [&](std::uint32_t corner) { return corner != from && corner != to; });
+}
+
+/// The surface with the edge flipped that faces `one` and `other` share; nothing where they share
+/// none, or it is no ridge that may be flipped.
+std::optional<TriMesh> with_flip(const TriMesh& mesh, std::size_t one, std::size_t other)
+{
+    const auto has = [](const Face& face, std::uint32_t corner) {
+        return std::ranges::find(face, corner) != face.end();
+    };
+    const Face& left = mesh.faces[one];
+    const Face& right = mesh.faces[other];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t from = left[i];
+        const std::uint32_t to = left[(i + 1) % 3];
+        if (!has(right, from) || !has(right, to)) continue;
+        const std::uint32_t c = apex_of(left, from, to);
+        const std::uint32_t d = apex_of(right, from, to);
+        const bool is_ridge =
+            normal_of(mesh, left).dot(mesh.positions[d] - mesh.positions[from]) < 0.0;
+        const double most_turn = 80.0 * std::numbers::pi / 180.0;
+        TriMesh after = mesh;
+        after.faces[one] = {d, c, from};
+        after.faces[other] = {c, d, to};
+        const double turn = angle_of(normal_of(mesh, left), normal_of(mesh, right));
+        const double turn_after =
+            angle_of(normal_of(after, after.faces[one]), normal_of(after, after.faces[other]));
+        if (!is_ridge || turn > most_turn || turn_after > most_turn) return std::nullopt;
+        return after;
+    }
+    return std::nullopt;
+}
+
+TEST(FlipRidges, FlipsWhatGainsMostOfAllTheSurfaceOneByOne)
+{
+    const TriMesh before = height_field(6, bump);
+    TriMesh best = before;
+    std::int64_t count = 0;
+    for (bool is_found = true; is_found; count += is_found ? 1 : 0) {
+        const TriMesh mesh = best;
+        double least = bend_of(mesh) - 0.2;
+        is_found = false;
+        for (std::size_t one = 0; one < mesh.faces.size(); ++one) {
+            for (std::size_t other = one + 1; other < mesh.faces.size(); ++other) {
+                const std::optional<TriMesh> after = with_flip(mesh, one, other);
+                if (!after || bend_of(*after) >= least) continue;
+                least = bend_of(*after);
+                best = *after;
+                is_found = true;
+            }
+        }
+    }
+    const Flipped result = flipped(before);
+    EXPECT_EQ(faces_of(result.mesh), faces_of(best));
+    EXPECT_EQ(result.count, count);
+    EXPECT_GT(count, 10);
 }
 
 TEST(FlipRidges, TakesBridgesOutOfAValley)

@@ -183,15 +183,15 @@ bool may_move(const HalfEdgeMesh& mesh, const Scene& scene, std::size_t v)
 }
 
 /// From the vertices that may move to where the filter has them.
-Vectors ways_to_surface(const HalfEdgeMesh& mesh, const Vectors& positions, const Scene& scene,
-                        const BilateralFilter& filter, double gate, const Progress& progress)
+Vectors ways_to_surface(const HalfEdgeMesh& mesh, const Scene& scene, const BilateralFilter& filter,
+                        double gate, const Progress& progress)
 {
     constexpr double kMost = 0.25; // of the spacing
-    Vectors ways(positions.size(), Vector3d::Zero());
+    Vectors ways(mesh.n_vertices(), Vector3d::Zero());
     const std::vector<double> spacings = vertex_spacings(mesh);
     parallel_for(ways.size(), progress, [&](std::size_t v) {
         if (!may_move(mesh, scene, v)) return;
-        const Vector3d way = filter.estimate(v, gate) - positions[v];
+        const Vector3d way = filter.estimate(v, gate) - mesh.point(handle_at<VertexHandle>(v));
         const double most = kMost * spacings[v];
         ways[v] = way.norm() > most ? Vector3d(way * (most / way.norm())) : way;
     });
@@ -212,7 +212,7 @@ SettleCounts settle_vertices(HalfEdgeMesh& mesh, const Scene& scene, const Denoi
     counts.noise_px = std::min(counts.noise_px, filter.noise_px());
     const double gate = options.denoise * counts.noise_px;
     if (!(gate > 0.0)) return counts;
-    Vectors ways = ways_to_surface(mesh, positions, scene, filter, gate, progress.part(0.6, 0.9));
+    Vectors ways = ways_to_surface(mesh, scene, filter, gate, progress.part(0.6, 0.9));
     counts.held = hold_back(mesh, ways);
     for (const VertexHandle vertex : mesh.vertices()) {
         const Vector3d& way = ways[index(vertex)];
