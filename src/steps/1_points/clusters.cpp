@@ -45,7 +45,8 @@ struct CubeGrid {
     {
         constexpr double kMost = 1U << kLevels;
         const Vector3d cell = ((place - corner) / finest).array().floor();
-        if (!(cell.minCoeff() >= 0.0 && cell.maxCoeff() < kMost)) return std::nullopt;
+        // What is not a number is beyond all, too.
+        if (!(cell.array() >= 0.0 && cell.array() < kMost).all()) return std::nullopt;
         std::uint64_t code = 0;
         for (int axis = 0; axis < 3; ++axis) {
             code = (code << 1U) | spread_bits(static_cast<std::uint64_t>(cell[axis]));
