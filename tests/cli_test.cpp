@@ -195,7 +195,7 @@ TEST(Program, LeavesNothingBehindWhenItIsInterrupted)
     }
 }
 
-#ifndef __SANITIZE_ADDRESS__ // which reserves terabytes of address space
+#ifndef VCARVE_WATCHES_MEMORY // which reserves terabytes of address space
 TEST(Program, SaysThatMemoryIsShort)
 {
     const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 #include "compare/closed_surface.h"
 #include "compare/view_rays.h"
+#include "support/made_cells.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
 #include "vcarve/reconstruct.h"
@@ -36,8 +37,7 @@ Scene ball_seen_from_one_side()
     Scene scene = bumpy_sphere(1500, 3);
     scene.views.resize(4);
     for (View& view : scene.views) {
-        const Eigen::Vector3d axis = -view.center.normalized();
-        view.cam_from_world = Eigen::Quaterniond::FromTwoVectors(axis, Eigen::Vector3d::UnitZ());
+        testing::aim(view, Eigen::Vector3d::Zero());
     }
     Tracks tracks;
     for (std::size_t point = 0; point < scene.num_points(); ++point) {

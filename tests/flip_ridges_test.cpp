@@ -62,7 +62,7 @@ std::set<Face> faces_of(const TriMesh& mesh)
 {
     std::set<Face> faces;
     for (Face face : mesh.faces) {
-        std::ranges::rotate(face, std::ranges::min_element(face));
+        std::rotate(face.begin(), std::ranges::min_element(face), face.end());
         faces.insert(face);
     }
     return faces;

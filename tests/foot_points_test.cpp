@@ -58,7 +58,7 @@ Scene scene_of(const Roof& roof)
     std::vector<MadePoint> points;
     for (double x = -1.6; x <= 1.6; x += kSpacing) {
         for (double y = -1.4; y <= 1.4; y += kSpacing) {
-            const Vector3d place(x + off(random), y + off(random), 1.0);
+            const Vector3d place{x + off(random), y + off(random), 1.0};
             Views views;
             for (const std::uint32_t view : kAll) {
                 if (!is_hidden(place, kCenters[view], roof)) views.push_back(view);

@@ -85,7 +85,7 @@ TEST(EndCleanlyOnSignals, IsTestedAlikeInTheBackground)
     }
 }
 
-#ifndef __SANITIZE_ADDRESS__ // which reports crashes itself
+#ifndef VCARVE_WATCHES_MEMORY // which reports crashes itself
 TEST(EndCleanlyOnSignals, MakesACrashAnInternalError)
 {
     const TemporaryFolder folder;

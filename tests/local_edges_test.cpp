@@ -25,7 +25,7 @@ Soup random_soup(std::uint32_t seed)
     Soup soup;
     for (int i = 0; i < 60; ++i) { // the last ten are of no face
         const double scale = std::pow(10.0, 3.0 * unit(random));
-        soup.positions.emplace_back(scale * unit(random), scale * unit(random), unit(random));
+        soup.positions.push_back({scale * unit(random), scale * unit(random), unit(random)});
     }
     while (soup.faces.size() < 150) {
         Face face{};

@@ -84,7 +84,8 @@ TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
     EXPECT_GT(predicted_peak(size_of_run(most), 2), std::int64_t{1} << 60);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need memory of their own
+#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
+    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
 /// What a run of the program took, stage by stage, and what was foretold.
 struct MeasuredRun {
     std::map<std::string, double> measured; ///< bytes

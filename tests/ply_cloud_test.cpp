@@ -96,8 +96,8 @@ TEST(PlyCloud, IsReadInParallelInTheOrderOfTheFile)
     std::uniform_real_distribution<float> coordinate(-1.0F, 1.0F);
     Scene scene;
     for (std::size_t i = 0; i < kPoints; ++i) {
-        scene.positions.emplace_back(coordinate(random), coordinate(random), coordinate(random));
-        scene.normals.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+        scene.positions.push_back({coordinate(random), coordinate(random), coordinate(random)});
+        scene.normals.push_back({coordinate(random), coordinate(random), coordinate(random)});
         scene.colors.push_back({static_cast<std::uint8_t>(random()), 7, 9});
     }
     const TemporaryFolder folder;

@@ -33,7 +33,7 @@ TriMesh random_mesh(int num_vertices, int num_faces)
     std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
     TriMesh mesh;
     for (int v = 0; v < num_vertices; ++v) {
-        mesh.positions.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+        mesh.positions.push_back({coordinate(random), coordinate(random), coordinate(random)});
         mesh.normals.push_back(mesh.positions.back().cast<float>().normalized());
         mesh.colors.push_back({static_cast<std::uint8_t>(random()),
                                static_cast<std::uint8_t>(random()),

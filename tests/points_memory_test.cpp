@@ -19,7 +19,8 @@
 namespace vcarve {
 namespace {
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need memory of their own
+#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
+    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
 
 constexpr std::size_t kPoints = 1'000'000;
 constexpr double kPerPoint = static_cast<double>(kPoints);

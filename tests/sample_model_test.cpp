@@ -152,7 +152,8 @@ TEST(WriteColmapModel, ListsInEveryImageWhatTracksNameAndWhereItIsSeen)
     EXPECT_EQ(sights, scene.num_sights());
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need memory of their own
+#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
+    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
 /// As many points as there is no memory for, the same few again and again.
 class ManyParts final : public SceneParts {
   public:

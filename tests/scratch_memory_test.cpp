@@ -292,7 +292,8 @@ TEST(ScratchMemory, ServesManyThreadsWhilePagesAreDropped)
     EXPECT_THAT(wrong, testing::Each(0U));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they need memory of their own
+#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
+    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
 TEST(ScratchMemory, KeepsLittleOfALargeArrayInMemory)
 {
     const TemporaryFolder folder;

@@ -120,7 +120,9 @@ Sheet corrugated_sheet()
 
 TEST(SimplifySurface, BlocksNoSightThatWasFree)
 {
-    const auto [mesh, scene] = corrugated_sheet();
+    const auto sheet = corrugated_sheet();
+    const TriMesh& mesh = sheet.mesh;
+    const Scene& scene = sheet.scene;
     const std::vector<double> margins = margins_in(mesh, scene);
     const auto blocked_before = blocked_sights(scene, mesh, margins);
     const auto newly_blocked = [&](const SightGuard& guard) {

@@ -137,7 +137,7 @@ Scene wall_with_crest(double turned_deg)
     const Vector3d way(0.0, -std::cos(6.0 * kDegree), -std::sin(6.0 * kDegree));
     View& view = scene.views[0];
     view.center = crest + 60.0 * way;
-    view.cam_from_world = Eigen::Quaterniond::FromTwoVectors(-way, Vector3d::UnitZ());
+    testing::aim(view, crest);
     crest.z() -= std::sqrt(0.75) * std::tan(turned_deg * kDegree);
     return scene;
 }

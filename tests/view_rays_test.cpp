@@ -1,4 +1,5 @@
 #include "compare/view_rays.h"
+#include "support/made_cells.h"
 #include "support/measured_scenes.h"
 
 #include <Eigen/Geometry>
@@ -135,9 +136,7 @@ TEST(ViewRays, FindWhatEveryFaceTriedFinds)
     Scene scene = testing::scene_above_square(11, {{2.5, 1.9, 2.7}, {-0.7, -1.3, 1.6}});
     scene.cameras[0] = square_camera(200, 0.4);
     for (View& view : scene.views) {
-        const Eigen::Vector3d axis = Eigen::Vector3d(0.45, 0.55, 0.4) - view.center;
-        view.cam_from_world =
-            Eigen::Quaterniond::FromTwoVectors(axis.normalized(), Eigen::Vector3d::UnitZ());
+        testing::aim(view, {0.45, 0.55, 0.4});
     }
     Reference reference = make_reference(scene, nullptr, with_samples(4 * 2 * 2500));
     use_closed_surface(reference, cube());

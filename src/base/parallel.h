@@ -2,7 +2,7 @@
 
 #include "base/progress.h"
 
-#ifdef __SANITIZE_THREAD__
+#ifdef VCARVE_WATCHES_THREADS
 #include "base/watched_loops.h"
 #else
 #include <tbb/blocked_range.h>
@@ -23,7 +23,7 @@ namespace vcarve {
 template <typename Body>
 void parallel_for_ranges(std::size_t count, const Body& body, std::size_t grain = 1024)
 {
-#ifdef __SANITIZE_THREAD__
+#ifdef VCARVE_WATCHES_THREADS
     watched::for_ranges(count, body, grain);
 #else
     using Range = tbb::blocked_range<std::size_t>;

@@ -1,6 +1,6 @@
 #pragma once
 
-#ifdef __SANITIZE_THREAD__
+#ifdef VCARVE_WATCHES_THREADS
 #include "base/watched_loops.h"
 #else
 #include <tbb/parallel_invoke.h>
@@ -12,7 +12,7 @@ namespace vcarve {
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second)
 {
-#ifdef __SANITIZE_THREAD__
+#ifdef VCARVE_WATCHES_THREADS
     watched::for_ranges(
         2, [&](std::size_t i, std::size_t) { i == 0 ? first() : second(); }, 1);
 #else

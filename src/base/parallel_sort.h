@@ -1,6 +1,6 @@
 #pragma once
 
-#ifdef __SANITIZE_THREAD__
+#ifdef VCARVE_WATCHES_THREADS
 #include <algorithm>
 #else
 #include <tbb/parallel_sort.h>
@@ -15,7 +15,7 @@ namespace vcarve {
 template <typename Items, typename Less = std::less<>>
 void parallel_sort(Items& items, const Less& less = {})
 {
-#ifdef __SANITIZE_THREAD__
+#ifdef VCARVE_WATCHES_THREADS
     std::sort(items.begin(), items.end(), less); // see watched_loops.h
 #else
     tbb::parallel_sort(items.begin(), items.end(), less);

@@ -25,7 +25,7 @@ using Traits = CGAL::Search_traits_adapter<Numbered, CGAL::First_of_pair_propert
                                            CGAL::Search_traits_3<Kernel>>;
 using Nearest = CGAL::Orthogonal_k_neighbor_search<Traits>;
 
-#ifdef __SANITIZE_THREAD__
+#ifdef VCARVE_WATCHES_THREADS
 using BuildTag = CGAL::Sequential_tag; // it does not see how oneTBB's tasks hand work over
 #else
 using BuildTag = CGAL::Parallel_if_available_tag;

@@ -36,7 +36,8 @@ std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& hig
     std::vector<MadePoint> points;
     for (double u = low[0]; u <= high[0]; u += kSpacing) {
         for (double v = low[1]; v <= high[1]; v += kSpacing) {
-            points.push_back({at(u + off(random), v + off(random)), views});
+            const double off_u = off(random); // in this order with any compiler
+            points.push_back({at(u + off_u, v + off(random)), views});
         }
     }
     return points;

@@ -21,7 +21,7 @@ inline void expect_same_region(const Region& region, const Region& other, int ha
     std::mt19937 random(7);
     std::uniform_int_distribution<int> halves(-2 * half_side, 2 * half_side);
     const auto place = [&]() -> Eigen::Vector3d {
-        return 0.5 * Eigen::Vector3d(halves(random), halves(random), halves(random));
+        return 0.5 * Eigen::Vector3d{halves(random), halves(random), halves(random)};
     };
     int inside = 0;
     int met = 0;

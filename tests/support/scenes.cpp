@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 Vector3d random_direction(std::mt19937& random)
 {
     std::normal_distribution<double> normal;
-    return Vector3d(normal(random), normal(random), normal(random)).normalized();
+    return Vector3d{normal(random), normal(random), normal(random)}.normalized();
 }
 
 double bumpy_radius(const Vector3d& direction)
@@ -63,7 +63,7 @@ Scene bumpy_sphere(std::size_t num_points, std::uint32_t seed)
         const Vector3d direction = random_direction(random);
         const bool is_outlier = points.size() % 50 == 49;
         const Vector3d position =
-            is_outlier ? Vector3d(anywhere(random), anywhere(random), anywhere(random))
+            is_outlier ? Vector3d{anywhere(random), anywhere(random), anywhere(random)}
                        : Vector3d(direction * (bumpy_radius(direction) + noise(random)));
         MadePoint point{position, {}};
         for (std::uint32_t view = 0; view < centers.size(); ++view) {

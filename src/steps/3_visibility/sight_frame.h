@@ -82,9 +82,11 @@ class SightFrame {
         }
         // What is not a number is not clear.
         const double bound = kRounding * size * to.size;
-        const bool is_clear =
-            (magnitudes[0] > bound) & (magnitudes[1] > bound) & (magnitudes[2] > bound);
-        return is_clear ? left : -1;
+        int is_clear = 1;
+        for (const double magnitude : magnitudes) {
+            is_clear &= static_cast<int>(magnitude > bound);
+        }
+        return is_clear != 0 ? left : -1;
     }
 
   private:
