@@ -20,9 +20,8 @@ inline void expect_same_region(const Region& region, const Region& other, int ha
 {
     std::mt19937 random(7);
     std::uniform_int_distribution<int> halves(-2 * half_side, 2 * half_side);
-    const auto place = [&]() -> Eigen::Vector3d {
-        return 0.5 * Eigen::Vector3d{halves(random), halves(random), halves(random)};
-    };
+    const auto number = [&] { return 0.5 * halves(random); };
+    const auto place = [&] { return Eigen::Vector3d{number(), number(), number()}; };
     int inside = 0;
     int met = 0;
     for (int i = 0; i < 2000; ++i) {
