@@ -84,8 +84,7 @@ TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
     EXPECT_GT(predicted_peak(size_of_run(most), 2), std::int64_t{1} << 60);
 }
 
-#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
-    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
+#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
 /// What a run of the program took, stage by stage, and what was foretold.
 struct MeasuredRun {
     std::map<std::string, double> measured; ///< bytes

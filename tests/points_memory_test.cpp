@@ -19,8 +19,7 @@
 namespace vcarve {
 namespace {
 
-#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
-    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
+#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
 
 constexpr std::size_t kPoints = 1'000'000;
 constexpr double kPerPoint = static_cast<double>(kPoints);

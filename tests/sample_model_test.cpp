@@ -152,8 +152,7 @@ TEST(WriteColmapModel, ListsInEveryImageWhatTracksNameAndWhereItIsSeen)
     EXPECT_EQ(sights, scene.num_sights());
 }
 
-#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
-    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
+#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
 /// As many points as there is no memory for, the same few again and again.
 class ManyParts final : public SceneParts {
   public:

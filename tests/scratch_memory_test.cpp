@@ -292,8 +292,7 @@ TEST(ScratchMemory, ServesManyThreadsWhilePagesAreDropped)
     EXPECT_THAT(wrong, testing::Each(0U));
 }
 
-#if !defined(VCARVE_WATCHES_MEMORY) &&                                                             \
-    !defined(VCARVE_WATCHES_THREADS) // they need memory of their own
+#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
 TEST(ScratchMemory, KeepsLittleOfALargeArrayInMemory)
 {
     const TemporaryFolder folder;
