@@ -1,5 +1,5 @@
 #include "samples.h"
-#include "steps/4_labels/max_flow/max_flow.h"
+#include "steps/5_labels/max_flow/max_flow.h"
 
 #include <benchmark/benchmark.h>
 #include <boost/graph/adjacency_list.hpp>

@@ -5,10 +5,10 @@
 #include "steps/1_points/center.h"
 #include "steps/1_points/filter.h"
 #include "steps/1_points/spatial_sort.h"
-#include "steps/2_cells/triangulate.h"
-#include "steps/3_visibility/trace.h"
-#include "steps/4_labels/cut.h"
-#include "steps/4_labels/max_flow/max_flow.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/4_visibility/trace.h"
+#include "steps/5_labels/cut.h"
+#include "steps/5_labels/max_flow/max_flow.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

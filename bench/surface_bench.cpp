@@ -1,10 +1,10 @@
 #include "mesh/half_edge_mesh.h"
 #include "samples.h"
-#include "steps/4_labels/boundary.h"
-#include "steps/4_labels/bridging_facets.h"
-#include "steps/5_surface/cleanup.h"
-#include "steps/5_surface/extract.h"
-#include "steps/5_surface/support.h"
+#include "steps/5_labels/boundary.h"
+#include "steps/5_labels/bridging_facets.h"
+#include "steps/6_surface/cleanup.h"
+#include "steps/6_surface/extract.h"
+#include "steps/6_surface/support.h"
 
 #include <benchmark/benchmark.h>
 

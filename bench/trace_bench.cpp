@@ -1,5 +1,5 @@
 #include "samples.h"
-#include "steps/3_visibility/trace.h"
+#include "steps/4_visibility/trace.h"
 #include "walk_all_sights.h"
 
 #include <benchmark/benchmark.h>

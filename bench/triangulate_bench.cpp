@@ -1,9 +1,9 @@
 // What the triangulation costs at once and in blocks, and how many points of others blocks take in.
 
 #include "samples.h"
-#include "steps/2_cells/block_cells.h"
-#include "steps/2_cells/triangulate.h"
-#include "steps/2_cells/triangulate_blocks.h"
+#include "steps/3_cells/block_cells.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/3_cells/triangulate_blocks.h"
 
 #include <benchmark/benchmark.h>
 

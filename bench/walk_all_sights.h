@@ -1,6 +1,6 @@
 #pragma once
 
-#include "steps/3_visibility/walk.h"
+#include "steps/4_visibility/walk.h"
 #include "vcarve/scene.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #include "baselines/alpha_shape.h"
 #include "baselines/circumsphere.h"
-#include "steps/2_cells/triangulate.h"
+#include "steps/3_cells/triangulate.h"
 #include "support/random_cells.h"
 
 #include <gtest/gtest.h>

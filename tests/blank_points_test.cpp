@@ -1,4 +1,4 @@
-#include "steps/1_points/crease_points.h"
+#include "steps/2_planes/crease_points.h"
 #include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "steps/4_labels/boundary.h"
-#include "steps/4_labels/labelling.h"
+#include "steps/5_labels/boundary.h"
+#include "steps/5_labels/labelling.h"
 #include "support/made_cells.h"
 #include "support/point_sets.h"
 

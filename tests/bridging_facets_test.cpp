@@ -1,6 +1,6 @@
-#include "steps/2_cells/triangulate.h"
-#include "steps/4_labels/bridging_facets.h"
-#include "steps/4_labels/freed_pieces.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/5_labels/bridging_facets.h"
+#include "steps/5_labels/freed_pieces.h"
 #include "support/point_sets.h"
 #include "support/scenes.h"
 

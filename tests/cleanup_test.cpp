@@ -1,6 +1,6 @@
 #include "mesh/check.h"
 #include "mesh/half_edge_mesh.h"
-#include "steps/5_surface/cleanup.h"
+#include "steps/6_surface/cleanup.h"
 #include "support/tetra_grid.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "steps/1_points/crease_points.h"
 #include "steps/1_points/spatial_sort.h"
+#include "steps/2_planes/crease_points.h"
 #include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>

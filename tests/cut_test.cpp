@@ -1,7 +1,7 @@
 #include "steps/1_points/spatial_sort.h"
-#include "steps/2_cells/triangulate.h"
-#include "steps/3_visibility/trace.h"
-#include "steps/4_labels/cut.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/4_visibility/trace.h"
+#include "steps/5_labels/cut.h"
 #include "support/cast_sights.h"
 #include "support/scenes.h"
 

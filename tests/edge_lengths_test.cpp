@@ -1,6 +1,6 @@
 #include "steps/1_points/spatial_sort.h"
-#include "steps/2_cells/triangulate.h"
-#include "steps/3_visibility/edge_lengths.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/4_visibility/edge_lengths.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "steps/3_visibility/exact_walk.h"
+#include "steps/4_visibility/exact_walk.h"
 #include "support/exact_sight.h"
 #include "support/point_sets.h"
 

@@ -1,5 +1,5 @@
 #include "geometry/predicates.h"
-#include "steps/3_visibility/face_visibility.h"
+#include "steps/4_visibility/face_visibility.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

@@ -1,5 +1,5 @@
 #include "mesh/check.h"
-#include "steps/5_surface/fill_holes.h"
+#include "steps/6_surface/fill_holes.h"
 #include "support/half_edges.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "geometry/triangle.h"
 #include "mesh/check.h"
 #include "mesh/half_edge_mesh.h"
-#include "steps/6_refine/flip_ridges.h"
+#include "steps/7_refine/flip_ridges.h"
 #include "support/grid_faces.h"
 #include "support/half_edges.h"
 #include "support/made_cells.h"

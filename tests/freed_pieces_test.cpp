@@ -1,5 +1,5 @@
-#include "steps/3_visibility/face_evidence.h"
-#include "steps/4_labels/freed_pieces.h"
+#include "steps/4_visibility/face_evidence.h"
+#include "steps/5_labels/freed_pieces.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

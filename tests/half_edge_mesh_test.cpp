@@ -1,5 +1,5 @@
 #include "mesh/edge_table.h"
-#include "steps/5_surface/split_nonmanifold.h"
+#include "steps/6_surface/split_nonmanifold.h"
 #include "support/half_edges.h"
 #include "support/tetra_grid.h"
 

@@ -1,6 +1,6 @@
 #include "mesh/check.h"
-#include "steps/5_surface/holes_beside.h"
-#include "steps/5_surface/support.h"
+#include "steps/6_surface/holes_beside.h"
+#include "steps/6_surface/support.h"
 
 #include <gtest/gtest.h>
 

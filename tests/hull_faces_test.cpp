@@ -1,5 +1,5 @@
 #include "geometry/triangle.h"
-#include "steps/4_labels/hull_faces.h"
+#include "steps/5_labels/hull_faces.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 #include "vcarve/error.h"

@@ -1,5 +1,5 @@
-#include "steps/2_cells/triangulate.h"
-#include "steps/4_labels/labelling.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/5_labels/labelling.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

@@ -1,5 +1,5 @@
-#include "steps/2_cells/triangulate.h"
-#include "steps/4_labels/max_flow/max_flow.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/5_labels/max_flow/max_flow.h"
 #include "support/random_cells.h"
 
 #include <boost/graph/adjacency_list.hpp>

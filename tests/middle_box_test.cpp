@@ -1,4 +1,4 @@
-#include "steps/1_points/middle_box.h"
+#include "model/middle_box.h"
 
 #include <gtest/gtest.h>
 

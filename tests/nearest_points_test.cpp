@@ -1,4 +1,4 @@
-#include "steps/3_visibility/nearest_points.h"
+#include "steps/4_visibility/nearest_points.h"
 #include "support/point_sets.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "steps/4_labels/needles.h"
+#include "steps/5_labels/needles.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

@@ -1,7 +1,7 @@
 #include "geometry/predicates.h"
 #include "model/camera.h"
 #include "model/pixel_grid.h"
-#include "steps/5_surface/openness.h"
+#include "steps/6_surface/openness.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

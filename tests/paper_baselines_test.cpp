@@ -4,7 +4,7 @@
 #include "baselines/circumsphere.h"
 #include "baselines/sculpt.h"
 #include "io/colmap/colmap_model.h"
-#include "steps/2_cells/triangulate.h"
+#include "steps/3_cells/triangulate.h"
 #include "vcarve/io.h"
 
 #include <gmock/gmock.h>

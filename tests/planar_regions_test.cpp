@@ -1,5 +1,5 @@
-#include "steps/1_points/planar_regions.h"
 #include "steps/1_points/spatial_sort.h"
+#include "steps/2_planes/planar_regions.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "steps/1_points/plane_hull.h"
+#include "steps/2_planes/plane_hull.h"
 
 #include <gtest/gtest.h>
 

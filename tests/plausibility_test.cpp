@@ -1,4 +1,4 @@
-#include "steps/4_labels/freed_pieces.h"
+#include "steps/5_labels/freed_pieces.h"
 #include "support/made_cells.h"
 
 #include <gtest/gtest.h>

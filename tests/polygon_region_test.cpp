@@ -1,4 +1,4 @@
-#include "steps/1_points/polygon_region.h"
+#include "region/polygon_region.h"
 #include "support/region_checks.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"

@@ -1,4 +1,4 @@
-#include "steps/5_surface/provenance.h"
+#include "steps/6_surface/provenance.h"
 #include "support/program.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"

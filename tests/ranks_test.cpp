@@ -1,7 +1,7 @@
 // A run that several ranks work on, which share a work folder.
 #include "pipeline/rank_shares.h"
 #include "pipeline/thinned_scene.h"
-#include "steps/3_visibility/shared_sights.h"
+#include "steps/4_visibility/shared_sights.h"
 #include "support/ranks_in_turn.h"
 #include "support/scenes.h"
 

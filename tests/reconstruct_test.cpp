@@ -1,7 +1,7 @@
 #include "io/colmap/colmap_model.h"
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
-#include "steps/5_surface/orient.h"
+#include "steps/6_surface/orient.h"
 #include "support/half_edges.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"

@@ -1,5 +1,5 @@
-#include "steps/1_points/looked_at_ball.h"
-#include "steps/1_points/region.h"
+#include "model/region_of_interest.h"
+#include "region/region.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ Scene row_and_far_point()
 TEST(BallRegion, IsWhatWasLookedAt)
 {
     const Scene scene = row_and_far_point();
-    const Ball ball = looked_at_ball(scene);
+    const Ball ball = region_of_interest(scene);
     const auto region = make_region({.kind = RegionChoice::Kind::looked_at}, scene);
     EXPECT_LT((region->bounds().center() - ball.center).norm(), 1e-12);
     for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, -1)}) {
@@ -85,7 +85,7 @@ TEST(BallRegion, IsWhatWasLookedAt)
 TEST(BallRegion, IsMetByWhatPassesNearerThanItsRadius)
 {
     const Scene scene = row_and_far_point();
-    const Ball ball = looked_at_ball(scene);
+    const Ball ball = region_of_interest(scene);
     const auto region = make_region({.kind = RegionChoice::Kind::looked_at}, scene);
     const auto at = [&](double x, double y) -> Vector3d {
         return ball.center + ball.radius * Vector3d(x, y, 0);

@@ -1,6 +1,6 @@
 #include "page/page_scene.h"
 #include "pipeline/thinned_scene.h"
-#include "steps/5_surface/removals.h"
+#include "steps/6_surface/removals.h"
 #include "support/half_edges.h"
 #include "support/scenes.h"
 #include "vcarve/io.h"

@@ -1,7 +1,7 @@
 #include "geometry/triangle.h"
-#include "steps/5_surface/make_surface.h"
-#include "steps/5_surface/rims.h"
-#include "steps/5_surface/sheets.h"
+#include "steps/6_surface/make_surface.h"
+#include "steps/6_surface/rims.h"
+#include "steps/6_surface/sheets.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

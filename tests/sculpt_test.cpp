@@ -1,8 +1,8 @@
 #include "baselines/circumsphere.h"
 #include "baselines/sculpt.h"
 #include "mesh/check.h"
-#include "steps/2_cells/triangulate.h"
-#include "steps/5_surface/extract.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/6_surface/extract.h"
 #include "support/random_cells.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-#include "steps/1_points/seen_places.h"
+#include "model/seen_places.h"
 #include "support/scenes.h"
 
 #include <gmock/gmock.h>

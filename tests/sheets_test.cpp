@@ -1,5 +1,5 @@
 #include "model/keypoints.h"
-#include "steps/5_surface/sheets.h"
+#include "steps/6_surface/sheets.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "steps/1_points/shown_points.h"
+#include "steps/2_planes/shown_points.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

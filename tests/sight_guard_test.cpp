@@ -1,4 +1,4 @@
-#include "steps/6_refine/sight_guard.h"
+#include "steps/7_refine/sight_guard.h"
 #include "support/blocked_sights.h"
 #include "support/half_edges.h"
 #include "support/scenes.h"

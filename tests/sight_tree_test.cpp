@@ -1,4 +1,4 @@
-#include "steps/6_refine/sight_tree.h"
+#include "steps/7_refine/sight_tree.h"
 #include "support/blocked_sights.h"
 #include "support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "steps/3_visibility/sight_weights.h"
+#include "steps/4_visibility/sight_weights.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

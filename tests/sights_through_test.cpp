@@ -1,5 +1,5 @@
 #include "geometry/predicates.h"
-#include "steps/1_points/sights_through.h"
+#include "steps/2_planes/sights_through.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "steps/2_cells/sphere_bound.h"
+#include "steps/3_cells/sphere_bound.h"
 #include "support/point_sets.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,5 +1,5 @@
 #include "mesh/check.h"
-#include "steps/5_surface/split_nonmanifold.h"
+#include "steps/6_surface/split_nonmanifold.h"
 #include "support/tetra_grid.h"
 
 #include <gtest/gtest.h>

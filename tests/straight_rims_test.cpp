@@ -1,7 +1,7 @@
 #include "geometry/triangle.h"
 #include "mesh/check.h"
 #include "mesh/straight_rims.h"
-#include "steps/5_surface/support.h"
+#include "steps/6_surface/support.h"
 
 #include <gtest/gtest.h>
 

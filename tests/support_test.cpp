@@ -1,4 +1,4 @@
-#include "steps/5_surface/support.h"
+#include "steps/6_surface/support.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

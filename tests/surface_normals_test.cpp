@@ -1,5 +1,5 @@
 #include "mesh/surface_normals.h"
-#include "steps/4_labels/boundary.h"
+#include "steps/5_labels/boundary.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 

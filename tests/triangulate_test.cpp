@@ -1,6 +1,6 @@
 #include "geometry/predicates.h"
 #include "steps/1_points/spatial_sort.h"
-#include "steps/2_cells/triangulate.h"
+#include "steps/3_cells/triangulate.h"
 #include "support/point_sets.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"

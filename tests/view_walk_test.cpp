@@ -1,5 +1,5 @@
 #include "geometry/predicates.h"
-#include "steps/3_visibility/view_walk.h"
+#include "steps/4_visibility/view_walk.h"
 #include "support/point_sets.h"
 
 #include <gtest/gtest.h>

@@ -5,9 +5,9 @@
 #include "steps/1_points/center.h"
 #include "steps/1_points/filter.h"
 #include "steps/1_points/spatial_sort.h"
-#include "steps/2_cells/triangulate.h"
-#include "steps/5_surface/cleanup.h"
-#include "steps/5_surface/extract.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/6_surface/cleanup.h"
+#include "steps/6_surface/extract.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -6,7 +6,7 @@
 #include "compare/view_rays.h"
 #include "geometry/triangle.h"
 #include "model/measured_range.h"
-#include "steps/1_points/middle_box.h"
+#include "model/middle_box.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>

@@ -4,7 +4,7 @@
 #include "compare/evidence.h"
 #include "compare/truth.h"
 #include "geometry/triangle.h"
-#include "steps/1_points/middle_box.h"
+#include "model/middle_box.h"
 
 #include <Eigen/Geometry>
 

@@ -1,11 +1,11 @@
 #include "page/comparison_scene.h"
 
 #include "compare/worst_places.h"
+#include "model/middle_box.h"
 #include "page/display_mesh.h"
 #include "page/face_grid.h"
 #include "page/pack.h"
 #include "page/page_scene.h"
-#include "steps/1_points/middle_box.h"
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 #include "mesh/half_edge_mesh.h"
 #include "mesh/used_vertices.h"
 #include "model/scene_points.h"
-#include "steps/5_surface/split_nonmanifold.h"
+#include "steps/6_surface/split_nonmanifold.h"
 
 #include <Eigen/Core>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>

@@ -5,10 +5,10 @@
 #include "mesh/used_vertices.h"
 #include "model/camera.h"
 #include "model/scene_points.h"
+#include "model/seen_places.h"
 #include "page/display_mesh.h"
 #include "page/pack.h"
-#include "steps/1_points/seen_places.h"
-#include "steps/3_visibility/face_evidence.h"
+#include "steps/4_visibility/face_evidence.h"
 
 #include <algorithm>
 #include <numeric>

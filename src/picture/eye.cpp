@@ -1,8 +1,8 @@
 #include "picture/eye.h"
 
 #include "model/camera.h"
-#include "steps/1_points/looked_at_ball.h"
-#include "steps/1_points/seen_places.h"
+#include "model/region_of_interest.h"
+#include "model/seen_places.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -108,7 +108,7 @@ Eye outside_of(const Ball& ball, const Vector3d& from, const Vector3d& upward)
 
 Eye outside(const Scene& scene, const std::string& word)
 {
-    Ball ball = looked_at_ball(scene);
+    Ball ball = region_of_interest(scene);
     const Vector3d up = up_of(scene);
     const Vector3d side = side_of(scene, ball.center, up);
     ball.center += scene.offset;

@@ -25,8 +25,8 @@ struct Eye {
 /// - "auto": the view that sees most of what was looked at (seen_places), of equal ones the first
 /// by
 ///   COLMAP's id; "orbit" where no view's camera has a known lens, as in a laser scan.
-/// - "top" and "orbit": outside the ball of what was looked at (looked_at_ball), which fills most
-/// of
+/// - "top" and "orbit": outside the ball of what was looked at (region_of_interest), which fills
+/// most of
 ///   the picture: from straight above, or 35 degrees above the side where most cameras are. What is
 ///   up is not known to COLMAP: it is the mean of the upward directions of the cameras; where these
 ///   cancel out, the mean direction they look back along; z of a laser scan.

@@ -3,7 +3,7 @@
 #include "base/byte_size.h"
 #include "model/tet_mesh.h"
 #include "steps/1_points/thin.h"
-#include "steps/2_cells/triangulate.h"
+#include "steps/3_cells/triangulate.h"
 #include "vcarve/error.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"

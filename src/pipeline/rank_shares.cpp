@@ -1,10 +1,10 @@
 #include "pipeline/rank_shares.h"
 
 #include "base/freed_memory.h"
-#include "steps/2_cells/kept_block.h"
-#include "steps/3_visibility/count_crossings.h"
-#include "steps/3_visibility/shared_sights.h"
-#include "steps/3_visibility/trace.h"
+#include "steps/3_cells/kept_block.h"
+#include "steps/4_visibility/count_crossings.h"
+#include "steps/4_visibility/shared_sights.h"
+#include "steps/4_visibility/trace.h"
 
 #include <tbb/task_arena.h>
 

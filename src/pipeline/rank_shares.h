@@ -3,7 +3,7 @@
 #include "io/work/kept_fields.h"
 #include "io/work/ranks.h"
 #include "io/work/stage_keeper.h"
-#include "steps/2_cells/triangulate_blocks.h"
+#include "steps/3_cells/triangulate_blocks.h"
 #include "vcarve/log.h"
 #include "vcarve/options.h"
 
@@ -14,7 +14,7 @@
 #include <vector>
 
 // What the ranks of a run do beside the first, which runs reconstruct.cpp. (The lines of sight are
-// in steps/3_visibility/shared_sights.h.)
+// in steps/4_visibility/shared_sights.h.)
 
 namespace vcarve {
 

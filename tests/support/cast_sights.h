@@ -1,8 +1,8 @@
 #pragma once
 
 #include "model/ray_source.h"
-#include "steps/3_visibility/count_crossings.h"
-#include "steps/3_visibility/trace.h"
+#include "steps/4_visibility/count_crossings.h"
+#include "steps/4_visibility/trace.h"
 
 namespace vcarve {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/tet_mesh.h"
-#include "steps/3_visibility/exact_walk.h"
+#include "steps/4_visibility/exact_walk.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "steps/1_points/crease_points.h"
 #include "steps/1_points/spatial_sort.h"
+#include "steps/2_planes/crease_points.h"
 #include "support/scenes.h"
 
 #include <Eigen/Core>

@@ -1,6 +1,6 @@
 #include "support/half_edges.h"
 
-#include "steps/5_surface/split_nonmanifold.h"
+#include "steps/6_surface/split_nonmanifold.h"
 
 #include <stdexcept>
 

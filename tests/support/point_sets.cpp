@@ -1,6 +1,6 @@
 #include "support/point_sets.h"
 
-#include "steps/2_cells/triangulate.h"
+#include "steps/3_cells/triangulate.h"
 #include "support/scenes.h"
 
 #include <cmath>

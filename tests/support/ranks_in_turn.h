@@ -2,7 +2,7 @@
 
 #include "io/work/work_folder.h"
 #include "pipeline/rank_shares.h"
-#include "steps/3_visibility/shared_sights.h"
+#include "steps/4_visibility/shared_sights.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 

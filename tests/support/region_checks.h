@@ -1,6 +1,6 @@
 #pragma once
 
-#include "steps/1_points/region.h"
+#include "region/region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "geometry/triangle.h"
-#include "steps/1_points/looked_at_ball.h"
-#include "steps/5_surface/onlookers.h"
-#include "steps/5_surface/support.h"
-#include "steps/5_surface/trim.h"
+#include "model/region_of_interest.h"
+#include "steps/6_surface/onlookers.h"
+#include "steps/6_surface/support.h"
+#include "steps/6_surface/trim.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 
@@ -136,7 +136,7 @@ struct Tents {
     std::int64_t trim(double long_edge, int max_hole_edges = 12)
     {
         SurfaceOptions options;
-        options.sheets.max_sheet = long_edge / 2.0 / looked_at_ball(made.scene).radius;
+        options.sheets.max_sheet = long_edge / 2.0 / region_of_interest(made.scene).radius;
         options.cleanup.max_hole_edges = max_hole_edges;
         kept_before = keep;
         const TrimmedFaces trimmed =

@@ -1,7 +1,7 @@
 #include "support/unpushed_network.h"
 
-#include "steps/3_visibility/edge_lengths.h"
-#include "steps/3_visibility/walk.h"
+#include "steps/4_visibility/edge_lengths.h"
+#include "steps/4_visibility/walk.h"
 #include "support/exact_sight.h"
 
 #include <boost/graph/adjacency_list.hpp>

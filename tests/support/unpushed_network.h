@@ -2,7 +2,7 @@
 
 #include "model/labels.h"
 #include "model/tet_mesh.h"
-#include "steps/3_visibility/trace.h"
+#include "steps/4_visibility/trace.h"
 #include "vcarve/scene.h"
 
 #include <array>

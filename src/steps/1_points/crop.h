@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "steps/1_points/region.h"
+#include "region/region.h"
 #include "vcarve/scene.h"
 
 #include <cstdint>

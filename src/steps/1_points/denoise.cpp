@@ -2,12 +2,12 @@
 
 #include "base/parallel.h"
 #include "geometry/bilateral_filter.h"
+#include "geometry/lexicographic_sort.h"
 #include "geometry/neighborhoods.h"
 #include "model/camera.h"
 #include "model/measured_range.h"
 #include "model/pixel_covariance.h"
 #include "model/towards_views.h"
-#include "steps/1_points/lexicographic_sort.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "base/union_find.h"
-#include "steps/1_points/middle_box.h"
+#include "model/middle_box.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,0 +1,305 @@
+#include "steps/3_cells/block_cells.h"
+
+#include "base/sort_unique.h"
+#include "geometry/predicates.h"
+#include "steps/3_cells/canonical_cells.h"
+#include "steps/3_cells/delaunay.h"
+#include "steps/3_cells/insertion_order.h"
+#include "steps/3_cells/refusals.h"
+#include "steps/3_cells/sphere_bound.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+using CellHandle = Triangulation::Cell_handle;
+using VertexHandle = Triangulation::Vertex_handle;
+
+/// What a cell's number says while the block grows: that no point is known in its sphere.
+constexpr Index kEmptySphere = 0;
+
+/// How many points may be looked at one by one, of a block of so many: usually it is some hundred a
+/// point. And how many of these exactly, which takes a hundred times as long.
+constexpr std::size_t kLooks = 3000;
+constexpr std::size_t kExactLooks = 60;
+constexpr std::size_t kFreeLooks = 20'000; ///< points more than there are
+
+/// The corners of CGAL's facet i of a cell such that orientation(them, corner i) is positive in a
+/// cell that is not inside out.
+constexpr std::array<std::array<int, 3>, 4> kBeforeCorner = {
+    {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
+
+/// The share of the time after which own points are in, spheres are looked into for the first time,
+/// and others are in; the rest is ordering cells.
+constexpr double kOwn = 0.6;
+constexpr double kFirstLook = 0.8;
+constexpr double kForeign = 0.95;
+
+/// The triangulation of a block's own points and of the others that it takes in.
+class Block {
+  public:
+    Block(const PointTree& tree, const PointRun& own)
+        : tree_(tree), own_(own), to_foreign_(tree.distances_to_foreign(own))
+    {
+        triangulation_.infinite_vertex()->info() = kInfinite;
+    }
+
+    void insert(Index point, VertexHandle near)
+    {
+        last_ = triangulation_.insert(to_point(tree_.points()[point]), near);
+        last_->info() = point;
+        ++inserted_;
+        if (triangulation_.number_of_vertices() != inserted_) throw two_at_one_place();
+    }
+    VertexHandle last_inserted() const { return last_; }
+
+    const Triangulation& cells() const { return triangulation_; }
+
+    bool is_own(VertexHandle vertex) const { return own_.contains(vertex->info()); }
+
+    bool has_own_corner(CellHandle cell) const
+    {
+        return std::ranges::any_of(std::array{0, 1, 2, 3},
+                                   [&](int i) { return is_own(cell->vertex(i)); });
+    }
+
+    /// Of the points of other blocks in the sphere around a cell, or beyond the facet of one at the
+    /// hull, the deepest, as far as rounding lets that be told.
+    std::optional<Index> deepest_foreign(CellHandle cell)
+    {
+        SphereBound bound = sphere_of(cell);
+        if (is_far_from_foreign(cell, bound)) return std::nullopt;
+        bound = bound.within(tree_.box());
+        double least = 0.0;
+        std::optional<Index> deepest;
+        tree_.visit_foreign(
+            own_, least, [&](const Box& box) { return bound.least_in(box); },
+            [&](std::size_t i) {
+                const double at = bound.least_at(tree_.points()[i]);
+                const auto point = static_cast<Index>(i);
+                count(looks_, kLooks);
+                if (at > least) return;
+                count(exact_looks_, kExactLooks);
+                if (!is_inside(cell, point)) return;
+                least = at;
+                deepest = point;
+            });
+        return deepest;
+    }
+
+  private:
+    void count(std::size_t& looks, std::size_t most) const
+    {
+        if (++looks > most * (own_.size() + kFreeLooks)) throw TooManyTies();
+    }
+
+    static Vector3d position(VertexHandle vertex)
+    {
+        const Kernel::Point_3& point = vertex->point();
+        return {point.x(), point.y(), point.z()};
+    }
+
+    static SphereBound sphere_of(CellHandle cell)
+    {
+        for (int i = 0; i < 4; ++i) {
+            if (cell->vertex(i)->info() != kInfinite) continue;
+            const auto& [a, b, c] = kBeforeCorner[i];
+            return SphereBound::beyond(
+                {position(cell->vertex(a)), position(cell->vertex(b)), position(cell->vertex(c))});
+        }
+        return SphereBound::around({position(cell->vertex(0)), position(cell->vertex(1)),
+                                    position(cell->vertex(2)), position(cell->vertex(3))});
+    }
+
+    /// Whether the points around one of its own corners already say that the sphere holds none of
+    /// other blocks: so it is for most cells.
+    bool is_far_from_foreign(CellHandle cell, const SphereBound& bound) const
+    {
+        double distance = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            const VertexHandle vertex = cell->vertex(i);
+            if (!is_own(vertex)) continue;
+            const std::size_t leaf = vertex->info() / PointTree::kLeaf;
+            distance = std::max(distance, to_foreign_[leaf - own_.first / PointTree::kLeaf]);
+        }
+        return bound.is_within(distance);
+    }
+
+    /// Exact, ties decided as CGAL does when it inserts.
+    bool is_inside(CellHandle cell, Index point) const
+    {
+        for (int i = 0; i < 4; ++i) {
+            if (cell->vertex(i)->info() == point) return false;
+        }
+        return triangulation_.side_of_sphere(cell, to_point(tree_.points()[point]), true) ==
+               CGAL::ON_BOUNDED_SIDE;
+    }
+
+    const PointTree& tree_;
+    PointRun own_;
+    std::vector<double> to_foreign_; ///< from each own leaf's box to the nearest point of others
+    Triangulation triangulation_;
+    VertexHandle last_;
+    std::size_t inserted_ = 0;
+    std::size_t looks_ = 0;
+    std::size_t exact_looks_ = 0;
+};
+
+/// A point to take in, and a vertex of a cell whose sphere it is in.
+struct Wanted {
+    Index point;
+    VertexHandle near;
+};
+
+/// The deepest point in the sphere of a cell, where there is any, goes to `wanted`.
+void look_into(CellHandle cell, Block& block, std::vector<Wanted>& wanted)
+{
+    if (cell->info().value == kEmptySphere || !block.has_own_corner(cell)) return;
+    if (const std::optional<Index> deepest = block.deepest_foreign(cell)) {
+        const VertexHandle corner = cell->vertex(0);
+        wanted.push_back({*deepest, corner->info() == kInfinite ? cell->vertex(1) : corner});
+    } else {
+        cell->info().value = kEmptySphere;
+    }
+}
+
+std::vector<Wanted> points_in_spheres(Block& block, BlockProgress& progress)
+{
+    constexpr std::size_t kToldEvery = 1024;
+    std::vector<Wanted> wanted;
+    const auto all = static_cast<double>(block.cells().tds().cells().size());
+    std::size_t count = 0;
+    for (const CellHandle cell : block.cells().all_cell_handles()) {
+        look_into(cell, block, wanted);
+        if (++count % kToldEvery != 0) continue;
+        progress.tell(kOwn + (kFirstLook - kOwn) * static_cast<double>(count) / all);
+    }
+    return wanted;
+}
+
+/// The same, of the cells that came with the points inserted last: all new cells are around these.
+std::vector<Wanted> points_in_spheres_around(const std::vector<VertexHandle>& inserted,
+                                             Block& block)
+{
+    std::vector<Wanted> wanted;
+    std::vector<CellHandle> around;
+    for (const VertexHandle vertex : inserted) {
+        around.clear();
+        block.cells().incident_cells(vertex, std::back_inserter(around));
+        for (const CellHandle cell : around)
+            look_into(cell, block, wanted);
+    }
+    return wanted;
+}
+
+/// Inserts each wanted point once.
+std::vector<VertexHandle> insert_wanted(std::vector<Wanted> wanted, Block& block)
+{
+    std::ranges::sort(wanted, {}, &Wanted::point);
+    std::vector<VertexHandle> inserted;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        if (i > 0 && wanted[i].point == wanted[i - 1].point) continue;
+        block.insert(wanted[i].point, wanted[i].near);
+        inserted.push_back(block.last_inserted());
+    }
+    return inserted;
+}
+
+void insert_own(Block& block, const std::vector<Index>& first, const PointRun& own,
+                BlockProgress& progress)
+{
+    constexpr std::size_t kToldEvery = 256;
+    for (const Index point : first)
+        block.insert(point, block.last_inserted());
+    const UnsetArray<std::uint32_t> order = insertion_order(own.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const auto point = static_cast<Index>(own.first + order[i]);
+        if (!std::ranges::binary_search(first, point)) block.insert(point, block.last_inserted());
+        if (i % kToldEvery != 0) continue;
+        progress.tell(kOwn * static_cast<double>(i) / static_cast<double>(order.size()));
+    }
+}
+
+void insert_foreign(Block& block, BlockProgress& progress)
+{
+    std::vector<Wanted> wanted = points_in_spheres(block, progress);
+    double done = kFirstLook;
+    while (!wanted.empty()) {
+        progress.tell(done);
+        done += 0.5 * (kForeign - done);
+        const std::vector<VertexHandle> inserted = insert_wanted(std::move(wanted), block);
+        wanted = points_in_spheres_around(inserted, block);
+    }
+}
+
+std::vector<OpenFacet> open_facets(const UnsetArray<Cell>& cells)
+{
+    std::vector<OpenFacet> facets;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        for (std::uint32_t slot = 0; slot < 4; ++slot) {
+            if (cells[i].neighbors[slot] != CellNumber::kNone) continue;
+            OpenFacet facet{{}, static_cast<Index>(i), slot};
+            for (int corner = 0; corner < 3; ++corner)
+                facet.corners[corner] = cells[i].vertices[kFacetCorners[slot][corner]];
+            std::ranges::sort(facet.corners);
+            facets.push_back(facet);
+        }
+    }
+    return facets;
+}
+
+/// Point by point the first ones that do not lie at one place, on one line, in one plane.
+std::vector<Index> spanning_points(const std::vector<Vector3d>& points)
+{
+    std::vector<Index> found;
+    for (std::size_t i = 0; i < points.size() && found.size() < 4; ++i) {
+        const auto at = [&](std::size_t number) { return points[found[number]]; };
+        const bool spans_more =
+            found.empty() || (found.size() == 1 && points[i] != at(0)) ||
+            (found.size() == 2 && !collinear(at(0), at(1), points[i])) ||
+            (found.size() == 3 && orientation(at(0), at(1), at(2), points[i]) != 0);
+        if (spans_more) found.push_back(static_cast<Index>(i));
+    }
+    return found;
+}
+
+} // namespace
+
+std::vector<Index> first_points(const std::vector<Vector3d>& points)
+{
+    std::vector<Index> first = spanning_points(points);
+    if (first.size() < 4) return first;
+    std::vector<Vector3d> directions = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1}, {1, 1, 1},
+                                        {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}};
+    for (const Vector3d& direction : directions) {
+        const auto [low, high] = std::ranges::minmax_element(
+            points, {}, [&](const Vector3d& p) { return direction.dot(p); });
+        first.push_back(static_cast<Index>(low - points.begin()));
+        first.push_back(static_cast<Index>(high - points.begin()));
+    }
+    sort_unique(first);
+    return first;
+}
+
+BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, const PointRun& own,
+                       BlockProgress& progress)
+{
+    Block block(tree, own);
+    insert_own(block, first, own, progress);
+    insert_foreign(block, progress);
+    BlockCells result;
+    result.cells = in_canonical_order(unordered_cells(block.cells()), static_cast<Index>(own.first),
+                                      own.size());
+    result.open_facets = open_facets(result.cells);
+    result.taken_in = block.cells().number_of_vertices() - own.size();
+    return result;
+}
+
+} // namespace vcarve

@@ -1,0 +1,91 @@
+#include "steps/3_cells/triangulate.h"
+
+#include "base/freed_memory.h"
+#include "base/index_limit.h"
+#include "base/unset_array.h"
+#include "steps/3_cells/canonical_cells.h"
+#include "steps/3_cells/delaunay.h"
+#include "steps/3_cells/insertion_order.h"
+#include "steps/3_cells/refusals.h"
+#include "steps/3_cells/triangulate_blocks.h"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+/// Smaller blocks take in so many points of others that they are slower than no blocks (measured).
+constexpr std::size_t kLeastBlock = 10'000;
+
+/// The share of the time that the insertion of points takes; the rest is copying cells.
+constexpr double kInsertion = 0.8;
+
+/// Copies the cells of a triangulation to flat arrays and clears it on the way, so that only one
+/// copy of the cells lives beside it.
+TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress& progress)
+{
+    if (triangulation.dimension() < 3) throw all_in_one_plane(scene.num_points());
+    require_indexable(triangulation.number_of_cells(), kMostIndices, "cells");
+    if (triangulation.number_of_vertices() != scene.num_points()) {
+        throw two_at_one_place();
+    }
+    triangulation.infinite_vertex()->info() = kInfinite;
+    const UnsetArray<Cell> unordered = unordered_cells(triangulation, progress.part(0.0, 0.4));
+    progress.tell(0.4);
+    triangulation.clear();
+    return_freed_memory();
+    progress.tell(0.6);
+    TetMesh mesh;
+    mesh.cells = in_canonical_order(unordered, 0, scene.num_points(), progress.part(0.6, 0.9));
+    progress.tell(0.9);
+    mesh.positions = scene.positions;
+    complete(mesh);
+    return mesh;
+}
+
+} // namespace
+
+std::size_t usual_blocks(std::size_t points, std::size_t threads)
+{
+    const std::size_t most = points / kLeastBlock;
+    if (threads == 1 || most <= 1) return 1;
+    return most >= 2 * threads ? 2 * threads : std::min(most, threads);
+}
+
+TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
+{
+    // CGAL's insertion of many points at once does the same, but does not tell how far it is.
+    constexpr std::size_t kToldEvery = 256;
+    require_four_points(scene.num_points());
+    Triangulation triangulation;
+    {
+        const UnsetArray<std::uint32_t> order = insertion_order(scene.num_points());
+        Triangulation::Vertex_handle hint;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            hint = triangulation.insert(to_point(scene.positions[order[i]]), hint);
+            hint->info() = order[i];
+            if (i % kToldEvery == 0) progress.part(0.0, kInsertion).tell(i, order.size());
+        }
+    }
+    return flatten(triangulation, scene, progress.part(kInsertion, 1.0));
+}
+
+TetMesh triangulate(const Scene& scene, const Progress& progress)
+{
+    const int threads = tbb::this_task_arena::max_concurrency();
+    const std::size_t blocks = usual_blocks(scene.num_points(), static_cast<std::size_t>(threads));
+    if (blocks > 1) {
+        std::optional<TetMesh> mesh = triangulate_in_blocks(scene, {.count = blocks}, progress);
+        if (mesh) return std::move(*mesh);
+    }
+    return triangulate_at_once(scene, progress);
+}
+
+} // namespace vcarve

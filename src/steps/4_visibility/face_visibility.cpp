@@ -1,0 +1,193 @@
+#include "steps/4_visibility/face_visibility.h"
+
+#include "geometry/triangle.h"
+#include "model/camera.h"
+#include "steps/4_visibility/walk.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+std::array<Vector3d, 3> facet_corners(const TetMesh& mesh, const CellFacet& facet)
+{
+    const auto& [a, b, c] = kFacetCorners[facet.slot];
+    const auto& vertices = mesh.cells[facet.cell].vertices;
+    return {mesh.positions[vertices[a]], mesh.positions[vertices[b]], mesh.positions[vertices[c]]};
+}
+
+/// Towards the outside; not of unit length.
+Vector3d outward(const TetMesh& mesh, const CellFacet& facet)
+{
+    const auto [a, b, c] = facet_corners(mesh, facet); // counter-clockwise from inside
+    return scaled_normal(a, c, b);
+}
+
+} // namespace
+
+bool stands_before(const Vector3d& center, const Vector3d& place, const Vector3d& normal,
+                   double cosine)
+{
+    const Vector3d way = center - place;
+    const double height = normal.dot(way);
+    return height > 0.0 && height > cosine * way.norm(); // most need no root
+}
+
+std::vector<Vector3d> places_on(const std::array<Vector3d, 3>& corners)
+{
+    constexpr double kNear = 0.8;
+    constexpr double kFar = 0.1;
+    constexpr double kHalf = 0.475;
+    constexpr double kRim = 0.05;
+    constexpr double kThin = 0.2;
+    const Vector3d& a = corners[0];
+    const Vector3d& b = corners[1];
+    const Vector3d& c = corners[2];
+    const auto mix = [&](double u, double v) -> Vector3d {
+        return u * a + v * b + (1.0 - u - v) * c;
+    };
+    const Vector3d middle = (a + b + c) / 3.0;
+    std::vector<Vector3d> places = {middle,          mix(kNear, kFar),  mix(kFar, kNear),
+                                    mix(kFar, kFar), mix(kHalf, kHalf), mix(kHalf, kRim),
+                                    mix(kRim, kHalf)};
+    const auto [short_edge, long_edge] =
+        std::minmax({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    if (short_edge < kThin * long_edge) {
+        for (const Vector3d& corner : corners) {
+            places.emplace_back(corner + (short_edge / long_edge) * (middle - corner));
+        }
+    }
+    return places;
+}
+
+std::vector<Vector3d> grid_on(const std::array<Vector3d, 3>& corners, int to_a_side)
+{
+    const auto& [a, b, c] = corners;
+    std::vector<Vector3d> places;
+    for (int i = 0; i < to_a_side; ++i) {
+        for (int j = 0; i + j < to_a_side; ++j) {
+            const double u = (i + 1.0 / 3.0) / to_a_side;
+            const double v = (j + 1.0 / 3.0) / to_a_side;
+            places.emplace_back(a + u * (b - a) + v * (c - a));
+        }
+    }
+    return places;
+}
+
+FaceVisibility::FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene)
+    : cells_(cells), labels_(labels), scene_(scene)
+{
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& position : cells.positions) {
+        box.extend(position);
+    }
+    if (!box.isEmpty()) reach_ = 2.0 * box.diagonal().norm();
+}
+
+std::array<Vector3d, 3> FaceVisibility::corners_of(const CellFacet& facet) const
+{
+    return facet_corners(cells_, facet);
+}
+
+std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
+{
+    return vcarve::places_on(corners_of(facet));
+}
+
+/// Whether a view stands before a facet at a place that its image shows.
+bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vector3d& place,
+                           double cosine) const
+{
+    const View& eye = scene_.views[view];
+    return stands_before(eye.center, place, outward(cells_, facet).normalized(), cosine) &&
+           view_shows(eye, scene_.cameras[eye.camera], place);
+}
+
+bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place,
+                          double cosine) const
+{
+    if (!faces(view, facet, place, cosine)) return false;
+    // Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
+    const auto leads_on = [&](const CellFacet& ahead) {
+        return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
+               labels_[cells_.other_side(ahead).cell] == Label::outside;
+    };
+    const Vector3d& center = scene_.views[view].center;
+    return SightWalk(cells_).through_facet(facet, place, center, leads_on).cell == kInfinite;
+}
+
+bool FaceVisibility::is_seen(const CellFacet& facet, double cosine) const
+{
+    const std::vector<Vector3d> places = places_on(facet);
+    const Vector3d normal = outward(cells_, facet);
+    const auto sees_some = [&](std::uint32_t view) {
+        if (normal.dot(scene_.views[view].center - places[0]) <= 0.0) return false; // most are
+        return std::ranges::any_of(
+            places, [&](const Vector3d& place) { return sees(view, facet, place, cosine); });
+    };
+    return any_view(facet, sees_some);
+}
+
+bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
+{
+    const Vector3d normal = outward(cells_, facet).normalized();
+    return std::ranges::all_of(kFacetCorners[facet.slot], [&](int corner) {
+        const Index vertex = cells_.cells[facet.cell].vertices[corner];
+        const Vector3d& place = cells_.positions[vertex];
+        bool is_seen = false;
+        for (const std::uint32_t view : scene_.tracks[vertex]) {
+            const View& eye = scene_.views[view];
+            if (!stands_before(eye.center, place, normal)) continue;
+            if (view_shows(eye, scene_.cameras[eye.camera], place)) return true;
+            is_seen = true;
+        }
+        return !is_seen;
+    });
+}
+
+FaceVisibility::Crossed FaceVisibility::met_beyond(std::uint32_t view, const CellFacet& facet,
+                                                   const Vector3d& place) const
+{
+    Crossed met{facet, Meets::nothing};
+    const auto leads_on = [&](const CellFacet& ahead) {
+        met = crossed_at(ahead);
+        return met.side == Meets::nothing;
+    };
+    const Vector3d way = (place - scene_.views[view].center).normalized();
+    SightWalk(cells_).through_facet(cells_.other_side(facet), place, place + reach_ * way,
+                                    leads_on);
+    return met;
+}
+
+/// What a line crosses of the boundary where it goes through a facet out of the facet's cell.
+FaceVisibility::Crossed FaceVisibility::crossed_at(const CellFacet& ahead) const
+{
+    const CellFacet beyond = cells_.other_side(ahead);
+    const bool leaves = labels_[ahead.cell] == Label::inside;
+    if (leaves == (labels_[beyond.cell] == Label::inside)) return {ahead, Meets::nothing};
+    return leaves ? Crossed{ahead, Meets::back} : Crossed{beyond, Meets::front};
+}
+
+bool FaceVisibility::along_boundary(const CellFacet& facet, const Vector3d& place,
+                                    const Vector3d& target,
+                                    const std::function<bool(const Crossed&)>& goes_on) const
+{
+    bool passes = false; // through the facet itself, which comes first
+    const auto look = [&](const CellFacet& ahead) {
+        const Crossed met = crossed_at(ahead);
+        if (met.side == Meets::nothing) return true;
+        if (passes) return goes_on(met);
+        passes = true;
+        return true;
+    };
+    SightWalk(cells_).through_facet(facet, place, target, look);
+    return passes;
+}
+
+} // namespace vcarve

@@ -1,0 +1,330 @@
+#include "steps/4_visibility/trace.h"
+
+#include "base/atomic_min.h"
+#include "base/round_half_up.h"
+#include "geometry/triangle.h"
+#include "steps/4_visibility/energy_sums.h"
+#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/walk.h"
+#include "vcarve/error.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// All zero.
+FlowNetwork empty_network(const TetMesh& mesh)
+{
+    const std::size_t count = mesh.cells.size();
+    return {filled_array(count, std::array<std::int32_t, 4>{}), filled_array(count, 0)};
+}
+
+/// Distance from a point to where the line through it in a direction meets a facet's plane.
+double distance_to_facet(const TetMesh& mesh, CellFacet facet, const Vector3d& point,
+                         const Vector3d& direction)
+{
+    const Cell& cell = mesh.cells[facet.cell];
+    const auto& corners = kFacetCorners[facet.slot];
+    const Vector3d& a = mesh.positions[cell.vertices[corners[0]]];
+    const Vector3d& b = mesh.positions[cell.vertices[corners[1]]];
+    const Vector3d& c = mesh.positions[cell.vertices[corners[2]]];
+    const Vector3d normal = scaled_normal(a, b, c);
+    const double along = normal.dot(direction);
+    return along == 0.0 ? 0.0 : std::abs(normal.dot(a - point) / along);
+}
+
+/// What each cell keeps of the flow of one sight, cell by cell from the point on. The next cell is
+/// not the one reached where the sight met an edge or a vertex: there one stretch ends, with a
+/// source (or sink) of its own, and another begins.
+class Push {
+  public:
+    enum class Sign : std::int32_t { source = 1, sink = -1 };
+
+    Push(const TetMesh& mesh, EnergySums& sums, Sign sign)
+        : mesh_(mesh), sums_(sums), sign_(static_cast<std::int32_t>(sign))
+    {
+    }
+
+    std::int32_t carried() const { return carried_; }
+
+    void cross(Index near, Index far, std::int32_t weight)
+    {
+        arrive(near, weight);
+        reached_ = far;
+        carried_ = weight;
+    }
+
+    void end(Index last, std::int32_t full) { arrive(last, full); }
+
+  private:
+    void arrive(Index cell, std::int32_t weight)
+    {
+        if (reached_ != kInfinite && reached_ != cell) {
+            keep(reached_, weight - carried_);
+            carried_ = 0;
+        }
+        keep(cell, weight - carried_);
+    }
+
+    void keep(Index cell, std::int32_t flow)
+    {
+        // Infinite cells are outside whatever they keep.
+        if (flow != 0 && cell != kInfinite && !mesh_.cells[cell].is_infinite()) {
+            sums_.add_terminal_capacity(cell, sign_ * flow);
+        }
+    }
+
+    const TetMesh& mesh_;
+    EnergySums& sums_;
+    std::int32_t sign_;
+    std::int32_t carried_ = 0;
+    Index reached_ = kInfinite;
+};
+
+/// A sight from a point to a view, and how far its flow is pushed.
+struct OutwardSight {
+    Sight sight;
+    std::uint32_t view;
+    std::int32_t full;   ///< its weight where the distance sigma is zero
+    std::int32_t bundle; ///< how many sights go on as one, far from their points
+    Vector3d direction;
+    Push push;
+    int crossed = 0;        ///< facets
+    std::uint32_t lead = 1; ///< for how many one goes on
+    bool leads = true;
+
+    /// Whether it goes through one more facet, and with what weight: one sight of a bundle goes on
+    /// for all. Points follow each other in space, and so each of those near takes its turn.
+    bool goes_on()
+    {
+        ++crossed;
+        if (crossed == kBundledAfter[0] + 1 || crossed == kBundledAfter[1] + 1) {
+            lead *= static_cast<std::uint32_t>(bundle);
+            full *= bundle;
+            leads = (sight.vertex + view) % lead == 0;
+        }
+        return leads; // asked again where the exact walk reports all its facets
+    }
+};
+
+/// Adds the terms of sights to the network.
+class SightTerms {
+  public:
+    SightTerms(const TetMesh& mesh, EnergySums& sums, double sigma)
+        : mesh_(mesh), sums_(sums), sigma_(sigma)
+    {
+    }
+
+    /// The sight from a vertex to a view.
+    OutwardSight outward(Index vertex, std::uint32_t view, const Vector3d& center,
+                         std::int32_t full, std::int32_t bundle) const
+    {
+        return {{vertex, center},
+                view,
+                full,
+                bundle,
+                (center - mesh_.positions[vertex]).normalized(),
+                Push(mesh_, sums_, Push::Sign::source)};
+    }
+
+    /// Outside, from the points to the views. Calls on_end(view, cell) with the cell of the view,
+    /// kInfinite if that lies out of the hull.
+    template <typename OnEnd>
+    void add_outside_terms(SightWalk& walk, std::vector<OutwardSight>& sights,
+                           const OnEnd& on_end) const
+    {
+        walk.along_each(
+            sights.size(), [&](std::size_t k) -> const Sight& { return sights[k].sight; },
+            [&](std::size_t k, Index cell, int slot) {
+                const Index beyond = mesh_.cells[cell].neighbors[slot];
+                sums_.fetch(beyond);
+                // The sight's flow comes from the view and falls towards the point: it fills the
+                // arc inwards, opens the one outwards, and what the next facet will not take stays
+                // here. Where a bundle begins, the sights that end there leave theirs to the one
+                // that goes on, and ask for that cell to be outside.
+                OutwardSight& on = sights[k];
+                if (!on.goes_on()) return false;
+                const std::int32_t weight =
+                    on.push.carried() == on.full
+                        ? on.full
+                        : soft_weight({cell, slot}, mesh_.positions[on.sight.vertex], on.direction,
+                                      on.full);
+                sums_.add_arc_capacity(cell, slot, weight);
+                on.push.cross(cell, beyond, weight);
+                return true;
+            },
+            [&](std::size_t k, const WalkEnds& ends) {
+                sights[k].push.end(ends.last, sights[k].full);
+                const bool in_hull =
+                    ends.last != kInfinite && !mesh_.cells[ends.last].is_infinite();
+                on_end(sights[k].view, in_hull ? ends.last : kInfinite);
+            });
+    }
+
+    /// Inside, from a vertex away from the origins of its rays, down to a depth of `sink_depth`
+    /// sigmas.
+    void add_inside_terms(SightWalk& walk, Index vertex, const RaySource& source, std::int32_t full,
+                          double sink_depth) const
+    {
+        walk.stand_at(vertex);
+        for (const std::uint32_t origin : (*source.rays)[vertex]) {
+            add_inside_terms(walk, mesh_.positions[vertex], source.origins[origin], full,
+                             sink_depth);
+        }
+    }
+
+  private:
+    /// The same of one ray, from the point where the walk stands.
+    void add_inside_terms(SightWalk& walk, const Vector3d& point, const Vector3d& center,
+                          std::int32_t full, double sink_depth) const
+    {
+        const Vector3d direction = (point - center).normalized();
+        const double depth = sink_depth * sigma_;
+        if (depth == 0.0) {
+            const Index behind = walk.first_cell(2.0 * point - center);
+            if (behind != kInfinite) {
+                sums_.add_terminal_capacity(behind, -full);
+            }
+            return;
+        }
+        Push push(mesh_, sums_, Push::Sign::sink);
+        const WalkEnds ends = walk.to(point + depth * direction, [&](Index cell, int slot) {
+            const std::int32_t weight = soft_weight({cell, slot}, point, direction, full);
+            const Index beyond = mesh_.cells[cell].neighbors[slot];
+            sums_.add_arc_capacity(beyond, mesh_.mirror(cell, slot), weight);
+            push.cross(cell, beyond, weight);
+        });
+        push.end(ends.last, full);
+    }
+
+    std::int32_t soft_weight(CellFacet facet, const Vector3d& point, const Vector3d& direction,
+                             std::int32_t full) const
+    {
+        if (sigma_ == 0.0) {
+            return full;
+        }
+        const double distance = distance_to_facet(mesh_, facet, point, direction) / sigma_;
+        const double soft = 1.0 - std::exp(-0.5 * distance * distance);
+        return round_half_up(full * soft);
+    }
+
+    const TetMesh& mesh_;
+    EnergySums& sums_;
+    double sigma_;
+};
+
+/// Finds the cells of the origins to which no ray led, as when none of a view's points passed the
+/// filter: a camera stands in free space all the same.
+void locate_other_origins(const TetMesh& cells, const std::vector<Vector3d>& origins,
+                          std::vector<Index>& cell_of_origin)
+{
+    if (cells.positions.empty()) return;
+    SightWalk walk(cells, 0);
+    for (std::size_t origin = 0; origin < origins.size(); ++origin) {
+        if (cell_of_origin[origin] != kInfinite) continue;
+        const Index last = walk.to(origins[origin], [](Index, int) {}).last;
+        if (last != kInfinite && !cells.cells[last].is_infinite()) cell_of_origin[origin] = last;
+    }
+}
+
+void require_exact(bool is_exact, const Scene& scene)
+{
+    if (!is_exact) {
+        throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
+                                     "in one cell; a surface needs fewer points or views",
+                                     scene.num_sights()));
+    }
+}
+
+} // namespace
+
+VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& points,
+                                    const Progress& progress) const
+{
+    VisibilityEnergy energy;
+    energy.unit = SightWeights::kUnit;
+    energy.network = empty_network(cells_);
+    if (source.is_measured) energy.cell_of_view.resize(source.origins.size(), kInfinite);
+    std::vector<Index>& cell_of_origin = energy.cell_of_view;
+    EnergySums sums(energy.network);
+    const SightTerms terms(cells_, sums, options_.distance_sigma * scales_.short_edge);
+    const SightWeights weights(scene_, scales_, options_);
+
+    for_each_run_of_vertices(points, progress, [&](Index first, Index last) {
+        SightWalk walk(cells_);
+        std::vector<OutwardSight> sights;
+        for (Index vertex = first; vertex < last; ++vertex) {
+            const std::int32_t full = weights.full_weight(vertex, source.weight);
+            const std::int32_t bundle =
+                source.is_measured && scene_.errors_px[vertex] < 0.0 ? options_.bundle_sights : 1;
+            if (source.is_measured && scene_.point_ids[vertex] != kBorderPointId)
+                terms.add_inside_terms(walk, vertex, source, full, options_.sink_depth);
+            for (const std::uint32_t view : (*source.rays)[vertex]) {
+                sights.push_back(terms.outward(vertex, view, source.origins[view], full, bundle));
+            }
+        }
+        terms.add_outside_terms(walk, sights, [&](std::uint32_t view, Index cell) {
+            // Of a view on the border of cells different ones are found.
+            if (source.is_measured) atomic_min(cell_of_origin[view], cell);
+        });
+    });
+    sums.limit_full_arcs();
+    require_exact(!sums.is_exceeded(), scene_);
+    return energy;
+}
+
+RayCaster::Share RayCaster::share(const RaySource& source, const VertexRun& points,
+                                  const Progress& progress) const
+{
+    VisibilityEnergy energy = said_of(source, points, progress);
+    return {sparse_sums(energy.network.arc_capacities),
+            sparse_sums(energy.network.terminal_capacities), std::move(energy.cell_of_view)};
+}
+
+void RayCaster::add(const Share& share, VisibilityEnergy& energy) const
+{
+    EnergySums sums(energy.network);
+    add_sparse(share.arc_capacities, energy.network.arc_capacities, EnergySums::add_full_arcs);
+    add_sparse(share.terminal_capacities, energy.network.terminal_capacities,
+               [&](std::int32_t& sum, std::int32_t value) { sums.add_terminal(sum, value); });
+    require_exact(!sums.is_exceeded(), scene_);
+    for (std::size_t view = 0; view < share.cell_of_view.size(); ++view) {
+        atomic_min(energy.cell_of_view[view], share.cell_of_view[view]);
+    }
+}
+
+void RayCaster::finish(const RaySource& source, VisibilityEnergy energy,
+                       VisibilityEnergy& all) const
+{
+    if (source.is_measured) locate_other_origins(cells_, source.origins, energy.cell_of_view);
+    if (all.network.arc_capacities.empty()) {
+        all = std::move(energy);
+        return;
+    }
+    all.cell_of_view.insert(all.cell_of_view.end(), energy.cell_of_view.begin(),
+                            energy.cell_of_view.end());
+    EnergySums sums(all.network);
+    parallel_for(cells_.cells.size(), [&](std::size_t cell) {
+        EnergySums::add_full_arcs(all.network.arc_capacities[cell],
+                                  energy.network.arc_capacities[cell]);
+        sums.add_terminal(all.network.terminal_capacities[cell],
+                          energy.network.terminal_capacities[cell]);
+    });
+    require_exact(!sums.is_exceeded(), scene_);
+}
+
+void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
+                     const Progress& progress) const
+{
+    finish(source, said_of(source, all_vertices(cells_), progress), energy);
+}
+
+} // namespace vcarve

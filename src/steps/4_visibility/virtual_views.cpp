@@ -1,0 +1,240 @@
+#include "steps/4_visibility/virtual_views.h"
+
+#include "base/parallel.h"
+#include "steps/4_visibility/each_vertex.h"
+#include "steps/4_visibility/edge_lengths.h"
+#include "steps/4_visibility/nearest_points.h"
+#include "steps/4_visibility/walk.h"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// What the real sights say of each cell, as bits.
+using Evidence = std::vector<std::uint8_t>;
+constexpr std::uint8_t kCrossed = 1; ///< a sight crosses one of its facets
+constexpr std::uint8_t kBehind = 2;  ///< it begins at a point on the side away from a view
+
+void set_bit(Evidence& evidence, Index cell, std::uint8_t bit)
+{
+    std::atomic_ref<std::uint8_t>(evidence[cell]).fetch_or(bit, std::memory_order_relaxed);
+}
+
+Evidence gather_evidence(const TetMesh& cells, const Scene& scene, const Progress& progress)
+{
+    Evidence evidence(cells.cells.size(), 0);
+    for_each_vertex(cells, progress, [&](Index vertex) {
+        SightWalk outward(cells, vertex);
+        SightWalk inward(cells, vertex);
+        const Vector3d& point = cells.positions[vertex];
+        for (const std::uint32_t view : scene.tracks[vertex]) {
+            const Vector3d& center = scene.views[view].center;
+            outward.to(center, [&](Index cell, int slot) {
+                set_bit(evidence, cell, kCrossed);
+                set_bit(evidence, cells.cells[cell].neighbors[slot], kCrossed);
+            });
+            const Index behind = inward.first_cell(2.0 * point - center);
+            if (behind != kInfinite) {
+                set_bit(evidence, behind, kBehind);
+            }
+        }
+    });
+    return evidence;
+}
+
+// ---- where to stand -----------------------------------------------------------------------------
+
+/// A place in the middle of a cell.
+struct Place {
+    Vector3d center;
+    Index vertex;     ///< the nearest of the cell's
+    double clearance; ///< how far that is
+};
+
+Place middle_of(const TetMesh& mesh, const Cell& cell)
+{
+    Vector3d center = Vector3d::Zero();
+    for (const Index vertex : cell.vertices) {
+        center += 0.25 * mesh.positions[vertex];
+    }
+    Place place{.center = center, .vertex = 0, .clearance = kUnlimited};
+    for (const Index vertex : cell.vertices) {
+        const double distance = (mesh.positions[vertex] - center).norm();
+        if (distance < place.clearance) {
+            place.vertex = vertex;
+            place.clearance = distance;
+        }
+    }
+    return place;
+}
+
+/// Where a viewpoint may stand. Not at the surface, where it would see along it only, and not far
+/// off in empty space, where real views stand.
+std::vector<Place> free_places(const TetMesh& mesh, const Labels& labels, const Evidence& evidence)
+{
+    constexpr double kLeastClearance = 0.5; // in short edges
+    constexpr double kMostClearance = 8.0;
+    const double short_edge = short_edge_length(mesh);
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+        const bool is_free = labels[i] == Label::outside && (evidence[i] & kCrossed) != 0;
+        if (!is_free || mesh.cells[i].is_infinite()) {
+            continue;
+        }
+        const Place place = middle_of(mesh, mesh.cells[i]);
+        if (place.clearance >= kLeastClearance * short_edge &&
+            place.clearance <= kMostClearance * short_edge) {
+            places.push_back(place);
+        }
+    }
+    return places;
+}
+
+/// Some of the places, each the farthest from those before it; the first is the one with most room.
+std::vector<Place> spread(const std::vector<Place>& places, std::size_t count,
+                          const Progress& progress)
+{
+    std::vector<Place> chosen;
+    if (places.empty()) {
+        return chosen;
+    }
+    const auto roomiest =
+        std::max_element(places.begin(), places.end(),
+                         [](const Place& a, const Place& b) { return a.clearance < b.clearance; });
+    auto next = static_cast<std::size_t>(roomiest - places.begin());
+    std::vector<double> distances_sq(places.size(), kUnlimited);
+    while (chosen.size() < count && distances_sq[next] > 0.0) {
+        const Vector3d center = places[next].center;
+        progress.tell(chosen.size(), count);
+        chosen.push_back(places[next]);
+        parallel_for(places.size(), [&](std::size_t i) {
+            distances_sq[i] = std::min(distances_sq[i], (places[i].center - center).squaredNorm());
+        });
+        next = static_cast<std::size_t>(std::max_element(distances_sq.begin(), distances_sq.end()) -
+                                        distances_sq.begin());
+    }
+    return chosen;
+}
+
+// ---- what is seen from there --------------------------------------------------------------------
+
+/// Which way the surface between inside and outside looks at each vertex: the mean over its facets
+/// there, weighted by area. Zero where there is none.
+std::vector<Vector3d> outward_normals(const TetMesh& mesh, const Labels& labels)
+{
+    std::vector<Vector3d> normals(mesh.positions.size(), Vector3d::Zero());
+    for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
+        const Cell& cell = mesh.cells[i];
+        for (int slot = cell.first_bounded_slot(); slot < 4 && labels[i] == Label::inside; ++slot) {
+            if (labels[cell.neighbors[slot]] == Label::inside) {
+                continue;
+            }
+            const auto& [a, b, c] = kFacetCorners[slot]; // counter-clockwise from inside
+            const Vector3d& corner = mesh.positions[cell.vertices[a]];
+            const Vector3d normal = (mesh.positions[cell.vertices[c]] - corner)
+                                        .cross(mesh.positions[cell.vertices[b]] - corner);
+            for (const int k : kFacetCorners[slot]) {
+                normals[cell.vertices[k]] += normal;
+            }
+        }
+    }
+    for (Vector3d& normal : normals) {
+        normal.stableNormalize();
+    }
+    return normals;
+}
+
+/// What is known before any virtual viewpoint is placed.
+struct Known {
+    const TetMesh& mesh;
+    const Labels& labels;
+    Evidence evidence;
+    std::vector<Vector3d> normals; ///< one a point
+};
+
+/// Whether the surface as it is at a point looks towards the viewpoint. It need not quite: it is
+/// not yet what it is to be.
+bool looks_towards(const Known& known, Index vertex, const Vector3d& center)
+{
+    constexpr double kLeastCosine = -0.3; // about 17 degrees beyond the right angle
+    const Vector3d& normal = known.normals[vertex];
+    const Vector3d way = (center - known.mesh.positions[vertex]).normalized();
+    return !normal.isZero() && way.dot(normal) > kLeastCosine;
+}
+
+/// Whether the way to a viewpoint leads through a cell that is known to be solid.
+bool is_hidden(const Known& known, Index vertex, const Vector3d& center)
+{
+    bool hidden = false;
+    SightWalk(known.mesh, vertex).to(center, [&](Index cell, int) {
+        hidden = hidden ||
+                 (known.labels[cell] == Label::inside && (known.evidence[cell] & kBehind) != 0);
+    });
+    return hidden;
+}
+
+std::vector<Index> seen_points(const Known& known, const Scene& scene, const Place& place)
+{
+    constexpr std::size_t kPointsAround = 1000;
+    std::vector<Index> points =
+        nearest_points(known.mesh, place.center, kPointsAround, place.vertex);
+    std::erase_if(points, [&](Index vertex) {
+        return scene.tracks[vertex].empty() || !looks_towards(known, vertex, place.center) ||
+               is_hidden(known, vertex, place.center);
+    });
+    return points;
+}
+
+/// From the points of each view to the views of each point.
+Tracks tracks_of(const std::vector<std::vector<Index>>& points_of_views, std::size_t num_points)
+{
+    Tracks tracks;
+    tracks.begins.assign(num_points + 1, 0);
+    for (const auto& points : points_of_views) {
+        for (const Index point : points) {
+            ++tracks.begins[point + 1];
+        }
+    }
+    std::partial_sum(tracks.begins.begin(), tracks.begins.end(), tracks.begins.begin());
+    tracks.views.resize(tracks.begins.back());
+    std::vector<std::uint64_t> ends(tracks.begins.begin(), tracks.begins.end() - 1);
+    for (std::uint32_t view = 0; view < points_of_views.size(); ++view) {
+        for (const Index point : points_of_views[view]) {
+            tracks.views[ends[point]++] = view;
+        }
+    }
+    return tracks;
+}
+
+} // namespace
+
+VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, const Labels& labels,
+                                  const VirtualViewOptions& options, const Progress& progress)
+{
+    const Known known = {.mesh = cells,
+                         .labels = labels,
+                         .evidence = gather_evidence(cells, scene, progress.part(0.0, 0.5)),
+                         .normals = outward_normals(cells, labels)};
+    const std::vector<Place> places =
+        spread(free_places(cells, labels, known.evidence), static_cast<std::size_t>(options.count),
+               progress.part(0.5, 0.8));
+    VirtualSights sights;
+    sights.centers.reserve(places.size());
+    for (const Place& place : places) {
+        sights.centers.push_back(place.center);
+    }
+    std::vector<std::vector<Index>> seen(places.size());
+    parallel_for(
+        seen.size(), progress.part(0.8, 1.0),
+        [&](std::size_t i) { seen[i] = seen_points(known, scene, places[i]); }, 1);
+    sights.tracks = tracks_of(seen, cells.positions.size());
+    return sights;
+}
+
+} // namespace vcarve

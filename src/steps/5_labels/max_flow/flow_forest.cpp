@@ -1,0 +1,409 @@
+#include "steps/5_labels/max_flow/flow_forest.h"
+
+#include "base/prefetch.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <utility>
+
+// A one-sided relative of excesses incremental breadth-first search: Goldberg, Hed, Kaplan, Kohli,
+// Tarjan, Werneck, "Faster and more dynamic maximum flow by incremental breadth-first search"
+// (ESA 2015), after "Maximum flows by incremental breadth-first search" (ESA 2011).
+//
+// A forest of shortest paths grows level by level from the cells with a deficit, against the arcs
+// with residual capacity. Where it meets excess it pulls what the arc carries and pushes it from
+// parent to parent down to the roots. An arc that saturates, or a root that is filled, leaves
+// orphans. Those that find no other parent on their level are detached with all below them, then
+// reattached by breadth-first search from what still stands, or left out of the forest. What cannot
+// reach a root is left as excess outside the forest. When the forest grows no more it holds exactly
+// the cells that reach a deficit, and no arc with residual capacity enters it: the minimum cut.
+//
+// Departures from the papers: only the sink side grows, since our excess sits next to the deficits;
+// detached cells are reattached in one search instead of relabelled one by one; and blocks of
+// consecutive cells, which lie close together in space and fit a cache, are first solved alone,
+// side by side, then merged. Whatever they push, the labels come out the same.
+//
+// Blocks are merged by growing through their forests again, but only from cells that can lower a
+// level: first those with a neighbour in another block, then those whose own level was lowered. The
+// levels of all others stay right. Up to depth_ the forest is what it would be had it grown from
+// nothing; below hang parts of the old ones, whose cells hold no excess, whose levels may be too
+// high, and whose parents then are higher up than the level above.
+//
+// Loops over the facets of a cell first gather in bits, without branches, which ones are meant:
+// what holds for a facet is too irregular to be predicted.
+//
+// Cost: while a forest grows, a cell's level only rises, each rise costs a constant, and between
+// rises of cells with excess an augmentation pushes once a cell: O(cells^3) at worst, nearly linear
+// on networks of sights. A merge lowers levels of the forests it merges first.
+
+namespace vcarve {
+namespace {
+
+constexpr std::int32_t kElsewhere = -1; ///< level of cells not in the block
+constexpr std::size_t kFetchAhead = 8;
+/// Enough to share augmentations, few enough to stay in the cache.
+constexpr int kScansPerAugmentation = 256;
+
+} // namespace
+
+std::int32_t FlowForest::level(Index cell) const
+{
+    const bool here = cell - first_ < count_;
+    const std::int32_t found = nodes_[here ? cell : first_].level;
+    return here ? found : kElsewhere;
+}
+
+/// The cell, or the other one if it is not in the block.
+Index FlowForest::if_here(Index cell, Index other) const
+{
+    return cell - first_ < count_ ? cell : other;
+}
+
+void FlowForest::join(Index cell, int parent, std::int32_t level)
+{
+    FlowNode& node = nodes_[cell];
+    node.level = level;
+    node.parent = static_cast<std::uint8_t>(parent);
+    if (level != depth_ || node.waits) return;
+    node.waits = true;
+    front_.push_back(cell);
+}
+
+void FlowForest::list_to_augment(Index cell)
+{
+    FlowNode& node = nodes_[cell];
+    if (node.is_active || node.excess <= 0) return;
+    node.is_active = true;
+    active_.add(cell, node.level);
+}
+
+// ---- orphans ------------------------------------------------------------------------------------
+
+/// Adopts an orphan: gives it another parent that keeps it on its level, if there is one.
+bool FlowForest::adopt(Index cell)
+{
+    const std::int32_t above = nodes_[cell].level - 1;
+    if (above == 0) return false;
+    unsigned parents = 0;
+    for (int slot = 0; slot < 4; ++slot) {
+        const std::int32_t there = level(graph_.neighbor(cell, slot));
+        const bool fits = (there == above) & (graph_.capacity_out(cell, slot) != 0);
+        parents |= static_cast<unsigned>(fits) << slot;
+    }
+    for (; parents != 0; parents &= parents - 1) {
+        const int slot = std::countr_zero(parents);
+        // Roots that have been filled are orphans themselves.
+        if (above == 1 && nodes_[graph_.neighbor(cell, slot)].excess >= 0) continue;
+        nodes_[cell].parent = static_cast<std::uint8_t>(slot);
+        return true;
+    }
+    return false;
+}
+
+void FlowForest::adopt_or_detach(Index cell)
+{
+    if (adopt(cell)) return;
+    const std::int32_t own = nodes_[cell].level;
+    nodes_[cell].level = 0;
+    detached_.push_back(cell);
+    unsigned children = 0;
+    for (int slot = 0; slot < 4; ++slot) {
+        const FlowNode& child = nodes_[if_here(graph_.neighbor(cell, slot), cell)];
+        const bool hangs = (child.level > own) & (child.parent == graph_.mirror(cell, slot));
+        children |= static_cast<unsigned>(hangs) << slot;
+    }
+    for (; children != 0; children &= children - 1) {
+        const Index child = graph_.neighbor(cell, std::countr_zero(children));
+        nodes_[child].parent = kNoParent;
+        orphans_.add(child, nodes_[child].level);
+    }
+}
+
+/// Lists a detached cell under the level it gets from what still stands of the forest.
+void FlowForest::seek_parent(Index cell)
+{
+    std::int32_t best = depth_;
+    int best_slot = kNoParent;
+    for (int slot = 0; slot < 4; ++slot) {
+        const std::int32_t above = level(graph_.neighbor(cell, slot));
+        const bool better = (above > 0) & (above < best) & (graph_.capacity_out(cell, slot) != 0);
+        best = better ? above : best;
+        best_slot = better ? slot : best_slot;
+    }
+    nodes_[cell].parent = static_cast<std::uint8_t>(best_slot);
+    if (best < depth_) orphans_.add(cell, best + 1);
+}
+
+/// Hangs on a reattached cell the detached ones around it.
+void FlowForest::reach_from(Index cell)
+{
+    const std::int32_t below = nodes_[cell].level + 1;
+    if (below > depth_) return;
+    unsigned reached = 0;
+    for (int slot = 0; slot < 4; ++slot) {
+        const Index beyond = if_here(graph_.neighbor(cell, slot), cell);
+        const std::uint32_t capacity = graph_.capacity_out(beyond, graph_.mirror(cell, slot));
+        const bool hangs = (nodes_[beyond].level == 0) & (capacity != 0);
+        reached |= static_cast<unsigned>(hangs) << slot;
+    }
+    for (; reached != 0; reached &= reached - 1) {
+        const int slot = std::countr_zero(reached);
+        const Index beyond = graph_.neighbor(cell, slot);
+        join(beyond, graph_.mirror(cell, slot), below);
+        next_wave_.push_back(beyond);
+    }
+}
+
+/// Breadth-first search of the detached cells, from where they touch the forest.
+void FlowForest::reattach()
+{
+    for (std::int32_t level = orphans_.lowest(); level <= depth_; ++level) {
+        wave_.clear();
+        std::swap(wave_, next_wave_);
+        while (orphans_.lowest() == level) {
+            const Index cell = orphans_.take(level);
+            if (nodes_[cell].level != 0) continue;
+            join(cell, nodes_[cell].parent, level);
+            wave_.push_back(cell);
+        }
+        for (const Index cell : wave_)
+            reach_from(cell);
+        if (next_wave_.empty()) level = orphans_.lowest() - 1;
+    }
+}
+
+/// Mends the forest after augmenting. Orphans come by rising level: above them all is settled.
+void FlowForest::repair()
+{
+    for (std::int32_t level = orphans_.lowest(); level != kMost; level = orphans_.lowest())
+        adopt_or_detach(orphans_.take(level));
+    for (const Index cell : detached_)
+        seek_parent(cell);
+    reattach();
+    for (const Index cell : detached_) {
+        if (nodes_[cell].level > 0) {
+            list_to_augment(cell);
+        } else if (!visits_.empty()) {
+            list_to_visit_around(cell);
+        }
+    }
+    detached_.clear();
+}
+
+// ---- augmenting ---------------------------------------------------------------------------------
+
+/// Pushes the excess of a cell on, by as many parents on the level above as that takes.
+void FlowForest::augment(Index cell)
+{
+    FlowNode& node = nodes_[cell];
+    while (node.excess > 0) {
+        const int slot = node.parent;
+        const Index parent = graph_.neighbor(cell, slot);
+        const bool to_root = nodes_[parent].level == 1;
+        const std::uint32_t room = graph_.room(parent);
+        const auto excess = static_cast<std::uint32_t>(node.excess);
+        const std::uint32_t amount = std::min({excess, graph_.capacity_out(cell, slot), room});
+        graph_.push(cell, slot, amount);
+        if (!to_root) list_to_augment(parent);
+
+        const bool filled = to_root && amount == room;
+        if (filled && room > 0) orphans_.add(parent, 1);
+        if (filled || graph_.capacity_out(cell, slot) == 0) {
+            if (adopt(cell)) continue;
+            node.parent = kNoParent;
+            orphans_.add(cell, node.level);
+            return;
+        }
+        if (node.excess > 0) {
+            late_.push_back(cell);
+            return;
+        }
+    }
+}
+
+/// Augments from the deepest level up, so that excess gathers on the way; then mends the forest,
+/// and again for what was reattached with excess. Leaves no excess in the forest.
+void FlowForest::augment_all()
+{
+    do {
+        for (std::int32_t level = active_.highest(); level != 0; level = active_.highest()) {
+            const Index cell = active_.take(level);
+            nodes_[cell].is_active = false;
+            augment(cell);
+        }
+        repair();
+        for (const Index cell : late_) {
+            if (nodes_[cell].level > 0) list_to_augment(cell);
+        }
+        late_.clear();
+    } while (active_.highest() != 0);
+}
+
+// ---- growing ------------------------------------------------------------------------------------
+
+/// Pulls the excess around a cell and makes the cells that have none left its children. Stops and
+/// returns true when the cell has no room.
+bool FlowForest::activate(Index cell)
+{
+    unsigned gains = 0;
+    for (int slot = 0; slot < 4; ++slot) {
+        const std::int32_t there = level(graph_.neighbor(cell, slot));
+        gains |= static_cast<unsigned>((there == 0) | (there > depth_)) << slot;
+    }
+    for (; gains != 0; gains &= gains - 1) {
+        const int slot = std::countr_zero(gains);
+        const Index beyond = graph_.neighbor(cell, slot);
+        const int mirror = graph_.mirror(cell, slot);
+        const std::uint32_t capacity = graph_.capacity_out(beyond, mirror);
+        if (capacity == 0) continue;
+        if (nodes_[beyond].excess > 0) {
+            const std::uint32_t room = graph_.room(cell);
+            const auto excess = static_cast<std::uint32_t>(nodes_[beyond].excess);
+            const std::uint32_t amount = std::min({excess, capacity, room});
+            graph_.push(beyond, mirror, amount);
+            if (amount == room) return true;
+            if (amount == capacity) continue;
+        }
+        join(beyond, mirror, depth_);
+    }
+    return false;
+}
+
+void FlowForest::grow_from(Index cell)
+{
+    const std::int32_t own = nodes_[cell].level;
+    bool full = true;
+    while (full && nodes_[cell].level == own) {
+        full = activate(cell);
+        list_to_augment(cell);
+        if (full && own == 1) orphans_.add(cell, 1);
+        if (full) augment_all();
+    }
+}
+
+/// Asks early for the memory that the next cells of growing_ need: half of the time of a large
+/// front is waiting for it.
+void FlowForest::fetch_ahead(std::size_t at) const
+{
+    if (at + 2 * kFetchAhead >= growing_.size()) return;
+    const Index far = growing_[at + 2 * kFetchAhead];
+    prefetch(&graph_.cells[far].neighbors);
+    prefetch(&nodes_[far]);
+    for (const Index beyond : graph_.cells[growing_[at + kFetchAhead]].neighbors) {
+        prefetch(&nodes_[beyond]);
+        prefetch(&graph_.arc_capacities[beyond]);
+    }
+}
+
+/// Adds a level to the forest.
+void FlowForest::grow()
+{
+    growing_.clear();
+    std::swap(growing_, front_);
+    for (const Index cell : growing_)
+        nodes_[cell].waits = false;
+    const std::int32_t level = depth_++;
+    if (static_cast<std::size_t>(level) < visits_.size()) {
+        const std::vector<Index> visits = std::move(visits_[static_cast<std::size_t>(level)]);
+        growing_.insert(growing_.end(), visits.begin(), visits.end());
+    }
+    int scans = 0;
+    for (std::size_t k = 0; k < growing_.size(); ++k) {
+        fetch_ahead(k);
+        const Index cell = growing_[k];
+        if (nodes_[cell].level == level) grow_from(cell);
+        if (++scans % kScansPerAugmentation == 0) augment_all();
+    }
+    augment_all();
+}
+
+FilledBlock FlowForest::fill()
+{
+    FilledBlock filled = {first_, first_ + count_, 0, {}};
+    for (Index cell = first_; cell - first_ < count_; ++cell) {
+        if (nodes_[cell].excess < 0) join(cell, kNoParent, 1);
+        if (leaves(cell)) filled.border.push_back(cell);
+    }
+    settle();
+    filled.deepest = depth_;
+    return filled;
+}
+
+void FlowForest::add_source_capacity(Index cell, std::int32_t flow)
+{
+    FlowNode& node = nodes_[cell];
+    const bool was_root = node.excess < 0;
+    // Held below the end of 32 bits: so much is more than any cell can pass on.
+    node.excess =
+        static_cast<std::int32_t>(std::min(std::int64_t{node.excess} + flow, std::int64_t{kMost}));
+    changed_.push_back(cell);
+    // A root that is filled is one no more.
+    if (was_root && node.excess >= 0 && node.level == 1) orphans_.add(cell, 1);
+}
+
+void FlowForest::settle()
+{
+    repair();
+    for (const Index cell : changed_) {
+        if (nodes_[cell].level > 0) list_to_augment(cell);
+    }
+    changed_.clear();
+    augment_all();
+    while (!front_.empty())
+        grow();
+}
+
+// ---- merging ------------------------------------------------------------------------------------
+
+/// Whether a cell has a neighbour that is not in the block.
+bool FlowForest::leaves(Index cell) const
+{
+    const std::array<Index, 4>& neighbors = graph_.cells[cell].neighbors;
+    return std::any_of(neighbors.begin(), neighbors.end(),
+                       [&](Index beyond) { return beyond - first_ >= count_; });
+}
+
+/// Whether a cell gives a neighbour a lower level than it has.
+bool FlowForest::lowers(Index cell) const
+{
+    const std::int32_t own = nodes_[cell].level;
+    if (own == 0) return false;
+    for (int slot = 0; slot < 4; ++slot) {
+        const std::int32_t there = level(graph_.neighbor(cell, slot));
+        const bool higher = there == 0 || there > own + 1;
+        if (higher && graph_.capacity_in(cell, slot) != 0) return true;
+    }
+    return false;
+}
+
+/// Lists the cells of old forests that may be the way back of a cell that got detached.
+void FlowForest::list_to_visit_around(Index cell)
+{
+    for (const Index beyond : graph_.cells[cell].neighbors) {
+        // Those that wait will be visited anyway.
+        if (level(beyond) < depth_ || nodes_[beyond].waits) continue;
+        visits_[static_cast<std::size_t>(nodes_[beyond].level)].push_back(beyond);
+    }
+}
+
+FilledBlock FlowForest::merge(std::span<const FilledBlock> parts)
+{
+    FilledBlock merged = {first_, first_ + count_, 1, {}};
+    for (const FilledBlock& part : parts)
+        merged.deepest = std::max(merged.deepest, part.deepest);
+    visits_.resize(static_cast<std::size_t>(merged.deepest) + 1);
+    for (const FilledBlock& part : parts) {
+        for (const Index cell : part.border) {
+            if (leaves(cell)) merged.border.push_back(cell);
+            if (lowers(cell)) visits_[static_cast<std::size_t>(nodes_[cell].level)].push_back(cell);
+        }
+    }
+    while (depth_ <= merged.deepest || !front_.empty())
+        grow();
+    visits_.clear();
+    merged.deepest = depth_;
+    return merged;
+}
+
+} // namespace vcarve

@@ -1,0 +1,129 @@
+#include "steps/5_labels/max_flow/max_flow.h"
+
+#include "base/droppable_pages.h"
+#include "base/parallel.h"
+#include "steps/5_labels/max_flow/flow_forest.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+namespace vcarve {
+namespace {
+
+void check_sizes(const TetMesh& cells, const FlowNetwork& network)
+{
+    const std::size_t count = cells.cells.size();
+    if (cells.mirrors.size() != count || network.arc_capacities.size() != count ||
+        network.terminal_capacities.size() != count)
+        throw std::invalid_argument("minimum_cut: cells, mirrors and network differ in size");
+}
+
+/// Makes the node of a cell; `graph` has its arcs.
+void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph& graph)
+{
+    graph.nodes[cell] = {.level = 0,
+                         .excess = excess,
+                         .next = kInfinite,
+                         .mirrors = cells.mirrors[cell],
+                         .parent = kNoParent,
+                         .waits = false,
+                         .is_active = false};
+    for (int slot = 0; slot < 4; ++slot) {
+        std::int32_t& capacity = graph.arc_capacities[cell][slot];
+        if (capacity < 0) throw std::invalid_argument("minimum_cut: an arc capacity is negative");
+        // An arc back to its own cell is in no cut.
+        if (graph.neighbor(cell, slot) == cell) capacity = 0;
+    }
+}
+
+/// Makes all nodes of the graph and fills blocks of so many alone.
+std::vector<FilledBlock> fill_blocks(const TetMesh& cells,
+                                     UnsetArray<std::int32_t> terminal_capacities, FlowGraph& graph,
+                                     std::size_t block_size, const Progress& progress)
+{
+    const std::size_t count = terminal_capacities.size();
+    std::vector<FilledBlock> blocks((count + block_size - 1) / block_size);
+    const auto fill = [&](std::size_t block) {
+        const auto first = static_cast<Index>(block * block_size);
+        const auto last = static_cast<Index>(std::min(count, (block + 1) * block_size));
+        for (Index cell = first; cell < last; ++cell)
+            make_node(cells, cell, terminal_capacities[cell], graph);
+        blocks[block] = FlowForest(graph, first, last).fill();
+    };
+    parallel_for(blocks.size(), progress, fill, 1);
+    return blocks;
+}
+
+/// Merges so many blocks at a time.
+std::vector<FilledBlock> merge_blocks(std::span<const FilledBlock> blocks, FlowGraph& graph,
+                                      std::size_t at_a_time, const Progress& progress)
+{
+    std::vector<FilledBlock> merged((blocks.size() + at_a_time - 1) / at_a_time);
+    const auto merge = [&](std::size_t i) {
+        const std::size_t begin = i * at_a_time;
+        const auto parts = blocks.subspan(begin, std::min(at_a_time, blocks.size() - begin));
+        merged[i] = FlowForest(graph, parts.front().first, parts.back().last).merge(parts);
+    };
+    parallel_for(merged.size(), progress, merge, 1);
+    return merged;
+}
+
+} // namespace
+
+struct MinimumCut::Solver {
+    Solver(const UnsetArray<Cell>& cells, ArcCapacities arc_capacities)
+        : graph{cells, std::move(arc_capacities), UnsetArray<FlowNode>(cells.size())},
+          forest(graph, 0, static_cast<Index>(cells.size()))
+    {
+    }
+
+    FlowGraph graph;
+    FlowForest forest;
+};
+
+MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks,
+                       const Progress& progress)
+{
+    check_sizes(cells, network);
+    if (blocks.cells == 0 || blocks.merged < 2)
+        throw std::invalid_argument("minimum_cut: the blocks are too small");
+    solver_ = std::make_unique<Solver>(cells.cells, std::move(network.arc_capacities));
+    FlowGraph& graph = solver_->graph;
+    std::vector<FilledBlock> filled = fill_blocks(cells, std::move(network.terminal_capacities),
+                                                  graph, blocks.cells, progress.part(0.0, 0.7));
+    // Merging asks for few cells of many runs of them.
+    const ScatteredUse few_of_many;
+    while (filled.size() > blocks.merged)
+        filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));
+    solver_->forest.merge(filled);
+}
+
+MinimumCut::~MinimumCut() = default;
+
+void MinimumCut::add_source_capacity(std::span<const Index> cells, std::int32_t flow)
+{
+    const ScatteredUse few_of_many;
+    for (const Index cell : cells)
+        solver_->forest.add_source_capacity(cell, flow);
+    solver_->forest.settle();
+}
+
+Labels MinimumCut::labels() const
+{
+    const FlowGraph& graph = solver_->graph;
+    Labels labels(graph.cells.size());
+    parallel_for(labels.size(), [&](std::size_t cell) {
+        labels[cell] = graph.nodes[cell].level > 0 ? Label::inside : Label::outside;
+    });
+    return labels;
+}
+
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks)
+{
+    return MinimumCut(cells, std::move(network), blocks).labels();
+}
+
+} // namespace vcarve

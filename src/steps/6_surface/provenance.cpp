@@ -1,0 +1,55 @@
+#include "steps/6_surface/provenance.h"
+
+#include "base/parallel.h"
+#include "steps/4_visibility/face_evidence.h"
+#include "vcarve/error.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace vcarve {
+
+namespace {
+
+constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53; // doubles hold whole numbers up to it
+
+bool is_of_model(std::uint32_t point, const Scene& scene)
+{
+    return point != kNoPoint && !is_added_point(scene.point_ids[point]);
+}
+
+void require_exact_ids(const TriMesh& mesh, const Scene& scene)
+{
+    for (const std::uint32_t point : mesh.points) {
+        if (is_of_model(point, scene) && scene.point_ids[point] > kLargestId) {
+            throw InputError(fmt::format("point {} cannot be written with --attributes: a PLY file "
+                                         "holds ids up to {} only",
+                                         scene.point_ids[point], kLargestId));
+        }
+    }
+}
+
+} // namespace
+
+Provenance find_provenance(const TriMesh& mesh, const Scene& scene)
+{
+    require_exact_ids(mesh, scene);
+    Provenance found;
+    found.point_ids.assign(mesh.positions.size(), -1);
+    found.num_views.assign(mesh.positions.size(), 0);
+    found.errors_px.assign(mesh.positions.size(), -1.0F);
+    parallel_for(mesh.positions.size(), [&](std::size_t vertex) {
+        const std::uint32_t point = mesh.points[vertex];
+        if (point == kNoPoint) return;
+        found.num_views[vertex] = static_cast<std::int32_t>(scene.tracks[point].size());
+        if (!is_of_model(point, scene)) return;
+        found.point_ids[vertex] = static_cast<std::int64_t>(scene.point_ids[point]);
+        const double error = scene.errors_px[point];
+        found.errors_px[vertex] = error < 0.0 ? -1.0F : static_cast<float>(error);
+    });
+    found.supports = face_supports(mesh, scene);
+    return found;
+}
+
+} // namespace vcarve
