@@ -3,20 +3,23 @@
 # parallel; and those called after what they use, named here. What runs the whole program is left out:
 # ThreadSanitizer takes long for it, and the tests of the library do in parallel all that it does.
 function(vcarve_threaded_tests out)
-  set(threaded baseline_surface_test.cpp colmap_model_test.cpp dense_scene_test.cpp scan_scene_test.cpp)
+  set(named baselines/baseline_surface_test.cpp io/colmap/colmap_model_test.cpp
+    io/dense/dense_scene_test.cpp io/dense/scan_scene_test.cpp)
+  set(threaded "")
   foreach(test IN LISTS ARGN)
     string(REPLACE "_test.cpp" "" subject ${test})
-    file(GLOB_RECURSE subjects ${PROJECT_SOURCE_DIR}/src/${subject}.cpp
-      ${PROJECT_SOURCE_DIR}/src/${subject}.h)
     set(text "")
-    foreach(file IN LISTS subjects ITEMS ${CMAKE_CURRENT_SOURCE_DIR}/${test})
-      file(READ ${file} part)
-      string(APPEND text "${part}")
+    foreach(file IN ITEMS ${PROJECT_SOURCE_DIR}/src/${subject}.cpp
+        ${PROJECT_SOURCE_DIR}/src/${subject}.h ${CMAKE_CURRENT_SOURCE_DIR}/${test})
+      if(EXISTS ${file})
+        file(READ ${file} part)
+        string(APPEND text "${part}")
+      endif()
     endforeach()
-    if(text MATCHES "[Tt]hread|parallel|tbb" AND NOT text MATCHES "support/program\\.h")
+    if(test IN_LIST named OR
+        (text MATCHES "[Tt]hread|parallel|tbb" AND NOT text MATCHES "support/program\\.h"))
       list(APPEND threaded ${test})
     endif()
   endforeach()
-  list(REMOVE_DUPLICATES threaded)
   set(${out} ${threaded} PARENT_SCOPE)
 endfunction()

@@ -1,4 +1,5 @@
 #include "paper/objects.h"
+#include "support/places.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -20,8 +21,7 @@ TEST_P(EveryPaperObject, IsMadeAgainByteForByteAndCarvedExactly)
 
     const TemporaryFolder folder;
     write_fixture(folder / "made", fixture);
-    const std::filesystem::path committed =
-        std::filesystem::path(VCARVE_FIXTURES) / "paper" / GetParam().name;
+    const std::filesystem::path committed = fixtures_folder() / "paper" / GetParam().name;
     for (const char* file : {"cameras.txt", "images.txt", "points3D.txt", "solid.ply"}) {
         EXPECT_FALSE(bytes_of(committed / file).empty()) << committed / file;
         EXPECT_EQ(bytes_of(folder / "made" / file), bytes_of(committed / file)) << file;

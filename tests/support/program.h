@@ -1,5 +1,6 @@
 #pragma once
 
+#include "support/places.h"
 #include "support/subprocess.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +13,7 @@ namespace vcarve {
 /// The words that run colmap-vcarve with these arguments.
 inline std::vector<std::string> program_with(std::vector<std::string> arguments)
 {
-    arguments.insert(arguments.begin(), VCARVE_PROGRAM);
+    arguments.insert(arguments.begin(), built_program());
     return arguments;
 }
 

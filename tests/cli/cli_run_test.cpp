@@ -1,0 +1,239 @@
+#include "cli/option_table.h"
+#include "support/ball_model.h"
+#include "support/places.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+#include "vcarve/reconstruct.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace vcarve {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+/// A folder with a model of a ball in "ball", small enough to be meshed at once.
+class ProgramOnBall : public testing::Test {
+  protected:
+    ProgramOnBall() { write_ball_model(ball, 400); }
+
+    TemporaryFolder folder;
+    std::string ball = folder / "ball";
+    std::string out = folder / "out.ply";
+    std::string stats = folder / "stats.json";
+};
+
+TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
+{
+    const Outcome outcome = run_program({ball, out});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err,
+                MatchesRegex("read +400 points \\(6 views, [0-9]+ sights\\) +[0-9.]+ s\n"
+                             "memory +[0-9]+ MiB expected +[0-9.]+ s\n"
+                             "filter +[0-9]+ of 400 points.* s\n"
+                             "triangulate +[0-9,]+ cells +[0-9.]+ s\n"
+                             "(.|\n)*"
+                             "write +[0-9,]+ faces \\([0-9,]+ vertices\\) +[0-9.]+ s\n" +
+                             out + ": [0-9,]+ faces, closed; .*\n"));
+    EXPECT_THAT(outcome.err, Not(ContainsRegex("[\r\x1b]"))) << "plain lines where piped";
+    EXPECT_THAT(bytes_of(out), HasSubstr("format binary_little_endian"));
+    EXPECT_EQ(folder.num_entries(), 2U);
+}
+
+/// What the program writes to a terminal of this kind.
+std::string shown_on_terminal(const std::string& environment,
+                              const std::vector<std::string>& arguments)
+{
+    std::string line = "env -u NO_COLOR " + environment + " '" + built_program() + "'";
+    for (const std::string& argument : arguments) {
+        line += " '" + argument + "'";
+    }
+    return Subprocess({"/usr/bin/script", "-qec", line, "/dev/null"}).wait().out;
+}
+
+TEST_F(ProgramOnBall, EmphasisesOnATerminalUnlessNoColorForbidsIt)
+{
+    const auto shown = [&](const std::string& environment) {
+        return shown_on_terminal(environment, {ball, out});
+    };
+    const std::string bold = "\x1b[1m" + out + ": ";
+    EXPECT_THAT(shown("TERM=xterm"), HasSubstr(bold));
+    EXPECT_THAT(shown("TERM=xterm NO_COLOR="), HasSubstr(bold)) << "empty is not set";
+    for (const char* plain : {"TERM=xterm NO_COLOR=1", "TERM=dumb"}) {
+        EXPECT_THAT(shown(plain), AllOf(HasSubstr(out + ": "), Not(HasSubstr("\x1b["))));
+    }
+}
+
+TEST_F(ProgramOnBall, CountsTheEdgesAtWhichItsSurfaceIsOpen)
+{
+    ASSERT_EQ(run_program({ball, out, "--stats", stats, "--crop=-2,-2,-2,2,2,0.3"}).exit_code, 0);
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    const auto& stages = record["stages"];
+    const auto orient =
+        std::ranges::find_if(stages, [](const auto& stage) { return stage["name"] == "orient"; });
+    ASSERT_NE(orient, stages.end());
+    EXPECT_GT(record["mesh"]["boundary_edges"], 0);
+    EXPECT_EQ((*orient)["counts"]["boundary edges"], record["mesh"]["boundary_edges"]);
+}
+
+TEST_F(ProgramOnBall, IsSilentOnRequest)
+{
+    const Outcome outcome = run_program({"--quiet", ball, out});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.out + outcome.err, IsEmpty());
+}
+
+TEST_F(ProgramOnBall, WritesTextOnRequest)
+{
+    EXPECT_EQ(run_program({ball, out, "--ascii"}).exit_code, 0);
+    EXPECT_THAT(bytes_of(out), HasSubstr("format ascii"));
+}
+
+TEST_F(ProgramOnBall, WritesTheSameBytesForAnyNumberOfThreads)
+{
+    std::vector<std::string> written;
+    for (const char* threads : {"0", "1", "2", "3"}) {
+        EXPECT_EQ(run_program({ball, out, "--threads", threads}).exit_code, 0);
+        written.push_back(bytes_of(out));
+    }
+    EXPECT_FALSE(written[0].empty());
+    EXPECT_TRUE(std::ranges::all_of(written, [&](const auto& w) { return w == written[0]; }));
+}
+
+TEST_F(ProgramOnBall, RecordsTheRun)
+{
+    ASSERT_EQ(run_program({ball, out, "--stats", stats, "--min-views=1", "--method", "strict",
+                           "--threads", "1"})
+                  .exit_code,
+              0);
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    EXPECT_EQ(record["input"]["points"], 400);
+    EXPECT_EQ(record["input"]["views"], 6);
+    EXPECT_EQ(record["input"]["format"], "text");
+    EXPECT_EQ(record["output"], out);
+    EXPECT_EQ(record["threads_used"], 1);
+    EXPECT_EQ(record["options"]["min-views"], 1);
+    EXPECT_EQ(record["options"]["method"], "strict");
+    EXPECT_EQ(record["options"]["ascii"], false);
+    EXPECT_EQ(record["program"]["name"], "colmap-vcarve");
+    EXPECT_EQ(record["stages"].front()["name"], "read");
+    EXPECT_EQ(record["stages"].back()["name"], "write");
+    EXPECT_EQ(record["stages"].back()["counts"]["faces"], record["mesh"]["faces"]);
+    for (const auto& stage : record["stages"]) {
+        EXPECT_GT(stage["seconds"], 0.0);
+        EXPECT_GT(stage["peak_memory_bytes"], 0);
+        EXPECT_LE(stage["seconds"], record["total"]["seconds"]);
+        EXPECT_LE(stage["peak_memory_bytes"], record["total"]["peak_memory_bytes"]);
+    }
+}
+
+TEST_F(ProgramOnBall, TakesAModelThatNeedsNoMoreMemoryThanAllowed)
+{
+    EXPECT_EQ(run_program({ball, out, "--quiet", "--max-memory", "1G"}).exit_code, 0);
+}
+
+TEST_F(ProgramOnBall, RefusesAModelThatNeedsTooMuchMemory)
+{
+    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M", "--blocks", "0"}),
+                MatchesRegex("colmap-vcarve: .*ball: 400 points with [0-9]+ sights need about "
+                             "[0-9.]+M of memory, and --max-memory allows 1M\n"));
+    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M"}),
+                HasSubstr("M of memory even in blocks, and --max-memory allows 1M\n"));
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ProgramOnBall, RefusesABinaryModelForItsMemoryBeforeReadingIt)
+{
+    // A file that reading would refuse: its one point lacks the last byte of its track.
+    const std::string count = std::string("\1\0\0\0\0\0\0\0", 8);
+    folder.write("cut/cameras.bin", count);
+    folder.write("cut/images.bin", count);
+    folder.write("cut/points3D.bin", count + std::string(51 + 7, '\0'));
+    EXPECT_THAT(sentence_of(3, {"--quiet", folder / "cut", out, "--max-memory", "1M"}),
+                HasSubstr("1 points with 0 sights need about"));
+}
+
+TEST_F(ProgramOnBall, RecordsEveryOption)
+{
+    ASSERT_EQ(run_program({ball, out, "--stats", stats}).exit_code, 0);
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    Options options;
+    cli::OptionTable table;
+    options.visit(table);
+    for (const cli::OptionRow& row : table.rows()) {
+        EXPECT_TRUE(record["options"].contains(row.name)) << row.name;
+    }
+}
+
+TEST_F(ProgramOnBall, ReplacesAnEarlierSurfaceOnlyWhenItSucceeds)
+{
+    folder.write("out.ply", "earlier");
+    const Outcome failed = run_program({folder / "nothing", out});
+    EXPECT_EQ(failed.exit_code, 3);
+    EXPECT_EQ(bytes_of(out), "earlier");
+    EXPECT_EQ(run_program({ball, out}).exit_code, 0);
+    EXPECT_THAT(bytes_of(out), HasSubstr("element face"));
+}
+
+TEST_F(ProgramOnBall, LeavesModelsNearTheOriginWhereTheyAre)
+{
+    EXPECT_EQ(run_program({ball, out}).exit_code, 0);
+    const std::string before = bytes_of(out);
+    const Outcome outcome = run_program({ball, out, "--offset", "auto", "--stats", stats});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(bytes_of(out), before);
+    EXPECT_THAT(outcome.err, Not(HasSubstr("minus")));
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    EXPECT_EQ(record["offset"], nlohmann::json::parse("[0.0, 0.0, 0.0]"));
+    EXPECT_EQ(record["options"]["offset"], "auto");
+}
+
+TEST_F(ProgramOnBall, SaysWhichOffsetItSubtracts)
+{
+    write_ball_model(ball, 400, {5e5, 4.6e6, 1.0});
+    const Outcome outcome = run_program({ball, out, "--offset", "auto", "--stats", stats});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("the coordinates written are those of the model minus 500000, 4600000, "
+                          "0\n"));
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    EXPECT_EQ(record["offset"], nlohmann::json::parse("[500000.0, 4600000.0, 0.0]"));
+    EXPECT_EQ(sentence_of(2, {ball, out, "--offset", "5e5,4.6e6"}),
+              "colmap-vcarve: --offset takes none, auto or x,y,z, not \"5e5,4.6e6\"\n");
+}
+
+TEST_F(ProgramOnBall, WarnsOfFloatsFarFromTheOrigin)
+{
+    write_ball_model(ball, 400, {5e5, 4.6e6, 1.0});
+    const std::string stl = folder / "out.stl";
+    EXPECT_THAT(run_program({ball, stl}).err,
+                ContainsRegex("the floats of [^ ]*out.stl move vertices by up "
+                              "to [0-9.]+e-02 of the surface's size; "
+                              "--offset auto avoids that\n"));
+    EXPECT_THAT(run_program({ball, stl, "--offset", "auto"}).err, Not(HasSubstr("floats")));
+}
+
+TEST_F(ProgramOnBall, WritesTheFormatThatTheNameMeans)
+{
+    const std::string obj = folder / "out.obj";
+    const std::string glb = folder / "out.glb";
+    EXPECT_EQ(run_program({ball, obj}).exit_code, 0);
+    EXPECT_EQ(run_program({ball, glb}).exit_code, 0);
+    EXPECT_THAT(bytes_of(obj), StartsWith("# made by colmap-vcarve "));
+    EXPECT_THAT(bytes_of(glb), StartsWith("glTF"));
+    EXPECT_EQ(folder.num_entries(), 3U);
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,301 @@
+// The command `compare`, run as the user runs it.
+#include "support/ball_model.h"
+#include "support/places.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+/// A model of a ball and its surface as this program makes it.
+class CompareOnBall : public testing::Test {
+  protected:
+    CompareOnBall()
+    {
+        write_ball_model(model, 400);
+        EXPECT_EQ(run_program({"--quiet", model, mesh}).exit_code, 0);
+    }
+
+    Outcome compare(std::vector<std::string> more) const
+    {
+        more.insert(more.begin(), {"compare", model, "--samples", "2000"});
+        return run_program(more);
+    }
+
+    nlohmann::json figures(const std::vector<std::string>& more) const
+    {
+        std::vector<std::string> words = {"--json", json};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = compare(words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return nlohmann::json::parse(bytes_of(json));
+    }
+
+    /// Expects the command to fail with this code and no table, and gives its sentence.
+    std::string refusal_of(int exit_code, const std::vector<std::string>& more) const
+    {
+        return sentence_of_run(exit_code, compare(more));
+    }
+
+    /// A program that stands in for COLMAP.
+    std::string script(const std::string& body) const
+    {
+        const std::filesystem::path path = folder.write("mesher", "#!/bin/sh\n" + body + "\n");
+        std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+        return path.string();
+    }
+
+    TemporaryFolder folder;
+    std::string model = folder / "ball";
+    std::string mesh = folder / "mesh.ply";
+    std::string json = folder / "figures.json";
+};
+
+TEST_F(CompareOnBall, PrintsATableWithAColumnForEachMeshAndWhatItMeans)
+{
+    const Outcome outcome = compare({mesh, mesh});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.out, StartsWith("| "));
+    const std::string head = outcome.out.substr(0, outcome.out.find('\n'));
+    EXPECT_EQ(head.substr(head.find("| /")), "| " + mesh + " | " + mesh + " |");
+    EXPECT_THAT(outcome.out, HasSubstr("| hidden sights "));
+    EXPECT_THAT(outcome.out, HasSubstr("\nhidden sights: share of lines"));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("seconds")));
+    EXPECT_THAT(outcome.err, MatchesRegex("read +400 points (.|\n)*"
+                                          "reference +[0-9]+ points.* s\n"
+                                          "closed +[0-9]+ faces of the closed surface .* s\n"
+                                          "measure +[0-9]+ faces of .* s\n"
+                                          "measure +[0-9]+ faces of .* s\n"));
+}
+
+TEST_F(CompareOnBall, NamesColumnsByTheirFiles)
+{
+    const Outcome outcome = compare({"--quiet", mesh});
+    EXPECT_THAT(outcome.out, MatchesRegex("\\| +\\| +mesh.ply \\|\n(.|\n)*"));
+    EXPECT_THAT(outcome.err, IsEmpty());
+}
+
+TEST_F(CompareOnBall, FindsAMeshEqualToItself)
+{
+    const nlohmann::json record = figures({mesh, "--truth", mesh});
+    const nlohmann::json& truth = record["meshes"][0]["truth"];
+    ASSERT_EQ(truth["agreement"].size(), 4U);
+    for (const auto& agreement : truth["agreement"]) {
+        EXPECT_EQ(agreement["precision"], 1.0);
+        EXPECT_EQ(agreement["recall"], 1.0);
+        EXPECT_EQ(agreement["f"], 1.0);
+    }
+    EXPECT_NEAR(truth["mean_accuracy"], 0.0, 1e-12);
+    EXPECT_NEAR(truth["mean_completeness"], 0.0, 1e-12);
+    EXPECT_EQ(truth["blocked"], 0.0);
+    EXPECT_EQ(record["meshes"][0]["size"]["orientation_faults"], 0);
+}
+
+TEST_F(CompareOnBall, UnderstandsTheOffsetOfAFile)
+{
+    const std::string far_ball = folder / "far";
+    write_ball_model(far_ball, 400, {5e5, 4.6e6, 100.0});
+    const auto figures_of = [&](const std::string& offset) {
+        const std::string written = folder / (offset + ".ply");
+        // Where the points are, so that no coordinate is rounded when it is written.
+        const Outcome made =
+            run_program({"--quiet", far_ball, written, "--offset", offset, "--denoise", "0"});
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        EXPECT_EQ(run_program({"compare", "--quiet", far_ball, written, "--truth", written,
+                               "--samples", "2000", "--json", json})
+                      .exit_code,
+                  0);
+        nlohmann::json record = nlohmann::json::parse(bytes_of(json))["meshes"][0];
+        record.erase("name");
+        return record;
+    };
+    const nlohmann::json expected = figures_of("none");
+    EXPECT_EQ(expected["truth"]["agreement"][0]["f"], 1.0);
+    EXPECT_EQ(figures_of("auto"), expected);
+    EXPECT_EQ(figures_of("499000,4.5e6,-7"), expected);
+    EXPECT_THAT(bytes_of(folder / "none.ply"), Not(HasSubstr("offset")));
+    EXPECT_THAT(bytes_of(folder / "auto.ply"), HasSubstr("comment offset 500000 4600000 100\n"));
+    EXPECT_THAT(bytes_of(folder / "499000,4.5e6,-7.ply"),
+                HasSubstr("comment offset 499000 4500000 -7\n"));
+}
+
+TEST_F(CompareOnBall, GivesTheSameFiguresForAnyNumberOfThreads)
+{
+    const Outcome one = compare({mesh, "--truth", mesh, "--threads", "1"});
+    const Outcome three = compare({mesh, "--truth", mesh, "--threads", "3"});
+    EXPECT_THAT(one.out, HasSubstr("F 0.25 %"));
+    EXPECT_EQ(one.out, three.out);
+}
+
+TEST_F(CompareOnBall, SaysWhatItExpectedWhereOperandsAreMissing)
+{
+    EXPECT_EQ(refusal_of(2, {}), "colmap-vcarve: expected a model and meshes, MODEL A.ply ..., "
+                                 "but got " +
+                                     model + " (see colmap-vcarve compare --help)\n");
+}
+
+TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
+{
+    const std::string nowhere = folder / "nowhere";
+    EXPECT_EQ(refusal_of(3, {mesh, nowhere}),
+              "colmap-vcarve: " + nowhere + ": the file does not exist\n");
+    EXPECT_EQ(refusal_of(2, {mesh, "--json", nowhere + "/a.json"}),
+              "colmap-vcarve: cannot write " + nowhere + "/a.json: the folder " + nowhere +
+                  " does not exist\n");
+    EXPECT_EQ(refusal_of(2, {mesh, "--json", mesh}),
+              "colmap-vcarve: --json would replace the mesh " + mesh + "\n");
+}
+
+TEST_F(CompareOnBall, RecognisesAMeshInAnotherFrame)
+{
+    const std::string far = folder.write("far.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"
+                                                    "property float x\nproperty float y\n"
+                                                    "property float z\nelement face 1\n"
+                                                    "property list uchar int vertex_indices\n"
+                                                    "end_header\n1000 0 0\n1001 0 0\n1000 1 0\n"
+                                                    "3 0 1 2\n");
+    const Outcome outcome = compare({"--quiet", far});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err, StartsWith("colmap-vcarve: " + far + ": "));
+    EXPECT_THAT(outcome.err, HasSubstr("frame"));
+}
+
+TEST_F(CompareOnBall, PutsColmapsMeshBesideItsOwn)
+{
+    const std::string mesher = script("cp '" + mesh + "' \"$7\"");
+    const nlohmann::json record = figures({"--colmap", mesher});
+    ASSERT_EQ(record["meshes"].size(), 2U);
+    EXPECT_EQ(record["meshes"][0]["name"], "COLMAP");
+    EXPECT_EQ(record["meshes"][1]["name"], "colmap-vcarve");
+    EXPECT_EQ(record["meshes"][0]["size"], record["meshes"][1]["size"]);
+    for (const auto& column : record["meshes"]) {
+        EXPECT_GT(column["cost"]["seconds"], 0.0);
+        EXPECT_GE(column["cost"]["cpu_seconds"], 0.0);
+        EXPECT_GT(column["cost"]["peak_memory_bytes"], 0);
+    }
+}
+
+TEST_F(CompareOnBall, PutsThePapersBaselinesBesideAMesh)
+{
+    const nlohmann::json record = figures({mesh, "--baselines"});
+    ASSERT_EQ(record["meshes"].size(), 3U);
+    EXPECT_EQ(record["meshes"][0]["name"], "alpha shape");
+    EXPECT_EQ(record["meshes"][1]["name"], "sculpture");
+    EXPECT_EQ(record["meshes"][2]["name"], "mesh.ply");
+    // A sculpture has all points on one surface of genus 0, which has 2 V - 4 faces.
+    const auto& sculpture = record["meshes"][1]["size"];
+    EXPECT_EQ(sculpture["faces"], 2 * sculpture["vertices"].get<int>() - 4);
+    EXPECT_EQ(figures({"--baselines"})["meshes"].size(), 2U);
+}
+
+TEST_F(CompareOnBall, RefusesAnAlphaThatLeavesNothing)
+{
+    EXPECT_EQ(refusal_of(3, {"--quiet", "--baselines", "--alpha", "0.001"}),
+              "colmap-vcarve: no cell is as small as --alpha 0.001 asks for: 1 is the smallest "
+              "that keeps all points\n");
+}
+
+TEST_F(CompareOnBall, RunsColmapsMesherOnTheModelItFound)
+{
+    const std::string words = folder / "words";
+    const Outcome outcome = compare({"--colmap", script("echo \"$@\" > '" + words + "'; exit 1")});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(bytes_of(words), StartsWith("delaunay_mesher --input_type sparse --input_path " +
+                                            model + " --output_path /"));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("| COLMAP |")));
+}
+
+TEST_F(CompareOnBall, SaysThatColmapIsBuiltWithoutCgalAndGoesOn)
+{
+    const std::string mesher =
+        script("echo 'ERROR: Delaunay meshing requires CGAL, which is not available.'; exit 1");
+    const Outcome outcome = compare({mesh, "--colmap", mesher});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("note: " + mesher +
+                                       " is built without CGAL, so it has no Delaunay mesher; "
+                                       "its column is left out\n"));
+    EXPECT_THAT(outcome.out, MatchesRegex("\\| +\\| colmap-vcarve \\| +mesh.ply \\|\n(.|\n)*"));
+}
+
+TEST_F(CompareOnBall, SaysWhatColmapSaidLastWhereItFails)
+{
+    const std::string mesher = script("echo first; echo 'out of luck'; exit 4");
+    EXPECT_THAT(compare({"--colmap", mesher}).err,
+                HasSubstr("note: " + mesher +
+                          " ended with exit code 4 and wrote no mesh, its last "
+                          "line: out of luck; its column is left out\n"));
+    const std::string nowhere = folder / "nowhere";
+    EXPECT_THAT(compare({"--colmap", nowhere}).err,
+                HasSubstr("note: " + nowhere +
+                          " could not be started and wrote no mesh; its column is left out\n"));
+}
+
+TEST_F(CompareOnBall, KillsColmapWhenItsTimeIsUp)
+{
+    const std::string pid = folder / "pid";
+    const std::string mesher = script("sleep 600 & echo $! > '" + pid + "'; wait");
+    const nlohmann::json record = figures({"--colmap", mesher, "--colmap-timeout", "1"});
+    EXPECT_EQ(record["meshes"][0],
+              nlohmann::json({{"name", "COLMAP"}, {"failure", "timed out after 1 s"}}));
+    EXPECT_EQ(record["meshes"][1]["name"], "colmap-vcarve");
+    // What it started is gone, too, or a zombie nobody has waited for yet.
+    std::ifstream status("/proc/" + std::to_string(std::stoi(bytes_of(pid))) + "/stat");
+    std::string number;
+    std::string name;
+    std::string state = "gone";
+    status >> number >> name >> state;
+    EXPECT_THAT(state, testing::AnyOf("gone", "Z", "X"));
+}
+
+TEST_F(CompareOnBall, LeavesNothingBehind)
+{
+    const TemporaryFolder temporary;
+    const std::string command = "TMPDIR='" + temporary.path().string() + "' exec '" +
+                                built_program() + "' compare '" + model + "' --colmap '" +
+                                script("cp '" + mesh + "' \"$7\"") + "'";
+    EXPECT_EQ(Subprocess({"/bin/sh", "-c", command}).wait().exit_code, 0);
+    EXPECT_EQ(temporary.num_entries(), 0U);
+}
+
+TEST_F(CompareOnBall, LeavesNothingBehindWhenItIsInterrupted)
+{
+    const TemporaryFolder temporary;
+    const std::string ready = folder / "ready";
+    const std::string command = "TMPDIR='" + temporary.path().string() + "' exec '" +
+                                built_program() + "' compare '" + model + "' --colmap '" +
+                                script("echo > '" + ready + "'; exec sleep 600") + "'";
+    Subprocess program({"/bin/sh", "-c", command});
+    while (!std::filesystem::exists(ready) && program.is_running()) {
+        ::usleep(1000);
+    }
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait().exit_code, 143);
+    EXPECT_EQ(temporary.num_entries(), 0U);
+}
+
+TEST(Compare, HasAHelpOfItsOwnAndAPlaceInTheManPage)
+{
+    EXPECT_THAT(run_program({"compare", "--help"}).out,
+                HasSubstr("\nUsage: colmap-vcarve compare MODEL A.ply [B.ply ...] [options]\n"));
+    const std::string man = run_program({"--help-man"}).out;
+    const std::string completion = run_program({"--help-bash"}).out;
+    EXPECT_THAT(man, HasSubstr("\\-\\-colmap\\-timeout"));
+    EXPECT_THAT(completion, HasSubstr("--colmap-timeout"));
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,139 @@
+// colmap-vcarve --work DIR, as its users meet it.
+#include "support/places.h"
+#include "support/program.h"
+#include "support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <thread>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ContainsRegex;
+using testing::EndsWith;
+using testing::HasSubstr;
+
+class WorkOfProgram : public testing::Test {
+  protected:
+    std::vector<std::string> words(const std::vector<std::string>& more) const
+    {
+        std::vector<std::string> all = {scene, out, "--work", work};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    Outcome run(const std::vector<std::string>& more) const { return run_program(words(more)); }
+
+    TemporaryFolder folder;
+    std::string scene = (fixtures_folder() / "scene/sparse/0").string();
+    std::string out = folder / "out.ply";
+    std::string work = folder / "work";
+};
+
+} // namespace
+
+TEST_F(WorkOfProgram, ChangesNothingAndGoes)
+{
+    ASSERT_EQ(run_program({scene, out, "--quiet"}).exit_code, 0);
+    const std::string expected = bytes_of(out);
+    const Outcome outcome = run({});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, ContainsRegex("digest +3 files"));
+    EXPECT_THAT(outcome.err, ContainsRegex("keep +[0-9]+ MiB of cells"));
+    EXPECT_TRUE(bytes_of(out) == expected);
+    EXPECT_FALSE(fs::exists(work));
+}
+
+TEST_F(WorkOfProgram, IsEmptyAfterARefusal)
+{
+    fs::create_directory(work);
+    const Outcome outcome = run({"--min-views", "1000"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("keep "));
+    EXPECT_TRUE(fs::is_empty(work));
+}
+
+TEST_F(WorkOfProgram, IsKeptAndTakenWhereAsked)
+{
+    ASSERT_EQ(run({"--quiet", "--keep-work"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(work + "/surface.stage"));
+    const std::string expected = bytes_of(out);
+    const std::string stats = folder / "stats.json";
+    const Outcome outcome = run({"--threads=1", "--ascii", "--stats", stats});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("note: surface of the folder " + work +
+                                       " has what an earlier run made in triangulate, sights, "
+                                       "cut, surface"));
+    EXPECT_THAT(outcome.err, ContainsRegex("resume +[0-9]+ MiB of surface"));
+    EXPECT_FALSE(fs::exists(work));
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    std::vector<std::string> stages;
+    for (const auto& stage : record["stages"]) {
+        stages.push_back(stage["name"]);
+    }
+    EXPECT_THAT(stages, testing::IsSupersetOf({"resume", "triangulate", "cut", "surface"}));
+    ASSERT_EQ(run({"--quiet"}).exit_code, 0);
+    EXPECT_TRUE(bytes_of(out) == expected);
+}
+
+TEST_F(WorkOfProgram, OfOtherOptionsOrInputIsRefused)
+{
+    ASSERT_EQ(run({"--quiet", "--keep-work"}).exit_code, 0);
+    Outcome outcome = run({"--quiet", "--quality=2"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_EQ(outcome.err, "colmap-vcarve: the work folder " + work +
+                               " is of another run: --quality was 1 and is 2; name another folder "
+                               "with --work, or remove this one to begin anew\n");
+    scene = (fixtures_folder() / "room").string();
+    outcome = run({"--quiet"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr(" is of another run: "));
+    EXPECT_THAT(outcome.err, EndsWith("to begin anew\n"));
+    EXPECT_TRUE(fs::exists(work + "/surface.stage"));
+}
+
+TEST_F(WorkOfProgram, IsOneRunsAtATime)
+{
+    // So many views take their time.
+    Subprocess first(program_with(words({"--virtual-views=300"})));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!fs::exists(work + "/points.stage") && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    const Outcome second = run({"--quiet"});
+    EXPECT_EQ(second.exit_code, 3);
+    EXPECT_EQ(second.err, "colmap-vcarve: another run works in the folder " + work +
+                              "; wait until it has ended, or name another folder with --work\n");
+    EXPECT_EQ(first.wait().exit_code, 0);
+}
+
+TEST_F(WorkOfProgram, IsToBeAFolderOfItsOwn)
+{
+    Outcome outcome = run_program({scene, out, "--keep-work"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--keep-work keeps the folder of --work, which was not "
+                                       "given"));
+    outcome = run_program({scene, out, "--work="});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--work"));
+    folder.write("work/mine.txt", "mine");
+    outcome = run({});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("is no work folder, but holds mine.txt"));
+    EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(WorkOfProgram, IsLeftByNoRunThatNeverWorked)
+{
+    for (const char* const model : {"/broken", "/nowhere"}) {
+        scene = fixtures_folder().string() + model;
+        EXPECT_EQ(run({"--quiet"}).exit_code, 3) << model;
+        EXPECT_FALSE(fs::exists(work)) << model;
+    }
+}
+
+} // namespace vcarve

@@ -1,0 +1,187 @@
+#include "io/colmap/colmap_model.h"
+#include "io/colmap/find_model.h"
+#include "support/places.h"
+#include "support/scene_checks.h"
+#include "support/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <iterator>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using testing::ElementsAre;
+
+const fs::path kFixtures = fixtures_folder();
+
+Scene read_fixture(const std::string& name)
+{
+    const FoundModel found = find_model(kFixtures / name);
+    return read_colmap_model(found.folder, found.format);
+}
+
+TEST(ColmapModel, HoldsWhatTheFilesSay)
+{
+    const Scene scene = read_fixture("formats/rich_bin");
+    expect_well_formed(scene);
+
+    ASSERT_EQ(scene.cameras.size(), 2U);
+    EXPECT_EQ(scene.cameras[0].id, 3U);
+    EXPECT_EQ(scene.cameras[0].model, 1);
+    EXPECT_EQ(scene.cameras[1].id, 12U);
+    EXPECT_EQ(scene.cameras[1].model, 2);
+    EXPECT_EQ(scene.cameras[1].width_px, 640U);
+    EXPECT_EQ(scene.cameras[1].height_px, 480U);
+    EXPECT_THAT(scene.cameras[1].params, ElementsAre(700.0, 320.5, 240.25, -0.0125));
+
+    ASSERT_EQ(scene.views.size(), 3U);
+    EXPECT_EQ(scene.views[0].id, 7U);
+    EXPECT_EQ(scene.views[0].camera, 0U);
+    EXPECT_EQ(scene.views[0].name, "K\xC3\xB6ln \xE5\xAF\xBA 7.png");
+    EXPECT_EQ(scene.views[1].id, 40U);
+    EXPECT_EQ(scene.views[1].camera, 1U);
+    EXPECT_EQ(scene.views[1].name, "left room/IMG 0001.jpg");
+    EXPECT_EQ(scene.views[2].id, 100000U);
+    EXPECT_EQ(scene.views[2].camera, 1U);
+    EXPECT_EQ(scene.views[2].name, "c.jpg");
+
+    EXPECT_THAT(scene.positions,
+                ElementsAre(Vector3d(0.1, 1.0 / 3.0, -2e-7),
+                            Vector3d(1e6 + 0.1, std::numeric_limits<double>::denorm_min(), 4.6e6),
+                            Vector3d(1, 2, 3)));
+    EXPECT_THAT(scene.colors,
+                ElementsAre(Color{0, 128, 255}, Color{255, 255, 255}, Color{1, 2, 3}));
+    EXPECT_THAT(scene.errors_px, ElementsAre(0.5, -1.0, 0.0));
+    EXPECT_THAT(scene.point_ids, ElementsAre(900U, 2U, 18446744073709551614U));
+    // The first track is images 100000, 7, 40 and 7 once more
+    EXPECT_THAT(scene.tracks.begins, ElementsAre(0U, 3U, 4U, 4U));
+    EXPECT_THAT(scene.tracks.views, ElementsAre(0U, 1U, 2U, 1U));
+    EXPECT_EQ(scene.offset, Vector3d::Zero());
+}
+
+TEST(ColmapModel, KeepsPosesWhole)
+{
+    const Scene scene = read_fixture("formats/rich_bin");
+    ASSERT_EQ(scene.views.size(), 3U);
+    // A quaternion of length 2 is the identity all the same
+    EXPECT_EQ(scene.views[0].cam_from_world.coeffs(), Eigen::Vector4d(0, 0, 0, 1));
+    EXPECT_EQ(scene.views[0].center, Vector3d(-1, -2, -3));
+    // 120 degrees about (1, -1, 1): x goes to z, y to -x, z to -y
+    Eigen::Matrix3d rotation;
+    rotation << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+    EXPECT_TRUE(scene.views[1].cam_from_world.toRotationMatrix().isApprox(rotation, 1e-15));
+    EXPECT_TRUE(scene.views[1].center.isApprox(Vector3d(-3, 0.1, -2.5), 1e-15));
+    // Cosine -0.28 and sine 0.96 about y
+    EXPECT_TRUE(scene.views[2].center.isApprox(Vector3d(4.8e6, 0, 1.4e6), 1e-15));
+}
+
+TEST(ColmapModel, IsTheSameInEitherFormat)
+{
+    const Scene binary = read_fixture("formats/rich_bin");
+    expect_equal_scenes(binary, read_fixture("formats/rich_txt"));
+    expect_equal_scenes(binary, read_fixture("formats/rich_txt_by_hand"));
+}
+
+TEST(ColmapModel, KnowsEveryCameraModelOfColmap)
+{
+    const std::vector<std::size_t> num_params{3, 4,  4,  5, 8, 8, 12, 5, 4,
+                                              5, 12, 16, 4, 5, 3, 4,  6, 2};
+    const Scene scene = read_fixture("formats/cameras_bin");
+    ASSERT_EQ(scene.cameras.size(), num_params.size());
+    for (std::size_t i = 0; i < num_params.size(); ++i) {
+        EXPECT_EQ(scene.cameras[i].model, static_cast<int>(i));
+        ASSERT_EQ(scene.cameras[i].params.size(), num_params[i]);
+        EXPECT_EQ(scene.cameras[i].params[1], 100.0 * static_cast<double>(i) + 1.5);
+    }
+    expect_equal_scenes(scene, read_fixture("formats/cameras_txt"));
+}
+
+TEST(ColmapModel, KeepsACameraOfUnknownModelInText)
+{
+    const Scene scene = read_fixture("formats/camera_unknown_txt");
+    ASSERT_EQ(scene.cameras.size(), 1U);
+    EXPECT_EQ(scene.cameras[0].model, -1);
+    EXPECT_THAT(scene.cameras[0].params, ElementsAre(1, 2, 3, 4, 5, 6, 7));
+}
+
+TEST(ColmapModel, ReadsLinesOfMegabytes)
+{
+    const TemporaryFolder folder;
+    folder.copy(kFixtures / "formats/rich_txt", "model");
+    std::string points2d;
+    for (int i = 0; i < 200'000; ++i) {
+        points2d += "123.456 654.321 -1 ";
+    }
+    std::string track;
+    for (int i = 0; i < 200'000; ++i) {
+        track += i % 2 == 0 ? " 1 0" : " 2 7";
+    }
+    folder.write("model/images.txt",
+                 "1 1 0 0 0 0 0 0 3 a\n" + points2d + "\n2 1 0 0 0 0 0 0 3 b\n");
+    folder.write("model/points3D.txt", "1 0 0 0 0 0 0 1" + track + "\n");
+    const Scene scene = read_colmap_model(folder.path() / "model", ModelFormat::text);
+    EXPECT_EQ(scene.views.size(), 2U);
+    EXPECT_THAT(scene.tracks.views, ElementsAre(0U, 1U));
+}
+
+TEST(ColmapModel, TakesAnErrorThatIsNotANumberForUnknown)
+{
+    const TemporaryFolder folder;
+    folder.copy(kFixtures / "formats/rich_txt", "model");
+    folder.write("model/points3D.txt", "1 0 0 0 0 0 0 nan\n2 0 0 0 0 0 0 inf\n");
+    const Scene scene = read_colmap_model(folder.path() / "model", ModelFormat::text);
+    EXPECT_THAT(scene.errors_px, ElementsAre(-1.0, std::numeric_limits<double>::infinity()));
+}
+
+TEST(ColmapModel, ReadsEveryDegenerateFixture)
+{
+    struct Sizes {
+        const char* name;
+        std::size_t views, points, sights;
+    };
+    const std::vector<Sizes> expected{
+        {"collinear_points", 4, 8, 32},
+        {"coplanar_points", 4, 16, 64},
+        {"duplicated_positions", 4, 16, 40},
+        {"four_points", 4, 4, 16},
+        {"huge_position", 4, 9, 36},
+        {"identical_points", 4, 8, 32},
+        {"infinite_position", 4, 9, 36},
+        {"lattice", 4, 64, 256},
+        {"nan_position", 4, 9, 36},
+        {"no_points", 4, 0, 0},
+        {"no_tracks", 4, 8, 0},
+        {"no_views", 0, 0, 0},
+        {"one_view", 1, 8, 8},
+        {"point_behind_camera", 4, 9, 34},
+        {"point_seen_from_where_it_is", 5, 8, 40},
+        {"three_points", 4, 3, 12},
+        {"view_on_point", 5, 8, 39},
+    };
+    for (const Sizes& sizes : expected) {
+        SCOPED_TRACE(sizes.name);
+        const Scene scene = read_fixture(std::string("degenerate/") + sizes.name);
+        expect_well_formed(scene);
+        EXPECT_EQ(scene.views.size(), sizes.views);
+        EXPECT_EQ(scene.num_points(), sizes.points);
+        EXPECT_EQ(scene.num_sights(), sizes.sights);
+    }
+    const auto folders = std::distance(fs::directory_iterator(kFixtures / "degenerate"), {});
+    EXPECT_EQ(static_cast<std::size_t>(folders), expected.size());
+}
+
+TEST(ColmapModel, PutsTheViewExactlyOnThePointItCoincidesWith)
+{
+    const Scene scene = read_fixture("degenerate/view_on_point");
+    EXPECT_EQ(scene.views[4].center, scene.positions[0]);
+}
+
+} // namespace
+} // namespace vcarve

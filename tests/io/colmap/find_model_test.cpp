@@ -1,0 +1,147 @@
+#include "io/colmap/find_model.h"
+#include "support/places.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const fs::path kFixtures = fixtures_folder();
+const fs::path kBinary = kFixtures / "formats/rich_bin";    // 3 points
+const fs::path kText = kFixtures / "formats/rich_txt";      // the same
+const fs::path kLattice = kFixtures / "degenerate/lattice"; // 64 points, text
+const fs::path kCube = kFixtures / "degenerate/one_view";   // 8 points, text
+
+TEST(FindModel, TakesTheFolderItself)
+{
+    const FoundModel binary = find_model(kBinary);
+    EXPECT_EQ(binary.folder, kBinary);
+    EXPECT_EQ(binary.format, ModelFormat::binary);
+    EXPECT_THAT(binary.notes, IsEmpty());
+    const FoundModel text = find_model(kText);
+    EXPECT_EQ(text.folder, kText);
+    EXPECT_EQ(text.format, ModelFormat::text);
+    EXPECT_THAT(text.notes, IsEmpty());
+}
+
+TEST(FindModel, PrefersBinaryToTextAndSaysSo)
+{
+    const TemporaryFolder folder;
+    folder.copy(kBinary, "m");
+    fs::copy_file(kText / "points3D.txt", folder.path() / "m/points3D.txt");
+    const FoundModel found = find_model(folder.path() / "m");
+    EXPECT_EQ(found.format, ModelFormat::binary);
+    EXPECT_THAT(found.notes, ElementsAre((folder.path() / "m").string() +
+                                         " holds .bin and .txt files: the .bin are read"));
+}
+
+TEST(FindModel, TakesTextWhereBinaryIsIncompleteAndSaysSo)
+{
+    const TemporaryFolder folder;
+    folder.copy(kText, "m");
+    fs::copy_file(kBinary / "cameras.bin", folder.path() / "m/cameras.bin");
+    const FoundModel found = find_model(folder.path() / "m");
+    EXPECT_EQ(found.format, ModelFormat::text);
+    EXPECT_THAT(found.notes,
+                ElementsAre((folder.path() / "m").string() +
+                            " holds .bin and .txt files: the .txt are read, for images.bin and "
+                            "points3D.bin is missing"));
+}
+
+TEST(FindModel, TakesTheComponentWithMostPointsAndNamesTheOthers)
+{
+    const TemporaryFolder folder;
+    folder.copy(kBinary, "sparse/0");
+    folder.copy(kCube, "sparse/2");
+    folder.copy(kLattice, "sparse/10");
+    folder.copy(kFixtures / "broken/bin_points_missing", "sparse/11");
+    const std::string sparse = (folder.path() / "sparse").string();
+    const std::string note = sparse + "/10 has most points (64) and is taken; left out: " + sparse +
+                             "/0 (3), " + sparse + "/2 (8)";
+    for (const fs::path& input : {folder.path(), folder.path() / "sparse"}) {
+        const FoundModel found = find_model(input);
+        EXPECT_EQ(found.folder, folder.path() / "sparse/10");
+        EXPECT_EQ(found.format, ModelFormat::text);
+        EXPECT_THAT(found.notes, ElementsAre(note));
+    }
+}
+
+TEST(FindModel, TakesTheFirstOfComponentsWithAsManyPoints)
+{
+    const TemporaryFolder folder;
+    folder.copy(kBinary, "sparse/10");
+    folder.copy(kText, "sparse/9");
+    const std::string sparse = (folder.path() / "sparse").string();
+    const FoundModel found = find_model(folder.path());
+    EXPECT_EQ(found.folder, folder.path() / "sparse/9");
+    EXPECT_THAT(found.notes,
+                ElementsAre(sparse + "/9 has most points (3) and is taken; left out: " + sparse +
+                            "/10 (3)"));
+}
+
+TEST(FindModel, DoesNotBelieveACountTheFileCannotHold)
+{
+    const TemporaryFolder folder;
+    folder.copy(kFixtures / "broken/bin_point_count_huge", "sparse/0");
+    folder.copy(kBinary, "sparse/1");
+    EXPECT_EQ(find_model(folder.path()).folder, folder.path() / "sparse/1");
+}
+
+TEST(FindModel, TakesAWorkspacesOnlyModelWithoutANote)
+{
+    const TemporaryFolder folder;
+    folder.copy(kBinary, "one/sparse/0");
+    folder.copy(kText, "two/sparse");
+    const FoundModel one = find_model(folder.path() / "one");
+    EXPECT_EQ(one.folder, folder.path() / "one/sparse/0");
+    EXPECT_THAT(one.notes, IsEmpty());
+    const FoundModel two = find_model(folder.path() / "two");
+    EXPECT_EQ(two.folder, folder.path() / "two/sparse");
+    EXPECT_THAT(two.notes, IsEmpty());
+}
+
+TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path().string();
+    const std::string looked_for =
+        ": no COLMAP model, looked for cameras, images and points3D, all .bin or all .txt, in this "
+        "folder, in sparse and in the folders they hold, found ";
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
+              path + looked_for + "nothing of the kind");
+
+    folder.write("database.db", "");
+    folder.write("a.ply", "");
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
+              path + looked_for + "database.db, a.ply");
+
+    folder.write("b.ply", "");
+    folder.copy(kFixtures / "broken/bin_points_missing", "sparse/0");
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
+              path + looked_for + "a model in " + path +
+                  "/sparse/0 without points3D.bin, database.db, 2 .ply files");
+}
+
+TEST(FindModel, RefusesAPathThatIsNoFolder)
+{
+    const TemporaryFolder folder;
+    const fs::path file = folder.write("points3D.bin", "");
+    const std::string what =
+        "; a COLMAP model is a folder with cameras, images and points3D as .bin or .txt";
+    EXPECT_EQ(refusal<InputError>([&] { find_model(file); }),
+              file.string() + ": is not a folder" + what);
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path() / "none"); }),
+              folder.path().string() + "/none: does not exist" + what);
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,252 @@
+#include "io/input/find_input.h"
+#include "support/places.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const fs::path kWorkspace = fixtures_folder() / "formats/dense_little";
+
+/// A folder with a dense workspace in "dense".
+class FindInput : public testing::Test {
+  protected:
+    FindInput() { folder.copy(kWorkspace, "dense"); }
+
+    std::string refused(const fs::path& input, const PointsOptions& options) const
+    {
+        return refusal<InputError>([&] { find_input(input, options); });
+    }
+    std::string misused(const fs::path& input, const PointsOptions& options) const
+    {
+        return refusal<UsageError>([&] { find_input(input, options); });
+    }
+    std::string taken() const
+    {
+        return "the points are those of " + fused.string() + ", seen by the views of " +
+               (dense / "sparse").string();
+    }
+
+    TemporaryFolder folder;
+    fs::path dense = folder / "dense";
+    fs::path fused = dense / "fused.ply";
+    fs::path visibility = dense / "fused.ply.vis";
+};
+
+TEST_F(FindInput, TakesTheCloudOfADenseWorkspaceAndSaysSo)
+{
+    const FoundInput found = find_input(dense, {});
+    ASSERT_TRUE(found.dense);
+    EXPECT_EQ(found.model.folder, dense / "sparse");
+    EXPECT_EQ(found.dense->model, dense / "sparse");
+    EXPECT_EQ(found.dense->format, ModelFormat::binary);
+    EXPECT_EQ(found.dense->cloud, fused);
+    EXPECT_EQ(found.dense->visibility, visibility);
+    EXPECT_THAT(found.notes, ElementsAre(taken() + "; --points sparse takes the sparse ones"));
+}
+
+TEST_F(FindInput, TakesTheModelItselfWhereThatIsNamed)
+{
+    const FoundInput found = find_input(dense / "sparse", {});
+    EXPECT_FALSE(found.dense);
+    EXPECT_EQ(found.model.folder, dense / "sparse");
+    EXPECT_THAT(found.notes, IsEmpty());
+}
+
+TEST_F(FindInput, TakesTheCloudThatIsNamed)
+{
+    const FoundInput found = find_input(fused, {});
+    ASSERT_TRUE(found.dense);
+    EXPECT_EQ(found.dense->model, dense / "sparse");
+    EXPECT_EQ(found.dense->cloud, fused);
+    EXPECT_THAT(found.notes, ElementsAre(taken()));
+}
+
+TEST_F(FindInput, TakesWhatTheOptionsChoose)
+{
+    EXPECT_FALSE(find_input(dense, {.points = "sparse"}).dense);
+    EXPECT_EQ(find_input(dense, {.points = "dense"}).dense->cloud, fused);
+    folder.write("other.ply", "");
+    folder.write("other.ply.vis", "");
+    folder.write("mine.vis", "");
+    const auto other = find_input(dense, {.points = folder / "other.ply"});
+    EXPECT_EQ(other.dense->cloud, folder / "other.ply");
+    EXPECT_EQ(other.dense->visibility, folder / "other.ply.vis");
+    const auto mine = find_input(dense, {.points = {}, .visibility = folder / "mine.vis"});
+    EXPECT_EQ(mine.dense->cloud, fused);
+    EXPECT_EQ(mine.dense->visibility, folder / "mine.vis");
+}
+
+TEST_F(FindInput, LeavesACloudWithoutItsViewsOutAndSaysSo)
+{
+    fs::remove(visibility);
+    const FoundInput found = find_input(dense, {});
+    EXPECT_FALSE(found.dense);
+    EXPECT_THAT(found.notes,
+                ElementsAre("the sparse points are taken and " + fused.string() +
+                            " is left out, for there is no " + visibility.string() +
+                            " to tell which views saw its points; --sights nearest does without"));
+}
+
+TEST_F(FindInput, NeedsNoFileForTheNearestViewsAndSaysSo)
+{
+    fs::remove(visibility);
+    for (const auto& [input, points] :
+         {std::pair{dense, ""}, std::pair{dense, "dense"}, std::pair{fused, ""}}) {
+        const FoundInput found =
+            find_input(input, {.points = points, .visibility = {}, .sights = SightsFrom::nearest});
+        ASSERT_TRUE(found.dense);
+        EXPECT_EQ(found.dense->cloud, fused);
+        EXPECT_TRUE(found.dense->visibility.empty());
+        EXPECT_THAT(
+            found.notes,
+            ElementsAre(testing::StartsWith(
+                "the points are those of " + fused.string() +
+                "; no file tells which views saw them, so the nearest views of " +
+                (dense / "sparse").string() + " are taken before which no other point stands")));
+    }
+}
+
+TEST_F(FindInput, MentionsACloudFartherDown)
+{
+    folder.copy(dense / "sparse", "sparse/0");
+    FoundInput found = find_input(folder.path(), {});
+    EXPECT_FALSE(found.dense);
+    EXPECT_EQ(found.model.folder, folder.path() / "sparse/0");
+    EXPECT_THAT(found.notes, ElementsAre("the sparse points are taken; " + dense.string() +
+                                         " means those of " + fused.string()));
+    fs::rename(dense, folder / "other");
+    EXPECT_THAT(find_input(folder.path(), {}).notes, IsEmpty());
+}
+
+TEST_F(FindInput, RefusesACloudOrViewsThatAreNotThere)
+{
+    EXPECT_EQ(refused(dense / "sparse", {.points = "dense"}),
+              (dense / "sparse/fused.ply").string() +
+                  ": the file does not exist, so there are no dense points to take with the views "
+                  "of " +
+                  (dense / "sparse").string());
+    fs::remove(visibility);
+    const std::string missing =
+        visibility.string() +
+        ": the file does not exist, which tells which views saw the points "
+        "of " +
+        fused.string() +
+        ", as COLMAP's stereo_fusion writes it (--visibility names another, "
+        "--sights nearest does without)";
+    EXPECT_EQ(refused(dense, {.points = "dense"}), missing);
+    EXPECT_EQ(refused(fused, {}), missing);
+}
+
+TEST_F(FindInput, RefusesOptionsThatContradictEachOther)
+{
+    EXPECT_EQ(misused(fused, {.points = "sparse"}), "--points sparse chooses points for a model, "
+                                                    "but " +
+                                                        fused.string() + " is a cloud itself");
+    EXPECT_EQ(misused(dense, {.points = "sparse", .visibility = "a.vis"}),
+              "--visibility a.vis tells which views saw the points of a cloud, but the sparse "
+              "points of " +
+                  (dense / "sparse").string() + " are taken");
+    EXPECT_EQ(misused(dense, {.points = "sparse", .visibility = {}, .sights = SightsFrom::nearest}),
+              "--sights nearest is for the points of a cloud, but the sparse points of " +
+                  (dense / "sparse").string() + " are taken");
+    EXPECT_EQ(misused(dense, {.points = {}, .visibility = "a.vis", .sights = SightsFrom::nearest}),
+              "--sights nearest reads no file, so it cannot go with --visibility a.vis");
+}
+
+/// A scan in the workspace, with views beside it that saw its points.
+class FindScan : public FindInput {
+  protected:
+    /// A fixture as the cloud scan.ply of the workspace.
+    void take(const char* format)
+    {
+        fs::copy(fixtures_folder() / "formats" / format / "scan.ply", scan);
+    }
+    std::string taken_scan() const { return "the points are those of " + scan.string() + ", "; }
+
+    fs::path scan = dense / "scan.ply";
+};
+
+TEST_F(FindScan, TakesTheScannersOfThePointsBeforeAnyViews)
+{
+    take("scan_origin");
+    const fs::path views = folder.write("dense/scan.ply.vis", "");
+    const FoundInput found = find_input(scan, {});
+    ASSERT_TRUE(found.scan);
+    EXPECT_EQ(found.scan->cloud, scan);
+    EXPECT_FALSE(found.scan->scanner);
+    const std::string by_each = "measured by the scanners of which it tells at every point; ";
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() + by_each + views.string() +
+                                         " is left out, --visibility takes it"));
+    const FoundInput beside = find_input(dense, {.points = scan});
+    EXPECT_TRUE(beside.scan);
+    EXPECT_THAT(beside.notes, ElementsAre(taken_scan() + by_each + "the views of " +
+                                          (dense / "sparse").string() + " are left out"));
+}
+
+TEST_F(FindScan, TakesTheViewsThatAreAskedFor)
+{
+    take("scan_origin");
+    const FoundInput nearest =
+        find_input(scan, {.points = {}, .visibility = {}, .sights = SightsFrom::nearest});
+    EXPECT_FALSE(nearest.scan);
+    EXPECT_TRUE(nearest.dense);
+    EXPECT_EQ(find_input(scan, {.points = {}, .visibility = visibility}).dense->visibility,
+              visibility);
+}
+
+TEST_F(FindScan, TakesPclsCameraWhereNoFileTellsOfViews)
+{
+    take("scan_camera");
+    const FoundInput found = find_input(scan, {});
+    EXPECT_TRUE(found.scan);
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() +
+                                         "measured by a scanner where its element camera stands"));
+    folder.write("dense/scan.ply.vis", "");
+    EXPECT_TRUE(find_input(scan, {}).dense);
+}
+
+TEST_F(FindScan, TakesTheScannerThatIsGiven)
+{
+    take("scan_camera");
+    const FoundInput found = find_input(scan, {.scanner = Eigen::Vector3d(1, 2.5, -3)});
+    EXPECT_EQ(found.scan->scanner, Eigen::Vector3d(1, 2.5, -3));
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() + "measured by a scanner at 1, 2.5, -3"));
+    EXPECT_TRUE(find_input(dense, {.points = "dense", .scanner = Eigen::Vector3d::Zero()}).scan);
+}
+
+TEST_F(FindScan, RefusesAScannerThatCannotBeMeant)
+{
+    take("scan_origin");
+    const Eigen::Vector3d place(1, 2.5, -3);
+    EXPECT_EQ(misused(scan, {.scanner = place}),
+              "--scanner 1,2.5,-3 is one place for all points, but " + scan.string() +
+                  " tells itself where the scanner of each stood");
+    EXPECT_EQ(
+        misused(scan,
+                {.points = {}, .visibility = {}, .sights = SightsFrom::nearest, .scanner = place}),
+        "--scanner 1,2.5,-3 says from where the points were measured, so it cannot go with "
+        "--sights nearest");
+    EXPECT_EQ(misused(scan, {.points = {}, .visibility = "a.vis", .scanner = place}),
+              "--scanner 1,2.5,-3 says from where the points were measured, so it cannot go with "
+              "--visibility a.vis");
+    EXPECT_EQ(misused(dense / "sparse", {.scanner = place}),
+              "--scanner 1,2.5,-3 says from where the points of a PLY file were measured, but the "
+              "sparse points of " +
+                  (dense / "sparse").string() + " are taken");
+    EXPECT_EQ(refused(dense, {.points = "none.ply", .scanner = place}),
+              "none.ply: the file does not exist, so there are no points of a scanner to take");
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,154 @@
+#include "report/figures.h"
+#include "support/places.h"
+#include "vcarve/vcarve.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+// What the program is proud of, held to bounds on every fixture whose truth is known, at the
+// defaults it ships. After a change that is meant to move these figures, print them anew with
+//   build/vcarve_tests --gtest_filter='*Quality*'
+// and put the lines that begin with a brace in place of those below.
+
+namespace vcarve {
+namespace {
+
+/// The figures that are held to what was measured, by their places in the JSON text.
+struct Held {
+    const char* place;
+    double margin; ///< how much worse it may become: less than what the passes it guards gain
+};
+constexpr std::array kHeld = {
+    Held{"/truth/agreement/1/f", 0.01}, // at 0.25 % of the diagonal
+    Held{"/truth/blocked", 0.01},       Held{"/views/unsupported_area", 0.01},
+    Held{"/truth/seen_right", 0.01},    Held{"/truth/torn", 0.0005},
+    Held{"/truth/open", 0.01},
+};
+
+struct Measured {
+    const char* fixture = nullptr; ///< its folder
+    std::array<double, kHeld.size()> figures{};
+    const char* scene = nullptr; ///< the fixture with its truth, where that is another
+};
+
+constexpr Measured kMeasured[] = {
+    // F, blocked, unsupported, seen right, torn, open
+    {"scene", {0.8076, 0.0575, 0.0362, 0.7740, 0.0000, 0.0727}},
+    {"air", {0.7185, 0.0440, 0.0264, 0.7118, 0.0000, 0.0254}},
+    {"room", {0.6726, 0.0605, 0.0244, 0.6791, 0.0000, 0.1943}},
+    {"dense_room", {0.7200, 0.0344, 0.0234, 0.7017, 0.0001, 0.2084}, "room"},
+    {"scanned_room", {0.9072, 0.0354, 0.0130, 0.9009, 0.0000, 0.0013}, "room"},
+    {"paper/cube_with_cavity", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
+    {"paper/boissonnat", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
+    {"paper/cubicles", {0.9902, 0.0039, 0.0000, 0.9904, 0.0000, 0.0008}},
+    {"paper/desk", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
+};
+
+/// What no fixture may exceed.
+constexpr std::pair<const char*, double> kMost[] = {
+    {"/views/back_faces_seen", 0.001}, {"/views/hidden_sights", 0.002},
+    {"/views/missed_points", 0.006},   {"/views/seen_boundary_edges", 60},
+    {"/size/nonmanifold_edges", 0},    {"/size/nonmanifold_vertices", 0},
+    {"/size/orientation_faults", 0},
+};
+
+std::filesystem::path folder_of(const char* fixture)
+{
+    return fixtures_folder() / fixture;
+}
+
+/// A figure of our surface, and which way it improves.
+struct Judged {
+    double value;
+    Better better;
+};
+
+/// What is known of our surface of a fixture, by places in the JSON text.
+std::map<std::string, Judged> judged(const Measured& measured)
+{
+    const std::filesystem::path folder = folder_of(measured.fixture);
+    const bool is_scan = std::filesystem::exists(folder / "scan.ply");
+    const std::filesystem::path scene =
+        measured.scene == nullptr ? folder : folder_of(measured.scene);
+    const bool has_folder = std::filesystem::exists(folder / "sparse_txt");
+    const bool is_solid = std::filesystem::exists(scene / "solid.ply");
+    Log silent;
+    const Scene model = read_model(is_scan      ? folder / "scan.ply"
+                                   : has_folder ? folder / "sparse_txt"
+                                                : folder,
+                                   silent);
+    const NamedMesh known{"truth", read_ply(scene / (is_solid ? "solid.ply" : "truth.ply"))};
+    const Reference reference = make_reference(model, &known, {.samples = 40000});
+    const NamedMesh ours{"ours.ply", reconstruct(model, Options(), silent).mesh};
+    const Comparison comparison = compare_mesh(ours, reference);
+    std::map<std::string, Judged> all;
+    for (const Figure& figure : figures(reference, false)) {
+        const std::optional<double> value = figure.number(comparison);
+        if (value) all[figure.place] = {*value, figure.better};
+    }
+    return all;
+}
+
+std::string line_of(const Measured& measured)
+{
+    const std::string scene =
+        measured.scene == nullptr ? "" : fmt::format(", \"{}\"", measured.scene);
+    return fmt::format("    {{\"{}\", {{{:.4f}}}{}}},", measured.fixture,
+                       fmt::join(measured.figures, ", "), scene);
+}
+
+void PrintTo(const Measured& measured, std::ostream* out)
+{
+    *out << line_of(measured);
+}
+
+class Quality : public testing::TestWithParam<Measured> {};
+
+TEST_P(Quality, IsNoWorseThanMeasuredAtShippedDefaults)
+{
+    const Measured& before = GetParam();
+    const std::map<std::string, Judged> ours = judged(before);
+    Measured now = before;
+    std::ranges::transform(kHeld, now.figures.begin(),
+                           [&](const Held& held) { return ours.at(held.place).value; });
+    std::cout << line_of(now) << '\n';
+    SCOPED_TRACE("measured now:\n" + line_of(now) + "\nand before:\n" + line_of(before));
+    for (std::size_t i = 0; i < kHeld.size(); ++i) {
+        const auto& [place, margin] = kHeld[i];
+        const Better better = ours.at(place).better;
+        ASSERT_NE(better, Better::neither) << place;
+        const double sign = better == Better::higher ? 1.0 : -1.0;
+        EXPECT_GE(sign * now.figures[i], sign * before.figures[i] - margin) << place;
+    }
+    for (const auto& [place, most] : kMost) {
+        EXPECT_LE(ours.at(place).value, most) << place;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fixtures, Quality, testing::ValuesIn(kMeasured), [](const auto& measured) {
+    return std::filesystem::path(measured.param.fixture).filename().string();
+});
+
+TEST(QualityOfFixtures, IsMeasuredWhereverATruthIsCommitted)
+{
+    std::size_t truths = 0;
+    for (const auto& file : std::filesystem::recursive_directory_iterator(fixtures_folder())) {
+        const std::string name = file.path().filename().string();
+        truths += name == "truth.ply" || name == "solid.ply" ? 1 : 0;
+    }
+    const auto with_own = std::ranges::count(kMeasured, nullptr, &Measured::scene);
+    EXPECT_EQ(truths, static_cast<std::size_t>(with_own));
+}
+
+} // namespace
+} // namespace vcarve
