@@ -1,7 +1,6 @@
 #include "mesh/half_edge_mesh.h"
 #include "samples.h"
 #include "steps/5_labels/boundary.h"
-#include "steps/5_labels/bridging_facets.h"
 #include "steps/6_surface/cleanup.h"
 #include "steps/6_surface/extract.h"
 #include "steps/6_surface/support.h"
@@ -45,19 +44,6 @@ void bench_supported_faces(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(boundary.faces.size()));
 }
 
-void bench_bridging_facets(benchmark::State& state)
-{
-    const TetMesh& cells = sample_cells(state.range(0));
-    const Scene& scene = sample_scene(state.range(0));
-    const Labels& labels = sample_labels(state.range(0));
-    for (auto _ : state) {
-        const Boundary boundary(cells, labels);
-        benchmark::DoNotOptimize(
-            cells_behind_bridging_facets(cells, boundary, scene, BridgingOptions()));
-    }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells.cells.size()));
-}
-
 void bench_clean_surface(benchmark::State& state)
 {
     const TriMesh boundary = sample_boundary(state.range(0));
@@ -68,7 +54,6 @@ void bench_clean_surface(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(surface.faces.size()));
 }
 
-BENCHMARK(bench_bridging_facets)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_extract_surface)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_supported_faces)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_clean_surface)->Apply(sample_sizes)->UseRealTime();

@@ -201,35 +201,20 @@ struct CutOptions {
     }
 };
 
-/// Which faces are doubted.
-struct BridgingOptions {
-    double bridging_edge = 3.0; ///< --bridging-edge
+/// Where the surface goes on along the hull of the points.
+struct HullOptions {
+    double hull_edge = 20.0; ///< x the median edge around, up to there; 0: nowhere
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
     {
-        options.number(bridging_edge,
-                       {.name = "bridging-edge",
+        options.number(hull_edge,
+                       {.name = "hull-edge",
                         .unit = "x local edge",
-                        .help = "Doubt seen faces with an edge this many times longer than the "
-                                "median around them that stand across the surface at their "
-                                "corners; 0 doubts none."});
-    }
-};
-
-/// Which spikes are taken back.
-struct NeedleOptions {
-    double needle_edge = 4.0; ///< --needle-edge
-
-    /// Shows the visitor each of them.
-    void visit(OptionVisitor& options)
-    {
-        options.number(needle_edge,
-                       {.name = "needle-edge",
-                        .unit = "x local edge",
-                        .help = "Take back the tips of needles that stand this many times the "
-                                "median edge around their feet out of the surface, to a point that "
-                                "few views saw; 0 takes back none."});
+                        .help =
+                            "Let the surface go on along the hull of the points, where they are "
+                            "seen from within only, by faces of edges up to this many times "
+                            "the median around; 0 lets it end."});
     }
 };
 
@@ -265,8 +250,7 @@ struct LabelOptions {
     int min_crossings = 1;            ///< --min-crossings
     TraceOptions trace;               ///< what a sight says
     CutOptions cut;                   ///< the minimum cut
-    BridgingOptions bridging;         ///< faces across gaps
-    NeedleOptions needles;            ///< spikes to stray points
+    HullOptions hull;                 ///< where no cells lie behind
     VirtualViewOptions virtual_views; ///< viewpoints beside the model's
 
     /// Shows the visitor each of them.
@@ -287,43 +271,44 @@ struct LabelOptions {
                        .min = 1});
         trace.visit(options);
         cut.visit(options);
-        bridging.visit(options);
-        needles.visit(options);
+        hull.visit(options);
         virtual_views.visit(options);
     }
 };
 
-/// Which faces that no view sees are kept.
-struct SupportOptions {
-    double max_gap_edge = 2.25; ///< --max-gap-edge
+/// The thresholds of the rule book, which says which faces of the boundary are surface
+/// (src/steps/6_surface/face_rules.h).
+struct FaceRules {
+    double max_closing = 0.115; ///< a longer edge than this share of the diameter of the region of
+                                ///< interest makes a face long; 0 drops no face that views see
+    double vast = 2.0;          ///< so many times that for faces that views see
+    double half_seen = 0.5;     ///< less than this share of a long face that turns off the surface
+    double hardly_seen = 0.12;  ///< less than this share of any face
+    double trim = 0.5;          ///< x long: from there on faces are trimmed; 0 trims none
+    double beside_edge = 3.0;   ///< x the median edge around: unseen faces beside kept ones stay
+                                ///< up to there; 0 keeps none
+    double beside_length = 8.0; ///< x the longest edge of the median kept face, the same
 
     /// Shows the visitor each of them.
     void visit(OptionVisitor& options)
     {
-        options.number(max_gap_edge,
-                       {.name = "max-gap-edge",
-                        .unit = "x local edge",
-                        .help = "Keep a few faces that no view sees amid seen ones if no edge is "
-                                "this many times longer than the median around; 0 keeps none."});
-    }
-};
-
-/// Which long faces are taken off.
-struct SheetOptions {
-    double max_sheet = 0.115; ///< --max-sheet
-
-    /// Shows the visitor each of them.
-    void visit(OptionVisitor& options)
-    {
-        options.number(max_sheet,
-                       {.name = "max-sheet",
+        options.number(max_closing,
+                       {.name = "max-closing",
                         .unit = "x extent",
-                        .help = "Take off faces with an edge longer than this share of what was "
-                                "looked at if views see less than half of them, and from the rim "
-                                "those that go on with the surface at no corner and are twice as "
-                                "long, or 3.5 times if views see all of them, unless the back of a "
-                                "face comes to light behind them; 0 takes off none.",
+                        .help = "Drop faces that close what was looked at without support: with an "
+                                "edge longer than this share of the region of interest, and hardly "
+                                "seen or turning off the surface; 0 keeps them.",
                         .max = 1.0});
+        options.number(trim, {.name = "trim",
+                              .unit = "x closing edge",
+                              .help = "Trim faces with a longer edge to what views see of them; 0 "
+                                      "trims none.",
+                              .max = 100.0});
+        options.number(beside_edge,
+                       {.name = "beside-edge",
+                        .unit = "x local edge",
+                        .help = "Keep faces that no view sees beside seen ones if no edge is this "
+                                "many times longer than the median around; 0 keeps none."});
     }
 };
 
@@ -351,8 +336,7 @@ struct CleanupOptions {
 /// Which faces of the boundary are kept, and how the surface is mended.
 struct SurfaceOptions {
     bool closed = false;    ///< --closed
-    SupportOptions support; ///< faces in gaps
-    SheetOptions sheets;    ///< faces at the rim
+    FaceRules rules;        ///< which faces are surface
     CleanupOptions cleanup; ///< mending
 
     /// Shows the visitor each of them.
@@ -362,8 +346,7 @@ struct SurfaceOptions {
         options.flag(closed,
                      {.name = "closed",
                       .help = "Keep faces that no view supports, so that the surface is closed."});
-        support.visit(options);
-        sheets.visit(options);
+        rules.visit(options);
         cleanup.visit(options);
     }
 };

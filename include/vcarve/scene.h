@@ -25,9 +25,6 @@ struct Camera {
     bool measures_range = false;
 };
 
-/// Into how many cells an image is divided either way to count its keypoints.
-inline constexpr std::size_t kKeypointCells = 24;
-
 /// A registered image: the pose of its camera and the centre all its sights meet in.
 struct View {
     std::uint32_t id = 0;     ///< COLMAP's image id
@@ -35,9 +32,6 @@ struct View {
     std::string name;         ///< as in the model, UTF-8
     Eigen::Quaterniond cam_from_world = Eigen::Quaterniond::Identity(); ///< rotation only, unit
     Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the frame of Scene::positions
-    /// How many keypoints lie in each cell of a grid over the image (kKeypointCells to a side, row
-    /// by row), with a point or without, of some that are spread over all; empty where not known.
-    std::vector<std::uint16_t> keypoints{};
 };
 
 /// Which views saw which point: one row of view indices per point, rows stored end to end.

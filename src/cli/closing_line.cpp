@@ -37,8 +37,8 @@ std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& optio
 {
     if (is_open(outcome)) {
         return fmt::format("open in {} of what the views look at ({})", percent(*outcome.open),
-                           options.sheets.max_sheet > 0.0
-                               ? "--max-sheet 0 closes that with large faces"
+                           options.rules.max_closing > 0.0
+                               ? "--max-closing 0 closes that with large faces"
                                : "--closed closes that");
     }
     if (outcome.boundary_edges == 0) return "closed";

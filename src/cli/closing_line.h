@@ -31,7 +31,7 @@ struct RunOutcome {
 RunOutcome outcome_of(const CountsOfStages& counts);
 
 /// One line that says what was made and what to try if something looks wrong:
-/// "out.ply: 22,268 faces, open in 4 % of what the views look at (--max-sheet 0 closes that with
+/// "out.ply: 22,268 faces, open in 4 % of what the views look at (--max-closing 0 closes that with
 /// large faces)". At most two more things are proposed, of those that the figures and the options
 /// give reason for; if there is none, to look at the surface.
 std::string closing_line(const RunOutcome& outcome, const Options& options);

@@ -56,7 +56,6 @@ struct RenamedOption {
     std::string_view now;
 };
 constexpr RenamedOption kRenamedOptions[] = {
-    {"--web-edge", "--bridging-edge"},
     {"--softness", "--distance-sigma"},
 };
 

@@ -7,8 +7,8 @@
 #include "geometry/triangle.h"
 #include "mesh/edge_table.h"
 #include "model/camera.h"
-#include "steps/4_visibility/face_evidence.h"
 #include "steps/4_visibility/face_visibility.h"
+#include "steps/4_visibility/seen_corners.h"
 
 #include <Eigen/Geometry>
 

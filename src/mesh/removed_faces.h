@@ -9,11 +9,11 @@
 namespace vcarve {
 
 /// Why a face of the boundary is not in the surface.
-enum class Removal : std::uint8_t { unseen, sheet, outside_region, small_piece, trimmed };
+enum class Removal : std::uint8_t { unseen, closing, outside_region, small_piece, trimmed };
 
 /// What each is called, as the stages count them.
 inline constexpr std::array<const char*, 5> kRemovalNames = {
-    "unseen", "sheets", "outside the region", "small pieces", "trimmed"};
+    "unseen", "closing without support", "outside the region", "small pieces", "trimmed"};
 
 /// The faces that were taken away, and why. Vertices have places only, in the frame of the scene.
 struct RemovedFaces {

@@ -38,4 +38,11 @@ std::array<double, 3> SurfaceNormals::cosines(std::size_t face, double unknown) 
     return cosines;
 }
 
+bool goes_on(std::size_t face, const SurfaceNormals& normals)
+{
+    constexpr double kGoesOn = 0.9; // cosine, about 26 degrees
+    constexpr double kUnknown = -1.0;
+    return normals.cosines(face, kUnknown)[2] >= kGoesOn;
+}
+
 } // namespace vcarve

@@ -37,4 +37,8 @@ class SurfaceNormals {
     const LocalEdges& edges_;
 };
 
+/// Whether a face goes on with the surface at one of its corners at least: within 26 degrees of the
+/// small faces there.
+bool goes_on(std::size_t face, const SurfaceNormals& normals);
+
 } // namespace vcarve

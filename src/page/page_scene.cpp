@@ -8,7 +8,7 @@
 #include "model/seen_places.h"
 #include "page/display_mesh.h"
 #include "page/pack.h"
-#include "steps/4_visibility/face_evidence.h"
+#include "steps/4_visibility/seen_corners.h"
 
 #include <algorithm>
 #include <numeric>

@@ -25,11 +25,11 @@ constexpr double kCellsPerPoint = 6.8;
 constexpr double kFacesPerPoint = 2.0; ///< of a closed surface through all points
 
 /// Scene: position, colour, error, id and begin of the track; a normal, where there are any; index
-/// of a view; a view with its name and its counts of keypoints.
+/// of a view; a view with its name.
 constexpr double kScenePoint = 24 + 3 + 8 + 8 + 8;
 constexpr double kSceneNormal = 12;
 constexpr double kSceneSight = 4;
-constexpr double kSceneView = 256 + kKeypointCells * kKeypointCells * sizeof(std::uint16_t);
+constexpr double kSceneView = 256;
 
 /// CGAL: a cell holds 4 vertices, 4 neighbours, its state and index; a vertex its point, a cell and
 /// its index; both with some room to grow.
@@ -143,14 +143,10 @@ double tracing(const Sizes& n)
     return n.after_triangulation() + std::max(24 * edges, n.cells * kNetworkCell + kSight * walked);
 }
 
-/// The network, the solver, and the labels before and after; and for bridging facets the facets
-/// amid them, which are copied when some are added, as faces, and the faces around each vertex.
+/// The network, the solver, and the labels.
 double cutting(const Sizes& n)
 {
-    constexpr double kBridgingFace = 2 * 8 + 2.0 * sizeof(Face);
-    constexpr double kBridgingVertex = 4 + 8 + 1;
-    return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 2) +
-           n.faces * kBridgingFace + n.points * kBridgingVertex;
+    return n.after_triangulation() + n.cells * (kNetworkCell + kSolverCell + 2);
 }
 
 /// The labels and the surface, with the faces around each vertex, the usual edge there, and the

@@ -24,7 +24,6 @@
 #include "steps/6_surface/kept_surface.h"
 #include "steps/6_surface/make_surface.h"
 #include "steps/6_surface/orient.h"
-#include "steps/7_refine/flip_ridges.h"
 #include "steps/7_refine/refine.h"
 #include "steps/7_refine/settle.h"
 
@@ -188,8 +187,8 @@ CarvedSurface carve(const Carvers& carvers, bool wants_removed, const Options& o
         work.stage("cells", [&] { return triangulate(scene, options.memory.blocks, work); });
     CarvedSurface carved;
     const SurfaceWishes wishes = {carvers.region.get(), wants_removed ? &carved.removed : nullptr};
-    carved.seen = seen_surface(label_cells(cells, scene, options.labels, work), scene, wishes,
-                               options.surface, work.log());
+    carved.seen = seen_surface(cells, label_cells(cells, scene, options.labels, work), scene,
+                               wishes, options.surface, work.log());
     return carved;
 }
 
@@ -199,14 +198,10 @@ void settle(HalfEdgeMesh& mesh, const Scene& scene, const Options& options, Log&
     if (options.denoise.denoise == 0.0 || options.labels.method == Method::strict) return;
     if (has_dense_points(scene)) return;
     Stage stage(log, "settle");
-    const Progress progress(stage);
-    const SettleCounts counts =
-        settle_vertices(mesh, scene, options.denoise, progress.part(0.0, 0.7));
-    const std::int64_t flipped = flip_ridges(mesh, progress.part(0.7, 0.8));
+    const SettleCounts counts = settle_vertices(mesh, scene, options.denoise, stage);
     stage.end({{"vertices moved", counts.moved},
                {"of", counts.vertices},
                {"held back", counts.held},
-               {"edges flipped", flipped},
                {"thousandths of a pixel of noise", std::llround(1000.0 * counts.noise_px)}});
 }
 

@@ -38,11 +38,12 @@ TEST(ClosingLine, SaysWhatClosesWhatIsOpen)
 {
     RunOutcome outcome = usual();
     outcome.open = 0.035;
-    EXPECT_EQ(line(outcome),
-              "out.ply: 22,268 faces, open in 4 % of what the views look at (--max-sheet 0 closes "
-              "that with large faces); --report OUT.html shows it from all sides");
+    EXPECT_EQ(
+        line(outcome),
+        "out.ply: 22,268 faces, open in 4 % of what the views look at (--max-closing 0 closes "
+        "that with large faces); --report OUT.html shows it from all sides");
     Options options;
-    options.surface.sheets.max_sheet = 0.0;
+    options.surface.rules.max_closing = 0.0;
     EXPECT_EQ(line(outcome, options),
               "out.ply: 22,268 faces, open in 4 % of what the views look at (--closed closes "
               "that); --report OUT.html shows it from all sides");

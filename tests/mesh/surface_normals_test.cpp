@@ -76,39 +76,5 @@ TEST(SurfaceNormals, TellTheAnglesAtAFacesCornersInAscendingOrder)
     EXPECT_EQ(corner.normals.cosines(2, 1.0), (std::array<double, 3>{0, 0, 1}));
 }
 
-TEST(Boundary, HasAFaceForEachFacetSeenFromOutside)
-{
-    const Scene scene = bumpy_sphere(300, 71);
-    const TetMesh mesh = triangulate(scene);
-    const Labels labels = testing::labels_where(
-        mesh, [&](Index cell) { return testing::middle(mesh, cell).norm() < 0.9; });
-    const Boundary boundary(mesh, labels);
-    std::size_t expected = 0;
-    for (const Cell& cell : mesh.cells) {
-        const bool is_inside =
-            labels[static_cast<std::size_t>(&cell - mesh.cells.data())] == Label::inside;
-        for (const Index neighbor : cell.neighbors) {
-            if (is_inside && labels[neighbor] == Label::outside) ++expected;
-        }
-    }
-    ASSERT_EQ(boundary.facets().size(), expected);
-    ASSERT_EQ(boundary.faces().size(), expected);
-    for (std::size_t i = 0; i < expected; ++i) {
-        const auto [cell, slot] = boundary.facets()[i];
-        EXPECT_EQ(labels[cell], Label::inside);
-        EXPECT_EQ(labels[mesh.cells[cell].neighbors[slot]], Label::outside);
-        const Vector3d& behind = mesh.positions[mesh.cells[cell].vertices[slot]];
-        const auto& [a, b, c] = boundary.faces()[i];
-        EXPECT_LT(boundary.normals().of(i).dot(behind - mesh.positions[a]), 0.0);
-        EXPECT_EQ(testing::cell_of(mesh, {a, b, c, mesh.cells[cell].vertices[slot]}), cell);
-        EXPECT_EQ(std::ranges::count(boundary.edges().faces_at()[a], i), 1) << "measured";
-        EXPECT_NEAR(boundary.edges().longest_edge(i),
-                    std::sqrt(std::max({(mesh.positions[a] - mesh.positions[b]).squaredNorm(),
-                                        (mesh.positions[b] - mesh.positions[c]).squaredNorm(),
-                                        (mesh.positions[c] - mesh.positions[a]).squaredNorm()})),
-                    1e-12);
-    }
-}
-
 } // namespace
 } // namespace vcarve

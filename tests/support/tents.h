@@ -2,8 +2,8 @@
 
 #include "geometry/triangle.h"
 #include "model/region_of_interest.h"
-#include "steps/6_surface/onlookers.h"
-#include "steps/6_surface/support.h"
+#include "steps/6_surface/face_evidence.h"
+#include "steps/6_surface/face_rules.h"
 #include "steps/6_surface/trim.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
@@ -116,7 +116,7 @@ struct Tents {
                }),
           boundary(made.surface),
           keep(made.facets.size(), 1),
-          unseen(made.facets.size(), 0)
+          seen(made.facets.size(), 1)
     {
     }
 
@@ -132,17 +132,17 @@ struct Tents {
     std::size_t base() const { return face_of({0, 1, 2}); }
     std::size_t base_aside() const { return face_of({4, 5, 6}); }
 
-    /// Trims where the length that max_sheet stands for is this one.
-    std::int64_t trim(double long_edge, int max_hole_edges = 12)
+    /// Trims where the length that max_closing stands for is this one.
+    std::int64_t trim(double long_edge)
     {
-        SurfaceOptions options;
-        options.sheets.max_sheet = long_edge / 2.0 / region_of_interest(made.scene).radius;
-        options.cleanup.max_hole_edges = max_hole_edges;
+        FaceRules rules;
+        rules.max_closing = long_edge / 2.0 / region_of_interest(made.scene).radius;
         kept_before = keep;
-        const TrimmedFaces trimmed =
-            trim_faces(boundary, made.facets, made.visibility, {unseen, options}, keep);
-        filled = trimmed.filled;
-        return trimmed.count;
+        ChosenFaces chosen{.keep = keep, .seen = seen};
+        const std::int64_t count =
+            trim_faces(boundary, made.facets, made.visibility, rules, chosen);
+        keep = chosen.keep;
+        return count;
     }
     bool is_as_before() const
     {
@@ -185,8 +185,8 @@ struct Tents {
     /// Whether a view sees a place on a face, with what was kept before in between.
     bool is_seen(std::size_t face, const Eigen::Vector3d& place) const
     {
-        const Onlookers onlookers(made.visibility, made.facets, kept_before);
-        return onlookers.see_or_graze(made.facets[face], place);
+        return vcarve::is_seen({made.surface, made.facets, made.visibility}, kept_before,
+                               made.facets[face], place, 0.0);
     }
     /// The share of a piece that views see.
     double share_seen(const Piece& piece) const
@@ -200,9 +200,8 @@ struct Tents {
     testing::LabelledScene made;
     TriMesh boundary;
     FaceFlags keep;
-    FaceFlags unseen;
+    FaceFlags seen;
     FaceFlags kept_before;
-    std::vector<std::array<Eigen::Vector3d, 3>> filled;
 };
 
 } // namespace vcarve

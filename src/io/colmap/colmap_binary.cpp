@@ -5,7 +5,6 @@
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/model_files.h"
 #include "io/files/mapped_file.h"
-#include "model/keypoints.h"
 #include "model/lens_model.h"
 #include "vcarve/error.h"
 
@@ -52,23 +51,6 @@ void read_cameras(const std::filesystem::path& path, SceneBuilder& builder)
     builder.close_cameras();
 }
 
-/// The places of every so many-th 2D point; their points are not needed.
-std::vector<Eigen::Vector2d> read_keypoints(ByteReader& reader)
-{
-    std::vector<Eigen::Vector2d> keypoints;
-    std::uint64_t left = reader.read_count(kPoint2dBytes, "2D points");
-    const std::uint64_t step = left / kKeypointsCounted + 1;
-    for (; left >= step; left -= step) {
-        const auto x = reader.read<double>("a 2D point");
-        const auto y = reader.read<double>("a 2D point");
-        keypoints.emplace_back(x, y);
-        reader.read<std::uint64_t>("a 2D point");
-        reader.skip(step - 1, kPoint2dBytes);
-    }
-    reader.skip(left, kPoint2dBytes);
-    return keypoints;
-}
-
 ImageRecord read_image(ByteReader& reader)
 {
     ImageRecord image;
@@ -81,7 +63,7 @@ ImageRecord read_image(ByteReader& reader)
     }
     image.camera_id = reader.read<std::uint32_t>("the camera of an image");
     image.name = reader.read_zero_terminated("the name of an image");
-    image.keypoints_px = read_keypoints(reader);
+    reader.skip(reader.read_count(kPoint2dBytes, "2D points"), kPoint2dBytes);
     return image;
 }
 

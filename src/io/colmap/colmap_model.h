@@ -23,11 +23,11 @@ struct ColmapViews {
 /// Reads cameras, images and points3D (.bin or .txt) of a COLMAP model, of any version since 2016.
 /// Views and cameras are sorted by COLMAP's ids. Points keep the order of the file and all of them
 /// are kept, those whose position is not finite as well; a view that occurs twice in a track counts
-/// once. An error that is not a number becomes -1, unknown. Of the 2D points of the images some
-/// thousands are counted (View::keypoints). Scene::offset is zero. Files for rigs and frames are
-/// not read: images hold their own poses. Throws InputError naming file and place where a file is
-/// missing, broken or contradicts another. Cost: linear in the size of the files, which are mapped;
-/// allocations never exceed a small multiple of the bytes that are there.
+/// once. An error that is not a number becomes -1, unknown. Scene::offset is zero. Files for rigs
+/// and frames are not read, nor are the 2D points of images: images hold their own poses. Throws
+/// InputError naming file and place where a file is missing, broken or contradicts another. Cost:
+/// linear in the size of the files, which are mapped; allocations never exceed a small multiple of
+/// the bytes that are there.
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
                         const Progress& progress = {});
 

@@ -5,7 +5,6 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
-#include "model/keypoints.h"
 #include "model/lens_model.h"
 
 #include <fmt/format.h>
@@ -63,26 +62,6 @@ void check_points2d(TextReader& reader)
     }
 }
 
-/// The places of every so many-th 2D point of a line; their points are not needed.
-std::vector<Eigen::Vector2d> read_keypoints(TextReader& reader)
-{
-    constexpr std::size_t kLeastCharacters = 6; // of x, y and a point, blanks included
-    const std::size_t step = reader.rest().size() / kLeastCharacters / kKeypointsCounted + 1;
-    std::vector<Eigen::Vector2d> keypoints;
-    for (std::size_t i = 0; !reader.at_line_end(); ++i) {
-        if (i % step == 0) {
-            const double x = reader.read_double("the place of a 2D point");
-            const double y = reader.read_double("the place of a 2D point");
-            keypoints.emplace_back(x, y);
-        } else {
-            reader.read_word("the place of a 2D point");
-            reader.read_word("the place of a 2D point");
-        }
-        reader.read_word("the point of a 2D point");
-    }
-    return keypoints;
-}
-
 ImageRecord read_image(TextReader& reader)
 {
     ImageRecord image;
@@ -97,10 +76,7 @@ ImageRecord read_image(TextReader& reader)
     // A name may hold blanks, but a line without one has lost a field
     if (reader.at_line_end()) reader.read_word("the name of the image");
     image.name = reader.rest();
-    if (reader.next_line()) {
-        check_points2d(reader);
-        image.keypoints_px = read_keypoints(reader);
-    }
+    if (reader.next_line()) check_points2d(reader);
     return image;
 }
 

@@ -3,7 +3,6 @@
 #include "base/parallel_sort.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
-#include "model/keypoints.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>
@@ -74,9 +73,6 @@ void SceneBuilder::add_image(const ImageRecord& image)
     view.cam_from_world = {rotation[0], rotation[1], rotation[2], rotation[3]};
     view.center = -(view.cam_from_world.conjugate() * image.translation);
     if (!view.center.allFinite()) fail("has a centre too far out to be a number");
-    for (const Eigen::Vector2d& keypoint : image.keypoints_px) {
-        count_keypoint(view, *camera, keypoint);
-    }
     scene_.views.push_back(std::move(view));
 }
 

@@ -14,14 +14,13 @@
 
 namespace vcarve {
 
-/// An image as COLMAP's files hold it; of its 2D points the places of some thousands.
+/// An image as COLMAP's files hold it, without its 2D points.
 struct ImageRecord {
     std::uint32_t id = 0;
     Eigen::Vector4d rotation_wxyz = Eigen::Vector4d::Zero(); ///< quaternion, camera from world
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< camera from world
     std::uint32_t camera_id = 0;
     std::string_view name;
-    std::vector<Eigen::Vector2d> keypoints_px; ///< spread over all of them
 };
 
 /// A point as COLMAP's files hold it, without its track.

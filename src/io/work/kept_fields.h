@@ -45,7 +45,6 @@ struct KeptFields<View> {
         field(view.name);
         field(view.cam_from_world);
         field(view.center);
-        field(view.keypoints);
     }
 };
 

@@ -112,19 +112,31 @@ class Solitude {
     PointTree tree_;
 };
 
-/// The error that 5 % of those of some points exceed that have a known one; unlimited where none
-/// has.
-double large_error(const Scene& scene, const std::vector<std::uint32_t>& points)
+/// What reprojection errors are usual. Nothing is below or above it where none is known.
+struct UsualErrors {
+    double median = 0.0;
+    double large = kUnlimited; ///< one in twenty is larger
+};
+
+UsualErrors usual_errors(const Scene& scene, const std::vector<std::uint32_t>& points)
 {
     constexpr std::size_t kWorst = 20; // one in so many
     std::vector<double> errors;
     for (const std::uint32_t point : points) {
         if (scene.errors_px[point] >= 0.0) errors.push_back(scene.errors_px[point]);
     }
-    if (errors.empty()) return kUnlimited;
-    const auto worst = errors.end() - 1 - static_cast<std::ptrdiff_t>(errors.size() / kWorst);
-    std::ranges::nth_element(errors, worst);
-    return *worst;
+    if (errors.empty()) return {};
+    std::ranges::sort(errors);
+    return {errors[errors.size() / 2], errors[errors.size() - 1 - errors.size() / kWorst]};
+}
+
+/// How many times more alone than usual a point may stand, over `stray_spacing`.
+double tolerance(double error_px, const UsualErrors& usual)
+{
+    constexpr double kOfLargeError = 2.0 / 3.0;
+    constexpr double kOfSmallError = 1.75;
+    if (error_px > usual.large) return kOfLargeError;
+    return error_px >= 0.0 && error_px < usual.median ? kOfSmallError : 1.0;
 }
 
 /// Leaves all points but some, which ascend.
@@ -143,7 +155,6 @@ void drop_points(Scene& scene, const std::vector<std::uint32_t>& dropped)
 
 std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options)
 {
-    constexpr double kWithLargeError = 2.0 / 3.0; // of stray_spacing
     if (options.stray_spacing == 0.0 || scene.num_points() <= kCrowd) return 0;
     const std::vector<std::uint32_t> candidates = seldom_seen_points(scene);
     if (candidates.empty()) return 0;
@@ -151,10 +162,9 @@ std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options)
     const std::vector<std::uint32_t> usual = spread_sample(scene);
     const double most = options.stray_spacing * solitude.median(usual);
     if (!(most > 0.0)) return 0; // half of them were seen by none
-    const double large = large_error(scene, usual);
+    const UsualErrors errors = usual_errors(scene, usual);
     const auto is_stray = [&](std::uint32_t point) {
-        const bool is_bad = scene.errors_px[point] > large;
-        return solitude.is_at_least(is_bad ? kWithLargeError * most : most, point);
+        return solitude.is_at_least(tolerance(scene.errors_px[point], errors) * most, point);
     };
     const auto stray = parallel_collect<std::uint32_t>(
         candidates.size(),

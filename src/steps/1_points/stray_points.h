@@ -13,10 +13,10 @@ namespace vcarve {
 /// distance to the 4th nearest of the others over that to the nearest of the views that saw it, so
 /// that the background, which is sampled as densely as seen, stands no more alone than what is
 /// near. Of the points of at most two views those go that stand `stray_spacing` times more alone
-/// than the median point, or two thirds of that where the reprojection error is among the largest
-/// twentieth; what is usual is estimated from some thousand points, evenly spread. Points that a
-/// scanner measured stay. The points follow each other in space, as spatial_sort() puts them; their
-/// order stays. Returns how many were dropped.
+/// than the median point; two thirds of that where the reprojection error is among the largest
+/// twentieth, and 1.75 times that where it is below the median. What is usual is estimated from
+/// some thousand points, evenly spread. Points that a scanner measured stay. The points follow each
+/// other in space, as spatial_sort() puts them; their order stays. Returns how many were dropped.
 /// Cost: O(points log points), in parallel, and 4 bytes a point.
 std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options);
 

@@ -131,12 +131,12 @@ FlowNetwork cut_network(const TetMesh& cells, VisibilityEnergy energy, const Cut
     return std::move(energy.network);
 }
 
-MinimumCut cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options,
-               const Progress& progress)
+Labels cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options,
+           const Progress& progress)
 {
     FlowNetwork network = cut_network(cells, std::move(energy), options);
     progress.tell(0.2);
-    return MinimumCut(cells, std::move(network), {}, progress.part(0.2, 1.0));
+    return minimum_cut(cells, std::move(network), {}, progress.part(0.2, 1.0));
 }
 
 } // namespace vcarve

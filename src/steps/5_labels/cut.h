@@ -11,8 +11,8 @@ namespace vcarve {
 /// facet costs by its shape, quality (1 - min(cos phi, cos psi)) with the angles between the facet
 /// and the spheres around its two cells (Labatut, Pons, Keriven 2009, figure 9). Infinite cells and
 /// the cells that hold views are outside.
-MinimumCut cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options,
-               const Progress& progress = {});
+Labels cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options,
+           const Progress& progress = {});
 
 /// The network that cut() finds the minimum cut of.
 FlowNetwork cut_network(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options);

@@ -4,15 +4,14 @@
 #include "geometry/triangle.h"
 #include "mesh/local_edges.h"
 #include "mesh/surface_normals.h"
-#include "mesh/used_vertices.h"
 #include "model/camera.h"
 #include "model/scene_points.h"
-#include "steps/4_visibility/face_evidence.h"
+#include "steps/4_visibility/seen_corners.h"
+#include "steps/5_labels/boundary.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 
 namespace vcarve {
 
@@ -49,42 +48,6 @@ bool is_seen_from_within(const TetMesh& cells, const Scene& scene, Index infinit
     return is_seen(scene, face, inwards) && !is_seen_from_beyond(cells, scene, face, inwards);
 }
 
-/// Facets of the hull and the faces of a boundary around them, over vertices of their own. How long
-/// edges are and how the surface runs the boundary tells, and where there is none the facets do.
-struct Surroundings {
-    Surroundings(const Boundary& boundary, const TetMesh& cells, const std::vector<Index>& infinite)
-    {
-        for (const Index cell : infinite) {
-            faces.push_back(face_of(cells, {cell, kHullSlot}));
-        }
-        std::vector<std::uint32_t> around;
-        for (const Face& face : faces) {
-            for (const std::uint32_t corner : face) {
-                std::ranges::copy(boundary.edges().faces_at()[corner], std::back_inserter(around));
-            }
-        }
-        std::ranges::sort(around);
-        around.erase(std::unique(around.begin(), around.end()), around.end());
-        const auto is_on_boundary = [&](std::uint32_t corner) {
-            return !boundary.edges().faces_at()[corner].empty();
-        };
-        for (const Face& face : faces) {
-            tells.push_back(std::ranges::none_of(face, is_on_boundary) ? 1 : 0);
-        }
-        for (const std::uint32_t face : around) {
-            faces.push_back(boundary.faces()[face]);
-            tells.push_back(1);
-        }
-        const auto vertices = used_vertices(faces, cells.positions.size());
-        renumber(faces, vertices, cells.positions.size());
-        positions = values_at(vertices, cells.positions);
-    }
-
-    std::vector<Face> faces; ///< the facets come first
-    FaceFlags tells;         ///< whether a face tells of the surface
-    std::vector<Vector3d> positions;
-};
-
 } // namespace
 
 std::vector<Index> uncrossed_hull_cells(const TetMesh& cells, const FlowNetwork& network)
@@ -100,30 +63,45 @@ std::vector<Index> uncrossed_hull_cells(const TetMesh& cells, const FlowNetwork&
     return parallel_collect<Index>(cells.cells.size(), look);
 }
 
-std::int64_t go_on_along_hull(const Scene& scene, const std::vector<Index>& uncrossed,
-                              Labelling& labelling)
+std::int64_t go_on_along_hull(const TetMesh& cells, const Scene& scene,
+                              const std::vector<Index>& uncrossed, const HullOptions& options,
+                              Labels& labels)
 {
-    constexpr double kMostEdges = 20.0;
-    constexpr double kGoesOn = 0.8; // cosine, about 37 degrees
-    constexpr double kNotKnown = -1.0;
-    const TetMesh& cells = labelling.cells();
+    if (options.hull_edge == 0.0) return 0;
     const auto look = [&](std::size_t i, std::vector<Index>& seen) {
         const Index within = cells.cells[uncrossed[i]].neighbors[kHullSlot];
-        if (labelling.labels()[within] == Label::outside &&
-            is_seen_from_within(cells, scene, uncrossed[i]))
+        if (labels[within] == Label::outside && is_seen_from_within(cells, scene, uncrossed[i]))
             seen.push_back(uncrossed[i]);
     };
     const auto seen = parallel_collect<Index>(uncrossed.size(), look, 256);
     if (seen.empty()) return 0;
-    const Surroundings around(labelling.boundary(), cells, seen);
-    const LocalEdges edges(around.positions, around.faces, around.tells);
-    const SurfaceNormals normals(around.positions, around.faces, edges);
+    // The boundary tells how long edges are and how the surface runs; where there is none, the
+    // facets of the hull do.
+    std::vector<Face> faces = boundary_faces(cells, boundary_facets(cells, labels));
+    const std::size_t num_boundary = faces.size();
+    std::vector<std::uint8_t> is_on_boundary(cells.positions.size());
+    for (const Face& face : faces) {
+        for (const std::uint32_t corner : face) {
+            is_on_boundary[corner] = 1;
+        }
+    }
+    FaceFlags tells(num_boundary, 1);
+    for (const Index cell : seen) {
+        const Face& face = faces.emplace_back(face_of(cells, {cell, kHullSlot}));
+        const auto is_on = [&](std::uint32_t corner) { return is_on_boundary[corner] != 0; };
+        tells.push_back(std::ranges::none_of(face, is_on) ? 1 : 0);
+    }
+    const LocalEdges edges(cells.positions, faces, tells);
+    const SurfaceNormals normals(cells.positions, faces, edges);
     const auto judge = [&](std::size_t i, std::vector<Index>& solid) {
-        if (edges.relative_size(i) <= kMostEdges && normals.cosines(i, kNotKnown)[2] >= kGoesOn)
+        const std::size_t face = num_boundary + i;
+        if (edges.relative_size(face) <= options.hull_edge && goes_on(face, normals))
             solid.push_back(seen[i]);
     };
     const auto solid = parallel_collect<Index>(seen.size(), judge, 64);
-    labelling.set(solid, Label::inside);
+    for (const Index cell : solid) {
+        labels[cell] = Label::inside;
+    }
     return static_cast<std::int64_t>(solid.size());
 }
 

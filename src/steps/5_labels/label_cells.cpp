@@ -4,12 +4,11 @@
 #include "steps/4_visibility/shared_sights.h"
 #include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/virtual_views.h"
-#include "steps/5_labels/bridging_facets.h"
 #include "steps/5_labels/cut.h"
 #include "steps/5_labels/hull_faces.h"
-#include "steps/5_labels/needles.h"
 #include "steps/5_labels/strict_carving.h"
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -18,16 +17,20 @@ namespace vcarve {
 
 namespace {
 
+std::int64_t num_inside(const Labels& labels)
+{
+    return std::ranges::count(labels, Label::inside);
+}
+
 // The stages that are kept.
 constexpr std::string_view kSights = "sights";
 constexpr std::string_view kVirtualSights = "virtual-sights";
 
-VirtualSights place_virtual_views(const Labelling& labelling, const Scene& scene,
+VirtualSights place_virtual_views(const TetMesh& cells, const Labels& labels, const Scene& scene,
                                   const VirtualViewOptions& options, Log& log)
 {
     Stage stage(log, "virtual");
-    VirtualSights sights =
-        find_virtual_sights(labelling.cells(), scene, labelling.labels(), options, stage);
+    VirtualSights sights = find_virtual_sights(cells, scene, labels, options, stage);
     stage.end({{"views", size_of(sights.centers.size())},
                {"sights", size_of(sights.tracks.views.size())}});
     return sights;
@@ -37,8 +40,8 @@ VirtualSights place_virtual_views(const Labelling& labelling, const Scene& scene
 /// `cast(source, stage, said, progress)` adds what a source knows to all that was said, as a part
 /// of that stage, `label(said)` labels by that.
 template <typename Said, typename Cast, typename Label>
-Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options, StageKeeper& work,
-                           const Cast& cast, const Label& label)
+Labels label_by_sources(const TetMesh& cells, const Scene& scene, const VirtualViewOptions& options,
+                        StageKeeper& work, const Cast& cast, const Label& label)
 {
     const auto with = [&](const RaySource& source, std::string_view name, Said said) {
         Stage stage(work.log(), "sights");
@@ -52,13 +55,14 @@ Labelling label_by_sources(const Scene& scene, const VirtualViewOptions& options
     if (options.count == 0) return label(by_photographs());
     return label(work.stage(kVirtualSights, [&] {
         Said said = by_photographs();
-        const VirtualSights more = place_virtual_views(label(said), scene, options, work.log());
+        const VirtualSights more =
+            place_virtual_views(cells, label(said), scene, options, work.log());
         return with(more.source(options.weight), kVirtualSights, std::move(said));
     }));
 }
 
-Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
-                StageKeeper& work)
+Labels carve(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
+             StageKeeper& work)
 {
     const CrossingCounter counter(cells);
     const auto cast = [&](const RaySource& source, std::string_view stage, Crossings& crossings,
@@ -67,36 +71,26 @@ Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& op
     };
     const auto label = [&](const Crossings& crossings) {
         Stage stage(work.log(), "carve");
-        Labelling carved(cells, carve(cells, crossings, options.min_crossings));
-        stage.end({{"inside", carved.num_inside()}});
+        Labels carved = carve(cells, crossings, options.min_crossings);
+        stage.end({{"inside", num_inside(carved)}});
         return carved;
     };
-    return label_by_sources<Crossings>(scene, options.virtual_views, work, cast, label);
+    return label_by_sources<Crossings>(cells, scene, options.virtual_views, work, cast, label);
 }
 
-Labelling cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
-              const LabelOptions& options, Log& log)
+Labels cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
+           const LabelOptions& options, Log& log)
 {
     Stage stage(log, "cut");
-    const std::int32_t one_sight = energy.unit;
-    const Progress progress(stage);
     const std::vector<Index> uncrossed = uncrossed_hull_cells(cells, energy.network);
-    MinimumCut minimum = cut(cells, std::move(energy), options.cut, progress.part(0.0, 0.6));
-    DoubtedLabels doubted = doubt_bridging_facets(
-        cells, scene, minimum, {options.bridging, one_sight}, progress.part(0.6, 0.9));
-    const std::int64_t needles = take_back_needles(scene, options.needles, doubted.labelling);
-    const std::int64_t inside = doubted.labelling.num_inside();
-    const std::int64_t on_hull = go_on_along_hull(scene, uncrossed, doubted.labelling);
-    stage.end({{"inside", inside},
-               {"bridging facets doubted", doubted.doubts},
-               {"cells taken back", doubted.taken_back},
-               {"needles", needles},
-               {"faces of the hull", on_hull}});
-    return std::move(doubted.labelling);
+    Labels labels = cut(cells, std::move(energy), options.cut, stage);
+    const std::int64_t inside = num_inside(labels);
+    const std::int64_t on_hull = go_on_along_hull(cells, scene, uncrossed, options.hull, labels);
+    stage.end({{"inside", inside}, {"faces of the hull", on_hull}});
+    return labels;
 }
 
-Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
-              StageKeeper& work)
+Labels cut(const TetMesh& cells, const Scene& scene, const LabelOptions& options, StageKeeper& work)
 {
     std::optional<Scales> scales; // measured once, as a part of the first stage
     const auto cast = [&](const RaySource& source, std::string_view stage, VisibilityEnergy& energy,
@@ -108,20 +102,20 @@ Labelling cut(const TetMesh& cells, const Scene& scene, const LabelOptions& opti
     const auto label = [&](VisibilityEnergy energy) {
         return cut(cells, scene, std::move(energy), options, work.log());
     };
-    return label_by_sources<VisibilityEnergy>(scene, options.virtual_views, work, cast, label);
+    return label_by_sources<VisibilityEnergy>(cells, scene, options.virtual_views, work, cast,
+                                              label);
 }
 
 } // namespace
 
-Labelling label_cells(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
-                      StageKeeper& work)
+Labels label_cells(const TetMesh& cells, const Scene& scene, const LabelOptions& options,
+                   StageKeeper& work)
 {
     const auto label = [&] {
         return options.method == Method::strict ? carve(cells, scene, options, work)
                                                 : cut(cells, scene, options, work);
     };
-    if (!work.keeps()) return label();
-    return {cells, work.stage("labels", [&] { return label().labels(); })};
+    return work.keeps() ? work.stage("labels", label) : label();
 }
 
 } // namespace vcarve

@@ -2,22 +2,18 @@
 
 #include "base/log.h"
 #include "mesh/removed_faces.h"
+#include "model/labels.h"
+#include "model/tet_mesh.h"
 #include "region/region.h"
-#include "steps/5_labels/labelling.h"
 #include "steps/6_surface/cleanup.h"
+#include "steps/6_surface/face_rules.h"
 #include "steps/6_surface/openness.h"
-#include "steps/6_surface/sheets.h"
-#include "steps/6_surface/support.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
-#include <Eigen/Core>
-
-#include <array>
 #include <memory>
 #include <optional>
-#include <vector>
 
 namespace vcarve {
 
@@ -32,14 +28,13 @@ struct SeenSurface {
     TriMesh faces; ///< with TriMesh::points
     /// What they leave open; not known where all faces are kept, or a region leaves some out.
     std::optional<Openness> openness;
-    std::vector<std::array<Eigen::Vector3d, 3>> filled; ///< triangles in holes of these
 };
 
-/// Of the boundary of a labelling (extract.h) the faces that views support (support.h, sheets.h),
+/// Of the boundary of a labelling (extract.h) the faces that views support (face_rules.h),
 /// or all where the surface is to be closed, and of these, where there is a region, those whose
 /// corners all lie within it. Throws InputError where no face is left.
-SeenSurface seen_surface(Labelling labelling, const Scene& scene, const SurfaceWishes& wishes,
-                         const SurfaceOptions& options, Log& log);
+SeenSurface seen_surface(const TetMesh& cells, Labels labels, const Scene& scene,
+                         const SurfaceWishes& wishes, const SurfaceOptions& options, Log& log);
 
 /// Such faces mended into a manifold (cleanup.h), as the one mesh that is worked on from then on.
 /// Small pieces that are dropped go to `removed`, where it is not null.

@@ -1,7 +1,7 @@
 #include "steps/6_surface/provenance.h"
 
 #include "base/parallel.h"
-#include "steps/4_visibility/face_evidence.h"
+#include "steps/4_visibility/seen_corners.h"
 #include "vcarve/error.h"
 
 #include <fmt/core.h>

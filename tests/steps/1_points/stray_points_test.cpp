@@ -85,6 +85,16 @@ TEST(StrayPoints, GoSoonerWhereTheirErrorIsLarge)
     EXPECT_EQ(num_stray(scene), 0);
 }
 
+TEST(StrayPoints, StayLongerWhereTheirErrorIsSmall)
+{
+    Scene scene = wall_and({{{0.01, 0.01, 0.85}, kTwo}}); // 21 times
+    scene.errors_px[7] = 0.49;
+    EXPECT_EQ(num_stray(scene), 0);
+    Scene farther = wall_and({{{0.01, 0.01, 1.4}, kTwo}}); // 43 times
+    farther.errors_px[7] = 0.49;
+    EXPECT_EQ(num_stray(farther), 1);
+}
+
 TEST(StrayPoints, StayInACrowd)
 {
     std::vector<MadePoint> crowd;

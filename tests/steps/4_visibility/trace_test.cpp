@@ -460,7 +460,7 @@ std::ptrdiff_t compare_cuts(const Scene& scene, const TraceOptions& options)
     UnpushedNetwork network = network_of_sights(mesh, scene, options);
     pin_outside(mesh, energy.cell_of_view, network);
     const Labels expected = boost_minimum_cut(mesh, network);
-    const Labels labels = cut(mesh, energy, {.quality = 0.0}).labels();
+    const Labels labels = cut(mesh, energy, {.quality = 0.0});
     EXPECT_TRUE(labels == expected)
         << "distance_sigma " << options.distance_sigma << ", sink depth " << options.sink_depth;
     return std::count(expected.begin(), expected.end(), Label::inside);

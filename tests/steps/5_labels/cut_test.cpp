@@ -46,7 +46,7 @@ std::vector<Index> finite_cells(const TetMesh& mesh)
 TEST(Cut, LeavesEverythingOutsideWithoutEvidence)
 {
     const TetMesh mesh = triangulate(spatial_sort(bumpy_sphere(300, 31)));
-    const Labels labels = cut(mesh, silence(mesh), {}).labels();
+    const Labels labels = cut(mesh, silence(mesh), {});
     EXPECT_EQ(labels, Labels(mesh.cells.size(), Label::outside));
 }
 
@@ -62,11 +62,10 @@ TEST(Cut, PutsACellInsideWhenItsVoteOutweighsItsFacets)
     // each.
     Labels expected(mesh.cells.size(), Label::outside);
     expected[chosen] = Label::inside;
-    EXPECT_EQ(cut(mesh, energy, {}).labels(), expected);
+    EXPECT_EQ(cut(mesh, energy, {}), expected);
 
     // Facets that cost more than the sink capacity make it not worth while.
-    EXPECT_EQ(cut(mesh, energy, {.quality = 1000.0}).labels(),
-              Labels(mesh.cells.size(), Label::outside));
+    EXPECT_EQ(cut(mesh, energy, {.quality = 1000.0}), Labels(mesh.cells.size(), Label::outside));
 }
 
 TEST(Cut, NeverPutsAViewsCellInside)
@@ -76,7 +75,7 @@ TEST(Cut, NeverPutsAViewsCellInside)
     VisibilityEnergy energy = silence(mesh);
     energy.network.terminal_capacities[chosen] = -100 * energy.unit;
     energy.cell_of_view = {chosen};
-    EXPECT_EQ(cut(mesh, energy, {}).labels()[chosen], Label::outside);
+    EXPECT_EQ(cut(mesh, energy, {})[chosen], Label::outside);
 }
 
 TEST(Cut, LetsOnlyTheSightsDecideWithoutQuality)
@@ -85,7 +84,7 @@ TEST(Cut, LetsOnlyTheSightsDecideWithoutQuality)
     const auto finite = finite_cells(mesh);
     VisibilityEnergy energy = silence(mesh);
     energy.network.terminal_capacities[finite[1]] = -1; // the smallest term there is
-    const Labels labels = cut(mesh, energy, {.quality = 0.0}).labels();
+    const Labels labels = cut(mesh, energy, {.quality = 0.0});
     EXPECT_EQ(labels[finite[0]], Label::outside);
     EXPECT_EQ(labels[finite[1]], Label::inside);
 }
@@ -96,7 +95,7 @@ TEST(Cut, NeverPutsAnInfiniteCellInside)
     const TetMesh mesh = triangulate(scene);
     Log silent;
     Stage stage(silent, "");
-    const Labels labels = cut(mesh, energy_of(mesh, scene, {}), {}).labels();
+    const Labels labels = cut(mesh, energy_of(mesh, scene, {}), {});
     std::int64_t inside = 0;
     for (Index i = 0; i < mesh.cells.size(); ++i) {
         inside += labels[i] == Label::inside;

@@ -1,4 +1,5 @@
 #include "geometry/triangle.h"
+#include "steps/5_labels/boundary.h"
 #include "steps/5_labels/hull_faces.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
@@ -40,12 +41,13 @@ struct FreeRoom {
     explicit FreeRoom(Scene made)
         : scene(std::move(made)),
           mesh(triangulate(scene)),
-          labelling(mesh, Labels(mesh.cells.size(), Label::outside))
+          labels(mesh.cells.size(), Label::outside)
     {
         network.arc_capacities = filled_array(mesh.cells.size(), std::array<std::int32_t, 4>{});
     }
 
-    std::int64_t go_on() { return go_on_along_hull(scene, uncrossed(), labelling); }
+    std::int64_t go_on() { return go_on_along_hull(mesh, scene, uncrossed(), {}, labels); }
+    std::vector<CellFacet> facets() const { return boundary_facets(mesh, labels); }
     std::vector<Index> uncrossed() const { return uncrossed_hull_cells(mesh, network); }
     std::int64_t num_on_hull() const
     {
@@ -66,7 +68,7 @@ struct FreeRoom {
 
     Scene scene;
     TetMesh mesh;
-    Labelling labelling;
+    Labels labels;
     FlowNetwork network;
 };
 
@@ -74,7 +76,7 @@ TEST(GoOnAlongHull, ShowsTheWallsOfARoomBehindWhichNoPointsLie)
 {
     FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
     const std::int64_t found = room.go_on();
-    const std::vector<CellFacet> facets = room.labelling.facets();
+    const std::vector<CellFacet> facets = room.facets();
     EXPECT_EQ(found, size_of(facets.size()));
     EXPECT_GT(found, room.num_on_hull() * 9 / 10);
     for (const CellFacet& facet : facets) {
@@ -89,8 +91,8 @@ TEST(GoOnAlongHull, IsStoppedByTheBoundaryBeingClosed)
 {
     FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
     ASSERT_GT(room.go_on(), 0);
-    room.labelling.close_hull();
-    EXPECT_TRUE(room.labelling.facets().empty());
+    close_hull(room.mesh, room.labels);
+    EXPECT_TRUE(room.facets().empty());
 }
 
 TEST(GoOnAlongHull, LeavesWhatIsSeenFromBeyond)
@@ -112,7 +114,7 @@ TEST(GoOnAlongHull, LeavesWhatAViewBeyondHasInItsImage)
     Scene scene = make_scene(views, round_room({0, 1, 2, 3}));
     FreeRoom room(scene);
     room.go_on();
-    const std::vector<CellFacet> facets = room.labelling.facets();
+    const std::vector<CellFacet> facets = room.facets();
     EXPECT_FALSE(facets.empty());
     for (const CellFacet& facet : facets) {
         const Face face = face_of(room.mesh, facet);
@@ -129,7 +131,7 @@ TEST(GoOnAlongHull, LeavesWhatNoViewSawFromWithin)
 {
     FreeRoom room(make_scene({{0.0, 0.0, 9.0}, {0.5, 0.0, 9.0}}, round_room({0, 1})));
     room.go_on();
-    for (const CellFacet& facet : room.labelling.facets()) {
+    for (const CellFacet& facet : room.facets()) {
         const Face face = face_of(room.mesh, facet);
         EXPECT_LT(room.mesh.positions[face[0]].z(), 0.25) << "seen from its back from above";
     }
@@ -157,7 +159,7 @@ TEST(GoOnAlongHull, LeavesTheLidWhichTurnsOffTheSurface)
     const auto is_on_lid = [&](Index cell) { return room.is_on_lid(cell); };
     ASSERT_TRUE(std::ranges::any_of(room.uncrossed(), is_on_lid));
     room.go_on();
-    for (const CellFacet& facet : room.labelling.facets()) {
+    for (const CellFacet& facet : room.facets()) {
         EXPECT_FALSE(room.is_on_lid(facet.cell));
     }
 }
@@ -179,7 +181,7 @@ std::int64_t num_going_on(double far)
     FreeRoom plain(make_scene({{0.0, 1.0, 50.0}, {2.0, 0.0, 50.0}}, points));
     plain.go_on();
     std::int64_t num_long = 0;
-    for (const CellFacet& facet : plain.labelling.facets()) {
+    for (const CellFacet& facet : plain.facets()) {
         num_long += plain.longest_edge(facet.cell) > 0.9 * far ? 1 : 0;
     }
     return num_long;

@@ -40,9 +40,9 @@ TEST(Removals, KeepTheFirstReasonForWhichAFaceWent)
     RemovedFaces removed;
     Removals removals(&removed);
     removals.note({1, 0, 1, 1}, Removal::unseen);
-    removals.note({1, 0, 1, 0}, Removal::sheet);
+    removals.note({1, 0, 1, 0}, Removal::closing);
     removals.add_noted(four_triangles());
-    EXPECT_EQ(removed.reasons, (std::vector{Removal::unseen, Removal::sheet}));
+    EXPECT_EQ(removed.reasons, (std::vector{Removal::unseen, Removal::closing}));
     EXPECT_EQ(removed.mesh.faces, (std::vector<Face>{{0, 1, 2}, {3, 4, 5}}));
     EXPECT_EQ(removed.mesh.positions,
               (std::vector<Vector3d>{
@@ -114,7 +114,7 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     Options options;
     options.surface.cleanup.max_hole_edges = 0;
     options.surface.cleanup.min_component_faces = 600; // half of that where pieces are closed
-    options.surface.sheets.max_sheet = 0.05;
+    options.surface.rules.max_closing = 0.05;
     options.crop.region.kind = RegionChoice::Kind::box;
     options.crop.region.low = Vector3d(-2, -2, -0.9);
     options.crop.region.high = Vector3d(2, 2, 0.2);
@@ -127,7 +127,7 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     const TriMesh mesh =
         reconstruct_thinned(scene, size_of(scene), options, log, {.removed = &removed}).mesh;
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
-    EXPECT_EQ(count(removed, Removal::sheet), log.all["surface sheets"]);
+    EXPECT_EQ(count(removed, Removal::closing), log.all["surface closing without support"]);
     EXPECT_EQ(count(removed, Removal::outside_region), log.all["surface outside the region"]);
     EXPECT_EQ(count(removed, Removal::small_piece),
               log.all["surface faces"] - static_cast<std::int64_t>(mesh.faces.size()));
@@ -149,8 +149,8 @@ TEST(RemovedFaces, TellSheetsFromWhatNobodySaw)
     const Scene scene = read_model(fixtures_folder() / "room", log);
     const SceneSize size = size_of(scene);
     reconstruct_thinned(scene, size, {}, log, {.removed = &removed});
-    EXPECT_GT(count(removed, Removal::sheet), 0);
-    EXPECT_EQ(count(removed, Removal::sheet), log.all["surface sheets"]);
+    EXPECT_GT(count(removed, Removal::closing), 0);
+    EXPECT_EQ(count(removed, Removal::closing), log.all["surface closing without support"]);
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
 }
 

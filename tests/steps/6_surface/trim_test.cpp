@@ -1,6 +1,5 @@
 #include "geometry/triangle.h"
 #include "mesh/check.h"
-#include "mesh/straight_rims.h"
 #include "support/tents.h"
 
 #include <gtest/gtest.h>
@@ -122,21 +121,6 @@ TEST(TrimFaces, KeepsWhatAnImageShows)
     }
 }
 
-TEST(TrimFaces, KeepsSmallSpotsOfLargeFaces)
-{
-    // Images that show 2.4 x 1.8 of a face of area 30, which has few places there.
-    for (const double x : {-1.8, -0.6, 0.6, 1.8}) {
-        for (const double y : {-1.4, -0.2}) {
-            Tents tents({{{x, y, -1.9}}, kShowsAside});
-            tents.trim(4.0);
-            expect_whole(tents);
-            const SeenArea area = seen_area(tents, tents.base());
-            ASSERT_GT(area.seen, 3.0);
-            EXPECT_LT(area.lost, 0.2 * area.seen) << "from " << x << ", " << y;
-        }
-    }
-}
-
 TEST(TrimFaces, KeepsWhatIsNotHidden)
 {
     for (const auto& [long_edge, most_more] : {std::pair(4.0, 3.0), std::pair(1.0, 2.8)}) {
@@ -210,7 +194,7 @@ TEST(TrimFaces, LeavesFacesThatAreSeenWhole)
 TEST(TrimFaces, LeavesFacesThatAreKeptUnseen)
 {
     Tents tents = half_shown();
-    tents.unseen[tents.base()] = 1;
+    tents.seen[tents.base()] = 0;
     EXPECT_EQ(tents.trim(1.0), 0);
     EXPECT_TRUE(tents.is_as_before());
 }
@@ -219,7 +203,7 @@ TEST(TrimFaces, LeavesFacesThatAreNotKept)
 {
     Tents tents = half_shown();
     tents.keep[tents.base()] = 0;
-    EXPECT_EQ(tents.trim(1.0, 0), 0);
+    EXPECT_EQ(tents.trim(1.0), 0);
     EXPECT_TRUE(tents.is_as_before());
 }
 
@@ -301,21 +285,6 @@ TEST(TrimFaces, JoinsPiecesAgainThatAreAllKept)
         << "it was halved";
 }
 
-TEST(TrimFaces, LeavesNoVerticesInStraightRims)
-{
-    Tents tents = half_shown();
-    tents.trim(1.0);
-    const std::vector<Piece> pieces = tents.pieces();
-    ASSERT_EQ(pieces.size(), tents.boundary.faces.size()) << "each lies on one face";
-    const auto plane_of = [&](std::uint32_t face) {
-        return static_cast<std::uint32_t>(pieces[face].origin);
-    };
-    const auto first_middle = static_cast<std::uint32_t>(tents.made.surface.positions.size());
-    const auto first_face = static_cast<std::uint32_t>(tents.made.facets.size());
-    EXPECT_TRUE(
-        straighten_rims(first_middle, first_face, plane_of, tents.boundary, tents.keep).empty());
-}
-
 TEST(TrimFaces, HalvesToASixteenthAtMost)
 {
     Tents fine = half_shown();
@@ -324,29 +293,6 @@ TEST(TrimFaces, HalvesToASixteenthAtMost)
     finest.trim(0.1);
     EXPECT_EQ(finest.boundary.faces, fine.boundary.faces);
     EXPECT_EQ(finest.keep, fine.keep);
-}
-
-TEST(TrimFaces, FillsHolesBesideBefore)
-{
-    Tents tents = half_shown();
-    const std::size_t side = tents.face_of({0, 1, 3}); // at the edge of the base that is divided
-    tents.keep[side] = 0;
-    EXPECT_EQ(tents.trim(1.0), 1) << "what fills it is no face that lost something";
-    ASSERT_EQ(tents.filled.size(), 1U);
-    EXPECT_TRUE(std::ranges::is_permutation(tents.filled[0], tents.whole(side)));
-    EXPECT_NEAR(tents.area(side, true), tents.whole_area(side), 1e-9);
-    EXPECT_EQ(tents.keep[side], 0);
-    expect_no_cracks(tents.kept()); // what fills it is halved along
-}
-
-TEST(TrimFaces, FillsNoHolesOfMoreEdges)
-{
-    Tents tents = half_shown();
-    const std::size_t side = tents.face_of({0, 1, 3});
-    tents.keep[side] = 0;
-    EXPECT_EQ(tents.trim(1.0, 2), 1);
-    EXPECT_TRUE(tents.filled.empty());
-    EXPECT_EQ(tents.area(side, true), 0.0);
 }
 
 TEST(TrimFaces, IsTheSameFromOneThreadAndTwo)

@@ -325,33 +325,10 @@ FilledBlock FlowForest::fill()
         if (nodes_[cell].excess < 0) join(cell, kNoParent, 1);
         if (leaves(cell)) filled.border.push_back(cell);
     }
-    settle();
-    filled.deepest = depth_;
-    return filled;
-}
-
-void FlowForest::add_source_capacity(Index cell, std::int32_t flow)
-{
-    FlowNode& node = nodes_[cell];
-    const bool was_root = node.excess < 0;
-    // Held below the end of 32 bits: so much is more than any cell can pass on.
-    node.excess =
-        static_cast<std::int32_t>(std::min(std::int64_t{node.excess} + flow, std::int64_t{kMost}));
-    changed_.push_back(cell);
-    // A root that is filled is one no more.
-    if (was_root && node.excess >= 0 && node.level == 1) orphans_.add(cell, 1);
-}
-
-void FlowForest::settle()
-{
-    repair();
-    for (const Index cell : changed_) {
-        if (nodes_[cell].level > 0) list_to_augment(cell);
-    }
-    changed_.clear();
-    augment_all();
     while (!front_.empty())
         grow();
+    filled.deepest = depth_;
+    return filled;
 }
 
 // ---- merging ------------------------------------------------------------------------------------

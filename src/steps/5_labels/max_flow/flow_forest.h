@@ -32,11 +32,6 @@ class FlowForest {
     /// The same for a block made of filled ones, in their order, at the cost of what changes.
     FilledBlock merge(std::span<const FilledBlock> parts);
 
-    /// Adds to the excess of a cell of a filled forest; settle() then pushes what can reach a
-    /// root.
-    void add_source_capacity(Index cell, std::int32_t flow);
-    void settle();
-
   private:
     std::int32_t level(Index cell) const;
     Index if_here(Index cell, Index other) const;
@@ -74,8 +69,7 @@ class FlowForest {
     LevelBuckets active_{nodes_};  ///< cells of the forest with excess
     std::vector<Index> late_;      ///< cells whose parent had no room left for all their excess
     std::vector<Index> detached_;
-    std::vector<Index> changed_; ///< cells that got more excess, not yet settled
-    std::vector<Index> wave_;    ///< cells reattached on one level, and on the next
+    std::vector<Index> wave_; ///< cells reattached on one level, and on the next
     std::vector<Index> next_wave_;
     /// While blocks are merged: by level, cells that may give a lower level to their neighbours.
     std::vector<std::vector<Index>> visits_;

@@ -73,57 +73,28 @@ std::vector<FilledBlock> merge_blocks(std::span<const FilledBlock> blocks, FlowG
 
 } // namespace
 
-struct MinimumCut::Solver {
-    Solver(const UnsetArray<Cell>& cells, ArcCapacities arc_capacities)
-        : graph{cells, std::move(arc_capacities), UnsetArray<FlowNode>(cells.size())},
-          forest(graph, 0, static_cast<Index>(cells.size()))
-    {
-    }
-
-    FlowGraph graph;
-    FlowForest forest;
-};
-
-MinimumCut::MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks,
-                       const Progress& progress)
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks,
+                   const Progress& progress)
 {
     check_sizes(cells, network);
     if (blocks.cells == 0 || blocks.merged < 2)
         throw std::invalid_argument("minimum_cut: the blocks are too small");
-    solver_ = std::make_unique<Solver>(cells.cells, std::move(network.arc_capacities));
-    FlowGraph& graph = solver_->graph;
+    const auto count = static_cast<Index>(cells.cells.size());
+    FlowGraph graph{cells.cells, std::move(network.arc_capacities), UnsetArray<FlowNode>(count)};
     std::vector<FilledBlock> filled = fill_blocks(cells, std::move(network.terminal_capacities),
                                                   graph, blocks.cells, progress.part(0.0, 0.7));
-    // Merging asks for few cells of many runs of them.
-    const ScatteredUse few_of_many;
-    while (filled.size() > blocks.merged)
-        filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));
-    solver_->forest.merge(filled);
-}
-
-MinimumCut::~MinimumCut() = default;
-
-void MinimumCut::add_source_capacity(std::span<const Index> cells, std::int32_t flow)
-{
-    const ScatteredUse few_of_many;
-    for (const Index cell : cells)
-        solver_->forest.add_source_capacity(cell, flow);
-    solver_->forest.settle();
-}
-
-Labels MinimumCut::labels() const
-{
-    const FlowGraph& graph = solver_->graph;
-    Labels labels(graph.cells.size());
+    {
+        // Merging asks for few cells of many runs of them.
+        const ScatteredUse few_of_many;
+        while (filled.size() > blocks.merged)
+            filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));
+        FlowForest(graph, 0, count).merge(filled);
+    }
+    Labels labels(count);
     parallel_for(labels.size(), [&](std::size_t cell) {
         labels[cell] = graph.nodes[cell].level > 0 ? Label::inside : Label::outside;
     });
     return labels;
-}
-
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks)
-{
-    return MinimumCut(cells, std::move(network), blocks).labels();
 }
 
 } // namespace vcarve

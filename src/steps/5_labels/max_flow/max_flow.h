@@ -6,9 +6,6 @@
 #include "model/tet_mesh.h"
 
 #include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
 
 namespace vcarve {
 
@@ -19,33 +16,13 @@ struct FlowBlocks {
     std::size_t merged = 16;   ///< at least 2
 };
 
-/// The minimum cut of a network on the cells of a triangulation, found once and found again, at the
-/// cost of what changes, after source capacity was added. `cells` must outlive it. Throws
-/// std::invalid_argument where the sizes differ, an arc capacity is negative or a size of the
-/// blocks is too small. Cost: 36 bytes a cell beside `cells`, the network's own 20 included, and
-/// lists of some of them.
-class MinimumCut {
-  public:
-    MinimumCut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {},
-               const Progress& progress = {});
-    ~MinimumCut();
-    MinimumCut(MinimumCut&&) = delete;
-    MinimumCut& operator=(MinimumCut&&) = delete;
-
-    /// Adds `flow` to the source capacity of each cell, for every time it is listed.
-    void add_source_capacity(std::span<const Index> cells, std::int32_t flow);
-
-    /// Inside are exactly the cells from which the sink can still be reached once the flow is
-    /// maximal. That set is the same for every maximum flow, so the labels depend on nothing but
-    /// the network.
-    Labels labels() const;
-
-  private:
-    struct Solver;
-    std::unique_ptr<Solver> solver_;
-};
-
-/// The labels of the minimum cut. `network` is used up.
-Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {});
+/// The labels of the minimum cut of a network on the cells of a triangulation, which is used up.
+/// Inside are exactly the cells from which the sink can still be reached once the flow is maximal.
+/// That set is the same for every maximum flow, so the labels depend on nothing but the network.
+/// Throws std::invalid_argument where the sizes differ, an arc capacity is negative or a size of
+/// the blocks is too small. Cost: 36 bytes a cell beside `cells`, the network's own 20 included,
+/// and lists of some of them.
+Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& blocks = {},
+                   const Progress& progress = {});
 
 } // namespace vcarve

@@ -414,31 +414,6 @@ TEST(MinimumCut, IsTheSameHoweverBlocksOfATriangulationAreMerged)
     }
 }
 
-TEST(MinimumCut, IsFoundAgainAfterSourceCapacityWasAdded)
-{
-    std::mt19937 random(11);
-    const std::vector<Kind> kinds = {{300, 1, 1, 1.0, 0.1},
-                                     {300, 3, 40, 0.6, 0.1},
-                                     {1000, 100, 400, 1.0, 0.5},
-                                     {2000, 1000, 90, 0.95, 0.02}};
-    for (int round = 0; round < 80; ++round) {
-        const Kind& kind = kinds[static_cast<std::size_t>(round) % kinds.size()];
-        Problem problem =
-            round % 8 < 4 ? random_problem(kind, random) : random_ladder(kind, random);
-        const FlowBlocks blocks = round % 16 < 8 ? FlowBlocks() : FlowBlocks{30, 3};
-        MinimumCut minimum(problem.cells, problem.network, blocks);
-        for (int more = 0; more < 4; ++more) {
-            std::vector<Index> chosen(1 + random() % 30);
-            for (Index& cell : chosen) {
-                cell = static_cast<Index>(random() % problem.cells.cells.size());
-                problem.network.terminal_capacities[cell] += kind.max_excess;
-            }
-            minimum.add_source_capacity(chosen, kind.max_excess);
-            ASSERT_EQ(minimum.labels(), cut(problem)) << "round " << round << '.' << more;
-        }
-    }
-}
-
 TEST(MinimumCut, IsTheSameForOneAndForTwoThreads)
 {
     std::mt19937 random(8);

@@ -1,4 +1,4 @@
-#include "steps/4_visibility/face_evidence.h"
+#include "steps/4_visibility/seen_corners.h"
 
 #include "base/parallel.h"
 #include "geometry/triangle.h"
@@ -47,7 +47,7 @@ bool is_seen(const Scene& scene, const Face& points, const Vector3d& normal)
         points, [&](std::uint32_t point) { return is_seen_from_front(scene, point, normal); });
 }
 
-FaceFlags seen_faces(const TriMesh& mesh, const Scene& scene)
+FaceFlags faces_seen_at_corners(const TriMesh& mesh, const Scene& scene)
 {
     FaceFlags seen(mesh.faces.size());
     parallel_for(seen.size(), [&](std::size_t i) {
