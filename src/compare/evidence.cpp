@@ -36,7 +36,7 @@ double share_of_ones(const std::vector<char>& flags)
 
 /// Whether the mesh stands between a view and a point it saw, or the point's place does not decide
 /// it.
-bool hides(const SurfaceTree& tree, const Reference& reference, std::uint64_t sight)
+bool hides(const TriangleTree& tree, const Reference& reference, std::uint64_t sight)
 {
     const std::vector<std::uint64_t>& begins = reference.scene.tracks.begins;
     const auto row = std::upper_bound(begins.begin(), begins.end(), sight) - 1;
@@ -47,10 +47,10 @@ bool hides(const SurfaceTree& tree, const Reference& reference, std::uint64_t si
     const Eigen::Vector3d line = center - position;
     const double length = line.norm();
     const double skip = reference.options.spacings * reference.spacings[point];
-    return length > skip && tree.blocks(position + line * (skip / length), center);
+    return length > skip && tree.is_met(position + line * (skip / length), center);
 }
 
-double hidden_share(const SurfaceTree& tree, const Reference& reference)
+double hidden_share(const TriangleTree& tree, const Reference& reference)
 {
     const std::uint64_t sights = reference.scene.num_sights();
     const std::uint64_t most = static_cast<std::uint64_t>(reference.options.samples);
@@ -70,7 +70,7 @@ double hidden_share(const SurfaceTree& tree, const Reference& reference)
 }
 
 /// Per point: its distance to the mesh in its own spacings.
-std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Reference& reference)
+std::vector<double> distances_in_spacings(const TriangleTree& tree, const Reference& reference)
 {
     std::vector<double> result(reference.scene.num_points());
     parallel_for(
@@ -150,7 +150,7 @@ bool view_sees(const View& view, const Eigen::Vector3d& position, const Measured
     const double length = line.norm();
     if (length <= touch) return false;
     if (!view_shows(view, reference.scene.cameras[view.camera], position)) return false;
-    return !mesh.tree.blocks(position + line * (touch / length), view.center);
+    return !mesh.tree.is_met(position + line * (touch / length), view.center);
 }
 
 EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference& reference)

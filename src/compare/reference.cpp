@@ -4,7 +4,6 @@
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"
-#include "geometry/triangle.h"
 #include "model/measured_range.h"
 #include "model/middle_box.h"
 #include "vcarve/error.h"
@@ -39,14 +38,6 @@ std::vector<Eigen::Vector3d> face_corners(const TriMesh& mesh)
         }
     }
     return corners;
-}
-
-bool has_area(const TriMesh& mesh)
-{
-    return std::ranges::any_of(mesh.faces, [&](const Face& face) {
-        const double size_sq = scaled_normal(mesh.positions, face).squaredNorm();
-        return size_sq > 0.0 && size_sq < kUnlimited;
-    });
 }
 
 /// Both boxes are said in the frame of the files, where the user can compare them.
@@ -140,13 +131,13 @@ MeasuredMesh place_mesh(const NamedMesh& named, const Reference& reference)
     placed.positions = named.mesh.positions;
     placed.offset = named.mesh.offset;
     placed = in_frame(std::move(placed), reference.origin);
-    if (!has_area(placed)) {
+    TriangleTree tree(placed);
+    if (tree.is_empty()) {
         throw InputError(fmt::format("{}: none of the {} faces has an area, so there is no surface "
                                      "to measure",
                                      named.name, placed.faces.size()));
     }
     refuse_other_frame(named, placed, reference);
-    SurfaceTree tree(placed);
     return {std::move(placed), std::move(tree)};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/surface_tree.h"
+#include "geometry/triangle_tree.h"
 #include "vcarve/compare.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
@@ -20,7 +20,7 @@ namespace vcarve {
 /// A mesh in the frame of a reference, ready to be measured.
 struct MeasuredMesh {
     TriMesh mesh; ///< offset is the reference's origin
-    SurfaceTree tree;
+    TriangleTree tree;
 };
 
 inline constexpr std::uint32_t kNoView = 0xffffffffU;

@@ -122,7 +122,7 @@ class TruthSight {
         const Eigen::Vector3d line = center - point;
         const double length = line.norm();
         if (length <= touch_ || std::abs(normal.dot(line)) <= least_cos * length) return false;
-        return !surface_.tree.blocks(point + line * (touch_ / length), center);
+        return !surface_.tree.is_met(point + line * (touch_ / length), center);
     }
 
     const MeasuredMesh& surface_;
@@ -163,7 +163,7 @@ double angle_between_lines_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& 
     return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180.0 / std::numbers::pi;
 }
 
-Deviations deviations(const TriMesh& mesh, const SurfaceSamples& samples, const SurfaceTree& truth)
+Deviations deviations(const TriMesh& mesh, const SurfaceSamples& samples, const TriangleTree& truth)
 {
     const std::size_t count = samples.positions.size();
     Deviations result{std::vector<double>(count), std::vector<double>(count)};
@@ -201,7 +201,7 @@ std::optional<NormalFigures> normal_figures(const Deviations& deviations, const 
                          .most_deg = percentile(angles, 0.9)};
 }
 
-std::vector<double> distances(const SurfaceTree& tree, std::span<const Eigen::Vector3d> points)
+std::vector<double> distances(const TriangleTree& tree, std::span<const Eigen::Vector3d> points)
 {
     std::vector<double> result(points.size());
     parallel_for(
@@ -232,7 +232,7 @@ double blocked_share(const MeasuredMesh& mesh, const Truth& truth, const std::ve
             const double length = line.norm();
             if (length <= skip) return;
             blocked[i] =
-                mesh.tree.blocks(truth.samples[i] + line * (skip / length), center) ? 1 : 0;
+                mesh.tree.is_met(truth.samples[i] + line * (skip / length), center) ? 1 : 0;
         },
         64);
     return static_cast<double>(std::ranges::count(blocked, 1)) /

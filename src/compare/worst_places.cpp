@@ -137,7 +137,7 @@ double diagonal_of(const Reference& reference)
     return of_all > 0.0 ? of_all : 1.0;
 }
 
-std::vector<double> distances_to(const SurfaceTree& surface,
+std::vector<double> distances_to(const TriangleTree& surface,
                                  std::span<const Eigen::Vector3d> places)
 {
     std::vector<double> distances(places.size());
@@ -146,7 +146,7 @@ std::vector<double> distances_to(const SurfaceTree& surface,
     return distances;
 }
 
-SurfaceDistances surface_distances(const MeasuredMesh& mesh, const SurfaceTree& other,
+SurfaceDistances surface_distances(const MeasuredMesh& mesh, const TriangleTree& other,
                                    const Reference& reference)
 {
     const auto most = static_cast<std::size_t>(reference.options.samples);

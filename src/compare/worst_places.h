@@ -47,7 +47,7 @@ struct WorstPlace {
 double diagonal_of(const Reference& reference);
 
 /// From places to the nearest point of a surface. Cost: a query a place, parallel.
-std::vector<double> distances_to(const SurfaceTree& surface,
+std::vector<double> distances_to(const TriangleTree& surface,
                                  std::span<const Eigen::Vector3d> places);
 
 /// Samples of a mesh, and how far each lies from another surface. The arrays run parallel.
@@ -56,7 +56,7 @@ struct SurfaceDistances {
     std::vector<double> distances; ///< in diagonals
 };
 
-SurfaceDistances surface_distances(const MeasuredMesh& mesh, const SurfaceTree& other,
+SurfaceDistances surface_distances(const MeasuredMesh& mesh, const TriangleTree& other,
                                    const Reference& reference);
 
 /// Where a mesh lies farthest from the surface that `far` tells the distances to, `count` places at

@@ -40,7 +40,7 @@ struct Compared {
 /// What a mesh is measured against.
 struct Target {
     std::string name; ///< empty: nothing
-    const SurfaceTree* surface = nullptr;
+    const TriangleTree* surface = nullptr;
 };
 
 Target target_of(std::size_t mesh, const std::vector<Compared>& all, const Reference& reference)
@@ -88,7 +88,7 @@ Json surface_json(const std::string& name, const TriMesh& shown, std::size_t of)
 }
 
 /// Distances in percent of the diagonal, packed as errors are.
-std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const SurfaceTree& target,
+std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const TriangleTree& target,
                              double diagonal)
 {
     std::vector<double> distances = distances_to(target, places);
@@ -98,7 +98,7 @@ std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const S
     return pack_errors(distances);
 }
 
-Json distances_json(const TriMesh& shown, const SurfaceTree& target, double diagonal)
+Json distances_json(const TriMesh& shown, const TriangleTree& target, double diagonal)
 {
     const std::vector<std::int32_t> parts = edge_parts(shown, kPartShare * diagonal, kParts);
     return {{"parts", pack_bytes(parts)},
