@@ -8,10 +8,9 @@
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
-#include "compare/closed_surface.h"
+#include "compare/comparison_table.h"
 #include "io/files/mapped_file.h"
 #include "io/files/output_file.h"
-#include "report/report.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -160,14 +159,8 @@ Reference reference_of(const CompareArguments& arguments, Scene model, Log& log)
 {
     NamedMesh truth;
     if (!arguments.truth.empty()) truth = {arguments.truth.string(), read_ply(arguments.truth)};
-    Stage stage(log, "reference");
-    Reference reference =
-        make_reference(model, arguments.truth.empty() ? nullptr : &truth, arguments.measure);
-    const std::size_t samples = reference.truth ? reference.truth->samples.size() : 0;
-    stage.end({{"points", reference.scene.num_points()},
-               {"samples of the truth", static_cast<std::int64_t>(samples)}});
-    add_closed_surface(reference, std::move(model), log);
-    return reference;
+    return complete_reference(std::move(model), arguments.truth.empty() ? nullptr : &truth,
+                              arguments.measure, log);
 }
 
 /// What meshes are measured by, and what their figures go with.
@@ -181,9 +174,7 @@ struct Yardstick {
 /// The column of that name; the mesh's own name is the one that errors tell.
 Comparison measure(const NamedMesh& mesh, const std::string& column, const Yardstick& by)
 {
-    Stage stage(by.log, "measure");
-    Comparison comparison = compare_mesh(mesh, by.reference);
-    stage.end({{"faces of " + mesh.name, comparison.size.faces}});
+    Comparison comparison = compare_mesh(mesh, by.reference, by.log);
     comparison.name = column;
     by.preview.add(column, mesh.mesh, by.log);
     by.report.add(column, mesh.mesh);

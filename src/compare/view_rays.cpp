@@ -13,7 +13,8 @@ constexpr std::size_t kSamplesPerRay = 4;
 constexpr std::size_t kLeastRaysAView = 36;
 
 /// Per ray: what it first meets of a surface.
-std::vector<std::optional<FirstHit>> first_hits(const TriangleTree& tree, const Reference& reference)
+std::vector<std::optional<FirstHit>> first_hits(const TriangleTree& tree,
+                                                const Reference& reference)
 {
     std::vector<std::optional<FirstHit>> hits(reference.rays.size());
     parallel_for(

@@ -46,10 +46,6 @@ struct WorstPlace {
 /// middle nine tenths of the points, or of all of them where that has no size.
 double diagonal_of(const Reference& reference);
 
-/// From places to the nearest point of a surface. Cost: a query a place, parallel.
-std::vector<double> distances_to(const TriangleTree& surface,
-                                 std::span<const Eigen::Vector3d> places);
-
 /// Samples of a mesh, and how far each lies from another surface. The arrays run parallel.
 struct SurfaceDistances {
     SurfaceSamples samples; ///< at most 100,000, by area, the same for the same mesh and options

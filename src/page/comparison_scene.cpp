@@ -1,5 +1,6 @@
 #include "page/comparison_scene.h"
 
+#include "base/quantile.h"
 #include "compare/worst_places.h"
 #include "model/middle_box.h"
 #include "page/display_mesh.h"
@@ -119,16 +120,6 @@ Json places_json(const std::vector<WorstPlace>& places)
     return json;
 }
 
-/// How far most of a surface's area lies at most.
-double usual_most(std::vector<double> distances)
-{
-    if (distances.empty()) return 0.0;
-    const auto rank =
-        static_cast<std::ptrdiff_t>(kMostArea * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
-    return distances[static_cast<std::size_t>(rank)];
-}
-
 double scale_of(double distance)
 {
     const auto* const scale =
@@ -142,14 +133,14 @@ double add_distances(Json& surface, const TriMesh& shown, const MeasuredMesh& me
 {
     if (target.surface == nullptr) return 0.0;
     constexpr std::size_t kPlaces = ComparisonLimits().places;
-    const SurfaceDistances far = surface_distances(mesh, *target.surface, reference);
+    SurfaceDistances far = surface_distances(mesh, *target.surface, reference);
     const bool has_truth = reference.truth.has_value();
     surface["measured_to"] = target.name;
     surface["distances"] = distances_json(shown, *target.surface, diagonal_of(reference));
     surface["wrong"] =
         places_json(wrong_places(mesh, far, reference, has_truth ? kPlaces / 2 : kPlaces));
     if (has_truth) surface["missing"] = places_json(missing_places(mesh, reference, kPlaces / 2));
-    return usual_most(far.distances);
+    return quantile_in_place(far.distances, kMostArea);
 }
 
 /// What is drawn of a mesh, and what it is told apart by.

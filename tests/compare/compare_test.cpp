@@ -13,7 +13,8 @@ Comparison comparison_of(const TriMesh& mesh)
 {
     const Scene scene = testing::scene_above_square(11, testing::high_centers());
     const Reference reference = make_reference(scene, nullptr, testing::few_samples());
-    return compare_mesh({"a.ply", mesh}, reference);
+    Log log;
+    return compare_mesh({"a.ply", mesh}, reference, log);
 }
 
 TEST(Comparison, CountsWhatTheMeshIsMadeOf)
