@@ -27,11 +27,6 @@ constexpr std::int64_t kParts = 300'000; ///< small faces that distances may add
 constexpr double kScales[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
 constexpr double kMostArea = 0.9;
 
-Json vector_json(const Eigen::Vector3d& vector)
-{
-    return {vector.x(), vector.y(), vector.z()};
-}
-
 /// A mesh ready to be drawn and measured.
 struct Compared {
     const NamedMesh& named;
