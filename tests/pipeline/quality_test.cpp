@@ -1,5 +1,5 @@
-#include "support/places.h"
 #include "compare/figures.h"
+#include "support/places.h"
 #include "vcarve/vcarve.h"
 
 #include <fmt/format.h>
