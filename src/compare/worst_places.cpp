@@ -163,7 +163,7 @@ std::vector<WorstPlace> wrong_places(const MeasuredMesh& mesh, const SurfaceDist
 std::vector<WorstPlace> missing_places(const MeasuredMesh& mesh, const Reference& reference,
                                        std::size_t count)
 {
-    // The samples of the truth lie in the order of its faces, so every so-maniest is spread as all.
+    // The samples of the truth lie in the order of its faces, so every n-th is spread as all are.
     const Truth& truth = *reference.truth;
     const std::size_t step = truth.samples.size() / kSamples + 1;
     std::vector<Eigen::Vector3d> samples;

@@ -52,7 +52,7 @@ void read_cameras(const std::filesystem::path& path, SceneBuilder& builder)
     builder.close_cameras();
 }
 
-/// The places of every so many-th 2D point; their points are not needed.
+/// The places of every n-th 2D point; their points are not needed.
 std::vector<Eigen::Vector2d> read_keypoints(ByteReader& reader)
 {
     std::vector<Eigen::Vector2d> keypoints;

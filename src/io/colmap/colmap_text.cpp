@@ -62,7 +62,7 @@ void check_points2d(TextReader& reader)
     }
 }
 
-/// The places of every so many-th 2D point of a line; their points are not needed.
+/// The places of every n-th 2D point of a line; their points are not needed.
 std::vector<Eigen::Vector2d> read_keypoints(TextReader& reader)
 {
     constexpr std::size_t kLeastCharacters = 6; // of x, y and a point, blanks included
