@@ -44,21 +44,13 @@ def figures_of(mesh):
     }
 
 
-def measure_columns(model, words, truth, json_path, program=PROGRAM, timeout=600):
-    """Pairs (name, figures), one for each column that `compare` makes of the words, truth None where
-    there is none; and why there are none or None."""
-    command = [program, "compare", "--quiet", model, *words, "--json", json_path]
+def measure(model, mesh, truth, json_path, program=PROGRAM, timeout=600):
+    """The figures of a mesh, truth None where there is none, and why there are none or None."""
+    command = [program, "compare", "--quiet", model, mesh, "--json", json_path]
     failure = run(command + (["--truth", truth] if truth else []), timeout)[1]
     if failure:
         return None, failure
-    meshes = json.loads(json_path.read_text(encoding="utf-8"))["meshes"]
-    return [(mesh["name"], figures_of(mesh)) for mesh in meshes], None
-
-
-def measure(model, mesh, truth, json_path, program=PROGRAM, timeout=600):
-    """The figures of a mesh, truth None where there is none, and why there are none or None."""
-    columns, failure = measure_columns(model, [mesh], truth, json_path, program, timeout)
-    return (None, failure) if failure else (columns[0][1], None)
+    return figures_of(json.loads(json_path.read_text(encoding="utf-8"))["meshes"][0]), None
 
 
 def cell(figure):

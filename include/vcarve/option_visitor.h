@@ -22,7 +22,7 @@ struct OptionInfo {
     const char* help = "";   ///< what it means and how to switch it off, one or two sentences
     double min = 0.0;        ///< smallest value accepted (numbers and counts)
     double max = kUnlimited; ///< largest value accepted (numbers and counts)
-    const char* word = "";   ///< accepted instead of a number, for `word_value`
+    const char* word = "";   ///< accepted instead of a count or bytes, for `word_value`
     double word_value = 0.0; ///< what the word stands for
 };
 

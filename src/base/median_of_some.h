@@ -9,7 +9,7 @@
 
 namespace vcarve {
 
-/// The median of value(i) over the i in [0, count), or over every so manieth where there are many.
+/// The median of value(i) over the i in [0, count), or over every n-th where there are many.
 /// Negative values count for none. Cost: O(count), in parallel.
 template <typename Value>
 double median_of_some(std::size_t count, const Value& value)

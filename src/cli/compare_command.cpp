@@ -1,7 +1,6 @@
 #include "cli/compare_command.h"
 
 #include "base/threads.h"
-#include "baselines/baseline_surface.h"
 #include "cli/baseline_runs.h"
 #include "cli/compare_outputs.h"
 #include "cli/compare_report.h"
@@ -9,10 +8,9 @@
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
-#include "compare/closed_surface.h"
+#include "compare/comparison_table.h"
 #include "io/files/mapped_file.h"
 #include "io/files/output_file.h"
-#include "report/report.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -50,22 +48,6 @@ struct CompareRunOptions {
     }
 };
 
-/// Which of the paper's baselines are made and measured.
-struct PointBaselineOptions {
-    bool baselines = false;
-    AlphaOptions alpha;
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Baselines");
-        options.flag(baselines,
-                     {.name = "baselines",
-                      .help = "Add a column for the alpha shape and one for Boissonnat's sculpture "
-                              "of MODEL; they know the points only."});
-        alpha.visit(options);
-    }
-};
-
 /// Everything the command line says.
 struct CompareArguments {
     ModelArguments model;
@@ -74,7 +56,6 @@ struct CompareArguments {
     CompareOutputs outputs;
     std::string command; ///< as it was typed
     CompareOptions measure;
-    PointBaselineOptions point_baselines;
     std::string colmap; ///< empty: not run
     BaselineRunOptions baselines;
     CompareRunOptions run;
@@ -83,7 +64,6 @@ struct CompareArguments {
 std::vector<OptionRow> compare_options()
 {
     CompareOptions measure;
-    PointBaselineOptions point_baselines;
     BaselineRunOptions baselines;
     CompareRunOptions run;
     bool off = false;
@@ -94,7 +74,6 @@ std::vector<OptionRow> compare_options()
                 .help = "The true surface as PLY, in the model's frame: adds precision, recall, "
                         "F and blocked sights."});
     measure.visit(table);
-    point_baselines.visit(table);
     table.stage("COLMAP");
     table.path({.name = "colmap",
                 .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and "
@@ -114,12 +93,10 @@ CompareArguments read_arguments(const ParsedArguments& given)
     CompareArguments arguments;
     OptionReader reader(given);
     arguments.measure.visit(reader);
-    arguments.point_baselines.visit(reader);
     arguments.baselines.visit(reader);
     arguments.run.visit(reader);
     if (given.has("colmap")) arguments.colmap = given.options.at("colmap");
-    const bool makes_meshes = given.has("colmap") || arguments.point_baselines.baselines;
-    if (given.operands.size() < (makes_meshes ? 1U : 2U)) {
+    if (given.operands.size() < (given.has("colmap") ? 1U : 2U)) {
         throw UsageError(fmt::format("expected a model and meshes, MODEL A.ply ..., but got {}{}",
                                      given.operands.empty() ? "nothing" : given.operands[0],
                                      kSeeCompareHelp));
@@ -178,33 +155,12 @@ std::vector<std::string> column_names(const std::vector<fs::path>& meshes)
     return names;
 }
 
-/// The surfaces of the paper's baselines, where they are asked for.
-std::vector<NamedMesh> point_baselines_of(const CompareArguments& arguments, const Scene& model,
-                                          Log& log)
-{
-    if (!arguments.point_baselines.baselines) return {};
-    std::vector<NamedMesh> meshes;
-    for (const Baseline baseline : {Baseline::alpha_shape, Baseline::sculpture}) {
-        Stage stage(log, name_of(baseline));
-        TriMesh mesh = baseline_surface(model, baseline, arguments.point_baselines.alpha);
-        stage.end({{"faces", size_of(mesh.faces.size())}});
-        meshes.push_back({name_of(baseline), std::move(mesh)});
-    }
-    return meshes;
-}
-
 Reference reference_of(const CompareArguments& arguments, Scene model, Log& log)
 {
     NamedMesh truth;
     if (!arguments.truth.empty()) truth = {arguments.truth.string(), read_ply(arguments.truth)};
-    Stage stage(log, "reference");
-    Reference reference =
-        make_reference(model, arguments.truth.empty() ? nullptr : &truth, arguments.measure);
-    const std::size_t samples = reference.truth ? reference.truth->samples.size() : 0;
-    stage.end({{"points", reference.scene.num_points()},
-               {"samples of the truth", static_cast<std::int64_t>(samples)}});
-    add_closed_surface(reference, std::move(model), log);
-    return reference;
+    return complete_reference(std::move(model), arguments.truth.empty() ? nullptr : &truth,
+                              arguments.measure, log);
 }
 
 /// What meshes are measured by, and what their figures go with.
@@ -218,9 +174,7 @@ struct Yardstick {
 /// The column of that name; the mesh's own name is the one that errors tell.
 Comparison measure(const NamedMesh& mesh, const std::string& column, const Yardstick& by)
 {
-    Stage stage(by.log, "measure");
-    Comparison comparison = compare_mesh(mesh, by.reference);
-    stage.end({{"faces of " + mesh.name, comparison.size.faces}});
+    Comparison comparison = compare_mesh(mesh, by.reference, by.log);
     comparison.name = column;
     by.preview.add(column, mesh.mesh, by.log);
     by.report.add(column, mesh.mesh);
@@ -274,7 +228,6 @@ Manual compare_manual()
         {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which one fits the views"},
         {"colmap-vcarve compare sparse/0 mesh.ply --truth gt.ply", "how true it is"},
         {"colmap-vcarve compare sparse/0 --colmap colmap", "this program beside COLMAP's mesher"},
-        {"colmap-vcarve compare sparse/0 mesh.ply --baselines", "beside the paper's baselines"},
         {"colmap-vcarve compare sparse/0 a.ply b.ply --preview ab.png", "a picture of each"},
         {"colmap-vcarve compare sparse/0 a.ply b.ply --report ab.html", "a page to look at both"},
     };
@@ -282,7 +235,7 @@ Manual compare_manual()
         {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},
         {"A.ply ...",
          "Surfaces in the model's frame, each a column of the table; may be left out with "
-         "--colmap or --baselines."},
+         "--colmap."},
     };
     manual.footnotes = {
         {"Figures", "What they mean is written under the table."},
@@ -305,7 +258,7 @@ void run_compare(const ParsedArguments& given)
 
     std::vector<BaselineMesh> baselines = baselines_of(arguments, *log);
     remove_on_signals(arguments, nullptr);
-    if (baselines.empty() && arguments.meshes.empty() && !arguments.point_baselines.baselines) {
+    if (baselines.empty() && arguments.meshes.empty()) {
         throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
                                      arguments.model.path.string()));
     }
@@ -314,13 +267,9 @@ void run_compare(const ParsedArguments& given)
     preview.stand_in(model.scene);
     CompareReport report(arguments.outputs.report);
     report.stand_in(model.scene);
-    const std::vector<NamedMesh> point_baselines = point_baselines_of(arguments, model.scene, *log);
     const Reference reference = reference_of(arguments, std::move(model.scene), *log);
     const Yardstick by{reference, preview, report, *log};
     std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), by);
-    for (const NamedMesh& baseline : point_baselines) {
-        comparisons.push_back(measure(baseline, baseline.name, by));
-    }
     std::ranges::move(measure_files(arguments, by), std::back_inserter(comparisons));
     preview.write();
     report.write(comparisons, reference, arguments.command, *log);

@@ -1,11 +1,10 @@
 #include "cli/compare_report.h"
 
+#include "compare/comparison_table.h"
 #include "io/files/output_file.h"
 #include "page/comparison_scene.h"
 #include "page/page.h"
 #include "page/page_scene.h"
-#include "report/comparison_record.h"
-#include "report/report.h"
 
 namespace vcarve::cli {
 

@@ -164,10 +164,6 @@ void OptionReader::number(double& value, const OptionInfo& info)
 {
     const auto given = given_.find(info.name);
     if (given == given_.end()) return;
-    if (info.word[0] != '\0' && given->second == info.word) {
-        value = info.word_value;
-        return;
-    }
     if (!parse(given->second, value)) {
         refuse_value(info.name, accepted_numbers(info), given->second);
     }

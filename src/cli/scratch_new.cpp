@@ -1,6 +1,5 @@
 // The program's operator new and delete: large arrays go to the work folder where there is one, all
-// others to the C library, as ever. The functions below are those that may be replaced
-// ([new.delete] in the C++ standard); they are part of the program alone, so that the library never
+// others to the C library, as ever. They are part of the program alone, so that the library never
 // decides where the arrays of others are.
 #include "base/scratch_memory.h"
 
@@ -30,15 +29,6 @@ void* allocate(std::size_t bytes, std::size_t alignment = 1)
     }
 }
 
-void* allocate_or_null(std::size_t bytes, std::size_t alignment = 1) noexcept
-{
-    try {
-        return allocate(bytes, alignment);
-    } catch (...) {
-        return nullptr;
-    }
-}
-
 void release(void* memory) noexcept
 {
     if (!vcarve::free_scratch(memory)) std::free(memory);
@@ -46,86 +36,39 @@ void release(void* memory) noexcept
 
 } // namespace
 
-// NOLINTBEGIN(misc-definitions-in-headers, readability-inconsistent-declaration-parameter-name)
+// The standard library's other ways to ask and to give back end in these ([new.delete] in the C++
+// standard); AddressSanitizer's do not, so those that std::stable_sort and std::allocator use are
+// here, too.
 void* operator new(std::size_t bytes)
 {
     return allocate(bytes);
-}
-void* operator new[](std::size_t bytes)
-{
-    return allocate(bytes);
-}
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept
-{
-    return allocate_or_null(bytes);
-}
-void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept
-{
-    return allocate_or_null(bytes);
 }
 void* operator new(std::size_t bytes, std::align_val_t alignment)
 {
     return allocate(bytes, static_cast<std::size_t>(alignment));
 }
-void* operator new[](std::size_t bytes, std::align_val_t alignment)
+void* operator new(std::size_t bytes, const std::nothrow_t& /*null_instead*/) noexcept
 {
-    return allocate(bytes, static_cast<std::size_t>(alignment));
-}
-void* operator new(std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept
-{
-    return allocate_or_null(bytes, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t bytes, std::align_val_t alignment, const std::nothrow_t&) noexcept
-{
-    return allocate_or_null(bytes, static_cast<std::size_t>(alignment));
+    try {
+        return allocate(bytes);
+    } catch (...) {
+        return nullptr;
+    }
 }
 
 void operator delete(void* memory) noexcept
 {
     release(memory);
 }
-void operator delete[](void* memory) noexcept
+void operator delete(void* memory, std::size_t /*bytes*/) noexcept
 {
     release(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept
 {
     release(memory);
 }
-void operator delete[](void* memory, std::size_t) noexcept
+void operator delete(void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept
 {
     release(memory);
 }
-void operator delete(void* memory, const std::nothrow_t&) noexcept
-{
-    release(memory);
-}
-void operator delete[](void* memory, const std::nothrow_t&) noexcept
-{
-    release(memory);
-}
-void operator delete(void* memory, std::align_val_t) noexcept
-{
-    release(memory);
-}
-void operator delete[](void* memory, std::align_val_t) noexcept
-{
-    release(memory);
-}
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
-{
-    release(memory);
-}
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept
-{
-    release(memory);
-}
-void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept
-{
-    release(memory);
-}
-void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept
-{
-    release(memory);
-}
-// NOLINTEND(misc-definitions-in-headers, readability-inconsistent-declaration-parameter-name)

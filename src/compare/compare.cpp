@@ -1,6 +1,27 @@
 #include "compare/compare.h"
 
+#include "base/log.h"
+#include "base/validate.h"
+#include "compare/closed_surface.h"
+#include "compare/comparison_table.h"
+
 namespace vcarve {
+
+namespace {
+
+/// The figures of a mesh that are known, by their places in the JSON text.
+std::map<std::string, double> known_figures(const Comparison& comparison,
+                                            const std::vector<Figure>& figures)
+{
+    std::map<std::string, double> known;
+    for (const Figure& figure : figures) {
+        const std::optional<double> number = figure.number(comparison);
+        if (number) known[figure.place] = *number;
+    }
+    return known;
+}
+
+} // namespace
 
 std::optional<std::int64_t> genus(const MeshCheck& check)
 {
@@ -10,8 +31,21 @@ std::optional<std::int64_t> genus(const MeshCheck& check)
     return check.components - check.euler_characteristic / 2;
 }
 
-Comparison compare_mesh(const NamedMesh& named, const Reference& reference)
+Reference complete_reference(Scene model, const NamedMesh* truth, const CompareOptions& options,
+                             Log& log)
 {
+    Stage stage(log, "reference");
+    Reference reference = make_reference(model, truth, options);
+    const std::size_t samples = reference.truth ? reference.truth->samples.size() : 0;
+    stage.end({{"points", size_of(reference.scene.num_points())},
+               {"samples of the truth", size_of(samples)}});
+    add_closed_surface(reference, std::move(model), log);
+    return reference;
+}
+
+Comparison compare_mesh(const NamedMesh& named, const Reference& reference, Log& log)
+{
+    Stage stage(log, "measure");
     const MeasuredMesh mesh = place_mesh(named, reference);
     Comparison comparison;
     comparison.name = named.name;
@@ -19,7 +53,27 @@ Comparison compare_mesh(const NamedMesh& named, const Reference& reference)
     comparison.genus = genus(comparison.size);
     comparison.evidence = measure_against_views(mesh, reference);
     if (reference.truth) comparison.truth = measure_against_truth(mesh, reference);
+    stage.end({{"faces of " + named.name, comparison.size.faces}});
     return comparison;
+}
+
+ComparisonReport compare(const Scene& model, std::span<const NamedMesh> meshes,
+                         const NamedMesh* truth, const CompareOptions& options, Log& log)
+{
+    validate(options);
+    const Reference reference = complete_reference(model, truth, options, log);
+    std::vector<Comparison> comparisons;
+    for (const NamedMesh& mesh : meshes) {
+        comparisons.push_back(compare_mesh(mesh, reference, log));
+    }
+    ComparisonReport report;
+    report.table = comparison_table(comparisons, reference);
+    report.json = comparison_json(comparisons, reference);
+    const std::vector<Figure> judged_by = figures(reference, false);
+    for (const Comparison& comparison : comparisons) {
+        report.figures.push_back(known_figures(comparison, judged_by));
+    }
+    return report;
 }
 
 } // namespace vcarve

@@ -33,9 +33,13 @@ struct Comparison {
 /// and consistently oriented, or has degenerate faces.
 std::optional<std::int64_t> genus(const MeshCheck& check);
 
-/// Measures a mesh. The same mesh, reference and options give the same figures for any number of
-/// threads. Throws InputError where the mesh has no surface or lies in another frame (see
-/// place_mesh).
-Comparison compare_mesh(const NamedMesh& named, const Reference& reference);
+/// make_reference() and add_closed_surface(), as the stages "reference" and "closed".
+Reference complete_reference(Scene model, const NamedMesh* truth, const CompareOptions& options,
+                             Log& log);
+
+/// Measures a mesh, as the stage "measure". The same mesh, reference and options give the same
+/// figures for any number of threads. Throws InputError where the mesh has no surface or lies in
+/// another frame (see place_mesh).
+Comparison compare_mesh(const NamedMesh& named, const Reference& reference, Log& log);
 
 } // namespace vcarve

@@ -1,7 +1,7 @@
 #include "compare/evidence.h"
 
 #include "base/median.h"
-#include "base/parallel.h"
+#include "base/parallel_count.h"
 #include "base/random_number.h"
 #include "compare/sample.h"
 #include "geometry/triangle.h"
@@ -20,68 +20,42 @@ namespace {
 
 constexpr double kTouchSpacings = 1e-3; ///< nearer hits are the sample's own face
 constexpr int kSamplesPerAreaSample = 8;
-constexpr std::uint64_t kSightStream = 5;
-constexpr std::uint64_t kAreaStream = 6;
-
-std::uint64_t stream_seed(const Reference& reference, std::uint64_t stream)
-{
-    return (static_cast<std::uint64_t>(reference.options.seed) << 8U) + stream;
-}
-
-double share_of_ones(const std::vector<char>& flags)
-{
-    if (flags.empty()) return 0.0;
-    return static_cast<double>(std::ranges::count(flags, 1)) / static_cast<double>(flags.size());
-}
 
 /// Whether the mesh stands between a view and a point it saw, or the point's place does not decide
 /// it.
-bool hides(const SurfaceTree& tree, const Reference& reference, std::uint64_t sight)
+bool hides(const TriangleTree& tree, const Reference& reference, std::uint64_t sight)
 {
     const std::vector<std::uint64_t>& begins = reference.scene.tracks.begins;
     const auto row = std::upper_bound(begins.begin(), begins.end(), sight) - 1;
     const auto point = static_cast<std::size_t>(row - begins.begin());
-    const Eigen::Vector3d& position = reference.scene.positions[point];
-    const Eigen::Vector3d& center =
-        reference.scene.views[reference.scene.tracks.views[sight]].center;
-    const Eigen::Vector3d line = center - position;
-    const double length = line.norm();
-    const double skip = reference.options.spacings * reference.spacings[point];
-    return length > skip && tree.blocks(position + line * (skip / length), center);
+    const View& view = reference.scene.views[reference.scene.tracks.views[sight]];
+    return is_hidden(reference.scene.positions[point], view.center, tree,
+                     reference.options.spacings * reference.spacings[point]);
 }
 
-double hidden_share(const SurfaceTree& tree, const Reference& reference)
+double hidden_share(const TriangleTree& tree, const Reference& reference)
 {
     const std::uint64_t sights = reference.scene.num_sights();
     const std::uint64_t most = static_cast<std::uint64_t>(reference.options.samples);
-    std::vector<char> hidden(std::min(sights, most));
-    const double step = static_cast<double>(sights) / static_cast<double>(hidden.size());
-    const std::uint64_t seed = stream_seed(reference, kSightStream);
-    parallel_for(
-        hidden.size(),
-        [&](std::size_t i) {
-            const double within = sights > most ? random_number(seed, i) : 0.5;
-            const double place = (static_cast<double>(i) + within) * step;
-            const auto sight = std::min(static_cast<std::uint64_t>(place), sights - 1);
-            hidden[i] = hides(tree, reference, sight) ? 1 : 0;
-        },
-        64);
-    return share_of_ones(hidden);
+    const std::size_t count = std::min(sights, most);
+    const double step = static_cast<double>(sights) / static_cast<double>(count);
+    const std::uint64_t seed = stream_seed(reference.options, RandomStream::sight);
+    const auto hides_one = [&](std::size_t i) {
+        const double within = sights > most ? random_number(seed, i) : 0.5;
+        const double place = (static_cast<double>(i) + within) * step;
+        return hides(tree, reference, std::min(static_cast<std::uint64_t>(place), sights - 1));
+    };
+    return share_of(parallel_count(count, hides_one, 64), count);
 }
 
 /// Per point: its distance to the mesh in its own spacings.
-std::vector<double> distances_in_spacings(const SurfaceTree& tree, const Reference& reference)
+std::vector<double> distances_in_spacings(const TriangleTree& tree, const Reference& reference)
 {
-    std::vector<double> result(reference.scene.num_points());
-    parallel_for(
-        result.size(),
-        [&](std::size_t i) {
-            const double spacing = reference.spacings[i];
-            const double distance = tree.distance(reference.scene.positions[i]);
-            result[i] = distance > 0.0 ? distance / spacing : 0.0;
-        },
-        64);
-    return result;
+    std::vector<double> distances = distances_to(tree, reference.scene.positions);
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        if (distances[i] > 0.0) distances[i] /= reference.spacings[i];
+    }
+    return distances;
 }
 
 /// Whether some view sees a sample of the mesh from its front.
@@ -98,21 +72,18 @@ double unsupported_share(const MeasuredMesh& mesh, const Reference& reference)
 {
     const auto count = static_cast<std::size_t>(reference.options.samples / kSamplesPerAreaSample);
     const SurfaceSamples samples =
-        sample_surface(mesh.mesh, count, stream_seed(reference, kAreaStream));
-    std::vector<char> unsupported(samples.positions.size());
-    parallel_for(
-        unsupported.size(),
-        [&](std::size_t i) {
-            const Eigen::Vector3d normal =
-                face_normal(mesh.mesh.positions, mesh.mesh.faces[samples.faces[i]]);
-            unsupported[i] = supported(mesh, reference, samples.positions[i], normal) ? 0 : 1;
-        },
-        16);
-    return share_of_ones(unsupported);
+        sample_surface(mesh.mesh, count, stream_seed(reference.options, RandomStream::area));
+    const auto is_unsupported = [&](std::size_t i) {
+        const Eigen::Vector3d normal =
+            face_normal(mesh.mesh.positions, mesh.mesh.faces[samples.faces[i]]);
+        return !supported(mesh, reference, samples.positions[i], normal);
+    };
+    const std::size_t all = samples.positions.size();
+    return share_of(parallel_count(all, is_unsupported, 16), all);
 }
 
 /// The middles of the edges of one face.
-std::vector<Eigen::Vector3d> rim_of(const TriMesh& mesh)
+std::vector<Eigen::Vector3d> boundary_of(const TriMesh& mesh)
 {
     const EdgeTable edges = gather_edges(mesh.faces, mesh.positions.size());
     std::vector<Eigen::Vector3d> middles;
@@ -125,19 +96,15 @@ std::vector<Eigen::Vector3d> rim_of(const TriMesh& mesh)
     return middles;
 }
 
-std::int64_t count_seen_rim(const MeasuredMesh& mesh, const Reference& reference)
+std::int64_t count_seen_boundary(const MeasuredMesh& mesh, const Reference& reference)
 {
-    const std::vector<Eigen::Vector3d> middles = rim_of(mesh.mesh);
-    std::vector<char> seen(middles.size());
-    parallel_for(
-        seen.size(),
-        [&](std::size_t i) {
-            seen[i] = std::ranges::any_of(reference.scene.views, [&](const View& view) {
-                return view_sees(view, middles[i], mesh, reference);
-            });
-        },
-        16);
-    return std::ranges::count(seen, 1);
+    const std::vector<Eigen::Vector3d> middles = boundary_of(mesh.mesh);
+    const auto is_seen = [&](std::size_t i) {
+        return std::ranges::any_of(reference.scene.views, [&](const View& view) {
+            return view_sees(view, middles[i], mesh, reference);
+        });
+    };
+    return static_cast<std::int64_t>(parallel_count(middles.size(), is_seen, 16));
 }
 
 } // namespace
@@ -146,11 +113,9 @@ bool view_sees(const View& view, const Eigen::Vector3d& position, const Measured
                const Reference& reference)
 {
     const double touch = kTouchSpacings * reference.median_spacing;
-    const Eigen::Vector3d line = view.center - position;
-    const double length = line.norm();
-    if (length <= touch) return false;
-    if (!view_shows(view, reference.scene.cameras[view.camera], position)) return false;
-    return !mesh.tree.blocks(position + line * (touch / length), view.center);
+    return (view.center - position).norm() > touch &&
+           view_shows(view, reference.scene.cameras[view.camera], position) &&
+           !is_hidden(position, view.center, mesh.tree, touch);
 }
 
 EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference& reference)
@@ -164,7 +129,7 @@ EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference&
     figures.missed_points = static_cast<double>(missed) / static_cast<double>(distances.size());
     figures.unsupported_area = unsupported_share(mesh, reference);
     figures.median_distance = median(std::move(distances));
-    figures.seen_boundary_edges = count_seen_rim(mesh, reference);
+    figures.seen_boundary_edges = count_seen_boundary(mesh, reference);
     figures.rays = measure_view_rays(mesh, reference);
     return figures;
 }

@@ -1,12 +1,13 @@
 #include "compare/reference.h"
 
 #include "base/median.h"
+#include "base/parallel.h"
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"
-#include "geometry/triangle.h"
 #include "model/measured_range.h"
 #include "model/middle_box.h"
+#include "steps/1_points/center.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>
@@ -41,14 +42,6 @@ std::vector<Eigen::Vector3d> face_corners(const TriMesh& mesh)
     return corners;
 }
 
-bool has_area(const TriMesh& mesh)
-{
-    return std::ranges::any_of(mesh.faces, [&](const Face& face) {
-        const double size_sq = scaled_normal(mesh.positions, face).squaredNorm();
-        return size_sq > 0.0 && size_sq < kUnlimited;
-    });
-}
-
 /// Both boxes are said in the frame of the files, where the user can compare them.
 std::string box_text(const Box& box, const Eigen::Vector3d& origin)
 {
@@ -80,7 +73,7 @@ void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Ref
         named.name, box_text(whole, reference.origin), box_text(points, reference.origin)));
 }
 
-/// The points that count and all views, shifted by `shift`.
+/// The points that count and all views.
 Scene countable_part(const Scene& model)
 {
     Scene scene;
@@ -97,26 +90,29 @@ Scene countable_part(const Scene& model)
     return scene;
 }
 
-/// Moves the frame to the middle of the points.
-void center(Scene& scene)
+} // namespace
+
+std::uint64_t stream_seed(const CompareOptions& options, RandomStream stream)
 {
-    Eigen::Vector3d middle;
-    std::vector<double> values(scene.num_points());
-    for (int axis = 0; axis < 3; ++axis) {
-        std::ranges::transform(scene.positions, values.begin(),
-                               [&](const auto& p) { return p[axis]; });
-        middle[axis] = median(values);
-    }
-    for (Eigen::Vector3d& position : scene.positions) {
-        position -= middle;
-    }
-    for (View& view : scene.views) {
-        view.center -= middle;
-    }
-    scene.offset += middle;
+    return (static_cast<std::uint64_t>(options.seed) << 8U) + static_cast<std::uint64_t>(stream);
 }
 
-} // namespace
+bool is_hidden(const Eigen::Vector3d& place, const Eigen::Vector3d& eye, const TriangleTree& by,
+               double skip)
+{
+    const Eigen::Vector3d line = eye - place;
+    const double length = line.norm();
+    return length > skip && by.is_met(place + line * (skip / length), eye);
+}
+
+std::vector<double> distances_to(const TriangleTree& surface,
+                                 std::span<const Eigen::Vector3d> places)
+{
+    std::vector<double> distances(places.size());
+    parallel_for(
+        places.size(), [&](std::size_t i) { distances[i] = surface.distance(places[i]); }, 64);
+    return distances;
+}
 
 TriMesh in_frame(TriMesh mesh, const Eigen::Vector3d& origin)
 {
@@ -140,13 +136,13 @@ MeasuredMesh place_mesh(const NamedMesh& named, const Reference& reference)
     placed.positions = named.mesh.positions;
     placed.offset = named.mesh.offset;
     placed = in_frame(std::move(placed), reference.origin);
-    if (!has_area(placed)) {
+    TriangleTree tree(placed);
+    if (tree.is_empty()) {
         throw InputError(fmt::format("{}: none of the {} faces has an area, so there is no surface "
                                      "to measure",
                                      named.name, placed.faces.size()));
     }
     refuse_other_frame(named, placed, reference);
-    SurfaceTree tree(placed);
     return {std::move(placed), std::move(tree)};
 }
 
@@ -154,14 +150,13 @@ Reference make_reference(const Scene& model, const NamedMesh* truth, const Compa
 {
     Reference reference;
     reference.options = options;
-    reference.scene = countable_part(model);
+    reference.scene = center_points(countable_part(model));
     const std::size_t points = reference.scene.num_points();
     if (points < 2) {
         throw InputError(fmt::format("the model has {} points that at least two views saw, but "
                                      "meshes can be measured only against two or more",
                                      points));
     }
-    center(reference.scene);
     reference.origin = reference.scene.offset;
     reference.spacings = point_spacings(reference.scene.positions);
     reference.median_spacing = median(reference.spacings);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/surface_tree.h"
+#include "geometry/triangle_tree.h"
 #include "vcarve/compare.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
@@ -12,6 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ namespace vcarve {
 /// A mesh in the frame of a reference, ready to be measured.
 struct MeasuredMesh {
     TriMesh mesh; ///< offset is the reference's origin
-    SurfaceTree tree;
+    TriangleTree tree;
 };
 
 inline constexpr std::uint32_t kNoView = 0xffffffffU;
@@ -71,6 +72,24 @@ struct Reference {
 /// another frame than the model, or is nowhere seen by three views. Cost: with a truth, about
 /// samples / seen share x (lines until 3 views are found, all where unseen).
 Reference make_reference(const Scene& model, const NamedMesh* truth, const CompareOptions& options);
+
+/// What random numbers are for: each has a sequence of its own.
+enum class RandomStream { pilot = 1, truth, mesh, view, sight, area, place };
+std::uint64_t stream_seed(const CompareOptions& options, RandomStream stream);
+
+/// 0 of none.
+inline double share_of(std::size_t some, std::size_t all)
+{
+    return all == 0 ? 0.0 : static_cast<double>(some) / static_cast<double>(all);
+}
+
+/// Whether a surface stands between a place and an eye, farther than `skip` from the place.
+bool is_hidden(const Eigen::Vector3d& place, const Eigen::Vector3d& eye, const TriangleTree& by,
+               double skip);
+
+/// From places to the nearest point of a surface. Cost: a query a place, parallel.
+std::vector<double> distances_to(const TriangleTree& surface,
+                                 std::span<const Eigen::Vector3d> places);
 
 /// The same mesh with `origin` for its offset.
 TriMesh in_frame(TriMesh mesh, const Eigen::Vector3d& origin);

@@ -1,6 +1,8 @@
 #include "compare/truth.h"
 
 #include "base/parallel.h"
+#include "base/parallel_count.h"
+#include "base/quantile.h"
 #include "base/random_number.h"
 #include "compare/sample.h"
 #include "geometry/triangle.h"
@@ -15,7 +17,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <span>
 #include <utility>
 
 namespace vcarve {
@@ -27,19 +28,6 @@ constexpr double kBlockedShare = 0.01;    ///< of the diagonal
 constexpr double kSeenRightShare = 0.005; ///< of the diagonal
 constexpr std::size_t kPilotSamples = 20000;
 constexpr double kLeastSeenShare = 0.001;
-
-/// Streams of random numbers, told apart by what they are for.
-enum Stream : std::uint64_t {
-    pilot_stream = 1,
-    truth_stream = 2,
-    mesh_stream = 3,
-    view_stream = 4
-};
-
-std::uint64_t stream_seed(const Reference& reference, Stream stream)
-{
-    return (static_cast<std::uint64_t>(reference.options.seed) << 8U) + stream;
-}
 
 double length_of_box(const std::vector<Eigen::Vector3d>& positions)
 {
@@ -100,8 +88,8 @@ class TruthSight {
         for (std::size_t k = 0; k < order.size() && !seeing.complete(); ++k) {
             // The next of a random order (Fisher and Yates).
             const auto left = static_cast<double>(order.size() - k);
-            const double random =
-                random_number(stream_seed(reference_, view_stream), index * order.size() + k);
+            const double random = random_number(stream_seed(reference_.options, RandomStream::view),
+                                                index * order.size() + k);
             std::swap(order[k], order[k + static_cast<std::size_t>(random * left)]);
             const View& view = views[order[k]];
             const auto shows = [&] {
@@ -122,7 +110,7 @@ class TruthSight {
         const Eigen::Vector3d line = center - point;
         const double length = line.norm();
         if (length <= touch_ || std::abs(normal.dot(line)) <= least_cos * length) return false;
-        return !surface_.tree.blocks(point + line * (touch_ / length), center);
+        return !is_hidden(point, center, surface_.tree, touch_);
     }
 
     const MeasuredMesh& surface_;
@@ -132,10 +120,10 @@ class TruthSight {
 };
 
 /// Replaces truth.samples by those of `count` samples of the whole surface that count.
-void sample_truth(Truth& truth, const Reference& reference, std::size_t count, Stream stream)
+void sample_truth(Truth& truth, const Reference& reference, std::size_t count, RandomStream stream)
 {
     const SurfaceSamples all =
-        sample_surface(truth.surface.mesh, count, stream_seed(reference, stream));
+        sample_surface(truth.surface.mesh, count, stream_seed(reference.options, stream));
     const TruthSight sight(truth.surface, reference);
     std::vector<SeeingViews> views(count);
     parallel_for(
@@ -163,7 +151,7 @@ double angle_between_lines_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& 
     return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * 180.0 / std::numbers::pi;
 }
 
-Deviations deviations(const TriMesh& mesh, const SurfaceSamples& samples, const SurfaceTree& truth)
+Deviations deviations(const TriMesh& mesh, const SurfaceSamples& samples, const TriangleTree& truth)
 {
     const std::size_t count = samples.positions.size();
     Deviations result{std::vector<double>(count), std::vector<double>(count)};
@@ -180,14 +168,6 @@ Deviations deviations(const TriMesh& mesh, const SurfaceSamples& samples, const 
     return result;
 }
 
-/// The value that so large a share of the values does not exceed. Changes their order.
-double percentile(std::vector<double>& values, double share)
-{
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
-}
-
 /// Nothing where no sample is near the truth.
 std::optional<NormalFigures> normal_figures(const Deviations& deviations, const Truth& truth)
 {
@@ -197,22 +177,14 @@ std::optional<NormalFigures> normal_figures(const Deviations& deviations, const 
             angles.push_back(deviations.angles_deg[i]);
     }
     if (angles.empty()) return std::nullopt;
-    return NormalFigures{.median_deg = percentile(angles, 0.5),
-                         .most_deg = percentile(angles, 0.9)};
-}
-
-std::vector<double> distances(const SurfaceTree& tree, std::span<const Eigen::Vector3d> points)
-{
-    std::vector<double> result(points.size());
-    parallel_for(
-        points.size(), [&](std::size_t i) { result[i] = tree.distance(points[i]); }, 64);
-    return result;
+    return NormalFigures{.median_deg = quantile_in_place(angles, 0.5),
+                         .most_deg = quantile_in_place(angles, 0.9)};
 }
 
 double share_within(const std::vector<double>& values, double limit)
 {
     const auto count = std::ranges::count_if(values, [&](double value) { return value <= limit; });
-    return static_cast<double>(count) / static_cast<double>(values.size());
+    return share_of(static_cast<std::size_t>(count), values.size());
 }
 
 double mean(const std::vector<double>& values)
@@ -222,21 +194,12 @@ double mean(const std::vector<double>& values)
 
 double blocked_share(const MeasuredMesh& mesh, const Truth& truth, const std::vector<View>& views)
 {
-    std::vector<char> blocked(truth.samples.size());
-    const double skip = kBlockedShare * truth.diagonal;
-    parallel_for(
-        blocked.size(),
-        [&](std::size_t i) {
-            const Eigen::Vector3d& center = views[truth.views[i]].center;
-            const Eigen::Vector3d line = center - truth.samples[i];
-            const double length = line.norm();
-            if (length <= skip) return;
-            blocked[i] =
-                mesh.tree.blocks(truth.samples[i] + line * (skip / length), center) ? 1 : 0;
-        },
-        64);
-    return static_cast<double>(std::ranges::count(blocked, 1)) /
-           static_cast<double>(blocked.size());
+    const auto is_blocked = [&](std::size_t i) {
+        return is_hidden(truth.samples[i], views[truth.views[i]].center, mesh.tree,
+                         kBlockedShare * truth.diagonal);
+    };
+    const std::size_t count = truth.samples.size();
+    return share_of(parallel_count(count, is_blocked, 64), count);
 }
 
 enum class Meeting : char { unseen, open, torn, astray, right };
@@ -282,7 +245,7 @@ Truth seen_truth(const NamedMesh& named, const Reference& reference)
     Truth truth{
         .surface = place_mesh(named, reference), .samples = {}, .views = {}, .image_views = {}};
     const auto wanted = static_cast<std::size_t>(reference.options.samples);
-    sample_truth(truth, reference, kPilotSamples, pilot_stream);
+    sample_truth(truth, reference, kPilotSamples, RandomStream::pilot);
     // Only a share of the area is seen: draw as many as leaves the wanted number, more if it did
     // not.
     double surplus = 1.0;
@@ -296,7 +259,7 @@ Truth seen_truth(const NamedMesh& named, const Reference& reference)
                 named.name, least_views(reference.scene), reference.scene.views.size()));
         }
         const double draws = surplus * static_cast<double>(wanted) / truth.seen_share;
-        sample_truth(truth, reference, static_cast<std::size_t>(draws), truth_stream);
+        sample_truth(truth, reference, static_cast<std::size_t>(draws), RandomStream::truth);
     } while (truth.samples.size() < wanted);
     truth.diagonal = length_of_box(truth.samples);
     return truth;
@@ -307,10 +270,10 @@ TruthFigures measure_against_truth(const MeasuredMesh& mesh, const Reference& re
     const Truth& truth = *reference.truth;
     const auto count = static_cast<std::size_t>(reference.options.samples);
     const SurfaceSamples samples =
-        sample_surface(mesh.mesh, count, stream_seed(reference, mesh_stream));
+        sample_surface(mesh.mesh, count, stream_seed(reference.options, RandomStream::mesh));
     const Deviations from_truth = deviations(mesh.mesh, samples, truth.surface.tree);
     const std::vector<double>& to_truth = from_truth.distances;
-    const std::vector<double> to_mesh = distances(mesh.tree, truth.samples);
+    const std::vector<double> to_mesh = distances_to(mesh.tree, truth.samples);
 
     TruthFigures figures;
     for (std::size_t i = 0; i < kTolerances.size(); ++i) {

@@ -13,7 +13,8 @@ constexpr std::size_t kSamplesPerRay = 4;
 constexpr std::size_t kLeastRaysAView = 36;
 
 /// Per ray: what it first meets of a surface.
-std::vector<std::optional<FirstHit>> first_hits(const SurfaceTree& tree, const Reference& reference)
+std::vector<std::optional<FirstHit>> first_hits(const TriangleTree& tree,
+                                                const Reference& reference)
 {
     std::vector<std::optional<FirstHit>> hits(reference.rays.size());
     parallel_for(
@@ -50,7 +51,7 @@ std::vector<ViewRay> view_rays(const Scene& scene, const CompareOptions& options
 
 void use_closed_surface(Reference& reference, const TriMesh& closed)
 {
-    const SurfaceTree tree(in_frame(closed, reference.origin));
+    const TriangleTree tree(in_frame(closed, reference.origin));
     std::vector<char> met;
     for (const std::optional<FirstHit>& hit : first_hits(tree, reference)) {
         met.push_back(hit ? 1 : 0);

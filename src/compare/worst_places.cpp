@@ -1,6 +1,5 @@
 #include "compare/worst_places.h"
 
-#include "base/parallel.h"
 #include "compare/evidence.h"
 #include "compare/truth.h"
 #include "geometry/triangle.h"
@@ -18,7 +17,6 @@ namespace vcarve {
 namespace {
 
 constexpr std::size_t kSamples = 100000;
-constexpr std::uint64_t kPlaceStream = 7;
 constexpr double kTail = 0.05;       ///< of the points, left out at either end of a box
 constexpr double kCellShare = 0.02;  ///< of the diagonal
 constexpr double kApartShare = 0.08; ///< of the diagonal
@@ -137,21 +135,11 @@ double diagonal_of(const Reference& reference)
     return of_all > 0.0 ? of_all : 1.0;
 }
 
-std::vector<double> distances_to(const SurfaceTree& surface,
-                                 std::span<const Eigen::Vector3d> places)
-{
-    std::vector<double> distances(places.size());
-    parallel_for(
-        places.size(), [&](std::size_t i) { distances[i] = surface.distance(places[i]); }, 64);
-    return distances;
-}
-
-SurfaceDistances surface_distances(const MeasuredMesh& mesh, const SurfaceTree& other,
+SurfaceDistances surface_distances(const MeasuredMesh& mesh, const TriangleTree& other,
                                    const Reference& reference)
 {
     const auto most = static_cast<std::size_t>(reference.options.samples);
-    const std::uint64_t seed =
-        (static_cast<std::uint64_t>(reference.options.seed) << 8U) + kPlaceStream;
+    const std::uint64_t seed = stream_seed(reference.options, RandomStream::place);
     SurfaceDistances far;
     far.samples = sample_surface(mesh.mesh, std::min(kSamples, most), seed);
     far.distances = distances_to(other, far.samples.positions);
@@ -175,7 +163,7 @@ std::vector<WorstPlace> wrong_places(const MeasuredMesh& mesh, const SurfaceDist
 std::vector<WorstPlace> missing_places(const MeasuredMesh& mesh, const Reference& reference,
                                        std::size_t count)
 {
-    // The samples of the truth lie in the order of its faces, so every so-maniest is spread as all.
+    // The samples of the truth lie in the order of its faces, so every n-th is spread as all are.
     const Truth& truth = *reference.truth;
     const std::size_t step = truth.samples.size() / kSamples + 1;
     std::vector<Eigen::Vector3d> samples;

@@ -46,17 +46,13 @@ struct WorstPlace {
 /// middle nine tenths of the points, or of all of them where that has no size.
 double diagonal_of(const Reference& reference);
 
-/// From places to the nearest point of a surface. Cost: a query a place, parallel.
-std::vector<double> distances_to(const SurfaceTree& surface,
-                                 std::span<const Eigen::Vector3d> places);
-
 /// Samples of a mesh, and how far each lies from another surface. The arrays run parallel.
 struct SurfaceDistances {
     SurfaceSamples samples; ///< at most 100,000, by area, the same for the same mesh and options
     std::vector<double> distances; ///< in diagonals
 };
 
-SurfaceDistances surface_distances(const MeasuredMesh& mesh, const SurfaceTree& other,
+SurfaceDistances surface_distances(const MeasuredMesh& mesh, const TriangleTree& other,
                                    const Reference& reference);
 
 /// Where a mesh lies farthest from the surface that `far` tells the distances to, `count` places at

@@ -65,7 +65,7 @@ class BilateralFilter {
 
     /// The standard deviation of the points' places in images, in pixels: the median height above
     /// planes however far, over what one pixel makes of it, of the points that say where the
-    /// surface is; of many, of every so manieth. Cost: O(points x neighbours), in parallel.
+    /// surface is; of many, of every n-th. Cost: O(points x neighbours), in parallel.
     double noise_px() const;
 
     /// The same of their heights, over the distances between points: the median.

@@ -41,13 +41,12 @@ void PointTree::find_nearest(const Eigen::Vector3d& place, std::size_t count,
     if (points_.empty() || count == 0) return;
     double most = std::numeric_limits<double>::infinity();
     visit_near(place, {0, 0}, most, [&](std::size_t i) {
-        const double distance = (points_[i] - place).norm();
+        const Near near{(points_[i] - place).norm(), i};
         if (nearest.size() == count) {
-            if (!(distance < most)) return;
+            if (!(near < nearest.back())) return;
             nearest.pop_back();
         }
-        nearest.insert(std::ranges::upper_bound(nearest, distance, {}, &Near::distance),
-                       {distance, i});
+        nearest.insert(std::upper_bound(nearest.begin(), nearest.end(), near), near);
         if (nearest.size() == count) most = nearest.back().distance;
     });
 }

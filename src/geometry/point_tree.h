@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <vector>
 
@@ -58,11 +59,13 @@ class PointTree {
     struct Near {
         double distance;
         std::size_t point;
+
+        auto operator<=>(const Near&) const = default;
     };
 
     /// Fills `nearest` with the `count` points nearest to a place, or all if there are fewer, the
-    /// nearest first. Which of points equally far are left out depends on the points alone. Safe
-    /// from many threads. Cost: O(log points + count) where the points follow each other in space.
+    /// nearest first, and of those equally far the first. Safe from many threads. Cost: O(log
+    /// points + count) where the points follow each other in space.
     void find_nearest(const Eigen::Vector3d& place, std::size_t count,
                       std::vector<Near>& nearest) const;
 

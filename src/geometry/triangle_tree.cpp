@@ -1,133 +1,262 @@
 #include "geometry/triangle_tree.h"
 
 #include "geometry/predicates.h"
+#include "geometry/triangle.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Simple_cartesian.h>
 #include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace vcarve {
-
 namespace {
 
 using Eigen::Vector3d;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Triangles = std::vector<Kernel::Triangle_3>;
+using Corners = std::array<Vector3d, 3>;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point = Kernel::Point_3;
+using Triangle = Kernel::Triangle_3;
+using Triangles = std::vector<Triangle>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 
-Kernel::Point_3 to_point(const Vector3d& position)
+Point to_point(const Vector3d& position)
 {
     return {position.x(), position.y(), position.z()};
 }
 
-/// A segment that is asked about.
-class Question {
+Vector3d to_vector(const Point& point)
+{
+    return {point.x(), point.y(), point.z()};
+}
+
+Corners corners_of(const Triangle& triangle)
+{
+    return {to_vector(triangle[0]), to_vector(triangle[1]), to_vector(triangle[2])};
+}
+
+bool has_area(const Corners& corners)
+{
+    const auto& [a, b, c] = corners;
+    const double size_sq = scaled_normal(a, b, c).squaredNorm();
+    return std::isfinite(size_sq) && size_sq > 0.0 && !collinear(a, b, c);
+}
+
+/// A ray, or a segment, made ready to be held against many boxes and triangles.
+class Ray {
   public:
-    Question(const Vector3d& from, const Vector3d& to)
-        : segment_(to_point(from), to_point(to)),
-          from_(from),
-          per_way_((to - from).array().inverse()),
-          magnitude_(from.lpNorm<1>() + to.lpNorm<1>())
+    Ray(const Vector3d& from, const Vector3d& towards)
+        : from_(from), towards_(towards), line_(towards - from), inverse_(line_.cwiseInverse())
     {
     }
 
-    /// Exact.
-    bool meets(const Kernel::Triangle_3& triangle) const
+    /// How far along the box begins, infinite where the ray passes it. Never says so of a box it
+    /// meets: the end is moved away by more than all that was rounded (Ize, "Robust BVH Ray
+    /// Traversal", 2013).
+    double entry(const CGAL::Bbox_3& box) const
     {
-        return CGAL::do_intersect(segment_, triangle);
+        double begin = 0.0;
+        double end = kMissed;
+        for (int axis = 0; axis < 3; ++axis) {
+            double near = (box.min(axis) - from_[axis]) * inverse_[axis];
+            double far = (box.max(axis) - from_[axis]) * inverse_[axis];
+            if (inverse_[axis] < 0.0) std::swap(near, far);
+            // Neither holds for the NaN of a ray that runs in the box's side.
+            if (near > begin) begin = near;
+            if (far < end) end = far;
+        }
+        return begin <= end * kBeyondRounding ? begin : kMissed;
     }
-    /// Said of boxes a little off, too, so that rounding leaves out none that is met: the shares of
-    /// the way between the planes of two sides have one in common for all three directions.
-    bool may_meet(const CGAL::Bbox_3& box) const
+
+    /// Whether the segment to `towards` meets the triangle.
+    bool segment_meets(const Triangle& triangle) const
     {
-        constexpr double kRounding = 1e-12;
-        const Array3d low(box.xmin(), box.ymin(), box.zmin());
-        const Array3d high(box.xmax(), box.ymax(), box.zmax());
-        const double off = kRounding * (magnitude_ + low.abs().sum() + high.abs().sum());
-        const Array3d a = (low - off - from_) * per_way_;
-        const Array3d b = (high + off - from_) * per_way_;
-        const double enters = a.min(b).maxCoeff();
-        const double leaves = a.max(b).minCoeff();
-        return enters <= std::min(leaves, 1.0) && leaves >= 0.0;
+        return meets_triangle(from_, towards_, corners_of(triangle));
     }
+
+    /// Where the ray meets the triangle, at `towards` or beyond, too.
+    std::optional<FirstHit> meets(const Triangle& triangle) const
+    {
+        const Corners corners = corners_of(triangle);
+        // On which side of each edge the ray passes.
+        int least = 0;
+        int most = 0;
+        Vector3d weights;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vector3d& a = corners[(i + 1) % 3];
+            const Vector3d& b = corners[(i + 2) % 3];
+            const int side = orientation(from_, towards_, a, b);
+            least = std::min(least, side);
+            most = std::max(most, side);
+            if (least < 0 && most > 0) return std::nullopt;
+            weights[static_cast<Eigen::Index>(i)] = volume(a, b) * side;
+        }
+        if (least == most) return std::nullopt;
+        const double along = place_along(corners, weights.cwiseMax(0.0));
+        if (along < 0.0) return std::nullopt;
+        return FirstHit{.along = along, .front = least < 0};
+    }
+
+    static constexpr double kMissed = std::numeric_limits<double>::infinity();
+    static constexpr double kBeyondRounding = 1.0 + 16.0 * std::numeric_limits<double>::epsilon();
 
   private:
-    using Array3d = Eigen::Array3d;
+    double volume(const Vector3d& a, const Vector3d& b) const
+    {
+        return line_.dot((a - from_).cross(b - from_));
+    }
 
-    Kernel::Segment_3 segment_;
-    Array3d from_;
-    Array3d per_way_; ///< infinite where the segment stays at one coordinate
-    double magnitude_;
+    /// Of the mean of the corners by weight: so it never leaves the triangle, however slim.
+    double place_along(const Corners& corners, const Vector3d& weights) const
+    {
+        const double sum = weights.sum();
+        const Vector3d shares = sum > 0.0 ? Vector3d(weights / sum) : Vector3d::Constant(1.0 / 3.0);
+        const Vector3d place = shares[0] * (corners[0] - from_) + shares[1] * (corners[1] - from_) +
+                               shares[2] * (corners[2] - from_);
+        return place.dot(line_) / line_.squaredNorm();
+    }
+
+    Vector3d from_;
+    Vector3d towards_;
+    Vector3d line_;
+    Vector3d inverse_; ///< infinite where the ray stays at one coordinate
 };
 
-/// What CGAL asks a question about: triangles exactly, and boxes, of which there are many more,
-/// not.
+/// How CGAL's tree asks about segments: boxes, of which there are many more, with rounding on the
+/// safe side, and triangles exactly.
 class Traits : public CGAL::AABB_traits<Kernel, Primitive> {
   public:
     struct Meets {
-        bool operator()(const Question& question, const CGAL::Bbox_3& box) const
+        bool operator()(const Ray& segment, const CGAL::Bbox_3& box) const
         {
-            return question.may_meet(box);
+            return segment.entry(box) <= Ray::kBeyondRounding;
         }
-        bool operator()(const Question& question, const Primitive& triangle) const
+        bool operator()(const Ray& segment, const Primitive& triangle) const
         {
-            return question.meets(triangle.datum());
+            return segment.segment_meets(*triangle.id());
         }
     };
 
     static Meets do_intersect_object() { return {}; }
 };
+using AabbTree = CGAL::AABB_tree<Traits>;
+
+/// Keeps the nearest of all triangles a ray meets; tells the tree to look at near boxes first, and
+/// at none behind what is found.
+class FirstHitTraits {
+  public:
+    using Node = CGAL::AABB_node<Traits>;
+    using Priority = double;
+
+    bool do_intersect(const Ray& ray, const Node& node) const
+    {
+        return do_intersect_with_priority(ray, node).first;
+    }
+
+    std::pair<bool, Priority> do_intersect_with_priority(const Ray& ray, const Node& node) const
+    {
+        const double entry = ray.entry(node.bbox());
+        const double limit = hit_ ? hit_->along * Ray::kBeyondRounding : Ray::kMissed;
+        return {entry < Ray::kMissed && entry <= limit, -entry};
+    }
+
+    void intersection(const Ray& ray, const Primitive& primitive)
+    {
+        const std::optional<FirstHit> hit = ray.meets(*primitive.id());
+        if (!hit) return;
+        const bool before = !hit_ || hit->along < hit_->along ||
+                            (hit->along == hit_->along && hit->front && !hit_->front);
+        if (before) hit_ = hit;
+    }
+
+    static bool go_further() { return true; }
+    const std::optional<FirstHit>& hit() const { return hit_; }
+
+  private:
+    std::optional<FirstHit> hit_;
+};
 
 } // namespace
 
 struct TriangleTree::Tree {
-    Tree(Triangles with_area, std::vector<std::size_t> their_places)
-        : triangles(std::move(with_area)),
-          places(std::move(their_places)),
-          tree(triangles.begin(), triangles.end())
-    {
-        tree.build();
-    }
-
-    Triangles triangles;
+    Triangles triangles;             ///< those with area
     std::vector<std::size_t> places; ///< of each among all
-    CGAL::AABB_tree<Traits> tree;
+    AabbTree aabb;
+
+    template <typename CornersOf>
+    Tree(std::size_t count, const CornersOf& corners_of)
+    {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Corners corners = corners_of(i);
+            if (!has_area(corners)) continue;
+            const auto& [a, b, c] = corners;
+            triangles.emplace_back(to_point(a), to_point(b), to_point(c));
+            places.push_back(i);
+        }
+        aabb.rebuild(triangles.cbegin(), triangles.cend());
+    }
 };
 
-TriangleTree::TriangleTree(std::span<const std::array<Vector3d, 3>> triangles)
+TriangleTree::TriangleTree(std::span<const Corners> triangles)
+    : tree_(std::make_unique<const Tree>(triangles.size(),
+                                         [&](std::size_t i) { return triangles[i]; }))
 {
-    Triangles with_area;
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const auto& [a, b, c] = triangles[i];
-        if (collinear(a, b, c)) continue;
-        with_area.emplace_back(to_point(a), to_point(b), to_point(c));
-        places.push_back(i);
-    }
-    if (!places.empty()) tree_ = std::make_unique<Tree>(std::move(with_area), std::move(places));
+}
+
+TriangleTree::TriangleTree(const TriMesh& mesh)
+    : tree_(std::make_unique<const Tree>(mesh.faces.size(), [&](std::size_t i) {
+          return vcarve::corners_of(mesh.positions, mesh.faces[i]);
+      }))
+{
 }
 
 TriangleTree::~TriangleTree() = default;
+TriangleTree::TriangleTree(TriangleTree&&) noexcept = default;
+TriangleTree& TriangleTree::operator=(TriangleTree&&) noexcept = default;
+
+bool TriangleTree::is_empty() const
+{
+    return tree_->triangles.empty();
+}
 
 bool TriangleTree::is_met(const Vector3d& from, const Vector3d& to) const
 {
-    return tree_ != nullptr && tree_->tree.do_intersect(Question(from, to));
+    return tree_->aabb.do_intersect(Ray(from, to));
 }
 
 void TriangleTree::visit_met(const Vector3d& from, const Vector3d& to, const Visitor& visit) const
 {
-    if (tree_ == nullptr) return;
     const auto begin = tree_->triangles.cbegin();
-    tree_->tree.all_intersected_primitives(
-        Question(from, to), boost::make_function_output_iterator([&](const Primitive::Id& met) {
+    tree_->aabb.all_intersected_primitives(
+        Ray(from, to), boost::make_function_output_iterator([&](const Primitive::Id& met) {
             visit(tree_->places[static_cast<std::size_t>(met - begin)]);
         }));
+}
+
+std::optional<FirstHit> TriangleTree::first_hit(const Vector3d& from, const Vector3d& towards) const
+{
+    FirstHitTraits traits;
+    tree_->aabb.traversal_with_priority(Ray(from, towards), traits);
+    return traits.hit();
+}
+
+double TriangleTree::distance(const Vector3d& point) const
+{
+    return std::sqrt(tree_->aabb.squared_distance(to_point(point)));
+}
+
+NearestFace TriangleTree::nearest(const Vector3d& point) const
+{
+    const auto [place, face] = tree_->aabb.closest_point_and_primitive(to_point(point));
+    const auto [a, b, c] = corners_of(*face);
+    return {.distance = std::sqrt(CGAL::squared_distance(to_point(point), place)),
+            .normal = scaled_normal(a, b, c).normalized()};
 }
 
 } // namespace vcarve

@@ -1,5 +1,6 @@
 #include "page/comparison_scene.h"
 
+#include "base/quantile.h"
 #include "compare/worst_places.h"
 #include "model/middle_box.h"
 #include "page/display_mesh.h"
@@ -26,11 +27,6 @@ constexpr std::int64_t kParts = 300'000; ///< small faces that distances may add
 constexpr double kScales[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
 constexpr double kMostArea = 0.9;
 
-Json vector_json(const Eigen::Vector3d& vector)
-{
-    return {vector.x(), vector.y(), vector.z()};
-}
-
 /// A mesh ready to be drawn and measured.
 struct Compared {
     const NamedMesh& named;
@@ -40,7 +36,7 @@ struct Compared {
 /// What a mesh is measured against.
 struct Target {
     std::string name; ///< empty: nothing
-    const SurfaceTree* surface = nullptr;
+    const TriangleTree* surface = nullptr;
 };
 
 Target target_of(std::size_t mesh, const std::vector<Compared>& all, const Reference& reference)
@@ -88,7 +84,7 @@ Json surface_json(const std::string& name, const TriMesh& shown, std::size_t of)
 }
 
 /// Distances in percent of the diagonal, packed as errors are.
-std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const SurfaceTree& target,
+std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const TriangleTree& target,
                              double diagonal)
 {
     std::vector<double> distances = distances_to(target, places);
@@ -98,7 +94,7 @@ std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const S
     return pack_errors(distances);
 }
 
-Json distances_json(const TriMesh& shown, const SurfaceTree& target, double diagonal)
+Json distances_json(const TriMesh& shown, const TriangleTree& target, double diagonal)
 {
     const std::vector<std::int32_t> parts = edge_parts(shown, kPartShare * diagonal, kParts);
     return {{"parts", pack_bytes(parts)},
@@ -119,16 +115,6 @@ Json places_json(const std::vector<WorstPlace>& places)
     return json;
 }
 
-/// How far most of a surface's area lies at most.
-double usual_most(std::vector<double> distances)
-{
-    if (distances.empty()) return 0.0;
-    const auto rank =
-        static_cast<std::ptrdiff_t>(kMostArea * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), distances.begin() + rank, distances.end());
-    return distances[static_cast<std::size_t>(rank)];
-}
-
 double scale_of(double distance)
 {
     const auto* const scale =
@@ -142,14 +128,14 @@ double add_distances(Json& surface, const TriMesh& shown, const MeasuredMesh& me
 {
     if (target.surface == nullptr) return 0.0;
     constexpr std::size_t kPlaces = ComparisonLimits().places;
-    const SurfaceDistances far = surface_distances(mesh, *target.surface, reference);
+    SurfaceDistances far = surface_distances(mesh, *target.surface, reference);
     const bool has_truth = reference.truth.has_value();
     surface["measured_to"] = target.name;
     surface["distances"] = distances_json(shown, *target.surface, diagonal_of(reference));
     surface["wrong"] =
         places_json(wrong_places(mesh, far, reference, has_truth ? kPlaces / 2 : kPlaces));
     if (has_truth) surface["missing"] = places_json(missing_places(mesh, reference, kPlaces / 2));
-    return usual_most(far.distances);
+    return quantile_in_place(far.distances, kMostArea);
 }
 
 /// What is drawn of a mesh, and what it is told apart by.

@@ -8,6 +8,7 @@
 #include "model/seen_places.h"
 #include "page/display_mesh.h"
 #include "page/pack.h"
+#include "picture/eye.h"
 #include "steps/4_visibility/seen_corners.h"
 
 #include <algorithm>
@@ -20,11 +21,6 @@ namespace vcarve {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-Json vector_json(const Eigen::Vector3d& vector)
-{
-    return {vector.x(), vector.y(), vector.z()};
-}
 
 /// The numbers i * of / count, which are `count` of those below `of`, or all of them.
 std::vector<std::size_t> evenly_chosen(std::size_t of, std::size_t count)
@@ -85,15 +81,6 @@ Json views_json(const Scene& scene, const std::vector<std::size_t>& shown)
     return views;
 }
 
-Eigen::Vector3d up_of(const Scene& scene)
-{
-    Eigen::Vector3d up = Eigen::Vector3d::Zero();
-    for (const View& view : scene.views) {
-        up -= view.cam_from_world.conjugate() * Eigen::Vector3d::UnitY();
-    }
-    return up.norm() > 0.0 ? Eigen::Vector3d(up.normalized()) : Eigen::Vector3d::UnitZ();
-}
-
 /// Which of the views that are shown saw most of what was looked at, and how deep before it the
 /// points that it saw lie.
 Json start_json(const Scene& scene, const std::vector<std::size_t>& shown)
@@ -149,12 +136,17 @@ std::vector<std::size_t> largest_faces(const TriMesh& mesh, std::size_t count)
 
 } // namespace
 
+Json vector_json(const Eigen::Vector3d& vector)
+{
+    return {vector.x(), vector.y(), vector.z()};
+}
+
 Json positions_json(std::span<const Eigen::Vector3d> positions)
 {
     const PackedPositions packed = pack_positions(positions);
     return {{"count", positions.size()},
-            {"low", {packed.low.x(), packed.low.y(), packed.low.z()}},
-            {"quantum", {packed.quantum.x(), packed.quantum.y(), packed.quantum.z()}},
+            {"low", vector_json(packed.low)},
+            {"quantum", vector_json(packed.quantum)},
             {"data", packed.data}};
 }
 

@@ -22,6 +22,9 @@ struct PageLimits {
     std::size_t removed = 40'000; ///< faces that were taken away: the largest of more
 };
 
+/// [x, y, z].
+nlohmann::ordered_json vector_json(const Eigen::Vector3d& vector);
+
 /// "count" and what pack_positions() makes of them: "low", "quantum" and "data".
 nlohmann::ordered_json positions_json(std::span<const Eigen::Vector3d> positions);
 
@@ -31,9 +34,9 @@ nlohmann::ordered_json positions_json(std::span<const Eigen::Vector3d> positions
 nlohmann::ordered_json packed_surface(const TriMesh& mesh, const Scene& scene,
                                       const PageLimits& limits = {}, const Progress& progress = {});
 
-/// The points of a scene, its views as frusta, the direction that is up (against the mean of the
-/// images' downward axes) and the view to start from: the one that saw most of what was looked at
-/// (seen_places), with the median depth of its points. "start" is null where there is no view.
+/// The points of a scene, its views as frusta, the direction that is up (up_of) and the view to
+/// start from: the one that saw most of what was looked at (seen_places), with the median depth of
+/// its points. "start" is null where there is no view.
 nlohmann::ordered_json packed_scene(const Scene& scene, const PageLimits& limits = {});
 
 /// The faces that were taken away, the largest where there are too many, in their order: positions,

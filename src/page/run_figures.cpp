@@ -1,7 +1,6 @@
 #include "page/run_figures.h"
 
-#include <algorithm>
-#include <array>
+#include "geometry/triangle.h"
 
 namespace vcarve {
 
@@ -11,18 +10,17 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kBins = 32;
 
-std::array<double, 3> edge_lengths(const TriMesh& mesh, const Face& face)
+/// Of every edge of every face.
+std::vector<double> edge_lengths(const TriMesh& mesh)
 {
-    const auto length = [&](int from, int to) {
-        return (mesh.positions[face[to]] - mesh.positions[face[from]]).norm();
-    };
-    return {length(0, 1), length(1, 2), length(2, 0)};
-}
-
-double area(const TriMesh& mesh, const Face& face)
-{
-    const Eigen::Vector3d& corner = mesh.positions[face[0]];
-    return 0.5 * (mesh.positions[face[1]] - corner).cross(mesh.positions[face[2]] - corner).norm();
+    std::vector<double> lengths;
+    lengths.reserve(3 * mesh.faces.size());
+    for (const Face& face : mesh.faces) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            lengths.push_back((mesh.positions[face[(i + 1) % 3]] - mesh.positions[face[i]]).norm());
+        }
+    }
+    return lengths;
 }
 
 void measure_points(SurfaceFigures& figures, const Scene& scene)
@@ -57,23 +55,17 @@ SurfaceFigures surface_figures(const TriMesh& mesh, std::span<const std::int32_t
 {
     SurfaceFigures figures;
     figures.faces = static_cast<std::int64_t>(mesh.faces.size());
-    std::vector<double> lengths;
-    lengths.reserve(3 * mesh.faces.size());
-    for (const Face& face : mesh.faces) {
-        std::ranges::copy(edge_lengths(mesh, face), std::back_inserter(lengths));
-    }
-    figures.edge_lengths = histogram_of_lengths(lengths, kBins);
+    figures.edge_lengths = histogram_of_lengths(edge_lengths(mesh), kBins);
     const double too_long = SurfaceFigures::kLong * figures.edge_lengths.median;
     double all = 0.0;
     for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
-        const double of_face = area(mesh, mesh.faces[i]);
+        const double of_face = face_area(mesh.positions, mesh.faces[i]);
         all += of_face;
         if (supports[i] == 0) {
             ++figures.unsupported_faces;
             figures.unsupported_area += of_face;
         }
-        const auto* const edges = lengths.data() + 3 * i;
-        if (std::max({edges[0], edges[1], edges[2]}) > too_long) figures.long_area += of_face;
+        if (longest_edge(mesh.positions, mesh.faces[i]) > too_long) figures.long_area += of_face;
     }
     if (all > 0.0) {
         figures.unsupported_area /= all;

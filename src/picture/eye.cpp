@@ -56,19 +56,6 @@ std::optional<Vector3d> mean_direction(const Scene& scene, const Direction& dire
     return sum.normalized();
 }
 
-Vector3d up_of(const Scene& scene)
-{
-    const auto up = mean_direction(scene, [&](const View& view) -> Vector3d {
-        if (scene.cameras[view.camera].measures_range) return Vector3d::UnitZ();
-        return view.cam_from_world.conjugate() * -Vector3d::UnitY();
-    });
-    if (up) return *up;
-    const auto back = mean_direction(scene, [&](const View& view) -> Vector3d {
-        return view.cam_from_world.conjugate() * -Vector3d::UnitZ();
-    });
-    return back.value_or(Vector3d::UnitZ());
-}
-
 /// The level direction from a place to most cameras; any where these stand evenly around.
 Vector3d side_of(const Scene& scene, const Vector3d& from, const Vector3d& up)
 {
@@ -147,6 +134,19 @@ std::string names_of(const Scene& scene)
 }
 
 } // namespace
+
+Vector3d up_of(const Scene& scene)
+{
+    const auto up = mean_direction(scene, [&](const View& view) -> Vector3d {
+        if (scene.cameras[view.camera].measures_range) return Vector3d::UnitZ();
+        return view.cam_from_world.conjugate() * -Vector3d::UnitY();
+    });
+    if (up) return *up;
+    const auto back = mean_direction(scene, [&](const View& view) -> Vector3d {
+        return view.cam_from_world.conjugate() * -Vector3d::UnitZ();
+    });
+    return back.value_or(Vector3d::UnitZ());
+}
 
 Eye choose_eye(const Scene& scene, const std::string& word)
 {

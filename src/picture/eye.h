@@ -20,16 +20,17 @@ struct Eye {
     bool through_backs = false;
 };
 
+/// The direction that is up, unit. COLMAP does not know it: it is the mean of the upward directions
+/// of the cameras; where these cancel out, the mean direction they look back along; z of a laser
+/// scan.
+Eigen::Vector3d up_of(const Scene& scene);
+
 /// The place that a word means.
 ///
 /// - "auto": the view that sees most of what was looked at (seen_places), of equal ones the first
-/// by
-///   COLMAP's id; "orbit" where no view's camera has a known lens, as in a laser scan.
-/// - "top" and "orbit": outside the ball of what was looked at (region_of_interest), which fills
-/// most of
-///   the picture: from straight above, or 35 degrees above the side where most cameras are. What is
-///   up is not known to COLMAP: it is the mean of the upward directions of the cameras; where these
-///   cancel out, the mean direction they look back along; z of a laser scan.
+///   by COLMAP's id; "orbit" where no view's camera has a known lens, as in a laser scan.
+/// - "top" and "orbit": outside the region of interest, which fills most of the picture: from
+///   straight above, or 35 degrees above the side where most cameras are.
 /// - else the view of that name.
 ///
 /// Throws UsageError where there is no such view, or its lens is not known. Cost: O(sights).

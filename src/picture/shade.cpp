@@ -1,6 +1,7 @@
 #include "picture/shade.h"
 
 #include "base/parallel.h"
+#include "geometry/triangle.h"
 #include "picture/first_faces.h"
 #include "picture/lens_rays.h"
 
@@ -30,13 +31,6 @@ struct Sample {
 Sample even_sample(const Array3f& color)
 {
     return {color, color};
-}
-
-/// Unit; zero for a face without area.
-Vector3d normal_of(const TriMesh& mesh, const Face& face)
-{
-    const Vector3d& p = mesh.positions[face[0]];
-    return (mesh.positions[face[1]] - p).cross(mesh.positions[face[2]] - p).normalized();
 }
 
 Array3f own_color(const TriMesh& mesh, const FirstFace& hit)
@@ -70,7 +64,7 @@ class Looker {
         const Vector3d towards = world_from_cam_ * *in_camera;
         const FirstFace hit = first_face(towards);
         if (hit.face == FirstFace::kNone) return even_sample(kNothing);
-        const Vector3d normal = normal_of(mesh_, mesh_.faces[hit.face]);
+        const Vector3d normal = face_normal(mesh_.positions, mesh_.faces[hit.face]);
         const double facing = -normal.dot(towards);
         if (!(facing > 0.0)) return even_sample(kBack);
         const auto light = static_cast<float>(kLeastLight + (1.0 - kLeastLight) * facing);

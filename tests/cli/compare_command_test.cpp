@@ -189,26 +189,6 @@ TEST_F(CompareOnBall, PutsColmapsMeshBesideItsOwn)
     }
 }
 
-TEST_F(CompareOnBall, PutsThePapersBaselinesBesideAMesh)
-{
-    const nlohmann::json record = figures({mesh, "--baselines"});
-    ASSERT_EQ(record["meshes"].size(), 3U);
-    EXPECT_EQ(record["meshes"][0]["name"], "alpha shape");
-    EXPECT_EQ(record["meshes"][1]["name"], "sculpture");
-    EXPECT_EQ(record["meshes"][2]["name"], "mesh.ply");
-    // A sculpture has all points on one surface of genus 0, which has 2 V - 4 faces.
-    const auto& sculpture = record["meshes"][1]["size"];
-    EXPECT_EQ(sculpture["faces"], 2 * sculpture["vertices"].get<int>() - 4);
-    EXPECT_EQ(figures({"--baselines"})["meshes"].size(), 2U);
-}
-
-TEST_F(CompareOnBall, RefusesAnAlphaThatLeavesNothing)
-{
-    EXPECT_EQ(refusal_of(3, {"--quiet", "--baselines", "--alpha", "0.001"}),
-              "colmap-vcarve: no cell is as small as --alpha 0.001 asks for: 1 is the smallest "
-              "that keeps all points\n");
-}
-
 TEST_F(CompareOnBall, RunsColmapsMesherOnTheModelItFound)
 {
     const std::string words = folder / "words";

@@ -1,4 +1,3 @@
-#include "baselines/alpha_shape.h"
 #include "cli/option_parser.h"
 #include "support/sample_options.h"
 #include "vcarve/error.h"
@@ -108,17 +107,18 @@ TEST(OptionReader, TakesInfinityWhereARangeIsOpen)
 
 TEST(OptionReader, TakesAWordWhereTheOptionHasOne)
 {
-    AlphaOptions options{.alpha = 7.0};
+    MemoryOptions options{.blocks = 7};
     OptionTable table;
     options.visit(table);
     const auto read = [&](const std::string& text) {
-        const ParsedArguments given = parse_arguments(std::vector{"--alpha=" + text}, table.rows());
+        const ParsedArguments given =
+            parse_arguments(std::vector{"--blocks=" + text}, table.rows());
         OptionReader reader(given);
         options.visit(reader);
-        return options.alpha;
+        return options.blocks;
     };
-    EXPECT_EQ(read("auto"), 1.0);
-    EXPECT_EQ(read("2.5"), 2.5);
+    EXPECT_EQ(read("auto"), MemoryOptions::kAutoBlocks);
+    EXPECT_EQ(read("2"), 2);
     EXPECT_THROW(read("automatic"), UsageError);
 }
 

@@ -1,7 +1,14 @@
 #include "compare/compare.h"
 #include "support/measured_scenes.h"
+#include "support/scenes.h"
+#include "support/temporary_folder.h"
+#include "support/told_log.h"
+#include "vcarve/error.h"
+#include "vcarve/reconstruct.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace vcarve {
 namespace {
@@ -13,7 +20,8 @@ Comparison comparison_of(const TriMesh& mesh)
 {
     const Scene scene = testing::scene_above_square(11, testing::high_centers());
     const Reference reference = make_reference(scene, nullptr, testing::few_samples());
-    return compare_mesh({"a.ply", mesh}, reference);
+    Log log;
+    return compare_mesh({"a.ply", mesh}, reference, log);
 }
 
 TEST(Comparison, CountsWhatTheMeshIsMadeOf)
@@ -78,6 +86,32 @@ TEST(Genus, IsNoneWhereTwoCubesShareAVertex)
         }
     }
     EXPECT_FALSE(genus(check_mesh(mesh)).has_value());
+}
+
+TEST(CompareCall, GivesTheFiguresOfItsJsonAndATable)
+{
+    const Scene scene = bumpy_sphere(2000, 1);
+    ToldLog log;
+    const NamedMesh mesh = {"made.ply", reconstruct(scene, {}, log).mesh};
+    const ComparisonReport report =
+        compare(scene, std::span(&mesh, 1), &mesh, {.samples = 2000}, log);
+    ASSERT_EQ(report.figures.size(), 1U);
+    const nlohmann::json record = nlohmann::json::parse(report.json).at("meshes").at(0);
+    const std::map<std::string, double>& figures = report.figures[0];
+    EXPECT_EQ(figures.at("/size/faces"), static_cast<double>(mesh.mesh.faces.size()));
+    EXPECT_EQ(figures.at("/views/hidden_sights"), record.at("views").at("hidden_sights"));
+    EXPECT_EQ(figures.at("/truth/blocked"), 0.0); // the mesh is its own truth
+    EXPECT_THAT(report.table, ::testing::HasSubstr("made.ply"));
+    EXPECT_THAT(log.ended(), ::testing::Contains("reference"));
+    EXPECT_THAT(log.ended(), ::testing::Contains("measure"));
+}
+
+TEST(CompareCall, RefusesOptionsOutOfTheirRange)
+{
+    Log silent;
+    EXPECT_EQ(refusal<UsageError>(
+                  [&] { compare(bumpy_sphere(100, 1), {}, nullptr, {.samples = 10}, silent); }),
+              "--samples takes a whole number from 1000 to 100000000, not 10");
 }
 
 } // namespace

@@ -107,7 +107,7 @@ TEST(WorstSamples, AreSpreadApartAndLeaveNoOtherOut)
 TEST(DistancesTo, AreThoseOfBruteForce)
 {
     const TriMesh soup = testing::random_soup(60, 3);
-    const SurfaceTree tree(soup);
+    const TriangleTree tree(soup);
     std::vector<Eigen::Vector3d> places;
     for (std::uint64_t i = 0; i < 300; ++i) {
         places.emplace_back(2.0 * random_number(4, 3 * i), random_number(4, 3 * i + 1),
@@ -143,7 +143,7 @@ TEST(DiagonalOf, IsTheTruthsOrThatOfThePoints)
 std::vector<WorstPlace> wrong(const TriMesh& mesh, const Reference& reference)
 {
     const MeasuredMesh placed = place_mesh({"a.ply", mesh}, reference);
-    const SurfaceTree& square = reference.truth->surface.tree;
+    const TriangleTree& square = reference.truth->surface.tree;
     return wrong_places(placed, surface_distances(placed, square, reference), reference, 4);
 }
 

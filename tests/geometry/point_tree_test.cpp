@@ -87,6 +87,22 @@ TEST(PointTree, FindsThePointsNearestToAPlace)
     }
 }
 
+TEST(PointTree, FindsTheFirstOfThoseAtOneDistanceFirst)
+{
+    // Nothing but ties: six neighbours at distance 1, twelve at the root of 2.
+    const Positions points = lattice(5);
+    const PointTree tree(points);
+    std::vector<PointTree::Near> expected;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        expected.push_back({(points[i] - Vector3d(2, 2, 2)).norm(), i});
+    }
+    std::ranges::sort(expected);
+    expected.resize(12);
+    std::vector<PointTree::Near> nearest;
+    tree.find_nearest({2, 2, 2}, 12, nearest);
+    EXPECT_EQ(nearest, expected);
+}
+
 TEST(PointTree, KnowsTheDistancesToTheNearestForeignPoint)
 {
     const Positions points = random_points(500, 63);

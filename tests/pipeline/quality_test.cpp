@@ -1,4 +1,4 @@
-#include "report/figures.h"
+#include "compare/figures.h"
 #include "support/places.h"
 #include "vcarve/vcarve.h"
 
@@ -90,7 +90,7 @@ std::map<std::string, Judged> judged(const Measured& measured)
     const NamedMesh known{"truth", read_ply(scene / (is_solid ? "solid.ply" : "truth.ply"))};
     const Reference reference = make_reference(model, &known, {.samples = 40000});
     const NamedMesh ours{"ours.ply", reconstruct(model, Options(), silent).mesh};
-    const Comparison comparison = compare_mesh(ours, reference);
+    const Comparison comparison = compare_mesh(ours, reference, silent);
     std::map<std::string, Judged> all;
     for (const Figure& figure : figures(reference, false)) {
         const std::optional<double> value = figure.number(comparison);

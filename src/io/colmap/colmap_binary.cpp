@@ -119,19 +119,6 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 
 } // namespace
 
-void read_binary_views(const std::filesystem::path& folder, SceneBuilder& builder,
-                       const Progress& progress)
-{
-    read_cameras(folder / model_file("cameras", ModelFormat::binary), builder);
-    read_images(folder / model_file("images", ModelFormat::binary), builder, progress);
-}
-
-void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder,
-                       const Progress& progress)
-{
-    const ReadingShares shares = shares_of(folder, ModelFormat::binary, progress);
-    read_binary_views(folder, builder, shares.images);
-    read_points(folder / model_file("points3D", ModelFormat::binary), builder, shares.points);
-}
+const FormatReader kBinaryReader = {read_cameras, read_images, read_points};
 
 } // namespace vcarve

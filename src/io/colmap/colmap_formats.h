@@ -7,29 +7,20 @@
 
 namespace vcarve {
 
-/// Read cameras.bin and images.bin of a folder into a builder, in that order.
-void read_binary_views(const std::filesystem::path& folder, SceneBuilder& builder,
-                       const Progress& progress);
-
-/// Read cameras.bin, images.bin and points3D.bin of a folder into a builder, in that order.
-void read_binary_files(const std::filesystem::path& folder, SceneBuilder& builder,
-                       const Progress& progress);
-
-/// Read cameras.txt and images.txt of a folder into a builder, in that order.
-void read_text_views(const std::filesystem::path& folder, SceneBuilder& builder,
-                     const Progress& progress);
-
-/// Read cameras.txt, images.txt and points3D.txt of a folder into a builder, in that order.
-void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder,
-                     const Progress& progress);
-
-/// Shares of reading a model: images before points by the sizes of their files.
-struct ReadingShares {
-    Progress images;
-    Progress points;
-};
-ReadingShares shares_of(const std::filesystem::path& folder, ModelFormat format,
+/// Readers of a model's three files, to be called in this order; each puts what its file holds into
+/// a builder.
+struct FormatReader {
+    void (*read_cameras)(const std::filesystem::path& file, SceneBuilder& builder);
+    void (*read_images)(const std::filesystem::path& file, SceneBuilder& builder,
                         const Progress& progress);
+    void (*read_points)(const std::filesystem::path& file, SceneBuilder& builder,
+                        const Progress& progress);
+};
+
+/// cameras.bin, images.bin and points3D.bin.
+extern const FormatReader kBinaryReader;
+/// cameras.txt, images.txt and points3D.txt.
+extern const FormatReader kTextReader;
 
 /// So many records are read between two calls of Progress::tell.
 inline constexpr std::uint64_t kRecordsBetweenTells = 256;

@@ -18,39 +18,39 @@ double size_of_file(const std::filesystem::path& path)
     return none ? 0.0 : static_cast<double>(size);
 }
 
-} // namespace
+const FormatReader& reader_of(ModelFormat format)
+{
+    return format == ModelFormat::binary ? kBinaryReader : kTextReader;
+}
 
-ReadingShares shares_of(const std::filesystem::path& folder, ModelFormat format,
+SceneBuilder read_views(const std::filesystem::path& folder, ModelFormat format,
                         const Progress& progress)
 {
-    const double images = size_of_file(folder / model_file("images", format));
-    const double points = size_of_file(folder / model_file("points3D", format));
-    const double middle = images / (images + points + 1.0);
-    return {progress.part(0.0, middle), progress.part(middle, 1.0)};
+    const FormatReader& reader = reader_of(format);
+    SceneBuilder builder(folder, format);
+    reader.read_cameras(folder / model_file("cameras", format), builder);
+    reader.read_images(folder / model_file("images", format), builder, progress);
+    return builder;
 }
+
+} // namespace
 
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
                         const Progress& progress)
 {
-    SceneBuilder builder(folder, format);
-    if (format == ModelFormat::binary) {
-        read_binary_files(folder, builder, progress);
-    } else {
-        read_text_files(folder, builder, progress);
-    }
+    const std::filesystem::path points_file = folder / model_file("points3D", format);
+    const double images = size_of_file(folder / model_file("images", format));
+    const double points = size_of_file(points_file);
+    const double middle = images / (images + points + 1.0); // the same time for all bytes
+    SceneBuilder builder = read_views(folder, format, progress.part(0.0, middle));
+    reader_of(format).read_points(points_file, builder, progress.part(middle, 1.0));
     return builder.finish();
 }
 
 ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,
                               const Progress& progress)
 {
-    SceneBuilder builder(folder, format);
-    if (format == ModelFormat::binary) {
-        read_binary_views(folder, builder, progress);
-    } else {
-        read_text_views(folder, builder, progress);
-    }
-    return builder.finish_views();
+    return read_views(folder, format, progress).finish_views();
 }
 
 } // namespace vcarve

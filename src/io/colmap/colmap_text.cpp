@@ -2,7 +2,6 @@
 // two lines per image, of which the second, the 2D points, may be empty.
 
 #include "io/colmap/colmap_formats.h"
-#include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
 #include "model/lens_model.h"
@@ -128,19 +127,6 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 
 } // namespace
 
-void read_text_views(const std::filesystem::path& folder, SceneBuilder& builder,
-                     const Progress& progress)
-{
-    read_cameras(folder / model_file("cameras", ModelFormat::text), builder);
-    read_images(folder / model_file("images", ModelFormat::text), builder, progress);
-}
-
-void read_text_files(const std::filesystem::path& folder, SceneBuilder& builder,
-                     const Progress& progress)
-{
-    const ReadingShares shares = shares_of(folder, ModelFormat::text, progress);
-    read_text_views(folder, builder, shares.images);
-    read_points(folder / model_file("points3D", ModelFormat::text), builder, shares.points);
-}
+const FormatReader kTextReader = {read_cameras, read_images, read_points};
 
 } // namespace vcarve

@@ -1,6 +1,7 @@
 #include "io/colmap/scene_builder.h"
 
 #include "base/parallel_sort.h"
+#include "base/sort_unique.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "vcarve/error.h"
@@ -123,8 +124,7 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
     for (const std::uint32_t image_id : image_ids) {
         row_.push_back(view_index(image_id, point.id));
     }
-    std::sort(row_.begin(), row_.end());
-    row_.erase(std::unique(row_.begin(), row_.end()), row_.end());
+    sort_unique(row_);
 
     const std::vector<std::uint64_t>& ids = scene_.point_ids;
     point_ids_ascend_ = point_ids_ascend_ && (ids.empty() || ids.back() < point.id);

@@ -4,7 +4,6 @@
 #include "io/colmap/model_size.h"
 #include "io/dense/cloud_points.h"
 #include "io/dense/nearest_sights.h"
-#include "io/ply/ply_vertex.h"
 
 #include <system_error>
 #include <utility>

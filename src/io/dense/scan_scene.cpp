@@ -4,7 +4,6 @@
 #include "io/dense/cloud_points.h"
 #include "io/dense/scanner_views.h"
 #include "io/ply/ply_cloud.h"
-#include "io/ply/ply_vertex.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "io/input/find_input.h"
 
 #include "io/ply/ply_cloud.h"
-#include "io/ply/ply_scanners.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -2,14 +2,15 @@
 
 #include "base/progress.h"
 #include "io/files/mapped_file.h"
-#include "io/ply/ply_header.h"
+#include "io/ply/ply_data.h"
+#include "io/ply/ply_vertex.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <vector>
 
 namespace vcarve {
@@ -34,23 +35,35 @@ class PlyCloudReader {
     /// Opens the file, and refuses what its header tells.
     explicit PlyCloudReader(const std::filesystem::path& path,
                             ReadScanners scanners = ReadScanners::no);
-    ~PlyCloudReader();
     PlyCloudReader(const PlyCloudReader&) = delete;
     PlyCloudReader& operator=(const PlyCloudReader&) = delete;
 
-    std::size_t num_points() const;
+    std::size_t num_points() const { return vertices_.count; }
     /// The next points, at most so many; none after the last. A scanner that stands for all is told
     /// with the last ones.
     PointCloud next(std::size_t most, const Progress& progress = {});
 
-    /// The vertices of a file in one of PLY's encodings.
-    class Vertices;
-
   private:
+    const PlyElement& find_vertices() const;
+    void require_all(const char* who_has, const PlyElement& element, const PlyNames& names) const;
+    void require_finite_scanners(const PointCloud& cloud) const;
+    void pass(const PlyElement& element);
+    void read_camera();
+    void find_camera_behind();
+    void read_parallel(PointCloud& cloud, std::size_t vertex_bytes, const Progress& progress);
+    void read_in_order(PointCloud& cloud, const Progress& progress);
+    void put(PointCloud& cloud, std::size_t i, const PlyVertex& vertex) const;
+
     std::filesystem::path path_;
     MappedFile file_;
     PlyHeader header_;
-    std::unique_ptr<Vertices> vertices_;
+    PlyData data_;
+    const PlyElement& vertices_;
+    PlyVertexLayout layout_;
+    bool with_scanners_ = false;         ///< of each vertex
+    const PlyElement* camera_ = nullptr; ///< that stands for all vertices; null where none does
+    std::optional<Eigen::Vector3d> place_of_camera_;
+    std::uint64_t done_ = 0; ///< vertices
 };
 
 /// Reads the vertices of an ascii, little endian or big endian PLY file, numbers of any type; text

@@ -1,7 +1,5 @@
 #include "io/files/mapped_file.h"
-#include "io/ply/ply_entries.h"
 #include "io/ply/ply_vertex.h"
-#include "vcarve/error.h"
 #include "vcarve/io.h"
 
 #include <fmt/format.h>
@@ -13,30 +11,26 @@ namespace vcarve {
 namespace {
 
 /// Reads the data behind a header, element by element.
-template <typename Body>
-class SurfaceReader {
+class MeshReader {
   public:
-    SurfaceReader(const PlyHeader& header, Body body, const std::filesystem::path& path)
-        : header_(header), entries_(body, path)
-    {
-    }
+    MeshReader(const PlyHeader& header, const PlyData& data) : header_(header), data_(data) {}
 
     TriMesh read()
     {
         mesh_.offset = header_.offset;
-        if (header_.find("vertex") == nullptr) entries_.refuse("has no element \"vertex\"");
+        if (header_.find("vertex") == nullptr) data_.refuse("has no element \"vertex\"");
         num_vertices_ = header_.find("vertex")->count;
         if (header_.find("face") == nullptr) {
-            entries_.refuse("has points but no element \"face\", expected a surface");
+            data_.refuse("has points but no element \"face\", expected a surface");
         }
         for (const PlyElement& element : header_.elements) {
-            entries_.require_room(element);
+            data_.require_room(element);
             if (&element == header_.find("vertex")) {
                 read_vertices(element);
             } else if (&element == header_.find("face")) {
                 read_faces(element);
             } else {
-                entries_.skip_all(element);
+                data_.skip_all(element);
             }
         }
         return std::move(mesh_);
@@ -47,12 +41,12 @@ class SurfaceReader {
     {
         const PlyVertexLayout layout(element);
         if (!layout.has_positions()) {
-            entries_.refuse("the vertices lack one of the properties x, y and z");
+            data_.refuse("the vertices lack one of the properties x, y and z");
         }
         mesh_.positions.resize(element.count);
         if (layout.has_normals()) mesh_.normals.resize(element.count);
         if (layout.has_colors()) mesh_.colors.resize(element.count);
-        entries_.read_all(element, [&](std::uint64_t i) { put(i, layout.read(entries_)); });
+        data_.read_all(element, [&](std::uint64_t i) { put(i, layout.read(data_)); });
     }
 
     void put(std::uint64_t i, const PlyVertex& vertex)
@@ -75,12 +69,12 @@ class SurfaceReader {
         };
         const auto corners = std::ranges::find_if(element.properties, is_corners);
         if (corners == element.properties.end()) {
-            entries_.refuse("the faces have no list \"vertex_indices\" of integers");
+            data_.refuse("the faces have no list \"vertex_indices\" of integers");
         }
         mesh_.faces.reserve(element.count);
-        entries_.read_all(element, [&](std::uint64_t) {
+        data_.read_all(element, [&](std::uint64_t) {
             for (auto p = element.properties.begin(); p != element.properties.end(); ++p) {
-                p == corners ? read_face(*p) : entries_.skip(*p);
+                p == corners ? read_face(*p) : data_.skip(*p);
             }
         });
     }
@@ -88,7 +82,7 @@ class SurfaceReader {
     /// A polygon becomes a fan around its first corner.
     void read_face(const PlyProperty& corners)
     {
-        const std::size_t length = entries_.list_length(corners);
+        const std::size_t length = data_.list_length(corners);
         if (length < 3) {
             throw BadPlyEntry{fmt::format("it has {} corners, expected 3 or more", length)};
         }
@@ -103,7 +97,7 @@ class SurfaceReader {
 
     std::uint32_t corner(PlyType type)
     {
-        const double index = entries_.number(type);
+        const double index = data_.number(type);
         const bool exists = index >= 0.0 && index < static_cast<double>(num_vertices_);
         if (!exists || index != std::floor(index)) {
             throw BadPlyEntry{
@@ -113,7 +107,7 @@ class SurfaceReader {
     }
 
     const PlyHeader& header_;
-    PlyEntries<Body> entries_;
+    PlyData data_;
     std::uint64_t num_vertices_ = 0;
     TriMesh mesh_;
 };
@@ -125,9 +119,7 @@ TriMesh read_ply(const std::filesystem::path& path)
     const MappedFile file(path);
     const std::string_view bytes(file.bytes().data(), file.bytes().size());
     const PlyHeader header = parse_ply_header(bytes, path);
-    return visit_ply_body(bytes, header, [&](auto body) {
-        return SurfaceReader<decltype(body)>(header, body, path).read();
-    });
+    return MeshReader(header, PlyData(bytes, header, path)).read();
 }
 
 } // namespace vcarve

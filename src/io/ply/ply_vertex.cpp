@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace vcarve {
 
 namespace {
+
+/// As the benchmark IQmulus/TerraMobilita has them, and as words.
+constexpr std::array<PlyNames, 2> kScannersOfVertices = {
+    {{"x_origin", "y_origin", "z_origin"}, {"scanner_x", "scanner_y", "scanner_z"}}};
 
 /// A colour of any number type as one of 0 to 255.
 std::uint8_t channel(double value, PlyType type)
@@ -22,51 +25,76 @@ std::uint8_t channel(double value, PlyType type)
 PlyVertexLayout::PlyVertexLayout(const PlyElement& vertices)
 {
     const PlyNames& scanner = names_of_scanner(vertices);
-    for (const PlyProperty& property : vertices.properties) {
-        const Slot slot = slot_of(property, scanner);
-        properties_.push_back({property, slot});
-        if (slot >= Slot::red && slot <= Slot::blue) {
-            channel_types_[static_cast<std::size_t>(slot) - static_cast<std::size_t>(Slot::red)] =
-                property.type;
-        }
-    }
-}
-
-PlyVertexLayout::Slot PlyVertexLayout::slot_of(const PlyProperty& property, const PlyNames& scanner)
-{
-    if (property.length_type) return Slot::none;
-    const auto* const place = std::ranges::find(scanner, property.name);
-    if (place != scanner.end()) {
-        return static_cast<Slot>(static_cast<int>(Slot::scanner_x) + (place - scanner.begin()));
-    }
-    constexpr std::array<std::string_view, 9> kNames{"x",  "y",   "z",     "nx",  "ny",
-                                                     "nz", "red", "green", "blue"};
+    const std::array<std::string_view, kNowhere> names{"x",    "y",        "z",        "nx",
+                                                       "ny",   "nz",       "red",      "green",
+                                                       "blue", scanner[0], scanner[1], scanner[2]};
     constexpr std::string_view kDiffuse = "diffuse_";
-    std::string_view name = property.name;
-    if (name.starts_with(kDiffuse)) name.remove_prefix(kDiffuse.size());
-    const auto* const found = std::ranges::find(kNames, name);
-    return found == kNames.end() ? Slot::none : static_cast<Slot>(found - kNames.begin());
+    for (const PlyProperty& property : vertices.properties) {
+        std::string_view name = property.name;
+        if (name.starts_with(kDiffuse)) name.remove_prefix(kDiffuse.size());
+        const auto* const found =
+            property.length_type ? names.end() : std::ranges::find(names, name);
+        const auto slot = static_cast<std::size_t>(found - names.begin());
+        properties_.push_back({property, slot});
+        if (slot >= kColor && slot < kColor + 3) channel_types_[slot - kColor] = property.type;
+    }
 }
 
-bool PlyVertexLayout::has_three_from(Slot first) const
+bool PlyVertexLayout::has_three_from(std::size_t first) const
 {
-    const auto has = [&](int i) {
-        const auto slot = static_cast<Slot>(static_cast<int>(first) + i);
+    const auto has = [&](std::size_t slot) {
         return std::ranges::find(properties_, slot, &Property::slot) != properties_.end();
     };
-    return has(0) && has(1) && has(2);
+    return has(first) && has(first + 1) && has(first + 2);
 }
 
-PlyVertex PlyVertexLayout::vertex_of(const Values& values) const
+PlyVertex PlyVertexLayout::read(PlyData& data) const
 {
-    PlyVertex vertex;
-    vertex.position = {values[0], values[1], values[2]};
-    vertex.scanner = {values[9], values[10], values[11]};
-    vertex.normal = Eigen::Vector3d(values[3], values[4], values[5]).cast<float>();
+    std::array<double, kNowhere + 1> values{};
+    for (const Property& property : properties_) {
+        if (property.in_file.length_type) {
+            data.skip(property.in_file);
+        } else {
+            values[property.slot] = data.number(property.in_file.type);
+        }
+    }
+    const auto three = [&](std::size_t first) {
+        return Eigen::Vector3d(values[first], values[first + 1], values[first + 2]);
+    };
+    PlyVertex vertex{.position = three(kPosition),
+                     .scanner = three(kScanner),
+                     .normal = three(kNormal).cast<float>()};
     for (std::size_t i = 0; i < vertex.color.size(); ++i) {
-        vertex.color[i] = channel(values[6 + i], channel_types_[i]);
+        vertex.color[i] = channel(values[kColor + i], channel_types_[i]);
     }
     return vertex;
+}
+
+int count_names(const PlyElement& element, const PlyNames& names)
+{
+    return static_cast<int>(std::ranges::count_if(names, [&](std::string_view name) {
+        return std::ranges::any_of(element.properties, [&](const PlyProperty& property) {
+            return property.name == name && !property.length_type;
+        });
+    }));
+}
+
+const PlyNames& names_of_scanner(const PlyElement& vertices)
+{
+    return *std::ranges::max_element(kScannersOfVertices, {}, [&](const PlyNames& names) {
+        return count_names(vertices, names);
+    });
+}
+
+PlyScanners scanners_in(const PlyHeader& header)
+{
+    const PlyElement* const vertices = header.find("vertex");
+    if (vertices != nullptr && count_names(*vertices, names_of_scanner(*vertices)) > 0) {
+        return PlyScanners::each;
+    }
+    const PlyElement* const camera = header.find(kPlyCamera);
+    const bool has_place = camera != nullptr && count_names(*camera, kPlyCameraPlace) > 0;
+    return has_place ? PlyScanners::one_for_all : PlyScanners::none;
 }
 
 } // namespace vcarve

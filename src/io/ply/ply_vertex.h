@@ -1,12 +1,12 @@
 #pragma once
 
-#include "io/ply/ply_entries.h"
-#include "io/ply/ply_scanners.h"
+#include "io/ply/ply_data.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
 
 #include <array>
+#include <string_view>
 #include <vector>
 
 namespace vcarve {
@@ -25,56 +25,51 @@ class PlyVertexLayout {
   public:
     explicit PlyVertexLayout(const PlyElement& vertices);
 
-    bool has_positions() const { return has_three_from(Slot::x); }
-    bool has_normals() const { return has_three_from(Slot::nx); }
-    bool has_colors() const { return has_three_from(Slot::red); }
-    bool has_scanners() const { return has_three_from(Slot::scanner_x); }
+    bool has_positions() const { return has_three_from(kPosition); }
+    bool has_normals() const { return has_three_from(kNormal); }
+    bool has_colors() const { return has_three_from(kColor); }
 
     /// Reads the next vertex. Throws BadPlyEntry.
-    template <typename Body>
-    PlyVertex read(PlyEntries<Body>& entries) const
-    {
-        Values values{};
-        for (const Property& property : properties_) {
-            if (property.in_file.length_type) {
-                entries.skip(property.in_file);
-            } else {
-                values[static_cast<std::size_t>(property.slot)] =
-                    entries.number(property.in_file.type);
-            }
-        }
-        return vertex_of(values);
-    }
+    PlyVertex read(PlyData& data) const;
 
   private:
-    /// Where a value of the file goes to.
-    enum class Slot {
-        x,
-        y,
-        z,
-        nx,
-        ny,
-        nz,
-        red,
-        green,
-        blue,
-        scanner_x,
-        scanner_y,
-        scanner_z,
-        none
-    };
+    /// Where the values of the file go to: the first of three numbers each, and what is not kept.
+    static constexpr std::size_t kPosition = 0;
+    static constexpr std::size_t kNormal = 3;
+    static constexpr std::size_t kColor = 6;
+    static constexpr std::size_t kScanner = 9;
+    static constexpr std::size_t kNowhere = 12;
     struct Property {
         PlyProperty in_file;
-        Slot slot = Slot::none;
+        std::size_t slot;
     };
-    using Values = std::array<double, 13>; ///< by slot; the last takes what is not kept
 
-    static Slot slot_of(const PlyProperty& property, const PlyNames& scanner);
-    bool has_three_from(Slot first) const;
-    PlyVertex vertex_of(const Values& values) const;
+    bool has_three_from(std::size_t first) const;
 
     std::vector<Property> properties_;
     std::array<PlyType, 3> channel_types_{};
 };
+
+/// What the three coordinates of a place are called.
+using PlyNames = std::array<std::string_view, 3>;
+
+/// The element that PCL writes behind the vertices, and where it says that the sensor stood.
+inline constexpr std::string_view kPlyCamera = "camera";
+inline constexpr PlyNames kPlyCameraPlace = {"view_px", "view_py", "view_pz"};
+
+/// For which of its points a file says where their scanner stood.
+enum class PlyScanners { none, one_for_all, each };
+
+/// Whether the file says where the scanner stood of each vertex, else whether it has a camera that
+/// stands for all. Also where it names a part of the coordinates only, which reading refuses.
+PlyScanners scanners_in(const PlyHeader& header);
+
+/// What the vertices call the place of their scanner: x_origin, y_origin and z_origin, or
+/// scanner_x, scanner_y and scanner_z, of which the element has all or at least some; the first
+/// where it has none.
+const PlyNames& names_of_scanner(const PlyElement& vertices);
+
+/// How many of the names are numbers of an element.
+int count_names(const PlyElement& element, const PlyNames& names);
 
 } // namespace vcarve

@@ -1,9 +1,9 @@
 #include "steps/4_visibility/virtual_views.h"
 
 #include "base/parallel.h"
+#include "geometry/point_tree.h"
 #include "steps/4_visibility/each_vertex.h"
 #include "steps/4_visibility/edge_lengths.h"
-#include "steps/4_visibility/nearest_points.h"
 #include "steps/4_visibility/walk.h"
 
 #include <algorithm>
@@ -53,8 +53,7 @@ Evidence gather_evidence(const TetMesh& cells, const Scene& scene, const Progres
 /// A place in the middle of a cell.
 struct Place {
     Vector3d center;
-    Index vertex;     ///< the nearest of the cell's
-    double clearance; ///< how far that is
+    double clearance; ///< how far the nearest of the cell's vertices is
 };
 
 Place middle_of(const TetMesh& mesh, const Cell& cell)
@@ -63,13 +62,9 @@ Place middle_of(const TetMesh& mesh, const Cell& cell)
     for (const Index vertex : cell.vertices) {
         center += 0.25 * mesh.positions[vertex];
     }
-    Place place{.center = center, .vertex = 0, .clearance = kUnlimited};
+    Place place{.center = center, .clearance = kUnlimited};
     for (const Index vertex : cell.vertices) {
-        const double distance = (mesh.positions[vertex] - center).norm();
-        if (distance < place.clearance) {
-            place.vertex = vertex;
-            place.clearance = distance;
-        }
+        place.clearance = std::min(place.clearance, (mesh.positions[vertex] - center).norm());
     }
     return place;
 }
@@ -156,6 +151,7 @@ struct Known {
     const Labels& labels;
     Evidence evidence;
     std::vector<Vector3d> normals; ///< one a point
+    PointTree points;
 };
 
 /// Whether the surface as it is at a point looks towards the viewpoint. It need not quite: it is
@@ -182,12 +178,16 @@ bool is_hidden(const Known& known, Index vertex, const Vector3d& center)
 std::vector<Index> seen_points(const Known& known, const Scene& scene, const Place& place)
 {
     constexpr std::size_t kPointsAround = 1000;
-    std::vector<Index> points =
-        nearest_points(known.mesh, place.center, kPointsAround, place.vertex);
-    std::erase_if(points, [&](Index vertex) {
-        return scene.tracks[vertex].empty() || !looks_towards(known, vertex, place.center) ||
-               is_hidden(known, vertex, place.center);
-    });
+    std::vector<PointTree::Near> nearest;
+    known.points.find_nearest(place.center, kPointsAround, nearest);
+    std::vector<Index> points;
+    for (const PointTree::Near& near : nearest) {
+        const auto vertex = static_cast<Index>(near.point);
+        const bool is_seen = !scene.tracks[vertex].empty() &&
+                             looks_towards(known, vertex, place.center) &&
+                             !is_hidden(known, vertex, place.center);
+        if (is_seen) points.push_back(vertex);
+    }
     return points;
 }
 
@@ -220,7 +220,8 @@ VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, cons
     const Known known = {.mesh = cells,
                          .labels = labels,
                          .evidence = gather_evidence(cells, scene, progress.part(0.0, 0.5)),
-                         .normals = outward_normals(cells, labels)};
+                         .normals = outward_normals(cells, labels),
+                         .points = PointTree(cells.positions)};
     const std::vector<Place> places =
         spread(free_places(cells, labels, known.evidence), static_cast<std::size_t>(options.count),
                progress.part(0.5, 0.8));

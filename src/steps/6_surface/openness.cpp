@@ -1,6 +1,7 @@
 #include "steps/6_surface/openness.h"
 
 #include "base/parallel.h"
+#include "base/parallel_count.h"
 #include "geometry/triangle_tree.h"
 #include "model/camera.h"
 #include "model/pixel_grid.h"
@@ -134,11 +135,8 @@ std::int64_t count_free(const std::vector<ViewLine>& lines,
                         const std::vector<std::array<Vector3d, 3>>& triangles)
 {
     const TriangleTree tree(triangles);
-    std::vector<std::uint8_t> is_free(lines.size());
-    parallel_for(
-        lines.size(),
-        [&](std::size_t i) { is_free[i] = tree.is_met(lines[i].eye, lines[i].end) ? 0 : 1; }, 16);
-    return std::ranges::count(is_free, 1);
+    const auto is_free = [&](std::size_t i) { return !tree.is_met(lines[i].eye, lines[i].end); };
+    return static_cast<std::int64_t>(parallel_count(lines.size(), is_free, 16));
 }
 
 } // namespace vcarve

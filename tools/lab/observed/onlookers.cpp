@@ -45,7 +45,7 @@ std::vector<std::uint32_t> Onlookers::seeing(const Spot& spot) const
         const Vector3d way = views_[i].center - spot.position;
         if (spot.normal.dot(way) < kLeastCosine * way.norm()) continue;
         if (!view_shows(views_[i], camera_, spot.position)) continue;
-        if (!tree_.blocks(spot.position + kTouch * way, views_[i].center)) seeing.push_back(i);
+        if (!tree_.is_met(spot.position + kTouch * way, views_[i].center)) seeing.push_back(i);
     }
     return seeing;
 }

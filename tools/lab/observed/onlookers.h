@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compare/surface_tree.h"
+#include "geometry/triangle_tree.h"
 #include "observed/observed_scene.h"
 #include "observed/spots.h"
 #include "vcarve/scene.h"
@@ -31,7 +31,7 @@ class Onlookers {
 
   private:
     Camera camera_;
-    SurfaceTree tree_;
+    TriangleTree tree_;
     std::vector<View> views_;
 };
 

@@ -1,6 +1,6 @@
 #include "observed/scan.h"
 
-#include "compare/surface_tree.h"
+#include "geometry/triangle_tree.h"
 #include "random.h"
 
 #include <Eigen/Geometry>
@@ -59,7 +59,7 @@ class Scanner {
         return std::abs(a - b) > kStep * std::max(a, b);
     }
 
-    SurfaceTree tree_;
+    TriangleTree tree_;
     Random random_{3};
 };
 

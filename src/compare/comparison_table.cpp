@@ -1,6 +1,4 @@
-#include "report/report.h"
-
-#include "report/comparison_record.h"
+#include "compare/comparison_table.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "baselines/alpha_shape.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
@@ -10,12 +9,10 @@ namespace vcarve {
 /// the points only, and nothing of the views.
 enum class Baseline { alpha_shape, sculpture };
 
-/// "alpha shape" or "sculpture".
-const char* name_of(Baseline baseline);
-
 /// The surface of a baseline, from the same points and cells as our own, with all its faces, mended
-/// alike: steps 1, 2 and 5 at their defaults, with the labels of the baseline. Throws InputError
-/// where the scene holds too little for a surface, and where no cell is as small as alpha asks for.
-TriMesh baseline_surface(Scene model, Baseline baseline, const AlphaOptions& options);
+/// alike: with the labels of the baseline, and the other steps at their defaults. `alpha` is a
+/// multiple of smallest_whole_alpha(). Throws InputError where the scene holds too little for a
+/// surface, and where no cell is as small as alpha asks for.
+TriMesh baseline_surface(Scene model, Baseline baseline, double alpha = 1.0);
 
 } // namespace vcarve

@@ -1,5 +1,6 @@
 #include "baselines/baseline_surface.h"
 
+#include "baselines/alpha_shape.h"
 #include "baselines/sculpt.h"
 #include "mesh/half_edge_mesh.h"
 #include "steps/1_points/center.h"
@@ -19,30 +20,25 @@ namespace vcarve {
 
 namespace {
 
-Labels labels_of(Baseline baseline, const TetMesh& cells, const AlphaOptions& options)
+Labels labels_of(Baseline baseline, const TetMesh& cells, double alpha)
 {
     if (baseline == Baseline::sculpture) return sculpt(cells);
-    Labels labels = alpha_shape(cells, options.alpha * smallest_whole_alpha(cells));
+    Labels labels = alpha_shape(cells, alpha * smallest_whole_alpha(cells));
     if (std::ranges::count(labels, Label::inside) == 0) {
-        throw InputError(fmt::format("no cell is as small as --alpha {} asks for: 1 is the "
+        throw InputError(fmt::format("no cell is as small as the alpha {} asks for: 1 is the "
                                      "smallest that keeps all points",
-                                     options.alpha));
+                                     alpha));
     }
     return labels;
 }
 
 } // namespace
 
-const char* name_of(Baseline baseline)
-{
-    return baseline == Baseline::alpha_shape ? "alpha shape" : "sculpture";
-}
-
-TriMesh baseline_surface(Scene model, Baseline baseline, const AlphaOptions& options)
+TriMesh baseline_surface(Scene model, Baseline baseline, double alpha)
 {
     const Scene scene = spatial_sort(filter_points(center_points(std::move(model)), {}).scene);
     const TetMesh cells = triangulate(scene);
-    const Labels labels = labels_of(baseline, cells, options);
+    const Labels labels = labels_of(baseline, cells, alpha);
     return tri_mesh(*clean_surface(extract_surface(cells, labels, scene), {}).mesh);
 }
 

@@ -1,4 +1,4 @@
-#include "report/report.h"
+#include "compare/comparison_table.h"
 #include "support/measured_scenes.h"
 
 #include <gmock/gmock.h>
@@ -91,7 +91,9 @@ TEST(ComparisonTable, SaysWhatTheFiguresMean)
 TEST(ComparisonTable, HasNoRaysWhereNoViewHasOne)
 {
     const Reference reference = without_truth();
-    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, reference)};
+    Log log;
+    const std::vector<Comparison> one = {
+        compare_mesh({"self.ply", testing::square()}, reference, log)};
     const std::string table = comparison_table(one, reference);
     EXPECT_THAT(table, HasSubstr("| back faces seen            |        - |\n"
                                  "| nothing seen               |        - |\n"));
@@ -103,7 +105,9 @@ TEST(ComparisonTable, HasNoRaysWhereNoViewHasOne)
 TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
 {
     const Reference reference = square_reference();
-    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, reference)};
+    Log log;
+    const std::vector<Comparison> one = {
+        compare_mesh({"self.ply", testing::square()}, reference, log)};
     const std::string table = comparison_table(one, reference);
     for (const char* row : {"| F 0.1 %                    |   1.0000 |\n",
                             "| F 0.25 %                   |   1.0000 |\n",
@@ -123,7 +127,9 @@ TEST(ComparisonTable, HasNoLinesWhereNoImageHoldsTheTruth)
 {
     Reference reference = square_reference();
     std::ranges::fill(reference.truth->image_views, kNoView);
-    const std::vector<Comparison> one = {compare_mesh({"self.ply", testing::square()}, reference)};
+    Log log;
+    const std::vector<Comparison> one = {
+        compare_mesh({"self.ply", testing::square()}, reference, log)};
     const std::string table = comparison_table(one, reference);
     EXPECT_THAT(table, HasSubstr("| seen right                 |        - |\n"));
     EXPECT_THAT(table, HasSubstr("(one a sample, at random; 0 of 20400 samples have one)"));

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "compare/compare.h"
-#include "report/figures.h"
+#include "compare/figures.h"
+
+#include <nlohmann/json.hpp>
 
 #include <span>
 #include <string>
@@ -25,9 +27,11 @@ std::vector<TableRow> table_rows(std::span<const Comparison> comparisons,
 /// figures mean. Ends with a newline.
 std::string comparison_table(std::span<const Comparison> comparisons, const Reference& reference);
 
-/// The same as JSON text: "definitions", "options", "model", "truth" (null where there is none) and
-/// "meshes", each with "name", "size", "views" and, where known, "truth" and "cost"; where there is
-/// no mesh, "name" and "failure".
+/// The same as JSON, and as its text: "definitions", "options", "model", "truth" (null where there
+/// is none) and "meshes", each with "name", "size", "views" and, where known, "truth" and "cost";
+/// where there is no mesh, "name" and "failure".
+nlohmann::ordered_json comparison_record(std::span<const Comparison> comparisons,
+                                         const Reference& reference);
 std::string comparison_json(std::span<const Comparison> comparisons, const Reference& reference);
 
 } // namespace vcarve

@@ -22,12 +22,12 @@ Scene desk()
 
 TriMesh alpha_shape(Scene scene, double alpha = 1.0)
 {
-    return baseline_surface(std::move(scene), Baseline::alpha_shape, {.alpha = alpha});
+    return baseline_surface(std::move(scene), Baseline::alpha_shape, alpha);
 }
 
 TriMesh sculpture(Scene scene)
 {
-    return baseline_surface(std::move(scene), Baseline::sculpture, {});
+    return baseline_surface(std::move(scene), Baseline::sculpture);
 }
 
 TEST(BaselineSurface, KeepsEveryFaceOfASculpture)
@@ -66,7 +66,7 @@ TEST(BaselineSurface, GivesTheConvexHullForALargeAlpha)
 TEST(BaselineSurface, SaysThatAnAlphaIsTooSmall)
 {
     EXPECT_EQ(refusal<InputError>([] { alpha_shape(desk(), 0.001); }),
-              "no cell is as small as --alpha 0.001 asks for: 1 is the smallest that keeps all "
+              "no cell is as small as the alpha 0.001 asks for: 1 is the smallest that keeps all "
               "points");
 }
 
