@@ -2,24 +2,12 @@
 
 #include "model/labels.h"
 #include "model/tet_mesh.h"
-#include "vcarve/option_visitor.h"
 
 namespace vcarve {
 
 /// How large the alpha of an alpha shape is; no length, for those would be in scene units.
 struct AlphaOptions {
-    double alpha = 1.0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.number(alpha,
-                       {.name = "alpha",
-                        .unit = "x auto",
-                        .help = "The radius of the alpha shape, as a multiple of the smallest one "
-                                "that keeps all points and one piece; auto is that one.",
-                        .word = "auto",
-                        .word_value = 1.0});
-    }
+    double alpha = 1.0; ///< radius, as a multiple of the smallest that keeps all points and one piece
 };
 
 /// The alpha shape as a solid (Edelsbrunner, Mücke 1994): inside are the cells whose circumsphere

@@ -1,5 +1,6 @@
 #include "cli/compare_command.h"
 
+#include "base/lower_case_end.h"
 #include "base/threads.h"
 #include "baselines/baseline_surface.h"
 #include "cli/baseline_runs.h"
@@ -10,8 +11,9 @@
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
 #include "compare/closed_surface.h"
-#include "io/files/mapped_file.h"
 #include "io/files/output_file.h"
+#include "io/ply/ply_cloud.h"
+#include "options/declared.h"
 #include "report/report.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
@@ -22,6 +24,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -33,39 +36,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSeeCompareHelp = " (see colmap-vcarve compare --help)";
 
-/// How the command runs, whatever it measures.
-struct CompareRunOptions {
-    bool quiet = false;
-    int threads = 0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Run");
-        options.flag(quiet, {.name = "quiet", .help = "Print nothing but the table and errors."});
-        options.count(threads,
-                      {.name = "threads",
-                       .unit = "threads",
-                       .help = "How many to use; 0 uses all. The figures are the same for any.",
-                       .max = 1024});
-    }
-};
-
-/// Which of the paper's baselines are made and measured.
-struct PointBaselineOptions {
-    bool baselines = false;
-    AlphaOptions alpha;
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Baselines");
-        options.flag(baselines,
-                     {.name = "baselines",
-                      .help = "Add a column for the alpha shape and one for Boissonnat's sculpture "
-                              "of MODEL; they know the points only."});
-        alpha.visit(options);
-    }
-};
-
 /// Everything the command line says.
 struct CompareArguments {
     ModelArguments model;
@@ -74,60 +44,96 @@ struct CompareArguments {
     CompareOutputs outputs;
     std::string command; ///< as it was typed
     CompareOptions measure;
-    PointBaselineOptions point_baselines;
-    std::string colmap; ///< empty: not run
-    BaselineRunOptions baselines;
-    CompareRunOptions run;
+    bool baselines = false; ///< whether those that know the points only are measured
+    AlphaOptions alpha;
+    fs::path colmap; ///< empty: not run
+    BaselineRunOptions colmap_run;
+    bool quiet = false;
+    bool verbose = false;
+    int threads = 0;
+    HelpOptions help;
 };
 
-std::vector<OptionRow> compare_options()
+OptionList truth_options(CompareArguments& arguments)
 {
-    CompareOptions measure;
-    PointBaselineOptions point_baselines;
-    BaselineRunOptions baselines;
-    CompareRunOptions run;
-    bool off = false;
-    OptionTable table;
-    list_points_options(table);
-    table.stage("Measure");
-    table.path({.name = "truth",
-                .help = "The true surface as PLY, in the model's frame: adds precision, recall, "
-                        "F and blocked sights."});
-    measure.visit(table);
-    point_baselines.visit(table);
-    table.stage("COLMAP");
-    table.path({.name = "colmap",
-                .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and "
-                        "adds a column for each, with seconds and peak memory."});
-    baselines.visit(table);
-    list_compare_outputs(table);
-    run.visit(table);
-    table.stage("Help");
-    table.flag(off, {.name = "help", .help = "Print this and exit."});
-    table.flag(off,
-               {.name = "version", .help = "Print versions of the program and its libraries."});
-    return table.rows();
+    return {{"Measure",
+             {.name = "truth",
+              .help = "The true surface as PLY, in the model's frame: adds precision, recall, F "
+                      "and blocked sights."},
+             &arguments.truth}};
+}
+
+OptionList baseline_options(CompareArguments& arguments)
+{
+    constexpr const char* kBaselines = "Baselines";
+    constexpr const char* kColmap = "COLMAP";
+    return {
+        {kBaselines,
+         {.name = "baselines",
+          .help = "Add a column for the alpha shape and one for Boissonnat's sculpture of MODEL; "
+                  "they know the points only."},
+         &arguments.baselines},
+        {kBaselines,
+         {.name = "alpha",
+          .unit = "x auto",
+          .help = "The radius of the alpha shape, as a multiple of the smallest one that keeps all "
+                  "points and one piece; auto is that one.",
+          .words = {"auto"},
+          .word_value = 1.0},
+         &arguments.alpha.alpha},
+        {kColmap,
+         {.name = "colmap",
+          .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and adds "
+                  "a column for each, with seconds and peak memory."},
+         &arguments.colmap},
+        {kColmap,
+         {.name = "colmap-timeout",
+          .unit = "s",
+          .help = "COLMAP's mesher is killed after that; some models never end it.",
+          .min = 1},
+         &arguments.colmap_run.timeout_s},
+    };
+}
+
+OptionList run_options(CompareArguments& arguments)
+{
+    return {
+        {kRunStage,
+         {.name = "quiet", .help = "Print nothing but the table and errors."},
+         &arguments.quiet},
+        {kRunStage,
+         {.name = "verbose", .help = "Print every stage and all that it counted."},
+         &arguments.verbose},
+        {kRunStage,
+         {.name = "threads",
+          .unit = "threads",
+          .help = "How many to use; 0 uses all. The figures are the same for any.",
+          .max = 1024},
+         &arguments.threads},
+    };
+}
+
+OptionList options_of(CompareArguments& arguments)
+{
+    return joined({input_options(arguments.model), truth_options(arguments),
+                   vcarve::options_of(arguments.measure), baseline_options(arguments),
+                   output_options(arguments.outputs), run_options(arguments),
+                   cli::options_of(arguments.help)});
 }
 
 CompareArguments read_arguments(const ParsedArguments& given)
 {
     CompareArguments arguments;
-    OptionReader reader(given);
-    arguments.measure.visit(reader);
-    arguments.point_baselines.visit(reader);
-    arguments.baselines.visit(reader);
-    arguments.run.visit(reader);
-    if (given.has("colmap")) arguments.colmap = given.options.at("colmap");
-    const bool makes_meshes = given.has("colmap") || arguments.point_baselines.baselines;
+    read_options(given, options_of(arguments));
+    const bool makes_meshes = !arguments.colmap.empty() || arguments.baselines;
     if (given.operands.size() < (makes_meshes ? 1U : 2U)) {
         throw UsageError(fmt::format("expected a model and meshes, MODEL A.ply ..., but got {}{}",
                                      given.operands.empty() ? "nothing" : given.operands[0],
                                      kSeeCompareHelp));
     }
-    arguments.model = {given.operands[0], read_points_options(given)};
+    arguments.model.path = given.operands[0];
     arguments.meshes.assign(given.operands.begin() + 1, given.operands.end());
-    if (given.has("truth")) arguments.truth = given.options.at("truth");
-    arguments.outputs = read_compare_outputs(given);
+    check_names(arguments.outputs, given);
     arguments.command = command_text("colmap-vcarve compare", given.typed);
     return arguments;
 }
@@ -139,7 +145,10 @@ void check_files(const CompareArguments& arguments)
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
     check_outputs(arguments.outputs, inputs);
     for (const fs::path& input : inputs) {
-        const MappedFile opens(input);
+        if (lower_case_end(input) != ".ply") {
+            throw InputError(fmt::format("{}: compare reads PLY only", input.string()));
+        }
+        read_ply_header(input);
     }
 }
 
@@ -160,10 +169,10 @@ std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, Log& l
     if (arguments.colmap.empty()) return {};
     const ScratchFolder scratch;
     remove_on_signals(arguments, &scratch);
-    return run_baselines({.colmap = arguments.colmap,
+    return run_baselines({.colmap = arguments.colmap.string(),
                           .model = arguments.model,
-                          .options = arguments.baselines,
-                          .threads = arguments.run.threads},
+                          .options = arguments.colmap_run,
+                          .threads = arguments.threads},
                          scratch, log);
 }
 
@@ -182,11 +191,11 @@ std::vector<std::string> column_names(const std::vector<fs::path>& meshes)
 std::vector<NamedMesh> point_baselines_of(const CompareArguments& arguments, const Scene& model,
                                           Log& log)
 {
-    if (!arguments.point_baselines.baselines) return {};
+    if (!arguments.baselines) return {};
     std::vector<NamedMesh> meshes;
     for (const Baseline baseline : {Baseline::alpha_shape, Baseline::sculpture}) {
         Stage stage(log, name_of(baseline));
-        TriMesh mesh = baseline_surface(model, baseline, arguments.point_baselines.alpha);
+        TriMesh mesh = baseline_surface(model, baseline, arguments.alpha);
         stage.end({{"faces", size_of(mesh.faces.size())}});
         meshes.push_back({name_of(baseline), std::move(mesh)});
     }
@@ -288,7 +297,9 @@ Manual compare_manual()
         {"Figures", "What they mean is written under the table."},
         {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
     };
-    manual.options = compare_options();
+    const auto arguments = std::make_shared<CompareArguments>();
+    manual.options = options_of(*arguments);
+    manual.values = arguments;
     return manual;
 }
 
@@ -297,15 +308,15 @@ void run_compare(const ParsedArguments& given)
     const CompareArguments arguments = read_arguments(given);
     check_files(arguments);
 
-    const int wanted = arguments.run.threads;
+    const int wanted = arguments.threads;
     const int threads = wanted == 0 ? available_threads() : wanted;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<Log> log = shown_log(arguments.run.quiet);
+    const std::unique_ptr<Log> log = shown_log(arguments.quiet, arguments.verbose);
 
     std::vector<BaselineMesh> baselines = baselines_of(arguments, *log);
     remove_on_signals(arguments, nullptr);
-    if (baselines.empty() && arguments.meshes.empty() && !arguments.point_baselines.baselines) {
+    if (baselines.empty() && arguments.meshes.empty() && !arguments.baselines) {
         throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
                                      arguments.model.path.string()));
     }

@@ -16,6 +16,7 @@
 #include "io/work/work_folder.h"
 #include "mesh/check.h"
 #include "mesh/long_faces.h"
+#include "options/declared.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
@@ -153,7 +154,7 @@ Job job_of(const MeshArguments& arguments, Log& log)
 {
     Stage stage(log, "digest");
     Job job = {program_fact()};
-    const Job input = input_facts(find_input(arguments.model.path, arguments.model.points), stage);
+    const Job input = input_facts(find_input(arguments.model.path, arguments.model.all_points()), stage);
     job.insert(job.end(), input.begin(), input.end());
     stage.end({{"files", size_of(input.size())}});
     const Job options = option_facts(arguments.options);
@@ -183,14 +184,14 @@ Surface surface_of(ModelInput input, const Run& run)
         }
         Reconstruction made =
             reconstruct_thinned(std::move(input.scene), input.read, options, run.logs.told,
-                                {.removed = arguments.with_report ? &surface.removed : nullptr,
+                                {.removed = arguments.report.empty() ? nullptr : &surface.removed,
                                  .work = run.work,
                                  .ranks = run.ranks});
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
         surface.mesh = std::move(made.mesh);
-        if (arguments.with_report) surface.scene = std::move(made.scene);
+        if (!arguments.report.empty()) surface.scene = std::move(made.scene);
         return surface;
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
@@ -210,7 +211,7 @@ ModelInput read_input(const Run& run)
     const auto expect = [&](const SceneSize& size) {
         run.logs.shown.expect(expected_run(
             size, arguments.options,
-            {.preview = !arguments.preview.out.empty(), .report = arguments.with_report},
+            {.preview = !arguments.preview.out.empty(), .report = !arguments.report.empty()},
             threads_of(arguments.options)));
     };
     bool is_expected = false;
@@ -248,9 +249,9 @@ Made make_surface(const Run& run, Json& record)
     preview.add(arguments.out.filename().string(), surface.mesh, logs.told);
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
-    if (!arguments.with_stats && !arguments.with_report) return made;
+    if (arguments.stats.empty() && arguments.report.empty()) return made;
     record["mesh"] = check_json(check_mesh(surface.mesh));
-    if (arguments.with_report) {
+    if (!arguments.report.empty()) {
         made.report = make_report(surface.mesh, surface.removed, surface.scene, logs.told);
     }
     return made;
@@ -263,7 +264,7 @@ std::string closing_line(const MeshArguments& arguments, const Made& made,
     outcome.out = arguments.out.string();
     outcome.long_area = made.long_area;
     outcome.is_dense = made.is_dense;
-    outcome.has_report = arguments.with_report;
+    outcome.has_report = !arguments.report.empty();
     return closing_line(outcome, arguments.options);
 }
 
@@ -272,7 +273,7 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
                    Json record)
 {
     if (report.has_value()) record["report"] = report_json(*report, record);
-    if (arguments.with_stats) write_stats(arguments.stats, record);
+    if (!arguments.stats.empty()) write_stats(arguments.stats, record);
     if (report.has_value()) write_report(arguments.report, record, *report);
 }
 
@@ -299,7 +300,7 @@ void require_work_folder(const MeshArguments& arguments, const Processes& proces
 
 void run(const ParsedArguments& given, RunRanks* ranks)
 {
-    const MeshArguments arguments = read_mesh_arguments(given);
+    MeshArguments arguments = read_mesh_arguments(given);
     const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
     require_work_folder(arguments, processes);
     const ArrayFolder scratch(arguments.work, arguments.out);
@@ -313,23 +314,24 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     const int threads = threads_of(arguments.options);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<RunLog> shown = shown_log(arguments.output.quiet);
+    const std::unique_ptr<RunLog> shown = shown_log(arguments.output.quiet, arguments.output.verbose);
     CountsKeeper keeper(*shown);
     // It resets the peak of memory that the system keeps, so it is there only where it is asked
     // for.
     std::optional<StageRecorder> recorder;
-    if (arguments.with_stats || arguments.with_report) recorder.emplace(keeper);
+    if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(keeper);
     const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper};
+    Json options = options_json(options_of(arguments.options));
+    options.update(options_json(options_of(arguments.output)));
     Json record = {{"program", program_json()},
                    {"command", arguments.command},
                    {"input", nullptr},
                    {"output", arguments.out.string()},
                    {"offset", nullptr},
                    {"preview", nullptr},
-                   {"options", options_json(arguments.options)},
+                   {"options", options_json(options)},
                    {"threads_used", threads},
                    {"ranks", processes.all}};
-    record["options"].update(options_json(arguments.output));
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
     RunMemory memory(arguments.options.memory, threads, scratch, processes);
@@ -383,7 +385,9 @@ Manual mesh_manual()
          "NO_COLOR suppresses bold letters."},
         {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
     };
-    manual.options = mesh_options();
+    const auto arguments = std::make_shared<MeshArguments>();
+    manual.options = options_of(*arguments);
+    manual.values = arguments;
     return manual;
 }
 

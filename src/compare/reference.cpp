@@ -1,6 +1,7 @@
 #include "compare/reference.h"
 
 #include "base/median.h"
+#include "base/unlimited.h"
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"

@@ -1,7 +1,7 @@
 #include "vcarve/reconstruct.h"
 
 #include "base/freed_memory.h"
-#include "base/validate.h"
+#include "options/declared.h"
 #include "io/work/stage_keeper.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/scene_check.h"

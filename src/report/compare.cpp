@@ -1,7 +1,7 @@
 #include "vcarve/compare.h"
 
 #include "base/log.h"
-#include "base/validate.h"
+#include "options/declared.h"
 #include "compare/closed_surface.h"
 #include "compare/compare.h"
 #include "report/figures.h"

@@ -1,4 +1,3 @@
-#include "cli/option_table.h"
 #include "support/ball_model.h"
 #include "support/places.h"
 #include "support/program.h"
@@ -169,10 +168,8 @@ TEST_F(ProgramOnBall, RecordsEveryOption)
     ASSERT_EQ(run_program({ball, out, "--stats", stats}).exit_code, 0);
     const auto record = nlohmann::json::parse(bytes_of(stats));
     Options options;
-    cli::OptionTable table;
-    options.visit(table);
-    for (const cli::OptionRow& row : table.rows()) {
-        EXPECT_TRUE(record["options"].contains(row.name)) << row.name;
+    for (const Option& option : options_of(options)) {
+        EXPECT_TRUE(record["options"].contains(option.info.name)) << option.info.name;
     }
 }
 

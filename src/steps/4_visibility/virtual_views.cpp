@@ -1,6 +1,7 @@
 #include "steps/4_visibility/virtual_views.h"
 
 #include "base/parallel.h"
+#include "base/unlimited.h"
 #include "steps/4_visibility/each_vertex.h"
 #include "steps/4_visibility/edge_lengths.h"
 #include "steps/4_visibility/nearest_points.h"

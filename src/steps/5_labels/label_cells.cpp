@@ -68,7 +68,7 @@ Labelling carve(const TetMesh& cells, const Scene& scene, const LabelOptions& op
     const auto label = [&](const Crossings& crossings) {
         Stage stage(work.log(), "carve");
         Labelling carved(cells, carve(cells, crossings, options.min_crossings));
-        stage.end({{"inside", carved.num_inside()}});
+        stage.end({{"inside", carved.num_inside()}, {"of", size_of(cells.cells.size())}});
         return carved;
     };
     return label_by_sources<Crossings>(scene, options.virtual_views, work, cast, label);
@@ -88,6 +88,7 @@ Labelling cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
     const std::int64_t inside = doubted.labelling.num_inside();
     const std::int64_t on_hull = go_on_along_hull(scene, uncrossed, doubted.labelling);
     stage.end({{"inside", inside},
+               {"of", size_of(cells.cells.size())},
                {"bridging facets doubted", doubted.doubts},
                {"cells taken back", doubted.taken_back},
                {"needles", needles},

@@ -1,0 +1,308 @@
+#include "options/declared.h"
+
+#include <iterator>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+OptionList point_options(Options& options)
+{
+    FilterOptions& points = options.points;
+    CreaseOptions& added = options.creases;
+    constexpr const char* kStage = "Points";
+    return {
+        {kStage,
+         {.name = "min-views", .unit = "views", .help = "Drop points seen by fewer views.", .min = 1},
+         &points.min_views},
+        {kStage,
+         {.name = "max-error",
+          .unit = "px",
+          .help = "Drop points whose mean reprojection error is larger; 0 keeps all."},
+         &points.max_error_px},
+        {kStage,
+         {.name = "min-angle",
+          .unit = "deg",
+          .help = "Drop points whose rays all meet at a smaller angle; 0 keeps all.",
+          .max = 180.0},
+         &points.min_angle_deg},
+        {kStage,
+         {.name = "stray-spacing",
+          .unit = "times",
+          .help = "Drop points of two views that stand this many times the usual spacing away "
+                  "from others, as seen from their views, or two thirds of that where their "
+                  "error is large; 0 keeps all.",
+          .tuning = true},
+         &points.stray_spacing},
+        {kStage,
+         {.name = "crease-reach",
+          .unit = "x spacing",
+          .help = "Add points where two flat parts of the surface meet and both have points no "
+                  "farther than so many times their spacing from there, as at the foot of a wall, "
+                  "where images show no features; 0 adds none.",
+          .max = 1000.0,
+          .tuning = true},
+         &added.reach},
+        {kStage,
+         {.name = "border-gap",
+          .unit = "x spacing",
+          .help = "Add points where a flat part of the surface ends and rays pass by no farther "
+                  "than so many times the spacing of its points, as at the eaves of a roof; 0 "
+                  "adds none.",
+          .max = 100.0,
+          .tuning = true},
+         &added.border_gap},
+        {kStage,
+         {.name = "blank-step",
+          .unit = "x spacing",
+          .help = "Add points so many times their spacing apart amid a flat part of the surface "
+                  "where views look at it but images show no features, as on a plain floor; 0 "
+                  "adds none.",
+          .max = 100.0,
+          .tuning = true},
+         &added.blank_step},
+        {kStage,
+         {.name = "merge-px",
+          .unit = "px",
+          .help = "Merge points of a dense cloud that lie within so many pixels of the images "
+                  "that show them largest; 0 merges none.",
+          .max = 1000.0},
+         &options.thin.merge_px},
+        {kStage,
+         {.name = "crop",
+          .help = "Make the surface of a region only: auto, the ball in which 94 % of the rays "
+                  "end; a box x0,y0,z0,x1,y1,z1; a PLY file with a closed surface; or a text file "
+                  "with the x and y of a corner of a polygon a line, for all z.",
+          .words = {"none", "auto"}},
+         &options.crop.region},
+        {kStage,
+         {.name = "denoise",
+          .unit = "sigma",
+          .help = "Smooth what lies within so many standard deviations of the points' own error: "
+                  "the points of a dense cloud, the vertices of a sparse model's surface; 0 "
+                  "moves none.",
+          .max = 100.0},
+         &options.denoise.denoise},
+    };
+}
+
+OptionList sight_options(LabelOptions& options)
+{
+    TraceOptions& trace = options.trace;
+    constexpr const char* kStage = "Lines of sight";
+    return {
+        {kStage,
+         {.name = "method",
+          .help = "cut: the labelling that contradicts the rays least. strict: every cell that a "
+                  "ray crosses is outside (for points without noise).",
+          .words = {"cut", "strict"},
+          .tuning = true},
+         value_of_enum(options.method)},
+        {kStage,
+         {.name = "min-crossings",
+          .unit = "rays",
+          .help = "With --method strict: how many rays must cross a facet to carve the cells "
+                  "beside it.",
+          .min = 1,
+          .tuning = true},
+         &options.min_crossings},
+        {kStage,
+         {.name = "views-sigma",
+          .unit = "views",
+          .help = "A ray weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
+                  "median point; 0 gives every ray the same weight.",
+          .max = 100.0,
+          .tuning = true},
+         &trace.views_sigma},
+        {kStage,
+         {.name = "error-sigma",
+          .unit = "x median error",
+          .help = "A ray weighs exp(-(e^2 - 1) / 2 s^2) of that for a point whose reprojection "
+                  "error is e > 1 medians; 0 takes no account of errors.",
+          .max = 1000.0,
+          .tuning = true},
+         &trace.error_sigma},
+        {kStage,
+         {.name = "distance-sigma",
+          .unit = "x short edge",
+          .help = "Uncertainty of a point along its rays, as a multiple of the 25th percentile of "
+                  "edge lengths; 0 trusts every point fully.",
+          .max = 1000.0,
+          .tuning = true},
+         &trace.distance_sigma},
+        {kStage,
+         {.name = "sink-depth",
+          .unit = "x distance sigma",
+          .help = "How far behind a point its rays call the space inside; 0 means the cell that "
+                  "begins at the point.",
+          .max = 1000.0,
+          .tuning = true},
+         &trace.sink_depth},
+        {kStage,
+         {.name = "bundle-sights",
+          .unit = "rays",
+          .help = "How many near rays of a dense cloud's points go on as one where they are far "
+                  "from their points; 1 walks each to its view.",
+          .min = 1,
+          .max = 64,
+          .tuning = true},
+         &trace.bundle_sights},
+        {kStage,
+         {.name = "quality",
+          .unit = "rays",
+          .help = "What a badly shaped facet costs in the cut, in rays of full weight; 0 lets "
+                  "only the rays decide.",
+          .max = 100'000.0,
+          .tuning = true},
+         &options.cut.quality},
+        {kStage,
+         {.name = "bridging-edge",
+          .unit = "x local edge",
+          .help = "Doubt seen faces with an edge this many times longer than the median around "
+                  "them that stand across the surface at their corners; 0 doubts none.",
+          .tuning = true},
+         &options.bridging.bridging_edge},
+        {kStage,
+         {.name = "needle-edge",
+          .unit = "x local edge",
+          .help = "Take back the tips of needles that stand this many times the median edge "
+                  "around their feet out of the surface, to a point that few views saw; 0 takes "
+                  "back none.",
+          .tuning = true},
+         &options.needles.needle_edge},
+        {kStage,
+         {.name = "virtual-views",
+          .unit = "views",
+          .help = "How many viewpoints to place in space that rays have shown to be free, to look "
+                  "from there at the points around and label the cells again; 100 suit some "
+                  "thousand points, 0 places none.",
+          .tuning = true},
+         &options.virtual_views.count},
+        {kStage,
+         {.name = "virtual-weight",
+          .unit = "rays",
+          .help = "What a ray of such a viewpoint counts, relative to a real one of the same "
+                  "point.",
+          .max = 100.0,
+          .tuning = true},
+         &options.virtual_views.weight},
+    };
+}
+
+OptionList surface_options(Options& options)
+{
+    SurfaceOptions& surface = options.surface;
+    constexpr const char* kStage = "Surface";
+    return {
+        {kStage,
+         {.name = "closed", .help = "Make it watertight: also keep faces that no view sees."},
+         &surface.closed},
+        {kStage,
+         {.name = "max-gap-edge",
+          .unit = "x local edge",
+          .help = "Keep a few faces that no view sees amid seen ones if no edge is this many times "
+                  "longer than the median around; 0 keeps none.",
+          .tuning = true},
+         &surface.support.max_gap_edge},
+        {kStage,
+         {.name = "max-sheet",
+          .unit = "x extent",
+          .help = "Take off faces that views hardly see and that have an edge longer than this "
+                  "share of what the views look at; 0 takes off none and closes most gaps with "
+                  "large faces.",
+          .max = 1.0},
+         &surface.sheets.max_sheet},
+        {kStage,
+         {.name = "min-component",
+          .unit = "faces",
+          .help = "Remove pieces of the surface with fewer faces, or of half as many if they are "
+                  "closed and have no long faces; 0 keeps all."},
+         &surface.cleanup.min_component_faces},
+        {kStage,
+         {.name = "max-hole",
+          .unit = "edges",
+          .help = "Fill holes with at most this many boundary edges; 0 fills none."},
+         &surface.cleanup.max_hole_edges},
+        {kStage,
+         {.name = "smooth",
+          .unit = "iterations",
+          .help = "Smooth the surface so often, never so that a face hides a point from a view "
+                  "that it did not hide; 0 leaves it as it is.",
+          .max = 1000},
+         &options.refine.smooth.iterations},
+        {kStage,
+         {.name = "simplify",
+          .unit = "faces",
+          .help = "Merge vertices until so many faces are left, never so that a face hides a "
+                  "point from a view that it did not hide; 0 keeps all."},
+         &options.refine.simplify.faces},
+    };
+}
+
+OptionList run_options(Options& options)
+{
+    return {
+        {kRunStage,
+         {.name = "threads",
+          .unit = "threads",
+          .help = "How many to use; 0 uses all. The surface is the same for any.",
+          .max = 1024},
+         &options.threads},
+        {kRunStage,
+         {.name = "max-memory",
+          .help = "How much memory a run may take: bytes, or with K, M or G. A larger model is "
+                  "meshed in blocks, with files in --work; the surface is the same. auto: 80 % of "
+                  "what the machine or its control group has free; 0 has no limit.",
+          .words = {"auto"},
+          .word_value = static_cast<double>(MemoryOptions::kAutoMemory)},
+         &options.memory.most},
+        {kRunStage,
+         {.name = "blocks",
+          .unit = "blocks",
+          .help = "How many to cut the model into, with what does not fit into memory in files of "
+                  "--work. auto: as many as --max-memory makes necessary; 0 works in memory, and "
+                  "refuses a model that needs more.",
+          .max = 65536.0,
+          .words = {"auto"},
+          .word_value = static_cast<double>(MemoryOptions::kAutoBlocks),
+          .tuning = true},
+         &options.memory.blocks},
+    };
+}
+
+} // namespace
+
+OptionList options_of(Options& options)
+{
+    OptionList all = point_options(options);
+    for (const OptionList& more : {sight_options(options.labels), surface_options(options),
+                                   run_options(options)}) {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    return all;
+}
+
+OptionList options_of(CompareOptions& options)
+{
+    constexpr const char* kStage = "Measure";
+    return {
+        {kStage,
+         {.name = "samples",
+          .help = "Points sampled on each mesh and on the seen part of the truth.",
+          .min = 1000,
+          .max = 100000000},
+         &options.samples},
+        {kStage,
+         {.name = "seed", .help = "Where the sampling starts; any number."},
+         &options.seed},
+        {kStage,
+         {.name = "spacings",
+          .unit = "x spacing",
+          .help = "How far from a point, in spacings of the points around it, a mesh may pass and "
+                  "still count as passing through it."},
+         &options.spacings},
+    };
+}
+
+} // namespace vcarve
