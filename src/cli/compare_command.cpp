@@ -12,6 +12,7 @@
 #include "cli/run_record.h"
 #include "compare/closed_surface.h"
 #include "io/files/output_file.h"
+#include "io/formats/mesh_file.h"
 #include "io/ply/ply_cloud.h"
 #include "options/declared.h"
 #include "report/report.h"
@@ -145,8 +146,8 @@ void check_files(const CompareArguments& arguments)
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
     check_outputs(arguments.outputs, inputs);
     for (const fs::path& input : inputs) {
-        if (lower_case_end(input) != ".ply") {
-            throw InputError(fmt::format("{}: compare reads PLY only", input.string()));
+        if (is_mesh_name(input) && lower_case_end(input) != ".ply") {
+            throw UsageError(fmt::format("{}: compare reads PLY only", input.string()));
         }
         read_ply_header(input);
     }
@@ -280,12 +281,12 @@ Manual compare_manual()
     manual.operands = "MODEL A.ply [B.ply ...]";
     manual.summary = "Measures surfaces against the model they were made from, and the truth.";
     manual.examples = {
-        {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which one fits the views"},
+        {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which fits better"},
         {"colmap-vcarve compare sparse/0 mesh.ply --truth gt.ply", "how true it is"},
-        {"colmap-vcarve compare sparse/0 --colmap colmap", "this program beside COLMAP's mesher"},
-        {"colmap-vcarve compare sparse/0 mesh.ply --baselines", "beside the paper's baselines"},
+        {"colmap-vcarve compare sparse/0 --colmap colmap", "beside COLMAP's"},
+        {"colmap-vcarve compare sparse/0 mesh.ply --baselines", "and the paper's"},
         {"colmap-vcarve compare sparse/0 a.ply b.ply --preview ab.png", "a picture of each"},
-        {"colmap-vcarve compare sparse/0 a.ply b.ply --report ab.html", "a page to look at both"},
+        {"colmap-vcarve compare sparse/0 a.ply b.ply --report ab.html", "a page with both"},
     };
     manual.operand_meanings = {
         {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},

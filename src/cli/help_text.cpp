@@ -9,7 +9,7 @@ namespace vcarve::cli {
 
 namespace {
 
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kColumns = 80;
 constexpr std::size_t kIndent = 30; ///< where the right column begins
 
 std::string usage_of(const Option& option)

@@ -39,7 +39,7 @@ OptionList joined(std::initializer_list<OptionList> lists);
 /// The default as one would type it; empty for a flag, and where there is none.
 std::string default_text(const Option& option);
 
-/// --help: at most 100 columns, options grouped by stage with default, unit and range; --help-all
+/// --help: at most 80 columns, options grouped by stage with default, unit and range; --help-all
 /// has those for tuning, too.
 std::string help_text(const Manual& manual, bool with_tuning);
 

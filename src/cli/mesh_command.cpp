@@ -329,7 +329,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
                    {"output", arguments.out.string()},
                    {"offset", nullptr},
                    {"preview", nullptr},
-                   {"options", options_json(options)},
+                   {"options", options},
                    {"threads_used", threads},
                    {"ranks", processes.all}};
 
@@ -354,14 +354,14 @@ Manual mesh_manual()
     manual.operands = "MODEL OUT.ply";
     manual.summary = "Turns a COLMAP model into a surface.";
     manual.examples = {
-        {"colmap-vcarve sparse/0 mesh.ply", "the default: a surface from any sparse model"},
-        {"colmap-vcarve dense mesh.ply", "from the dense points that stereo_fusion made"},
-        {"colmap-vcarve scan.ply mesh.ply", "from a laser scan that tells of its scanners"},
-        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "with a picture of it"},
-        {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
-        {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
-        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it with"},
-        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "of what was looked at, without the rest"},
+        {"colmap-vcarve sparse/0 mesh.ply", "any sparse model"},
+        {"colmap-vcarve dense mesh.ply", "stereo_fusion's points"},
+        {"colmap-vcarve scan.ply mesh.ply", "a laser scan"},
+        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it"},
+        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "and a picture of it"},
+        {"colmap-vcarve sparse/0 mesh.glb", "for browsers and engines"},
+        {"colmap-vcarve --closed sparse/0 mesh.ply", "watertight"},
+        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "what was looked at only"},
     };
     manual.operand_meanings = {
         {"MODEL",
@@ -379,10 +379,9 @@ Manual mesh_manual()
          "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
          "--help."},
         {"What it prints",
-         "One line a stage on stderr, and at the end how much of what the views look at is open "
-         "(lines of sight through all images that meet no face where the closed surface has one) "
-         "and what to try. On terminals a bar of the whole run, if that takes over 5 seconds. "
-         "NO_COLOR suppresses bold letters."},
+         "One line a stage on stderr, and at the end how much of what cameras see is open (lines "
+         "of sight through all images that meet no face where the closed surface has one) and "
+         "what to try. On terminals a bar of the whole run, if that takes over 5 seconds."},
         {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
     };
     const auto arguments = std::make_shared<MeshArguments>();

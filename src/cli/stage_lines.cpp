@@ -24,7 +24,7 @@ struct Wording {
 
 constexpr Wording kWordings[] = {
     {"read", "read", "{points} points, {views} views, {sights} rays"},
-    {"digest", "check", ""},
+    {"digest", "check", "{files} input files"},
     {"memory", "memory", "{MiB expected} MiB expected"},
     {"thin", "merge", "{of} points merged to {points}"},
     {"denoise", "denoise",

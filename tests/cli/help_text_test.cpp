@@ -39,7 +39,8 @@ Examples:
   IN                          What is read.
 
 First:
-  --angle <deg>               Drop smaller angles; 0 keeps all. [default 10.5, 0 to 180]
+  --angle <deg>               Drop smaller angles; 0 keeps all.
+                              [default 10.5, 0 to 180]
   --spacing <number>          A pure number. [default 2]
 
 Second:
@@ -73,10 +74,9 @@ TEST(HelpText, BreaksLongTextsBetweenWordsAndLongTermsAfterThem)
     EXPECT_THAT(help_text(manual, false),
                 testing::HasSubstr(
                     "  --a-name-that-leaves-no-room-beside <deg>\n"
-                    "                              Words that go on and on, further than the "
-                    "hundredth column of a line\n"
-                    "                              that anybody wants to read. "
-                    "[default 10.5, 0 to 180]\n"));
+                    "                              Words that go on and on, further than the\n"
+                    "                              hundredth column of a line that anybody wants to\n"
+                    "                              read. [default 10.5, 0 to 180]\n"));
 }
 
 TEST(MarkdownOptions, IsATableAStage)
