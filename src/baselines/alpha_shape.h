@@ -7,7 +7,7 @@ namespace vcarve {
 
 /// How large the alpha of an alpha shape is; no length, for those would be in scene units.
 struct AlphaOptions {
-    double alpha = 1.0; ///< radius, as a multiple of the smallest that keeps all points and one piece
+    double alpha = 1.0; ///< the radius, in smallest ones that keep all points and one piece
 };
 
 /// The alpha shape as a solid (Edelsbrunner, Mücke 1994): inside are the cells whose circumsphere

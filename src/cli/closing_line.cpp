@@ -107,9 +107,9 @@ std::string closing_line(const RunOutcome& outcome, const Options& options)
     std::vector<std::string> proposals;
     propose_for_points(outcome, options.points, proposals);
     propose_for_surface(outcome, options, proposals);
-    std::string line = fmt::format("wrote {}: {} faces, {}", outcome.out,
-                                   grouped_digits(outcome.faces),
-                                   openness_text(outcome, options.surface));
+    std::string line =
+        fmt::format("wrote {}: {} faces, {}", outcome.out, grouped_digits(outcome.faces),
+                    openness_text(outcome, options.surface));
     if (proposals.empty() && !outcome.has_report) {
         const auto page = std::filesystem::path(outcome.out).replace_extension(".html");
         const std::string see = fmt::format("See it: --report {}", page.string());

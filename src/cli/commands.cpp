@@ -2,6 +2,7 @@
 
 #include "base/version.h"
 #include "cli/compare_command.h"
+#include "cli/mesh_arguments.h"
 #include "cli/mesh_command.h"
 #include "vcarve/error.h"
 

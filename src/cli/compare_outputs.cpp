@@ -38,10 +38,10 @@ OptionList output_options(CompareOutputs& outputs)
 {
     constexpr const char* kStage = "Output";
     OptionList options = preview_options(outputs.preview);
-    options.insert(
-        options.begin(),
-        {kStage, {.name = "json", .help = "Also write all figures, unrounded, as JSON."},
-         &outputs.json});
+    options.insert(options.begin(),
+                   {kStage,
+                    {.name = "json", .help = "Also write all figures, unrounded, as JSON."},
+                    &outputs.json});
     options.push_back(
         {kStage,
          {.name = "report",

@@ -197,9 +197,8 @@ void ConsoleLog::stage_progresses(double share)
 void ConsoleLog::stage_ends(std::string_view name, const Counts& counts)
 {
     const std::lock_guard lock(mutex_);
-    const StageWords words = settings_.verbose
-                                 ? StageWords{std::string(name), counts_text(counts)}
-                                 : stage_words(name, counts);
+    const StageWords words = settings_.verbose ? StageWords{std::string(name), counts_text(counts)}
+                                               : stage_words(name, counts);
     if (words.is_shown) print_line(stage_line(words, stage_seconds()));
     clock_.stage_ends(counts, run_seconds());
     stage_.clear();

@@ -26,10 +26,10 @@ struct ConsoleSettings {
 /// moreover the environment does not forbid it: NO_COLOR is not set, or empty (no-color.org).
 ConsoleSettings console_on_stderr(bool verbose);
 
-/// Prints one line a stage when it ends, see stage_words, with seconds, and `note: ...` for each note.
-/// Where the stream is live a bar runs in the last line: of the whole run, with what is left of its
-/// time, where that is expected to be long, or takes long; where nothing is expected, of a stage
-/// that takes longer. To other streams it writes plain lines: no carriage return, no escape.
+/// Prints one line a stage when it ends, see stage_words, with seconds, and `note: ...` for each
+/// note. Where the stream is live a bar runs in the last line: of the whole run, with what is left
+/// of its time, where that is expected to be long, or takes long; where nothing is expected, of a
+/// stage that takes longer. To other streams it writes plain lines: no carriage return, no escape.
 class ConsoleLog final : public RunLog {
   public:
     explicit ConsoleLog(const ConsoleSettings& settings);

@@ -118,15 +118,6 @@ OptionList options_of(HelpOptions& help)
     };
 }
 
-OptionList joined(std::initializer_list<OptionList> lists)
-{
-    OptionList all;
-    for (const OptionList& list : lists) {
-        all.insert(all.end(), list.begin(), list.end());
-    }
-    return all;
-}
-
 std::string default_text(const Option& option)
 {
     return is_flag(option) ? "" : value_text(option);

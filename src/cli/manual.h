@@ -33,9 +33,6 @@ struct HelpOptions {
 };
 OptionList options_of(HelpOptions& help);
 
-/// Several lists as one.
-OptionList joined(std::initializer_list<OptionList> lists);
-
 /// The default as one would type it; empty for a flag, and where there is none.
 std::string default_text(const Option& option);
 

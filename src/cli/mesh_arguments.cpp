@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 namespace vcarve::cli {
 
 namespace {
@@ -143,6 +145,49 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.command = command_text("colmap-vcarve", given.typed);
     require_distinct(outputs_of(arguments));
     return arguments;
+}
+
+Manual mesh_manual()
+{
+    Manual manual;
+    manual.command = "colmap-vcarve";
+    manual.operands = "MODEL OUT.ply";
+    manual.summary = "Turns a COLMAP model into a surface.";
+    manual.examples = {
+        {"colmap-vcarve sparse/0 mesh.ply", "any sparse model"},
+        {"colmap-vcarve dense mesh.ply", "stereo_fusion's points"},
+        {"colmap-vcarve scan.ply mesh.ply", "a laser scan"},
+        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it"},
+        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "and a picture of it"},
+        {"colmap-vcarve sparse/0 mesh.glb", "for browsers and engines"},
+        {"colmap-vcarve --closed sparse/0 mesh.ply", "watertight"},
+        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "what was looked at only"},
+    };
+    manual.operand_meanings = {
+        {"MODEL",
+         "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
+         "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
+         "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken. Or a PLY file: "
+         "of a dense workspace, or of a laser scan with the places of its scanners."},
+        {"OUT.ply",
+         "The surface: triangles with colours and normals, in the model's frame. The end "
+         "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "
+         "colours nor normals of vertices) or .glb (binary glTF)."},
+    };
+    manual.footnotes = {
+        {"colmap-vcarve compare",
+         "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
+         "--help."},
+        {"What it prints",
+         "One line a stage on stderr, and at the end how much of what cameras see is open (lines "
+         "of sight through all images that meet no face where the closed surface has one) and "
+         "what to try. On terminals a bar of the whole run, if that takes over 5 seconds."},
+        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
+    };
+    const auto arguments = std::make_shared<MeshArguments>();
+    manual.options = options_of(*arguments);
+    manual.values = arguments;
+    return manual;
 }
 
 } // namespace vcarve::cli

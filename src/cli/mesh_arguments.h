@@ -47,6 +47,9 @@ OptionList options_of(OutputOptions& output);
 /// two outputs would be one file.
 MeshArguments read_mesh_arguments(const ParsedArguments& given);
 
+/// What a user can read about the bare form, `colmap-vcarve MODEL OUT.ply`.
+Manual mesh_manual();
+
 /// All that a run is to write.
 std::vector<Output> outputs_of(const MeshArguments& arguments);
 

@@ -154,7 +154,8 @@ Job job_of(const MeshArguments& arguments, Log& log)
 {
     Stage stage(log, "digest");
     Job job = {program_fact()};
-    const Job input = input_facts(find_input(arguments.model.path, arguments.model.all_points()), stage);
+    const Job input =
+        input_facts(find_input(arguments.model.path, arguments.model.all_points()), stage);
     job.insert(job.end(), input.begin(), input.end());
     stage.end({{"files", size_of(input.size())}});
     const Job options = option_facts(arguments.options);
@@ -298,6 +299,21 @@ void require_work_folder(const MeshArguments& arguments, const Processes& proces
                                  processes.all, kSeeHelp));
 }
 
+/// What is known before the run; the rest is in its place.
+Json begun_record(MeshArguments& arguments, int threads, const Processes& processes)
+{
+    return {{"program", program_json()},
+            {"command", arguments.command},
+            {"input", nullptr},
+            {"output", arguments.out.string()},
+            {"offset", nullptr},
+            {"preview", nullptr},
+            {"options",
+             options_json(joined({options_of(arguments.options), options_of(arguments.output)}))},
+            {"threads_used", threads},
+            {"ranks", processes.all}};
+}
+
 void run(const ParsedArguments& given, RunRanks* ranks)
 {
     MeshArguments arguments = read_mesh_arguments(given);
@@ -314,24 +330,15 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     const int threads = threads_of(arguments.options);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<RunLog> shown = shown_log(arguments.output.quiet, arguments.output.verbose);
+    const std::unique_ptr<RunLog> shown =
+        shown_log(arguments.output.quiet, arguments.output.verbose);
     CountsKeeper keeper(*shown);
     // It resets the peak of memory that the system keeps, so it is there only where it is asked
     // for.
     std::optional<StageRecorder> recorder;
     if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(keeper);
     const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper};
-    Json options = options_json(options_of(arguments.options));
-    options.update(options_json(options_of(arguments.output)));
-    Json record = {{"program", program_json()},
-                   {"command", arguments.command},
-                   {"input", nullptr},
-                   {"output", arguments.out.string()},
-                   {"offset", nullptr},
-                   {"preview", nullptr},
-                   {"options", options},
-                   {"threads_used", threads},
-                   {"ranks", processes.all}};
+    Json record = begun_record(arguments, threads, processes);
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
     RunMemory memory(arguments.options.memory, threads, scratch, processes);
@@ -346,49 +353,6 @@ void run(const ParsedArguments& given, RunRanks* ranks)
 }
 
 } // namespace
-
-Manual mesh_manual()
-{
-    Manual manual;
-    manual.command = "colmap-vcarve";
-    manual.operands = "MODEL OUT.ply";
-    manual.summary = "Turns a COLMAP model into a surface.";
-    manual.examples = {
-        {"colmap-vcarve sparse/0 mesh.ply", "any sparse model"},
-        {"colmap-vcarve dense mesh.ply", "stereo_fusion's points"},
-        {"colmap-vcarve scan.ply mesh.ply", "a laser scan"},
-        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it"},
-        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "and a picture of it"},
-        {"colmap-vcarve sparse/0 mesh.glb", "for browsers and engines"},
-        {"colmap-vcarve --closed sparse/0 mesh.ply", "watertight"},
-        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "what was looked at only"},
-    };
-    manual.operand_meanings = {
-        {"MODEL",
-         "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
-         "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
-         "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken. Or a PLY file: "
-         "of a dense workspace, or of a laser scan with the places of its scanners."},
-        {"OUT.ply",
-         "The surface: triangles with colours and normals, in the model's frame. The end "
-         "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "
-         "colours nor normals of vertices) or .glb (binary glTF)."},
-    };
-    manual.footnotes = {
-        {"colmap-vcarve compare",
-         "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
-         "--help."},
-        {"What it prints",
-         "One line a stage on stderr, and at the end how much of what cameras see is open (lines "
-         "of sight through all images that meet no face where the closed surface has one) and "
-         "what to try. On terminals a bar of the whole run, if that takes over 5 seconds."},
-        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
-    };
-    const auto arguments = std::make_shared<MeshArguments>();
-    manual.options = options_of(*arguments);
-    manual.values = arguments;
-    return manual;
-}
 
 void run_mesh(const ParsedArguments& given, RunRanks* ranks)
 {

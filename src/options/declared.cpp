@@ -1,33 +1,34 @@
 #include "options/declared.h"
 
-#include <iterator>
-#include <utility>
-
 namespace vcarve {
 
 namespace {
 
-OptionList point_options(Options& options)
+constexpr const char* kPoints = "Points";
+constexpr const char* kSights = "Lines of sight";
+constexpr const char* kSurface = "Surface";
+
+OptionList filter_options(FilterOptions& points)
 {
-    FilterOptions& points = options.points;
-    CreaseOptions& added = options.creases;
-    constexpr const char* kStage = "Points";
     return {
-        {kStage,
-         {.name = "min-views", .unit = "views", .help = "Drop points seen by fewer views.", .min = 1},
+        {kPoints,
+         {.name = "min-views",
+          .unit = "views",
+          .help = "Drop points seen by fewer views.",
+          .min = 1},
          &points.min_views},
-        {kStage,
+        {kPoints,
          {.name = "max-error",
           .unit = "px",
           .help = "Drop points whose mean reprojection error is larger; 0 keeps all."},
          &points.max_error_px},
-        {kStage,
+        {kPoints,
          {.name = "min-angle",
           .unit = "deg",
           .help = "Drop points whose rays all meet at a smaller angle; 0 keeps all.",
           .max = 180.0},
          &points.min_angle_deg},
-        {kStage,
+        {kPoints,
          {.name = "stray-spacing",
           .unit = "times",
           .help = "Drop points of two views that stand this many times the usual spacing away "
@@ -35,7 +36,13 @@ OptionList point_options(Options& options)
                   "error is large; 0 keeps all.",
           .tuning = true},
          &points.stray_spacing},
-        {kStage,
+    };
+}
+
+OptionList added_point_options(CreaseOptions& added)
+{
+    return {
+        {kPoints,
          {.name = "crease-reach",
           .unit = "x spacing",
           .help = "Add points where two flat parts of the surface meet and both have points no "
@@ -44,7 +51,7 @@ OptionList point_options(Options& options)
           .max = 1000.0,
           .tuning = true},
          &added.reach},
-        {kStage,
+        {kPoints,
          {.name = "border-gap",
           .unit = "x spacing",
           .help = "Add points where a flat part of the surface ends and rays pass by no farther "
@@ -53,7 +60,7 @@ OptionList point_options(Options& options)
           .max = 100.0,
           .tuning = true},
          &added.border_gap},
-        {kStage,
+        {kPoints,
          {.name = "blank-step",
           .unit = "x spacing",
           .help = "Add points so many times their spacing apart amid a flat part of the surface "
@@ -62,21 +69,27 @@ OptionList point_options(Options& options)
           .max = 100.0,
           .tuning = true},
          &added.blank_step},
-        {kStage,
+    };
+}
+
+OptionList cloud_options(Options& options)
+{
+    return {
+        {kPoints,
          {.name = "merge-px",
           .unit = "px",
           .help = "Merge points of a dense cloud that lie within so many pixels of the images "
                   "that show them largest; 0 merges none.",
           .max = 1000.0},
          &options.thin.merge_px},
-        {kStage,
+        {kPoints,
          {.name = "crop",
           .help = "Make the surface of a region only: auto, the ball in which 94 % of the rays "
                   "end; a box x0,y0,z0,x1,y1,z1; a PLY file with a closed surface; or a text file "
                   "with the x and y of a corner of a polygon a line, for all z.",
           .words = {"none", "auto"}},
          &options.crop.region},
-        {kStage,
+        {kPoints,
          {.name = "denoise",
           .unit = "sigma",
           .help = "Smooth what lies within so many standard deviations of the points' own error: "
@@ -87,19 +100,17 @@ OptionList point_options(Options& options)
     };
 }
 
-OptionList sight_options(LabelOptions& options)
+OptionList method_options(LabelOptions& options)
 {
-    TraceOptions& trace = options.trace;
-    constexpr const char* kStage = "Lines of sight";
     return {
-        {kStage,
+        {kSights,
          {.name = "method",
           .help = "cut: the labelling that contradicts the rays least. strict: every cell that a "
                   "ray crosses is outside (for points without noise).",
           .words = {"cut", "strict"},
           .tuning = true},
          value_of_enum(options.method)},
-        {kStage,
+        {kSights,
          {.name = "min-crossings",
           .unit = "rays",
           .help = "With --method strict: how many rays must cross a facet to carve the cells "
@@ -107,7 +118,13 @@ OptionList sight_options(LabelOptions& options)
           .min = 1,
           .tuning = true},
          &options.min_crossings},
-        {kStage,
+    };
+}
+
+OptionList weight_options(TraceOptions& trace)
+{
+    return {
+        {kSights,
          {.name = "views-sigma",
           .unit = "views",
           .help = "A ray weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
@@ -115,7 +132,7 @@ OptionList sight_options(LabelOptions& options)
           .max = 100.0,
           .tuning = true},
          &trace.views_sigma},
-        {kStage,
+        {kSights,
          {.name = "error-sigma",
           .unit = "x median error",
           .help = "A ray weighs exp(-(e^2 - 1) / 2 s^2) of that for a point whose reprojection "
@@ -123,7 +140,13 @@ OptionList sight_options(LabelOptions& options)
           .max = 1000.0,
           .tuning = true},
          &trace.error_sigma},
-        {kStage,
+    };
+}
+
+OptionList depth_options(TraceOptions& trace)
+{
+    return {
+        {kSights,
          {.name = "distance-sigma",
           .unit = "x short edge",
           .help = "Uncertainty of a point along its rays, as a multiple of the 25th percentile of "
@@ -131,7 +154,7 @@ OptionList sight_options(LabelOptions& options)
           .max = 1000.0,
           .tuning = true},
          &trace.distance_sigma},
-        {kStage,
+        {kSights,
          {.name = "sink-depth",
           .unit = "x distance sigma",
           .help = "How far behind a point its rays call the space inside; 0 means the cell that "
@@ -139,7 +162,7 @@ OptionList sight_options(LabelOptions& options)
           .max = 1000.0,
           .tuning = true},
          &trace.sink_depth},
-        {kStage,
+        {kSights,
          {.name = "bundle-sights",
           .unit = "rays",
           .help = "How many near rays of a dense cloud's points go on as one where they are far "
@@ -148,7 +171,13 @@ OptionList sight_options(LabelOptions& options)
           .max = 64,
           .tuning = true},
          &trace.bundle_sights},
-        {kStage,
+    };
+}
+
+OptionList cut_options(LabelOptions& options)
+{
+    return {
+        {kSights,
          {.name = "quality",
           .unit = "rays",
           .help = "What a badly shaped facet costs in the cut, in rays of full weight; 0 lets "
@@ -156,14 +185,14 @@ OptionList sight_options(LabelOptions& options)
           .max = 100'000.0,
           .tuning = true},
          &options.cut.quality},
-        {kStage,
+        {kSights,
          {.name = "bridging-edge",
           .unit = "x local edge",
           .help = "Doubt seen faces with an edge this many times longer than the median around "
                   "them that stand across the surface at their corners; 0 doubts none.",
           .tuning = true},
          &options.bridging.bridging_edge},
-        {kStage,
+        {kSights,
          {.name = "needle-edge",
           .unit = "x local edge",
           .help = "Take back the tips of needles that stand this many times the median edge "
@@ -171,41 +200,45 @@ OptionList sight_options(LabelOptions& options)
                   "back none.",
           .tuning = true},
          &options.needles.needle_edge},
-        {kStage,
+    };
+}
+
+OptionList virtual_view_options(VirtualViewOptions& views)
+{
+    return {
+        {kSights,
          {.name = "virtual-views",
           .unit = "views",
           .help = "How many viewpoints to place in space that rays have shown to be free, to look "
                   "from there at the points around and label the cells again; 100 suit some "
                   "thousand points, 0 places none.",
           .tuning = true},
-         &options.virtual_views.count},
-        {kStage,
+         &views.count},
+        {kSights,
          {.name = "virtual-weight",
           .unit = "rays",
           .help = "What a ray of such a viewpoint counts, relative to a real one of the same "
                   "point.",
           .max = 100.0,
           .tuning = true},
-         &options.virtual_views.weight},
+         &views.weight},
     };
 }
 
-OptionList surface_options(Options& options)
+OptionList surface_options(SurfaceOptions& surface)
 {
-    SurfaceOptions& surface = options.surface;
-    constexpr const char* kStage = "Surface";
     return {
-        {kStage,
+        {kSurface,
          {.name = "closed", .help = "Make it watertight: also keep faces that no view sees."},
          &surface.closed},
-        {kStage,
+        {kSurface,
          {.name = "max-gap-edge",
           .unit = "x local edge",
           .help = "Keep a few faces that no view sees amid seen ones if no edge is this many times "
                   "longer than the median around; 0 keeps none.",
           .tuning = true},
          &surface.support.max_gap_edge},
-        {kStage,
+        {kSurface,
          {.name = "max-sheet",
           .unit = "x extent",
           .help = "Take off faces that views hardly see and that have an edge longer than this "
@@ -213,25 +246,31 @@ OptionList surface_options(Options& options)
                   "large faces.",
           .max = 1.0},
          &surface.sheets.max_sheet},
-        {kStage,
+    };
+}
+
+OptionList mending_options(Options& options)
+{
+    return {
+        {kSurface,
          {.name = "min-component",
           .unit = "faces",
           .help = "Remove pieces of the surface with fewer faces, or of half as many if they are "
                   "closed and have no long faces; 0 keeps all."},
-         &surface.cleanup.min_component_faces},
-        {kStage,
+         &options.surface.cleanup.min_component_faces},
+        {kSurface,
          {.name = "max-hole",
           .unit = "edges",
           .help = "Fill holes with at most this many boundary edges; 0 fills none."},
-         &surface.cleanup.max_hole_edges},
-        {kStage,
+         &options.surface.cleanup.max_hole_edges},
+        {kSurface,
          {.name = "smooth",
           .unit = "iterations",
           .help = "Smooth the surface so often, never so that a face hides a point from a view "
                   "that it did not hide; 0 leaves it as it is.",
           .max = 1000},
          &options.refine.smooth.iterations},
-        {kStage,
+        {kSurface,
          {.name = "simplify",
           .unit = "faces",
           .help = "Merge vertices until so many faces are left, never so that a face hides a "
@@ -275,12 +314,12 @@ OptionList run_options(Options& options)
 
 OptionList options_of(Options& options)
 {
-    OptionList all = point_options(options);
-    for (const OptionList& more : {sight_options(options.labels), surface_options(options),
-                                   run_options(options)}) {
-        all.insert(all.end(), more.begin(), more.end());
-    }
-    return all;
+    LabelOptions& labels = options.labels;
+    return joined({filter_options(options.points), added_point_options(options.creases),
+                   cloud_options(options), method_options(labels), weight_options(labels.trace),
+                   depth_options(labels.trace), cut_options(labels),
+                   virtual_view_options(labels.virtual_views), surface_options(options.surface),
+                   mending_options(options), run_options(options)});
 }
 
 OptionList options_of(CompareOptions& options)
@@ -293,9 +332,7 @@ OptionList options_of(CompareOptions& options)
           .min = 1000,
           .max = 100000000},
          &options.samples},
-        {kStage,
-         {.name = "seed", .help = "Where the sampling starts; any number."},
-         &options.seed},
+        {kStage, {.name = "seed", .help = "Where the sampling starts; any number."}, &options.seed},
         {kStage,
          {.name = "spacings",
           .unit = "x spacing",

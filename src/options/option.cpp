@@ -186,8 +186,8 @@ void check_word(const Option& option, int word)
 {
     const std::size_t words = option.info.words.size();
     if (word >= 0 && static_cast<std::size_t>(word) < words) return;
-    throw UsageError(fmt::format("--{} has {} choices, and {} is none of them", option.info.name,
-                                 words, word));
+    throw UsageError(
+        fmt::format("--{} has {} choices, and {} is none of them", option.info.name, words, word));
 }
 
 void check_vector(const Option& option, const WordOrVector& value)
@@ -225,6 +225,15 @@ void check_value(const Option& option)
 
 } // namespace
 
+OptionList joined(std::initializer_list<OptionList> lists)
+{
+    OptionList all;
+    for (const OptionList& list : lists) {
+        all.insert(all.end(), list.begin(), list.end());
+    }
+    return all;
+}
+
 bool is_flag(const Option& option)
 {
     return std::holds_alternative<bool*>(option.value);
@@ -233,8 +242,7 @@ bool is_flag(const Option& option)
 std::string placeholder(const Option& option)
 {
     if (is_flag(option)) return "";
-    const std::string unit =
-        option.info.unit.empty() ? "" : fmt::format("<{}>", option.info.unit);
+    const std::string unit = option.info.unit.empty() ? "" : fmt::format("<{}>", option.info.unit);
     const std::string number = unit.empty() ? "<number>" : unit;
     const std::string other =
         std::visit(Overloaded{[&](const std::int64_t*) -> std::string { return "<size>"; },
@@ -254,22 +262,22 @@ std::string accepted(const Option& option)
 {
     const OptionInfo& info = option.info;
     return std::visit(
-        Overloaded{
-            [&](const double*) { return either(info.words, bounded("a number", info)); },
-            [&](const int*) { return either(info.words, bounded("a whole number", info)); },
-            [&](const std::int64_t*) {
-                return either(info.words, "a size in bytes, or with K, M or G as in 8G");
-            },
-            [](const bool*) { return std::string(); },
-            [&](const EnumValue&) { return either(info.words, ""); },
-            [&](const WordOrVector*) { return bounded(either(info.words, "x,y,z"), info); },
-            [&](const RegionChoice*) {
-                return fmt::format("{}, x0,y0,z0,x1,y1,z1 or a file", fmt::join(info.words, ", "));
-            },
-            [](const fs::path*) { return std::string("a path"); },
-            [&](const std::string*) {
-                return either(info.words, "a " + (info.unit.empty() ? "name" : info.unit));
-            }},
+        Overloaded{[&](const double*) { return either(info.words, bounded("a number", info)); },
+                   [&](const int*) { return either(info.words, bounded("a whole number", info)); },
+                   [&](const std::int64_t*) {
+                       return either(info.words, "a size in bytes, or with K, M or G as in 8G");
+                   },
+                   [](const bool*) { return std::string(); },
+                   [&](const EnumValue&) { return either(info.words, ""); },
+                   [&](const WordOrVector*) { return bounded(either(info.words, "x,y,z"), info); },
+                   [&](const RegionChoice*) {
+                       return fmt::format("{}, x0,y0,z0,x1,y1,z1 or a file",
+                                          fmt::join(info.words, ", "));
+                   },
+                   [](const fs::path*) { return std::string("a path"); },
+                   [&](const std::string*) {
+                       return either(info.words, "a " + (info.unit.empty() ? "name" : info.unit));
+                   }},
         option.value);
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -17,15 +18,15 @@ namespace vcarve {
 
 /// What is said of an option, beside where its value is.
 struct OptionInfo {
-    std::string name;                   ///< kebab-case, without dashes
-    std::string unit = "";              ///< "px", "deg", "views"; empty for a pure number
-    std::string help = "";              ///< what it means and how to switch it off
-    double min = 0.0;                   ///< of numbers, the smallest
-    double max = kUnlimited;            ///< ... the largest
+    std::string name;                    ///< kebab-case, without dashes
+    std::string unit = "";               ///< "px", "deg", "views"; empty for a pure number
+    std::string help = "";               ///< what it means and how to switch it off
+    double min = 0.0;                    ///< of numbers, the smallest
+    double max = kUnlimited;             ///< ... the largest
     std::vector<std::string> words = {}; ///< that may be typed instead of numbers or names, in the
-                                        ///< order of an enum's values
-    double word_value = 0.0;            ///< the number that the only word stands for
-    bool tuning = false;                ///< for those who study the method; --help leaves it out
+                                         ///< order of an enum's values
+    double word_value = 0.0;             ///< the number that the only word stands for
+    bool tuning = false;                 ///< for those who study the method; --help leaves it out
 };
 
 /// One of an option's words, or three numbers instead.
@@ -62,6 +63,9 @@ struct Option {
     OptionValue value;
 };
 using OptionList = std::vector<Option>;
+
+/// Several lists as one.
+OptionList joined(std::initializer_list<OptionList> lists);
 
 /// Whether it is given without a value.
 bool is_flag(const Option& option);

@@ -1,9 +1,9 @@
 #include "vcarve/compare.h"
 
 #include "base/log.h"
-#include "options/declared.h"
 #include "compare/closed_surface.h"
 #include "compare/compare.h"
+#include "options/declared.h"
 #include "report/figures.h"
 #include "report/report.h"
 

@@ -31,8 +31,9 @@ std::string line(const RunOutcome& outcome, const Options& options = {})
 
 TEST(ClosingLine, ShowsTheReportWhereNothingStandsOut)
 {
-    EXPECT_EQ(line(usual()), "wrote out.ply: 22,268 faces, less than 1 % of what cameras see is open"
-                             "\nSee it: --report out.html");
+    EXPECT_EQ(line(usual()),
+              "wrote out.ply: 22,268 faces, less than 1 % of what cameras see is open"
+              "\nSee it: --report out.html");
     RunOutcome outcome = usual();
     outcome.open = 0.0;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes. See it: --report "

@@ -69,14 +69,16 @@ TEST(HelpText, BreaksLongTextsBetweenWordsAndLongTermsAfterThem)
     Manual manual = sample_manual();
     manual.options.resize(1);
     manual.options[0].info.name = "a-name-that-leaves-no-room-beside";
-    manual.options[0].info.help = "Words that go on and on, further than the hundredth column of a line "
-                             "that anybody wants to read.";
-    EXPECT_THAT(help_text(manual, false),
-                testing::HasSubstr(
-                    "  --a-name-that-leaves-no-room-beside <deg>\n"
-                    "                              Words that go on and on, further than the\n"
-                    "                              hundredth column of a line that anybody wants to\n"
-                    "                              read. [default 10.5, 0 to 180]\n"));
+    manual.options[0].info.help =
+        "Words that go on and on, further than the hundredth column of a line "
+        "that anybody wants to read.";
+    EXPECT_THAT(
+        help_text(manual, false),
+        testing::HasSubstr(
+            "  --a-name-that-leaves-no-room-beside <deg>\n"
+            "                              Words that go on and on, further than the\n"
+            "                              hundredth column of a line that anybody wants to\n"
+            "                              read. [default 10.5, 0 to 180]\n"));
 }
 
 TEST(MarkdownOptions, IsATableAStage)

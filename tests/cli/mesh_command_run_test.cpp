@@ -39,16 +39,15 @@ TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
     const Outcome outcome = run_program({ball, out});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.out, IsEmpty());
-    EXPECT_THAT(outcome.err,
-                MatchesRegex("read +400 points, 6 views, [0-9]+ rays +[0-9.]+ s\n"
-                             "memory +[0-9]+ MiB expected +[0-9.]+ s\n"
-                             "filter +[0-9]+ of 400 points kept.* s\n"
-                             "triangulate +[0-9,]+ cells +[0-9.]+ s\n"
-                             "(.|\n)*"
-                             "cut +[0-9,]+ of [0-9,]+ cells are solid +[0-9.]+ s\n"
-                             "(.|\n)*"
-                             "wrote " +
-                             out + ": [0-9,]+ faces, closed\n.*\n"));
+    EXPECT_THAT(outcome.err, MatchesRegex("read +400 points, 6 views, [0-9]+ rays +[0-9.]+ s\n"
+                                          "memory +[0-9]+ MiB expected +[0-9.]+ s\n"
+                                          "filter +[0-9]+ of 400 points kept.* s\n"
+                                          "triangulate +[0-9,]+ cells +[0-9.]+ s\n"
+                                          "(.|\n)*"
+                                          "cut +[0-9,]+ of [0-9,]+ cells are solid +[0-9.]+ s\n"
+                                          "(.|\n)*"
+                                          "wrote " +
+                                          out + ": [0-9,]+ faces, closed\n.*\n"));
     EXPECT_THAT(outcome.err, Not(ContainsRegex("[\r\x1b]"))) << "plain lines where piped";
     std::istringstream lines(outcome.err);
     for (std::string line; std::getline(lines, line);) {

@@ -33,8 +33,9 @@ TEST(OptionsJson, RecordsRegionsAsWordsNumbersOrPaths)
         return recorded({.part = part})["part"].dump();
     };
     EXPECT_EQ(recorded_part({.kind = RegionChoice::Kind::looked_at}), R"("auto")");
-    EXPECT_EQ(recorded_part({.kind = RegionChoice::Kind::box, .low = {0, -1, 0.5}, .high = {1, 2, 3}}),
-              "[0.0,-1.0,0.5,1.0,2.0,3.0]");
+    EXPECT_EQ(
+        recorded_part({.kind = RegionChoice::Kind::box, .low = {0, -1, 0.5}, .high = {1, 2, 3}}),
+        "[0.0,-1.0,0.5,1.0,2.0,3.0]");
     EXPECT_EQ(recorded_part({.kind = RegionChoice::Kind::file, .file = "a/b.ply"}), R"("a/b.ply")");
 }
 

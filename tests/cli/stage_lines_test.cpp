@@ -43,7 +43,7 @@ TEST(StageWords, LeaveOutWhatDidNotHappenAndWhatHasNoRoom)
 {
     Counts counts = {{"points", 3133}, {"of", 3243}, {"duplicate", 110}, {"few views", 0}};
     EXPECT_EQ(stage_words("filter", counts).text, "3,133 of 3,243 points kept, 110 duplicate");
-    counts = {{"points", 1234567},     {"of", 2345678},      {"duplicate", 100000},
+    counts = {{"points", 1234567},    {"of", 2345678},       {"duplicate", 100000},
               {"few views", 1000000}, {"high error", 10000}, {"low angle", 5}};
     EXPECT_EQ(stage_words("filter", counts).text,
               "1,234,567 of 2,345,678 points kept, 100,000 duplicate");
@@ -66,9 +66,8 @@ TEST(StageWords, ShowAllCountsOfAStageThatIsNotKnown)
 
 TEST(StageLine, KeepsNamesAndSecondsInColumns)
 {
-    EXPECT_EQ(
-        stage_line({"fill", "12 points added on planes"}, 0.034),
-        "fill         12 points added on planes                                   0.03 s");
+    EXPECT_EQ(stage_line({"fill", "12 points added on planes"}, 0.034),
+              "fill         12 points added on planes                                   0.03 s");
     EXPECT_EQ(stage_line({"fill", std::string(55, 'x')}, 1234.5).size(), 79U);
 }
 

@@ -79,8 +79,9 @@ TEST_F(FindInput, RefusesAMeshInThePlaceOfAModel)
                                  "property float y\nproperty float z\nelement face 1\n"
                                  "property list uchar int vertex_indices\nend_header\n"
                                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-    EXPECT_EQ(refused(mesh, {}), mesh + " is a mesh of 1 faces, but a model or a cloud is wanted; "
-                                        "colmap-vcarve compare MODEL " +
+    EXPECT_EQ(refused(mesh, {}), mesh +
+                                     " is a mesh of 1 faces, but a model or a cloud is wanted; "
+                                     "colmap-vcarve compare MODEL " +
                                      mesh + " measures meshes");
     const std::string other = folder.write("mesh.obj", "v 0 0 0\n");
     EXPECT_EQ(refused(other, {}), other + ": is a mesh, but a model or a cloud is wanted");
