@@ -1,7 +1,6 @@
 #pragma once
 
 #include "vcarve/log.h"
-#include "vcarve/option_visitor.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
@@ -17,23 +16,6 @@ struct CompareOptions {
     int samples = 400000;  ///< points sampled on each mesh and on the truth
     int seed = 1;          ///< where the sampling starts
     double spacings = 3.0; ///< how near is near, in point spacings
-
-    /// Shows the visitor each of them.
-    void visit(OptionVisitor& options)
-    {
-        options.count(samples,
-                      {.name = "samples",
-                       .help = "Points sampled on each mesh and on the seen part of the truth.",
-                       .min = 1000,
-                       .max = 100000000});
-        options.count(seed, {.name = "seed", .help = "Where the sampling starts; any number."});
-        options.number(spacings,
-                       {.name = "spacings",
-                        .unit = "x spacing",
-                        .help =
-                            "How far from a point, in spacings of the points around it, a mesh may "
-                            "pass and still count as passing through it."});
-    }
 };
 
 /// A mesh and what to call it: the file's name in tables and messages.

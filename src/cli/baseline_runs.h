@@ -3,7 +3,6 @@
 #include "base/log.h"
 #include "cli/model_input.h"
 #include "compare/compare.h"
-#include "vcarve/option_visitor.h"
 
 #include <filesystem>
 #include <string>
@@ -13,16 +12,7 @@ namespace vcarve::cli {
 
 /// How COLMAP's mesher is run beside our own program.
 struct BaselineRunOptions {
-    int timeout_s = 300;
-
-    void visit(OptionVisitor& options)
-    {
-        options.count(timeout_s, {.name = "colmap-timeout",
-                                  .unit = "s",
-                                  .help = "COLMAP's mesher is killed after that; some models never "
-                                          "end it.",
-                                  .min = 1});
-    }
+    int timeout_s = 300; ///< after which it is killed
 };
 
 /// A mesh that a program made, or why there is none, as a column of the table.

@@ -17,8 +17,8 @@ std::string subcommand(const Manual& manual)
 std::string option_names(const Manual& manual)
 {
     std::vector<std::string> names;
-    for (const OptionRow& row : manual.options) {
-        names.push_back("--" + row.name);
+    for (const Option& option : manual.options) {
+        if (!option.info.tuning) names.push_back("--" + option.info.name);
     }
     return fmt::format("{}", fmt::join(names, " "));
 }
@@ -27,12 +27,13 @@ std::string option_names(const Manual& manual)
 std::string value_cases(const Manual& manual)
 {
     std::string cases;
-    for (const OptionRow& row : manual.options) {
-        if (row.kind == OptionKind::flag || row.kind == OptionKind::path) continue;
-        const bool takes_file = row.kind == OptionKind::region;
+    for (const Option& option : manual.options) {
+        const bool takes_file = std::holds_alternative<RegionChoice*>(option.value);
+        const bool is_path = std::holds_alternative<std::filesystem::path*>(option.value);
+        if (is_flag(option) || is_path) continue;
         cases += fmt::format(
             "        --{}) COMPREPLY=($(compgen {}-W \"{}\" -- \"$current\")); return ;;\n",
-            row.name, takes_file ? "-f " : "", fmt::join(row.choices, " "));
+            option.info.name, takes_file ? "-f " : "", fmt::join(option.info.words, " "));
     }
     return cases;
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <vector>
 
 namespace vcarve::cli {
@@ -35,17 +36,12 @@ bool is_open(const RunOutcome& outcome)
 
 std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& options)
 {
-    if (is_open(outcome)) {
-        return fmt::format("open in {} of what the views look at ({})", percent(*outcome.open),
-                           options.rules.max_closing > 0.0
-                               ? "--max-closing 0 closes that with large faces"
-                               : "--closed closes that");
-    }
     if (outcome.boundary_edges == 0) return "closed";
-    std::string edges = fmt::format("open along {} edges", grouped_digits(outcome.boundary_edges));
-    if (!outcome.open) return edges;
-    return fmt::format("{}, {} of what the views look at", edges,
-                       *outcome.open > 0.0 ? "in less than 1 %" : "but in nothing");
+    if (!outcome.open) return fmt::format("{} open edges", grouped_digits(outcome.boundary_edges));
+    if (*outcome.open == 0.0) return "no visible holes";
+    if (!is_open(outcome)) return "less than 1 % of what cameras see is open";
+    return fmt::format("{} of what cameras see is open (to close: {})", percent(*outcome.open),
+                       options.rules.max_closing > 0.0 ? "--max-closing 0" : "--closed");
 }
 
 void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
@@ -107,16 +103,20 @@ RunOutcome outcome_of(const CountsOfStages& counts)
 std::string closing_line(const RunOutcome& outcome, const Options& options)
 {
     constexpr std::size_t kMost = 2;
+    constexpr std::size_t kColumns = 80;
     std::vector<std::string> proposals;
     propose_for_points(outcome, options.points, proposals);
     propose_for_surface(outcome, options, proposals);
+    std::string line =
+        fmt::format("wrote {}: {} faces, {}", outcome.out, grouped_digits(outcome.faces),
+                    openness_text(outcome, options.surface));
     if (proposals.empty() && !outcome.has_report) {
-        proposals.emplace_back("--report OUT.html shows it from all sides");
+        const auto page = std::filesystem::path(outcome.out).replace_extension(".html");
+        const std::string see = fmt::format("See it: --report {}", page.string());
+        line += (line.size() + 2 + see.size() <= kColumns ? ". " : "\n") + see;
     }
-    std::string line = fmt::format("{}: {} faces, {}", outcome.out, grouped_digits(outcome.faces),
-                                   openness_text(outcome, options.surface));
     for (std::size_t i = 0; i < std::min(proposals.size(), kMost); ++i) {
-        line += "; " + proposals[i];
+        line += "\n" + proposals[i];
     }
     return line;
 }

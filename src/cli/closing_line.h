@@ -30,10 +30,9 @@ struct RunOutcome {
 /// Fills in what the stages of a run counted.
 RunOutcome outcome_of(const CountsOfStages& counts);
 
-/// One line that says what was made and what to try if something looks wrong:
-/// "out.ply: 22,268 faces, open in 4 % of what the views look at (--max-closing 0 closes that with
-/// large faces)". At most two more things are proposed, of those that the figures and the options
-/// give reason for; if there is none, to look at the surface.
+/// What was made: "wrote out.ply: 22,268 faces, 4 % of what cameras see is open (to close:
+/// --max-closing 0)", and in lines of their own at most two things to try, of those that the figures
+/// and the options give reason for; if there is none, how to look at the surface.
 std::string closing_line(const RunOutcome& outcome, const Options& options);
 
 } // namespace vcarve::cli

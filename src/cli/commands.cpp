@@ -2,6 +2,7 @@
 
 #include "base/version.h"
 #include "cli/compare_command.h"
+#include "cli/mesh_arguments.h"
 #include "cli/mesh_command.h"
 #include "vcarve/error.h"
 
@@ -38,7 +39,18 @@ std::string version_text()
                        build.openmesh, build.eigen, build.tbb);
 }
 
-/// What the build and the README are made with: the same declarations in other forms.
+/// "help", "help compare" and "version" say what options would.
+std::vector<std::string> words_meant(std::span<const std::string> arguments)
+{
+    std::vector<std::string> words(arguments.begin(), arguments.end());
+    if (words == std::vector<std::string>{"version"}) return {"--version"};
+    if (words.empty() || words.size() > 2 || words[0] != "help") return words;
+    words.erase(words.begin());
+    words.emplace_back("--help");
+    return words;
+}
+
+/// What the build and the documents are made with: the same declarations in other forms.
 std::string generated_text(std::string_view form, const Manual& manual,
                            std::span<const Command> commands)
 {
@@ -62,6 +74,8 @@ std::vector<Command> commands()
 
 void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands)
 {
+    const std::vector<std::string> meant = words_meant(arguments);
+    arguments = meant;
     const Command& command = command_named(arguments.empty() ? "" : arguments[0], commands);
     if (!command.name.empty()) arguments = arguments.subspan(1);
 
@@ -71,7 +85,9 @@ void run_command_line(std::span<const std::string> arguments, std::span<const Co
         if (!text.empty()) return print(text);
     }
     const ParsedArguments given = parse_arguments(arguments, manual.options);
-    if (given.has("help")) return print(help_text(manual));
+    if (given.has("help") || given.has("help-all")) {
+        return print(help_text(manual, given.has("help-all")));
+    }
     if (given.has("version")) return print(version_text());
     command.run(given);
 }

@@ -1,5 +1,6 @@
 #include "cli/compare_command.h"
 
+#include "base/lower_case_end.h"
 #include "base/threads.h"
 #include "cli/baseline_runs.h"
 #include "cli/compare_outputs.h"
@@ -8,9 +9,12 @@
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
-#include "compare/comparison_table.h"
-#include "io/files/mapped_file.h"
+#include "compare/closed_surface.h"
 #include "io/files/output_file.h"
+#include "io/formats/mesh_file.h"
+#include "io/ply/ply_cloud.h"
+#include "options/declared.h"
+#include "compare/comparison_table.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -20,6 +24,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -31,23 +36,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSeeCompareHelp = " (see colmap-vcarve compare --help)";
 
-/// How the command runs, whatever it measures.
-struct CompareRunOptions {
-    bool quiet = false;
-    int threads = 0;
-
-    void visit(OptionVisitor& options)
-    {
-        options.stage("Run");
-        options.flag(quiet, {.name = "quiet", .help = "Print nothing but the table and errors."});
-        options.count(threads,
-                      {.name = "threads",
-                       .unit = "threads",
-                       .help = "How many to use; 0 uses all. The figures are the same for any.",
-                       .max = 1024});
-    }
-};
-
 /// Everything the command line says.
 struct CompareArguments {
     ModelArguments model;
@@ -56,55 +44,80 @@ struct CompareArguments {
     CompareOutputs outputs;
     std::string command; ///< as it was typed
     CompareOptions measure;
-    std::string colmap; ///< empty: not run
-    BaselineRunOptions baselines;
-    CompareRunOptions run;
+    fs::path colmap; ///< empty: not run
+    BaselineRunOptions colmap_run;
+    bool quiet = false;
+    bool verbose = false;
+    int threads = 0;
+    HelpOptions help;
 };
 
-std::vector<OptionRow> compare_options()
+OptionList truth_options(CompareArguments& arguments)
 {
-    CompareOptions measure;
-    BaselineRunOptions baselines;
-    CompareRunOptions run;
-    bool off = false;
-    OptionTable table;
-    list_points_options(table);
-    table.stage("Measure");
-    table.path({.name = "truth",
-                .help = "The true surface as PLY, in the model's frame: adds precision, recall, "
-                        "F and blocked sights."});
-    measure.visit(table);
-    table.stage("COLMAP");
-    table.path({.name = "colmap",
-                .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and "
-                        "adds a column for each, with seconds and peak memory."});
-    baselines.visit(table);
-    list_compare_outputs(table);
-    run.visit(table);
-    table.stage("Help");
-    table.flag(off, {.name = "help", .help = "Print this and exit."});
-    table.flag(off,
-               {.name = "version", .help = "Print versions of the program and its libraries."});
-    return table.rows();
+    return {{"Measure",
+             {.name = "truth",
+              .help = "The true surface as PLY, in the model's frame: adds precision, recall, F "
+                      "and blocked sights."},
+             &arguments.truth}};
+}
+
+OptionList baseline_options(CompareArguments& arguments)
+{
+    constexpr const char* kColmap = "COLMAP";
+    return {
+        {kColmap,
+         {.name = "colmap",
+          .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and adds "
+                  "a column for each, with seconds and peak memory."},
+         &arguments.colmap},
+        {kColmap,
+         {.name = "colmap-timeout",
+          .unit = "s",
+          .help = "COLMAP's mesher is killed after that; some models never end it.",
+          .min = 1},
+         &arguments.colmap_run.timeout_s},
+    };
+}
+
+OptionList run_options(CompareArguments& arguments)
+{
+    return {
+        {kRunStage,
+         {.name = "quiet", .help = "Print nothing but the table and errors."},
+         &arguments.quiet},
+        {kRunStage,
+         {.name = "verbose", .help = "Print every stage and all that it counted."},
+         &arguments.verbose},
+        {kRunStage,
+         {.name = "threads",
+          .unit = "threads",
+          .help = "How many to use; 0 uses all. The figures are the same for any.",
+          .max = 1024},
+         &arguments.threads},
+    };
+}
+
+OptionList options_of(CompareArguments& arguments)
+{
+    return joined({input_options(arguments.model), truth_options(arguments),
+                   vcarve::options_of(arguments.measure), baseline_options(arguments),
+                   output_options(arguments.outputs), run_options(arguments),
+                   cli::options_of(arguments.help)});
 }
 
 CompareArguments read_arguments(const ParsedArguments& given)
 {
     CompareArguments arguments;
-    OptionReader reader(given);
-    arguments.measure.visit(reader);
-    arguments.baselines.visit(reader);
-    arguments.run.visit(reader);
-    if (given.has("colmap")) arguments.colmap = given.options.at("colmap");
-    if (given.operands.size() < (given.has("colmap") ? 1U : 2U)) {
+    read_options(given, options_of(arguments));
+    const bool makes_meshes = !arguments.colmap.empty();
+    if (given.operands.size() < (makes_meshes ? 1U : 2U)) {
         throw UsageError(fmt::format("expected a model and meshes, MODEL A.ply ..., but got {}{}",
                                      given.operands.empty() ? "nothing" : given.operands[0],
                                      kSeeCompareHelp));
     }
-    arguments.model = {given.operands[0], read_points_options(given)};
+    arguments.model.path = given.operands[0];
     arguments.meshes.assign(given.operands.begin() + 1, given.operands.end());
-    if (given.has("truth")) arguments.truth = given.options.at("truth");
-    arguments.outputs = read_compare_outputs(given);
+    check_names(arguments.outputs, given);
     arguments.command = command_text("colmap-vcarve compare", given.typed);
     return arguments;
 }
@@ -116,7 +129,10 @@ void check_files(const CompareArguments& arguments)
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
     check_outputs(arguments.outputs, inputs);
     for (const fs::path& input : inputs) {
-        const MappedFile opens(input);
+        if (is_mesh_name(input) && lower_case_end(input) != ".ply") {
+            throw UsageError(fmt::format("{}: compare reads PLY only", input.string()));
+        }
+        read_ply_header(input);
     }
 }
 
@@ -137,10 +153,10 @@ std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, Log& l
     if (arguments.colmap.empty()) return {};
     const ScratchFolder scratch;
     remove_on_signals(arguments, &scratch);
-    return run_baselines({.colmap = arguments.colmap,
+    return run_baselines({.colmap = arguments.colmap.string(),
                           .model = arguments.model,
-                          .options = arguments.baselines,
-                          .threads = arguments.run.threads},
+                          .options = arguments.colmap_run,
+                          .threads = arguments.threads},
                          scratch, log);
 }
 
@@ -225,11 +241,11 @@ Manual compare_manual()
     manual.operands = "MODEL A.ply [B.ply ...]";
     manual.summary = "Measures surfaces against the model they were made from, and the truth.";
     manual.examples = {
-        {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which one fits the views"},
+        {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which fits better"},
         {"colmap-vcarve compare sparse/0 mesh.ply --truth gt.ply", "how true it is"},
-        {"colmap-vcarve compare sparse/0 --colmap colmap", "this program beside COLMAP's mesher"},
+        {"colmap-vcarve compare sparse/0 --colmap colmap", "beside COLMAP's"},
         {"colmap-vcarve compare sparse/0 a.ply b.ply --preview ab.png", "a picture of each"},
-        {"colmap-vcarve compare sparse/0 a.ply b.ply --report ab.html", "a page to look at both"},
+        {"colmap-vcarve compare sparse/0 a.ply b.ply --report ab.html", "a page with both"},
     };
     manual.operand_meanings = {
         {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},
@@ -241,7 +257,9 @@ Manual compare_manual()
         {"Figures", "What they mean is written under the table."},
         {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
     };
-    manual.options = compare_options();
+    const auto arguments = std::make_shared<CompareArguments>();
+    manual.options = options_of(*arguments);
+    manual.values = arguments;
     return manual;
 }
 
@@ -250,11 +268,11 @@ void run_compare(const ParsedArguments& given)
     const CompareArguments arguments = read_arguments(given);
     check_files(arguments);
 
-    const int wanted = arguments.run.threads;
+    const int wanted = arguments.threads;
     const int threads = wanted == 0 ? available_threads() : wanted;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<Log> log = shown_log(arguments.run.quiet);
+    const std::unique_ptr<Log> log = shown_log(arguments.quiet, arguments.verbose);
 
     std::vector<BaselineMesh> baselines = baselines_of(arguments, *log);
     remove_on_signals(arguments, nullptr);

@@ -34,28 +34,29 @@ std::vector<fs::path> CompareOutputs::paths() const
     return paths;
 }
 
-void list_compare_outputs(OptionTable& table)
+OptionList output_options(CompareOutputs& outputs)
 {
-    table.stage("Output");
-    table.path({.name = "json", .help = "Also write all figures, unrounded, as JSON."});
-    list_preview_options(table);
-    table.path({.name = "report",
-                .help = "Also write a page for browsers, OUT.html, that needs no network: the "
-                        "surfaces side by side under one camera, coloured by their distance to "
-                        "the truth or to each other, the table, and the worst places to go to."});
+    constexpr const char* kStage = "Output";
+    OptionList options = preview_options(outputs.preview);
+    options.insert(options.begin(),
+                   {kStage,
+                    {.name = "json", .help = "Also write all figures, unrounded, as JSON."},
+                    &outputs.json});
+    options.push_back(
+        {kStage,
+         {.name = "report",
+          .help = "Also write a page for browsers, OUT.html, that needs no network: the surfaces "
+                  "side by side under one camera, coloured by their distance to the truth or to "
+                  "each other, the table, and the worst places to go to."},
+         &outputs.report});
+    return options;
 }
 
-CompareOutputs read_compare_outputs(const ParsedArguments& given)
+void check_names(const CompareOutputs& outputs, const ParsedArguments& given)
 {
-    CompareOutputs outputs;
-    if (given.has("json")) outputs.json = given.options.at("json");
-    outputs.preview = read_preview_options(given);
-    if (given.has("report")) {
-        outputs.report = given.options.at("report");
-        require_page_name(outputs.report);
-    }
+    check_preview(outputs.preview, given);
+    if (!outputs.report.empty()) require_page_name(outputs.report);
     require_distinct(written(outputs));
-    return outputs;
 }
 
 void check_outputs(const CompareOutputs& outputs, std::span<const fs::path> inputs)

@@ -19,10 +19,10 @@ struct CompareOutputs {
     std::vector<std::filesystem::path> paths() const;
 };
 
-/// Declares --json, --preview, --view and --report under a heading of their own.
-void list_compare_outputs(OptionTable& table);
+/// --json, --preview, --view and --report under a heading of their own.
+OptionList output_options(CompareOutputs& outputs);
 /// Throws UsageError where a name is wrong, or two would be written to one file.
-CompareOutputs read_compare_outputs(const ParsedArguments& given);
+void check_names(const CompareOutputs& outputs, const ParsedArguments& given);
 
 /// Throws UsageError where a file that is read would be replaced, or one cannot be written.
 void check_outputs(const CompareOutputs& outputs, std::span<const std::filesystem::path> inputs);

@@ -1,6 +1,6 @@
 #include "cli/console_log.h"
 
-#include "base/grouped_digits.h"
+#include "cli/stage_lines.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -57,7 +57,7 @@ std::string time_text(double seconds)
 
 } // namespace
 
-ConsoleSettings console_on_stderr()
+ConsoleSettings console_on_stderr(bool verbose)
 {
     const char* terminal = std::getenv("TERM");
     const char* no_color = std::getenv("NO_COLOR");
@@ -65,29 +65,8 @@ ConsoleSettings console_on_stderr()
     const bool live = can_redraw && ::isatty(STDERR_FILENO) != 0;
     return {.stream = stderr,
             .live = live,
+            .verbose = verbose,
             .emphasis = live && (no_color == nullptr || *no_color == '\0')};
-}
-
-std::string counts_text(const Counts& counts)
-{
-    if (counts.empty()) return "";
-    const bool has_whole = counts.size() > 1 && counts[1].first == "of";
-    std::string text = grouped_digits(counts[0].second);
-    if (has_whole) text += " of " + grouped_digits(counts[1].second);
-    text += " " + counts[0].first;
-
-    std::string others;
-    for (std::size_t i = has_whole ? 2 : 1; i < counts.size(); ++i) {
-        if (counts[i].second == 0) continue;
-        others += others.empty() ? "" : ", ";
-        others += grouped_digits(counts[i].second) + " " + counts[i].first;
-    }
-    return others.empty() ? text : fmt::format("{} ({})", text, others);
-}
-
-std::string stage_line(std::string_view name, const Counts& counts, double seconds)
-{
-    return fmt::format("{:<12} {:<62} {:>8.2f} s", name, counts_text(counts), seconds);
 }
 
 std::string bar_line(std::string_view name, double share, double seconds, std::size_t columns)
@@ -202,7 +181,7 @@ void ConsoleLog::stage_begins(std::string_view name)
 {
     {
         const std::lock_guard lock(mutex_);
-        stage_ = name;
+        stage_ = settings_.verbose ? name : stage_words(name, {}).name;
         stage_began_ = Clock::now();
         share_ = 0.0;
         clock_.stage_begins(name, run_seconds());
@@ -218,7 +197,9 @@ void ConsoleLog::stage_progresses(double share)
 void ConsoleLog::stage_ends(std::string_view name, const Counts& counts)
 {
     const std::lock_guard lock(mutex_);
-    print_line(stage_line(name, counts, stage_seconds()));
+    const StageWords words = settings_.verbose ? StageWords{std::string(name), counts_text(counts)}
+                                               : stage_words(name, counts);
+    if (words.is_shown) print_line(stage_line(words, stage_seconds()));
     clock_.stage_ends(counts, run_seconds());
     stage_.clear();
 }

@@ -16,6 +16,7 @@ namespace vcarve::cli {
 struct ConsoleSettings {
     std::FILE* stream = stderr;
     bool live = false;          ///< the stream is a terminal: show a bar while a run goes on
+    bool verbose = false;       ///< every stage and all its counts are told
     bool emphasis = false;      ///< what should not be missed is bold
     double bar_after_s = 1;     ///< stages that end sooner show no bar where nothing is expected
     double run_bar_after_s = 5; ///< runs that end sooner show none where their time is expected
@@ -23,12 +24,12 @@ struct ConsoleSettings {
 
 /// Settings for stderr: live where it is a terminal that can move its cursor, with emphasis where
 /// moreover the environment does not forbid it: NO_COLOR is not set, or empty (no-color.org).
-ConsoleSettings console_on_stderr();
+ConsoleSettings console_on_stderr(bool verbose);
 
-/// Prints one line a stage when it ends, with counts and seconds, and `note: ...` for each note.
-/// Where the stream is live a bar runs in the last line: of the whole run, with what is left of its
-/// time, where that is expected to be long, or takes long; where nothing is expected, of a stage
-/// that takes longer. To other streams it writes plain lines: no carriage return, no escape.
+/// Prints one line a stage when it ends, see stage_words, with seconds, and `note: ...` for each
+/// note. Where the stream is live a bar runs in the last line: of the whole run, with what is left
+/// of its time, where that is expected to be long, or takes long; where nothing is expected, of a
+/// stage that takes longer. To other streams it writes plain lines: no carriage return, no escape.
 class ConsoleLog final : public RunLog {
   public:
     explicit ConsoleLog(const ConsoleSettings& settings);
@@ -68,14 +69,6 @@ class ConsoleLog final : public RunLog {
     bool ends_ = false;
     std::thread ticker_;
 };
-
-/// "24,310 of 25,784 points (1,102 few views, 372 high error)": the first count is the stage's
-/// result; a second one named "of" is what it was taken from; others follow in brackets unless they
-/// are 0.
-std::string counts_text(const Counts& counts);
-
-/// "filter       24,310 of 25,784 points (1,102 few views)         0.03 s"
-std::string stage_line(std::string_view name, const Counts& counts, double seconds);
 
 /// "cut          [=======>            ]  38 %  12 s", no wider than `columns`; without a bar while
 /// the share done is 0.

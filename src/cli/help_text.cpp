@@ -9,22 +9,25 @@ namespace vcarve::cli {
 
 namespace {
 
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kColumns = 80;
 constexpr std::size_t kIndent = 30; ///< where the right column begins
 
-std::string usage_of(const OptionRow& row)
+std::string usage_of(const Option& option)
 {
-    const std::string name = row.name == "help" ? "-h, --help" : "--" + row.name;
-    const std::string value = placeholder(row);
-    return value.empty() ? name : name + " " + value;
+    const std::string& name = option.info.name;
+    const std::string letter = name == "help" ? "-h, " : name == "verbose" ? "-v, " : "";
+    const std::string value = placeholder(option);
+    return fmt::format("{}--{}{}{}", letter, name, value.empty() ? "" : " ", value);
 }
 
 /// "[default 12, 0 to 64]"
-std::string default_and_range(const OptionRow& row)
+std::string default_and_range(const Option& option)
 {
-    if (row.initial.empty()) return "";
-    if (row.range.empty()) return fmt::format("[default {}]", row.initial);
-    return fmt::format("[default {}, {}]", row.initial, row.range);
+    const std::string initial = default_text(option);
+    if (initial.empty()) return "";
+    const std::string range = range_text(option);
+    if (range.empty()) return fmt::format("[default {}]", initial);
+    return fmt::format("[default {}, {}]", initial, range);
 }
 
 /// Sets a text into the right column, breaking it between words; `mark` is never broken.
@@ -72,16 +75,55 @@ std::string cell(const std::string& text)
     return escaped;
 }
 
-/// A flag has no value to start from, but it is on or off.
-std::string default_cell(const OptionRow& row)
+std::string row_of(const Option& option)
 {
-    if (row.kind != OptionKind::flag) return row.initial;
-    return row.name.starts_with("no-") ? "on" : "off";
+    return fmt::format("| `{}` | {} | {} | {} |\n", cell(usage_of(option)), default_text(option),
+                       range_text(option), cell(option.info.help));
+}
+
+/// A table a stage, of those options that are for tuning or of the others.
+std::string tables(const Manual& manual, const std::string& heading, bool tuning)
+{
+    std::string text;
+    std::string_view stage;
+    for (const Option& option : manual.options) {
+        if (option.info.tuning != tuning) continue;
+        if (option.stage != stage) {
+            text += fmt::format("\n{} {}\n\n| option | default | range | meaning |\n"
+                                "|---|---|---|---|\n",
+                                heading, option.stage);
+        }
+        stage = option.stage;
+        text += row_of(option);
+    }
+    return text;
 }
 
 } // namespace
 
-std::string help_text(const Manual& manual)
+OptionList options_of(HelpOptions& help)
+{
+    constexpr const char* kStage = "Help";
+    return {
+        {kStage,
+         {.name = "help",
+          .help = "Print this and exit; --help-all lists the options for tuning as well."},
+         &help.help},
+        {kStage,
+         {.name = "help-all", .help = "Print this and exit.", .tuning = true},
+         &help.help_all},
+        {kStage,
+         {.name = "version", .help = "Print versions of the program and its libraries."},
+         &help.version},
+    };
+}
+
+std::string default_text(const Option& option)
+{
+    return is_flag(option) ? "" : value_text(option);
+}
+
+std::string help_text(const Manual& manual, bool with_tuning)
 {
     std::string text = manual.summary + "\n\n";
     text += fmt::format("Usage: {} {} [options]\n\nExamples:\n", manual.command, manual.operands);
@@ -96,11 +138,12 @@ std::string help_text(const Manual& manual)
     for (const auto& [operand, meaning] : manual.operand_meanings) {
         text += entry(operand, meaning);
     }
-    std::string stage;
-    for (const OptionRow& row : manual.options) {
-        if (row.stage != stage) text += fmt::format("\n{}:\n", row.stage);
-        stage = row.stage;
-        text += entry(usage_of(row), row.help, default_and_range(row));
+    std::string_view stage;
+    for (const Option& option : manual.options) {
+        if (option.info.tuning && !with_tuning) continue;
+        if (option.stage != stage) text += fmt::format("\n{}:\n", option.stage);
+        stage = option.stage;
+        text += entry(usage_of(option), option.info.help, default_and_range(option));
     }
     text += "\n";
     for (const auto& [term, meaning] : manual.footnotes) {
@@ -111,18 +154,10 @@ std::string help_text(const Manual& manual)
 
 std::string markdown_options(const Manual& manual)
 {
-    std::string text;
-    std::string stage;
-    for (const OptionRow& row : manual.options) {
-        if (row.stage != stage) {
-            text += fmt::format("{}**{}**\n\n| option | default | range | meaning |\n"
-                                "|---|---|---|---|\n",
-                                stage.empty() ? "" : "\n", row.stage);
-        }
-        stage = row.stage;
-        text += fmt::format("| `{}` | {} | {} | {} |\n", cell(usage_of(row)), default_cell(row),
-                            row.range, cell(row.help));
-    }
+    std::string text = fmt::format("## {} {}\n", manual.command, manual.operands);
+    text += tables(manual, "###", false);
+    const std::string tuning = tables(manual, "####", true);
+    if (!tuning.empty()) text += "\n### For tuning, listed by `--help-all`\n" + tuning;
     return text;
 }
 

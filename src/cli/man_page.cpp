@@ -30,25 +30,29 @@ std::string tagged(const std::string& tag, const std::string& text)
     return fmt::format(".TP\n{}\n{}\n", tag, roff(text));
 }
 
-std::string option_entry(const OptionRow& row)
+std::string option_entry(const Option& option)
 {
-    std::string tag = row.name == "help" ? "\\fB\\-h\\fR, " : "";
-    tag += "\\fB" + roff("--" + row.name) + "\\fR";
-    if (row.kind != OptionKind::flag) tag += " \\fI" + roff(placeholder(row)) + "\\fR";
-    std::string text = row.help;
-    if (!row.initial.empty()) text += fmt::format(" Default: {}.", row.initial);
-    if (!row.range.empty()) text += fmt::format(" Range: {}.", row.range);
+    const std::string& name = option.info.name;
+    std::string tag = name == "help" ? "\\fB\\-h\\fR, " : name == "verbose" ? "\\fB\\-v\\fR, " : "";
+    tag += "\\fB" + roff("--" + name) + "\\fR";
+    if (!is_flag(option)) tag += " \\fI" + roff(placeholder(option)) + "\\fR";
+    std::string text = option.info.help;
+    const std::string initial = default_text(option);
+    const std::string range = range_text(option);
+    if (!initial.empty()) text += fmt::format(" Default: {}.", initial);
+    if (!range.empty()) text += fmt::format(" Range: {}.", range);
     return tagged(tag, text);
 }
 
 std::string options_section(const Manual& manual)
 {
     std::string text;
-    std::string stage;
-    for (const OptionRow& row : manual.options) {
-        if (row.stage != stage) text += fmt::format(".SS {}\n", roff(row.stage));
-        stage = row.stage;
-        text += option_entry(row);
+    std::string_view stage;
+    for (const Option& option : manual.options) {
+        if (option.info.tuning) continue;
+        if (option.stage != stage) text += fmt::format(".SS {}\n", roff(std::string(option.stage)));
+        stage = option.stage;
+        text += option_entry(option);
     }
     return text;
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "cli/option_table.h"
+#include "options/option.h"
 
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,13 +21,26 @@ struct Manual {
     Lines examples;         ///< command line, what it does
     Lines operand_meanings; ///< "MODEL", what may stand there
     Lines footnotes;        ///< "Exit code", what it says; other commands; ...
-    std::vector<OptionRow> options;
+    OptionList options;
+    std::shared_ptr<void> values; ///< where the options' defaults are
 };
 
-/// --help: at most 100 columns, options grouped by stage with default, unit and range.
-std::string help_text(const Manual& manual);
+/// What every command has.
+struct HelpOptions {
+    bool help = false;
+    bool help_all = false;
+    bool version = false;
+};
+OptionList options_of(HelpOptions& help);
 
-/// The options as Markdown tables, one a stage, for the README.
+/// The default as one would type it; empty for a flag, and where there is none.
+std::string default_text(const Option& option);
+
+/// --help: at most 80 columns, options grouped by stage with default, unit and range; --help-all
+/// has those for tuning, too.
+std::string help_text(const Manual& manual, bool with_tuning);
+
+/// The options as Markdown tables, one a stage, those for tuning last.
 std::string markdown_options(const Manual& manual);
 
 /// The man page of the program with all its commands, the bare form first, in roff.

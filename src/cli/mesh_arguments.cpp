@@ -2,10 +2,13 @@
 
 #include "cli/run_record.h"
 #include "io/formats/mesh_file.h"
+#include "options/declared.h"
 #include "page/page.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
+
+#include <memory>
 
 namespace vcarve::cli {
 
@@ -32,34 +35,41 @@ void check_operands(const std::vector<std::string>& operands)
     }
 }
 
-/// Under the heading "Run", which is the last of Options.
-void list_work_options(OptionTable& table)
+OptionList work_options(MeshArguments& arguments)
 {
-    bool off = false;
-    table.path({.name = "work",
-                .unit = "folder",
-                .help = "Where the files of --blocks go, on a disk with room for them, and what "
-                        "every stage made, until the surface is written: the same command, given "
-                        "again, goes on after the last stage that a run finished which was killed "
-                        "or found the disk full. It is made where there is none. By default only "
-                        "the files of --blocks, in a folder beside the output."});
-    table.flag(off, {.name = "keep-work",
-                     .help = "Leave the folder of --work as it is at the end, instead of "
-                             "removing what the run put there."});
+    return {
+        {kRunStage,
+         {.name = "work",
+          .unit = "folder",
+          .help = "Where to keep what every stage made, and what does not fit into memory, until "
+                  "the surface is written: the same command, given again after it was killed or "
+                  "found the disk full, goes on after the last stage that was finished."},
+         &arguments.work},
+        {kRunStage,
+         {.name = "keep-work",
+          .help = "Leave the folder of --work as it is at the end, instead of removing what the "
+                  "run put there.",
+          .tuning = true},
+         &arguments.keeps_work},
+    };
 }
 
-void read_work_options(const ParsedArguments& given, MeshArguments& arguments)
+OptionList record_options(MeshArguments& arguments)
 {
-    if (given.has("work")) arguments.work = given.options.at("work");
-    arguments.keeps_work = given.has("keep-work");
-    if (given.has("work") && arguments.work.empty()) {
-        throw UsageError(fmt::format("--work takes a folder, but got an empty path{}", kSeeHelp));
-    }
-    if (arguments.keeps_work && arguments.work.empty()) {
-        throw UsageError(fmt::format("--keep-work keeps the folder of --work, which was not "
-                                     "given{}",
-                                     kSeeHelp));
-    }
+    constexpr const char* kStage = "Output";
+    return {
+        {kStage,
+         {.name = "stats",
+          .help = "Write options, counts, seconds and peak memory of every stage, and a check of "
+                  "the mesh, as JSON."},
+         &arguments.stats},
+        {kStage,
+         {.name = "report",
+          .help = "Write a page for browsers, OUT.html, that needs no network: the surface in 3D "
+                  "with cameras, points and the faces that were taken away, what every stage "
+                  "took, what the filter dropped and why, and what to be wary of."},
+         &arguments.report},
+    };
 }
 
 void check_output(const fs::path& out, const OutputOptions& options)
@@ -73,65 +83,111 @@ void check_output(const fs::path& out, const OutputOptions& options)
 
 } // namespace
 
-std::vector<OptionRow> mesh_options()
+OptionList options_of(OutputOptions& output)
 {
-    Options options;
-    OutputOptions output;
-    bool off = false;
-    OptionTable table;
-    list_points_options(table);
-    options.visit(table);
-    list_work_options(table);
-    output.visit(table);
-    table.path({.name = "stats",
-                .help =
-                    "Write options, counts, seconds and peak memory of every stage, and a check "
-                    "of the mesh, as JSON. The peak that the system keeps of the process "
-                    "begins anew with every stage then, so read it here."});
-    list_preview_options(table);
-    table.path(
-        {.name = "report",
-         .help = "Write a page for browsers, OUT.html, that needs no network: the surface in 3D "
-                 "with cameras, points and the faces that were taken away, what every stage took, "
-                 "what the filter dropped and why, and what to be wary of."});
-    table.stage("Help");
-    table.flag(off, {.name = "help", .help = "Print this and exit."});
-    table.flag(off,
-               {.name = "version", .help = "Print versions of the program and its libraries."});
-    return table.rows();
+    constexpr const char* kStage = "Output";
+    return {
+        {kStage,
+         {.name = "ascii", .help = "Write numbers as text instead of binary; PLY only."},
+         &output.ascii},
+        {kStage,
+         {.name = "attributes",
+          .help = "Write what vertices and faces come from: point3d_id, num_views and error_px of "
+                  "each vertex, support of each face; PLY only."},
+         &output.attributes},
+        {kStage,
+         {.name = "offset",
+          .help = "What is subtracted from the coordinates that are written, and said in the "
+                  "file; auto: round numbers for a model far from the origin, as in UTM, so that "
+                  "programs that compute with floats lose nothing.",
+          .min = -kUnlimited,
+          .words = {"none", "auto"}},
+         &output.offset},
+        {kStage, {.name = "quiet", .help = "Print nothing but errors."}, &output.quiet},
+        {kStage,
+         {.name = "verbose", .help = "Print every stage and all that it counted."},
+         &output.verbose},
+    };
+}
+
+OptionList options_of(MeshArguments& arguments)
+{
+    return joined({input_options(arguments.model), options_of(arguments.options),
+                   work_options(arguments), options_of(arguments.output),
+                   preview_options(arguments.preview), record_options(arguments),
+                   options_of(arguments.help)});
 }
 
 std::vector<Output> outputs_of(const MeshArguments& arguments)
 {
     std::vector<Output> outputs = {{"the surface", arguments.out}};
     if (!arguments.preview.out.empty()) outputs.push_back({"--preview", arguments.preview.out});
-    if (arguments.with_stats) outputs.push_back({"--stats", arguments.stats});
-    if (arguments.with_report) outputs.push_back({"--report", arguments.report});
+    if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
+    if (!arguments.report.empty()) outputs.push_back({"--report", arguments.report});
     return outputs;
 }
 
 MeshArguments read_mesh_arguments(const ParsedArguments& given)
 {
     MeshArguments arguments;
-    OptionReader reader(given);
-    arguments.options.visit(reader);
-    arguments.output.visit(reader);
+    read_options(given, options_of(arguments));
     check_operands(given.operands);
-    arguments.model = {given.operands[0], read_points_options(given)};
+    arguments.model.path = given.operands[0];
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
-    arguments.preview = read_preview_options(given);
-    arguments.with_stats = given.has("stats");
-    if (arguments.with_stats) arguments.stats = given.options.at("stats");
-    arguments.with_report = given.has("report");
-    if (arguments.with_report) {
-        arguments.report = given.options.at("report");
-        require_page_name(arguments.report);
+    check_preview(arguments.preview, given);
+    if (!arguments.report.empty()) require_page_name(arguments.report);
+    if (arguments.keeps_work && arguments.work.empty()) {
+        throw UsageError(fmt::format("--keep-work keeps the folder of --work, which was not "
+                                     "given{}",
+                                     kSeeHelp));
     }
-    read_work_options(given, arguments);
     arguments.command = command_text("colmap-vcarve", given.typed);
     require_distinct(outputs_of(arguments));
     return arguments;
+}
+
+Manual mesh_manual()
+{
+    Manual manual;
+    manual.command = "colmap-vcarve";
+    manual.operands = "MODEL OUT.ply";
+    manual.summary = "Turns a COLMAP model into a surface.";
+    manual.examples = {
+        {"colmap-vcarve sparse/0 mesh.ply", "any sparse model"},
+        {"colmap-vcarve dense mesh.ply", "stereo_fusion's points"},
+        {"colmap-vcarve scan.ply mesh.ply", "a laser scan"},
+        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it"},
+        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "and a picture of it"},
+        {"colmap-vcarve sparse/0 mesh.glb", "for browsers and engines"},
+        {"colmap-vcarve --closed sparse/0 mesh.ply", "watertight"},
+        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "what was looked at only"},
+    };
+    manual.operand_meanings = {
+        {"MODEL",
+         "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
+         "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
+         "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken. Or a PLY file: "
+         "of a dense workspace, or of a laser scan with the places of its scanners."},
+        {"OUT.ply",
+         "The surface: triangles with colours and normals, in the model's frame. The end "
+         "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "
+         "colours nor normals of vertices) or .glb (binary glTF)."},
+    };
+    manual.footnotes = {
+        {"colmap-vcarve compare",
+         "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
+         "--help."},
+        {"What it prints",
+         "One line a stage on stderr, and at the end how much of what cameras see is open (lines "
+         "of sight through all images that meet no face where the closed surface has one) and "
+         "what to try. On terminals a bar of the whole run, if that takes over 5 seconds."},
+        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
+    };
+    const auto arguments = std::make_shared<MeshArguments>();
+    manual.options = options_of(*arguments);
+    manual.values = arguments;
+    return manual;
 }
 
 } // namespace vcarve::cli

@@ -16,6 +16,7 @@
 #include "io/work/work_folder.h"
 #include "mesh/check.h"
 #include "mesh/long_faces.h"
+#include "options/declared.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
@@ -153,7 +154,8 @@ Job job_of(const MeshArguments& arguments, Log& log)
 {
     Stage stage(log, "digest");
     Job job = {program_fact()};
-    const Job input = input_facts(find_input(arguments.model.path, arguments.model.points), stage);
+    const Job input =
+        input_facts(find_input(arguments.model.path, arguments.model.all_points()), stage);
     job.insert(job.end(), input.begin(), input.end());
     stage.end({{"files", size_of(input.size())}});
     const Job options = option_facts(arguments.options);
@@ -183,14 +185,14 @@ Surface surface_of(ModelInput input, const Run& run)
         }
         Reconstruction made =
             reconstruct_thinned(std::move(input.scene), input.read, options, run.logs.told,
-                                {.removed = arguments.with_report ? &surface.removed : nullptr,
+                                {.removed = arguments.report.empty() ? nullptr : &surface.removed,
                                  .work = run.work,
                                  .ranks = run.ranks});
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
         surface.mesh = std::move(made.mesh);
-        if (arguments.with_report) surface.scene = std::move(made.scene);
+        if (!arguments.report.empty()) surface.scene = std::move(made.scene);
         return surface;
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", arguments.model.path.string(), error.what()));
@@ -210,7 +212,7 @@ ModelInput read_input(const Run& run)
     const auto expect = [&](const SceneSize& size) {
         run.logs.shown.expect(expected_run(
             size, arguments.options,
-            {.preview = !arguments.preview.out.empty(), .report = arguments.with_report},
+            {.preview = !arguments.preview.out.empty(), .report = !arguments.report.empty()},
             threads_of(arguments.options)));
     };
     bool is_expected = false;
@@ -248,9 +250,9 @@ Made make_surface(const Run& run, Json& record)
     preview.add(arguments.out.filename().string(), surface.mesh, logs.told);
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
-    if (!arguments.with_stats && !arguments.with_report) return made;
+    if (arguments.stats.empty() && arguments.report.empty()) return made;
     record["mesh"] = check_json(check_mesh(surface.mesh));
-    if (arguments.with_report) {
+    if (!arguments.report.empty()) {
         made.report = make_report(surface.mesh, surface.removed, surface.scene, logs.told);
     }
     return made;
@@ -263,7 +265,7 @@ std::string closing_line(const MeshArguments& arguments, const Made& made,
     outcome.out = arguments.out.string();
     outcome.long_area = made.long_area;
     outcome.is_dense = made.is_dense;
-    outcome.has_report = arguments.with_report;
+    outcome.has_report = !arguments.report.empty();
     return closing_line(outcome, arguments.options);
 }
 
@@ -272,7 +274,7 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
                    Json record)
 {
     if (report.has_value()) record["report"] = report_json(*report, record);
-    if (arguments.with_stats) write_stats(arguments.stats, record);
+    if (!arguments.stats.empty()) write_stats(arguments.stats, record);
     if (report.has_value()) write_report(arguments.report, record, *report);
 }
 
@@ -297,9 +299,24 @@ void require_work_folder(const MeshArguments& arguments, const Processes& proces
                                  processes.all, kSeeHelp));
 }
 
+/// What is known before the run; the rest is in its place.
+Json begun_record(MeshArguments& arguments, int threads, const Processes& processes)
+{
+    return {{"program", program_json()},
+            {"command", arguments.command},
+            {"input", nullptr},
+            {"output", arguments.out.string()},
+            {"offset", nullptr},
+            {"preview", nullptr},
+            {"options",
+             options_json(joined({options_of(arguments.options), options_of(arguments.output)}))},
+            {"threads_used", threads},
+            {"ranks", processes.all}};
+}
+
 void run(const ParsedArguments& given, RunRanks* ranks)
 {
-    const MeshArguments arguments = read_mesh_arguments(given);
+    MeshArguments arguments = read_mesh_arguments(given);
     const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
     require_work_folder(arguments, processes);
     const ArrayFolder scratch(arguments.work, arguments.out);
@@ -313,23 +330,15 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     const int threads = threads_of(arguments.options);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<RunLog> shown = shown_log(arguments.output.quiet);
+    const std::unique_ptr<RunLog> shown =
+        shown_log(arguments.output.quiet, arguments.output.verbose);
     CountsKeeper keeper(*shown);
     // It resets the peak of memory that the system keeps, so it is there only where it is asked
     // for.
     std::optional<StageRecorder> recorder;
-    if (arguments.with_stats || arguments.with_report) recorder.emplace(keeper);
+    if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(keeper);
     const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper};
-    Json record = {{"program", program_json()},
-                   {"command", arguments.command},
-                   {"input", nullptr},
-                   {"output", arguments.out.string()},
-                   {"offset", nullptr},
-                   {"preview", nullptr},
-                   {"options", options_json(arguments.options)},
-                   {"threads_used", threads},
-                   {"ranks", processes.all}};
-    record["options"].update(options_json(arguments.output));
+    Json record = begun_record(arguments, threads, processes);
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
     RunMemory memory(arguments.options.memory, threads, scratch, processes);
@@ -344,48 +353,6 @@ void run(const ParsedArguments& given, RunRanks* ranks)
 }
 
 } // namespace
-
-Manual mesh_manual()
-{
-    Manual manual;
-    manual.command = "colmap-vcarve";
-    manual.operands = "MODEL OUT.ply";
-    manual.summary = "Turns a COLMAP model into a surface.";
-    manual.examples = {
-        {"colmap-vcarve sparse/0 mesh.ply", "the default: a surface from any sparse model"},
-        {"colmap-vcarve dense mesh.ply", "from the dense points that stereo_fusion made"},
-        {"colmap-vcarve scan.ply mesh.ply", "from a laser scan that tells of its scanners"},
-        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "with a picture of it"},
-        {"colmap-vcarve --closed sparse/0 mesh.ply", "a watertight one, without holes"},
-        {"colmap-vcarve sparse/0 mesh.glb", "one for browsers and engines"},
-        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it with"},
-        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "of what was looked at, without the rest"},
-    };
-    manual.operand_meanings = {
-        {"MODEL",
-         "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
-         "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
-         "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken. Or a PLY file: "
-         "of a dense workspace, or of a laser scan with the places of its scanners."},
-        {"OUT.ply",
-         "The surface: triangles with colours and normals, in the model's frame. The end "
-         "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "
-         "colours nor normals of vertices) or .glb (binary glTF)."},
-    };
-    manual.footnotes = {
-        {"colmap-vcarve compare",
-         "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
-         "--help."},
-        {"What it prints",
-         "One line a stage on stderr, and at the end how much of what the views look at is open "
-         "(lines of sight through all images that meet no face where the closed surface has one) "
-         "and what to try. On terminals a bar of the whole run, if that takes over 5 seconds. "
-         "NO_COLOR suppresses bold letters."},
-        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
-    };
-    manual.options = mesh_options();
-    return manual;
-}
 
 void run_mesh(const ParsedArguments& given, RunRanks* ranks)
 {

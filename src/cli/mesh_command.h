@@ -1,15 +1,12 @@
 #pragma once
 
-#include "cli/manual.h"
 #include "cli/option_parser.h"
 #include "cli/run_ranks.h"
 
 namespace vcarve::cli {
 
-/// The bare form, `colmap-vcarve MODEL OUT.ply`: a surface from a model.
-Manual mesh_manual();
-
-/// Throws UsageError and InputError; on success OUT.ply, and the files of --stats and
+/// `colmap-vcarve MODEL OUT.ply`. Throws UsageError and InputError; on success OUT.ply, and the
+/// files of --stats and
 /// --preview, are written whole. `ranks` are the other processes that work on it; null for none.
 void run_mesh(const ParsedArguments& given, RunRanks* ranks = nullptr);
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "base/log.h"
-#include "cli/option_parser.h"
 #include "cli/run_log.h"
 #include "cli/run_record.h"
 #include "io/input/read_model.h"
+#include "options/option.h"
 
 #include <filesystem>
 #include <memory>
@@ -21,17 +21,20 @@ struct ModelInput {
 /// What the command line says of a model: the operand and the options beside it.
 struct ModelArguments {
     std::filesystem::path path;
-    PointsOptions points;
+    PointsOptions points; ///< but for the scanner
+    WordOrVector scanner;
+
+    PointsOptions all_points() const;
 };
 
-/// Declares the options that choose points, under a heading of their own.
-void list_points_options(OptionTable& table);
-PointsOptions read_points_options(const ParsedArguments& given);
+/// The options that choose points, under a heading of their own.
+OptionList input_options(ModelArguments& model);
 
 /// Finds and reads the model the user means, as the stage "read". Throws InputError.
 ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading = {});
 
-/// What console a command shows its stages on: none where it is to be quiet.
-std::unique_ptr<RunLog> shown_log(bool quiet);
+/// What console a command shows its stages on: none where it is to be quiet, all that they count
+/// where it is to be verbose.
+std::unique_ptr<RunLog> shown_log(bool quiet, bool verbose);
 
 } // namespace vcarve::cli

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "cli/option_table.h"
-#include "vcarve/option_visitor.h"
+#include "options/option.h"
 
 #include <map>
 #include <span>
@@ -22,31 +21,16 @@ struct ParsedArguments {
     bool has(const std::string& name) const { return options.count(name) != 0; }
 };
 
-/// Takes a command line apart: --name value, --name=value, -- before operands that begin with a
-/// dash. Where an option is given twice the last one counts. Throws UsageError for an option that
-/// is not in `rows` (naming the nearest one), a value that is missing and a value given to a flag.
-ParsedArguments parse_arguments(std::span<const std::string> arguments,
-                                const std::vector<OptionRow>& rows);
+/// Takes a command line apart: --name value, --name=value, -h, -v, -- before operands that begin
+/// with a dash; the first operand may be named by -i or --input_path, the last by -o or
+/// --output_path, as in COLMAP. Where an option is given twice the last one counts. Throws
+/// UsageError for an option that is not in `options` (naming the nearest one), a value that is
+/// missing and a value given to a flag.
+ParsedArguments parse_arguments(std::span<const std::string> words, const OptionList& options);
 
-/// Writes the values that were given into options structs, and leaves all others as they are.
-/// Throws UsageError for a value of the wrong kind or outside its range.
-class OptionReader final : public OptionVisitor {
-  public:
-    explicit OptionReader(const ParsedArguments& given) : given_(given.options) {}
-
-    void stage(const char*) override {}
-    void number(double& value, const OptionInfo& info) override;
-    void count(int& value, const OptionInfo& info) override;
-    void bytes(std::int64_t& value, const OptionInfo& info) override;
-    void flag(bool& value, const OptionInfo& info) override;
-    void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
-    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
-                        const OptionInfo& info) override;
-    void region(RegionChoice& value, const OptionInfo& info) override;
-
-  private:
-    const std::map<std::string, std::string>& given_;
-};
+/// Sets the options that were given, and leaves all others as they are. Throws UsageError for a
+/// value of the wrong kind or outside its range.
+void read_options(const ParsedArguments& given, const OptionList& options);
 
 /// The candidate that `word` was most likely meant to be: the first that contains it, leaving out
 /// its dashes, or the one with the fewest letters changed, at most a third of them. Empty where

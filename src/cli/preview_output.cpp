@@ -6,44 +6,36 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace vcarve::cli {
 
-namespace {
-
-constexpr std::array<const char*, 3> kViewWords = {"auto", "top", "orbit"};
-
-} // namespace
-
-void list_preview_options(OptionTable& table)
+OptionList preview_options(PreviewArguments& preview)
 {
-    table.path({.name = "preview",
-                .help = "Also draw the surface, as PNG: in its colours, backs of faces in magenta, "
-                        "beside its normals as colours."});
-    table.word_or_name(
-        kViewWords,
-        {.name = "view",
-         .help =
-             "From where --preview looks. auto: through the camera of the image that sees most of "
-             "what was looked at. top, orbit: from outside, above or obliquely, through the "
-             "backs of walls; up is the mean of the cameras'. Else the image of that name."});
+    constexpr const char* kStage = "Output";
+    return {
+        {kStage,
+         {.name = "preview",
+          .help = "Also draw the surface, as PNG: in its colours, backs of faces in magenta, "
+                  "beside its normals as colours."},
+         &preview.out},
+        {kStage,
+         {.name = "view",
+          .help = "From where --preview looks. auto: through the camera that sees most. top, "
+                  "orbit: from outside, above or obliquely, through the backs of walls. Else the "
+                  "image of that name.",
+          .words = {"auto", "top", "orbit"}},
+         &preview.view},
+    };
 }
 
-PreviewArguments read_preview_options(const ParsedArguments& given)
+void check_preview(const PreviewArguments& preview, const ParsedArguments& given)
 {
-    PreviewArguments arguments;
-    if (given.has("view") && !given.has("preview")) {
+    if (given.has("view") && preview.out.empty()) {
         throw UsageError("--view says from where --preview looks, but there is no --preview");
     }
-    if (!given.has("preview")) return arguments;
-    arguments.out = given.options.at("preview");
-    if (lower_case_end(arguments.out) != ".png") {
+    if (!preview.out.empty() && lower_case_end(preview.out) != ".png") {
         throw UsageError(fmt::format("cannot write {}: the name of a picture must end with .png",
-                                     arguments.out.string()));
+                                     preview.out.string()));
     }
-    if (given.has("view")) arguments.view = given.options.at("view");
-    return arguments;
 }
 
 void PreviewOutput::stand_in(const Scene& scene)

@@ -18,10 +18,10 @@ struct PreviewArguments {
     std::string view = "auto";
 };
 
-/// Declares --preview and --view, under the heading of what stands before.
-void list_preview_options(OptionTable& table);
+/// --preview and --view, under a command's heading "Output".
+OptionList preview_options(PreviewArguments& preview);
 /// Throws UsageError where the name does not end in .png, or only --view is given.
-PreviewArguments read_preview_options(const ParsedArguments& given);
+void check_preview(const PreviewArguments& preview, const ParsedArguments& given);
 
 /// The picture of a run, if one is asked for; otherwise it does nothing.
 class PreviewOutput {

@@ -1,6 +1,5 @@
 #include "cli/run_record.h"
 
-#include "base/validate.h"
 #include "base/version.h"
 
 #include <algorithm>
@@ -53,6 +52,29 @@ Json usage_json(const ProcessUsage& began, std::int64_t peak)
             {"peak_memory_bytes", peak}};
 }
 
+/// A number as such unless a word stands for it, or it is none that JSON has; all else as one would
+/// type it.
+Json value_json(const Option& option)
+{
+    const std::string text = value_text(option);
+    const bool is_word = std::ranges::count(option.info.words, text) != 0;
+    if (is_word) return text;
+    if (const auto* flag = std::get_if<bool*>(&option.value)) return **flag;
+    if (const auto* count = std::get_if<int*>(&option.value)) return **count;
+    if (const auto* bytes = std::get_if<std::int64_t*>(&option.value)) return **bytes;
+    if (const auto* vector = std::get_if<WordOrVector*>(&option.value)) {
+        return {(*vector)->vector.x(), (*vector)->vector.y(), (*vector)->vector.z()};
+    }
+    if (const auto* region = std::get_if<RegionChoice*>(&option.value);
+        region != nullptr && (*region)->kind == RegionChoice::Kind::box) {
+        const auto& [low, high] = std::pair((*region)->low, (*region)->high);
+        return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
+    }
+    const auto* number = std::get_if<double*>(&option.value);
+    if (number != nullptr && std::isfinite(**number)) return **number;
+    return text;
+}
+
 } // namespace
 
 StageRecorder::StageRecorder(Log& shown) : shown_(shown), run_began_(process_usage()) {}
@@ -92,46 +114,13 @@ Json StageRecorder::json() const
             {"peak_memory_is_per_stage", peak_is_per_stage_}};
 }
 
-void OptionRecorder::number(double& value, const OptionInfo& info)
+Json options_json(const OptionList& options)
 {
-    // JSON has no infinity.
-    if (std::isfinite(value)) {
-        json_[info.name] = value;
-    } else {
-        json_[info.name] = value > 0.0 ? "inf" : "-inf";
+    Json json = Json::object();
+    for (const Option& option : options) {
+        json[option.info.name] = value_json(option);
     }
-}
-
-void OptionRecorder::count(int& value, const OptionInfo& info)
-{
-    json_[info.name] = value;
-    if (means_word(value, info)) json_[info.name] = info.word;
-}
-
-void OptionRecorder::bytes(std::int64_t& value, const OptionInfo& info)
-{
-    json_[info.name] = value;
-    if (means_word(static_cast<double>(value), info)) json_[info.name] = info.word;
-}
-
-void OptionRecorder::word_or_vector(WordOrVector& value, std::span<const char* const> words,
-                                    const OptionInfo& info)
-{
-    if (value.word == WordOrVector::kNoWord) {
-        json_[info.name] = {value.vector.x(), value.vector.y(), value.vector.z()};
-    } else {
-        json_[info.name] = words[static_cast<std::size_t>(value.word)];
-    }
-}
-
-void OptionRecorder::region(RegionChoice& value, const OptionInfo& info)
-{
-    if (value.kind == RegionChoice::Kind::box) {
-        json_[info.name] = {value.low.x(),  value.low.y(),  value.low.z(),
-                            value.high.x(), value.high.y(), value.high.z()};
-    } else {
-        json_[info.name] = region_text(value);
-    }
+    return json;
 }
 
 Json program_json()

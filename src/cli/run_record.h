@@ -2,7 +2,7 @@
 
 #include "base/log.h"
 #include "cli/process_usage.h"
-#include "vcarve/option_visitor.h"
+#include "options/option.h"
 
 #include <nlohmann/json.hpp>
 
@@ -42,35 +42,8 @@ class StageRecorder final : public Log {
     Json notes_ = Json::array();
 };
 
-/// Records options by the names they have on the command line.
-class OptionRecorder final : public OptionVisitor {
-  public:
-    void stage(const char*) override {}
-    void number(double& value, const OptionInfo& info) override;
-    void count(int& value, const OptionInfo& info) override;
-    void bytes(std::int64_t& value, const OptionInfo& info) override;
-    void flag(bool& value, const OptionInfo& info) override { json_[info.name] = value; }
-    void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override
-    {
-        json_[info.name] = names[static_cast<std::size_t>(value)];
-    }
-    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
-                        const OptionInfo& info) override;
-    void region(RegionChoice& value, const OptionInfo& info) override;
-    const Json& json() const { return json_; }
-
-  private:
-    Json json_ = Json::object();
-};
-
-/// Every option of an options struct with its value: {"max-hole": 12, "method": "cut"}.
-template <typename Options>
-Json options_json(Options options)
-{
-    OptionRecorder recorder;
-    options.visit(recorder);
-    return recorder.json();
-}
+/// Every option with its value: {"max-hole": 12, "method": "cut"}.
+Json options_json(const OptionList& options);
 
 /// The program's name, version and build, and those of its libraries.
 Json program_json();

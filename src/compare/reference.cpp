@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "base/unlimited.h"
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"

@@ -23,7 +23,7 @@ cli::Manual manual()
     manual.summary = "Turns a COLMAP model into a surface, on many machines.";
     manual.examples = {
         {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on four processes"},
-        {"srun --mpi=pmix colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on those of Slurm"},
+        {"srun --mpi=pmix colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "with Slurm"},
     };
     manual.footnotes.front() = {
         "Ranks",

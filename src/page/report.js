@@ -8,7 +8,7 @@ function fillHead() {
   const name = record.output.split("/").pop();
   byId("title").textContent = name;
   document.title = name + " · colmap-vcarve";
-  const state = mesh.is_closed ? "closed" : "open, with " + plural(mesh.boundary_edges, "edge") + " at its rims";
+  const state = mesh.is_closed ? "closed" : "open along " + plural(mesh.boundary_edges, "edge");
   byId("lead").textContent = plural(mesh.faces, "face") + " made of " + plural(record.report.points, "point") +
     " that " + plural(input.views, "view") + " saw, in " + seconds(total.seconds) + " s and " +
     mebibytes(total.peak_memory_bytes) + " MiB of memory. The surface is " + state + ", in " +
@@ -96,7 +96,7 @@ function fillMesh() {
   body.append(
     row("Faces", whole(mesh.faces), true), row("Vertices", whole(mesh.vertices), true),
     row("Pieces", whole(mesh.components), true),
-    row("Closed", yes(mesh.is_closed), true), row("Edges at rims", whole(mesh.boundary_edges), true),
+    row("Closed", yes(mesh.is_closed), true), row("Open edges", whole(mesh.boundary_edges), true),
     row("Manifold", yes(mesh.is_manifold), true),
     row("Area, in square model units", short(mesh.area), true),
     row("Share of the area that no view saw whole from its front", percent(report.unsupported_area), true),

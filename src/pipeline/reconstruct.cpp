@@ -1,11 +1,11 @@
 #include "vcarve/reconstruct.h"
 
 #include "base/freed_memory.h"
-#include "base/validate.h"
 #include "io/work/stage_keeper.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/scene_check.h"
 #include "model/scene_size.h"
+#include "options/declared.h"
 #include "pipeline/memory.h"
 #include "pipeline/rank_shares.h"
 #include "pipeline/thinned_scene.h"

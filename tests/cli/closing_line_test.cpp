@@ -17,6 +17,13 @@ RunOutcome usual()
             .points_before = 22000};
 }
 
+RunOutcome closed()
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    return outcome;
+}
+
 std::string line(const RunOutcome& outcome, const Options& options = {})
 {
     return closing_line(outcome, options);
@@ -24,38 +31,35 @@ std::string line(const RunOutcome& outcome, const Options& options = {})
 
 TEST(ClosingLine, ShowsTheReportWhereNothingStandsOut)
 {
-    EXPECT_EQ(line(usual()), "out.ply: 22,268 faces, open along 990 edges, in less than 1 % of "
-                             "what the views look at; --report OUT.html shows it from all sides");
+    EXPECT_EQ(line(usual()),
+              "wrote out.ply: 22,268 faces, less than 1 % of what cameras see is open"
+              "\nSee it: --report out.html");
     RunOutcome outcome = usual();
-    outcome.has_report = true;
     outcome.open = 0.0;
-    EXPECT_EQ(line(outcome),
-              "out.ply: 22,268 faces, open along 990 edges, but in nothing of what the views look "
-              "at");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes. See it: --report "
+                             "out.html");
+    outcome.has_report = true;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes");
 }
 
 TEST(ClosingLine, SaysWhatClosesWhatIsOpen)
 {
     RunOutcome outcome = usual();
+    outcome.has_report = true;
     outcome.open = 0.035;
-    EXPECT_EQ(
-        line(outcome),
-        "out.ply: 22,268 faces, open in 4 % of what the views look at (--max-closing 0 closes "
-        "that with large faces); --report OUT.html shows it from all sides");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 4 % of what cameras see is open (to "
+                             "close: --max-closing 0)");
     Options options;
     options.surface.rules.max_closing = 0.0;
-    EXPECT_EQ(line(outcome, options),
-              "out.ply: 22,268 faces, open in 4 % of what the views look at (--closed closes "
-              "that); --report OUT.html shows it from all sides");
+    EXPECT_EQ(line(outcome, options), "wrote out.ply: 22,268 faces, 4 % of what cameras see is "
+                                      "open (to close: --closed)");
 }
 
 TEST(ClosingLine, ProposesNothingForAClosedSurface)
 {
-    RunOutcome outcome = usual();
-    outcome.boundary_edges = 0;
-    outcome.open.reset();
+    RunOutcome outcome = closed();
     outcome.has_report = true;
-    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed");
 }
 
 TEST(ClosingLine, CountsEdgesWhereItIsNotKnownWhatTheViewsLookAt)
@@ -63,60 +67,54 @@ TEST(ClosingLine, CountsEdgesWhereItIsNotKnownWhatTheViewsLookAt)
     RunOutcome outcome = usual();
     outcome.open.reset();
     outcome.has_report = true;
-    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, open along 990 edges");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 990 open edges");
 }
 
 TEST(ClosingLine, ProposesToCropLargeFacesUnlessThatIsDone)
 {
-    RunOutcome outcome = usual();
-    outcome.boundary_edges = 0;
+    RunOutcome outcome = closed();
     outcome.long_area = 0.7;
-    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if its large faces are in the way, "
-                             "try --crop auto");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\n"
+                             "if its large faces are in the way, try --crop auto");
     Options options;
     options.surface.closed = true;
-    EXPECT_EQ(line(outcome, options), "out.ply: 22,268 faces, closed; if its large faces are in "
-                                      "the way, leave out --closed");
+    EXPECT_EQ(line(outcome, options), "wrote out.ply: 22,268 faces, closed\n"
+                                      "if its large faces are in the way, leave out --closed");
     options = {};
     options.crop.region.kind = RegionChoice::Kind::looked_at;
     EXPECT_EQ(line(outcome, options),
-              "out.ply: 22,268 faces, closed; --report OUT.html shows it from all sides");
+              "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
 }
 
 TEST(ClosingLine, NamesTheLimitThatManyPointsFellTo)
 {
-    RunOutcome outcome = usual();
-    outcome.boundary_edges = 0;
+    const std::string begin = "wrote out.ply: 22,268 faces, closed\nif parts are missing, try a ";
+    RunOutcome outcome = closed();
     outcome.low_angle = 11000;
-    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if parts are missing, try a smaller "
-                             "--min-angle: 50 % of the points fell to it");
+    EXPECT_EQ(line(outcome), begin + "smaller --min-angle: 50 % of the points fell to it");
     outcome.high_error = 4400;
     outcome.low_angle = 0;
-    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if parts are missing, try a larger "
-                             "--max-error: 20 % of the points fell to it");
+    EXPECT_EQ(line(outcome), begin + "larger --max-error: 20 % of the points fell to it");
     outcome.high_error = 0;
     outcome.stray = 6600;
-    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; if parts are missing, try a larger "
-                             "--stray-spacing: 30 % of the points fell to it");
+    EXPECT_EQ(line(outcome), begin + "larger --stray-spacing: 30 % of the points fell to it");
 }
 
 TEST(ClosingLine, DoesNotProposePointsOfOneView)
 {
-    RunOutcome outcome = usual();
-    outcome.boundary_edges = 0;
+    RunOutcome outcome = closed();
     outcome.few_views = 11000;
-    EXPECT_EQ(line(outcome),
-              "out.ply: 22,268 faces, closed; --report OUT.html shows it from all sides");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
     Options options;
     options.points.min_views = 3;
-    EXPECT_EQ(line(outcome, options), "out.ply: 22,268 faces, closed; if parts are missing, try a "
-                                      "smaller --min-views: 50 % of the points fell to it");
+    EXPECT_EQ(line(outcome, options),
+              "wrote out.ply: 22,268 faces, closed\nif parts are missing, try a smaller "
+              "--min-views: 50 % of the points fell to it");
 }
 
 TEST(ClosingLine, ProposesAtMostTwoThings)
 {
-    RunOutcome outcome = usual();
-    outcome.boundary_edges = 0;
+    RunOutcome outcome = closed();
     outcome.high_error = outcome.low_angle = 8000;
     outcome.long_area = 1.0;
     EXPECT_EQ(line(outcome).find("--crop"), std::string::npos);
@@ -125,14 +123,21 @@ TEST(ClosingLine, ProposesAtMostTwoThings)
 
 TEST(ClosingLine, SaysThatSparsePointsAreFew)
 {
-    RunOutcome outcome = usual();
-    outcome.boundary_edges = 0;
+    RunOutcome outcome = closed();
     outcome.points = outcome.points_before = 114;
-    EXPECT_EQ(line(outcome), "out.ply: 22,268 faces, closed; 114 points are few, more images or "
-                             "dense points (stereo_fusion) show more");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\n"
+                             "114 points are few, more images or dense points (stereo_fusion) "
+                             "show more");
     outcome.is_dense = true;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
+}
+
+TEST(ClosingLine, NamesThePageBesideTheSurface)
+{
+    RunOutcome outcome = closed();
+    outcome.out = "a b/mesh.v2.glb";
     EXPECT_EQ(line(outcome),
-              "out.ply: 22,268 faces, closed; --report OUT.html shows it from all sides");
+              "wrote a b/mesh.v2.glb: 22,268 faces, closed. See it: --report a b/mesh.v2.html");
 }
 
 TEST(RunOutcome, IsMadeOfWhatTheStagesCount)

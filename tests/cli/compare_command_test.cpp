@@ -74,7 +74,7 @@ TEST_F(CompareOnBall, PrintsATableWithAColumnForEachMeshAndWhatItMeans)
     EXPECT_THAT(outcome.out, HasSubstr("| hidden sights "));
     EXPECT_THAT(outcome.out, HasSubstr("\nhidden sights: share of lines"));
     EXPECT_THAT(outcome.out, Not(HasSubstr("seconds")));
-    EXPECT_THAT(outcome.err, MatchesRegex("read +400 points (.|\n)*"
+    EXPECT_THAT(outcome.err, MatchesRegex("read +400 points, (.|\n)*"
                                           "reference +[0-9]+ points.* s\n"
                                           "closed +[0-9]+ faces of the closed surface .* s\n"
                                           "measure +[0-9]+ faces of .* s\n"
@@ -152,6 +152,8 @@ TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
     const std::string nowhere = folder / "nowhere";
     EXPECT_EQ(refusal_of(3, {mesh, nowhere}),
               "colmap-vcarve: " + nowhere + ": the file does not exist\n");
+    EXPECT_EQ(refusal_of(2, {mesh, "other.glb"}),
+              "colmap-vcarve: other.glb: compare reads PLY only\n");
     EXPECT_EQ(refusal_of(2, {mesh, "--json", nowhere + "/a.json"}),
               "colmap-vcarve: cannot write " + nowhere + "/a.json: the folder " + nowhere +
                   " does not exist\n");

@@ -34,35 +34,6 @@ class Screen {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{std::tmpfile(), std::fclose};
 };
 
-TEST(CountsText, SaysTheResultThenWhatItWasTakenFromThenTheRest)
-{
-    EXPECT_EQ(
-        counts_text({{"points", 24310}, {"of", 25784}, {"few views", 1102}, {"high error", 372}}),
-        "24,310 of 25,784 points (1,102 few views, 372 high error)");
-    EXPECT_EQ(counts_text({{"cells", 1000000}, {"vertices", 999}}),
-              "1,000,000 cells (999 vertices)");
-    EXPECT_EQ(counts_text({{"faces", 0}}), "0 faces");
-    EXPECT_EQ(counts_text({}), "");
-}
-
-TEST(CountsText, LeavesOutWhatDidNotHappen)
-{
-    EXPECT_EQ(counts_text({{"points", 12}, {"of", 12}, {"few views", 0}}), "12 of 12 points");
-}
-
-TEST(CountsText, GroupsDigitsOfNegativeNumbers)
-{
-    EXPECT_EQ(counts_text({{"a", -123}, {"b", -1234}, {"c", -123456}}),
-              "-123 a (-1,234 b, -123,456 c)");
-}
-
-TEST(StageLine, KeepsNamesAndSecondsInColumns)
-{
-    EXPECT_EQ(
-        stage_line("filter", {{"points", 12}}, 0.034),
-        "filter       12 points                                                          0.03 s");
-}
-
 TEST(BarLine, FillsWithTheShareDone)
 {
     EXPECT_EQ(bar_line("cut", 0.5, 12.3, 80),

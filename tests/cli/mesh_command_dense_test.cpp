@@ -71,7 +71,7 @@ TEST_F(ProgramOnDenseBall, MeshesTheDensePointsAndSaysSo)
     const Outcome outcome = run_program({dense, out, "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + fused));
-    EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points (6 views, "));
+    EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points, 6 views, "));
     const auto input = nlohmann::json::parse(bytes_of(stats))["input"];
     EXPECT_EQ(input["cloud"], fused);
     EXPECT_EQ(input["folder"], dense + "/sparse");
@@ -104,7 +104,7 @@ TEST_F(ProgramOnDenseBall, MeshesACloudWithoutAFileByTheNearestViews)
     const Outcome outcome = run_program({dense, out, "--sights", "nearest"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("no file tells which views saw them"));
-    EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points (6 views, "));
+    EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points, 6 views, "));
     EXPECT_EQ(run_program({fused, out}).exit_code, 3);
     EXPECT_EQ(run_program({dense, out, "--sights", "nearest", "--points", "sparse"}).exit_code, 2);
 }

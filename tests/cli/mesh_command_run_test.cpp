@@ -1,4 +1,4 @@
-#include "cli/option_table.h"
+#include "options/declared.h"
 #include "support/ball_model.h"
 #include "support/places.h"
 #include "support/program.h"
@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <sstream>
 
 namespace vcarve {
 namespace {
@@ -38,17 +39,34 @@ TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
     const Outcome outcome = run_program({ball, out});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.out, IsEmpty());
-    EXPECT_THAT(outcome.err,
-                MatchesRegex("read +400 points \\(6 views, [0-9]+ sights\\) +[0-9.]+ s\n"
-                             "memory +[0-9]+ MiB expected +[0-9.]+ s\n"
-                             "filter +[0-9]+ of 400 points.* s\n"
-                             "triangulate +[0-9,]+ cells +[0-9.]+ s\n"
-                             "(.|\n)*"
-                             "write +[0-9,]+ faces \\([0-9,]+ vertices\\) +[0-9.]+ s\n" +
-                             out + ": [0-9,]+ faces, closed; .*\n"));
+    EXPECT_THAT(outcome.err, MatchesRegex("read +400 points, 6 views, [0-9]+ rays +[0-9.]+ s\n"
+                                          "memory +[0-9]+ MiB expected +[0-9.]+ s\n"
+                                          "filter +[0-9]+ of 400 points kept.* s\n"
+                                          "triangulate +[0-9,]+ cells +[0-9.]+ s\n"
+                                          "(.|\n)*"
+                                          "cut +[0-9,]+ of [0-9,]+ cells are solid +[0-9.]+ s\n"
+                                          "(.|\n)*"
+                                          "wrote " +
+                                          out + ": [0-9,]+ faces, closed\n.*\n"));
     EXPECT_THAT(outcome.err, Not(ContainsRegex("[\r\x1b]"))) << "plain lines where piped";
+    std::istringstream lines(outcome.err);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.find(out) == std::string::npos) EXPECT_LE(line.size(), 80U) << line;
+    }
     EXPECT_THAT(bytes_of(out), HasSubstr("format binary_little_endian"));
     EXPECT_EQ(folder.num_entries(), 2U);
+}
+
+TEST_F(ProgramOnBall, TellsEveryStageAndAllItsCountsWhereItIsToBeVerbose)
+{
+    const Outcome outcome = run_program({"-v", ball, out});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err,
+                MatchesRegex("read +400 points \\(6 views, [0-9]+ sights\\) +[0-9.]+ s\n"
+                             "(.|\n)*"
+                             "orient +[0-9,]+ of [0-9,]+ sights on the outside.* s\n"
+                             "write +[0-9,]+ faces \\([0-9,]+ vertices\\) +[0-9.]+ s\n"
+                             "wrote (.|\n)*"));
 }
 
 /// What the program writes to a terminal of this kind.
@@ -67,7 +85,7 @@ TEST_F(ProgramOnBall, EmphasisesOnATerminalUnlessNoColorForbidsIt)
     const auto shown = [&](const std::string& environment) {
         return shown_on_terminal(environment, {ball, out});
     };
-    const std::string bold = "\x1b[1m" + out + ": ";
+    const std::string bold = "\x1b[1mwrote " + out + ": ";
     EXPECT_THAT(shown("TERM=xterm"), HasSubstr(bold));
     EXPECT_THAT(shown("TERM=xterm NO_COLOR="), HasSubstr(bold)) << "empty is not set";
     for (const char* plain : {"TERM=xterm NO_COLOR=1", "TERM=dumb"}) {
@@ -169,10 +187,8 @@ TEST_F(ProgramOnBall, RecordsEveryOption)
     ASSERT_EQ(run_program({ball, out, "--stats", stats}).exit_code, 0);
     const auto record = nlohmann::json::parse(bytes_of(stats));
     Options options;
-    cli::OptionTable table;
-    options.visit(table);
-    for (const cli::OptionRow& row : table.rows()) {
-        EXPECT_TRUE(record["options"].contains(row.name)) << row.name;
+    for (const Option& option : options_of(options)) {
+        EXPECT_TRUE(record["options"].contains(option.info.name)) << option.info.name;
     }
 }
 

@@ -68,8 +68,8 @@ TEST_F(ProgramOnScannedBall, MeshesAScanWithoutAModelAndDropsNoPointForItsOneVie
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + scan +
                                         ", measured by the scanners of which it tells at every "
-                                        "point\nread         650 points (2 views, 650 sights)"));
-    EXPECT_THAT(outcome.err, HasSubstr("\nfilter       650 of 650 points "));
+                                        "point\nread         650 points, 2 views, 650 rays "));
+    EXPECT_THAT(outcome.err, HasSubstr("\nfilter       650 of 650 points kept"));
     const auto record = nlohmann::json::parse(bytes_of(stats));
     EXPECT_EQ(record["input"]["cloud"], scan);
     EXPECT_TRUE(record["input"]["folder"].is_null());

@@ -1,4 +1,4 @@
-#include "cli/option_table.h"
+#include "options/declared.h"
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -58,12 +58,6 @@ TEST(Program, RefusesWrongOptionsInOneSentence)
 {
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--min-vews", "3"}),
               "colmap-vcarve: there is no option --min-vews; did you mean --min-views?" + kSeeHelp);
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--web-edge=0"}),
-              "colmap-vcarve: there is no option --web-edge; did you mean --bridging-edge?" +
-                  kSeeHelp);
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--softness", "1"}),
-              "colmap-vcarve: there is no option --softness; did you mean --distance-sigma?" +
-                  kSeeHelp);
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads"}),
               "colmap-vcarve: --threads needs a value: a whole number from 0 to 1024 (threads)\n");
     EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads", "many"}),
@@ -105,32 +99,54 @@ TEST(Program, ExitsWithThreeWhereTheInputIsWrong)
 
 TEST(Program, ListsEveryOptionWithItsDefaultInItsHelp)
 {
-    const Outcome help = run_program({"--help"});
+    const Outcome help = run_program({"--help-all"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_THAT(help.err, IsEmpty());
     Options options;
-    cli::OptionTable table;
-    options.visit(table);
-    for (const cli::OptionRow& row : table.rows()) {
-        EXPECT_THAT(help.out, HasSubstr("\n" + row.stage + ":\n"));
-        const std::string left =
-            "\n  --" + row.name + (row.kind == cli::OptionKind::flag ? "" : " ");
+    for (const Option& option : options_of(options)) {
+        EXPECT_THAT(help.out, HasSubstr("\n" + std::string(option.stage) + ":\n"));
+        const std::string left = "\n  --" + option.info.name + (is_flag(option) ? "" : " ");
         ASSERT_THAT(help.out, HasSubstr(left));
         const std::string rest = help.out.substr(help.out.find(left) + 1);
         const std::string entry = rest.substr(0, rest.find("\n  -"));
-        const std::string initial = row.initial.empty() ? "" : "[default " + row.initial;
-        EXPECT_THAT(entry, HasSubstr(initial));
+        if (!is_flag(option)) EXPECT_THAT(entry, HasSubstr("[default " + value_text(option)));
     }
     for (const char* name : {"--ascii", "--threads", "--quiet", "--stats", "--help", "--version"}) {
         EXPECT_THAT(help.out, HasSubstr(name));
     }
 }
 
-TEST(Program, KeepsItsHelpWithinAHundredColumns)
+TEST(Program, LeavesWhatIsForTuningOutOfItsHelp)
 {
-    std::istringstream help(run_program({"--help"}).out);
-    for (std::string line; std::getline(help, line);) {
-        EXPECT_LE(line.size(), 100U) << line;
+    const std::string help = run_program({"--help"}).out;
+    Options options;
+    for (const Option& option : options_of(options)) {
+        const bool is_listed = help.find("\n  --" + option.info.name) != std::string::npos;
+        EXPECT_EQ(is_listed, !option.info.tuning) << option.info.name;
+    }
+    std::size_t listed = 0;
+    for (std::size_t at = help.find("\n  -"); at != std::string::npos;
+         at = help.find("\n  -", at + 1)) {
+        ++listed;
+    }
+    EXPECT_LE(listed, 30U);
+}
+
+TEST(Program, UnderstandsHelpAndVersionAsWords)
+{
+    EXPECT_EQ(run_program({"help"}).out, run_program({"--help"}).out);
+    EXPECT_EQ(run_program({"help", "compare"}).out, run_program({"compare", "-h"}).out);
+    EXPECT_EQ(run_program({"version"}).out, run_program({"--version"}).out);
+}
+
+TEST(Program, KeepsItsHelpWithinEightyColumns)
+{
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--help-all"}, {"compare", "--help-all"}}) {
+        std::istringstream help(run_program(words).out);
+        for (std::string line; std::getline(help, line);) {
+            EXPECT_LE(line.size(), 80U) << line;
+        }
     }
 }
 
@@ -147,19 +163,18 @@ TEST(Program, TellsItsVersionAndThoseOfItsLibraries)
 TEST(Program, MakesItsManPageTablesAndCompletionFromTheSameOptions)
 {
     Options options;
-    cli::OptionTable table;
-    options.visit(table);
     const std::string man = run_program({"--help-man"}).out;
     const std::string markdown = run_program({"--help-markdown"}).out;
     const std::string completion = run_program({"--help-bash"}).out;
-    for (const cli::OptionRow& row : table.rows()) {
+    for (const Option& option : options_of(options)) {
+        EXPECT_THAT(markdown, HasSubstr("| `--" + option.info.name));
+        if (option.info.tuning) continue;
         std::string in_roff = "\\-\\-";
-        for (const char letter : row.name) {
+        for (const char letter : option.info.name) {
             in_roff += letter == '-' ? "\\-" : std::string(1, letter);
         }
         EXPECT_THAT(man, HasSubstr(in_roff));
-        EXPECT_THAT(markdown, HasSubstr("| `--" + row.name));
-        EXPECT_THAT(completion, HasSubstr("--" + row.name));
+        EXPECT_THAT(completion, HasSubstr("--" + option.info.name));
     }
 }
 
@@ -168,12 +183,12 @@ TEST(Program, CompletesOptionsAndChoicesInBash)
     const TemporaryFolder folder;
     folder.write("complete.bash", run_program({"--help-bash"}).out);
     const std::string script = "source '" + (folder / "complete.bash").string() +
-                               "'; COMP_WORDS=(colmap-vcarve a --meth); COMP_CWORD=2; "
+                               "'; COMP_WORDS=(colmap-vcarve a --sigh); COMP_CWORD=2; "
                                "_colmap_vcarve; echo \"${COMPREPLY[@]}\"; "
-                               "COMP_WORDS=(colmap-vcarve --method st); COMP_CWORD=2; "
+                               "COMP_WORDS=(colmap-vcarve --sights ne); COMP_CWORD=2; "
                                "_colmap_vcarve; echo \"${COMPREPLY[@]}\"";
     const Outcome completed = Subprocess({"/bin/bash", "-c", script}).wait();
-    EXPECT_EQ(completed.out, "--method\nstrict\n");
+    EXPECT_EQ(completed.out, "--sights\nnearest\n");
     EXPECT_THAT(completed.err, IsEmpty());
 }
 
@@ -190,7 +205,7 @@ TEST(Program, LeavesNothingBehindWhenItIsInterrupted)
         program.send(signal);
         const Outcome outcome = program.wait();
         EXPECT_EQ(outcome.exit_code, code);
-        EXPECT_THAT(outcome.err, Not(HasSubstr("write")));
+        EXPECT_THAT(outcome.err, Not(HasSubstr("wrote")));
         EXPECT_EQ(folder.num_entries(), 1U);
     }
 }

@@ -42,7 +42,7 @@ TEST_F(WorkOfProgram, ChangesNothingAndGoes)
     const std::string expected = bytes_of(out);
     const Outcome outcome = run({});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, ContainsRegex("digest +3 files"));
+    EXPECT_THAT(outcome.err, ContainsRegex("check +3 input files"));
     EXPECT_THAT(outcome.err, ContainsRegex("keep +[0-9]+ MiB of cells"));
     EXPECT_TRUE(bytes_of(out) == expected);
     EXPECT_FALSE(fs::exists(work));

@@ -10,27 +10,33 @@ namespace {
 
 using testing::ElementsAre;
 
-std::vector<OptionRow> sample_rows()
-{
-    SampleOptions options;
-    OptionTable table;
-    options.visit(table);
-    table.path({.name = "stats", .help = "A file."});
-    return table.rows();
-}
+/// The sample's options, and a path.
+struct Values {
+    SampleOptions sample;
+    std::filesystem::path stats;
+
+    OptionList options()
+    {
+        OptionList all = options_of(sample);
+        all.push_back({"Third", {.name = "stats", .help = "A file."}, &stats});
+        all.push_back({"Third", {.name = "help", .help = "Help."}, &asks_for_help});
+        return all;
+    }
+
+    bool asks_for_help = false;
+};
 
 ParsedArguments parsed(const std::vector<std::string>& words)
 {
-    return parse_arguments(words, sample_rows());
+    Values values;
+    return parse_arguments(words, values.options());
 }
 
 SampleOptions options_of(const std::vector<std::string>& words)
 {
-    const ParsedArguments given = parsed(words);
-    SampleOptions options;
-    OptionReader reader(given);
-    options.visit(reader);
-    return options;
+    Values values;
+    read_options(parse_arguments(words, values.options()), values.options());
+    return values.sample;
 }
 
 std::string refusal_of(const std::vector<std::string>& words)
@@ -65,7 +71,7 @@ TEST(OptionParser, KeepsOperandsAsTheyAre)
                 ElementsAre("{}", "", "a b,c", "[1,2]"));
 }
 
-TEST(OptionReader, WritesWhatWasGivenAndLeavesTheRest)
+TEST(ReadOptions, WritesWhatWasGivenAndLeavesTheRest)
 {
     const SampleOptions options =
         options_of({"--angle=12.25", "--min-views", "5", "--closed", "--shape", "flat"});
@@ -73,12 +79,11 @@ TEST(OptionReader, WritesWhatWasGivenAndLeavesTheRest)
     EXPECT_EQ(options.spacing, 2.0);
     EXPECT_EQ(options.views, 5);
     EXPECT_TRUE(options.closed);
-    EXPECT_TRUE(options.smooth);
     EXPECT_EQ(options.shape, Shape::flat);
     EXPECT_EQ(options.memory, 3 << 20);
 }
 
-TEST(OptionReader, TakesSizesOfMemoryWithTheirSuffix)
+TEST(ReadOptions, TakesSizesOfMemoryWithTheirSuffix)
 {
     EXPECT_EQ(options_of({"--memory", "8G"}).memory, std::int64_t{8} << 30);
     EXPECT_EQ(options_of({"--memory", "0"}).memory, 0);
@@ -86,43 +91,28 @@ TEST(OptionReader, TakesSizesOfMemoryWithTheirSuffix)
               "--memory takes a size in bytes, or with K, M or G as in 8G, not \"8 apples\"");
 }
 
-TEST(OptionReader, SwitchesOffAFlagThatIsOnByDefault)
-{
-    EXPECT_FALSE(options_of({"--no-smooth"}).smooth);
-    EXPECT_EQ(refusal_of({"--smooth"}), "there is no option --smooth; did you mean --no-smooth? "
-                                        "(see colmap-vcarve --help)");
-}
-
-TEST(OptionReader, LetsTheLastOfTwoValuesCount)
+TEST(ReadOptions, LetsTheLastOfTwoValuesCount)
 {
     EXPECT_EQ(options_of({"--min-views", "5", "--min-views=7"}).views, 7);
 }
 
-TEST(OptionReader, TakesInfinityWhereARangeIsOpen)
+TEST(ReadOptions, TakesInfinityWhereARangeIsOpen)
 {
     EXPECT_EQ(options_of({"--spacing", "inf"}).spacing, kUnlimited);
     EXPECT_EQ(refusal_of({"--angle", "inf"}),
               "--angle takes a number from 0 to 180 (deg), not inf");
 }
 
-TEST(OptionReader, TakesAWordWhereTheOptionHasOne)
+TEST(ReadOptions, TakesAWordWhereTheOptionHasOne)
 {
-    MemoryOptions options{.blocks = 7};
-    OptionTable table;
-    options.visit(table);
-    const auto read = [&](const std::string& text) {
-        const ParsedArguments given =
-            parse_arguments(std::vector{"--blocks=" + text}, table.rows());
-        OptionReader reader(given);
-        options.visit(reader);
-        return options.blocks;
-    };
-    EXPECT_EQ(read("auto"), MemoryOptions::kAutoBlocks);
-    EXPECT_EQ(read("2"), 2);
-    EXPECT_THROW(read("automatic"), UsageError);
+    EXPECT_EQ(options_of({}).factor, 7.0);
+    EXPECT_EQ(options_of({"--factor=usual"}).factor, 1.0);
+    EXPECT_EQ(options_of({"--factor=2.5"}).factor, 2.5);
+    EXPECT_EQ(refusal_of({"--factor=unusual"}),
+              "--factor takes usual or a number, 0 or more, not \"unusual\"");
 }
 
-TEST(OptionReader, TakesWordsOrThreeNumbers)
+TEST(ReadOptions, TakesWordsOrThreeNumbers)
 {
     EXPECT_EQ(options_of({}).place.word, 0);
     EXPECT_EQ(options_of({"--place", "there"}).place.word, 1);
@@ -134,7 +124,7 @@ TEST(OptionReader, TakesWordsOrThreeNumbers)
     }
 }
 
-TEST(OptionReader, RefusesWhatIsNeitherAWordNorThreeNumbers)
+TEST(ReadOptions, RefusesWhatIsNeitherAWordNorThreeNumbers)
 {
     const std::string expected = "--place takes here, there or x,y,z from -10 to 10, not ";
     for (const std::string text :
@@ -146,7 +136,7 @@ TEST(OptionReader, RefusesWhatIsNeitherAWordNorThreeNumbers)
     EXPECT_EQ(refusal_of({"--place", "1,2,10.5"}), expected + "10.5");
 }
 
-TEST(OptionReader, TakesAWordABoxOrAFileForARegion)
+TEST(ReadOptions, TakesAWordABoxOrAFileForARegion)
 {
     using Kind = RegionChoice::Kind;
     EXPECT_EQ(options_of({}).part.kind, Kind::everything);
@@ -162,7 +152,7 @@ TEST(OptionReader, TakesAWordABoxOrAFileForARegion)
     }
 }
 
-TEST(OptionReader, RefusesListsThatAreNoBox)
+TEST(ReadOptions, RefusesListsThatAreNoBox)
 {
     const std::string expected = "--part takes none, auto, x0,y0,z0,x1,y1,z1 or a file, not ";
     for (const std::string text :
@@ -174,7 +164,7 @@ TEST(OptionReader, RefusesListsThatAreNoBox)
               "0,0,0,1,-1,1");
 }
 
-TEST(OptionReader, RefusesValuesOfTheWrongKind)
+TEST(ReadOptions, RefusesValuesOfTheWrongKind)
 {
     EXPECT_EQ(refusal_of({"--angle", "wide"}),
               "--angle takes a number from 0 to 180 (deg), not \"wide\"");
@@ -189,7 +179,7 @@ TEST(OptionReader, RefusesValuesOfTheWrongKind)
     EXPECT_EQ(refusal_of({"--angle="}), "--angle needs a value: a number from 0 to 180 (deg)");
 }
 
-TEST(OptionReader, RefusesValuesOutsideTheRange)
+TEST(ReadOptions, RefusesValuesOutsideTheRange)
 {
     EXPECT_EQ(refusal_of({"--angle", "-3"}), "--angle takes a number from 0 to 180 (deg), not -3");
     EXPECT_EQ(refusal_of({"--min-views=1"}),
@@ -202,6 +192,25 @@ TEST(OptionParser, RefusesAnOptionWithoutItsValue)
               "--min-views needs a value: a whole number, 2 or more (views)");
     EXPECT_EQ(refusal_of({"--shape"}), "--shape needs a value: round or flat");
     EXPECT_EQ(refusal_of({"--stats"}), "--stats needs a value: a path");
+}
+
+TEST(OptionParser, TakesNoOptionForAValue)
+{
+    EXPECT_EQ(refusal_of({"--shape", "--closed"}), "--shape needs a value: round or flat");
+    EXPECT_EQ(refusal_of({"--stats", ""}), "--stats needs a value: a path");
+}
+
+TEST(OptionParser, TakesOperandsByColmapsNames)
+{
+    EXPECT_THAT(parsed({"-i", "in", "-o", "out"}).operands, ElementsAre("in", "out"));
+    EXPECT_THAT(parsed({"--output_path=out", "--closed", "--input_path", "in"}).operands,
+                ElementsAre("in", "out"));
+    EXPECT_THAT(parsed({"-o", "out", "in"}).operands, ElementsAre("in", "out"));
+}
+
+TEST(OptionParser, KnowsTheLetterOfHelp)
+{
+    EXPECT_TRUE(parsed({"-h"}).has("help"));
 }
 
 TEST(OptionParser, RefusesAValueGivenToAFlag)

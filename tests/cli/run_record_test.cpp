@@ -12,25 +12,31 @@
 namespace vcarve::cli {
 namespace {
 
-TEST(OptionRecorder, RecordsEveryOptionUnderItsNameOnTheCommandLine)
+Json recorded(SampleOptions options)
 {
-    EXPECT_EQ(options_json(SampleOptions{.spacing = kUnlimited}).dump(),
-              R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,"smooth":true,)"
-              R"("shape":"round","memory":3145728,"place":"here","part":"none"})");
-    SampleOptions options;
-    options.place = {.word = WordOrVector::kNoWord, .vector = {1.5, -2.0, 0.1}};
-    EXPECT_EQ(options_json(options)["place"].dump(), "[1.5,-2.0,0.1]");
+    return options_json(options_of(options));
 }
 
-TEST(OptionRecorder, RecordsRegionsAsWordsNumbersOrPaths)
+TEST(OptionsJson, RecordsEveryOptionUnderItsNameOnTheCommandLine)
 {
-    const auto recorded = [](const RegionChoice& part) {
-        return options_json(SampleOptions{.part = part})["part"].dump();
+    EXPECT_EQ(recorded({.spacing = kUnlimited}).dump(),
+              R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,)"
+              R"("shape":"round","memory":3145728,"place":"here","part":"none","factor":7.0})");
+    SampleOptions options;
+    options.place = {.word = WordOrVector::kNoWord, .vector = {1.5, -2.0, 0.1}};
+    EXPECT_EQ(recorded(options)["place"].dump(), "[1.5,-2.0,0.1]");
+}
+
+TEST(OptionsJson, RecordsRegionsAsWordsNumbersOrPaths)
+{
+    const auto recorded_part = [](const RegionChoice& part) {
+        return recorded({.part = part})["part"].dump();
     };
-    EXPECT_EQ(recorded({.kind = RegionChoice::Kind::looked_at}), R"("auto")");
-    EXPECT_EQ(recorded({.kind = RegionChoice::Kind::box, .low = {0, -1, 0.5}, .high = {1, 2, 3}}),
-              "[0.0,-1.0,0.5,1.0,2.0,3.0]");
-    EXPECT_EQ(recorded({.kind = RegionChoice::Kind::file, .file = "a/b.ply"}), R"("a/b.ply")");
+    EXPECT_EQ(recorded_part({.kind = RegionChoice::Kind::looked_at}), R"("auto")");
+    EXPECT_EQ(
+        recorded_part({.kind = RegionChoice::Kind::box, .low = {0, -1, 0.5}, .high = {1, 2, 3}}),
+        "[0.0,-1.0,0.5,1.0,2.0,3.0]");
+    EXPECT_EQ(recorded_part({.kind = RegionChoice::Kind::file, .file = "a/b.ply"}), R"("a/b.ply")");
 }
 
 TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)

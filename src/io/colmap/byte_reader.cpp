@@ -15,6 +15,7 @@ void ByteReader::fail_short(std::size_t expected, std::string_view what) const
 
 std::uint64_t ByteReader::read_count(std::size_t record_bytes, const char* what)
 {
+    if (bytes_.empty()) throw InputError(fmt::format("{}: the file is empty", name_));
     const std::size_t begin = offset_;
     if (left() < sizeof(std::uint64_t)) {
         fail_short(sizeof(std::uint64_t), fmt::format("the number of {}", what));

@@ -1,8 +1,10 @@
 #include "io/colmap/find_model.h"
 
+#include "base/lower_case_end.h"
 #include "io/colmap/byte_reader.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
+#include "io/files/foreign_file.h"
 #include "io/files/mapped_file.h"
 #include "vcarve/error.h"
 
@@ -195,8 +197,29 @@ std::vector<std::string> telling_files(const fs::path& folder)
     return telling;
 }
 
+/// The folder of images is beside the model that was made of them.
+void refuse_images(const fs::path& input)
+{
+    const std::vector<std::string> names = names_in(input);
+    const auto is_image = [](const std::string& name) {
+        const std::string end = lower_case_end(name);
+        return end == ".jpg" || end == ".jpeg" || end == ".png" || end == ".tif" || end == ".tiff";
+    };
+    if (names.empty() || !std::ranges::all_of(names, is_image)) return;
+    const fs::path around = fs::path(input / "").parent_path().parent_path();
+    const fs::path beside = around.empty() ? fs::path(".") : around;
+    std::optional<FoundModel> model = model_at(beside / "sparse");
+    if (!model) model = model_at(beside);
+    throw InputError(model ? fmt::format("{} is a folder of images; the model is in {}",
+                                         input.string(), model->folder.string())
+                           : fmt::format("{} is a folder of images; the model is what COLMAP's "
+                                         "mapper made of them, often sparse/0",
+                                         input.string()));
+}
+
 [[noreturn]] void fail_not_found(const fs::path& input)
 {
+    refuse_images(input);
     std::vector<fs::path> looked_in{input};
     if (is_folder(input / "sparse")) looked_in.push_back(input / "sparse");
 
@@ -231,6 +254,7 @@ FoundModel find_model(const fs::path& input)
         throw InputError(fmt::format("{}: does not exist; {}", input.string(), kWhatAModelIs));
     }
     if (!is_folder(input)) {
+        refuse_foreign_name(input);
         throw InputError(fmt::format("{}: is not a folder; {}", input.string(), kWhatAModelIs));
     }
     // The folder itself first, then the workspace's, then components right in the folder

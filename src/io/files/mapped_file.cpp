@@ -1,5 +1,6 @@
 #include "io/files/mapped_file.h"
 
+#include "io/files/foreign_file.h"
 #include "vcarve/error.h"
 
 #include <boost/interprocess/exceptions.hpp>
@@ -41,6 +42,7 @@ bip::mapped_region map_file(const std::filesystem::path& path)
 MappedFile::MappedFile(const std::filesystem::path& path)
     : region_(map_file(path)), pages_(region_.get_address(), region_.get_size())
 {
+    refuse_foreign_file(path, bytes());
 }
 
 std::span<const char> MappedFile::bytes() const

@@ -1,5 +1,6 @@
 #include "io/input/find_input.h"
 
+#include "io/files/foreign_file.h"
 #include "io/ply/ply_cloud.h"
 #include "vcarve/error.h"
 
@@ -35,6 +36,17 @@ fs::path visibility_of(const fs::path& cloud, const PointsOptions& options)
     if (!options.visibility.empty()) return options.visibility;
     fs::path beside = cloud;
     return beside += ".vis";
+}
+
+/// A surface in the place of points. MeshLab writes an element of no faces into clouds.
+void refuse_mesh(const fs::path& cloud)
+{
+    const PlyHeader header = read_ply_header(cloud);
+    const PlyElement* faces = header.find("face");
+    if (faces == nullptr || faces->count == 0) return;
+    throw InputError(fmt::format("{} is a mesh of {} faces, but a model or a cloud is wanted; "
+                                 "colmap-vcarve compare MODEL {} measures meshes",
+                                 cloud.string(), faces->count, cloud.string()));
 }
 
 /// What a file tells of scanners; nothing of one that cannot be read, which reading tells of.
@@ -229,12 +241,16 @@ FoundInput find_input(const fs::path& input, const PointsOptions& options)
                                          options.points, input.string()));
         }
         if (is_scan(input, options)) return scan_input({}, input, options);
+        const bool has_sights =
+            options.sights == SightsFrom::nearest || is_file(visibility_of(input, options));
+        if (!has_sights) refuse_mesh(input);
         return dense_input(model_around(input), input, options);
     }
     FoundModel model = find_model(input);
     if (options.points.empty()) return look_for_points(std::move(model), input, options);
     if (options.points == "sparse") return sparse_input(std::move(model), options);
     const fs::path cloud = options.points == "dense" ? input / kFused : fs::path(options.points);
+    refuse_foreign_name(cloud);
     return dense_input(std::move(model), cloud, options);
 }
 

@@ -1,8 +1,8 @@
 #include "io/work/job.h"
 
-#include "base/validate.h"
 #include "base/version.h"
 #include "io/colmap/model_files.h"
+#include "options/declared.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -102,56 +102,18 @@ Job input_facts(const FoundInput& input, const Progress& progress)
     return facts;
 }
 
-void OptionFacts::stage(const char* title)
+Job option_facts(Options options)
 {
-    shapes_result_ = std::string_view(title) != "Run";
-}
-
-void OptionFacts::add(const OptionInfo& info, std::string value)
-{
-    if (shapes_result_) facts_.push_back({fmt::format("--{}", info.name), std::move(value)});
-}
-
-void OptionFacts::number(double& value, const OptionInfo& info)
-{
-    add(info, fmt::format("{}", value)); // all digits
-}
-
-void OptionFacts::count(int& value, const OptionInfo& info)
-{
-    add(info, fmt::format("{}", value));
-}
-
-void OptionFacts::bytes(std::int64_t& value, const OptionInfo& info)
-{
-    add(info, fmt::format("{}", value));
-}
-
-void OptionFacts::flag(bool& value, const OptionInfo& info)
-{
-    add(info, value ? "yes" : "no");
-}
-
-void OptionFacts::choice(int& value, std::span<const char* const> names, const OptionInfo& info)
-{
-    add(info, names[static_cast<std::size_t>(value)]);
-}
-
-void OptionFacts::word_or_vector(WordOrVector& value, std::span<const char* const> words,
-                                 const OptionInfo& info)
-{
-    const bool is_word = value.word != WordOrVector::kNoWord;
-    add(info, is_word ? std::string(words[static_cast<std::size_t>(value.word)])
-                      : fmt::format("{}", fmt::join(value.vector, ",")));
-}
-
-void OptionFacts::region(RegionChoice& value, const OptionInfo& info)
-{
-    if (value.kind != RegionChoice::Kind::file) {
-        add(info, region_text(value));
-    } else if (shapes_result_) {
-        facts_.push_back(file_fact(fmt::format("--{}", info.name), value.file));
+    Job facts;
+    for (const Option& option : options_of(options)) {
+        if (option.stage == kRunStage) continue;
+        const std::string name = "--" + option.info.name;
+        const auto* const* region = std::get_if<RegionChoice*>(&option.value);
+        const bool is_file = region != nullptr && (*region)->kind == RegionChoice::Kind::file;
+        facts.push_back(is_file ? file_fact(name, (*region)->file)
+                                : JobFact{name, value_text(option)});
     }
+    return facts;
 }
 
 } // namespace vcarve

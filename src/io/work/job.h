@@ -2,7 +2,7 @@
 
 #include "io/input/find_input.h"
 #include "io/work/digest.h"
-#include "vcarve/option_visitor.h"
+#include "vcarve/options.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -40,35 +40,8 @@ JobFact file_fact(const std::string& name, const std::filesystem::path& path,
 /// digest_of_file.
 Job input_facts(const FoundInput& input, const Progress& progress = {});
 
-/// Lists options as facts, but for those under the heading "Run" (threads, memory and the like):
-/// what stands there must leave the result as it is. Of a region's file the content counts.
-class OptionFacts final : public OptionVisitor {
-  public:
-    void stage(const char* title) override;
-    void number(double& value, const OptionInfo& info) override;
-    void count(int& value, const OptionInfo& info) override;
-    void bytes(std::int64_t& value, const OptionInfo& info) override;
-    void flag(bool& value, const OptionInfo& info) override;
-    void choice(int& value, std::span<const char* const> names, const OptionInfo& info) override;
-    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
-                        const OptionInfo& info) override;
-    void region(RegionChoice& value, const OptionInfo& info) override;
-
-    const Job& facts() const { return facts_; }
-
-  private:
-    void add(const OptionInfo& info, std::string value);
-
-    Job facts_;
-    bool shapes_result_ = true; ///< the options under the present heading
-};
-
-template <typename Options>
-Job option_facts(Options options)
-{
-    OptionFacts facts;
-    options.visit(facts);
-    return facts.facts();
-}
+/// Options as facts, but for those under the heading "Run", which leave the result as it is. Of a
+/// region's file the content counts.
+Job option_facts(Options options);
 
 } // namespace vcarve

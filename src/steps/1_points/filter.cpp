@@ -2,6 +2,7 @@
 
 #include "base/index_limit.h"
 #include "base/parallel.h"
+#include "base/unlimited.h"
 #include "model/measured_range.h"
 #include "model/scene_points.h"
 #include "model/united_tracks.h"

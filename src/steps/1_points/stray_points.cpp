@@ -3,6 +3,7 @@
 #include "base/index_limit.h"
 #include "base/median.h"
 #include "base/parallel.h"
+#include "base/unlimited.h"
 #include "geometry/point_tree.h"
 #include "model/measured_range.h"
 #include "model/scene_points.h"

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "geometry/point_tree.h"
+#include "base/unlimited.h"
 #include "steps/4_visibility/each_vertex.h"
 #include "steps/4_visibility/edge_lengths.h"
 #include "steps/4_visibility/walk.h"

@@ -72,7 +72,7 @@ Labels carve(const TetMesh& cells, const Scene& scene, const LabelOptions& optio
     const auto label = [&](const Crossings& crossings) {
         Stage stage(work.log(), "carve");
         Labels carved = carve(cells, crossings, options.min_crossings);
-        stage.end({{"inside", num_inside(carved)}});
+        stage.end({{"inside", num_inside(carved)}, {"of", size_of(cells.cells.size())}});
         return carved;
     };
     return label_by_sources<Crossings>(cells, scene, options.virtual_views, work, cast, label);
@@ -86,7 +86,9 @@ Labels cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
     Labels labels = cut(cells, std::move(energy), options.cut, stage);
     const std::int64_t inside = num_inside(labels);
     const std::int64_t on_hull = go_on_along_hull(cells, scene, uncrossed, options.hull, labels);
-    stage.end({{"inside", inside}, {"faces of the hull", on_hull}});
+    stage.end({{"inside", inside},
+               {"of", size_of(cells.cells.size())},
+               {"faces of the hull", on_hull}});
     return labels;
 }
 

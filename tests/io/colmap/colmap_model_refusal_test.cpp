@@ -60,8 +60,7 @@ const std::vector<Refusal> kBinaryRefusals{
     {"bin_point_image_unknown",
      "/points3D.bin: point 5 was seen in image 9, which images.bin does not have"},
     {"bin_point_twice", "/points3D.bin: point 5 occurs twice"},
-    {"bin_points_empty_file", "/points3D.bin: byte 0: the file ends inside the number of points "
-                              "(bytes expected: 8, found: 0)"},
+    {"bin_points_empty_file", "/points3D.bin: the file is empty"},
     {"bin_points_missing", "/points3D.bin: the file does not exist"},
     {"bin_points_track_huge",
      "/points3D.bin: byte 51: found a count of 1152921504606846976 views in "

@@ -131,6 +131,23 @@ TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
                   "/sparse/0 without points3D.bin, database.db, 2 .ply files");
 }
 
+TEST(FindModel, SaysThatAFolderHasImagesAndWhereTheModelIs)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path().string();
+    folder.write("images/a.JPG", "");
+    folder.write("images/b.png", "");
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path() / "images"); }),
+              path + "/images is a folder of images; the model is what COLMAP's mapper made of "
+                     "them, often sparse/0");
+    folder.copy(kBinary, "sparse/0");
+    for (const char* name : {"images", "images/"}) {
+        EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path() / name); }),
+                  (folder.path() / name).string() + " is a folder of images; the model is in " +
+                      path + "/sparse/0");
+    }
+}
+
 TEST(FindModel, RefusesAPathThatIsNoFolder)
 {
     const TemporaryFolder folder;

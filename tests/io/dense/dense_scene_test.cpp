@@ -122,8 +122,7 @@ std::vector<Refusal> refusals()
          "/fused.ply.vis: tells of 2 points, but " + cloud_of("vis_count_less") + " has 3"},
         {"vis_count_more",
          "/fused.ply.vis: tells of 4 points, but " + cloud_of("vis_count_more") + " has 3"},
-        {"vis_empty", "/fused.ply.vis: byte 0: the file ends inside the number of points (bytes "
-                      "expected: 8, found: 0)"},
+        {"vis_empty", "/fused.ply.vis: the file is empty"},
         {"vis_image_unknown", "/fused.ply.vis: point 1 of 3 was seen by image 3, but the model has "
                               "3 images, counted from 0"},
         {"vis_no_points",

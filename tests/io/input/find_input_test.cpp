@@ -72,6 +72,27 @@ TEST_F(FindInput, TakesTheCloudThatIsNamed)
     EXPECT_THAT(found.notes, ElementsAre(taken()));
 }
 
+TEST_F(FindInput, RefusesAMeshInThePlaceOfAModel)
+{
+    const std::string mesh =
+        folder.write("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                 "property float y\nproperty float z\nelement face 1\n"
+                                 "property list uchar int vertex_indices\nend_header\n"
+                                 "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    EXPECT_EQ(refused(mesh, {}), mesh +
+                                     " is a mesh of 1 faces, but a model or a cloud is wanted; "
+                                     "colmap-vcarve compare MODEL " +
+                                     mesh + " measures meshes");
+    const std::string other = folder.write("mesh.obj", "v 0 0 0\n");
+    EXPECT_EQ(refused(other, {}), other + ": is a mesh, but a model or a cloud is wanted");
+}
+
+TEST_F(FindInput, NamesTheFormatOfCloudsThatAreNotRead)
+{
+    EXPECT_EQ(refused(dense, {.points = "a/scan.las"}),
+              "a/scan.las: LAS is not read: convert it to PLY with CloudCompare or PDAL");
+}
+
 TEST_F(FindInput, TakesWhatTheOptionsChoose)
 {
     EXPECT_FALSE(find_input(dense, {.points = "sparse"}).dense);

@@ -1,5 +1,6 @@
 #include "base/version.h"
 #include "io/work/job.h"
+#include "options/declared.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 #include "vcarve/options.h"
@@ -20,53 +21,24 @@ using testing::HasSubstr;
 using testing::IsSupersetOf;
 using testing::Not;
 
-/// Changes the option of one number to another value in its range, and lists all names.
-class OneChanged final : public OptionVisitor {
-  public:
-    explicit OneChanged(std::size_t which) : which_(which) {}
-
-    void stage(const char*) override {}
-    void number(double& value, const OptionInfo& info) override
-    {
-        if (is_it(info)) value = value == 1.0 ? 0.5 : 1.0;
+/// Sets an option to another value in its range.
+void change(const Option& option)
+{
+    if (auto* const* number = std::get_if<double*>(&option.value)) {
+        **number = **number == 1.0 ? 0.5 : 1.0;
+    } else if (auto* const* count = std::get_if<int*>(&option.value)) {
+        ++**count;
+    } else if (auto* const* bytes = std::get_if<std::int64_t*>(&option.value)) {
+        ++**bytes;
+    } else if (auto* const* flag = std::get_if<bool*>(&option.value)) {
+        **flag = !**flag;
+    } else if (auto* const* region = std::get_if<RegionChoice*>(&option.value)) {
+        (*region)->kind = RegionChoice::Kind::looked_at;
+    } else {
+        const auto& choice = std::get<EnumValue>(option.value);
+        choice.set((choice.get() + 1) % static_cast<int>(option.info.words.size()));
     }
-    void count(int& value, const OptionInfo& info) override
-    {
-        if (is_it(info)) ++value;
-    }
-    void bytes(std::int64_t& value, const OptionInfo& info) override
-    {
-        if (is_it(info)) ++value;
-    }
-    void flag(bool& value, const OptionInfo& info) override
-    {
-        if (is_it(info)) value = !value;
-    }
-    void choice(int& value, std::span<const char* const> words, const OptionInfo& info) override
-    {
-        if (is_it(info)) value = (value + 1) % static_cast<int>(words.size());
-    }
-    void word_or_vector(WordOrVector& value, std::span<const char* const> words,
-                        const OptionInfo& info) override
-    {
-        if (is_it(info)) value.word = (value.word + 1) % static_cast<int>(words.size());
-    }
-    void region(RegionChoice& value, const OptionInfo& info) override
-    {
-        if (is_it(info)) value.kind = RegionChoice::Kind::looked_at;
-    }
-
-    std::vector<std::string> names;
-
-  private:
-    bool is_it(const OptionInfo& info)
-    {
-        names.emplace_back(info.name);
-        return names.size() == which_ + 1;
-    }
-
-    std::size_t which_;
-};
+}
 
 FoundInput model_in(const fs::path& folder)
 {
@@ -87,14 +59,13 @@ void write_model(const TemporaryFolder& folder, const std::string& points)
 TEST(Job, DependsOnEveryOptionButThoseOfTheRun)
 {
     const Job usual = option_facts(Options());
-    OneChanged all(1000);
-    Options().visit(all);
     std::vector<std::string> without;
-    for (std::size_t i = 0; i < all.names.size(); ++i) {
+    Options all;
+    for (std::size_t i = 0; i < options_of(all).size(); ++i) {
         Options options;
-        OneChanged change(i);
-        options.visit(change);
-        if (option_facts(options) == usual) without.push_back(all.names[i]);
+        const Option option = options_of(options)[i];
+        change(option);
+        if (option_facts(options) == usual) without.push_back(option.info.name);
     }
     EXPECT_THAT(without, ElementsAre("threads", "max-memory", "blocks"));
 }

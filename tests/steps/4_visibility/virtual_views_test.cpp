@@ -1,3 +1,4 @@
+#include "base/unlimited.h"
 #include "geometry/predicates.h"
 #include "io/colmap/colmap_model.h"
 #include "steps/3_cells/triangulate.h"

@@ -1,37 +1,69 @@
-#include "base/validate.h"
 #include "support/sample_options.h"
 #include "vcarve/error.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace vcarve {
 namespace {
 
-std::string refusal_of(const SampleOptions& options)
+using testing::ElementsAre;
+
+std::vector<std::string> texts(std::string (*text)(const Option&))
+{
+    SampleOptions options;
+    std::vector<std::string> all;
+    for (const Option& option : options_of(options)) {
+        all.push_back(text(option));
+    }
+    return all;
+}
+
+std::string refusal_of(SampleOptions options)
 {
     try {
-        validate(options);
+        check_values(options_of(options));
     } catch (const UsageError& error) {
         return error.what();
     }
     return "accepted";
 }
 
-TEST(Validate, AcceptsTheDefaults)
+TEST(Option, HasItsPresentValueAsOneWouldTypeIt)
+{
+    EXPECT_THAT(texts(value_text),
+                ElementsAre("10.5", "2", "3", "no", "round", "3M", "here", "none", "7"));
+}
+
+TEST(Option, HasARangeOnlyWhereMoreThanTheSignIsRestricted)
+{
+    EXPECT_THAT(texts(range_text),
+                ElementsAre("0 to 180", "", "2 or more", "", "", "", "-10 to 10", "", ""));
+}
+
+TEST(Option, ShowsTheUnitOrTheWordsForItsValue)
+{
+    EXPECT_THAT(texts(placeholder),
+                ElementsAre("<deg>", "<number>", "<views>", "", "round|flat", "<size>",
+                            "here|there|x,y,z", "none|auto|box|<file>", "usual|<number>"));
+}
+
+TEST(CheckValues, AcceptsTheDefaults)
 {
     EXPECT_EQ(refusal_of({}), "accepted");
 }
 
-TEST(Validate, AcceptsTheEndsOfARange)
+TEST(CheckValues, AcceptsTheEndsOfARange)
 {
     EXPECT_EQ(refusal_of({.angle_deg = 0.0, .views = 2}), "accepted");
     EXPECT_EQ(refusal_of({.angle_deg = 180.0, .spacing = kUnlimited}), "accepted");
 }
 
-TEST(Validate, NamesTheOptionTheRangeAndTheValue)
+TEST(CheckValues, NamesTheOptionTheRangeAndTheValue)
 {
     EXPECT_EQ(refusal_of({.angle_deg = 200.0}),
               "--angle takes a number from 0 to 180 (deg), not 200");
@@ -47,7 +79,7 @@ TEST(Validate, NamesTheOptionTheRangeAndTheValue)
               "--place takes here, there or x,y,z from -10 to 10, not -11");
 }
 
-TEST(Validate, RefusesRegionsThatHoldNothing)
+TEST(CheckValues, RefusesRegionsThatHoldNothing)
 {
     const double nan = std::nan("");
     const auto refusal_of_box = [](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -64,7 +96,7 @@ TEST(Validate, RefusesRegionsThatHoldNothing)
               "--part takes none, auto, x0,y0,z0,x1,y1,z1 or a file, not \"\"");
 }
 
-TEST(Validate, RefusesWhatIsNotANumber)
+TEST(CheckValues, RefusesWhatIsNotANumber)
 {
     EXPECT_EQ(refusal_of({.spacing = std::nan("")}),
               "--spacing takes a number, 0 or more, not nan");

@@ -1,0 +1,65 @@
+#include "io/files/foreign_file.h"
+#include "io/files/mapped_file.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace vcarve {
+namespace {
+
+std::string refusal_of(const std::string& content)
+{
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder.write("cameras.bin", content);
+    try {
+        const MappedFile file(path);
+    } catch (const InputError& error) {
+        const std::string sentence = error.what();
+        return sentence.substr(sentence.find("cameras.bin"));
+    }
+    return "accepted";
+}
+
+std::string refusal_of_name(const std::string& name)
+{
+    try {
+        refuse_foreign_name(name);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+TEST(ForeignFile, IsKnownByItsFirstBytes)
+{
+    EXPECT_EQ(refusal_of("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n"),
+              "cameras.bin is a Git LFS pointer, not the file: run git lfs pull");
+    EXPECT_EQ(refusal_of("<!DOCTYPE HTML><html>"),
+              "cameras.bin is a web page, not the file: the download failed");
+    EXPECT_EQ(refusal_of("<HTML lang=en>"),
+              "cameras.bin is a web page, not the file: the download failed");
+    EXPECT_EQ(refusal_of("PK\x03\x04 and so on"), "cameras.bin is a zip archive: unpack it first");
+    EXPECT_EQ(refusal_of("\x1f\x8b\x08"), "cameras.bin is a gzip archive: unpack it first");
+}
+
+TEST(ForeignFile, IsNoneThatOnlyBeginsAlike)
+{
+    for (const std::string content : {"", "version", "PK", "# Camera list", "ply\n"}) {
+        EXPECT_EQ(refusal_of(content), "accepted") << content;
+    }
+}
+
+TEST(ForeignFile, IsKnownByTheEndOfItsName)
+{
+    EXPECT_EQ(refusal_of_name("a/scan.LAS"),
+              "a/scan.LAS: LAS is not read: convert it to PLY with CloudCompare or PDAL");
+    EXPECT_EQ(refusal_of_name("mesh.obj"), "mesh.obj: is a mesh, but a model or a cloud is wanted");
+    EXPECT_EQ(refusal_of_name("cloud.ply"), "accepted");
+    EXPECT_EQ(refusal_of_name("cloud"), "accepted");
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,58 @@
+#include "options/declared.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace vcarve {
+namespace {
+
+/// Turns into whatever a field is.
+struct Anything {
+    template <typename T>
+    operator T() const;
+};
+
+/// How many fields a plain struct has.
+template <typename T, typename... Fields>
+constexpr std::size_t num_fields()
+{
+    if constexpr (requires { T{Fields()..., Anything()}; }) {
+        return num_fields<T, Fields..., Anything>();
+    } else {
+        return sizeof...(Fields);
+    }
+}
+
+TEST(DeclaredOptions, AreAllFieldsOfTheOptions)
+{
+    constexpr std::size_t kParts = num_fields<FilterOptions>() + num_fields<CreaseOptions>() +
+                                   num_fields<ThinOptions>() + num_fields<CropOptions>() +
+                                   num_fields<DenoiseOptions>();
+    constexpr std::size_t kLabels = num_fields<LabelOptions>() - 5 + num_fields<TraceOptions>() +
+                                    num_fields<CutOptions>() + num_fields<BridgingOptions>() +
+                                    num_fields<NeedleOptions>() + num_fields<VirtualViewOptions>();
+    constexpr std::size_t kSurface = num_fields<SurfaceOptions>() - 3 +
+                                     num_fields<SupportOptions>() + num_fields<SheetOptions>() +
+                                     num_fields<CleanupOptions>() + num_fields<SmoothOptions>() +
+                                     num_fields<SimplifyOptions>();
+    constexpr std::size_t kRun = num_fields<MemoryOptions>() + 1; // and threads
+    static_assert(num_fields<Options>() == 10 && num_fields<RefineOptions>() == 2);
+    Options options;
+    EXPECT_EQ(options_of(options).size(), kParts + kLabels + kSurface + kRun);
+}
+
+TEST(DeclaredOptions, HaveNamesAndPlacesOfTheirOwn)
+{
+    Options options;
+    std::set<std::string> names;
+    for (const Option& option : options_of(options)) {
+        EXPECT_TRUE(names.insert(option.info.name).second) << option.info.name;
+        EXPECT_FALSE(option.info.help.empty()) << option.info.name;
+    }
+    EXPECT_NO_THROW(validate(options));
+}
+
+} // namespace
+} // namespace vcarve
