@@ -50,7 +50,6 @@ std::array<Vector3d, 4> rectangle_around(const std::vector<Vector2d>& places,
 /// Where a sight passes through the plane of a patch.
 struct Passage {
     std::uint32_t patch;
-    std::uint32_t point; ///< of the sight
     Vector2d place;      ///< in the plane
 };
 
@@ -108,13 +107,13 @@ class Borders {
     }
 
     /// The places along all borders, in an order that does not depend on the threads.
-    std::vector<BorderPlace> places(const Progress& progress) const
+    std::vector<AddedPlace> places(const Progress& progress) const
     {
         const std::vector<Passage> passages = this->passages(progress.part(0.0, 0.6));
-        const auto look = [&](std::size_t patch, std::vector<BorderPlace>& found) {
+        const auto look = [&](std::size_t patch, std::vector<AddedPlace>& found) {
             add_places(patch, passages, found);
         };
-        return parallel_collect<BorderPlace>(patches_.size(), progress.part(0.6, 1.0), look, 1);
+        return parallel_collect<AddedPlace>(patches_.size(), progress.part(0.6, 1.0), look, 1);
     }
 
   private:
@@ -160,7 +159,7 @@ class Borders {
                                [&](std::size_t triangle) { met.push_back(owners[triangle / 2]); });
                 sort_unique(met);
                 for (const std::uint32_t patch : met) {
-                    add_passage(patch, static_cast<std::uint32_t>(point), from, to, found);
+                    add_passage(patch, from, to, found);
                 }
             };
             const auto track = scene_.tracks[point];
@@ -175,9 +174,9 @@ class Borders {
         return found;
     }
 
-    /// That of the sight of a point through the plane of a patch, if it is near the patch's points.
-    void add_passage(std::uint32_t patch, std::uint32_t point, const Vector3d& from,
-                     const Vector3d& to, std::vector<Passage>& found) const
+    /// That of a sight through the plane of a patch, if it is near the patch's points.
+    void add_passage(std::uint32_t patch, const Vector3d& from, const Vector3d& to,
+                     std::vector<Passage>& found) const
     {
         const Plane& plane = patches_[patch].region->plane;
         const double before = plane.normal.dot(from - plane.center);
@@ -185,11 +184,11 @@ class Borders {
         if (before == behind) return; // in the plane
         const Vector3d place = from + before / (before - behind) * (to - from);
         if (has_point_near(patches_[patch], place, near(patch)))
-            found.push_back({patch, point, frames_[patch].in_plane(place)});
+            found.push_back({patch, frames_[patch].in_plane(place)});
     }
 
     void add_places(std::size_t patch, const std::vector<Passage>& all,
-                    std::vector<BorderPlace>& found) const
+                    std::vector<AddedPlace>& found) const
     {
         constexpr double kShare = 0.3; // of the way from the point to the passage
         const auto first = std::ranges::lower_bound(all, patch, {}, &Passage::patch);
@@ -205,29 +204,26 @@ class Borders {
         for (const Pair& pair : pairs_beside(places, points.size(), near(patch))) {
             const Vector3d& point = points[pair.point];
             const Passage& passage = passages[pair.passage - points.size()];
-            BorderPlace place{{.step = patches_[patch].region->spacing, .id = kBorderPointId}};
-            place.region = static_cast<std::uint32_t>(patch);
-            place.passage = frames_[patch].in_space(passage.place);
-            place.seen = passage.point;
-            place.position = point + kShare * (place.passage - point);
-            if (is_right(place)) found.push_back(std::move(place));
+            AddedPlace place{.step = patches_[patch].region->spacing, .id = kBorderPointId};
+            place.position = point + kShare * (frames_[patch].in_space(passage.place) - point);
+            if (is_right(patch, place)) found.push_back(std::move(place));
         }
     }
 
     /// Whether a place is to have a point; it is told what stands beside it and who sees it.
-    bool is_right(BorderPlace& place) const
+    bool is_right(std::size_t patch, AddedPlace& place) const
     {
         constexpr double kThere = 0.2; // spacings
         constexpr std::size_t kLook = 8;
         constexpr std::size_t kMost = 5;
-        const PlanarRegion& region = *patches_[place.region].region;
+        const PlanarRegion& region = *patches_[patch].region;
         std::vector<NearestNeighbors::Neighbor> around;
         tree_.find(place.position, kLook, around);
         const double there = kThere * region.spacing;
         if (around.front().distance_sq < there * there) return false;
         std::vector<Near> own;
         for (const NearestNeighbors::Neighbor& near : around) {
-            if (parts_.region_of[near.point] == place.region)
+            if (parts_.region_of[near.point] == patch)
                 own.emplace_back(std::sqrt(near.distance_sq), near.point);
         }
         if (own.size() < kMost) return false;
@@ -250,7 +246,7 @@ class Borders {
 
 } // namespace
 
-std::vector<BorderPlace> border_places(const Scene& scene, const NearestNeighbors& tree,
+std::vector<AddedPlace> border_places(const Scene& scene, const NearestNeighbors& tree,
                                        const FlatParts& parts, double gap, const Progress& progress)
 {
     if (parts.patches.empty()) return {};

@@ -10,7 +10,6 @@
 #include "steps/2_planes/border_places.h"
 #include "steps/2_planes/crease_places.h"
 #include "steps/2_planes/flat_parts.h"
-#include "steps/2_planes/foot_places.h"
 #include "steps/2_planes/sights_through.h"
 
 #include <algorithm>
@@ -96,11 +95,9 @@ CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options, const
             std::ranges::move(creases, std::back_inserter(places));
         }
         if (options.border_gap > 0.0) {
-            std::vector<BorderPlace> borders =
+            std::vector<AddedPlace> borders =
                 border_places(scene, tree, parts, options.border_gap, progress.part(0.75, 0.85));
-            std::vector<AddedPlace> feet = foot_places(scene, tree, parts, borders);
             std::ranges::move(borders, std::back_inserter(places));
-            std::ranges::move(feet, std::back_inserter(places));
         }
         if (options.blank_step > 0.0) {
             std::vector<AddedPlace> blanks =

@@ -39,13 +39,6 @@ struct CreaseReport {
 /// may be anything, so these points' sights carve and say nothing of what lies behind them
 /// (RayCaster).
 ///
-/// Below a border, as the eaves of a roof, a wall may stand of which no point is known. Where the
-/// sight that passes by ends on the ground, another region, at least a spacing below, the ground
-/// gets a point right below the passage if it has points within four of its spacings away from the
-/// border, none towards it (what stands there hides them), and none near. Its views are those that
-/// saw the nearest two of these, if they show the place, stand before the ground and on this side
-/// of the wall. It counts as a border point.
-///
 /// Amid a planar region of 100 points or more, within their convex hull, its plane is divided into
 /// squares with sides of `blank_step` spacings. One without points of the region gets one near
 /// its middle if none of the scene's is near, if no sight passes through it, if at least two views
@@ -61,7 +54,7 @@ struct CreaseReport {
 /// error is not known, which are dense, stay as they are. The points follow each other in space, as
 /// spatial_sort() puts them, before and after. The result does not depend on the number of threads
 /// nor, up to rounding, on where the scene lies and how large it is. Cost: that of planar_regions,
-/// of crease_places, sights_through, border_places, foot_places and blank_places, and of a sort; 90
+/// of crease_places, sights_through, border_places and blank_places, and of a sort; 90
 /// bytes a point, and what passages take (border_places).
 CreaseReport add_crease_points(Scene& scene, const CreaseOptions& options,
                                const Progress& progress = {});
