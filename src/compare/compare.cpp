@@ -1,9 +1,9 @@
 #include "compare/compare.h"
 
 #include "base/log.h"
-#include "base/validate.h"
 #include "compare/closed_surface.h"
 #include "compare/comparison_table.h"
+#include "options/declared.h"
 
 namespace vcarve {
 

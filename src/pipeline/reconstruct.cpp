@@ -17,7 +17,7 @@
 #include "steps/1_points/spatial_sort.h"
 #include "steps/1_points/stray_points.h"
 #include "steps/1_points/thin.h"
-#include "steps/2_planes/crease_points.h"
+#include "steps/2_planes/added_points.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/3_cells/triangulate_blocks.h"
 #include "steps/5_labels/label_cells.h"
@@ -103,11 +103,8 @@ void add_creases(Scene& scene, const Options& options, Log& log)
     if (!options.creases.add_any() || options.labels.method == Method::strict) return;
     if (has_dense_points(scene)) return;
     Stage stage(log, "creases");
-    const CreaseReport report = add_crease_points(scene, options.creases, stage);
-    stage.end({{"points added", report.added},
-               {"along borders", report.along_borders},
-               {"in blanks", report.in_blanks},
-               {"planes", report.planes}});
+    const AddedPoints report = add_points(scene, options.creases, stage);
+    stage.end({{"points added", report.added}, {"planar regions", report.regions}});
 }
 
 /// The scene itself where there is no region.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "steps/1_points/spatial_sort.h"
-#include "steps/2_planes/crease_points.h"
+#include "steps/2_planes/added_points.h"
 #include "support/scenes.h"
 
 #include <Eigen/Core>
@@ -41,6 +41,20 @@ std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& hig
         }
     }
     return points;
+}
+
+/// The wall z = 0, from so far above the floor y = 1 on.
+inline std::vector<MadePoint> wall(double gap, const Views& views = kAll)
+{
+    return flat({-1.0, -0.6}, {1.0, 1.0 - gap}, views,
+                [](double u, double v) { return Eigen::Vector3d(u, v, 0.0); });
+}
+
+/// The floor, from so far before the wall on.
+inline std::vector<MadePoint> ground(double gap, const Views& views = kAll)
+{
+    return flat({-1.0, gap}, {1.0, 1.6}, views,
+                [](double u, double v) { return Eigen::Vector3d(u, 1.0, -v); });
 }
 
 inline Scene together(const std::vector<std::vector<MadePoint>>& parts,
@@ -89,12 +103,12 @@ inline void expect_same_elsewhere(const Scene& scene, const CreaseOptions& optio
                                   std::uint64_t id, const std::vector<double>& scales, double off)
 {
     Scene here = scene;
-    add_crease_points(here, options);
+    add_points(here, options);
     const std::vector<std::size_t> added = points_with_id(here, id);
     for (const double scale : scales) {
         const Eigen::Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
         Scene there = moved(scene, scale, Eigen::Quaterniond::Identity(), shift);
-        add_crease_points(there, options);
+        add_points(there, options);
         const std::vector<std::size_t> added_there = points_with_id(there, id);
         ASSERT_EQ(added_there.size(), added.size());
         for (const std::size_t i : added) {

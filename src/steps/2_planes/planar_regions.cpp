@@ -5,10 +5,7 @@
 #include "model/scene_points.h"
 #include "model/towards_views.h"
 
-#include <CGAL/Shape_detection/Region_growing/Region_growing.h>
-#include <CGAL/property_map.h>
 #include <Eigen/Eigenvalues>
-#include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
 #include <array>
@@ -28,9 +25,10 @@ using Eigen::Vector3d;
 constexpr std::size_t kAround = 12;
 /// How far from its plane a point of a region may lie, in spacings.
 constexpr double kThickness = 1.0 / 7.0;
-
-/// CGAL's word for no point.
-constexpr auto kNone = static_cast<std::size_t>(-1);
+/// How far from a plane those around a flat point lie, in spacings: the root of the mean square.
+constexpr double kFlat = 0.1;
+/// The same of the points of a region and its plane.
+constexpr double kPlanar = 0.06;
 
 using Around = std::array<std::uint32_t, kAround>;
 
@@ -41,17 +39,16 @@ struct FittedPlane {
     double deviation = 0.0;
 };
 
-template <typename Points>
-FittedPlane fit_plane(const std::vector<Vector3d>& positions, const Points& points)
+FittedPlane fit_plane(const std::vector<Vector3d>& positions, std::span<const std::uint32_t> points)
 {
-    const auto count = static_cast<double>(std::size(points));
+    const auto count = static_cast<double>(points.size());
     Vector3d mean = Vector3d::Zero();
-    for (const auto point : points) {
+    for (const std::uint32_t point : points) {
         mean += positions[point];
     }
     mean /= count;
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const auto point : points) {
+    for (const std::uint32_t point : points) {
         spread += (positions[point] - mean) * (positions[point] - mean).transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread / count);
@@ -59,124 +56,133 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, const Points& poin
             std::sqrt(std::max(solver.eigenvalues()[0], 0.0))};
 }
 
-/// The largest angle between directions from a point in a plane to others that follow each other
-/// around it.
-double largest_gap(const std::vector<Vector3d>& positions, std::size_t point, const Around& around,
-                   const Vector3d& normal)
-{
-    const Vector3d x = normal.unitOrthogonal();
-    const Vector3d y = normal.cross(x);
-    std::array<double, kAround> angles{};
-    std::ranges::transform(around, angles.begin(), [&](std::uint32_t other) {
-        const Vector3d way = positions[other] - positions[point];
-        return std::atan2(y.dot(way), x.dot(way));
-    });
-    std::ranges::sort(angles);
-    double largest = angles.front() + 2.0 * std::numbers::pi - angles.back();
-    for (std::size_t i = 1; i < angles.size(); ++i) {
-        largest = std::max(largest, angles[i] - angles[i - 1]);
-    }
-    return largest;
-}
-
-/// The points around every point, and what they tell.
-struct Surroundings {
-    std::vector<Around> around;
-    std::vector<double> spacings;
-    std::vector<double> bends; ///< how far they lie from a plane, in spacings, rounded
-    std::vector<char> is_one_sided;
-
-    Surroundings(const Scene& scene, const NearestNeighbors& tree, const Progress& progress)
-        : around(scene.num_points()),
-          spacings(scene.num_points()),
-          bends(scene.num_points()),
-          is_one_sided(scene.num_points())
+/// How the surface runs around the points that are looked at.
+class Surroundings {
+  public:
+    Surroundings(const Scene& scene, const PointTree& tree, const Progress& progress)
+        : positions_(scene.positions),
+          tree_(tree),
+          around_(scene.num_points()),
+          spacings_(scene.num_points()),
+          bends_(scene.num_points(), kNotLookedAt)
     {
-        parallel_for(around.size(), progress,
-                     [&](std::size_t i) { look_around(scene.positions, tree, i); });
-    }
-
-    /// The points to grow regions from, the flattest first; for each that is bent too much kNone.
-    std::vector<std::size_t> seeds() const
-    {
-        std::vector<std::size_t> seeds;
-        for (std::size_t i = 0; i < bends.size(); ++i) {
-            if (bends[i] <= kThickness) seeds.push_back(i);
+        constexpr std::size_t kSample = 4;
+        const std::size_t samples = (around_.size() + kSample - 1) / kSample;
+        parallel_for(samples, progress.part(0.0, 0.4),
+                     [&](std::size_t i) { look_around(kSample * i); });
+        std::vector<char> is_beside_flat(around_.size(), 0);
+        for (std::size_t i = 0; i < around_.size(); i += kSample) {
+            if (!is_flat(i)) continue;
+            for (const std::uint32_t point : around_[i]) {
+                is_beside_flat[point] = 1;
+            }
         }
-        std::ranges::stable_sort(seeds, {}, [&](std::size_t i) { return bends[i]; });
-        seeds.resize(bends.size(), kNone);
-        return seeds;
+        parallel_for(around_.size(), progress.part(0.4, 1.0), [&](std::size_t i) {
+            if (i % kSample == 0) return;
+            spacings_[i] = spacings_[i / kSample * kSample];
+            if (is_beside_flat[i] != 0) look_around(i);
+        });
+    }
+
+    /// Those around a point that was looked at.
+    std::span<const std::uint32_t> around(std::size_t point) const { return around_[point]; }
+    const std::vector<double>& spacings() const { return spacings_; }
+    bool is_flat(std::size_t point) const { return bends_[point] <= kFlat; }
+
+    /// Looks at points that were not looked at.
+    void look_at(std::span<const std::uint32_t> points)
+    {
+        for (const std::uint32_t point : points) {
+            if (bends_[point] == kNotLookedAt) look_around(point);
+        }
+    }
+
+    /// The flat points, the flattest first.
+    std::vector<std::uint32_t> flat_points() const
+    {
+        std::vector<std::uint32_t> flat;
+        for (std::uint32_t i = 0; i < bends_.size(); ++i) {
+            if (is_flat(i)) flat.push_back(i);
+        }
+        std::ranges::stable_sort(flat, {}, [&](std::uint32_t i) { return bends_[i]; });
+        return flat;
     }
 
   private:
-    void look_around(const std::vector<Vector3d>& positions, const NearestNeighbors& tree,
-                     std::size_t i)
+    static constexpr double kNotLookedAt = std::numeric_limits<double>::infinity();
+
+    void look_around(std::size_t point)
     {
-        thread_local std::vector<NearestNeighbors::Neighbor> nearest;
-        tree.find(positions[i], kAround + 1, nearest); // the point, too
+        thread_local std::vector<PointTree::Near> nearest;
+        tree_.find_nearest(positions_[point], kAround + 1, nearest); // the point, too
         std::array<std::uint32_t, kAround + 1> all{};
-        std::ranges::transform(nearest, all.begin(), &NearestNeighbors::Neighbor::point);
-        std::ranges::copy(std::span(all).subspan<1>(), around[i].begin());
+        std::ranges::transform(nearest, all.begin(), [](const PointTree::Near& near) {
+            return static_cast<std::uint32_t>(near.point);
+        });
+        std::ranges::copy(std::span(all).subspan<1>(), around_[point].begin());
         // Where the surface is flat, so many points share the disc out to the farthest.
-        spacings[i] = std::sqrt(nearest.back().distance_sq * std::numbers::pi / kAround);
+        spacings_[point] = nearest.back().distance * std::sqrt(std::numbers::pi / kAround);
         // Rounded, since points without noise are flat but for the last digits.
         constexpr double kExact = 1e-3;
-        const FittedPlane fitted = fit_plane(positions, all);
-        bends[i] = kExact * std::round(fitted.deviation / spacings[i] / kExact);
-        constexpr double kOneSided = std::numbers::pi * 150.0 / 180.0;
-        is_one_sided[i] = static_cast<char>(
-            largest_gap(positions, i, around[i], fitted.plane.normal) > kOneSided);
+        const double bend = fit_plane(positions_, all).deviation / spacings_[point];
+        bends_[point] = kExact * std::round(bend / kExact);
     }
+
+    const std::vector<Vector3d>& positions_;
+    const PointTree& tree_;
+    std::vector<Around> around_;
+    std::vector<double> spacings_;
+    std::vector<double> bends_; ///< how far those around lie from a plane, in spacings
 };
 
-/// What CGAL asks for the neighbours of a point.
-class Neighbors {
+/// Grows one region after the other.
+class Growth {
   public:
-    explicit Neighbors(const std::vector<Around>& around) : around_(around) {}
-
-    void operator()(std::size_t point, std::vector<std::size_t>& neighbors) const
-    {
-        neighbors.assign(around_[point].begin(), around_[point].end());
-    }
-
-  private:
-    const std::vector<Around>& around_;
-};
-
-/// What CGAL asks which points belong to a region.
-class FlatRegion {
-  public:
-    FlatRegion(const Scene& scene, const Surroundings& surroundings, const Progress& progress)
-        : scene_(scene), surroundings_(surroundings), progress_(progress)
+    Growth(const Scene& scene, Surroundings& surroundings, PlanarRegions& found)
+        : scene_(scene), surroundings_(surroundings), found_(found)
     {
     }
 
-    bool is_part_of_region(std::size_t /*from*/, std::size_t point,
-                           const std::vector<std::size_t>& /*region*/) const
+    /// Adds the region around a flat point, unless that is another's or there is none.
+    void grow(std::uint32_t seed)
     {
-        const double spacing = std::min(surroundings_.spacings[point], most_spacing_);
-        const double height = plane_.normal.dot(scene_.positions[point] - plane_.center);
-        return std::abs(height) <= kThickness * spacing &&
-               towards_views(scene_, point).dot(plane_.normal) > 0.0;
-    }
-
-    static bool is_valid_region(const std::vector<std::size_t>& region)
-    {
-        return region.size() >= kAround;
-    }
-
-    /// Called with the seed alone, then whenever all that was found has been looked around.
-    void update(const std::vector<std::size_t>& region)
-    {
-        if (region.size() == 1) {
-            begin(region.front());
-        } else if (region.size() >= refit_at_) {
-            set_plane(fit_plane(scene_.positions, region).plane);
-            refit_at_ = 2 * region.size();
+        if (found_.region_of[seed] != PlanarRegions::kNone) return;
+        begin(seed);
+        for (std::size_t done = 0; done < region_.size();) {
+            for (const std::size_t ring = region_.size(); done < ring; ++done) {
+                if (surroundings_.is_flat(region_[done])) take_in_around(region_[done]);
+            }
+            if (region_.size() >= refit_at_) fit();
+        }
+        if (region_.size() >= kAround && add_if_planar()) return;
+        for (const std::uint32_t point : region_) {
+            found_.region_of[point] = PlanarRegions::kNone;
         }
     }
 
-    const Plane& plane() const { return plane_; }
+  private:
+    std::uint32_t number() const { return static_cast<std::uint32_t>(found_.regions.size()); }
+
+    void begin(std::uint32_t seed)
+    {
+        constexpr double kSparser = 2.0; // than at the seed
+        region_ = {seed};
+        found_.region_of[seed] = number();
+        plane_.normal = towards_views(scene_, seed);
+        set_plane(fit_plane(scene_.positions, surroundings_.around(seed)).plane);
+        plane_.center = scene_.positions[seed];
+        most_spacing_ = kSparser * surroundings_.spacings()[seed];
+        refit_at_ = 2 * kAround;
+    }
+
+    /// Fits the plane anew and says how far its points lie from it: the root of the mean square.
+    double fit()
+    {
+        const FittedPlane fitted = fit_plane(scene_.positions, region_);
+        set_plane(fitted.plane);
+        refit_at_ = 2 * region_.size();
+        return fitted.deviation;
+    }
 
     void set_plane(Plane plane)
     {
@@ -184,48 +190,117 @@ class FlatRegion {
         plane_ = plane;
     }
 
-  private:
-    void begin(std::size_t seed)
+    void take_in_around(std::uint32_t point)
     {
-        constexpr double kSparser = 2.0; // than at the seed
-        progress_.tell(0.0);
-        plane_.normal = towards_views(scene_, seed);
-        set_plane(fit_plane(scene_.positions, surroundings_.around[seed]).plane);
-        plane_.center = scene_.positions[seed];
-        most_spacing_ = kSparser * surroundings_.spacings[seed];
-        refit_at_ = 2 * kAround;
+        for (const std::uint32_t other : surroundings_.around(point)) {
+            if (found_.region_of[other] != PlanarRegions::kNone || !is_within(other, kThickness))
+                continue;
+            found_.region_of[other] = number();
+            region_.push_back(other);
+        }
+    }
+
+    /// Whether a point lies so many spacings from the plane at most, and is looked at from the same
+    /// side.
+    bool is_within(std::uint32_t point, double spacings) const
+    {
+        const double spacing = std::min(surroundings_.spacings()[point], most_spacing_);
+        return std::abs(plane_.height_of(scene_.positions[point])) <= spacings * spacing &&
+               towards_views(scene_, point).dot(plane_.normal) > 0.0;
+    }
+
+    bool add_if_planar()
+    {
+        std::ranges::sort(region_);
+        surroundings_.look_at(region_);
+        std::vector<double> spacings = values_at(region_, surroundings_.spacings());
+        const double spacing = median_in_place(spacings);
+        if (fit() > kPlanar * spacing || goes_on_beside()) return false;
+        found_.regions.emplace_back(scene_, plane_, spacing, region_);
+        return true;
+    }
+
+    /// Whether many points lie right beside the slab.
+    bool goes_on_beside() const
+    {
+        constexpr double kWider = 3.0;
+        constexpr std::size_t kOneIn = 5;
+        std::size_t all = 0;
+        std::size_t beside = 0;
+        for (const std::uint32_t point : region_) {
+            for (const std::uint32_t other : surroundings_.around(point)) {
+                const bool is_own = found_.region_of[other] == number();
+                if (!is_own && !is_within(other, kWider * kThickness)) continue;
+                ++all;
+                beside += is_own ? 0 : 1;
+            }
+        }
+        return kOneIn * beside > all;
     }
 
     const Scene& scene_;
-    const Surroundings& surroundings_;
-    Progress progress_;
+    Surroundings& surroundings_;
+    PlanarRegions& found_;
     Plane plane_;
+    std::vector<std::uint32_t> region_;
     double most_spacing_ = 0.0;
     std::size_t refit_at_ = 0;
 };
 
 } // namespace
 
-PlanarRegions planar_regions(const Scene& scene, const NearestNeighbors& tree,
-                             const Progress& progress)
+PlanarRegion::PlanarRegion(const Scene& scene, const Plane& fitted, double median_spacing,
+                           std::vector<std::uint32_t> of)
+    : plane(fitted),
+      spacing(median_spacing),
+      points(std::move(of)),
+      positions(values_at(points, scene.positions)),
+      tree(positions)
 {
-    PlanarRegions found;
+}
+
+std::vector<std::uint32_t> PlanarRegion::nearest(const Vector3d& place, std::size_t count) const
+{
+    constexpr double kRounding = 1e-6; // of points in rows and columns many are equally far
+    constexpr std::size_t kEqual = 4;
+    std::vector<PointTree::Near> near;
+    tree.find_nearest(place, count + kEqual, near);
+    const double most = near[std::min(count, near.size()) - 1].distance + kRounding * spacing;
+    std::vector<std::uint32_t> found;
+    for (const PointTree::Near& point : near) {
+        if (point.distance <= most) found.push_back(points[point.point]);
+    }
+    return found;
+}
+
+bool PlanarRegion::has_point_near(const Vector3d& place, double distance) const
+{
+    constexpr double kDone = -1.0; // no box is so near
+    double most = distance;
+    tree.visit_near(place, {0, 0}, most, [&](std::size_t i) {
+        if ((positions[i] - place).norm() <= distance) most = kDone;
+    });
+    return most == kDone;
+}
+
+PlanarRegions::PlanarRegions(const Scene& scene)
+    : tree(scene.positions), region_of(scene.num_points(), kNone)
+{
+}
+
+PlanarRegions planar_regions(const Scene& scene, const Progress& progress)
+{
+    PlanarRegions found(scene);
     if (scene.num_points() <= kAround) return found;
-    Surroundings surroundings(scene, tree, progress.part(0.0, 0.6));
-    const std::vector<std::size_t> seeds = surroundings.seeds();
-    Neighbors neighbors(surroundings.around);
-    FlatRegion flat(scene, surroundings, progress.part(0.6, 1.0));
-    CGAL::Shape_detection::Region_growing growing(scene.positions, neighbors, flat,
-                                                  CGAL::make_property_map(seeds));
-    growing.detect(boost::make_function_output_iterator([&](std::vector<std::size_t> points) {
-        std::ranges::sort(points);
-        flat.set_plane(fit_plane(scene.positions, points).plane);
-        std::vector<double> spacings = values_at(points, surroundings.spacings);
-        found.regions.push_back(
-            {flat.plane(), median_in_place(spacings), {points.begin(), points.end()}});
-    }));
-    found.spacings = std::move(surroundings.spacings);
-    found.is_one_sided = std::move(surroundings.is_one_sided);
+    Surroundings surroundings(scene, found.tree, progress.part(0.0, 0.6));
+    Growth growth(scene, surroundings, found);
+    const std::vector<std::uint32_t> seeds = surroundings.flat_points();
+    ProgressCount done(progress.part(0.6, 1.0), seeds.size());
+    for (const std::uint32_t seed : seeds) {
+        growth.grow(seed);
+        done.add(1);
+    }
+    found.spacings = surroundings.spacings();
     return found;
 }
 

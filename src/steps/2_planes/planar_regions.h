@@ -1,45 +1,71 @@
 #pragma once
 
 #include "base/progress.h"
-#include "geometry/nearest_neighbors.h"
+#include "geometry/point_tree.h"
+#include "steps/2_planes/plane_frame.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace vcarve {
 
-/// A plane.
-struct Plane {
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< one of its points
-    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit
-};
-
-/// Points that lie on a plane.
+/// Points that lie on a plane. It stays where it is made, since its tree refers to the positions.
 struct PlanarRegion {
-    Plane plane;                       ///< its normal looks to the views that saw the points
-    double spacing = 0.0;              ///< how far its points stand apart: the median
-    std::vector<std::uint32_t> points; ///< ascending
+    Plane plane;                            ///< its normal looks to the views that saw the points
+    double spacing;                         ///< how far its points stand apart: the median
+    std::vector<std::uint32_t> points;      ///< ascending
+    std::vector<Eigen::Vector3d> positions; ///< of these
+    PointTree tree;                         ///< of the positions
+
+    PlanarRegion(const Scene& scene, const Plane& fitted, double median_spacing,
+                 std::vector<std::uint32_t> of);
+    PlanarRegion(const PlanarRegion&) = delete;
+    PlanarRegion& operator=(const PlanarRegion&) = delete;
+
+    /// The points nearest to a place: so many, and those as near as the last of them.
+    std::vector<std::uint32_t> nearest(const Eigen::Vector3d& place, std::size_t count) const;
+    /// Whether a point is no farther than so far from a place.
+    bool has_point_near(const Eigen::Vector3d& place, double distance) const;
 };
 
-/// The flat parts of a scene.
+/// The planar regions of a scene, and whose its points are. Keeps a reference to the positions.
 struct PlanarRegions {
-    std::vector<PlanarRegion> regions; ///< the flattest first
-    std::vector<double> spacings;      ///< per point: how far its 12 nearest stand apart
-    std::vector<char> is_one_sided; ///< per point: whether these leave 150 degrees free around it
+    static constexpr std::uint32_t kNone = 0xffffffffU;
+
+    PointTree tree;                       ///< of all points
+    std::deque<PlanarRegion> regions;     ///< the flattest first
+    std::vector<std::uint32_t> region_of; ///< per point; kNone where it is of none
+    std::vector<double> spacings;         ///< per point: how far those around it stand apart
+
+    explicit PlanarRegions(const Scene& scene);
 };
 
-/// Parts of the surface that are flat, by growing regions from the flattest points on (Poppinga,
-/// Vaskevicius, Birk & Pathak 2008, by CGAL). A region takes in the neighbours of its points, of
-/// the 12 nearest, that its views look at from the same side and that lie no farther from its plane
-/// than a seventh of the spacing around; its plane is fitted anew whenever its points have doubled.
-/// Regions of fewer than 12 points are none. The tree is of the scene's points. The result does not
-/// depend on the number of threads nor on where the scene lies or how large it is, up to rounding.
-/// Cost: O(points log points + sights), the search for neighbours in parallel, and 65 bytes a
-/// point.
-PlanarRegions planar_regions(const Scene& scene, const NearestNeighbors& tree,
-                             const Progress& progress);
+/// The parts of the surface that are planar, by growing regions from the flattest points on
+/// (Poppinga, Vaskevicius, Birk & Pathak 2008). The points of the scene must follow each other in
+/// space.
+///
+/// A point is flat if the 12 points nearest to it and it lie within a tenth of their spacing of a
+/// plane (root of the mean square). From flat points on a region takes in those of the 12 that its
+/// views look at from the same side and that lie no farther from its plane than a seventh of the
+/// spacing around; the plane is fitted anew whenever the points have doubled. Points that are not
+/// flat, as those next to a corner, belong to a region but do not lead on.
+///
+/// Such a slab can be laid through anything that has points enough: through noise, of which it is
+/// a slice, evenly filled, and along something round, which bends out of it. In both many points
+/// lie right beside it. So 12 points or more are a region if they lie within .06 spacings of its
+/// plane (root of the mean square; evenly filled slabs have .08), and of the points around them
+/// that lie in a slab three times as thick at least four in five are its own.
+///
+/// Every fourth point is looked at first, and others only beside flat ones; what is not looked at
+/// has the spacing of the point before it that is. So where nothing is flat little is asked. The
+/// result does not depend on the number of threads nor on where the scene lies or how large it is,
+/// up to rounding. Cost: O(points log points + sights), the search for neighbours in parallel, and
+/// 90 bytes a point.
+PlanarRegions planar_regions(const Scene& scene, const Progress& progress);
 
 } // namespace vcarve

@@ -1,13 +1,20 @@
 #pragma once
 
-#include "steps/2_planes/planar_regions.h"
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cmath>
 
 namespace vcarve {
+
+/// A plane.
+struct Plane {
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< one of its points
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit
+
+    /// How far before it a place lies; negative behind it.
+    double height_of(const Eigen::Vector3d& place) const { return normal.dot(place - center); }
+};
 
 /// Coordinates in a plane.
 class PlaneFrame {

@@ -1,5 +1,6 @@
 #include "steps/1_points/spatial_sort.h"
 #include "steps/2_planes/planar_regions.h"
+#include "support/noisy_ground.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -38,7 +41,7 @@ std::vector<MadePoint> wall(double z, double spacing, const std::vector<std::uin
 
 PlanarRegions regions_of(const Scene& scene)
 {
-    return planar_regions(scene, NearestNeighbors(scene.positions), {});
+    return planar_regions(scene, {});
 }
 
 Scene sorted(std::vector<MadePoint> points, const std::vector<MadePoint>& more = {})
@@ -125,24 +128,96 @@ TEST(PlanarRegions, HaveTwelvePointsOrMore)
     EXPECT_TRUE(regions_of(sorted(points)).regions.empty());
     points.resize(12);
     EXPECT_TRUE(regions_of(sorted(points)).regions.empty());
-    EXPECT_TRUE(regions_of(sorted(points)).spacings.empty());
 }
 
-TEST(PlanarRegions, TellWhichPointsHaveNeighborsToOneSide)
+/// How many points of a scene are of regions, as a share.
+double share_in_regions(const Scene& scene)
+{
+    const PlanarRegions found = regions_of(scene);
+    const auto out = std::ranges::count(found.region_of, PlanarRegions::kNone);
+    return 1.0 - static_cast<double>(out) / static_cast<double>(scene.num_points());
+}
+
+/// Points all around a ball of radius 1, each as far from its middle as height() says, which are
+/// seen from outside.
+template <typename Height>
+Scene round_thing(std::size_t count, const Height& height)
+{
+    const std::vector<Vector3d> centers = {{6, 0, 0},  {-6, 0, 0}, {0, 6, 0},
+                                           {0, -6, 0}, {0, 0, 6},  {0, 0, -6}};
+    std::vector<MadePoint> points(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double z = 2.0 * random_number(3, 2 * i) - 1.0;
+        const double turn = 2.0 * std::acos(-1.0) * random_number(3, 2 * i + 1);
+        const double radius = std::sqrt(1.0 - z * z);
+        const Vector3d out(radius * std::cos(turn), radius * std::sin(turn), z);
+        points[i].position = height(i, out) * out;
+        for (std::uint32_t view = 0; view < centers.size(); ++view) {
+            if (out.dot(centers[view]) > 2.0) points[i].views.push_back(view);
+        }
+    }
+    return spatial_sort(make_scene(centers, points));
+}
+
+TEST(PlanarRegions, AreNoSlicesOfNoise)
+{
+    // Off by a third of the spacing, .025 here.
+    const Scene rough = round_thing(20'000, [](std::size_t i, const Vector3d& /*out*/) {
+        return 1.0 + 0.008 * normal_number(i);
+    });
+    EXPECT_LT(share_in_regions(rough), 0.01);
+}
+
+TEST(PlanarRegions, AreNoPiecesOfWhatIsRound)
+{
+    const Scene smooth =
+        round_thing(5000, [](std::size_t /*i*/, const Vector3d& /*out*/) { return 1.0; });
+    EXPECT_LT(share_in_regions(smooth), 0.05);
+}
+
+TEST(PlanarRegions, AreFoundAmidWhatIsRough)
+{
+    // A rough ball behind a wall.
+    std::vector<MadePoint> ball;
+    for (std::size_t i = 0; i < 4000; ++i) {
+        const Vector3d at(normal_number(3 * i), normal_number(3 * i + 1), normal_number(3 * i + 2));
+        ball.push_back({Vector3d(0, 0, 3) + 0.3 * at, kBefore});
+    }
+    const Scene scene = sorted(wall(0.5, 0.1, kBefore), ball);
+    const PlanarRegions found = regions_of(scene);
+    ASSERT_FALSE(found.regions.empty());
+    EXPECT_NEAR(static_cast<double>(found.regions[0].points.size()), 441.0, 5.0);
+    EXPECT_LT(share_in_regions(scene), 0.12);
+}
+
+TEST(PlanarRegions, KnowTheirNearestPoints)
 {
     const Scene scene = sorted(wall(0.5, 0.1, kBefore));
     const PlanarRegions found = regions_of(scene);
-    ASSERT_EQ(found.is_one_sided.size(), scene.num_points());
-    const auto is_inner = [](const Vector3d& at) {
-        return at.head<2>().cwiseAbs().maxCoeff() < 0.95;
-    };
-    std::array<std::array<int, 2>, 2> counts{}; // inner, one-sided
-    for (std::size_t i = 0; i < scene.num_points(); ++i) {
-        ++counts[is_inner(scene.positions[i]) ? 1 : 0][found.is_one_sided[i] != 0 ? 1 : 0];
+    ASSERT_EQ(found.regions.size(), 1U);
+    const PlanarRegion& region = found.regions[0];
+    for (const Vector3d& place : {Vector3d(0.03, 0.02, 0.5), Vector3d(2, 1, 0)}) {
+        std::vector<std::uint32_t> expected = region.points;
+        const auto distance = [&](std::uint32_t i) { return (scene.positions[i] - place).norm(); };
+        std::ranges::sort(expected, {}, distance);
+        expected.resize(3);
+        EXPECT_EQ(region.nearest(place, 3), expected);
+        const double least = distance(expected[0]);
+        EXPECT_TRUE(region.has_point_near(place, 1.001 * least));
+        EXPECT_FALSE(region.has_point_near(place, 0.999 * least));
     }
-    EXPECT_EQ(counts[1][1], 0);
-    EXPECT_EQ(counts[0][0] + counts[0][1], 80) << "of 21 by 21";
-    EXPECT_GE(counts[0][1], 72);
+}
+
+TEST(PlanarRegions, TellAllPointsThatAreEquallyNear)
+{
+    std::vector<MadePoint> points;
+    for (int i = 0; i < 100; ++i) {
+        points.push_back({{0.1 * (i % 10), 0.1 * (i / 10), 0.5}, kBefore});
+    }
+    const PlanarRegions found = regions_of(sorted(points));
+    ASSERT_EQ(found.regions.size(), 1U);
+    EXPECT_EQ(found.regions[0].nearest({0.45, 0.45, 0.5}, 2).size(), 4U);
+    EXPECT_EQ(found.regions[0].nearest({0.4, 0.4, 0.5}, 1).size(), 1U);
 }
 
 TEST(PlanarRegions, KeepTheirPointsToThemselves)

@@ -1,5 +1,5 @@
 #include "steps/1_points/spatial_sort.h"
-#include "steps/2_planes/crease_points.h"
+#include "steps/2_planes/added_points.h"
 #include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>
@@ -16,20 +16,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using namespace flat_scenes;
 
-/// The wall z = 0, from so far above the floor y = 1 on.
-std::vector<MadePoint> wall(double gap, const Views& views = kAll)
-{
-    return flat({-1.0, -0.6}, {1.0, 1.0 - gap}, views,
-                [](double u, double v) { return Vector3d(u, v, 0.0); });
-}
-
-/// The floor, from so far before the wall on.
-std::vector<MadePoint> ground(double gap, const Views& views = kAll)
-{
-    return flat({-1.0, gap}, {1.0, 1.6}, views,
-                [](double u, double v) { return Vector3d(u, 1.0, -v); });
-}
-
 /// The points of a scene that are none of the model's.
 std::vector<std::size_t> added_points(const Scene& scene)
 {
@@ -41,7 +27,7 @@ const CreaseOptions kOnCreases = {.border_gap = 0.0, .blank_step = 0.0};
 
 std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnCreases)
 {
-    return add_crease_points(scene, options).added;
+    return add_points(scene, options).added;
 }
 
 /// The distance to the nearest of some other points.
@@ -56,13 +42,13 @@ double distance_to_others(const Scene& scene, std::size_t point,
     return least;
 }
 
-TEST(CreasePoints, AreAddedAlongTheFootOfAWall)
+TEST(CreaseCandidates, AreAddedAlongTheFootOfAWall)
 {
     const Scene before = together({wall(0.35), ground(0.35)});
     Scene scene = before;
-    const CreaseReport report = add_crease_points(scene, kOnCreases);
+    const AddedPoints report = add_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
-    EXPECT_EQ(report.planes, 2);
+    EXPECT_EQ(report.regions, 2);
     EXPECT_EQ(report.added, std::ssize(added));
     EXPECT_EQ(scene.num_points(), before.num_points() + added.size());
     // 2 long, a point every .7 of what is estimated for the spacing
@@ -72,10 +58,10 @@ TEST(CreasePoints, AreAddedAlongTheFootOfAWall)
     EXPECT_TRUE(scene.normals.empty());
 }
 
-TEST(CreasePoints, StandOnTheCreaseApartFromEachOther)
+TEST(CreaseCandidates, StandOnTheCreaseApartFromEachOther)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
-    add_crease_points(scene, kOnCreases);
+    add_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     for (const std::size_t i : added) {
         EXPECT_NEAR(scene.positions[i].y(), 1.0, 0.002 * kSpacing);
@@ -87,41 +73,7 @@ TEST(CreasePoints, StandOnTheCreaseApartFromEachOther)
     }
 }
 
-TEST(CreasePoints, LeaveTheModelsPointsAsTheyAre)
-{
-    const Scene before = together({wall(0.35), ground(0.35)});
-    Scene scene = before;
-    add_crease_points(scene, kOnCreases);
-    EXPECT_EQ(spatial_sort(scene).positions, scene.positions);
-    std::size_t kept = 0;
-    for (std::size_t old = 0; old < before.num_points(); ++old) {
-        const auto at = std::ranges::find(scene.point_ids, before.point_ids[old]);
-        ASSERT_NE(at, scene.point_ids.end());
-        const auto now = static_cast<std::size_t>(at - scene.point_ids.begin());
-        kept += scene.positions[now] == before.positions[old] &&
-                scene.colors[now] == before.colors[old];
-    }
-    EXPECT_EQ(kept, before.num_points());
-}
-
-TEST(CreasePoints, HaveTheColourOfAPointBesideThem)
-{
-    Scene scene = together({wall(0.35), ground(0.35)});
-    for (std::size_t i = 0; i < scene.num_points(); ++i) {
-        const bool is_left = scene.positions[i].x() < 0.0;
-        scene.colors[i] = is_left ? Color{255, 0, 0} : Color{0, 255, 0};
-        scene.errors_px[i] = is_left ? 0.25 : 0.75;
-    }
-    add_crease_points(scene, kOnCreases);
-    for (const std::size_t i : added_points(scene)) {
-        if (std::abs(scene.positions[i].x()) < 3 * kSpacing) continue;
-        const bool is_left = scene.positions[i].x() < 0.0;
-        EXPECT_EQ(scene.colors[i], (is_left ? Color{255, 0, 0} : Color{0, 255, 0}));
-        EXPECT_EQ(scene.errors_px[i], is_left ? 0.25 : 0.75);
-    }
-}
-
-TEST(CreasePoints, GoAsFarAsTheReach)
+TEST(CreaseCandidates, GoAsFarAsTheReach)
 {
     // The spacing is estimated to be .1; both gaps are 8 of it, or 20.
     EXPECT_GT(num_added(together({wall(0.8), ground(0.8)})), 10);
@@ -139,7 +91,7 @@ TEST(CreasePoints, GoAsFarAsTheReach)
               0);
 }
 
-TEST(CreasePoints, NeedPointsOfBothPlanesToBothSides)
+TEST(CreaseCandidates, NeedPointsOfBothPlanesToBothSides)
 {
     // The floor is known to the right only, the wall to the left of .5 only.
     auto right = ground(0.35);
@@ -147,7 +99,7 @@ TEST(CreasePoints, NeedPointsOfBothPlanesToBothSides)
     auto left = wall(0.35);
     std::erase_if(left, [](const MadePoint& p) { return p.position.x() > 0.5; });
     Scene scene = together({left, right});
-    add_crease_points(scene, kOnCreases);
+    add_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(added.size(), 4U);
     for (const std::size_t i : added) {
@@ -156,15 +108,15 @@ TEST(CreasePoints, NeedPointsOfBothPlanesToBothSides)
     }
 }
 
-TEST(CreasePoints, LeaveGapsWhereOnePlaneIsNotKnown)
+TEST(CreaseCandidates, LeaveGapsWhereOnePlaneIsNotKnown)
 {
     auto floor = ground(0.35); // which goes around what is not known
     std::erase_if(floor, [](const MadePoint& p) {
         return std::abs(p.position.x()) < 0.65 && p.position.z() > -1.1;
     });
     Scene scene = together({wall(0.35), floor});
-    add_crease_points(
-        scene, {.reach = 6.0, .border_gap = 0.0, .blank_step = 0.0}); // .6 along the crease, too
+    add_points(scene,
+               {.reach = 6.0, .border_gap = 0.0, .blank_step = 0.0}); // .6 along the crease, too
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(added.size(), 6U);
     for (const std::size_t i : added) {
@@ -172,7 +124,7 @@ TEST(CreasePoints, LeaveGapsWhereOnePlaneIsNotKnown)
     }
 }
 
-TEST(CreasePoints, OfTwoCreasesSideBySideStandApart)
+TEST(CreaseCandidates, OfTwoCreasesSideBySideStandApart)
 {
     // Two walls one behind the other by less than points of a crease stand apart
     const auto part = [](double low, double high, double z) {
@@ -180,8 +132,8 @@ TEST(CreasePoints, OfTwoCreasesSideBySideStandApart)
                     [=](double u, double v) { return Vector3d(u, v, z); });
     };
     Scene scene = together({part(-1.0, 0.4, 0.0), part(-0.4, 1.0, 0.02), ground(0.15)});
-    const CreaseReport report = add_crease_points(scene, kOnCreases);
-    EXPECT_GE(report.planes, 3);
+    const AddedPoints report = add_points(scene, kOnCreases);
+    EXPECT_GE(report.regions, 3);
     const std::vector<std::size_t> added = added_points(scene);
     const auto is_behind = [&](std::size_t i) { return scene.positions[i].z() > 0.01; };
     EXPECT_GT(std::ranges::count_if(added, is_behind), 4);
@@ -191,7 +143,7 @@ TEST(CreasePoints, OfTwoCreasesSideBySideStandApart)
     }
 }
 
-TEST(CreasePoints, AreSeenByTheViewsOfAllPointsEquallyNear)
+TEST(CreaseCandidates, AreSeenByTheViewsOfAllPointsEquallyNear)
 {
     // In the middle the column there is next, and after it those to both sides.
     std::vector<MadePoint> points;
@@ -203,7 +155,7 @@ TEST(CreasePoints, AreSeenByTheViewsOfAllPointsEquallyNear)
         }
     }
     Scene scene = together({points});
-    add_crease_points(scene, kOnCreases);
+    add_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     const auto middle = std::ranges::find_if(
         added, [&](std::size_t i) { return std::abs(scene.positions[i].x()) < 0.01; });
@@ -211,7 +163,7 @@ TEST(CreasePoints, AreSeenByTheViewsOfAllPointsEquallyNear)
     EXPECT_EQ(track_of(scene, *middle), kAll);
 }
 
-TEST(CreasePoints, AreNotAddedWhereOthersStandBetween)
+TEST(CreaseCandidates, AreNotAddedWhereOthersStandBetween)
 {
     // A rough hedge along the foot of the wall.
     std::mt19937 random(6);
@@ -233,7 +185,7 @@ std::vector<MadePoint> beneath()
     });
 }
 
-TEST(CreasePoints, AreNotAddedWhereOneLooksThrough)
+TEST(CreaseCandidates, AreNotAddedWhereOneLooksThrough)
 {
     const auto floor = ground(0.35);
     const std::int64_t without = num_added(together({wall(0.8), floor}));
@@ -243,7 +195,7 @@ TEST(CreasePoints, AreNotAddedWhereOneLooksThrough)
     auto half = beneath();
     std::erase_if(half, [](const MadePoint& p) { return p.position.x() < 0.0; });
     Scene scene = together({wall(0.8), floor, half});
-    add_crease_points(scene, kOnCreases);
+    add_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(std::ssize(added), without / 3);
     for (const std::size_t i : added) {
@@ -251,22 +203,14 @@ TEST(CreasePoints, AreNotAddedWhereOneLooksThrough)
     }
 }
 
-TEST(CreasePoints, AreAddedWhereFewerLookThroughThanSeeThem)
+TEST(CreaseCandidates, AreAddedWhereFewerLookThroughThanSeeThem)
 {
     const std::vector<std::vector<MadePoint>> parts = {
         wall(0.8), ground(0.35), {{{0.2, 0.6, 1.5}, {0, 1}}, {{-0.5, 0.7, 1.5}, {1, 2}}}};
     EXPECT_EQ(num_added(together(parts)), num_added(together({wall(0.8), ground(0.35)})));
 }
 
-TEST(CreasePoints, AreNotAddedWherePointsAreAlready)
-{
-    Scene scene = together({wall(0.35), ground(0.35)});
-    const std::int64_t first = add_crease_points(scene, kOnCreases).added;
-    EXPECT_GT(first, 20);
-    EXPECT_LE(num_added(scene), first / 10);
-}
-
-TEST(CreasePoints, AreNotAddedWherePlanesHardlyBend)
+TEST(CreaseCandidates, AreNotAddedWherePlanesHardlyBend)
 {
     const auto slope = [](double degrees) {
         const double angle = degrees / 180.0 * std::acos(-1.0);
@@ -280,27 +224,27 @@ TEST(CreasePoints, AreNotAddedWherePlanesHardlyBend)
     EXPECT_GT(num_added(together({upper, slope(35.0)})), 10);
 }
 
-TEST(CreasePoints, AreNotAddedOnRoundThings)
+TEST(CreaseCandidates, AreNotAddedOnRoundThings)
 {
     EXPECT_EQ(num_added(together({ball(4000, 0.0)})), 0);
 }
 
-TEST(CreasePoints, AreSeenFromBeforeBothPlanesOfACorner)
+TEST(CreaseCandidates, AreSeenFromBeforeBothPlanesOfACorner)
 {
     // The last view saw the wall's points, but stands below the floor.
     std::vector<Vector3d> centers = kCenters;
     centers.emplace_back(0.0, 2.0, -6.0);
     Scene scene = together({wall(0.35, {0, 1, 3}), ground(0.35)}, centers);
-    ASSERT_GT(add_crease_points(scene, kOnCreases).added, 10);
+    ASSERT_GT(add_points(scene, kOnCreases).added, 10);
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), kAll);
     }
     // Only one stands before both.
     Scene hidden = together({wall(0.35, {2, 3}), ground(0.35, {2})}, centers);
-    EXPECT_EQ(add_crease_points(hidden, kOnCreases).added, 0);
+    EXPECT_EQ(add_points(hidden, kOnCreases).added, 0);
 }
 
-TEST(CreasePoints, AreSeenFromBeforeOnePlaneOfAnEdge)
+TEST(CreaseCandidates, AreSeenFromBeforeOnePlaneOfAnEdge)
 {
     // A box's edge along y, seen from both sides of it by some views each.
     const std::vector<Vector3d> centers = {{-3, 0, -6}, {-3, 0.2, -6}, {3, 0, -6}, {3, 0.2, -6}};
@@ -309,33 +253,26 @@ TEST(CreasePoints, AreSeenFromBeforeOnePlaneOfAnEdge)
                     [=](double u, double v) { return Vector3d(slope * v, u, 3.0 * v); });
     };
     Scene scene = together({side(-1.0, {0, 1}), side(1.0, {2, 3})}, centers);
-    ASSERT_GT(add_crease_points(scene, kOnCreases).added, 5);
+    ASSERT_GT(add_points(scene, kOnCreases).added, 5);
     const Views all = {0, 1, 2, 3};
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), all);
     }
 }
 
-TEST(CreasePoints, AreSeenWithinImagesOnly)
+TEST(CreaseCandidates, AreSeenWithinImagesOnly)
 {
     // The first view's image ends above the floor's edge: it saw the wall only.
     std::vector<Vector3d> centers = kCenters;
     centers[0] = {0.0, -2.2, -6.0};
     Scene scene = together({wall(0.35), ground(0.35, {1, 2})}, centers);
-    ASSERT_GT(add_crease_points(scene, kOnCreases).added, 10);
+    ASSERT_GT(add_points(scene, kOnCreases).added, 10);
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), Views({1, 2}));
     }
 }
 
-TEST(CreasePoints, AreNotAddedToDenseClouds)
-{
-    Scene scene = together({wall(0.35), ground(0.35)});
-    scene.errors_px[3] = -1.0;
-    EXPECT_EQ(num_added(scene), 0);
-}
-
-TEST(CreasePoints, AreNotAddedToFewPoints)
+TEST(CreaseCandidates, AreNotAddedToFewPoints)
 {
     for (int count = 0; count < 14; ++count) {
         std::vector<MadePoint> points(static_cast<std::size_t>(count));
@@ -357,33 +294,33 @@ double farthest_off(const Scene& there, const Scene& here, double scale, const V
     return most;
 }
 
-TEST(CreasePoints, AreTheSameInOtherUnitsAndElsewhere)
+TEST(CreaseCandidates, AreTheSameInOtherUnitsAndElsewhere)
 {
     const Scene scene = together({wall(0.35), ground(0.35)});
     Scene here = scene;
-    add_crease_points(here, kOnCreases);
+    add_points(here, kOnCreases);
     for (const double scale : {1.0 / 1024.0, 1e-3, 37.3, 1e6}) {
         const Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
         Scene there = moved(scene, scale, Quaterniond::Identity(), shift);
-        add_crease_points(there, kOnCreases);
+        add_points(there, kOnCreases);
         ASSERT_EQ(there.point_ids, here.point_ids) << scale;
         EXPECT_EQ(there.tracks.views, here.tracks.views);
         EXPECT_LT(farthest_off(there, here, scale, shift), 1e-12 * scale);
     }
 }
 
-TEST(CreasePoints, AreAsManyInASceneThatIsTurned)
+TEST(CreaseCandidates, AreAsManyInASceneThatIsTurned)
 {
     const Scene scene = together({wall(0.35), ground(0.35)});
     const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
     EXPECT_EQ(num_added(moved(scene, 1.0, turn, Vector3d::Zero())), num_added(scene));
 }
 
-TEST(CreasePoints, OfOneCreaseLieOnNoPlane)
+TEST(CreaseCandidates, OfOneCreaseLieOnNoPlane)
 {
     // Along a hull rounding would tell which cells they make.
     Scene scene = together({wall(0.35), ground(0.35)});
-    add_crease_points(scene, kOnCreases);
+    add_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
     ASSERT_GT(added.size(), 8U);
     for (std::size_t i = 0; i + 3 < added.size(); ++i) {

@@ -1,4 +1,4 @@
-#include "steps/2_planes/crease_points.h"
+#include "steps/2_planes/added_points.h"
 #include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>
@@ -64,27 +64,26 @@ std::vector<std::size_t> added_points(const Scene& scene)
 
 std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnBorders)
 {
-    return add_crease_points(scene, options).along_borders;
+    return add_points(scene, options).added;
 }
 
-TEST(BorderPoints, AreAddedAroundABoard)
+TEST(BorderCandidates, AreAddedAroundABoard)
 {
     const Scene before = together({board(), seen_backdrop()});
     Scene scene = before;
-    const CreaseReport report = add_crease_points(scene, kOnBorders);
+    const AddedPoints report = add_points(scene, kOnBorders);
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_EQ(report.added, std::ssize(added));
-    EXPECT_EQ(report.along_borders, std::ssize(added));
     EXPECT_EQ(scene.num_points(), before.num_points() + added.size());
     // Of the border, 3.6 long, most of the length has points.
     EXPECT_GT(added.size(), 20U);
     EXPECT_LT(added.size(), 70U);
 }
 
-TEST(BorderPoints, StandInThePlaneNextToTheBoard)
+TEST(BorderCandidates, StandInThePlaneNextToTheBoard)
 {
     Scene scene = together({board(), seen_backdrop()});
-    add_crease_points(scene, kOnBorders);
+    add_points(scene, kOnBorders);
     for (const std::size_t i : added_points(scene)) {
         const Vector3d& at = scene.positions[i];
         EXPECT_LT(std::abs(at.z()), 0.01 * kSpacing);
@@ -94,20 +93,20 @@ TEST(BorderPoints, StandInThePlaneNextToTheBoard)
     }
 }
 
-TEST(BorderPoints, AreSeenByWhoSawThePointsBesideThem)
+TEST(BorderCandidates, AreSeenByWhoSawThePointsBesideThem)
 {
     Scene scene = together({board(), seen_backdrop()});
-    add_crease_points(scene, kOnBorders);
+    add_points(scene, kOnBorders);
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), kAll);
         EXPECT_EQ(scene.errors_px[i], 0.5);
     }
 }
 
-TEST(BorderPoints, StandOnAllSides)
+TEST(BorderCandidates, StandOnAllSides)
 {
     Scene scene = together({board(), seen_backdrop()});
-    add_crease_points(scene, kOnBorders);
+    add_points(scene, kOnBorders);
     std::array<int, 4> sides{};
     for (const std::size_t i : added_points(scene)) {
         const Vector3d& at = scene.positions[i];
@@ -119,11 +118,11 @@ TEST(BorderPoints, StandOnAllSides)
     EXPECT_GE(std::ranges::min(sides), 3);
 }
 
-TEST(BorderPoints, StandApart)
+TEST(BorderCandidates, StandApart)
 {
     // Some sights pass so close to the board that the place would be at its point.
     Scene scene = together({board(), seen_backdrop(0.02)});
-    add_crease_points(scene, kOnBorders);
+    add_points(scene, kOnBorders);
     const std::vector<std::size_t> added = added_points(scene);
     for (const std::size_t i : added) {
         for (std::size_t other = 0; other < scene.num_points(); ++other) {
@@ -135,14 +134,14 @@ TEST(BorderPoints, StandApart)
     }
 }
 
-TEST(BorderPoints, AreNoneWhereNoSightPasses)
+TEST(BorderCandidates, AreNoneWhereNoSightPasses)
 {
     EXPECT_EQ(num_added(together({board()})), 0);
     // Only to the right of it
     auto right = seen_backdrop();
     std::erase_if(right, [](const MadePoint& point) { return point.position.x() < 0.7; });
     Scene scene = together({board(), right});
-    add_crease_points(scene, kOnBorders);
+    add_points(scene, kOnBorders);
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GE(added.size(), 4U);
     for (const std::size_t i : added) {
@@ -150,7 +149,7 @@ TEST(BorderPoints, AreNoneWhereNoSightPasses)
     }
 }
 
-TEST(BorderPoints, GoAsFarAsTheGap)
+TEST(BorderCandidates, GoAsFarAsTheGap)
 {
     // Nothing is seen past the board within 2.5 spacings of it.
     const auto far = seen_backdrop(0.25);
@@ -162,7 +161,7 @@ TEST(BorderPoints, GoAsFarAsTheGap)
               0);
 }
 
-TEST(BorderPoints, AreNoneOfFewPoints)
+TEST(BorderCandidates, AreNoneOfFewPoints)
 {
     auto small = board();
     std::erase_if(small, [](const MadePoint& point) {
@@ -181,13 +180,13 @@ TEST(BorderPoints, AreNoneOfFewPoints)
     EXPECT_EQ(num_added(together({small, far})), 0);
 }
 
-TEST(BorderPoints, AreNoneWhereTheSurfaceGoesOn)
+TEST(BorderCandidates, AreNoneWhereTheSurfaceGoesOn)
 {
     // Sights pass close to a ball's flat parts, but the ball goes on there.
     EXPECT_EQ(num_added(together({ball(8000, -0.2)})), 0);
 }
 
-TEST(BorderPoints, AreNoneAmidOtherThings)
+TEST(BorderCandidates, AreNoneAmidOtherThings)
 {
     // To the right something rough touches the board, as a hedge a wall.
     std::mt19937 random(11);
@@ -199,20 +198,20 @@ TEST(BorderPoints, AreNoneAmidOtherThings)
         point = {{across(random), up(random), deep(random)}, kAll};
     }
     Scene scene = together({board(), hedge, seen_backdrop()});
-    add_crease_points(scene, kOnBorders);
+    add_points(scene, kOnBorders);
     const auto is_right = [&](std::size_t i) { return scene.positions[i].x() > 0.5; };
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GE(added.size(), 15U);
     EXPECT_LE(std::ranges::count_if(added, is_right), 1);
 }
 
-TEST(BorderPoints, AreSeenWithinImages)
+TEST(BorderCandidates, AreSeenWithinImages)
 {
     // The last view's image ends above the lower part of the board.
     std::vector<Vector3d> centers = kCenters;
     centers.emplace_back(0.0, -3.0, -6.0);
     Scene scene = together({board({0, 1, 2, 3}), seen_backdrop()}, centers);
-    ASSERT_GT(add_crease_points(scene, kOnBorders).added, 10);
+    ASSERT_GT(add_points(scene, kOnBorders).added, 10);
     std::ptrdiff_t above = 0;
     for (const std::size_t i : added_points(scene)) {
         const Views track = track_of(scene, i);
@@ -236,37 +235,30 @@ Scene steep_board(const Views& views)
     return together({steep, far}, kBesideSteep);
 }
 
-TEST(BorderPoints, AreSeenFromBeforeThePlane)
+TEST(BorderCandidates, AreSeenFromBeforeThePlane)
 {
     Scene scene = steep_board({0, 1, 2, 3});
-    ASSERT_GT(add_crease_points(scene, kOnBorders).added, 3);
+    ASSERT_GT(add_points(scene, kOnBorders).added, 3);
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), kAll);
     }
 }
 
-TEST(BorderPoints, NeedTwoViews)
+TEST(BorderCandidates, NeedTwoViews)
 {
     EXPECT_GT(num_added(steep_board({0, 1, 3})), 3);
     EXPECT_EQ(num_added(steep_board({0, 3})), 0);
 }
 
-TEST(BorderPoints, AreNotAddedToDenseClouds)
-{
-    Scene scene = together({board(), seen_backdrop()});
-    scene.errors_px[3] = -1.0;
-    EXPECT_EQ(num_added(scene), 0);
-}
-
-TEST(BorderPoints, StandWithCreasePointsButNotAtThem)
+TEST(BorderCandidates, StandWithCreasePointsButNotAtThem)
 {
     // A floor before the board, whose crease points stand at the board's lower border.
     const auto floor = flat({-0.5, 0.05}, {0.5, 1.0}, kAll,
                             [](double u, double v) { return Vector3d(u, 0.45, -v); });
     Scene scene = together({board(), floor, seen_backdrop()});
-    const CreaseReport report = add_crease_points(scene, {});
-    EXPECT_GT(report.along_borders, 10);
-    EXPECT_GT(report.added - report.along_borders, 5);
+    const std::int64_t added = add_points(scene, {}).added;
+    EXPECT_GT(std::ssize(added_points(scene)), 10);
+    EXPECT_GT(added - std::ssize(added_points(scene)), 5);
     for (const std::size_t i : added_points(scene)) {
         for (std::size_t other = 0; other < scene.num_points(); ++other) {
             if (scene.point_ids[other] != kNoPointId) continue;
@@ -275,13 +267,13 @@ TEST(BorderPoints, StandWithCreasePointsButNotAtThem)
     }
 }
 
-TEST(BorderPoints, AreTheSameInOtherUnitsAndElsewhere)
+TEST(BorderCandidates, AreTheSameInOtherUnitsAndElsewhere)
 {
     flat_scenes::expect_same_elsewhere(together({board(), seen_backdrop()}), kOnBorders,
                                        kBorderPointId, {1.0 / 1024.0, 37.3, 1e6}, 1e-9);
 }
 
-TEST(BorderPoints, AreAsManyInASceneThatIsTurned)
+TEST(BorderCandidates, AreAsManyInASceneThatIsTurned)
 {
     const Scene scene = together({board(), seen_backdrop()});
     const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));

@@ -1,0 +1,199 @@
+#include "steps/2_planes/border_candidates.h"
+
+#include "base/parallel.h"
+#include "base/sort_unique.h"
+#include "geometry/triangle_tree.h"
+#include "steps/2_planes/plane_frame.h"
+#include "steps/2_planes/sights_through.h"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangulation = CGAL::Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<
+                CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>>>;
+
+/// Where a sight passes through the plane of a region.
+struct Crossing {
+    std::uint32_t region;
+    Vector2d place; ///< in the plane
+};
+
+/// A point of a region beside a crossing of its plane.
+struct Pair {
+    double apart; ///< how far
+    std::uint32_t point;
+    std::uint32_t crossing;
+};
+
+/// The pairs of neighbours in the Delaunay triangulation of places in a plane, of which the first
+/// so many are points and the others crossings, that are no farther apart than `most`; the nearest
+/// first.
+std::vector<Pair> pairs_beside(const std::vector<Vector2d>& places, std::size_t num_points,
+                               double most)
+{
+    std::vector<std::pair<Kernel::Point_2, std::uint32_t>> numbered(places.size());
+    for (std::uint32_t i = 0; i < places.size(); ++i) {
+        numbered[i] = {{places[i].x(), places[i].y()}, i};
+    }
+    const Triangulation triangulation(numbered.begin(), numbered.end());
+    std::vector<Pair> pairs;
+    for (const auto& [face, slot] : triangulation.finite_edges()) {
+        const auto [point, crossing] = std::minmax({face->vertex(Triangulation::ccw(slot))->info(),
+                                                    face->vertex(Triangulation::cw(slot))->info()});
+        if (point >= num_points || crossing < num_points) continue;
+        const double apart = (places[crossing] - places[point]).norm();
+        if (apart <= most) pairs.push_back({apart, point, crossing});
+    }
+    std::ranges::sort(pairs, {}, [](const Pair& pair) {
+        return std::tie(pair.apart, pair.point, pair.crossing);
+    });
+    return pairs;
+}
+
+/// Finds where the planar regions of a scene end.
+class Borders {
+  public:
+    Borders(const Scene& scene, const PlanarRegions& planes, double gap)
+        : scene_(scene), planes_(planes), gap_(gap)
+    {
+        for (const PlanarRegion& region : planes.regions) {
+            frames_.emplace_back(region.plane);
+        }
+    }
+
+    std::vector<Candidate> candidates(const Progress& progress) const
+    {
+        const std::vector<Crossing> crossings = this->crossings(progress.part(0.0, 0.6));
+        const auto look = [&](std::size_t region, std::vector<Candidate>& found) {
+            const auto number = static_cast<std::uint32_t>(region);
+            const auto own = std::ranges::equal_range(crossings, number, {}, &Crossing::region);
+            if (!own.empty()) add_candidates(number, own, found);
+        };
+        return parallel_collect<Candidate>(frames_.size(), progress.part(0.6, 1.0), look, 1);
+    }
+
+  private:
+    /// How far from the points of a region crossings count.
+    double near(std::size_t region) const { return gap_ * planes_.regions[region].spacing; }
+
+    /// A rectangle in the plane around the points of a region and what is near.
+    std::array<Vector3d, 4> rectangle_around(std::size_t region) const
+    {
+        const PlaneFrame& frame = frames_[region];
+        Eigen::AlignedBox2d box;
+        for (const Vector3d& position : planes_.regions[region].positions) {
+            box.extend(frame.in_plane(position));
+        }
+        const Vector2d low = box.min().array() - near(region);
+        const Vector2d high = box.max().array() + near(region);
+        return {frame.in_space(low), frame.in_space({high.x(), low.y()}), frame.in_space(high),
+                frame.in_space({low.x(), high.y()})};
+    }
+
+    /// The crossings of sights with the planes of regions near their points, by region: of each
+    /// point's sights the first and the last one, since those between pass between them.
+    std::vector<Crossing> crossings(const Progress& progress) const
+    {
+        constexpr std::size_t kFewest = 20;
+        std::vector<std::array<Vector3d, 3>> triangles;
+        std::vector<std::uint32_t> owners; // of both triangles of a region
+        for (std::uint32_t i = 0; i < planes_.regions.size(); ++i) {
+            if (planes_.regions[i].points.size() < kFewest) continue;
+            owners.push_back(i);
+            const auto [a, b, c, d] = rectangle_around(i);
+            triangles.push_back({a, b, c});
+            triangles.push_back({c, d, a});
+        }
+        if (triangles.empty()) return {};
+        const TriangleTree tree(triangles);
+        const auto look = [&](std::size_t point, std::vector<Crossing>& found) {
+            thread_local std::vector<std::uint32_t> met;
+            const auto through = [&](const Vector3d& from, const Vector3d& to) {
+                met.clear();
+                tree.visit_met(from, to,
+                               [&](std::size_t triangle) { met.push_back(owners[triangle / 2]); });
+                sort_unique(met);
+                for (const std::uint32_t region : met) {
+                    add_crossing(region, from, to, found);
+                }
+            };
+            const auto track = scene_.tracks[point];
+            if (track.empty()) return;
+            for (const std::uint32_t view : {track.front(), track.back()}) {
+                visit_sight(scene_, point, view, planes_.spacings[point], through);
+            }
+        };
+        std::vector<Crossing> found =
+            parallel_collect<Crossing>(scene_.num_points(), progress, look, 4096);
+        std::ranges::stable_sort(found, {}, &Crossing::region);
+        return found;
+    }
+
+    /// That of a sight with the plane of a region, if it is near the region's points.
+    void add_crossing(std::uint32_t region, const Vector3d& from, const Vector3d& to,
+                      std::vector<Crossing>& found) const
+    {
+        const Plane& plane = planes_.regions[region].plane;
+        const double before = plane.height_of(from);
+        const double behind = plane.height_of(to);
+        if (before == behind) return; // in the plane
+        const Vector3d place = from + before / (before - behind) * (to - from);
+        if (planes_.regions[region].has_point_near(place, near(region)))
+            found.push_back({region, frames_[region].in_plane(place)});
+    }
+
+    void add_candidates(std::uint32_t region, std::span<const Crossing> crossings,
+                        std::vector<Candidate>& found) const
+    {
+        constexpr double kShare = 0.3; // of the way from the point to the crossing
+        const std::vector<Vector3d>& points = planes_.regions[region].positions;
+        std::vector<Vector2d> places(points.size());
+        std::ranges::transform(points, places.begin(), [&](const Vector3d& position) {
+            return frames_[region].in_plane(position);
+        });
+        std::ranges::transform(crossings, std::back_inserter(places), &Crossing::place);
+        for (const Pair& pair : pairs_beside(places, points.size(), near(region))) {
+            const Vector3d& point = points[pair.point];
+            const Vector3d crossing = frames_[region].in_space(places[pair.crossing]);
+            found.push_back({.position = point + kShare * (crossing - point),
+                             .kind = PointKind::border,
+                             .step = planes_.regions[region].spacing,
+                             .regions = {region, region}});
+        }
+    }
+
+    const Scene& scene_;
+    const PlanarRegions& planes_;
+    double gap_;
+    std::vector<PlaneFrame> frames_; ///< of each region
+};
+
+} // namespace
+
+std::vector<Candidate> border_candidates(const Scene& scene, const PlanarRegions& planes,
+                                         double gap, const Progress& progress)
+{
+    return Borders(scene, planes, gap).candidates(progress);
+}
+
+} // namespace vcarve
