@@ -64,7 +64,8 @@ struct CutOptions {
 
 /// Where the surface goes on along the hull of the points, where they are seen from within only.
 struct HullOptions {
-    double hull_edge = 20.0; ///< by faces of edges up to so many times the median around; 0: nowhere
+    double hull_edge =
+        20.0; ///< by faces of edges up to so many times the median around; 0: nowhere
 };
 
 /// How many more viewpoints are tried, and how much they count.
@@ -92,15 +93,16 @@ struct LabelOptions {
 /// The thresholds of the rule book, which says which faces of the boundary are surface
 /// (src/steps/6_surface/face_rules.h).
 struct FaceRules {
-    double max_closing = 0.115; ///< a longer edge than this share of the diameter of the region of
-                                ///< interest makes a face long; 0: no face that views see is dropped
-    double vast = 2.0;          ///< so many times that for faces that views see
-    double half_seen = 0.5;     ///< less than this share of a long face that turns off the surface
-    double hardly_seen = 0.12;  ///< less than this share of any face
-    double trim = 0.5;          ///< x long: from there on faces are trimmed; 0: none
-    double beside_edge = 3.0;   ///< x the median edge around: unseen faces beside kept ones stay up
-                                ///< to there; 0: none
-    double beside_length = 8.0; ///< x the longest edge of the median kept face, the same
+    double max_closing = 0.115; ///< a longest edge of so much of the diameter of the region of
+                                ///< interest makes a face long; 0: no face that views see is
+                                ///< dropped or trimmed
+    double vast = 2.0;          ///< x that: longer faces go even if seen, where the surface ends
+    double half_seen = 0.5;     ///< long faces that turn off go if a smaller share is seen
+    double hardly_seen = 0.12;  ///< faces that are long or at an end go if a smaller share is seen
+    double trim = 0.5;          ///< x long: from this longest edge on faces are trimmed; 0: none
+    double beside_edge = 3.0;   ///< unseen faces beside kept ones stay up to a longest edge of so
+                                ///< many times the median edge around; 0: none
+    double beside_length = 8.0; ///< and of so many times that of the median kept face
 };
 
 /// What is mended, and what is thrown away.

@@ -31,8 +31,8 @@ struct RunOutcome {
 RunOutcome outcome_of(const CountsOfStages& counts);
 
 /// What was made: "wrote out.ply: 22,268 faces, 4 % of what cameras see is open (to close:
-/// --max-closing 0)", and in lines of their own at most two things to try, of those that the figures
-/// and the options give reason for; if there is none, how to look at the surface.
+/// --max-closing 0)", and in lines of their own at most two things to try, of those that the
+/// figures and the options give reason for; if there is none, how to look at the surface.
 std::string closing_line(const RunOutcome& outcome, const Options& options);
 
 } // namespace vcarve::cli

@@ -10,11 +10,11 @@
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
 #include "compare/closed_surface.h"
+#include "compare/comparison_table.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "io/ply/ply_cloud.h"
 #include "options/declared.h"
-#include "compare/comparison_table.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 

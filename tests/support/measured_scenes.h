@@ -32,7 +32,8 @@ TriMesh random_soup(std::size_t faces, std::uint64_t seed);
 /// From a place to the nearest point of a face.
 double distance_to_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& x);
 
-/// What TriangleTree::first_hit finds, by solving for every face; exact where nothing is degenerate.
+/// What TriangleTree::first_hit finds, by solving for every face; exact where nothing is
+/// degenerate.
 std::optional<FirstHit> first_hit_of_all(const TriMesh& mesh, const Eigen::Vector3d& from,
                                          const Eigen::Vector3d& towards);
 

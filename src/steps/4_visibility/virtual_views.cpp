@@ -1,8 +1,8 @@
 #include "steps/4_visibility/virtual_views.h"
 
 #include "base/parallel.h"
-#include "geometry/point_tree.h"
 #include "base/unlimited.h"
+#include "geometry/point_tree.h"
 #include "steps/4_visibility/each_vertex.h"
 #include "steps/4_visibility/edge_lengths.h"
 #include "steps/4_visibility/walk.h"

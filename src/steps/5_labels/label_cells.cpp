@@ -86,9 +86,8 @@ Labels cut(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
     Labels labels = cut(cells, std::move(energy), options.cut, stage);
     const std::int64_t inside = num_inside(labels);
     const std::int64_t on_hull = go_on_along_hull(cells, scene, uncrossed, options.hull, labels);
-    stage.end({{"inside", inside},
-               {"of", size_of(cells.cells.size())},
-               {"faces of the hull", on_hull}});
+    stage.end(
+        {{"inside", inside}, {"of", size_of(cells.cells.size())}, {"faces of the hull", on_hull}});
     return labels;
 }
 

@@ -21,9 +21,9 @@ struct Boundary {
     const FaceVisibility& visibility;
 };
 
-/// Whether a view sees a place on a facet by more than a cosine of the angle off its normal (0: by
-/// a graze, too), where of the boundary only the faces that are kept are there. Cost: a walk for
-/// each view before the facet, until one sees it.
+/// Whether some view sees a place on a facet at an angle whose cosine to the normal is above
+/// `cosine` (0: a graze counts, too), where only kept faces block the view. Cost: a walk for each
+/// view before the facet, until one sees it.
 bool is_seen(const Boundary& boundary, const FaceFlags& keep, const CellFacet& facet,
              const Eigen::Vector3d& place, double cosine);
 
@@ -44,18 +44,18 @@ class FaceEvidence {
     /// The length of the median face that is kept at first.
     double usual_length() const { return usual_length_; }
 
-    /// Whether the face goes on with the small faces around a corner of it (SurfaceNormals).
+    /// Whether the face goes on with the small faces around one of its corners; else it turns off.
+    /// Where no corner has small faces it turns off, too.
     bool goes_on(std::uint32_t face) const { return vcarve::goes_on(face, normals_); }
 
-    /// Whether the surface ends at the face: it lies on the hull, or beside a face that is not
-    /// kept.
-    bool is_at_end(std::uint32_t face) const;
+    /// Whether the surface ends at the face: it faces infinity, or a face beside it is not kept.
+    bool surface_ends_at(std::uint32_t face) const;
     /// Whether a kept face lies beside it.
     bool is_beside_kept(std::uint32_t face) const;
 
-    /// Whether views see less than so large a share of the places on the face, through what is
-    /// kept. Never where images do not tell (FaceVisibility::is_told_by_images). Cost: a walk for
-    /// each place and view, until it is decided; so of those below.
+    /// Whether views see less than a share of the places on the face, through what is kept. Never
+    /// where images do not tell (FaceVisibility::is_told_by_images). Cost: a walk for each place
+    /// and view, until it is decided; so of those below.
     bool is_seen_less_than(double share, std::uint32_t face) const;
 
     /// Whether a view would look onto the back of a kept face, were this one away.

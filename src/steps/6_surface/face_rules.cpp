@@ -21,7 +21,7 @@ FaceNumbers numbers_with(std::uint8_t flag, const FaceFlags& flags)
     });
 }
 
-/// Of some faces those that a question is answered with yes for.
+/// The faces for which ask(face) says yes.
 template <typename Ask>
 FaceNumbers those_that(const FaceNumbers& faces, const Ask& ask)
 {
@@ -33,13 +33,12 @@ FaceNumbers those_that(const FaceNumbers& faces, const Ask& ask)
         16);
 }
 
-/// Whether a face closes what was looked at and has no support. The rows of the table in the
-/// middle.
+/// Whether a face closes what was looked at without support: rows 4 to 7.
 bool is_unsupported(std::uint32_t face, const FaceEvidence& evidence, double closing,
                     const FaceRules& rules)
 {
     const double length = evidence.length(face);
-    const bool ends_here = evidence.is_at_end(face);
+    const bool ends_here = evidence.surface_ends_at(face);
     if (length < closing && !ends_here) return false;
     if (evidence.is_seen_less_than(rules.hardly_seen, face)) return true;
     if (length < closing || evidence.goes_on(face)) return false;

@@ -35,8 +35,8 @@ class Trimming {
     {
     }
 
-    /// Takes the flags off the pieces of faces that no view sees, and divides no more than that
-    /// asks for. Returns how many faces lost a piece.
+    /// Takes the flags off the pieces of faces that no view sees, and divides only as far as
+    /// needed. Returns how many faces lost a piece.
     std::int64_t trim(std::vector<std::uint32_t> faces);
 
   private:
@@ -83,8 +83,9 @@ Seen Trimming::seen_of(std::uint32_t piece) const
 /// Whether a piece is not worth halving.
 bool Trimming::is_short(std::uint32_t piece) const
 {
-    constexpr double kShort = 0.5;      // of what is trimmed
-    constexpr double kSmallPart = 0.07; // of the longest edge of the whole face; no power of 1/2
+    constexpr double kShort = 0.5;      // of the length from which on faces are trimmed
+    constexpr double kSmallPart = 0.07; // of the longest edge of the whole face; a power of 1/2
+                                        // would be met by halves within rounding
     const double whole = longest_edge(boundary_.visibility.corners_of(facets_[origin_of(piece)]));
     return longest_edge(corners_of(piece)) <= std::max(kShort * long_edge_, kSmallPart * whole);
 }
