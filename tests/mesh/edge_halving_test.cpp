@@ -1,5 +1,4 @@
 #include "geometry/triangle.h"
-#include "mesh/add_vertex.h"
 #include "mesh/check.h"
 #include "mesh/edge_halving.h"
 #include "support/tetra_grid.h"
@@ -98,41 +97,6 @@ void halve_some(TriMesh& mesh, EdgeHalving& halving, int count, std::mt19937& ra
         const auto [a, b] = edges[random() % edges.size()];
         ASSERT_FALSE(halving.halve(a, b).empty());
     }
-}
-
-// ---- add_vertex ---------------------------------------------------------------------------------
-
-TEST(AddMidpoint, HasTheMeanColourAndNoPoint)
-{
-    TriMesh mesh = square();
-    mesh.colors[1] = {10, 0, 255};
-    mesh.colors[2] = {21, 1, 255};
-    EXPECT_EQ(add_midpoint(mesh, 1, 2), 4U);
-    EXPECT_EQ(mesh.positions[4], Vector3d(1, 0.5, 0));
-    EXPECT_EQ(mesh.colors[4], (Color{16, 1, 255})) << "rounded up";
-    EXPECT_EQ(mesh.points[4], kNoPoint);
-    EXPECT_EQ(mesh.points[1], 101U);
-}
-
-TEST(AddCopy, IsTheSamePointInTheSameColour)
-{
-    TriMesh mesh = square();
-    EXPECT_EQ(add_copy(mesh, 2), 4U);
-    EXPECT_EQ(mesh.positions[4], mesh.positions[2]);
-    EXPECT_EQ(mesh.colors[4], mesh.colors[2]);
-    EXPECT_EQ(mesh.points[4], 102U);
-}
-
-TEST(AddVertex, AddsNeitherColoursNorPointsWhereThereAreNone)
-{
-    TriMesh mesh = square();
-    mesh.colors.clear();
-    mesh.points.clear();
-    add_copy(mesh, 0);
-    add_midpoint(mesh, 0, 1);
-    EXPECT_EQ(mesh.positions.size(), 6U);
-    EXPECT_TRUE(mesh.colors.empty());
-    EXPECT_TRUE(mesh.points.empty());
 }
 
 // ---- longest_edge_of ----------------------------------------------------------------------------

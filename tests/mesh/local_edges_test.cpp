@@ -1,4 +1,3 @@
-#include "base/parallel.h"
 #include "mesh/local_edges.h"
 
 #include <gtest/gtest.h>
@@ -133,36 +132,6 @@ TEST(LocalEdges, OfOneFaceTakeItsMiddleEdge)
     EXPECT_EQ(edges.relative_size(0), 1.25);
     EXPECT_EQ(edges.large_faces(1.25), std::vector<std::uint32_t>{0});
     EXPECT_TRUE(edges.large_faces(1.26).empty());
-}
-
-TEST(VertexFaces, AreAscendingAndOnlyThoseWithAFlag)
-{
-    const std::vector<Face> faces = {{2, 0, 1}, {0, 2, 3}, {3, 2, 1}};
-    const auto row = [](const VertexFaces& at, std::size_t vertex) {
-        return std::vector<std::uint32_t>(at[vertex].begin(), at[vertex].end());
-    };
-    const VertexFaces all(faces, 5);
-    EXPECT_EQ(row(all, 0), (std::vector<std::uint32_t>{0, 1}));
-    EXPECT_EQ(row(all, 2), (std::vector<std::uint32_t>{0, 1, 2}));
-    EXPECT_TRUE(row(all, 4).empty());
-    const VertexFaces some(faces, 5, {1, 0, 1});
-    EXPECT_EQ(row(some, 0), (std::vector<std::uint32_t>{0}));
-    EXPECT_EQ(row(some, 3), (std::vector<std::uint32_t>{2}));
-}
-
-TEST(ParallelCollect, KeepsTheOrder)
-{
-    const auto twice_the_odd = [](std::size_t i, std::vector<std::size_t>& items) {
-        if (i % 2 == 1) items.insert(items.end(), {i, i});
-    };
-    std::vector<std::size_t> expected;
-    for (std::size_t i = 0; i < 1000; ++i) {
-        twice_the_odd(i, expected);
-    }
-    for (const std::size_t grain : {1, 7, 1000, 5000}) {
-        EXPECT_EQ(parallel_collect<std::size_t>(1000, twice_the_odd, grain), expected);
-    }
-    EXPECT_TRUE(parallel_collect<std::size_t>(0, twice_the_odd).empty());
 }
 
 } // namespace

@@ -1,0 +1,26 @@
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+TEST(ParallelCollect, KeepsTheOrder)
+{
+    const auto twice_the_odd = [](std::size_t i, std::vector<std::size_t>& items) {
+        if (i % 2 == 1) items.insert(items.end(), {i, i});
+    };
+    std::vector<std::size_t> expected;
+    for (std::size_t i = 0; i < 1000; ++i) {
+        twice_the_odd(i, expected);
+    }
+    for (const std::size_t grain : {1, 7, 1000, 5000}) {
+        EXPECT_EQ(parallel_collect<std::size_t>(1000, twice_the_odd, grain), expected);
+    }
+    EXPECT_TRUE(parallel_collect<std::size_t>(0, twice_the_odd).empty());
+}
+
+} // namespace
+} // namespace vcarve

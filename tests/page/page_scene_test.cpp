@@ -1,0 +1,62 @@
+#include "page/page_scene.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace vcarve {
+namespace {
+
+Scene two_points()
+{
+    Scene scene = make_scene({{0, 0, 5}, {1, 0, 5}, {0, 1, 5}},
+                             {{{0, 0, 0}, {0, 1, 2}}, {{1, 0, 0}, {0, 1}}, {{0, 1, 0}, {1, 2}}});
+    scene.errors_px = {0.25, -1.0, 0.75};
+    return scene;
+}
+
+TEST(PackedScene, TurnsTheMeanOfTheImagesUpAndStartsFromTheBestView)
+{
+    const auto json = packed_scene(two_points());
+    // The views of make_scene are not turned: y is down, z forward.
+    EXPECT_EQ(json["up"], (std::vector<double>{0, -1, 0}));
+    EXPECT_EQ(json["start"]["view"], 1); // the only one that saw all points
+    EXPECT_EQ(json["start"]["depth"], -5.0);
+    EXPECT_EQ(json["views"].size(), 3U);
+    EXPECT_EQ(json["views"][1]["forward"], (std::vector<double>{0, 0, 1}));
+}
+
+TEST(PackedScene, TellsTheSizeOfAnImageAtDistanceOne)
+{
+    Scene scene = two_points();
+    for (Camera& camera : scene.cameras) {
+        camera = {
+            .id = 1, .model = 1, .width_px = 800, .height_px = 600, .params = {400, 500, 400, 300}};
+    }
+    const auto json = packed_scene(scene);
+    EXPECT_EQ(json["views"][0]["half_size"], (std::vector<double>{1.0, 0.6}));
+    scene.cameras[0].params = {100, 100, 400, 300}; // far too wide to be looked through
+    EXPECT_EQ(packed_scene(scene)["views"][0]["half_size"], (std::vector<double>{1.5, 1.125}));
+    scene.cameras[0].model = -1;
+    EXPECT_TRUE(packed_scene(scene)["views"][0]["half_size"].is_null());
+}
+
+TEST(PackedScene, ShowsNoMoreThanItsLimits)
+{
+    const auto json = packed_scene(bumpy_sphere(500, 1), {.points = 50, .views = 3});
+    EXPECT_EQ(json["points"]["of"], 500);
+    EXPECT_EQ(json["points"]["positions"]["count"], 50);
+    EXPECT_EQ(json["views"].size(), 3U);
+    EXPECT_GT(json["views_of"], 3);
+}
+
+TEST(PackedScene, HoldsNothingOfNothing)
+{
+    const auto json = packed_scene({});
+    EXPECT_TRUE(json["start"].is_null());
+    EXPECT_EQ(json["views"].size(), 0U);
+}
+
+} // namespace
+} // namespace vcarve
