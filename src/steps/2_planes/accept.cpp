@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace vcarve {
 

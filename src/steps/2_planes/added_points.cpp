@@ -10,6 +10,7 @@
 #include "steps/2_planes/textureless_candidates.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 #include <vector>

@@ -131,7 +131,7 @@ TEST(CreaseCandidates, OfTwoCreasesSideBySideStandApart)
         return flat({low, -0.6}, {high, 0.65}, kAll,
                     [=](double u, double v) { return Vector3d(u, v, z); });
     };
-    Scene scene = together({part(-1.0, 0.4, 0.0), part(-0.4, 1.0, 0.02), ground(0.15)});
+    Scene scene = together({part(-1.0, 0.4, 0.0), part(-0.4, 1.0, 0.05), ground(0.15)});
     const AddedPoints report = add_points(scene, kOnCreases);
     EXPECT_GE(report.regions, 3);
     const std::vector<std::size_t> added = added_points(scene);

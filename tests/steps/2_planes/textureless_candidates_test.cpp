@@ -22,7 +22,6 @@ using flat_scenes::kSpacing;
 using flat_scenes::points_with_id;
 using flat_scenes::together;
 using flat_scenes::track_of;
-using flat_scenes::Views;
 
 /// None on creases and borders.
 const CreaseOptions kTextureless = {.reach = 0.0, .border_gap = 0.0};
@@ -52,17 +51,16 @@ double off_middle(const Vector3d& place)
     return std::max(std::abs(place.x()), std::abs(near(place)));
 }
 
-/// A rectangle so high over the floor.
-std::vector<MadePoint> level(const Eigen::Array2d& low, const Eigen::Array2d& high, double above,
-                             const Views& views = kAll)
+/// A rectangle of the floor.
+std::vector<MadePoint> level(const Eigen::Array2d& low, const Eigen::Array2d& high)
 {
-    return flat(low, high, views, [&](double u, double v) { return on_floor(u, v, above); });
+    return flat(low, high, kAll, [&](double u, double v) { return on_floor(u, v); });
 }
 
 /// The floor, without points so far around its middle.
 std::vector<MadePoint> floor_with_gap(double gap = 0.5, double half = 1.2)
 {
-    std::vector<MadePoint> points = level({-half, -half}, {half, half}, 0.0);
+    std::vector<MadePoint> points = level({-half, -half}, {half, half});
     std::erase_if(points, [&](const MadePoint& point) { return off_middle(point.position) < gap; });
     return points;
 }
@@ -170,7 +168,7 @@ TEST(TexturelessCandidates, AreNoneWhereAFloorHasPoints)
 TEST(TexturelessCandidates, AreNoneBeyondTheHull)
 {
     // A floor without its corner at the right, which is no less empty than the middle would be.
-    std::vector<MadePoint> points = level({-1, -1}, {1, 1}, 0.0);
+    std::vector<MadePoint> points = level({-1, -1}, {1, 1});
     std::erase_if(points, [](const MadePoint& point) {
         return point.position.x() + near(point.position) > 0.0;
     });
