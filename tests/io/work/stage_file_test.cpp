@@ -188,7 +188,7 @@ TEST_F(StageFile, GivesBackASurfaceAndWhatWasTakenAway)
     carved.seen.faces.offset = Eigen::Vector3d(1.0, 2.0, 3.0);
     carved.seen.openness = Openness{12, {{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}}};
     carved.removed.mesh.positions = {Eigen::Vector3d(7, 8, 9)};
-    carved.removed.reasons = {Removal::sheet, Removal::unseen};
+    carved.removed.reasons = {Removal::closing, Removal::unseen};
     const CarvedSurface same = through_file(carved);
     EXPECT_EQ(same.seen.faces.positions, carved.seen.faces.positions);
     EXPECT_EQ(same.seen.faces.faces, carved.seen.faces.faces);
