@@ -17,7 +17,7 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using testing::normal_number;
+using vcarve::testing::normal_number;
 
 const std::vector<Vector3d> kCenters = {{0, 0, -6}, {1, 0, -6}, {0, 0, 6}, {1, 0, 6}};
 const std::vector<std::uint32_t> kBefore = {0, 1};
