@@ -42,7 +42,7 @@ constexpr Wording kWordings[] = {
     {"carve", "carve", "{inside} of {of} cells are solid"},
     {"cut", "cut", "{inside} of {of} cells are solid"},
     {"surface", "surface",
-     "{faces} faces seen by cameras|, {unseen} unseen dropped|, {sheets} unsupported dropped"},
+     "{faces} faces seen by cameras|, {unseen} unseen dropped|, {closing without support} unsupported dropped"},
     {"clean", "clean",
      "{faces} faces|, {holes filled} holes filled|, {components dropped} small pieces dropped"},
     {"open", "open", ""},
