@@ -33,10 +33,9 @@ TEST(DeclaredOptions, AreAllFieldsOfTheOptions)
     constexpr std::size_t kLabels = num_fields<LabelOptions>() - 4 + num_fields<TraceOptions>() +
                                     num_fields<CutOptions>() + num_fields<HullOptions>() +
                                     num_fields<VirtualViewOptions>();
-    // vast, half_seen, hardly_seen and beside_length are fields of the library only.
-    constexpr std::size_t kSurface = num_fields<SurfaceOptions>() - 2 + num_fields<FaceRules>() -
-                                     4 + num_fields<CleanupOptions>() +
-                                     num_fields<SmoothOptions>() + num_fields<SimplifyOptions>();
+    constexpr std::size_t kSurface = num_fields<SurfaceOptions>() - 2 + num_fields<FaceRules>() +
+                                     num_fields<CleanupOptions>() + num_fields<SmoothOptions>() +
+                                     num_fields<SimplifyOptions>();
     constexpr std::size_t kRun = num_fields<MemoryOptions>() + 1; // and threads
     static_assert(num_fields<Options>() == 10 && num_fields<RefineOptions>() == 2);
     Options options;
