@@ -28,7 +28,7 @@ constexpr Wording kWordings[] = {
     {"memory", "memory", "{MiB expected} MiB expected"},
     {"thin", "merge", "{of} points merged to {points}"},
     {"denoise", "denoise",
-     "{points moved} points within their error| ({thousandths of a pixel of noise/1000} px)"},
+     "{points moved} points moved within their error| ({thousandths of a pixel of noise/1000} px)"},
     {"filter", "filter",
      "{points} of {of} points kept|, {duplicate} duplicate|, {few views} of few views"
      "|, {high error} of large error|, {low angle} of small angle|, {stray} stray"
@@ -42,12 +42,13 @@ constexpr Wording kWordings[] = {
     {"carve", "carve", "{inside} of {of} cells are solid"},
     {"cut", "cut", "{inside} of {of} cells are solid"},
     {"surface", "surface",
-     "{faces} faces seen by cameras|, {unseen} unseen dropped|, {sheets} unsupported dropped"},
+     "{faces} faces seen by cameras|, {unseen} unseen dropped"
+     "|, {closing without support} unsupported dropped"},
     {"clean", "clean",
-     "{faces} faces|, {holes filled} holes filled|, {components dropped} small pieces dropped"},
+     "{faces} faces|, holes filled: {holes filled}|, small pieces dropped: {components dropped}"},
     {"open", "open", ""},
     {"settle", "denoise",
-     "{vertices moved} vertices within their error"
+     "{vertices moved} vertices moved within their error"
      "| ({thousandths of a pixel of noise/1000} px)"},
     {"guard", "guard", ""},
     {"smooth", "smooth", "{vertices moved} of {of} vertices moved"},

@@ -19,8 +19,8 @@ namespace vcarve {
 /// What is said of an option, beside where its value is.
 struct OptionInfo {
     std::string name;                    ///< kebab-case, without dashes
-    std::string unit = "";               ///< "px", "deg", "views"; empty for a pure number
-    std::string help = "";               ///< what it means and how to switch it off
+    std::string unit = {};               ///< "px", "deg", "views"; empty for a pure number
+    std::string help = {};               ///< what it means and how to switch it off
     double min = 0.0;                    ///< of numbers, the smallest
     double max = kUnlimited;             ///< ... the largest
     std::vector<std::string> words = {}; ///< that may be typed instead of numbers or names, in the

@@ -36,7 +36,7 @@ TEST(StageWords, SayTheCountsInTheWordsOfTheField)
     const StageWords settle =
         stage_words("settle", {{"vertices moved", 2920}, {"thousandths of a pixel of noise", 272}});
     EXPECT_EQ(settle.name, "denoise");
-    EXPECT_EQ(settle.text, "2,920 vertices within their error (0.27 px)");
+    EXPECT_EQ(settle.text, "2,920 vertices moved within their error (0.27 px)");
 }
 
 TEST(StageWords, LeaveOutWhatDidNotHappenAndWhatHasNoRoom)

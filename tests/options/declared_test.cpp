@@ -11,7 +11,7 @@ namespace {
 /// Turns into whatever a field is.
 struct Anything {
     template <typename T>
-    operator T() const;
+    operator T() const; // NOLINT(google-explicit-constructor): it is to be turned into a T silently
 };
 
 /// How many fields a plain struct has.

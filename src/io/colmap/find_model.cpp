@@ -206,12 +206,11 @@ void refuse_images(const fs::path& input)
         return end == ".jpg" || end == ".jpeg" || end == ".png" || end == ".tif" || end == ".tiff";
     };
     if (names.empty() || !std::ranges::all_of(names, is_image)) return;
-    const fs::path around = fs::path(input / "").parent_path().parent_path();
-    const fs::path beside = around.empty() ? fs::path(".") : around;
+    const fs::path beside = (input / "..").lexically_normal();
     std::optional<FoundModel> model = model_at(beside / "sparse");
     if (!model) model = model_at(beside);
     throw InputError(model ? fmt::format("{} is a folder of images; the model is in {}",
-                                         input.string(), model->folder.string())
+                                         input.string(), model->folder.lexically_normal().string())
                            : fmt::format("{} is a folder of images; the model is what COLMAP's "
                                          "mapper made of them, often sparse/0",
                                          input.string()));
