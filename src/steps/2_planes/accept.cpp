@@ -4,6 +4,7 @@
 #include "base/sort_unique.h"
 #include "model/camera.h"
 #include "steps/2_planes/sights_through.h"
+#include "steps/2_planes/views_looking.h"
 
 #include <algorithm>
 #include <array>
@@ -125,7 +126,8 @@ std::vector<AcceptedPoint> accept(const Scene& scene, const PlanarRegions& plane
     };
     std::vector<AcceptedPoint> accepted =
         parallel_collect<AcceptedPoint>(candidates.size(), progress.part(0.0, 0.4), look, 256);
-    leave_out_seen_through(accepted, scene, planes, progress.part(0.4, 1.0));
+    keep_views_that_look(accepted, scene, planes, progress.part(0.4, 0.6));
+    leave_out_seen_through(accepted, scene, planes, progress.part(0.6, 1.0));
     leave_out_near_ones(accepted);
     return accepted;
 }

@@ -25,6 +25,7 @@ struct AcceptedPoint {
 ///    a surface that bends does not go on.
 /// 3. Two views see it. Those that saw the nearest points of its regions are asked; they must show
 ///    the place and stand before the planes of all its regions, or, where it stands out, of one.
+///    Amid a region they must look at it, too (views_looking.h).
 /// 4. Through its surface pass fewer sights than see it: where none is, one looks through. Of each
 ///    sight the spacing at its point is left out.
 /// 5. No candidate that was accepted before it is within half a step.

@@ -5,11 +5,14 @@
 #include "model/scene_points.h"
 #include "model/towards_views.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/convex_hull_2.h>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -25,11 +28,6 @@ using Eigen::Vector3d;
 constexpr std::size_t kAround = 12;
 /// How far from its plane a point of a region may lie, in spacings.
 constexpr double kThickness = 1.0 / 7.0;
-/// How far from a plane those around a flat point lie, in spacings: the root of the mean square.
-constexpr double kFlat = 0.1;
-/// The same of the points of a region and its plane.
-constexpr double kPlanar = 0.06;
-
 using Around = std::array<std::uint32_t, kAround>;
 
 /// The plane that lies nearest to points, and how far from it they lie: the root of the mean
@@ -56,89 +54,53 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, std::span<const st
             std::sqrt(std::max(solver.eigenvalues()[0], 0.0))};
 }
 
-/// How the surface runs around the points that are looked at.
-class Surroundings {
-  public:
+/// The points around every point, and what they tell.
+struct Surroundings {
+    std::vector<Around> around;
+    std::vector<double> spacings;
+    std::vector<double> bends; ///< how far they lie from a plane, in spacings, rounded
+
     Surroundings(const Scene& scene, const PointTree& tree, const Progress& progress)
-        : positions_(scene.positions),
-          tree_(tree),
-          around_(scene.num_points()),
-          spacings_(scene.num_points()),
-          bends_(scene.num_points(), kNotLookedAt)
+        : around(scene.num_points()), spacings(scene.num_points()), bends(scene.num_points())
     {
-        constexpr std::size_t kSample = 4;
-        const std::size_t samples = (around_.size() + kSample - 1) / kSample;
-        parallel_for(samples, progress.part(0.0, 0.4),
-                     [&](std::size_t i) { look_around(kSample * i); });
-        std::vector<char> is_beside_flat(around_.size(), 0);
-        for (std::size_t i = 0; i < around_.size(); i += kSample) {
-            if (!is_flat(i)) continue;
-            for (const std::uint32_t point : around_[i]) {
-                is_beside_flat[point] = 1;
-            }
-        }
-        parallel_for(around_.size(), progress.part(0.4, 1.0), [&](std::size_t i) {
-            if (i % kSample == 0) return;
-            spacings_[i] = spacings_[i / kSample * kSample];
-            if (is_beside_flat[i] != 0) look_around(i);
-        });
-    }
-
-    /// Those around a point that was looked at.
-    std::span<const std::uint32_t> around(std::size_t point) const { return around_[point]; }
-    const std::vector<double>& spacings() const { return spacings_; }
-    bool is_flat(std::size_t point) const { return bends_[point] <= kFlat; }
-
-    /// Looks at points that were not looked at.
-    void look_at(std::span<const std::uint32_t> points)
-    {
-        for (const std::uint32_t point : points) {
-            if (bends_[point] == kNotLookedAt) look_around(point);
-        }
+        parallel_for(around.size(), progress,
+                     [&](std::size_t i) { look_around(scene.positions, tree, i); });
     }
 
     /// The flat points, the flattest first.
     std::vector<std::uint32_t> flat_points() const
     {
         std::vector<std::uint32_t> flat;
-        for (std::uint32_t i = 0; i < bends_.size(); ++i) {
-            if (is_flat(i)) flat.push_back(i);
+        for (std::uint32_t i = 0; i < bends.size(); ++i) {
+            if (bends[i] <= kThickness) flat.push_back(i);
         }
-        std::ranges::stable_sort(flat, {}, [&](std::uint32_t i) { return bends_[i]; });
+        std::ranges::stable_sort(flat, {}, [&](std::uint32_t i) { return bends[i]; });
         return flat;
     }
 
   private:
-    static constexpr double kNotLookedAt = std::numeric_limits<double>::infinity();
-
-    void look_around(std::size_t point)
+    void look_around(const std::vector<Vector3d>& positions, const PointTree& tree, std::size_t i)
     {
         thread_local std::vector<PointTree::Near> nearest;
-        tree_.find_nearest(positions_[point], kAround + 1, nearest); // the point, too
+        tree.find_nearest(positions[i], kAround + 1, nearest); // the point, too
         std::array<std::uint32_t, kAround + 1> all{};
         std::ranges::transform(nearest, all.begin(), [](const PointTree::Near& near) {
             return static_cast<std::uint32_t>(near.point);
         });
-        std::ranges::copy(std::span(all).subspan<1>(), around_[point].begin());
+        std::ranges::copy(std::span(all).subspan<1>(), around[i].begin());
         // Where the surface is flat, so many points share the disc out to the farthest.
-        spacings_[point] = nearest.back().distance * std::sqrt(std::numbers::pi / kAround);
+        spacings[i] = nearest.back().distance * std::sqrt(std::numbers::pi / kAround);
         // Rounded, since points without noise are flat but for the last digits.
         constexpr double kExact = 1e-3;
-        const double bend = fit_plane(positions_, all).deviation / spacings_[point];
-        bends_[point] = kExact * std::round(bend / kExact);
+        const double bend = fit_plane(positions, all).deviation / spacings[i];
+        bends[i] = kExact * std::round(bend / kExact);
     }
-
-    const std::vector<Vector3d>& positions_;
-    const PointTree& tree_;
-    std::vector<Around> around_;
-    std::vector<double> spacings_;
-    std::vector<double> bends_; ///< how far those around lie from a plane, in spacings
 };
 
 /// Grows one region after the other.
 class Growth {
   public:
-    Growth(const Scene& scene, Surroundings& surroundings, PlanarRegions& found)
+    Growth(const Scene& scene, const Surroundings& surroundings, PlanarRegions& found)
         : scene_(scene), surroundings_(surroundings), found_(found)
     {
     }
@@ -150,7 +112,7 @@ class Growth {
         begin(seed);
         for (std::size_t done = 0; done < region_.size();) {
             for (const std::size_t ring = region_.size(); done < ring; ++done) {
-                if (surroundings_.is_flat(region_[done])) take_in_around(region_[done]);
+                take_in_around(region_[done]);
             }
             if (region_.size() >= refit_at_) fit();
         }
@@ -169,19 +131,16 @@ class Growth {
         region_ = {seed};
         found_.region_of[seed] = number();
         plane_.normal = towards_views(scene_, seed);
-        set_plane(fit_plane(scene_.positions, surroundings_.around(seed)).plane);
+        set_plane(fit_plane(scene_.positions, surroundings_.around[seed]).plane);
         plane_.center = scene_.positions[seed];
-        most_spacing_ = kSparser * surroundings_.spacings()[seed];
+        most_spacing_ = kSparser * surroundings_.spacings[seed];
         refit_at_ = 2 * kAround;
     }
 
-    /// Fits the plane anew and says how far its points lie from it: the root of the mean square.
-    double fit()
+    void fit()
     {
-        const FittedPlane fitted = fit_plane(scene_.positions, region_);
-        set_plane(fitted.plane);
+        set_plane(fit_plane(scene_.positions, region_).plane);
         refit_at_ = 2 * region_.size();
-        return fitted.deviation;
     }
 
     void set_plane(Plane plane)
@@ -192,7 +151,7 @@ class Growth {
 
     void take_in_around(std::uint32_t point)
     {
-        for (const std::uint32_t other : surroundings_.around(point)) {
+        for (const std::uint32_t other : surroundings_.around[point]) {
             if (found_.region_of[other] != PlanarRegions::kNone || !is_within(other, kThickness))
                 continue;
             found_.region_of[other] = number();
@@ -204,7 +163,7 @@ class Growth {
     /// side.
     bool is_within(std::uint32_t point, double spacings) const
     {
-        const double spacing = std::min(surroundings_.spacings()[point], most_spacing_);
+        const double spacing = std::min(surroundings_.spacings[point], most_spacing_);
         return std::abs(plane_.height_of(scene_.positions[point])) <= spacings * spacing &&
                towards_views(scene_, point).dot(plane_.normal) > 0.0;
     }
@@ -212,11 +171,10 @@ class Growth {
     bool add_if_planar()
     {
         std::ranges::sort(region_);
-        surroundings_.look_at(region_);
-        std::vector<double> spacings = values_at(region_, surroundings_.spacings());
-        const double spacing = median_in_place(spacings);
-        if (fit() > kPlanar * spacing || goes_on_beside()) return false;
-        found_.regions.emplace_back(scene_, plane_, spacing, region_);
+        fit();
+        if (goes_on_beside()) return false;
+        std::vector<double> spacings = values_at(region_, surroundings_.spacings);
+        found_.regions.emplace_back(scene_, plane_, median_in_place(spacings), region_);
         return true;
     }
 
@@ -228,7 +186,7 @@ class Growth {
         std::size_t all = 0;
         std::size_t beside = 0;
         for (const std::uint32_t point : region_) {
-            for (const std::uint32_t other : surroundings_.around(point)) {
+            for (const std::uint32_t other : surroundings_.around[point]) {
                 const bool is_own = found_.region_of[other] == number();
                 if (!is_own && !is_within(other, kWider * kThickness)) continue;
                 ++all;
@@ -239,7 +197,7 @@ class Growth {
     }
 
     const Scene& scene_;
-    Surroundings& surroundings_;
+    const Surroundings& surroundings_;
     PlanarRegions& found_;
     Plane plane_;
     std::vector<std::uint32_t> region_;
@@ -273,6 +231,24 @@ std::vector<std::uint32_t> PlanarRegion::nearest(const Vector3d& place, std::siz
     return found;
 }
 
+std::vector<Vector3d> PlanarRegion::hull() const
+{
+    using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
+    const PlaneFrame frame(plane);
+    std::vector<Point> places(positions.size());
+    std::ranges::transform(positions, places.begin(), [&](const Vector3d& position) {
+        const Eigen::Vector2d at = frame.in_plane(position);
+        return Point(at.x(), at.y());
+    });
+    std::vector<Point> corners;
+    CGAL::convex_hull_2(places.begin(), places.end(), std::back_inserter(corners));
+    std::vector<Vector3d> hull(corners.size());
+    std::ranges::transform(corners, hull.begin(), [&](const Point& corner) {
+        return frame.in_space({corner.x(), corner.y()});
+    });
+    return hull;
+}
+
 bool PlanarRegion::has_point_near(const Vector3d& place, double distance) const
 {
     constexpr double kDone = -1.0; // no box is so near
@@ -292,7 +268,7 @@ PlanarRegions planar_regions(const Scene& scene, const Progress& progress)
 {
     PlanarRegions found(scene);
     if (scene.num_points() <= kAround) return found;
-    Surroundings surroundings(scene, found.tree, progress.part(0.0, 0.6));
+    const Surroundings surroundings(scene, found.tree, progress.part(0.0, 0.6));
     Growth growth(scene, surroundings, found);
     const std::vector<std::uint32_t> seeds = surroundings.flat_points();
     ProgressCount done(progress.part(0.6, 1.0), seeds.size());
@@ -300,7 +276,7 @@ PlanarRegions planar_regions(const Scene& scene, const Progress& progress)
         growth.grow(seed);
         done.add(1);
     }
-    found.spacings = surroundings.spacings();
+    found.spacings = surroundings.spacings;
     return found;
 }
 

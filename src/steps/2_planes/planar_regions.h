@@ -29,6 +29,8 @@ struct PlanarRegion {
 
     /// The points nearest to a place: so many, and those as near as the last of them.
     std::vector<std::uint32_t> nearest(const Eigen::Vector3d& place, std::size_t count) const;
+    /// The corners of the convex hull of its points in its plane, counter-clockwise.
+    std::vector<Eigen::Vector3d> hull() const;
     /// Whether a point is no farther than so far from a place.
     bool has_point_near(const Eigen::Vector3d& place, double distance) const;
 };
@@ -49,23 +51,19 @@ struct PlanarRegions {
 /// (Poppinga, Vaskevicius, Birk & Pathak 2008). The points of the scene must follow each other in
 /// space.
 ///
-/// A point is flat if the 12 points nearest to it and it lie within a tenth of their spacing of a
-/// plane (root of the mean square). From flat points on a region takes in those of the 12 that its
-/// views look at from the same side and that lie no farther from its plane than a seventh of the
-/// spacing around; the plane is fitted anew whenever the points have doubled. Points that are not
-/// flat, as those next to a corner, belong to a region but do not lead on.
+/// A point is flat if the 12 points nearest to it and it lie within a seventh of their spacing of a
+/// plane (root of the mean square). From there a region takes in those of the 12 points around each
+/// of its points that its views look at from the same side and that lie no farther from its plane
+/// than a seventh of the spacing around; the plane is fitted anew whenever the points have doubled.
 ///
 /// Such a slab can be laid through anything that has points enough: through noise, of which it is
-/// a slice, evenly filled, and along something round, which bends out of it. In both many points
-/// lie right beside it. So 12 points or more are a region if they lie within .06 spacings of its
-/// plane (root of the mean square; evenly filled slabs have .08), and of the points around them
-/// that lie in a slab three times as thick at least four in five are its own.
+/// a slice, and along something round, which bends out of it. In both many points lie right beside
+/// it. So 12 points or more are a region if of the points around them that lie in a slab three
+/// times as thick at least four in five are its own.
 ///
-/// Every fourth point is looked at first, and others only beside flat ones; what is not looked at
-/// has the spacing of the point before it that is. So where nothing is flat little is asked. The
-/// result does not depend on the number of threads nor on where the scene lies or how large it is,
-/// up to rounding. Cost: O(points log points + sights), the search for neighbours in parallel, and
-/// 90 bytes a point.
+/// The result does not depend on the number of threads nor on where the scene lies or how large it
+/// is, up to rounding. Cost: O(points log points + sights), the search for neighbours in parallel,
+/// and 90 bytes a point.
 PlanarRegions planar_regions(const Scene& scene, const Progress& progress);
 
 } // namespace vcarve

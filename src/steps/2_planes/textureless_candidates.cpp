@@ -5,7 +5,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
-#include <CGAL/convex_hull_2.h>
 
 #include <algorithm>
 #include <array>
@@ -47,7 +46,10 @@ class Grid {
     /// that have: no more than there are points.
     std::vector<Square> empty_squares() const
     {
-        const std::vector<Kernel::Point_2> hull = this->hull();
+        std::vector<Kernel::Point_2> hull;
+        for (const Vector3d& corner : region_.hull()) {
+            hull.push_back(in_plane(corner));
+        }
         if (hull.size() < 3) return {};
         const auto is_within = [&](const Square& square) {
             return std::ranges::all_of(corners_of(square), [&](const Vector3d& corner) {
@@ -88,17 +90,6 @@ class Grid {
     {
         const Eigen::Vector2d at = frame_.in_plane(place);
         return {at.x(), at.y()};
-    }
-
-    /// The corners of the convex hull of the points, one or two where these lie on a line.
-    std::vector<Kernel::Point_2> hull() const
-    {
-        std::vector<Kernel::Point_2> places(region_.positions.size());
-        std::ranges::transform(region_.positions, places.begin(),
-                               [&](const Vector3d& position) { return in_plane(position); });
-        std::vector<Kernel::Point_2> corners;
-        CGAL::convex_hull_2(places.begin(), places.end(), std::back_inserter(corners));
-        return corners;
     }
 
     Square square_of(const Vector3d& place) const

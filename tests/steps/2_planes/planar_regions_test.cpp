@@ -169,13 +169,6 @@ TEST(PlanarRegions, AreNoSlicesOfNoise)
     EXPECT_LT(share_in_regions(rough), 0.01);
 }
 
-TEST(PlanarRegions, AreNoPiecesOfWhatIsRound)
-{
-    const Scene smooth =
-        round_thing(5000, [](std::size_t /*i*/, const Vector3d& /*out*/) { return 1.0; });
-    EXPECT_LT(share_in_regions(smooth), 0.05);
-}
-
 TEST(PlanarRegions, AreFoundAmidWhatIsRough)
 {
     // A rough ball behind a wall.
