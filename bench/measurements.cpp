@@ -88,7 +88,7 @@ Run make_surface(const Sample& sample, int threads, Log& log)
     options.threads = threads;
     cli::ModelInput input = cli::read_model_input({.path = sample.model, .points = {}}, log,
                                                   {.gather = thin_while_reading(options.thin)});
-    RunSize size = size_before_thinning(input.read, options.thin);
+    RunSize size = size_before_thinning(input.read, options);
     size.thinned = size_of(input.scene);
     Reconstruction made = reconstruct_thinned(std::move(input.scene), input.read, options, log);
     Stage stage(log, "write");

@@ -1,6 +1,6 @@
 #include "cli/exit_code.h"
 
-#include "io/work/ranks.h"
+#include "run/ranks.h"
 #include "vcarve/error.h"
 
 #include <cstdio>

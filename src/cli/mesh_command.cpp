@@ -13,13 +13,13 @@
 #include "cli/run_record.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
-#include "io/work/work_folder.h"
 #include "mesh/check.h"
 #include "mesh/long_faces.h"
 #include "options/declared.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
+#include "run/work_folder.h"
 #include "steps/6_surface/provenance.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
@@ -217,7 +217,7 @@ ModelInput read_input(const Run& run)
     };
     bool is_expected = false;
     const auto check = [&](const SceneSize& size) {
-        fit_memory(run, size_before_thinning(size, arguments.options.thin));
+        fit_memory(run, size_before_thinning(size, arguments.options));
         expect(size);
         is_expected = true;
     };
@@ -225,7 +225,7 @@ ModelInput read_input(const Run& run)
         read_model_input(arguments.model, run.logs.told,
                          {.check = check, .gather = thin_while_reading(arguments.options.thin)});
     if (!is_expected) expect(input.read);
-    RunSize size = size_before_thinning(input.read, arguments.options.thin);
+    RunSize size = size_before_thinning(input.read, arguments.options);
     size.thinned = size_of(input.scene);
     fit_memory(run, size);
     return input;

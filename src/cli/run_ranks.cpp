@@ -1,6 +1,6 @@
 #include "cli/run_ranks.h"
 
-#include "io/work/job.h"
+#include "run/job.h"
 
 namespace vcarve::cli {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/work/digest.h"
-#include "io/work/ranks.h"
+#include "run/digest.h"
+#include "run/ranks.h"
 #include "vcarve/options.h"
 
 #include <cstddef>

@@ -4,8 +4,8 @@
 #include "base/threads.h"
 #include "cli/exit_code.h"
 #include "cli/run_memory.h"
-#include "io/work/work_folder.h"
 #include "pipeline/rank_shares.h"
+#include "run/work_folder.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

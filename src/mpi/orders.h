@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/work/digest.h"
+#include "run/digest.h"
 
 #include <array>
 #include <cstdint>

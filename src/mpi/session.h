@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cli/run_ranks.h"
-#include "io/work/ranks.h"
 #include "mpi/orders.h"
+#include "run/ranks.h"
 
 #include <optional>
 #include <string>

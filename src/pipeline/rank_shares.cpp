@@ -1,63 +1,115 @@
 #include "pipeline/rank_shares.h"
 
 #include "base/freed_memory.h"
-#include "steps/3_cells/kept_block.h"
-#include "steps/4_visibility/count_crossings.h"
-#include "steps/4_visibility/shared_sights.h"
+#include "steps/3_cells/triangulate_blocks.h"
 #include "steps/4_visibility/trace.h"
 
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <stdexcept>
 #include <utility>
 
 namespace vcarve {
 
-Blocks kept_blocks(std::size_t count, StageKeeper& work)
+template <>
+inline constexpr int kNumFields<BlockCells> = 3;
+template <typename T>
+inline constexpr int kNumFields<SparseSums<T>> = 3;
+template <>
+inline constexpr int kNumFields<EnergyShare> = 3;
+
+namespace {
+
+// What has to be in the work folder before ranks can do their shares.
+constexpr std::array<std::string_view, 1> kNeededForBlocks = {"points"};
+constexpr std::array<std::string_view, 2> kNeededForSights = {"points", "cells"};
+
+using MakeBlock = std::function<BlockCells()>;
+
+/// The blocks of a rank, which are kept as parts of the checkpoint "cells".
+Blocks kept_blocks(std::size_t count, const Rank& rank, Checkpoints& work)
 {
-    return {count, [count, &work](std::size_t block, const std::function<BlockCells()>& make) {
-                return work.piece({"cells", block, count}, make);
-            }};
+    const auto keep = [count, &work](std::size_t block, const MakeBlock& make) {
+        return work.piece({"cells", block, count}, make);
+    };
+    return {.count = count, .keep = keep, .first = rank.number, .step = rank.of};
 }
 
-SharedBlocks::SharedBlocks(std::size_t count, StageKeeper& work) : work_(work), held_(count) {}
-
-Blocks SharedBlocks::own()
+StagePiece share_name(const Rank& rank)
 {
-    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    if (held_.size() > threads * work_.num_ranks()) return kept_blocks(held_.size(), work_);
-    return {held_.size(), [this](std::size_t block, const std::function<BlockCells()>& make) {
-                held_[block] = make();
-                return BlockCells();
-            }};
+    return {"sights", rank.number, rank.of};
 }
 
-Blocks SharedBlocks::all()
+} // namespace
+
+std::optional<TetMesh> triangulate_by_ranks(std::size_t blocks, RunState& run,
+                                            const Progress& progress)
 {
-    return {held_.size(), [this](std::size_t block, const std::function<BlockCells()>& make) {
-                if (held_[block]) return std::move(*std::exchange(held_[block], {}));
-                return work_.shared_piece({"cells", block, held_.size()}, make);
-            }};
+    const Scene& scene = run.points.scene;
+    Checkpoints& work = run.checkpoints;
+    // With other ranks, all blocks but those that gave up are there then.
+    const bool is_shared = work.share(kBlocksTask, BlocksTask{blocks}, kNeededForBlocks, [&] {
+        triangulate_share(scene, kept_blocks(blocks, {0, work.num_ranks()}, work),
+                          progress.part(0.0, 0.8));
+    });
+    Blocks all = kept_blocks(blocks, {}, work);
+    if (!is_shared) return triangulate_in_blocks(scene, all, progress);
+    all.keep = [&](std::size_t block, const MakeBlock& make) {
+        return work.shared_piece({"cells", block, blocks}, make);
+    };
+    return triangulate_in_blocks(scene, all, progress.part(0.8, 1.0));
+}
+
+VisibilityEnergy walk_by_ranks(RunState& run, const Progress& progress)
+{
+    constexpr double kWalks = 0.9; // of the time; the rest is adding what others say
+    Checkpoints& work = run.checkpoints;
+    const Scales scales = measure_scales(run.cells, run.points.scene);
+    const RayCaster caster(run.cells, run.points.scene, scales, run.options().labels.trace);
+    const RaySource source = photographs(run.points.scene);
+    VisibilityEnergy energy;
+    VisibilityEnergy said;
+    const Rank own = {0, work.num_ranks()};
+    const bool is_shared = work.share(kSightsTask, scales, kNeededForSights, [&] {
+        said = caster.said_of(source, share_of(*source.rays, own), progress.part(0.0, kWalks));
+    });
+    if (!is_shared) {
+        caster.cast(source, energy, progress);
+        return energy;
+    }
+    for (Rank rank = {1, own.of}; rank.number < rank.of; ++rank.number) {
+        caster.add(work.shared_piece(
+                       share_name(rank),
+                       [&] { return caster.share(source, share_of(*source.rays, rank), {}); }),
+                   said);
+    }
+    caster.finish(source, std::move(said), energy);
+    return energy;
+}
+
+VertexRun share_of(const Tracks& rays, const Rank& rank)
+{
+    const auto begin_of = [&](std::size_t number) {
+        const std::uint64_t before = rays.views.size() * number / rank.of;
+        const auto begin = std::ranges::lower_bound(rays.begins, before);
+        return number == rank.of ? static_cast<Index>(rays.size())
+                                 : static_cast<Index>(begin - rays.begins.begin());
+    };
+    return {begin_of(rank.number), begin_of(rank.number + 1)};
 }
 
 const Scene& RankShares::scene()
 {
-    if (!scene_) {
-        Scene scene;
-        map_stage(folder_, "points", scene);
-        scene_ = std::move(scene);
-    }
-    return *scene_;
+    if (!points_) map_kept(folder_, "points", points_.emplace());
+    return points_->scene;
 }
 
 const TetMesh& RankShares::cells()
 {
-    if (!cells_) {
-        TetMesh cells;
-        map_stage(folder_, "cells", cells);
-        cells_ = std::move(cells);
-    }
+    if (!cells_) map_kept(folder_, "cells", cells_.emplace());
     return *cells_;
 }
 
@@ -65,26 +117,22 @@ void RankShares::triangulate(std::string_view file, Log& log)
 {
     BlocksTask task;
     folder_.map(file, task);
-    StageKeeper work(&folder_, log);
+    Checkpoints work(&folder_, log);
     Stage stage(work.log(), "triangulate");
-    triangulate_share(scene(), kept_blocks(task.count, work), rank_, stage);
+    triangulate_share(scene(), kept_blocks(task.count, rank_, work), stage);
     return_freed_memory();
 }
 
 void RankShares::walk_sights(std::string_view file, Log& log)
 {
-    SightsTask task;
-    folder_.map(file, task);
-    const RaySource source = task.source(scene());
-    StageKeeper work(&folder_, log);
+    Scales scales;
+    folder_.map(file, scales);
+    Checkpoints work(&folder_, log);
     Stage stage(work.log(), "sights");
-    if (options_.labels.method == Method::strict) {
-        const CrossingCounter counter(cells());
-        CasterOfRanks(counter, work).share(source, task, rank_, stage);
-    } else {
-        const RayCaster caster(cells(), scene(), task.scales, options_.labels.trace);
-        CasterOfRanks(caster, work).share(source, task, rank_, stage);
-    }
+    const RayCaster caster(cells(), scene(), scales, options_.labels.trace);
+    const RaySource source = photographs(scene());
+    work.piece(share_name(rank_),
+               [&] { return caster.share(source, share_of(*source.rays, rank_), stage); });
 }
 
 void RankShares::work(std::string_view task, Log& log)

@@ -1,53 +1,44 @@
 #pragma once
 
-#include "io/work/kept_fields.h"
-#include "io/work/ranks.h"
-#include "io/work/stage_keeper.h"
-#include "steps/3_cells/triangulate_blocks.h"
+#include "pipeline/run_state.h"
+#include "run/ranks.h"
+#include "steps/4_visibility/each_vertex.h"
 #include "vcarve/log.h"
 #include "vcarve/options.h"
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
-#include <vector>
 
-// What the ranks of a run do beside the first, which runs reconstruct.cpp. (The lines of sight are
-// in steps/4_visibility/shared_sights.h.)
+// What the ranks of a run share: the blocks of the triangulation, and the lines of sight, of which
+// each walks those to a run of points, through all cells. What these say are integers, so their
+// sums are what one rank alone would get.
 
 namespace vcarve {
 
-/// Blocks that ranks are to triangulate, what the name of such a task begins with, and the stages
-/// that it takes.
+/// What the names of tasks for ranks begin with: blocks to triangulate, and sights to walk.
+inline constexpr std::string_view kBlocksTask = "task-blocks";
+inline constexpr std::string_view kSightsTask = "task-sights";
+
+/// What is to be known of blocks, beside the points.
 struct BlocksTask {
     std::size_t count = 0; ///< of all blocks
 };
-inline constexpr std::string_view kBlocksTask = "task-blocks";
-inline constexpr std::array<std::string_view, 1> kNeededForBlocks = {"points"};
 
-/// Blocks that are parts of the stage "cells".
-Blocks kept_blocks(std::size_t count, StageKeeper& work);
+/// The same cells as triangulate(), made in so many blocks, each of which is kept by itself, by all
+/// ranks. Nothing where triangulate_in_blocks() gives up.
+std::optional<TetMesh> triangulate_by_ranks(std::size_t blocks, RunState& run,
+                                            const Progress& progress);
 
-/// Blocks that all ranks make, as the first of them sees it: it holds its own in memory where all
-/// of these are in work at a time, for then a run that is killed leaves none of them to the next.
-class SharedBlocks {
-  public:
-    /// `work` must outlive it.
-    SharedBlocks(std::size_t count, StageKeeper& work);
+/// What the sights of the photographs say of the cells, walked by all ranks. A share that is
+/// missing, or cannot be read, is walked by this one.
+VisibilityEnergy walk_by_ranks(RunState& run, const Progress& progress);
 
-    Blocks own();
-    /// All of them, once; to be asked for when the ranks have made them.
-    Blocks all();
-
-  private:
-    StageKeeper& work_;
-    std::vector<std::optional<BlockCells>> held_;
-};
+/// The points whose rays a rank walks: as many rays as any other, but for those of a point.
+VertexRun share_of(const Tracks& rays, const Rank& rank);
 
 /// Does a rank's shares of a run, as the first rank asks for them. Memory: the scene and the cells,
-/// mapped from the work folder where there is a ScratchMemory, else read; and 20 bytes a cell, 16
-/// with Method::strict.
+/// mapped from the work folder where there is a ScratchMemory, else read; and 20 bytes a cell.
 class RankShares {
   public:
     /// `folder` is joined; `options` are those of the run. Both must outlive it.
@@ -61,15 +52,15 @@ class RankShares {
     void work(std::string_view task, Log& log);
 
   private:
-    void triangulate(std::string_view task, Log& log);
-    void walk_sights(std::string_view task, Log& log);
+    void triangulate(std::string_view file, Log& log);
+    void walk_sights(std::string_view file, Log& log);
     const Scene& scene();
     const TetMesh& cells();
 
     WorkFolder& folder_;
     const Options& options_;
     Rank rank_;
-    std::optional<Scene> scene_;
+    std::optional<CarvingPoints> points_;
     std::optional<TetMesh> cells_;
 };
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "io/input/read_model.h"
-#include "io/work/ranks.h"
-#include "io/work/work_folder.h"
 #include "mesh/removed_faces.h"
 #include "model/scene_size.h"
+#include "run/ranks.h"
+#include "run/work_folder.h"
 #include "vcarve/options.h"
 #include "vcarve/reconstruct.h"
 

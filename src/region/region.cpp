@@ -1,7 +1,6 @@
 #include "region/region.h"
 
 #include "base/lower_case_end.h"
-#include "model/region_of_interest.h"
 #include "region/mesh_region.h"
 #include "region/polygon_region.h"
 
@@ -68,19 +67,26 @@ class BallRegion final : public Region {
 
 std::unique_ptr<Region> make_region(const RegionChoice& choice, const Scene& scene)
 {
+    const bool is_ball = choice.kind == RegionChoice::Kind::looked_at;
+    return make_region(choice, scene.offset, is_ball ? region_of_interest(scene) : Ball());
+}
+
+std::unique_ptr<Region> make_region(const RegionChoice& choice, const Vector3d& offset,
+                                    const Ball& of_interest)
+{
     switch (choice.kind) {
     case RegionChoice::Kind::everything:
         return nullptr;
     case RegionChoice::Kind::looked_at:
-        return std::make_unique<BallRegion>(region_of_interest(scene));
+        return std::make_unique<BallRegion>(of_interest);
     case RegionChoice::Kind::box:
         return std::make_unique<BoxRegion>(
-            Eigen::AlignedBox3d(choice.low - scene.offset, choice.high - scene.offset));
+            Eigen::AlignedBox3d(choice.low - offset, choice.high - offset));
     case RegionChoice::Kind::file:
         break;
     }
-    if (lower_case_end(choice.file) == ".ply") return read_mesh_region(choice.file, scene.offset);
-    return read_polygon_region(choice.file, scene.offset);
+    if (lower_case_end(choice.file) == ".ply") return read_mesh_region(choice.file, offset);
+    return read_polygon_region(choice.file, offset);
 }
 
 } // namespace vcarve

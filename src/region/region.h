@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/region_of_interest.h"
 #include "vcarve/region.h"
 #include "vcarve/scene.h"
 
@@ -32,5 +33,9 @@ class Region {
 /// the file of the region is missing, broken, or holds no closed surface or simple polygon. Cost: a
 /// question takes O(1) of a box or ball, O(corners) of a polygon, about O(log(faces)) of a surface.
 std::unique_ptr<Region> make_region(const RegionChoice& choice, const Scene& scene);
+/// The same of a scene with that offset and that region of interest, which is not looked at where
+/// something else was chosen.
+std::unique_ptr<Region> make_region(const RegionChoice& choice, const Eigen::Vector3d& offset,
+                                    const Ball& of_interest);
 
 } // namespace vcarve

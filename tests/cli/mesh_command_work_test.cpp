@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <map>
+#include <string_view>
 #include <thread>
 
 namespace vcarve {
@@ -78,6 +80,36 @@ TEST_F(WorkOfProgram, IsKeptAndTakenWhereAsked)
     EXPECT_THAT(stages, testing::IsSupersetOf({"resume", "triangulate", "cut", "surface"}));
     ASSERT_EQ(run({"--quiet"}).exit_code, 0);
     EXPECT_TRUE(bytes_of(out) == expected);
+}
+
+TEST_F(WorkOfProgram, TellsTheSameFiguresWhateverCheckpointARunGoesOnFrom)
+{
+    const auto figures = [&](const std::vector<std::string>& words) {
+        const std::string stats = folder / "stats.json";
+        std::vector<std::string> all = words;
+        all.insert(all.end(), {"--quiet", "--stats", stats});
+        EXPECT_EQ(run_program(all).exit_code, 0);
+        std::map<std::string, nlohmann::json> counts;
+        for (const auto& stage : nlohmann::json::parse(bytes_of(stats))["stages"]) {
+            counts[stage["name"]] = stage["counts"];
+        }
+        std::erase_if(counts, [](const auto& stage) {
+            return stage.first == "digest" || stage.first == "keep" || stage.first == "resume";
+        });
+        return counts;
+    };
+    const auto alone = figures({scene, out});
+    EXPECT_GT(alone.at("open").at("of rays of the views"), 0);
+    EXPECT_EQ(figures(words({"--keep-work"})), alone);
+    for (const char* const kept : {"surface", "sights", "cells", "points"}) {
+        EXPECT_EQ(figures(words({"--keep-work"})), alone) << "after " << kept;
+        // The next run goes on from the one before.
+        for (const char* const later : {"surface", "sights", "cells", "points"}) {
+            EXPECT_TRUE(fs::remove(work + "/" + later + ".stage"));
+            if (std::string_view(later) == kept) break;
+        }
+    }
+    EXPECT_EQ(figures(words({})), alone) << "from nothing";
 }
 
 TEST_F(WorkOfProgram, OfOtherOptionsOrInputIsRefused)

@@ -41,11 +41,19 @@ TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
         void stage_begins(std::string_view name) override { heard.emplace_back(name); }
     } log;
     const Scene scene = bumpy_sphere(300, 1);
-    reconstruct(scene, Options(), log);
-    auto at = log.heard.begin();
-    for (const StageMemory& stage : predicted_memory(size_of_run(size_of(scene)), 1)) {
-        at = std::find(at, log.heard.end(), stage.stage);
-        ASSERT_NE(at, log.heard.end()) << stage.stage;
+    std::vector<Options> runs(3);
+    runs[1].labels.method = Method::strict;
+    runs[2].denoise.denoise = 0.0;
+    for (const Options& options : runs) {
+        log.heard = {"read"};
+        reconstruct(scene, options, log);
+        RunSize size = size_of_run(size_of(scene));
+        size.options = options;
+        auto at = log.heard.begin();
+        for (const StageMemory& stage : predicted_memory(size, 1)) {
+            at = std::find(at, log.heard.end(), stage.stage);
+            ASSERT_NE(at, log.heard.end()) << stage.stage;
+        }
     }
 }
 

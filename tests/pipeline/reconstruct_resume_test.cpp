@@ -100,21 +100,18 @@ void expect_equal(const Trial& a, const Trial& b)
 
 std::vector<Case> cases()
 {
-    Case usual{.name = "Usual", .kept = {"points", "cells", "sights", "labels", "surface"}};
-    Case looked_around{
-        .name = "VirtualViews",
-        .kept = {"points", "cells", "sights", "virtual-sights", "labels", "surface"}};
+    Case usual{.name = "Usual", .kept = {"points", "cells", "sights", "surface"}};
+    Case looked_around{.name = "VirtualViews", .kept = usual.kept};
     looked_around.options.labels.virtual_views.count = 20;
     Case strict{.name = "Strict", .kept = usual.kept};
     strict.options.labels.method = Method::strict;
-    Case strict_around{.name = "StrictVirtualViews", .kept = looked_around.kept};
+    Case strict_around{.name = "StrictVirtualViews", .kept = usual.kept};
     strict_around.options.labels = strict.options.labels;
     strict_around.options.labels.virtual_views.count = 20;
-    Case cropped{
-        .name = "CroppedDenseWithRemoved",
-        .is_dense = true,
-        .wants_removed = true,
-        .kept = {"filtered", "points", "cells", "sights", "labels", "surface-and-removed"}};
+    Case cropped{.name = "CroppedDenseWithRemoved",
+                 .is_dense = true,
+                 .wants_removed = true,
+                 .kept = {"points", "cells", "sights", "surface-and-removed"}};
     cropped.options.crop.region.kind = RegionChoice::Kind::looked_at;
     Case refined{.name = "ClosedAndRefined", .kept = usual.kept};
     refined.options.surface.closed = true;

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "io/work/work_folder.h"
 #include "pipeline/rank_shares.h"
-#include "steps/4_visibility/shared_sights.h"
+#include "run/work_folder.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 

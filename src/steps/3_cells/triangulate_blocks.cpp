@@ -52,19 +52,33 @@ std::size_t num_blocks(const Blocks& wanted, const Scene& scene)
     return std::clamp<std::size_t>(wanted.count, 1, scene.num_points());
 }
 
+/// Calls use(block, cells) for the blocks of a share, from many threads.
+template <typename Use>
+void for_each_block_of(const Blocks& share, const Scene& scene, const std::vector<Index>& first,
+                       const Use& use, const Progress& progress)
+{
+    const std::size_t all = num_blocks(share, scene);
+    if (share.first >= all) return;
+    const std::size_t count = (all - share.first + share.step - 1) / share.step;
+    const PointTree tree(scene.positions);
+    ProgressCount done(progress, count * scene.num_points() / all);
+    for_each_block(count, [&](std::size_t k) {
+        const std::size_t block = share.first + k * share.step;
+        const PointRun own = run_of(block, all, scene.num_points());
+        BlockProgress told(done, own.size());
+        use(block, share.keep(block, [&] { return block_cells(tree, first, own, told); }));
+        told.tell(1.0);
+    });
+}
+
 std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>& first,
                                    const Blocks& blocks, const Progress& progress)
 {
-    const PointTree tree(scene.positions);
-    const std::size_t count = num_blocks(blocks, scene);
-    std::vector<BlockCells> made(count);
-    ProgressCount done(progress, scene.num_points());
-    for_each_block(count, [&](std::size_t block) {
-        const PointRun own = run_of(block, count, scene.num_points());
-        BlockProgress told(done, own.size());
-        made[block] = blocks.keep(block, [&] { return block_cells(tree, first, own, told); });
-        told.tell(1.0);
-    });
+    std::vector<BlockCells> made(num_blocks(blocks, scene));
+    const auto collect = [&](std::size_t block, BlockCells cells) {
+        made[block] = std::move(cells);
+    };
+    for_each_block_of(blocks, scene, first, collect, progress);
     return made;
 }
 
@@ -142,27 +156,17 @@ TetMesh joined(std::vector<BlockCells>& blocks)
 
 } // namespace
 
-void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& rank,
-                       const Progress& progress)
+void triangulate_share(const Scene& scene, const Blocks& share, const Progress& progress)
 {
     if (scene.num_points() < 4) return; // refused by who makes the whole
     const std::vector<Index> first = first_points(scene.positions);
-    const std::size_t count = num_blocks(blocks, scene);
-    if (first.size() < 4 || rank.number >= count) return;
-    const PointTree tree(scene.positions);
-    const std::size_t share = (count - rank.number + rank.of - 1) / rank.of;
-    ProgressCount done(progress, share * scene.num_points() / count);
-    for_each_block(share, [&](std::size_t k) {
-        const std::size_t block = rank.number + k * rank.of;
-        const PointRun own = run_of(block, count, scene.num_points());
-        BlockProgress told(done, own.size());
-        try {
-            blocks.keep(block, [&] { return block_cells(tree, first, own, told); });
-        } catch (const TooManyTies&) {
-            return;
-        }
-        told.tell(1.0);
-    });
+    if (first.size() < 4) return;
+    try {
+        for_each_block_of(
+            share, scene, first, [](std::size_t, const BlockCells&) {}, progress);
+    } catch (const TooManyTies&) {
+        return;
+    }
 }
 
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& wanted,

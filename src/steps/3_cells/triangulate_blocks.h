@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/progress.h"
-#include "io/work/ranks.h"
 #include "model/tet_mesh.h"
 #include "steps/3_cells/block_cells.h"
 #include "vcarve/scene.h"
@@ -21,6 +20,8 @@ using KeepBlock =
 struct Blocks {
     std::size_t count = 1;
     KeepBlock keep = [](std::size_t, const auto& make) { return make(); };
+    std::size_t first = 0; ///< of a share: the first block it has, and
+    std::size_t step = 1;  ///< every so many-th from there on
 };
 
 /// What triangulate() gives, to the last bit, made in so many blocks: runs of points that follow
@@ -34,10 +35,9 @@ struct Blocks {
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& blocks,
                                              const Progress& progress = {});
 
-/// Makes the blocks of which a rank's share consists, every so many-th, and hands them to `keep`,
-/// which must remember them; what it returns is not looked at. Blocks that give up, see above, are
-/// left to triangulate_in_blocks().
-void triangulate_share(const Scene& scene, const Blocks& blocks, const Rank& rank,
-                       const Progress& progress = {});
+/// Makes the blocks of a share only, and hands them to `keep`, which must remember them; what it
+/// returns is not looked at. Where one gives up, see above, all are left to
+/// triangulate_in_blocks().
+void triangulate_share(const Scene& scene, const Blocks& share, const Progress& progress = {});
 
 } // namespace vcarve

@@ -1,5 +1,7 @@
 #include "steps/4_visibility/count_crossings.h"
 
+#include "base/parallel.h"
+#include "steps/4_visibility/each_vertex.h"
 #include "steps/4_visibility/walk.h"
 
 #include <atomic>
@@ -29,20 +31,18 @@ std::vector<Sight> rays_to(Index first, Index last, const RaySource& source)
     return sights;
 }
 
-} // namespace
-
-Crossings CrossingCounter::said_of(const RaySource& source, const VertexRun& points,
-                                   const Progress& progress) const
+/// How many of the rays cross each facet.
+Crossings count(const TetMesh& cells, const RaySource& source, const Progress& progress)
 {
-    Crossings crossings(cells_.cells.size(), {0, 0, 0, 0});
-    for_each_run_of_vertices(points, progress, [&](Index first, Index last) {
+    Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
+    for_each_run_of_vertices(all_vertices(cells), progress, [&](Index first, Index last) {
         const std::vector<Sight> sights = rays_to(first, last, source);
-        SightWalk(cells_).along_each(
+        SightWalk(cells).along_each(
             sights.size(), [&](std::size_t k) { return sights[k]; },
             [&](std::size_t, Index cell, int slot) { // counted on both sides
-                const Index beyond = cells_.cells[cell].neighbors[slot];
+                const Index beyond = cells.cells[cell].neighbors[slot];
                 count_one(crossings[cell][slot]);
-                count_one(crossings[beyond][cells_.mirror(cell, slot)]);
+                count_one(crossings[beyond][cells.mirror(cell, slot)]);
                 return true;
             },
             [](std::size_t, const WalkEnds&) {});
@@ -50,36 +50,18 @@ Crossings CrossingCounter::said_of(const RaySource& source, const VertexRun& poi
     return crossings;
 }
 
-CrossingCounter::Share CrossingCounter::share(const RaySource& source, const VertexRun& points,
-                                              const Progress& progress) const
-{
-    return sparse_sums(said_of(source, points, progress));
-}
-
-void CrossingCounter::add(const Share& share, Crossings& said) const
-{
-    add_sparse(share, said, [](auto& sums, const auto& others) {
-        for (int slot = 0; slot < 4; ++slot) {
-            sums[slot] += others[slot];
-        }
-    });
-}
-
-void CrossingCounter::finish(const RaySource& source, const Crossings& said,
-                             Crossings& crossings) const
-{
-    crossings.resize(cells_.cells.size(), {0, 0, 0, 0});
-    parallel_for(said.size(), [&](std::size_t cell) {
-        for (int slot = 0; slot < 4; ++slot) {
-            crossings[cell][slot] += static_cast<std::uint32_t>(source.weight * said[cell][slot]);
-        }
-    });
-}
+} // namespace
 
 void CrossingCounter::cast(const RaySource& source, Crossings& crossings,
                            const Progress& progress) const
 {
-    finish(source, said_of(source, all_vertices(cells_), progress), crossings);
+    const Crossings added = count(cells_, source, progress);
+    crossings.resize(cells_.cells.size(), {0, 0, 0, 0});
+    parallel_for(added.size(), [&](std::size_t cell) {
+        for (int slot = 0; slot < 4; ++slot) {
+            crossings[cell][slot] += static_cast<std::uint32_t>(source.weight * added[cell][slot]);
+        }
+    });
 }
 
 } // namespace vcarve

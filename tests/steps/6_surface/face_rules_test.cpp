@@ -332,13 +332,12 @@ TEST(ChooseFaces, KeepsAllWhereTheSurfaceIsToBeClosed)
     EXPECT_EQ(slab.chosen(options).keep, slab.all());
 }
 
-TEST(SeenSurface, EndsBehindTheBendWhereItTurnsOutOfSight)
+TEST(MakeSurface, EndsBehindTheBendWhereItTurnsOutOfSight)
 {
     const Slab slab;
-    Log log;
-    const SeenSurface seen =
-        seen_surface(slab.made.mesh, slab.made.labels, slab.made.scene, {}, {}, log);
-    EXPECT_EQ(size_of(seen.faces.faces.size()), std::ranges::count(slab.chosen().keep, 1));
+    const MadeSurface made =
+        make_surface(slab.made.labels, {slab.made.mesh, slab.made.scene}, {}, {});
+    EXPECT_EQ(std::ssize(made.seen.faces.faces), std::ranges::count(slab.chosen().keep, 1));
 }
 
 TEST(DropUnsupported, TakesWhatIsHardlySeenOffTheRimHoweverSmall)

@@ -1,5 +1,5 @@
 #include "base/parallel.h"
-#include "io/work/stage_keeper.h"
+#include "run/checkpoints.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 
@@ -38,7 +38,7 @@ class Lines final : public Log {
 };
 
 /// One run after the other in the same folder.
-class Keeper : public testing::Test {
+class CheckpointsOfRuns : public testing::Test {
   protected:
     /// A run: what it told, and how often the stages were made, stand in the members after it.
     template <typename Run>
@@ -48,24 +48,25 @@ class Keeper : public testing::Test {
         inner_made = outer_made = 0;
         WorkFolder work(folder.path());
         work.begin({{"a", "b"}});
-        StageKeeper keeper(&work, log);
+        Checkpoints keeper(&work, log);
         return run(keeper);
     }
     /// A stage that another is made within.
-    Numbers outer(StageKeeper& keeper)
+    Numbers outer(Checkpoints& keeper)
     {
-        return keeper.stage("outer", [&] {
-            Numbers numbers = keeper.stage("inner", [&] {
+        Numbers numbers;
+        keeper.keep("outer", numbers, [&] {
+            keeper.keep("inner", numbers, [&] {
                 ++inner_made;
                 tell(keeper.log(), "first");
-                return Numbers{1, 2, 3};
+                numbers = {1, 2, 3};
             });
             ++outer_made;
             keeper.log().note("a note");
             tell(keeper.log(), "second");
             numbers.push_back(4);
-            return numbers;
         });
+        return numbers;
     }
     static void tell(Log& log, std::string_view name)
     {
@@ -87,10 +88,9 @@ class Keeper : public testing::Test {
 
 } // namespace
 
-TEST_F(Keeper, WithoutAFolderMakesEveryStageAndTellsNothingElse)
+TEST_F(CheckpointsOfRuns, WithoutAFolderMakesEveryStageAndTellsNothingElse)
 {
-    StageKeeper keeper(nullptr, log);
-    EXPECT_FALSE(keeper.keeps());
+    Checkpoints keeper(nullptr, log);
     EXPECT_EQ(&keeper.log(), &log);
     EXPECT_EQ(outer(keeper), expected);
     EXPECT_EQ(outer(keeper), expected);
@@ -98,7 +98,7 @@ TEST_F(Keeper, WithoutAFolderMakesEveryStageAndTellsNothingElse)
     EXPECT_THAT(log.notes, ElementsAre("a note", "a note"));
 }
 
-TEST_F(Keeper, TakesAStageThatWasKeptAndTellsWhatItTold)
+TEST_F(CheckpointsOfRuns, TakesAStageThatWasKeptAndTellsWhatItTold)
 {
     EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
     EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
@@ -110,7 +110,7 @@ TEST_F(Keeper, TakesAStageThatWasKeptAndTellsWhatItTold)
                                        "a note"));
 }
 
-TEST_F(Keeper, GoesOnAfterTheLastStageThatWasKept)
+TEST_F(CheckpointsOfRuns, GoesOnAfterTheLastStageThatWasKept)
 {
     run([&](auto& keeper) { return outer(keeper); });
     remove("outer.stage");
@@ -124,7 +124,7 @@ TEST_F(Keeper, GoesOnAfterTheLastStageThatWasKept)
     EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
 }
 
-TEST_F(Keeper, MakesADamagedStageAgainAndSaysSo)
+TEST_F(CheckpointsOfRuns, MakesADamagedStageAgainAndSaysSo)
 {
     run([&](auto& keeper) { return outer(keeper); });
     damage("outer.stage");
@@ -138,9 +138,9 @@ TEST_F(Keeper, MakesADamagedStageAgainAndSaysSo)
     EXPECT_EQ(outer_made, 0); // it is whole again
 }
 
-TEST_F(Keeper, GoesOnWhereAStageCannotBeWrittenAndSaysSo)
+TEST_F(CheckpointsOfRuns, GoesOnWhereAStageCannotBeWrittenAndSaysSo)
 {
-    const auto once_unwritable = [&](StageKeeper& keeper) {
+    const auto once_unwritable = [&](Checkpoints& keeper) {
         // Nobody writes where a folder stands.
         std::filesystem::create_directory(folder /
                                           ("outer.stage.part-" + std::to_string(::getpid())));
@@ -156,22 +156,25 @@ TEST_F(Keeper, GoesOnWhereAStageCannotBeWrittenAndSaysSo)
     EXPECT_EQ(outer_made, 1);
 }
 
-TEST_F(Keeper, KeepsNothingOfAStageThatFails)
+TEST_F(CheckpointsOfRuns, KeepsNothingOfAStageThatFails)
 {
-    const auto fail = [](StageKeeper& keeper) {
-        return keeper.stage("numbers", []() -> Numbers { throw InputError("no numbers"); });
+    const auto fail = [](Checkpoints& keeper) {
+        Numbers numbers;
+        keeper.keep("numbers", numbers, [] { throw InputError("no numbers"); });
+        return numbers;
     };
     EXPECT_EQ(refusal<InputError>([&] { run(fail); }), "no numbers");
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
 /// A stage of 20 parts, made on all threads; those after `most` fail.
-class PiecesOfKeeper : public Keeper {
+class PiecesOfCheckpoints : public CheckpointsOfRuns {
   protected:
-    Numbers squares(StageKeeper& keeper, std::size_t of, std::size_t most)
+    Numbers squares(Checkpoints& keeper, std::size_t of, std::size_t most)
     {
-        return keeper.stage("squares", [&] {
-            Numbers all(of);
+        Numbers all;
+        keeper.keep("squares", all, [&] {
+            all.resize(of);
             parallel_for(
                 of,
                 [&](std::size_t i) {
@@ -183,18 +186,18 @@ class PiecesOfKeeper : public Keeper {
                     all[i] = part.at(0);
                 },
                 1);
-            return all;
         });
+        return all;
     }
     auto squares(std::size_t of, std::size_t most)
     {
         made = 0;
-        return run([&](StageKeeper& keeper) { return squares(keeper, of, most); });
+        return run([&](Checkpoints& keeper) { return squares(keeper, of, most); });
     }
     /// Leaves all parts of a stage that did not end.
     void leave_parts()
     {
-        const auto all_parts = [&](StageKeeper& keeper) {
+        const auto all_parts = [&](Checkpoints& keeper) {
             for (std::size_t i = 0; i < 20; ++i) {
                 keeper.piece({"squares", i, 20},
                              [&] { return Numbers{static_cast<std::uint32_t>(i * i)}; });
@@ -207,12 +210,12 @@ class PiecesOfKeeper : public Keeper {
     std::atomic<int> made = 0;
 };
 
-TEST_F(PiecesOfKeeper, AreBelievedWhereRanksOfThisRunHaveMadeThem)
+TEST_F(PiecesOfCheckpoints, AreBelievedWhereRanksOfThisRunHaveMadeThem)
 {
-    const auto numbers = [](StageKeeper& keeper) {
+    const auto numbers = [](Checkpoints& keeper) {
         return keeper.piece({"numbers", 0, 1}, [] { return Numbers(50, 7); });
     };
-    const auto shared = [](StageKeeper& keeper) {
+    const auto shared = [](Checkpoints& keeper) {
         return keeper.shared_piece({"numbers", 0, 1}, [] { return Numbers(50, 8); });
     };
     EXPECT_EQ(run(shared), Numbers(50, 8)) << "one that is not there is made";
@@ -224,7 +227,7 @@ TEST_F(PiecesOfKeeper, AreBelievedWhereRanksOfThisRunHaveMadeThem)
     EXPECT_EQ(run(numbers), Numbers(50, 7)) << "others are looked at";
 }
 
-TEST_F(PiecesOfKeeper, AreNotMadeAgain)
+TEST_F(PiecesOfCheckpoints, AreNotMadeAgain)
 {
     EXPECT_EQ(refusal<InputError>([&] { squares(20, 15); }), "killed");
     const int before = made;
@@ -234,7 +237,7 @@ TEST_F(PiecesOfKeeper, AreNotMadeAgain)
     EXPECT_THAT(log.notes, IsEmpty());
 }
 
-TEST_F(PiecesOfKeeper, GoWhenTheirStageIsKept)
+TEST_F(PiecesOfCheckpoints, GoWhenTheirStageIsKept)
 {
     leave_parts();
     EXPECT_EQ(folder.num_entries(), 22U);
@@ -243,14 +246,14 @@ TEST_F(PiecesOfKeeper, GoWhenTheirStageIsKept)
     EXPECT_EQ(folder.num_entries(), 3U); // lock, job, squares
 }
 
-TEST_F(PiecesOfKeeper, OfAnotherNumberAreOthers)
+TEST_F(PiecesOfCheckpoints, OfAnotherNumberAreOthers)
 {
     leave_parts();
     EXPECT_EQ(squares(10, 10).size(), 10U);
     EXPECT_EQ(made, 10);
 }
 
-TEST_F(PiecesOfKeeper, ThatAreDamagedAreMadeAgainAndToldOfAtTheEnd)
+TEST_F(PiecesOfCheckpoints, ThatAreDamagedAreMadeAgainAndToldOfAtTheEnd)
 {
     leave_parts();
     damage("squares-3-of-20.stage");

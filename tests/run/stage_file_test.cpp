@@ -1,7 +1,7 @@
 #include "base/scratch_memory.h"
-#include "io/work/stage_file.h"
+#include "pipeline/run_state.h"
+#include "run/stage_file.h"
 #include "steps/3_cells/triangulate.h"
-#include "steps/6_surface/kept_surface.h"
 #include "support/read_back.h"
 #include "support/scene_checks.h"
 #include "support/scenes.h"
@@ -28,9 +28,9 @@ class StageFile : public testing::Test {
     template <typename T>
     void write(const T& value) const
     {
-        StageSizer sizer;
-        sizer.put(value);
-        StageWriter writer(path, label, sizer.bytes(), {});
+        StageWriter counter;
+        counter.put(value);
+        StageWriter writer(path, label, counter.bytes(), {});
         writer.put(value);
         writer.commit();
     }
@@ -108,10 +108,10 @@ TEST_F(StageFile, IsMappedWhereArraysAreInScratchMemory)
     // This program's operator new gives no such memory, so an allocator does.
     const std::vector<std::uint64_t> numbers(2 << 20, 5);
     const std::uint64_t last = 7;
-    StageSizer sizer;
-    sizer.put(numbers);
-    sizer.put(last);
-    StageWriter writer(path, label, sizer.bytes(), {});
+    StageWriter counter;
+    counter.put(numbers);
+    counter.put(last);
+    StageWriter writer(path, label, counter.bytes(), {});
     writer.put(numbers);
     writer.put(last);
     writer.commit();
@@ -266,10 +266,10 @@ TEST_F(StageFile, OfMoreThanItsReaderAsksForIsRefused)
 
 TEST_F(StageFile, IsNotThereBeforeItIsCommitted)
 {
-    StageSizer sizer;
-    sizer.put(scene);
+    StageWriter counter;
+    counter.put(scene);
     {
-        StageWriter writer(path, label, sizer.bytes(), {});
+        StageWriter writer(path, label, counter.bytes(), {});
         writer.put(scene);
     }
     EXPECT_EQ(folder.num_entries(), 0U);
@@ -278,10 +278,10 @@ TEST_F(StageFile, IsNotThereBeforeItIsCommitted)
 TEST_F(StageFile, IsAsLargeAsWasCounted)
 {
     write(scene);
-    StageSizer sizer;
-    sizer.put(scene);
+    StageWriter counter;
+    counter.put(scene);
     StageReader reader(path, label, {});
-    EXPECT_EQ(reader.bytes(), sizer.bytes());
+    EXPECT_EQ(reader.bytes(), counter.bytes());
 }
 
 } // namespace vcarve

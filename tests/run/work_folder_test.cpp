@@ -1,4 +1,4 @@
-#include "io/work/work_folder.h"
+#include "run/work_folder.h"
 #include "support/temporary_folder.h"
 #include "support/usual_signals.h"
 #include "vcarve/error.h"

@@ -2,13 +2,14 @@
 
 #include "base/progress.h"
 #include "io/files/output_file.h"
-#include "io/work/digest.h"
-#include "io/work/kept_fields.h"
+#include "run/digest.h"
+#include "run/kept_fields.h"
 
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,22 +42,13 @@ constexpr std::uint64_t stage_padding(std::uint64_t content_before, std::uint64_
     return (kPage - (kContentBegin + content_before) % kPage) % kPage;
 }
 
-/// Counts the bytes that StageWriter would write.
-class StageSizer {
-  public:
-    template <typename T>
-    void put(const T& value);
-    std::uint64_t bytes() const { return bytes_; }
-
-  private:
-    std::uint64_t bytes_ = 0;
-};
-
 /// Writes a stage file, which is there when commit() has ended and not before.
 class StageWriter {
   public:
-    /// `bytes` is what a StageSizer says of all that will be put. Throws UsageError where the file
-    /// cannot be written, as everything else here does, and Cancelled where the progress does.
+    /// Writes nothing, but counts the bytes that would be written.
+    StageWriter() = default;
+    /// `bytes` is what one that counts says of all that will be put. Throws UsageError where the
+    /// file cannot be written, as everything else here does, and Cancelled where the progress does.
     StageWriter(const std::filesystem::path& path, const StageLabel& label, std::uint64_t bytes,
                 const Progress& progress);
 
@@ -64,12 +56,14 @@ class StageWriter {
     void put(const T& value);
     void commit();
 
+    std::uint64_t bytes() const { return done_; } ///< of the content, up to now
+
   private:
     void put_bytes(const void* data, std::size_t count);
-    void put_padding(std::size_t array_bytes);
+    void put_array(const void* data, std::size_t bytes);
 
-    OutputFile file_;
-    std::uint64_t bytes_;
+    std::optional<OutputFile> file_; ///< nothing where it counts
+    std::uint64_t bytes_ = 0;
     std::uint64_t done_ = 0;
     RunningDigest digest_;
     Progress progress_;
@@ -116,28 +110,6 @@ class StageReader {
 };
 
 template <typename T>
-void StageSizer::put(const T& value)
-{
-    if constexpr (kIsPlain<T>) {
-        bytes_ += sizeof(T);
-    } else if constexpr (kIsOptional<T>) {
-        bytes_ += sizeof(bool);
-        if (value) put(*value);
-    } else if constexpr (kIsArray<T>) {
-        bytes_ += sizeof(std::uint64_t);
-        if constexpr (kIsPlain<typename T::value_type>) {
-            const std::uint64_t array_bytes = value.size() * sizeof(typename T::value_type);
-            bytes_ += stage_padding(bytes_, array_bytes) + array_bytes;
-        } else {
-            for (const auto& item : value)
-                put(item);
-        }
-    } else {
-        KeptFields<T>::visit([&](const auto& field) { put(field); }, value);
-    }
-}
-
-template <typename T>
 void StageWriter::put(const T& value)
 {
     if constexpr (kIsPlain<T>) {
@@ -148,15 +120,13 @@ void StageWriter::put(const T& value)
     } else if constexpr (kIsArray<T>) {
         put(std::uint64_t{value.size()});
         if constexpr (kIsPlain<typename T::value_type>) {
-            const std::size_t array_bytes = value.size() * sizeof(typename T::value_type);
-            put_padding(array_bytes);
-            put_bytes(value.data(), array_bytes);
+            put_array(value.data(), value.size() * sizeof(typename T::value_type));
         } else {
             for (const auto& item : value)
                 put(item);
         }
     } else {
-        KeptFields<T>::visit([&](const auto& field) { put(field); }, value);
+        for_each_field(value, [&](const auto& field) { put(field); });
     }
 }
 
@@ -182,7 +152,7 @@ void StageReader::get(T& value)
                 get(value.emplace_back());
         }
     } else {
-        KeptFields<T>::visit([&](auto& field) { get(field); }, value);
+        for_each_field(value, [&](auto& field) { get(field); });
     }
 }
 

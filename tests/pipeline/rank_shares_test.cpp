@@ -1,7 +1,8 @@
 // A run that several ranks work on, which share a work folder.
 #include "pipeline/rank_shares.h"
+#include "pipeline/run_state.h"
 #include "pipeline/thinned_scene.h"
-#include "steps/4_visibility/shared_sights.h"
+#include "steps/4_visibility/sparse_sums.h"
 #include "support/ranks_in_turn.h"
 #include "support/scenes.h"
 
@@ -104,28 +105,28 @@ TEST_F(RanksOfARun, MakeTheSameOfBundledSights)
     expect_the_same_of_all(in_blocks(4));
 }
 
-TEST_F(RanksOfARun, ShareTheBlocksAndTheSightsOfEachSource)
+TEST_F(RanksOfARun, ShareTheBlocksAndTheSightsOfThePhotographs)
 {
     Options options = in_blocks(4);
     options.labels.virtual_views.count = 20;
-    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kBlocksTask, kSightsTask, kSightsTask));
+    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kBlocksTask, kSightsTask));
     EXPECT_THAT(made_by(1, options).tasks, IsEmpty()) << "nobody to share with";
     options.memory.blocks = 0;
-    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kSightsTask, kSightsTask));
+    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kSightsTask));
 }
 
 TEST_F(RanksOfARun, LeaveTheirSharesWhereRankZeroFindsThem)
 {
     std::vector<std::string> found;
     made_by(3, in_blocks(5), [&](const std::string& task) {
-        for (const auto* const name :
-             {"cells-0-of-5", "cells-1-of-5", "cells-4-of-5", "sights-1-of-3", "sights-2-of-3"}) {
+        for (const auto* const name : {"cells-0-of-5", "cells-1-of-5", "cells-4-of-5",
+                                       "sights-0-of-3", "sights-1-of-3", "sights-2-of-3"}) {
             if (std::filesystem::exists(file_of(name))) found.push_back(task + ": " + name);
         }
     });
-    // Of its own blocks rank 0 keeps only those that are not all in work at a time.
-    EXPECT_THAT(found, ElementsAre("task-blocks: cells-1-of-5", "task-blocks: cells-4-of-5",
-                                   "task-sights: sights-1-of-3", "task-sights: sights-2-of-3"));
+    EXPECT_THAT(found, ElementsAre("task-blocks: cells-0-of-5", "task-blocks: cells-1-of-5",
+                                   "task-blocks: cells-4-of-5", "task-sights: sights-1-of-3",
+                                   "task-sights: sights-2-of-3"));
     EXPECT_FALSE(std::filesystem::exists(folder / "work")) << "nothing is left at the end";
 }
 
@@ -163,7 +164,7 @@ TEST_F(RanksOfARun, AreRefusedStagesOfAnotherJob)
 {
     WorkFolder work(folder / "work");
     work.begin(kJob);
-    work.save("points", {}, std::vector<ToldEvent>(), scene);
+    work.save("points", {}, std::vector<ToldEvent>(), CarvingPoints{scene, {}});
     work.save(kBlocksTask, {}, BlocksTask{4});
     WorkFolder joined(work.path(), digest_of(Job{{"points3D.bin", "13 bytes"}}));
     const Options options = in_blocks(4);

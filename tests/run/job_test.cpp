@@ -1,6 +1,6 @@
 #include "base/version.h"
-#include "io/work/job.h"
 #include "options/declared.h"
+#include "run/job.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 #include "vcarve/options.h"

@@ -1,4 +1,4 @@
-#include "io/work/digest.h"
+#include "run/digest.h"
 
 #include "base/parallel.h"
 #include "io/files/mapped_file.h"

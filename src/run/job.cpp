@@ -1,4 +1,4 @@
-#include "io/work/job.h"
+#include "run/job.h"
 
 #include "base/version.h"
 #include "io/colmap/model_files.h"

@@ -1,16 +1,10 @@
-#include "io/work/stage_keeper.h"
+#include "run/checkpoints.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 
 namespace vcarve {
-
-namespace {
-
-constexpr const char* kMadeAgain = "it is made again";
-
-} // namespace
 
 Counts size_counts(std::string_view name, std::uint64_t bytes)
 {
@@ -41,7 +35,7 @@ void RememberingLog::tell_again(const std::vector<ToldEvent>& events)
     }
 }
 
-void StageKeeper::tell_taken(std::string_view name, const std::vector<ToldEvent>& told)
+void Checkpoints::tell_taken(std::string_view name, const std::vector<ToldEvent>& told)
 {
     std::vector<std::string> stages;
     for (const ToldEvent& event : told) {
@@ -52,31 +46,25 @@ void StageKeeper::tell_taken(std::string_view name, const std::vector<ToldEvent>
     remembering_.tell_again(told);
 }
 
-std::vector<ToldEvent> StageKeeper::told_since(std::size_t first) const
-{
-    const std::vector<ToldEvent>& told = remembering_.told();
-    return {told.begin() + static_cast<std::ptrdiff_t>(first), told.end()};
-}
-
-void StageKeeper::note_unkept(std::string_view name, const UsageError& error)
+void Checkpoints::note_unkept(std::string_view name, const UsageError& error)
 {
     shown_.note(
         fmt::format("{}; the run goes on, but {} would have to be made again", error.what(), name));
 }
 
-void StageKeeper::note_unusable(const InputError& error)
+void Checkpoints::note_made_again(std::string_view sentence)
 {
-    shown_.note(fmt::format("{}; {}", error.what(), kMadeAgain));
+    shown_.note(fmt::format("{}; it is made again", sentence));
 }
 
 /// No task has the name of another, also of another process: a rank may still see the file of one
 /// that is over, on a network file system or of a job that was killed.
-std::string StageKeeper::name_of_task(std::string_view name)
+std::string Checkpoints::name_of_task(std::string_view name)
 {
     return fmt::format("{}-{}-{}", name, ::getpid(), ++num_tasks_);
 }
 
-void StageKeeper::share_file(const std::string& task, const std::function<void()>& own)
+void Checkpoints::share_file(const std::string& task, const std::function<void()>& own)
 {
     try {
         ranks_->share(task, own);
@@ -87,11 +75,11 @@ void StageKeeper::share_file(const std::string& task, const std::function<void()
     folder_->drop(task);
 }
 
-void StageKeeper::tell_unusable_pieces()
+void Checkpoints::tell_unusable_pieces()
 {
     const std::lock_guard lock(mutex_);
     for (const std::string& sentence : std::exchange(unusable_, {})) {
-        shown_.note(fmt::format("{}; {}", sentence, kMadeAgain));
+        note_made_again(sentence);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "io/work/work_folder.h"
+#include "run/work_folder.h"
 
 #include "io/files/output_file.h"
 #include "vcarve/error.h"

@@ -1,4 +1,4 @@
-#include "io/work/digest.h"
+#include "run/digest.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 

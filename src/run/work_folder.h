@@ -1,7 +1,7 @@
 #pragma once
 
-#include "io/work/job.h"
-#include "io/work/stage_file.h"
+#include "run/job.h"
+#include "run/stage_file.h"
 #include "vcarve/log.h"
 
 #include <cstddef>
@@ -97,12 +97,12 @@ template <typename... Parts>
 std::uint64_t WorkFolder::save(std::string_view stage, const Progress& progress,
                                const Parts&... parts) const
 {
-    StageSizer sizer;
-    (sizer.put(parts), ...);
-    StageWriter writer(file_of(stage), {std::string(stage), job_}, sizer.bytes(), progress);
+    StageWriter counter;
+    (counter.put(parts), ...);
+    StageWriter writer(file_of(stage), {std::string(stage), job_}, counter.bytes(), progress);
     (writer.put(parts), ...);
     writer.commit();
-    return sizer.bytes();
+    return writer.bytes();
 }
 
 template <typename... Parts>

@@ -1,4 +1,4 @@
-#include "io/work/stage_file.h"
+#include "run/stage_file.h"
 
 #include "base/scratch_memory.h"
 #include "vcarve/error.h"
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<char, 16> kMagic = {'v', 'c', 'a', 'r', 'v',  'e',  ' ', 's',
                                          't', 'a', 'g', 'e', '\r', '\n', 0,   1};
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 /// Written and read, and looked at for what it adds to a digest, at a time.
 constexpr std::size_t kPieceBytes = 16 << 20;
 
@@ -48,42 +48,47 @@ void write_digest(std::ostream& out, const Digest& digest)
 
 StageWriter::StageWriter(const std::filesystem::path& path, const StageLabel& label,
                          std::uint64_t bytes, const Progress& progress)
-    : file_(path), bytes_(bytes), progress_(progress)
+    : file_(std::in_place, path), bytes_(bytes), progress_(progress)
 {
     Header header;
     header.bytes = bytes;
     header.job = label.job;
     label.name.copy(header.name.data(), StageLabel::kLongestName);
-    file_.stream().write(reinterpret_cast<const char*>(&header), sizeof(header));
-    write_digest(file_.stream(), digest_of(bytes_of(header)));
+    file_->stream().write(reinterpret_cast<const char*>(&header), sizeof(header));
+    write_digest(file_->stream(), digest_of(bytes_of(header)));
 }
 
 void StageWriter::put_bytes(const void* data, std::size_t count)
 {
+    if (!file_) {
+        done_ += count;
+        return;
+    }
     for (std::span<const char> left(static_cast<const char*>(data), count); !left.empty();) {
         const auto piece = left.first(std::min(left.size(), kPieceBytes));
-        file_.stream().write(piece.data(), static_cast<std::streamsize>(piece.size()));
+        file_->stream().write(piece.data(), static_cast<std::streamsize>(piece.size()));
         digest_.add(piece);
         done_ += piece.size();
         left = left.subspan(piece.size());
         // A disk that is full is said at once.
-        if (!file_.stream()) file_.commit();
+        if (!file_->stream()) file_->commit();
         if (piece.size() >= kPieceBytes / 16) {
             progress_.tell(static_cast<double>(done_), static_cast<double>(bytes_));
         }
     }
 }
 
-void StageWriter::put_padding(std::size_t array_bytes)
+void StageWriter::put_array(const void* data, std::size_t bytes)
 {
-    const std::vector<char> zeros(stage_padding(done_, array_bytes));
+    const std::vector<char> zeros(stage_padding(done_, bytes));
     put_bytes(zeros.data(), zeros.size());
+    put_bytes(data, bytes);
 }
 
 void StageWriter::commit()
 {
-    write_digest(file_.stream(), digest_.value());
-    file_.commit();
+    write_digest(file_->stream(), digest_.value());
+    file_->commit();
 }
 
 StageReader::StageReader(std::filesystem::path path, const StageLabel& label,

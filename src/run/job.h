@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/input/find_input.h"
-#include "io/work/digest.h"
+#include "run/digest.h"
 #include "vcarve/options.h"
 
 #include <cstdint>

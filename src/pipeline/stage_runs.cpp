@@ -1,0 +1,285 @@
+#include "pipeline/stage_runs.h"
+
+#include "pipeline/memory.h"
+#include "pipeline/rank_shares.h"
+#include "steps/1_points/crop.h"
+#include "steps/1_points/denoise.h"
+#include "steps/1_points/filter.h"
+#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/stray_points.h"
+#include "steps/1_points/thin.h"
+#include "steps/2_planes/added_points.h"
+#include "steps/3_cells/triangulate.h"
+#include "steps/4_visibility/count_crossings.h"
+#include "steps/4_visibility/trace.h"
+#include "steps/4_visibility/virtual_views.h"
+#include "steps/5_labels/label_cells.h"
+#include "steps/5_labels/strict_carving.h"
+#include "steps/6_surface/cleanup.h"
+#include "steps/6_surface/orient.h"
+#include "steps/6_surface/removals.h"
+#include "steps/7_refine/settle.h"
+#include "steps/7_refine/simplify.h"
+#include "steps/7_refine/smooth.h"
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace vcarve::stage_runs {
+
+namespace {
+
+std::int64_t thousandths(double px)
+{
+    return std::llround(1000.0 * px);
+}
+
+Counts cut_by(VisibilityEnergy energy, RunState& run, const Progress& progress)
+{
+    CutCells made =
+        cut_cells(run.cells, run.points.scene, std::move(energy), run.options().labels, progress);
+    run.labels = std::move(made.labels);
+    return {{"inside", made.inside},
+            {"of", size_of(run.cells.cells.size())},
+            {"faces of the hull", made.on_hull}};
+}
+
+RemovedFaces* wanted_removals(RunState& run)
+{
+    return run.wants_removed ? &run.carved.removed : nullptr;
+}
+
+} // namespace
+
+Counts foresee_memory(RunState& run, const Progress& /*progress*/)
+{
+    const int threads = tbb::this_task_arena::max_concurrency();
+    require_memory_of(run.size, threads);
+    return {{"MiB expected", (predicted_peak(run.size, threads) >> 20) + 1}};
+}
+
+Counts thin(RunState& run, const Progress& progress)
+{
+    Scene& scene = run.points.scene;
+    const std::int64_t before = size_of(scene.num_points());
+    scene = thin_points(scene, run.options().thin, progress);
+    return {{"points", size_of(scene.num_points())}, {"of", before}};
+}
+
+Counts filter(RunState& run, const Progress& progress)
+{
+    Scene& scene = run.points.scene;
+    const FilterOptions& options = run.options().points;
+    const std::int64_t before = size_of(scene.num_points());
+    FilteredPoints filtered = filter_points(std::move(scene), options, progress.part(0.0, 0.6));
+    progress.tell(0.6);
+    scene = spatial_sort(std::move(filtered.scene), progress.part(0.6, 0.9));
+    const std::int64_t stray = drop_stray_points(scene, options);
+    const FilterReport& dropped = filtered.report;
+    return {{"points", size_of(scene.num_points())}, {"of", before},
+            {"non-finite", dropped.non_finite},      {"duplicate", dropped.duplicate},
+            {"few views", dropped.few_views},        {"high error", dropped.high_error},
+            {"low angle", dropped.low_angle},        {"stray", stray}};
+}
+
+Counts add_points(RunState& run, const Progress& progress)
+{
+    const AddedPoints report =
+        vcarve::add_points(run.points.scene, run.options().creases, progress);
+    return {{"points added", report.added}, {"planar regions", report.regions}};
+}
+
+/// The region is found among the points that it drops.
+Counts crop(RunState& run, const Progress& progress)
+{
+    auto& [scene, of_interest] = run.points;
+    const RegionChoice& choice = run.options().crop.region;
+    const std::int64_t before = size_of(scene.num_points());
+    if (choice.kind == RegionChoice::Kind::looked_at) of_interest = region_of_interest(scene);
+    run.region = make_region(choice, scene.offset, of_interest);
+    CroppedPoints cropped = crop_points(std::move(scene), *run.region, progress);
+    scene = std::move(cropped.scene);
+    return {{"points", cropped.inside},
+            {"of", before},
+            {"outside but seen through it", cropped.witnesses}};
+}
+
+Counts denoise(RunState& run, const Progress& progress)
+{
+    Scene& scene = run.points.scene;
+    const DenoiseReport report = denoise_points(scene, run.options().denoise, progress);
+    return {{"points moved", report.moved},
+            {"of", size_of(scene.num_points())},
+            {"thousandths of a pixel of noise", thousandths(report.noise_px)}};
+}
+
+Counts triangulate(RunState& run, const Progress& progress)
+{
+    const Scene& scene = run.points.scene;
+    const auto blocks = static_cast<std::size_t>(std::max(run.options().memory.blocks, 0));
+    if (blocks == 0) {
+        run.cells = vcarve::triangulate(scene, progress);
+    } else if (auto cells = triangulate_by_ranks(blocks, run, progress)) {
+        run.cells = std::move(*cells);
+    } else {
+        run.notes.emplace_back("so many points lie on common spheres or planes, or next to them, "
+                               "that they are triangulated at once, which takes more memory");
+        run.cells = triangulate_at_once(scene, progress);
+    }
+    return {{"cells", size_of(run.cells.cells.size())}};
+}
+
+Counts walk_sights(RunState& run, const Progress& progress)
+{
+    const Scene& scene = run.points.scene;
+    if (run.options().labels.method == Method::strict) {
+        CrossingCounter(run.cells).cast(photographs(scene), run.evidence.crossings, progress);
+    } else {
+        run.evidence.energy = walk_by_ranks(run, progress);
+    }
+    return {{"sights", size_of(scene.num_sights())}};
+}
+
+Counts place_virtual_views(RunState& run, const Progress& progress)
+{
+    VirtualSights& sights = run.virtual_sights;
+    sights = find_virtual_sights(run.cells, run.points.scene, run.labels,
+                                 run.options().labels.virtual_views, progress);
+    return {{"views", size_of(sights.centers.size())},
+            {"sights", size_of(sights.tracks.views.size())}};
+}
+
+Counts walk_virtual_sights(RunState& run, const Progress& progress)
+{
+    const LabelOptions& options = run.options().labels;
+    const VirtualSights& sights = run.virtual_sights;
+    const RaySource source = sights.source(options.virtual_views.weight);
+    if (options.method == Method::strict) {
+        CrossingCounter(run.cells).cast(source, run.evidence.crossings, progress);
+    } else {
+        const Scales scales = measure_scales(run.cells, run.points.scene);
+        RayCaster(run.cells, run.points.scene, scales, options.trace)
+            .cast(source, run.evidence.energy, progress);
+    }
+    return {{"sights", size_of(sights.tracks.views.size())}};
+}
+
+Counts cut_first(RunState& run, const Progress& progress)
+{
+    return cut_by(run.evidence.energy, run, progress);
+}
+
+Counts cut(RunState& run, const Progress& progress)
+{
+    return cut_by(std::exchange(run.evidence.energy, {}), run, progress);
+}
+
+Counts carve_first(RunState& run, const Progress& /*progress*/)
+{
+    const int min_crossings = run.options().labels.min_crossings;
+    run.labels = vcarve::carve(run.cells, run.evidence.crossings, min_crossings);
+    return {{"inside", std::ranges::count(run.labels, Label::inside)},
+            {"of", size_of(run.cells.cells.size())}};
+}
+
+Counts carve(RunState& run, const Progress& progress)
+{
+    Counts counts = carve_first(run, progress);
+    run.evidence.crossings = {};
+    return counts;
+}
+
+Counts make_surface(RunState& run, const Progress& progress)
+{
+    MadeSurface made =
+        vcarve::make_surface(std::move(run.labels),
+                             {run.cells, run.points.scene, run.region.get(), wanted_removals(run)},
+                             run.options().surface, progress);
+    run.carved.seen = std::move(made.seen);
+    Counts counts = {{"faces", size_of(run.carved.seen.faces.faces.size())},
+                     {"unseen", made.unseen},
+                     {"closing without support", made.closing},
+                     {"trimmed", made.trimmed}};
+    if (run.region) counts.emplace_back("outside the region", made.out_of_region);
+    return counts;
+}
+
+Counts clean(RunState& run, const Progress& /*progress*/)
+{
+    CleanSurface cleaned =
+        clean_surface(std::move(run.carved.seen.faces), run.options().surface.cleanup);
+    run.mesh = std::move(cleaned.mesh);
+    run.first_filled = cleaned.first_filled;
+    Removals(wanted_removals(run)).add_deleted(*run.mesh, run.first_filled);
+    const CleanupCounts& counts = cleaned.counts;
+    return {{"vertices", counts.vertices},
+            {"faces", counts.faces},
+            {"split edges", counts.split_edges},
+            {"split vertices", counts.split_vertices},
+            {"components dropped", counts.removed_components},
+            {"holes filled", counts.filled_holes}};
+}
+
+/// Holes that were filled are not open.
+Counts count_open(RunState& run, const Progress& /*progress*/)
+{
+    const auto& [rays, open] = run.carved.seen.openness.value();
+    std::vector<std::array<Eigen::Vector3d, 3>> filled;
+    for (std::size_t i = run.first_filled; i < run.mesh->n_faces(); ++i) {
+        filled.push_back(run.mesh->triangle(handle_at<OpenMesh::FaceHandle>(i)));
+    }
+    return {{"rays of the views", count_free(open, filled)}, {"of", rays}};
+}
+
+Counts settle(RunState& run, const Progress& progress)
+{
+    const SettleCounts counts =
+        settle_vertices(*run.mesh, run.points.scene, run.options().denoise, progress);
+    return {{"vertices moved", counts.moved},
+            {"of", counts.vertices},
+            {"held back", counts.held},
+            {"thousandths of a pixel of noise", thousandths(counts.noise_px)}};
+}
+
+Counts guard_sights(RunState& run, const Progress& progress)
+{
+    run.guard.emplace(run.points.scene, *run.mesh, progress);
+    return {{"free sights", run.guard->num_free()}, {"of", run.guard->num_sights()}};
+}
+
+Counts smooth(RunState& run, const Progress& progress)
+{
+    const SmoothCounts counts =
+        smooth_surface(*run.mesh, *run.guard, run.options().refine.smooth, progress);
+    return {
+        {"vertices moved", counts.moved}, {"of", counts.vertices}, {"held by sights", counts.held}};
+}
+
+Counts simplify(RunState& run, const Progress& progress)
+{
+    const SimplifyOptions& options = run.options().refine.simplify;
+    const SimplifyCounts counts = simplify_surface(*run.mesh, *run.guard, options, progress);
+    if (counts.faces > options.faces) {
+        run.notes.push_back(fmt::format("{} faces are left, not {}: merging more vertices would "
+                                        "hide what was seen, or fold or tear the surface",
+                                        counts.faces, options.faces));
+    }
+    return {{"faces", counts.faces}, {"of", counts.faces_before}};
+}
+
+Counts orient(RunState& run, const Progress& /*progress*/)
+{
+    const ViewAgreement agreement = view_agreement(*run.mesh, run.points.scene);
+    run.surface = tri_mesh(*run.mesh);
+    return {{"sights on the outside", agreement.facing},
+            {"of", agreement.sights},
+            {"boundary edges", num_boundary_edges(*run.mesh)}};
+}
+
+} // namespace vcarve::stage_runs
