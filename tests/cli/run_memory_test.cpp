@@ -23,7 +23,7 @@ struct Notes : Log {
 };
 
 constexpr SceneSize kSmall = {.points = 1000, .sights = 4000, .views = 3};
-constexpr RunSize kRun = {.read = kSmall, .thinned = kSmall};
+const RunSize kRun = {.read = kSmall, .thinned = kSmall};
 
 TEST(ArrayFolder, IsBesideTheOutputAndGoneAfterwardsWhereNoneIsGiven)
 {
