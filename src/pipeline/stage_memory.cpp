@@ -110,7 +110,7 @@ double thinning(const Needs& needs)
 double reading(const Needs& needs)
 {
     if (needs.in_parts) return merging_parts(needs);
-    const Sizes& n = needs.left;
+    const Sizes& n = needs.read;
     return n.scene() + 24 * n.points;
 }
 
@@ -128,8 +128,9 @@ double finding_creases(const Needs& needs)
     const Sizes& n = needs.left;
     constexpr double kTree = 40 + 13;
     constexpr double kAround = 12 * 4 + 3 * 8;
-    constexpr double kOfRegion = 2 * 4 + 24;
-    return n.scene() + n.points * (kTree + kAround + kOfRegion);
+    constexpr double kOfRegion = 2 * 4 + 2 * 24 + 13;
+    constexpr double kCandidates = 300; ///< near a point, with surfaces
+    return n.scene() + n.points * (kTree + kAround + kOfRegion + kCandidates);
 }
 
 /// CGAL's triangulation of the blocks in work, with the points they take in, their cells twice, as
@@ -182,7 +183,7 @@ double carving(const Needs& needs)
 double extracting(const Needs& needs)
 {
     const Sizes& n = needs.left;
-    constexpr double kFace = 80;
+    constexpr double kFace = 80 + 60; // its evidence
     constexpr double kVertex = 31 + 4 + 8;
     return n.after_triangulation() + n.cells() + n.faces() * kFace + n.points * kVertex;
 }

@@ -114,7 +114,7 @@ TEST_F(ProgramOnDenseBall, DropsAPointThatIsNotFinite)
     cloud.positions[7].y() = std::numeric_limits<double>::quiet_NaN();
     write_cloud(CloudEncoding::binary);
     EXPECT_THAT(run_program({dense, out}).err,
-                HasSubstr("493 of 600 points (1 non-finite, 106 few views)"));
+                HasSubstr("493 of 600 points kept, 106 of few views, 1 not finite"));
 }
 
 TEST_F(ProgramOnDenseBall, RefusesBrokenInputWithASentenceAndLeavesNothing)

@@ -82,7 +82,7 @@ TEST_F(ProgramOnScannedBall, TakesOnePlaceForAllPoints)
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + bare +
                                         ", measured by a scanner at 0, 0, 3\nread         325 "
-                                        "points (1 views, 325 sights)"));
+                                        "points, 1 views, 325 rays"));
     EXPECT_EQ(run_program({bare, out, "--scanner", "file"}).exit_code, 3);
 }
 

@@ -90,7 +90,8 @@ TEST_F(WorkOfProgram, TellsTheSameFiguresWhateverCheckpointARunGoesOnFrom)
         all.insert(all.end(), {"--quiet", "--stats", stats});
         EXPECT_EQ(run_program(all).exit_code, 0);
         std::map<std::string, nlohmann::json> counts;
-        for (const auto& stage : nlohmann::json::parse(bytes_of(stats))["stages"]) {
+        const auto record = nlohmann::json::parse(bytes_of(stats));
+        for (const auto& stage : record["stages"]) {
             counts[stage["name"]] = stage["counts"];
         }
         std::erase_if(counts, [](const auto& stage) {

@@ -260,8 +260,8 @@ TEST(PlanBlocks, TakesSoManyThatThoseAtATimeTakeHalfOfTheMemory)
     const double left = static_cast<double>(4 * kGiB - least_memory(run, 2));
     EXPECT_LE(2 * 600.0 * 20e6 / plan.blocks, left / 2);
     EXPECT_GT(2 * 600.0 * 20e6 / (plan.blocks - 1), left / 2);
-    EXPECT_EQ(plan_blocks(run, 2, {.most = 13 * kGiB}, std::nullopt).blocks, 4);
-    EXPECT_EQ(plan_blocks(run, 1, {.most = 13 * kGiB}, std::nullopt).blocks, 2);
+    EXPECT_EQ(plan_blocks(run, 2, {.most = 12 * kGiB}, std::nullopt).blocks, 5);
+    EXPECT_EQ(plan_blocks(run, 1, {.most = 12 * kGiB}, std::nullopt).blocks, 3);
     EXPECT_EQ(plan_blocks(run, 2, {.most = 4 * kGiB, .blocks = 7}, std::nullopt).blocks, 7);
 }
 

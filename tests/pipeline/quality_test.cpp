@@ -17,7 +17,7 @@
 
 // What the program is proud of, held to bounds on every fixture whose truth is known, at the
 // defaults it ships. After a change that is meant to move these figures, print them anew with
-//   build/vcarve_tests --gtest_filter='*Quality*'
+//   build/pipeline_tests --gtest_filter='*Quality*'
 // and put the lines that begin with a brace in place of those below.
 
 namespace vcarve {
@@ -29,10 +29,10 @@ struct Held {
     double margin; ///< how much worse it may become: less than what the passes it guards gain
 };
 constexpr std::array kHeld = {
-    Held{"/truth/agreement/1/f", 0.01}, // at 0.25 % of the diagonal
-    Held{"/truth/blocked", 0.01},       Held{"/views/unsupported_area", 0.01},
-    Held{"/truth/seen_right", 0.01},    Held{"/truth/torn", 0.0005},
-    Held{"/truth/open", 0.01},
+    Held{"/truth/agreement/1/f", 0.002}, // at 0.25 % of the diagonal
+    Held{"/truth/blocked", 0.002},       Held{"/views/unsupported_area", 0.002},
+    Held{"/truth/seen_right", 0.002},    Held{"/truth/torn", 0.0005},
+    Held{"/truth/open", 0.002},
 };
 
 struct Measured {
@@ -43,11 +43,11 @@ struct Measured {
 
 constexpr Measured kMeasured[] = {
     // F, blocked, unsupported, seen right, torn, open
-    {"scene", {0.8076, 0.0575, 0.0362, 0.7740, 0.0000, 0.0727}},
-    {"air", {0.7185, 0.0440, 0.0264, 0.7118, 0.0000, 0.0254}},
-    {"room", {0.6726, 0.0605, 0.0244, 0.6791, 0.0000, 0.1943}},
-    {"dense_room", {0.7200, 0.0344, 0.0234, 0.7017, 0.0001, 0.2084}, "room"},
-    {"scanned_room", {0.9072, 0.0354, 0.0130, 0.9009, 0.0000, 0.0013}, "room"},
+    {"scene", {0.8298, 0.0459, 0.0266, 0.8054, 0.0000, 0.0738}},
+    {"air", {0.7136, 0.0789, 0.0090, 0.7057, 0.0000, 0.0231}},
+    {"room", {0.6632, 0.0692, 0.0256, 0.6682, 0.0000, 0.1917}},
+    {"dense_room", {0.7203, 0.0369, 0.0196, 0.7015, 0.0000, 0.2083}, "room"},
+    {"scanned_room", {0.9090, 0.0354, 0.0146, 0.8987, 0.0000, 0.0041}, "room"},
     {"paper/cube_with_cavity", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
     {"paper/boissonnat", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
     {"paper/cubicles", {0.9902, 0.0039, 0.0000, 0.9904, 0.0000, 0.0008}},
@@ -57,7 +57,7 @@ constexpr Measured kMeasured[] = {
 /// What no fixture may exceed.
 constexpr std::pair<const char*, double> kMost[] = {
     {"/views/back_faces_seen", 0.001}, {"/views/hidden_sights", 0.002},
-    {"/views/missed_points", 0.006},   {"/views/seen_boundary_edges", 60},
+    {"/views/missed_points", 0.006},   {"/views/seen_boundary_edges", 90},
     {"/size/nonmanifold_edges", 0},    {"/size/nonmanifold_vertices", 0},
     {"/size/orientation_faults", 0},
 };

@@ -119,7 +119,7 @@ TEST(Reconstruct, RefusesOptionsOutOfTheirRangeBeforeAnyWork)
     EXPECT_EQ(refused([](Options& options) {
                   options.labels.cut.quality = std::numeric_limits<double>::quiet_NaN();
               }),
-              "--quality takes a number from 0 to 100000 (sights), not nan");
+              "--quality takes a number from 0 to 100000 (rays), not nan");
     EXPECT_EQ(refused([](Options& options) { options.threads = 1025; }),
               "--threads takes a whole number from 0 to 1024 (threads), not 1025");
     EXPECT_TRUE(log.shares().empty());
