@@ -49,6 +49,7 @@ NearestNeighbors::NearestNeighbors(const std::vector<Eigen::Vector3d>& points)
 }
 
 NearestNeighbors::~NearestNeighbors() = default;
+NearestNeighbors::NearestNeighbors(NearestNeighbors&&) noexcept = default;
 
 void NearestNeighbors::find(const Eigen::Vector3d& place, std::size_t count,
                             std::vector<Neighbor>& nearest) const

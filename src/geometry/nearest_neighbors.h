@@ -15,8 +15,8 @@ class NearestNeighbors {
     /// Cost: O(points log points), in parallel.
     explicit NearestNeighbors(const std::vector<Eigen::Vector3d>& points);
     ~NearestNeighbors();
-    NearestNeighbors(const NearestNeighbors&) = delete;
-    NearestNeighbors& operator=(const NearestNeighbors&) = delete;
+    NearestNeighbors(NearestNeighbors&&) noexcept;
+    NearestNeighbors& operator=(NearestNeighbors&&) = delete;
 
     struct Neighbor {
         std::uint32_t point;

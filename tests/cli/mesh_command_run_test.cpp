@@ -51,7 +51,9 @@ TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
     EXPECT_THAT(outcome.err, Not(ContainsRegex("[\r\x1b]"))) << "plain lines where piped";
     std::istringstream lines(outcome.err);
     for (std::string line; std::getline(lines, line);) {
-        if (line.find(out) == std::string::npos) EXPECT_LE(line.size(), 80U) << line;
+        if (line.find(out) == std::string::npos) {
+            EXPECT_LE(line.size(), 80U) << line;
+        }
     }
     EXPECT_THAT(bytes_of(out), HasSubstr("format binary_little_endian"));
     EXPECT_EQ(folder.num_entries(), 2U);

@@ -109,7 +109,9 @@ TEST(Program, ListsEveryOptionWithItsDefaultInItsHelp)
         ASSERT_THAT(help.out, HasSubstr(left));
         const std::string rest = help.out.substr(help.out.find(left) + 1);
         const std::string entry = rest.substr(0, rest.find("\n  -"));
-        if (!is_flag(option)) EXPECT_THAT(entry, HasSubstr("[default " + value_text(option)));
+        if (!is_flag(option)) {
+            EXPECT_THAT(entry, HasSubstr("[default " + value_text(option)));
+        }
     }
     for (const char* name : {"--ascii", "--threads", "--quiet", "--stats", "--help", "--version"}) {
         EXPECT_THAT(help.out, HasSubstr(name));

@@ -192,9 +192,9 @@ struct Tents {
     double share_seen(const Piece& piece) const
     {
         const std::vector<Eigen::Vector3d> places = grid_on(piece.corners, 20);
-        const auto seen = std::ranges::count_if(
+        const auto count = std::ranges::count_if(
             places, [&](const Eigen::Vector3d& place) { return is_seen(piece.origin, place); });
-        return static_cast<double>(seen) / static_cast<double>(places.size());
+        return static_cast<double>(count) / static_cast<double>(places.size());
     }
 
     testing::LabelledScene made;

@@ -60,7 +60,7 @@ struct Surroundings {
     std::vector<double> spacings;
     std::vector<double> bends; ///< how far they lie from a plane, in spacings, rounded
 
-    Surroundings(const Scene& scene, const PointTree& tree, const Progress& progress)
+    Surroundings(const Scene& scene, const NearestNeighbors& tree, const Progress& progress)
         : around(scene.num_points()), spacings(scene.num_points()), bends(scene.num_points())
     {
         parallel_for(around.size(), progress,
@@ -79,17 +79,16 @@ struct Surroundings {
     }
 
   private:
-    void look_around(const std::vector<Vector3d>& positions, const PointTree& tree, std::size_t i)
+    void look_around(const std::vector<Vector3d>& positions, const NearestNeighbors& tree,
+                     std::size_t i)
     {
-        thread_local std::vector<PointTree::Near> nearest;
-        tree.find_nearest(positions[i], kAround + 1, nearest); // the point, too
+        thread_local std::vector<NearestNeighbors::Neighbor> nearest;
+        tree.find(positions[i], kAround + 1, nearest); // the point, too
         std::array<std::uint32_t, kAround + 1> all{};
-        std::ranges::transform(nearest, all.begin(), [](const PointTree::Near& near) {
-            return static_cast<std::uint32_t>(near.point);
-        });
+        std::ranges::transform(nearest, all.begin(), &NearestNeighbors::Neighbor::point);
         std::ranges::copy(std::span(all).subspan<1>(), around[i].begin());
         // Where the surface is flat, so many points share the disc out to the farthest.
-        spacings[i] = nearest.back().distance * std::sqrt(std::numbers::pi / kAround);
+        spacings[i] = std::sqrt(nearest.back().distance_sq * std::numbers::pi / kAround);
         // Rounded, since points without noise are flat but for the last digits.
         constexpr double kExact = 1e-3;
         const double bend = fit_plane(positions, all).deviation / spacings[i];

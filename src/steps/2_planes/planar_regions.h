@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "geometry/nearest_neighbors.h"
 #include "geometry/point_tree.h"
 #include "steps/2_planes/plane_frame.h"
 #include "vcarve/scene.h"
@@ -39,7 +40,7 @@ struct PlanarRegion {
 struct PlanarRegions {
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
-    PointTree tree;                       ///< of all points
+    NearestNeighbors tree;                ///< of all points
     std::deque<PlanarRegion> regions;     ///< the flattest first
     std::vector<std::uint32_t> region_of; ///< per point; kNone where it is of none
     std::vector<double> spacings;         ///< per point: how far those around it stand apart
