@@ -24,6 +24,8 @@ template <typename... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;
 };
+template <typename... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>; // Clang 14 asks for it
 
 std::string bounded(std::string text, const OptionInfo& info)
 {
