@@ -86,8 +86,9 @@ class Borders {
         const std::vector<Crossing> crossings = this->crossings(progress.part(0.0, 0.6));
         const auto look = [&](std::size_t region, std::vector<Candidate>& found) {
             const auto number = static_cast<std::uint32_t>(region);
-            const auto own = std::ranges::equal_range(crossings, number, {}, &Crossing::region);
-            if (!own.empty()) add_candidates(number, own, found);
+            const auto first = std::ranges::lower_bound(crossings, number, {}, &Crossing::region);
+            const auto last = std::ranges::upper_bound(crossings, number, {}, &Crossing::region);
+            if (first != last) add_candidates(number, {first, last}, found);
         };
         return parallel_collect<Candidate>(frames_.size(), progress.part(0.6, 1.0), look, 1);
     }

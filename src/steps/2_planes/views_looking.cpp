@@ -149,7 +149,8 @@ void keep_views_that_look(std::vector<AcceptedPoint>& points, const Scene& scene
     }
     const auto answer = [&](std::size_t i, std::vector<Question>& yes) {
         const auto view = static_cast<std::uint32_t>(i);
-        const auto [first, last] = std::ranges::equal_range(asked, view, {}, &Question::view);
+        const auto first = std::ranges::lower_bound(asked, view, {}, &Question::view);
+        const auto last = std::ranges::upper_bound(asked, view, {}, &Question::view);
         if (first == last) return;
         const ShownPoints shown(scene, view, std::move(seen[view]));
         std::copy_if(first, last, std::back_inserter(yes), [&](const Question& question) {
