@@ -23,7 +23,7 @@ function fillHead() {
 
 // ---- stages
 
-/// "19,258 cells, 7 sheets", as the counts of a stage read.
+/// "19,258 cells, 7 trimmed", as the counts of a stage read.
 function countsText(counts) {
   const parts = [];
   for (const [name, count] of Object.entries(counts)) {
