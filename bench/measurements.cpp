@@ -86,8 +86,10 @@ Run make_surface(const Sample& sample, int threads, Log& log)
 {
     Options options;
     options.threads = threads;
-    cli::ModelInput input = cli::read_model_input({.path = sample.model, .points = {}}, log,
-                                                  {.gather = thin_while_reading(options.thin)});
+    cli::ModelArguments model;
+    model.path = sample.model;
+    cli::ModelInput input =
+        cli::read_model_input(model, log, {.gather = thin_while_reading(options.thin)});
     RunSize size = size_before_thinning(input.read, options);
     size.thinned = size_of(input.scene);
     Reconstruction made = reconstruct_thinned(std::move(input.scene), input.read, options, log);

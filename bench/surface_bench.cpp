@@ -3,7 +3,7 @@
 #include "steps/5_labels/boundary.h"
 #include "steps/6_surface/cleanup.h"
 #include "steps/6_surface/extract.h"
-#include "steps/6_surface/support.h"
+#include "steps/6_surface/face_rules.h"
 
 #include <benchmark/benchmark.h>
 
@@ -21,13 +21,12 @@ void bench_extract_surface(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells.cells.size()));
 }
 
-FaceFlags supported(std::int64_t size, const TriMesh& boundary)
+FaceFlags seen(std::int64_t size, const TriMesh& boundary)
 {
     const TetMesh& cells = sample_cells(size);
     const Labels& labels = sample_labels(size);
-    const Scene& scene = sample_scene(size);
-    const FaceVisibility visibility(cells, labels, scene);
-    return supported_faces(boundary, boundary_facets(cells, labels), visibility, scene, {});
+    const FaceVisibility visibility(cells, labels, sample_scene(size));
+    return seen_faces({boundary, boundary_facets(cells, labels), visibility});
 }
 
 TriMesh sample_boundary(std::int64_t size)
@@ -35,11 +34,11 @@ TriMesh sample_boundary(std::int64_t size)
     return extract_surface(sample_cells(size), sample_labels(size), sample_scene(size));
 }
 
-void bench_supported_faces(benchmark::State& state)
+void bench_seen_faces(benchmark::State& state)
 {
     const TriMesh boundary = sample_boundary(state.range(0));
     for (auto _ : state) {
-        benchmark::DoNotOptimize(supported(state.range(0), boundary));
+        benchmark::DoNotOptimize(seen(state.range(0), boundary));
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(boundary.faces.size()));
 }
@@ -47,7 +46,7 @@ void bench_supported_faces(benchmark::State& state)
 void bench_clean_surface(benchmark::State& state)
 {
     const TriMesh boundary = sample_boundary(state.range(0));
-    const TriMesh surface = with_faces(boundary, supported(state.range(0), boundary));
+    const TriMesh surface = with_faces(boundary, seen(state.range(0), boundary));
     for (auto _ : state) {
         benchmark::DoNotOptimize(clean_surface(surface, CleanupOptions()));
     }
@@ -55,7 +54,7 @@ void bench_clean_surface(benchmark::State& state)
 }
 
 BENCHMARK(bench_extract_surface)->Apply(sample_sizes)->UseRealTime();
-BENCHMARK(bench_supported_faces)->Apply(sample_sizes)->UseRealTime();
+BENCHMARK(bench_seen_faces)->Apply(sample_sizes)->UseRealTime();
 BENCHMARK(bench_clean_surface)->Apply(sample_sizes)->UseRealTime();
 
 } // namespace
