@@ -84,7 +84,7 @@ std::optional<std::string> filled_in(std::string_view text, const Counts& counts
 bool is_worth_saying(std::string_view text, const Counts& counts)
 {
     std::string_view name = text.substr(text.find('{') + 1);
-    name = name.substr(0, name.find_first_of("/}"));
+    name = name.substr(0, std::min(name.find('/'), name.find('}')));
     const auto count = std::ranges::find(counts, name, &Counts::value_type::first);
     return count != counts.end() && count->second != 0;
 }
