@@ -16,15 +16,18 @@ struct FilterOptions {
                                  ///< from others are dropped; 0: none
 };
 
-/// Where points are added on flat parts of the surface; 0 adds none. All are multiples of the
-/// spacing of the points of that part.
-struct CreaseOptions {
-    double reach = 28.0;     ///< along the line where two parts meet: how far both may end from it
-    double border_gap = 3.0; ///< along the end of a part: how near to it sights pass by
-    double blank_step = 2.0; ///< amid a part, where images show no features: how far apart
+/// Where points are added to planar regions of the surface; 0 adds none. All are multiples of the
+/// spacing of the points of that region.
+struct AddedPointOptions {
+    double crease_reach = 28.0; ///< where two regions meet: how far both may end from that line
+    double border_gap = 3.0;    ///< where a region ends: how near to it sights pass by
+    double textureless_step = 2.0; ///< amid one, where images show no features: how far apart
 
     /// Whether points are added anywhere.
-    bool add_any() const { return reach > 0.0 || border_gap > 0.0 || blank_step > 0.0; }
+    bool add_any() const
+    {
+        return crease_reach > 0.0 || border_gap > 0.0 || textureless_step > 0.0;
+    }
 };
 
 /// Which points of a dense cloud become one.
@@ -146,7 +149,7 @@ struct MemoryOptions {
 /// Everything a run can be told, step by step.
 struct Options {
     FilterOptions points;   ///< which points are kept
-    CreaseOptions creases;  ///< where points are added
+    AddedPointOptions added_points;  ///< where points are added
     ThinOptions thin;       ///< which points become one
     CropOptions crop;       ///< which part of space counts
     DenoiseOptions denoise; ///< how far points move

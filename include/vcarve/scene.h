@@ -55,36 +55,37 @@ struct Tracks {
     }
 };
 
-/// COLMAP's id of no point: what a point has that is none of the model's but was added to it, along
-/// a crease.
-inline constexpr std::uint64_t kNoPointId = 0xffffffffffffffffU;
-/// What a point has that was added along a border.
-inline constexpr std::uint64_t kBorderPointId = kNoPointId - 1;
-/// The same of a point that was added where a flat part of the surface is blank.
-inline constexpr std::uint64_t kBlankPointId = kNoPointId - 2;
-
-/// Whether a point with this id is none of the model's but was added to it.
-inline constexpr bool is_added_point(std::uint64_t id)
-{
-    return id >= kBlankPointId;
-}
+/// Where a point comes from: measured, or added to those that were, in a planar region.
+enum class PointKind : std::uint8_t {
+    measured,
+    crease,     ///< where two regions meet
+    border,     ///< where one ends: behind it there may be anything
+    textureless ///< amid one, where images show no features
+};
 
 /// What COLMAP reconstructed: views, points, and the sights between them.
 /// The arrays positions, colors, errors_px, point_ids and tracks run parallel, one entry a point;
-/// so do the normals, where there are any.
+/// so do the normals and the kinds, where there are any.
 struct Scene {
     std::vector<Camera> cameras;            ///< what the views were taken with
     std::vector<View> views;                ///< from where points were seen
     std::vector<Eigen::Vector3d> positions; ///< in world minus `offset`
     std::vector<Color> colors;              ///< of the points
     std::vector<double> errors_px;          ///< mean reprojection error; negative where unknown
-    std::vector<std::uint64_t> point_ids;   ///< COLMAP's point3D ids, or places in a cloud's file
+    std::vector<std::uint64_t> point_ids;   ///< COLMAP's point3D ids, or places in a cloud's file; 0 if added
     std::vector<Eigen::Vector3f> normals;   ///< optional: unit, or zero where unknown
+    std::vector<PointKind> kinds;           ///< optional: all are measured where there are none
     Tracks tracks;                          ///< which views saw which point
+    bool is_dense = false; ///< points of a dense cloud or a scan, whose errors are not known
     Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the file's
 
     /// How many points there are.
     std::size_t num_points() const { return positions.size(); }
+    /// Where a point comes from.
+    PointKind kind_of(std::size_t point) const
+    {
+        return kinds.empty() ? PointKind::measured : kinds[point];
+    }
     /// How many pairs of a point and a view that saw it there are.
     std::size_t num_sights() const { return tracks.views.size(); }
 };

@@ -35,7 +35,7 @@ constexpr Wording kWordings[] = {
      "|, {non-finite} not finite"},
     {"crop", "crop",
      "{points} of {of} points in the region|, {outside but seen through it} seen through it"},
-    {"creases", "fill", "{points added} points added on planes"},
+    {"fill", "fill", "{points added} points added on planes"},
     {"triangulate", "triangulate", "{cells} cells"},
     {"sights", "rays", "{sights} rays from points to cameras"},
     {"virtual", "viewpoints", "{views} more viewpoints, {sights} rays"},

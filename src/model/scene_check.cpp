@@ -67,6 +67,7 @@ void require_consistent(const Scene& scene)
     require_one_a_point(scene, "errors_px", scene.errors_px.size());
     require_one_a_point(scene, "point_ids", scene.point_ids.size());
     if (!scene.normals.empty()) require_one_a_point(scene, "normals", scene.normals.size());
+    if (!scene.kinds.empty()) require_one_a_point(scene, "kinds", scene.kinds.size());
     if (scene.tracks.begins.empty() || !has_rows(scene.tracks)) {
         throw UsageError("the scene's tracks do not begin at 0, ascend, and end where their views "
                          "do");

@@ -17,6 +17,7 @@ inline Scene without_points(const Scene& scene)
     Scene result;
     result.cameras = scene.cameras;
     result.views = scene.views;
+    result.is_dense = scene.is_dense;
     result.offset = scene.offset;
     return result;
 }
@@ -60,6 +61,7 @@ void keep_points(Scene& scene, const Points& points, Tracks tracks)
     scene.errors_px = values_at(points, scene.errors_px);
     scene.point_ids = values_at(points, scene.point_ids);
     scene.normals = values_at(points, scene.normals);
+    scene.kinds = values_at(points, scene.kinds);
 }
 
 /// Some points of a scene in the order given, with all its views; the i-th of them was seen by
@@ -73,6 +75,7 @@ Scene select_points(const Scene& scene, const Points& points, const TrackOf& tra
     result.errors_px = values_at(points, scene.errors_px);
     result.point_ids = values_at(points, scene.point_ids);
     result.normals = values_at(points, scene.normals);
+    result.kinds = values_at(points, scene.kinds);
     result.tracks = make_tracks(points.size(), track_of);
     return result;
 }

@@ -2,7 +2,6 @@
 
 #include "vcarve/scene.h"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace vcarve {
@@ -13,14 +12,8 @@ struct SceneSize {
     std::uint64_t sights = 0;
     std::uint64_t views = 0;
     bool has_normals = false;
-    bool is_dense = false; ///< some points' reprojection errors are not known
+    bool is_dense = false; ///< a dense cloud or a scan
 };
-
-/// Whether the scene holds points of a dense cloud: those whose reprojection error is not known.
-inline bool has_dense_points(const Scene& scene)
-{
-    return std::ranges::any_of(scene.errors_px, [](double error) { return error < 0.0; });
-}
 
 inline SceneSize size_of(const Scene& scene)
 {
@@ -28,7 +21,7 @@ inline SceneSize size_of(const Scene& scene)
             .sights = scene.num_sights(),
             .views = scene.views.size(),
             .has_normals = !scene.normals.empty(),
-            .is_dense = has_dense_points(scene)};
+            .is_dense = scene.is_dense};
 }
 
 } // namespace vcarve

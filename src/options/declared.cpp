@@ -39,36 +39,36 @@ OptionList filter_options(FilterOptions& points)
     };
 }
 
-OptionList added_point_options(CreaseOptions& added)
+OptionList added_point_options(AddedPointOptions& added)
 {
     return {
         {kPoints,
          {.name = "crease-reach",
           .unit = "x spacing",
-          .help = "Add points where two flat parts of the surface meet and both have points no "
-                  "farther than so many times their spacing from there, as at the foot of a wall, "
-                  "where images show no features; 0 adds none.",
+          .help = "Add points where two planar regions of the surface meet and both have points "
+                  "no farther than so many times their spacing from there, as at the foot of a "
+                  "wall, where images show no features; 0 adds none.",
           .max = 1000.0,
           .tuning = true},
-         &added.reach},
+         &added.crease_reach},
         {kPoints,
          {.name = "border-gap",
           .unit = "x spacing",
-          .help = "Add points where a flat part of the surface ends and rays pass by no farther "
-                  "than so many times the spacing of its points, as at the eaves of a roof; 0 "
-                  "adds none.",
+          .help = "Add points where a planar region of the surface ends and rays pass by no "
+                  "farther than so many times the spacing of its points, as at the eaves of a "
+                  "roof; 0 adds none.",
           .max = 100.0,
           .tuning = true},
          &added.border_gap},
         {kPoints,
-         {.name = "blank-step",
+         {.name = "textureless-step",
           .unit = "x spacing",
-          .help = "Add points so many times their spacing apart amid a flat part of the surface "
-                  "where views look at it but images show no features, as on a plain floor; 0 "
-                  "adds none.",
+          .help = "Add points so many times their spacing apart amid a planar region of the "
+                  "surface where views look at it but images show no features, as on a plain "
+                  "floor; 0 adds none.",
           .max = 100.0,
           .tuning = true},
-         &added.blank_step},
+         &added.textureless_step},
     };
 }
 
@@ -342,7 +342,7 @@ OptionList run_options(Options& options)
 OptionList options_of(Options& options)
 {
     LabelOptions& labels = options.labels;
-    return joined({filter_options(options.points), added_point_options(options.creases),
+    return joined({filter_options(options.points), added_point_options(options.added_points),
                    cloud_options(options), method_options(labels), weight_options(labels.trace),
                    depth_options(labels.trace), cut_options(labels),
                    virtual_view_options(labels.virtual_views), surface_options(options.surface),

@@ -108,7 +108,7 @@ Json attributes_json(const TriMesh& mesh, const Scene& scene)
         const std::uint32_t point = mesh.points[vertex];
         if (point == kNoPoint) continue;
         num_views[vertex] = static_cast<std::int32_t>(scene.tracks[point].size());
-        errors_px[vertex] = scene.errors_px[point];
+        if (scene.kind_of(point) == PointKind::measured) errors_px[vertex] = scene.errors_px[point];
     }
     return {{"colors", mesh.colors.empty() ? Json(nullptr) : Json(pack_colors(mesh.colors))},
             {"num_views", pack_bytes(num_views)},

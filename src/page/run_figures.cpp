@@ -25,13 +25,14 @@ std::vector<double> edge_lengths(const TriMesh& mesh)
 
 void measure_points(SurfaceFigures& figures, const Scene& scene)
 {
-    std::vector<std::int64_t> track_lengths(scene.num_points());
+    std::vector<std::int64_t> track_lengths;
     std::vector<double> errors_px;
     for (std::size_t point = 0; point < scene.num_points(); ++point) {
-        track_lengths[point] = static_cast<std::int64_t>(scene.tracks[point].size());
+        if (scene.kind_of(point) != PointKind::measured) continue;
+        track_lengths.push_back(static_cast<std::int64_t>(scene.tracks[point].size()));
         if (scene.errors_px[point] >= 0.0) errors_px.push_back(scene.errors_px[point]);
     }
-    figures.points = static_cast<std::int64_t>(scene.num_points());
+    figures.points = static_cast<std::int64_t>(track_lengths.size());
     figures.track_lengths = histogram_of_counts(std::move(track_lengths), kBins);
     figures.errors_px = histogram_of_lengths(std::move(errors_px), kBins);
 }

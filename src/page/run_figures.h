@@ -20,9 +20,9 @@ struct SurfaceFigures {
     double unsupported_area = 0.0;      ///< their share of the area
     double long_area = 0.0;  ///< share of the area in faces with an edge over kLong median edges
     Histogram edge_lengths;  ///< in scene units, every edge of every face
-    Histogram track_lengths; ///< views, of the points the surface was made from
+    Histogram track_lengths; ///< views, of the measured points the surface was made from
     Histogram errors_px;     ///< of those points, where it is known
-    std::int64_t points = 0; ///< that the surface was made from
+    std::int64_t points = 0; ///< measured ones that the surface was made from
     static constexpr double kLong = 10.0;
 };
 

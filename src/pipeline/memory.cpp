@@ -22,8 +22,8 @@ constexpr double kBlockPoint = 600;
 /// What a run in blocks has in the heap, a point: arrays that are too small for files of their own
 /// (22 bytes were measured of 5 M points).
 constexpr double kHeapPoint = 24;
-/// The same while creases are looked for: the nodes of the k-d tree, and the points of regions.
-constexpr double kHeapCreasePoint = 42;
+/// The same while planar regions are looked for: the nodes of the k-d tree, and the points of regions.
+constexpr double kHeapAddedPoint = 42;
 /// Files in the work folder against what passes are predicted to need: arrays that grow stand
 /// twice.
 constexpr double kScratchMargin = 1.1;
@@ -100,7 +100,7 @@ std::int64_t predicted_share(const RunSize& size)
 
 std::int64_t least_memory(const RunSize& size, int threads)
 {
-    const double point = kHeapPoint + (size.read.is_dense ? 0.0 : kHeapCreasePoint);
+    const double point = kHeapPoint + (size.read.is_dense ? 0.0 : kHeapAddedPoint);
     return rounded(kProgram + kThread * threads + point * sizes_of(size.thinned).points);
 }
 

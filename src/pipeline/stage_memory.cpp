@@ -123,7 +123,7 @@ double filtering(const Needs& needs)
 }
 
 /// A k-d tree, the points around each point, what they tell, and those of flat parts once more.
-double finding_creases(const Needs& needs)
+double finding_planes(const Needs& needs)
 {
     const Sizes& n = needs.left;
     constexpr double kTree = 40 + 13;

@@ -49,7 +49,7 @@ Needs needs_of(const RunSize& size, int threads);
 double reading(const Needs& n);
 double thinning(const Needs& n);
 double filtering(const Needs& n);
-double finding_creases(const Needs& n);
+double finding_planes(const Needs& n);
 double denoising(const Needs& n);
 double triangulating(const Needs& n);
 double tracing(const Needs& n);

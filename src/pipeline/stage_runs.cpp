@@ -91,7 +91,7 @@ Counts filter(RunState& run, const Progress& progress)
 Counts add_points(RunState& run, const Progress& progress)
 {
     const AddedPoints report =
-        vcarve::add_points(run.points.scene, run.options().creases, progress);
+        vcarve::add_points(run.points.scene, run.options().added_points, progress);
     return {{"points added", report.added}, {"planar regions", report.regions}};
 }
 

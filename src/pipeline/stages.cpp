@@ -47,7 +47,7 @@ bool merges_in_memory(const Needs& n)
 /// The paper's own method is of the points that are given.
 bool adds_points(const Needs& n)
 {
-    return n.options.creases.add_any() && is_cut(n) && !n.is_dense;
+    return n.options.added_points.add_any() && is_cut(n) && !n.is_dense;
 }
 
 bool is_cropped(const Needs& n)
@@ -180,7 +180,7 @@ constexpr RunStage kStages[] = {
     {"thin", input, merges_in_memory, run::thin, thinning},
     {"memory", plan, always, run::foresee_memory},
     {"filter", points, always, run::filter, filtering, of_points<650, 80>},
-    {"creases", points, adds_points, run::add_points, finding_creases, of_points<7000, 84>},
+    {"fill", points, adds_points, run::add_points, finding_planes, of_points<7000, 84>},
     {"crop", points, is_cropped, run::crop, nullptr, of_points<300, 80>},
     {"denoise", points, denoises_points, run::denoise, denoising, of_points<1900, 95>},
     {"triangulate", cells, always, run::triangulate, triangulating, triangulate_seconds},

@@ -31,7 +31,7 @@ inline constexpr int kNumFields<View> = 5;
 template <>
 inline constexpr int kNumFields<Tracks> = 2;
 template <>
-inline constexpr int kNumFields<Scene> = 9;
+inline constexpr int kNumFields<Scene> = 11;
 template <>
 inline constexpr int kNumFields<TetMesh> = 4;
 template <>
@@ -65,9 +65,9 @@ void for_each_field(Noun& noun, const Field& field)
         auto& [a, b, c, d, e, f] = noun;
         all(a, b, c, d, e, f);
     } else {
-        static_assert(kCount == 9, "say how many fields it has");
-        auto& [a, b, c, d, e, f, g, h, i] = noun;
-        all(a, b, c, d, e, f, g, h, i);
+        static_assert(kCount == 11, "say how many fields it has");
+        auto& [a, b, c, d, e, f, g, h, i, j, k] = noun;
+        all(a, b, c, d, e, f, g, h, i, j, k);
     }
 }
 

@@ -56,6 +56,8 @@ TEST(SceneCheck, NamesAnArrayThatHasNotAnEntryAPoint)
               "the scene's point_ids have 4 entries, not one for each of its 3 points");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.push_back({}); }),
               "the scene's tracks have 4 entries, not one for each of its 3 points");
+    EXPECT_EQ(refusal_after([](Scene& scene) { scene.kinds.resize(2); }),
+              "the scene's kinds have 2 entries, not one for each of its 3 points");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.normals.resize(2); }),
               "the scene's normals have 2 entries, not one for each of its 3 points");
 }

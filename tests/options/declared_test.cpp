@@ -27,7 +27,7 @@ constexpr std::size_t num_fields()
 
 TEST(DeclaredOptions, AreAllFieldsOfTheOptions)
 {
-    constexpr std::size_t kParts = num_fields<FilterOptions>() + num_fields<CreaseOptions>() +
+    constexpr std::size_t kParts = num_fields<FilterOptions>() + num_fields<AddedPointOptions>() +
                                    num_fields<ThinOptions>() + num_fields<CropOptions>() +
                                    num_fields<DenoiseOptions>();
     constexpr std::size_t kLabels = num_fields<LabelOptions>() - 4 + num_fields<TraceOptions>() +

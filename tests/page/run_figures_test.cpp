@@ -45,6 +45,18 @@ TEST(SurfaceFigures, MeasureAreasAndPoints)
     EXPECT_EQ(figures.errors_px.median, 0.75);
 }
 
+TEST(SurfaceFigures, CountMeasuredPointsAlone)
+{
+    Scene scene = two_points();
+    scene.kinds = {PointKind::measured, PointKind::measured, PointKind::border};
+    const SurfaceFigures figures =
+        surface_figures(triangles(), std::vector<std::int32_t>(10, 1), scene);
+    EXPECT_EQ(figures.points, 2);
+    EXPECT_EQ(figures.track_lengths.counts, (std::vector<std::int64_t>{1, 1}));
+    EXPECT_EQ(figures.errors_px.values, 1);
+    EXPECT_EQ(figures.errors_px.median, 0.25);
+}
+
 TEST(SurfaceFigures, AreNoneOfNothing)
 {
     const SurfaceFigures figures = surface_figures({}, {}, {});

@@ -56,7 +56,7 @@ TEST(PredictedTimes, NameTheStagesOfTheLogWhateverTheOptions)
     };
     for (const bool is_dense : {false, true}) {
         Scene scene = bumpy_sphere(300, 1);
-        if (is_dense) std::ranges::fill(scene.errors_px, -1.0);
+        scene.is_dense = is_dense;
         for (const auto& [name, options] : options_of_runs()) {
             Names log;
             const SceneSize size = size_of(scene);

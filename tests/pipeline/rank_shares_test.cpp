@@ -101,7 +101,7 @@ TEST_F(RanksOfARun, MakeTheSameWithVirtualViewsAndByCounting)
 
 TEST_F(RanksOfARun, MakeTheSameOfBundledSights)
 {
-    std::ranges::fill(scene.errors_px, -1.0); // as of a dense cloud
+    scene.is_dense = true;
     expect_the_same_of_all(in_blocks(4));
 }
 

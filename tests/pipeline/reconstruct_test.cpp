@@ -244,7 +244,7 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     };
     Recorder log;
     reconstruct(bumpy_sphere(500, 8), {}, log);
-    const std::vector<std::string> expected = {"memory", "filter", "creases", "triangulate",
+    const std::vector<std::string> expected = {"memory", "filter", "fill", "triangulate",
                                                "sights", "cut",    "surface", "clean",
                                                "open",   "settle", "orient"};
     EXPECT_EQ(log.begun, expected);
@@ -255,7 +255,7 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     with_virtual_views.labels.virtual_views.count = 10;
     reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
     const std::vector<std::string> labelled_twice = {
-        "memory", "filter", "creases", "triangulate", "sights", "cut",    "virtual",
+        "memory", "filter", "fill", "triangulate", "sights", "cut",    "virtual",
         "sights", "cut",    "surface", "clean",       "open",   "settle", "orient"};
     EXPECT_EQ(twice.begun, labelled_twice);
     EXPECT_EQ(twice.ended, labelled_twice);
@@ -288,7 +288,7 @@ TEST(Reconstruct, SettlesVerticesUnlessThePapersOwnMethodIsWantedOrPointsWereMov
     options.labels.method = Method::strict;
     EXPECT_EQ(num_moved(run(scene, options)), 0);
     Scene dense = scene;
-    std::ranges::fill(dense.errors_px, -1.0);
+    dense.is_dense = true;
     EXPECT_EQ(num_moved(run(dense)), 0);
 }
 
@@ -296,7 +296,7 @@ TEST(Reconstruct, SettlesVerticesUnlessThePapersOwnMethodIsWantedOrPointsWereMov
 std::int64_t num_added(const Reconstruction& made)
 {
     return std::ranges::count_if(made.mesh.points, [&](std::uint32_t point) {
-        return point != kNoPoint && made.scene.point_ids[point] == kNoPointId;
+        return point != kNoPoint && made.scene.kind_of(point) == PointKind::crease;
     });
 }
 
@@ -306,7 +306,7 @@ TEST(Reconstruct, AddsPointsAlongCreasesUnlessThePapersOwnMethodIsWanted)
         read_colmap_model(fixtures_folder() / "scene/sparse/0", ModelFormat::binary);
     EXPECT_GT(num_added(run(scene)), 50);
     Options options;
-    options.creases.reach = 0.0;
+    options.added_points.crease_reach = 0.0;
     EXPECT_EQ(num_added(run(scene, options)), 0);
     options = {};
     options.labels.method = Method::strict;

@@ -67,12 +67,12 @@ inline Scene together(const std::vector<std::vector<MadePoint>>& parts,
     return spatial_sort(make_scene(centers, points));
 }
 
-/// The points of a scene that have an id.
-inline std::vector<std::size_t> points_with_id(const Scene& scene, std::uint64_t id)
+/// The points of a scene of a kind.
+inline std::vector<std::size_t> points_of_kind(const Scene& scene, PointKind kind)
 {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
-        if (scene.point_ids[i] == id) found.push_back(i);
+        if (scene.kind_of(i) == kind) found.push_back(i);
     }
     return found;
 }
@@ -97,19 +97,19 @@ inline std::vector<MadePoint> ball(int count, double most_z)
     return points;
 }
 
-/// Expects the points that are added to a scene with an id to be the same in other units and
+/// Expects the points that are of a kind added to a scene to be the same in other units and
 /// elsewhere, up to so much of a unit. How they follow each other is up to rounding.
-inline void expect_same_elsewhere(const Scene& scene, const CreaseOptions& options,
-                                  std::uint64_t id, const std::vector<double>& scales, double off)
+inline void expect_same_elsewhere(const Scene& scene, const AddedPointOptions& options,
+                                  PointKind kind, const std::vector<double>& scales, double off)
 {
     Scene here = scene;
     add_points(here, options);
-    const std::vector<std::size_t> added = points_with_id(here, id);
+    const std::vector<std::size_t> added = points_of_kind(here, kind);
     for (const double scale : scales) {
         const Eigen::Vector3d shift(3.0 * scale, -5.0 * scale, 7.0 * scale);
         Scene there = moved(scene, scale, Eigen::Quaterniond::Identity(), shift);
         add_points(there, options);
-        const std::vector<std::size_t> added_there = points_with_id(there, id);
+        const std::vector<std::size_t> added_there = points_of_kind(there, kind);
         ASSERT_EQ(added_there.size(), added.size());
         for (const std::size_t i : added) {
             const Eigen::Vector3d place = scale * here.positions[i] + shift;

@@ -35,6 +35,8 @@ inline void expect_equal_scenes(const Scene& a, const Scene& b)
     EXPECT_EQ(a.errors_px, b.errors_px);
     EXPECT_EQ(a.point_ids, b.point_ids);
     EXPECT_EQ(a.normals, b.normals);
+    EXPECT_EQ(a.kinds, b.kinds);
+    EXPECT_EQ(a.is_dense, b.is_dense);
     EXPECT_EQ(a.tracks.begins, b.tracks.begins);
     EXPECT_EQ(a.tracks.views, b.tracks.views);
     EXPECT_EQ(a.offset, b.offset);
@@ -52,6 +54,7 @@ inline void expect_well_formed(const Scene& scene)
     ASSERT_EQ(scene.errors_px.size(), scene.num_points());
     ASSERT_EQ(scene.point_ids.size(), scene.num_points());
     ASSERT_TRUE(scene.normals.empty() || scene.normals.size() == scene.num_points());
+    ASSERT_TRUE(scene.kinds.empty() || scene.kinds.size() == scene.num_points());
     ASSERT_EQ(scene.tracks.size(), scene.num_points());
     ASSERT_EQ(scene.tracks.begins.back(), scene.tracks.views.size());
     for (std::size_t i = 0; i < scene.num_points(); ++i) {

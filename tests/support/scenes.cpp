@@ -89,6 +89,7 @@ Scene permuted(const Scene& scene, std::uint32_t seed)
 
     Scene result;
     result.cameras = scene.cameras;
+    result.is_dense = scene.is_dense;
     result.offset = scene.offset;
     std::vector<std::uint32_t> new_view(views.size());
     for (std::uint32_t i = 0; i < views.size(); ++i) {

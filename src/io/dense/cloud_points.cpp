@@ -30,6 +30,7 @@ void take_attributes(PointCloud cloud, std::uint64_t first, Scene& scene)
     parallel_for(scene.normals.size(), [&](std::size_t i) { make_unit(scene.normals[i]); });
     scene.colors = std::move(cloud.colors);
     scene.colors.resize(num_points, kGrey);
+    scene.is_dense = true;
     scene.errors_px.assign(num_points, -1.0);
     scene.point_ids.resize(num_points);
     std::iota(scene.point_ids.begin(), scene.point_ids.end(), first);

@@ -65,7 +65,7 @@ SceneOf scene_of(const FoundInput& found, const Gather& gather, const Progress& 
     // Else which views saw a point is only known when all points are.
     const bool is_cloud = found.scan || found.dense;
     Scene scene = whole_scene(found, gather && is_cloud ? progress.part(0.0, 0.6) : progress);
-    if (gather && has_dense_points(scene)) {
+    if (gather && scene.is_dense) {
         PartsOfScene parts(scene);
         return gathered(parts, gather, progress.part(0.6, 1.0));
     }

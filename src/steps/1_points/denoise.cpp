@@ -128,8 +128,7 @@ DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const 
     if (!(gate > 0.0) || is_exact_scan(scene, filter)) return report;
     Vectors estimates(scene.num_points());
     parallel_for(estimates.size(), progress.part(0.85, 1.0), [&](std::size_t i) {
-        const bool is_matched = scene.errors_px[i] >= 0.0;
-        estimates[i] = is_matched ? scene.positions[i] : filter.estimate(i, gate);
+        estimates[i] = filter.estimate(i, gate);
     });
     keep_apart(estimates, scene.positions);
     for (std::size_t i = 0; i < estimates.size(); ++i) {

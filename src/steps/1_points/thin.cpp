@@ -19,13 +19,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What so many pixels cover at a point's distance, in the view that shows it largest;
-/// infinite for a point that is not to be merged.
+/// What so many pixels cover at a point's distance, in the view that shows it largest; infinite for
+/// one that none saw.
 double footprint(const Scene& scene, std::size_t point, double pixels,
                  const std::vector<double>& focals)
 {
     double least = std::numeric_limits<double>::infinity();
-    if (scene.errors_px[point] >= 0.0) return least;
     for (const std::uint32_t v : scene.tracks[point]) {
         const View& view = scene.views[v];
         const double distance = (view.center - scene.positions[point]).norm();

@@ -1,7 +1,6 @@
 #include "steps/2_planes/added_points.h"
 
 #include "model/mean_color.h"
-#include "model/scene_size.h"
 #include "steps/1_points/spatial_sort.h"
 #include "steps/2_planes/accept.h"
 #include "steps/2_planes/border_candidates.h"
@@ -20,26 +19,19 @@ namespace vcarve {
 namespace {
 
 std::vector<Candidate> candidates_of(const Scene& scene, const PlanarRegions& planes,
-                                     const CreaseOptions& options, const Progress& progress)
+                                     const AddedPointOptions& options, const Progress& progress)
 {
     std::vector<Candidate> all;
     const auto add = [&](std::vector<Candidate> more) {
         std::ranges::move(more, std::back_inserter(all));
     };
-    if (options.reach > 0.0)
-        add(crease_candidates(scene, planes, options.reach, progress.part(0.0, 0.3)));
+    if (options.crease_reach > 0.0)
+        add(crease_candidates(scene, planes, options.crease_reach, progress.part(0.0, 0.3)));
     if (options.border_gap > 0.0)
         add(border_candidates(scene, planes, options.border_gap, progress.part(0.3, 0.9)));
-    if (options.blank_step > 0.0)
-        add(textureless_candidates(planes, options.blank_step, progress.part(0.9, 1.0)));
+    if (options.textureless_step > 0.0)
+        add(textureless_candidates(planes, options.textureless_step, progress.part(0.9, 1.0)));
     return all;
-}
-
-std::uint64_t id_of(PointKind kind)
-{
-    return kind == PointKind::crease   ? kNoPointId
-           : kind == PointKind::border ? kBorderPointId
-                                       : kBlankPointId;
 }
 
 void add_point(Scene& scene, const AcceptedPoint& point)
@@ -48,17 +40,18 @@ void add_point(Scene& scene, const AcceptedPoint& point)
     const auto once = [](std::uint32_t) { return 1.0; };
     scene.colors.push_back(mean_color(scene, point.beside, once));
     scene.errors_px.push_back(scene.errors_px[point.beside.front()]);
-    scene.point_ids.push_back(id_of(point.candidate.kind));
+    scene.point_ids.push_back(0);
+    scene.kinds.push_back(point.candidate.kind);
     if (!scene.normals.empty()) scene.normals.emplace_back(Eigen::Vector3f::Zero());
     scene.tracks.push_back(point.track);
 }
 
 } // namespace
 
-AddedPoints add_points(Scene& scene, const CreaseOptions& options, const Progress& progress)
+AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress)
 {
     AddedPoints report;
-    if (!options.add_any() || has_dense_points(scene)) return report;
+    if (!options.add_any() || scene.is_dense) return report;
     std::vector<AcceptedPoint> points;
     {
         const PlanarRegions planes = planar_regions(scene, progress.part(0.0, 0.4));
@@ -69,6 +62,7 @@ AddedPoints add_points(Scene& scene, const CreaseOptions& options, const Progres
     }
     report.added = std::ssize(points);
     if (points.empty()) return report;
+    scene.kinds.resize(scene.num_points(), PointKind::measured);
     for (const AcceptedPoint& point : points) {
         add_point(scene, point);
     }

@@ -10,9 +10,6 @@
 
 namespace vcarve {
 
-/// Where an added point stands.
-enum class PointKind : std::uint8_t { crease, border, textureless };
-
 /// A place where a point may be added, as a generator proposes it.
 struct Candidate {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();

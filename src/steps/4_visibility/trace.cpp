@@ -264,8 +264,8 @@ VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& po
         for (Index vertex = first; vertex < last; ++vertex) {
             const std::int32_t full = weights.full_weight(vertex, source.weight);
             const std::int32_t bundle =
-                source.is_measured && scene_.errors_px[vertex] < 0.0 ? options_.bundle_sights : 1;
-            if (source.is_measured && scene_.point_ids[vertex] != kBorderPointId)
+                source.is_measured && scene_.is_dense ? options_.bundle_sights : 1;
+            if (source.is_measured && scene_.kind_of(vertex) != PointKind::border)
                 terms.add_inside_terms(walk, vertex, source, full, options_.sink_depth);
             for (const std::uint32_t view : (*source.rays)[vertex]) {
                 sights.push_back(terms.outward(vertex, view, source.origins[view], full, bundle));

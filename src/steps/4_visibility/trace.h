@@ -32,7 +32,7 @@ inline constexpr std::array<int, 2> kBundledAfter = {16, 40};
 ///
 /// Each ray asks for the cells before its point to be outside and, if it was measured, for the cell
 /// behind it to be inside (Labatut, Pons, Keriven 2009), softly near the point; but not behind a
-/// point along a border (kBorderPointId), where what lies behind often is free. The terms are
+/// point along a border (PointKind::border), where what lies behind often is free. The terms are
 /// integers, so their sums do not depend on the number of threads. The flow of each ray is pushed
 /// along its walk at once, which leaves the minimum cut as it is (docs/algorithm.md). Where a ray
 /// meets an edge or a vertex no facet leads its flow on: each stretch between such places ends in a

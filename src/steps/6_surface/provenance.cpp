@@ -16,7 +16,7 @@ constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53; // doubles hold who
 
 bool is_of_model(std::uint32_t point, const Scene& scene)
 {
-    return point != kNoPoint && !is_added_point(scene.point_ids[point]);
+    return point != kNoPoint && scene.kind_of(point) == PointKind::measured;
 }
 
 void require_exact_ids(const TriMesh& mesh, const Scene& scene)

@@ -84,7 +84,7 @@ Neighborhoods ring_neighborhoods(const HalfEdgeMesh& mesh, const Vectors& positi
 /// Whether a point was found in images.
 bool is_matched(const Scene& scene, std::size_t point)
 {
-    return scene.errors_px[point] >= 0.0 && !is_added_point(scene.point_ids[point]);
+    return scene.errors_px[point] >= 0.0 && scene.kind_of(point) == PointKind::measured;
 }
 
 /// The standard deviation of the points' places in images that their reprojection errors tell.

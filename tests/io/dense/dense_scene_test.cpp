@@ -49,6 +49,7 @@ TEST(DenseScene, HasTheViewsOfTheModelAndThePointsOfTheCloud)
                                              Vector3d(1.5, -2.0, 6.0)));
     EXPECT_THAT(scene.colors,
                 ElementsAre(Color{200, 150, 100}, Color{0, 128, 255}, Color{1, 2, 3}));
+    EXPECT_TRUE(scene.is_dense);
     EXPECT_THAT(scene.errors_px, ElementsAre(-1.0, -1.0, -1.0));
     EXPECT_THAT(scene.point_ids, ElementsAre(0, 1, 2));
     // By images 40, 7 and 100000, in the order of their file.

@@ -25,12 +25,11 @@ Scene two_views()
     return scene;
 }
 
-void add(Scene& scene, const Vector3d& position, const std::vector<std::uint32_t>& views,
-         double error_px = -1.0)
+void add(Scene& scene, const Vector3d& position, const std::vector<std::uint32_t>& views)
 {
     scene.positions.push_back(position);
     scene.colors.push_back({static_cast<std::uint8_t>(10 * scene.num_points()), 0, 0});
-    scene.errors_px.push_back(error_px);
+    scene.errors_px.push_back(-1.0);
     scene.point_ids.push_back(scene.num_points() - 1);
     scene.tracks.push_back(views);
 }
@@ -62,14 +61,6 @@ TEST(ThinPoints, MergesWhatOnePixelShowsAndKeepsItsSights)
     EXPECT_EQ(thin.colors[1], (Color{20, 0, 0}));
     EXPECT_EQ(track(thin, 0), (std::vector<std::uint32_t>{0}));
     EXPECT_EQ(track(thin, 1), (std::vector<std::uint32_t>{0, 1}));
-}
-
-TEST(ThinPoints, LeavesWhatAMatcherFoundOneByOne)
-{
-    Scene scene = two_views();
-    add(scene, {0.01, 0.01, 0.0}, {0}, 0.5);
-    add(scene, {0.03, 0.02, 0.0}, {0, 1}, 0.5);
-    EXPECT_EQ(thin_points(scene, {.merge_px = 1.0}).num_points(), 2U);
 }
 
 TEST(ThinPoints, LeavesTheTwoSidesOfABoardApart)

@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 using namespace flat_scenes;
 
 /// On creases alone.
-const CreaseOptions kOnCreases = {.border_gap = 0.0, .blank_step = 0.0};
+const AddedPointOptions kOnCreases = {.border_gap = 0.0, .textureless_step = 0.0};
 
-std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnCreases)
+std::int64_t num_added(Scene scene, const AddedPointOptions& options = kOnCreases)
 {
     return add_points(scene, options).added;
 }
@@ -51,7 +51,7 @@ TEST(AddPoints, GivesThemTheColourAndTheErrorOfPointsBesideThem)
         scene.errors_px[i] = is_left ? 0.25 : 0.75;
     }
     add_points(scene, kOnCreases);
-    for (const std::size_t i : points_with_id(scene, kNoPointId)) {
+    for (const std::size_t i : points_of_kind(scene, PointKind::crease)) {
         if (std::abs(scene.positions[i].x()) < 3 * kSpacing) continue;
         const bool is_left = scene.positions[i].x() < 0.0;
         EXPECT_EQ(scene.colors[i], (is_left ? Color{255, 0, 0} : Color{0, 255, 0}));
@@ -62,7 +62,7 @@ TEST(AddPoints, GivesThemTheColourAndTheErrorOfPointsBesideThem)
 TEST(AddPoints, AddsNoneToDenseClouds)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
-    scene.errors_px[3] = -1.0;
+    scene.is_dense = true;
     EXPECT_EQ(num_added(scene), 0);
 }
 

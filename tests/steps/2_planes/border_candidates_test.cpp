@@ -20,13 +20,13 @@ using flat_scenes::flat;
 using flat_scenes::kAll;
 using flat_scenes::kCenters;
 using flat_scenes::kSpacing;
-using flat_scenes::points_with_id;
+using flat_scenes::points_of_kind;
 using flat_scenes::together;
 using flat_scenes::track_of;
 using flat_scenes::Views;
 
 /// None on creases.
-const CreaseOptions kOnBorders = {.reach = 0.0, .blank_step = 0.0};
+const AddedPointOptions kOnBorders = {.crease_reach = 0.0, .textureless_step = 0.0};
 
 /// A board that the views look at, 1 wide and .8 high.
 std::vector<MadePoint> board(const Views& views = kAll)
@@ -59,10 +59,10 @@ std::vector<MadePoint> seen_backdrop(double beyond = 0.05)
 
 std::vector<std::size_t> added_points(const Scene& scene)
 {
-    return points_with_id(scene, kBorderPointId);
+    return points_of_kind(scene, PointKind::border);
 }
 
-std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnBorders)
+std::int64_t num_added(Scene scene, const AddedPointOptions& options = kOnBorders)
 {
     return add_points(scene, options).added;
 }
@@ -127,7 +127,7 @@ TEST(BorderCandidates, StandApart)
     for (const std::size_t i : added) {
         for (std::size_t other = 0; other < scene.num_points(); ++other) {
             if (other == i) continue;
-            const bool is_added = scene.point_ids[other] == kBorderPointId;
+            const bool is_added = scene.kind_of(other) == PointKind::border;
             EXPECT_GT((scene.positions[other] - scene.positions[i]).norm(),
                       (is_added ? 0.4 : 0.15) * kSpacing);
         }
@@ -154,10 +154,10 @@ TEST(BorderCandidates, GoAsFarAsTheGap)
     // Nothing is seen past the board within 2.5 spacings of it.
     const auto far = seen_backdrop(0.25);
     const Scene scene = together({board(), far});
-    EXPECT_GT(num_added(scene, {.reach = 0.0, .border_gap = 4.0, .blank_step = 0.0}), 8);
-    EXPECT_EQ(num_added(scene, {.reach = 0.0, .border_gap = 1.5, .blank_step = 0.0}), 0);
+    EXPECT_GT(num_added(scene, {.crease_reach = 0.0, .border_gap = 4.0, .textureless_step = 0.0}), 8);
+    EXPECT_EQ(num_added(scene, {.crease_reach = 0.0, .border_gap = 1.5, .textureless_step = 0.0}), 0);
     EXPECT_EQ(num_added(together({board(), seen_backdrop()}),
-                        {.reach = 0.0, .border_gap = 0.0, .blank_step = 0.0}),
+                        {.crease_reach = 0.0, .border_gap = 0.0, .textureless_step = 0.0}),
               0);
 }
 
@@ -261,7 +261,7 @@ TEST(BorderCandidates, StandWithCreasePointsButNotAtThem)
     EXPECT_GT(added - std::ssize(added_points(scene)), 5);
     for (const std::size_t i : added_points(scene)) {
         for (std::size_t other = 0; other < scene.num_points(); ++other) {
-            if (scene.point_ids[other] != kNoPointId) continue;
+            if (scene.kind_of(other) != PointKind::crease) continue;
             EXPECT_GT((scene.positions[other] - scene.positions[i]).norm(), 0.4 * kSpacing);
         }
     }
@@ -270,7 +270,7 @@ TEST(BorderCandidates, StandWithCreasePointsButNotAtThem)
 TEST(BorderCandidates, AreTheSameInOtherUnitsAndElsewhere)
 {
     flat_scenes::expect_same_elsewhere(together({board(), seen_backdrop()}), kOnBorders,
-                                       kBorderPointId, {1.0 / 1024.0, 37.3, 1e6}, 1e-9);
+                                       PointKind::border, {1.0 / 1024.0, 37.3, 1e6}, 1e-9);
 }
 
 TEST(BorderCandidates, AreAsManyInASceneThatIsTurned)

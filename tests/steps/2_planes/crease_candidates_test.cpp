@@ -19,13 +19,13 @@ using namespace flat_scenes;
 /// The points of a scene that are none of the model's.
 std::vector<std::size_t> added_points(const Scene& scene)
 {
-    return points_with_id(scene, kNoPointId);
+    return points_of_kind(scene, PointKind::crease);
 }
 
 /// None along borders.
-const CreaseOptions kOnCreases = {.border_gap = 0.0, .blank_step = 0.0};
+const AddedPointOptions kOnCreases = {.border_gap = 0.0, .textureless_step = 0.0};
 
-std::int64_t num_added(Scene scene, const CreaseOptions& options = kOnCreases)
+std::int64_t num_added(Scene scene, const AddedPointOptions& options = kOnCreases)
 {
     return add_points(scene, options).added;
 }
@@ -78,16 +78,16 @@ TEST(CreaseCandidates, GoAsFarAsTheReach)
     // The spacing is estimated to be .1; both gaps are 8 of it, or 20.
     EXPECT_GT(num_added(together({wall(0.8), ground(0.8)})), 10);
     EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}),
-                        {.reach = 5.0, .border_gap = 0.0, .blank_step = 0.0}),
+                        {.crease_reach = 5.0, .border_gap = 0.0, .textureless_step = 0.0}),
               0);
     const auto high = flat({-1.0, -2.0}, {1.0, -1.0}, kAll,
                            [](double u, double v) { return Vector3d(u, v, 0.0); });
     EXPECT_GT(num_added(together({high, ground(0.35)})), 10);
     EXPECT_EQ(num_added(together({high, ground(0.35)}),
-                        {.reach = 18.0, .border_gap = 0.0, .blank_step = 0.0}),
+                        {.crease_reach = 18.0, .border_gap = 0.0, .textureless_step = 0.0}),
               0);
     EXPECT_EQ(num_added(together({wall(0.35), ground(0.35)}),
-                        {.reach = 0.0, .border_gap = 0.0, .blank_step = 0.0}),
+                        {.crease_reach = 0.0, .border_gap = 0.0, .textureless_step = 0.0}),
               0);
 }
 
@@ -116,7 +116,7 @@ TEST(CreaseCandidates, LeaveGapsWhereOnePlaneIsNotKnown)
     });
     Scene scene = together({wall(0.35), floor});
     add_points(scene,
-               {.reach = 6.0, .border_gap = 0.0, .blank_step = 0.0}); // .6 along the crease, too
+               {.crease_reach = 6.0, .border_gap = 0.0, .textureless_step = 0.0}); // .6 along the crease, too
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(added.size(), 6U);
     for (const std::size_t i : added) {

@@ -19,12 +19,12 @@ using flat_scenes::flat;
 using flat_scenes::kAll;
 using flat_scenes::kCenters;
 using flat_scenes::kSpacing;
-using flat_scenes::points_with_id;
+using flat_scenes::points_of_kind;
 using flat_scenes::together;
 using flat_scenes::track_of;
 
 /// None on creases and borders.
-const CreaseOptions kTextureless = {.reach = 0.0, .border_gap = 0.0};
+const AddedPointOptions kTextureless = {.crease_reach = 0.0, .border_gap = 0.0};
 
 /// A place so far to the right on a floor that goes up away from the views at 45 degrees, so far
 /// along it, towards them, and so high over it.
@@ -67,10 +67,10 @@ std::vector<MadePoint> floor_with_gap(double gap = 0.5, double half = 1.2)
 
 std::vector<std::size_t> added_points(const Scene& scene)
 {
-    return points_with_id(scene, kBlankPointId);
+    return points_of_kind(scene, PointKind::textureless);
 }
 
-std::int64_t num_added(Scene scene, const CreaseOptions& options = kTextureless)
+std::int64_t num_added(Scene scene, const AddedPointOptions& options = kTextureless)
 {
     return add_points(scene, options).added;
 }
@@ -136,7 +136,7 @@ TEST(TexturelessCandidates, AreNoneNextToAPointOfAnythingElse)
     Scene scene = together({floor});
     add_points(scene, kTextureless);
     const Vector3d there = scene.positions[added_points(scene).front()];
-    const double step = kTextureless.blank_step * kSpacing;
+    const double step = kTextureless.textureless_step * kSpacing;
     for (const double beside : {0.2, 0.8}) {
         const Vector3d thing = there + on_floor(0.0, 0.0, beside * step);
         Scene with_thing = together({floor, {{thing, {0}}}}); // the other views see the floor there
@@ -152,7 +152,7 @@ TEST(TexturelessCandidates, StandSoManySpacingsApart)
 {
     const Scene scene = together({floor_with_gap(0.5)});
     const auto with_step = [&](double step) {
-        return num_added(scene, {.reach = 0.0, .border_gap = 0.0, .blank_step = step});
+        return num_added(scene, {.crease_reach = 0.0, .border_gap = 0.0, .textureless_step = step});
     };
     EXPECT_EQ(with_step(0.0), 0);
     EXPECT_GT(with_step(1.0), 3 * with_step(2.0));
@@ -226,7 +226,7 @@ TEST(TexturelessCandidates, NeedTwoViews)
 
 TEST(TexturelessCandidates, AreTheSameInOtherUnitsAndElsewhere)
 {
-    flat_scenes::expect_same_elsewhere(together({floor_with_gap(0.5)}), kTextureless, kBlankPointId,
+    flat_scenes::expect_same_elsewhere(together({floor_with_gap(0.5)}), kTextureless, PointKind::textureless,
                                        {1.0, 1.0 / 1024.0, 37.3, 1e6}, 1e-6 * kSpacing);
 }
 

@@ -91,7 +91,7 @@ Scene tube()
         if (i < 10) points.back().views = {0, 1, 2};
     }
     Scene scene = make_scene({{50, 0.4, 0.4}, {50, 0.5, 0.6}, {50, 0.6, 0.5}}, points);
-    scene.errors_px.assign(points.size(), -1.0);
+    scene.is_dense = true;
     return scene;
 }
 
@@ -158,7 +158,7 @@ TEST(TraceSights, LetsOneSightGoOnForAllThroughEdgesAndVertices)
         if (place.x() == 0.0) points.back().views = {0, 1, 2};
     }
     Scene scene = make_scene({{118, 3, 2}, {118, 1, 0.5}, {118, 2, 1.5}}, points);
-    scene.errors_px.assign(points.size(), -1.0);
+    scene.is_dense = true;
     const TetMesh mesh = triangulate(scene);
     TraceOptions options = kFullWeight;
     options.bundle_sights = 4;
@@ -170,7 +170,7 @@ TEST(TraceSights, LetsOneSightGoOnForAllThroughEdgesAndVertices)
 TEST(TraceSights, WalksAllSightsOfPointsThatAMatcherFoundOneByOne)
 {
     Scene scene = tube();
-    scene.errors_px.assign(scene.num_points(), 0.5);
+    scene.is_dense = false;
     const TetMesh mesh = triangulate(scene);
     TraceOptions options = kFullWeight;
     options.bundle_sights = 4;
@@ -360,14 +360,15 @@ TEST(TraceSights, SoftensWhatIsNearThePoint)
 TEST(TraceSights, SaysNothingBehindAPointAlongABorder)
 {
     Scene scene = star({kBeyondCell0});
-    scene.point_ids[4] = kBorderPointId;
+    scene.kinds.assign(scene.num_points(), PointKind::measured);
+    scene.kinds[4] = PointKind::border;
     const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
     ArcCapacities arc_capacities = no_arc_capacities();
     arc_capacities[0][3] = 256;
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
     EXPECT_EQ(energy.network.terminal_capacities,
               (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, 0, 0}));
-    scene.point_ids[4] = kNoPointId; // on a crease
+    scene.kinds[4] = PointKind::crease;
     EXPECT_EQ(traced(triangulate(scene), scene, kFullWeight).network.terminal_capacities,
               (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
 }

@@ -60,7 +60,8 @@ TEST(Provenance, TellsThePointOfAVertexAndWhatAFaceRestsOn)
 TEST(Provenance, KnowsNoPointWhereOneWasAddedToTheModels)
 {
     Scene scene = square_scene();
-    scene.point_ids[1] = kNoPointId;
+    scene.kinds.assign(scene.num_points(), PointKind::measured);
+    scene.kinds[1] = PointKind::crease;
     const Provenance found = find_provenance(square_mesh(), scene);
     EXPECT_EQ(found.point_ids, (std::vector<std::int64_t>{50, 70, -1, 9007199254740992, -1}));
     EXPECT_EQ(found.num_views, (std::vector<std::int32_t>{3, 4, 3, 1, 0})) << "those it was given";

@@ -152,7 +152,8 @@ TEST(SettleVertices, LeavesWhatWasNotMatchedInImages)
     const std::uint32_t added = 1310;
     const std::uint32_t no_point = 1410;
     scene.errors_px[unknown] = -1.0;
-    scene.point_ids[added] = kBorderPointId;
+    scene.kinds.assign(scene.num_points(), PointKind::measured);
+    scene.kinds[added] = PointKind::border;
     mesh.points[no_point] = kNoPoint;
     const Settled result = settled(mesh, scene);
     for (const std::uint32_t vertex : {unknown, added, no_point}) {

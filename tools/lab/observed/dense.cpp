@@ -27,6 +27,7 @@ class Fusion {
     {
         scene_.cameras = {onlookers_.camera()};
         scene_.views = onlookers_.views();
+        scene_.is_dense = true;
     }
 
     void add_point(Random& random)
