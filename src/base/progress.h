@@ -11,6 +11,10 @@ namespace vcarve {
 /// made of nothing tells nobody and never stops.
 class Progress {
   public:
+    /// How many small things, some microseconds each, are done between one call of tell() and the
+    /// next.
+    static constexpr std::size_t kToldEvery = 256;
+
     Progress() = default;
     /// All of a stage.
     // NOLINTNEXTLINE(google-explicit-constructor): a stage is its own progress, from 0 to 1

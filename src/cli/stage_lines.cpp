@@ -80,11 +80,13 @@ std::optional<std::string> filled_in(std::string_view text, const Counts& counts
     return filled;
 }
 
-/// Whether what is said besides is worth it: its first count is not 0.
+/// Whether what is said besides is worth it: its first count, where it has one, is not 0.
 bool is_worth_saying(std::string_view text, const Counts& counts)
 {
-    std::string_view name = text.substr(text.find('{') + 1);
-    name = name.substr(0, std::min(name.find('/'), name.find('}')));
+    const std::size_t brace = text.find('{');
+    if (brace == std::string_view::npos) return true;
+    const std::size_t end = text.find_first_of("/}", brace);
+    const std::string_view name = text.substr(brace + 1, end - brace - 1);
     const auto count = std::ranges::find(counts, name, &Counts::value_type::first);
     return count != counts.end() && count->second != 0;
 }

@@ -30,16 +30,26 @@ std::array<std::uint32_t, 2> longest_edge_of(std::span<const Eigen::Vector3d> po
 }
 
 EdgeHalving::EdgeHalving(TriMesh& mesh, const FaceFlags& flags)
-    : mesh_(mesh), faces_at_(mesh.faces, mesh.positions.size(), flags)
+    : mesh_(mesh), num_vertices_(mesh.positions.size()), faces_at_first_(mesh.faces, mesh.positions.size(), flags)
 {
+}
+
+std::vector<std::uint32_t>& EdgeHalving::faces_at(std::uint32_t vertex)
+{
+    const auto [row, is_new] = faces_at_.try_emplace(vertex);
+    if (is_new && vertex < num_vertices_) {
+        const auto first = faces_at_first_[vertex];
+        row->second.assign(first.begin(), first.end());
+    }
+    return row->second;
 }
 
 std::vector<EdgeHalving::HalvedFace> EdgeHalving::halve(std::uint32_t a, std::uint32_t b)
 {
     Halving halving = {{a, b}, add_midpoint(mesh_, a, b), {}, {}};
-    std::vector<std::uint32_t> at_middle;
-    std::vector<std::uint32_t> at_b(faces_at_[b].begin(), faces_at_[b].end());
-    for (const std::uint32_t face : faces_at_[a]) {
+    std::vector<std::uint32_t>& at_middle = faces_at(halving.middle);
+    std::vector<std::uint32_t>& at_b = faces_at(b);
+    for (const std::uint32_t face : faces_at(a)) {
         const Face whole = mesh_.faces[face];
         if (std::ranges::count(whole, b) == 0) continue;
         const auto other_half = static_cast<std::uint32_t>(mesh_.faces.size());
@@ -49,14 +59,10 @@ std::vector<EdgeHalving::HalvedFace> EdgeHalving::halve(std::uint32_t a, std::ui
         std::ranges::replace(at_b, face, other_half);
         const Face from_a = turned_to(whole, a);
         const std::uint32_t across = from_a[1] == b ? from_a[2] : from_a[1];
-        std::vector<std::uint32_t> at_across(faces_at_[across].begin(), faces_at_[across].end());
-        at_across.push_back(other_half);
-        faces_at_.replace(across, std::move(at_across));
+        faces_at(across).push_back(other_half);
         halving.halved.push_back({face, other_half});
         halving.whole.push_back(whole);
     }
-    faces_at_.replace(b, std::move(at_b));
-    faces_at_.replace(halving.middle, std::move(at_middle));
     done_.push_back(std::move(halving));
     return done_.back().halved;
 }

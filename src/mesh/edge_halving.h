@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace vcarve {
@@ -52,10 +54,14 @@ class EdgeHalving {
         std::vector<Face> whole; ///< what these faces were
     };
 
+    /// The row of a vertex, to be changed.
+    std::vector<std::uint32_t>& faces_at(std::uint32_t vertex);
     bool is_as_left(const Halving& halving) const;
 
     TriMesh& mesh_;
-    VertexFaces faces_at_;
+    std::size_t num_vertices_; ///< at first
+    VertexFaces faces_at_first_;
+    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> faces_at_; ///< of asked vertices
     std::vector<Halving> done_;
 };
 

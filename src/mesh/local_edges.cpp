@@ -1,13 +1,11 @@
 #include "mesh/local_edges.h"
 
 #include "base/median.h"
-#include "base/parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <utility>
 
 namespace vcarve {
 
@@ -20,12 +18,6 @@ LocalEdges::LocalEdges(std::span<const Vector3d> positions, const std::vector<Fa
       faces_at_(faces, positions.size(), measured),
       medians_(positions.size(), -1.0)
 {
-}
-
-void LocalEdges::replace_faces_at(std::uint32_t vertex, std::vector<std::uint32_t> faces)
-{
-    faces_at_.replace(vertex, std::move(faces));
-    medians_[vertex] = -1.0;
 }
 
 void LocalEdges::collect_squared_lengths(std::uint32_t vertex,
@@ -62,33 +54,6 @@ double LocalEdges::relative_size(std::size_t face) const
     std::array<double, 3> scales = {median(a), median(b), median(c)};
     std::sort(scales.begin(), scales.end());
     return longest_edge(face) / scales[1];
-}
-
-/// Which vertices may have an edge around them of `size` medians or more: those where more than
-/// half of the lengths are at most the longest over `size`.
-std::vector<std::uint8_t> LocalEdges::uneven_vertices(double size) const
-{
-    constexpr double kRounding = 1.0 + 1e-9;
-    std::vector<std::uint8_t> uneven(positions_.size(), 0);
-    parallel_for_with_list<double>(uneven.size(), [&](std::size_t v, auto& values) {
-        collect_squared_lengths(static_cast<std::uint32_t>(v), values);
-        if (values.empty()) return;
-        const double short_sq = kRounding * *std::ranges::max_element(values) / (size * size);
-        const auto num_short =
-            std::ranges::count_if(values, [&](double value) { return value <= short_sq; });
-        uneven[v] = 2 * static_cast<std::size_t>(num_short) > values.size() ? 1 : 0;
-    });
-    return uneven;
-}
-
-std::vector<std::uint32_t> LocalEdges::large_faces(double size) const
-{
-    const std::vector<std::uint8_t> uneven = uneven_vertices(size);
-    return parallel_collect<std::uint32_t>(faces_.size(), [&](std::size_t face, auto& large) {
-        const auto& [a, b, c] = faces_[face];
-        if (uneven[a] + uneven[b] + uneven[c] >= 2)
-            large.push_back(static_cast<std::uint32_t>(face));
-    });
 }
 
 } // namespace vcarve

@@ -9,8 +9,8 @@
 namespace vcarve {
 
 /// How long the edges around a vertex are. Medians cost more than all else that is asked about a
-/// surface, so they are taken when first asked for, and large_faces() tells by less which faces are
-/// worth asking about. Safe from many threads. Keeps references to positions and faces.
+/// surface, so they are taken when first asked for. Safe from many threads. Keeps references to
+/// positions and faces.
 class LocalEdges {
   public:
     /// Only the faces with a flag are measured; all where there are no flags. Cost: O(faces).
@@ -19,10 +19,6 @@ class LocalEdges {
 
     /// The measured faces at each vertex.
     const VertexFaces& faces_at() const { return faces_at_; }
-
-    /// Measures other faces around a vertex from now on. They may have been added to the list of
-    /// faces meanwhile. Not while others ask.
-    void replace_faces_at(std::uint32_t vertex, std::vector<std::uint32_t> faces);
 
     /// The median length of the edges of the measured faces around a vertex; 0 where there are
     /// none.
@@ -35,17 +31,12 @@ class LocalEdges {
     /// around is measured.
     double relative_size(std::size_t face) const;
 
-    /// All measured faces whose relative size is not below `size`, and a few others, ascending.
-    /// Cost: O(faces), in parallel.
-    std::vector<std::uint32_t> large_faces(double size) const;
-
   private:
     double squared_length(std::uint32_t a, std::uint32_t b) const
     {
         return (positions_[a] - positions_[b]).squaredNorm();
     }
     void collect_squared_lengths(std::uint32_t vertex, std::vector<double>& lengths_sq) const;
-    std::vector<std::uint8_t> uneven_vertices(double size) const;
 
     std::span<const Eigen::Vector3d> positions_;
     const std::vector<Face>& faces_;

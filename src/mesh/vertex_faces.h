@@ -7,37 +7,23 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace vcarve {
 
 using FaceFlags = std::vector<std::uint8_t>; ///< one a face, 0 or 1
 
-/// The faces at each vertex: one row of face numbers a vertex, ascending but where it was replaced.
+/// The faces at each vertex: one row of face numbers a vertex, ascending.
 class VertexFaces {
   public:
     /// Of the faces with a flag only; of all where there are no flags. Cost: O(faces) time, in
     /// parallel, 12 bytes a face and 4 a vertex.
     VertexFaces(std::span<const Face> faces, std::size_t num_vertices, const FaceFlags& flags = {});
 
-    std::span<const std::uint32_t> operator[](std::size_t vertex) const
-    {
-        if (replaced_.empty()) return table_[vertex];
-        const auto row = replaced_.find(static_cast<std::uint32_t>(vertex));
-        return row == replaced_.end() ? table_[vertex] : row->second;
-    }
-
-    /// Gives a vertex another row.
-    void replace(std::uint32_t vertex, std::vector<std::uint32_t> row)
-    {
-        replaced_[vertex] = std::move(row);
-    }
+    std::span<const std::uint32_t> operator[](std::size_t vertex) const { return table_[vertex]; }
 
   private:
     RowTable table_;
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> replaced_; ///< by vertex
 };
 
 inline constexpr std::array<int, 3> kCorners = {0, 1, 2}; ///< of a face

@@ -22,7 +22,6 @@ constexpr std::uint32_t kAlone =
 constexpr int kLevels = 21;         ///< of cubes, one within the other; 3 x 21 bits number them
 constexpr int kFiner = 6;           ///< levels below the usual footprint; finer ones count as these
 constexpr std::uint32_t kUsed = 16; ///< levels that dots are merged on
-constexpr std::uint32_t kNever = kUsed;
 
 /// The bits of a number below 2^21, two zeros before each.
 std::uint64_t spread_bits(std::uint64_t number)
@@ -59,7 +58,7 @@ struct CubeGrid {
 struct Placed {
     std::uint64_t code;
     std::uint32_t dot;
-    std::uint32_t level; ///< kNever for a dot that is not merged
+    std::uint32_t level; ///< kUsed for a dot that is not merged
 
     bool operator<(const Placed& other) const
     {
@@ -123,7 +122,7 @@ class Clustering {
     {
         const double footprint = dots_.footprints[dot];
         const std::optional<std::uint64_t> code = grid_.code(dots_.positions[dot]);
-        if (!code || !std::isfinite(footprint)) return {0, dot, kNever};
+        if (!code || !std::isfinite(footprint)) return {0, dot, kUsed};
         const double level = std::round(std::log2(footprint / grid_.finest));
         return {*code, dot, static_cast<std::uint32_t>(std::clamp(level, 0.0, kUsed - 1.0))};
     }

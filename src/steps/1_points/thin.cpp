@@ -115,20 +115,20 @@ class Thinning {
 Scene thin_points(SceneParts& parts, const ThinOptions& options, const Progress& progress,
                   std::size_t at_once)
 {
-    constexpr double kPerPart = 0.8; // of the work
+    const Progress merging = progress.part(0.0, 0.8);
     const auto all = static_cast<double>(std::max<std::size_t>(parts.num_points(), 1));
     Thinning thinning(options, at_once);
     std::size_t done = 0;
     do { // also of none: the scene has views then
         const std::size_t end = std::min(done + at_once, parts.num_points());
-        const Progress part = progress.part(kPerPart * static_cast<double>(done) / all,
-                                            kPerPart * static_cast<double>(end) / all);
+        const Progress part =
+            merging.part(static_cast<double>(done) / all, static_cast<double>(end) / all);
         Scene points = parts.next(at_once, part.part(0.0, 0.5));
         thinning.add(std::move(points));
         done = end;
     } while (done < parts.num_points());
-    progress.tell(kPerPart);
-    return thinning.finish(progress.part(kPerPart, 1.0));
+    merging.tell(1.0);
+    return thinning.finish(progress.part(0.8, 1.0));
 }
 
 Scene thin_points(const Scene& scene, const ThinOptions& options, const Progress& progress)

@@ -10,6 +10,10 @@
 
 namespace vcarve {
 
+/// How far a candidate stands off its plane at most, in steps: among points in one plane rounding
+/// would tell which cells there are.
+inline constexpr double kOffPlane = 1e-3;
+
 /// A place where a point may be added, as a generator proposes it.
 struct Candidate {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();

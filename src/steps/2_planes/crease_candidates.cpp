@@ -21,8 +21,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRounding = 1e-6; // where points stand in rows, it shall not tell who is asked
-
 Box grown(const Box& box, double by)
 {
     return {box.low.array() - by, box.high.array() + by};
@@ -163,17 +161,15 @@ class Crease {
                std::prev(last)->along >= along - slack;
     }
 
-    /// The i-th place, a little off the line, to either side of both planes, as i² and i³ tell: of
-    /// points on one line along a hull rounding would tell which cells there are.
+    /// The i-th place, a little off the line, to either side of both planes, as i² and i³ tell.
     Vector3d place_at(double i, double step) const
     {
-        constexpr double kOff = 1e-3; // of a step, at most
         constexpr std::array<double, 2> kIrrational = {0.6180339887, 0.4142135624};
         const std::array<double, 2> turns = {kIrrational[0] * i * i, kIrrational[1] * i * i * i};
         Vector3d place = line_.origin + i * step * line_.direction;
         for (std::size_t side = 0; side < 2; ++side) {
             const double off = 2.0 * (turns[side] - std::floor(turns[side])) - 1.0;
-            place += kOff * step * off * regions_[side]->plane.normal;
+            place += kOffPlane * step * off * regions_[side]->plane.normal;
         }
         return place;
     }

@@ -218,7 +218,6 @@ PlanarRegion::PlanarRegion(const Scene& scene, const Plane& fitted, double media
 
 std::vector<std::uint32_t> PlanarRegion::nearest(const Vector3d& place, std::size_t count) const
 {
-    constexpr double kRounding = 1e-6; // of points in rows and columns many are equally far
     constexpr std::size_t kEqual = 4;
     std::vector<PointTree::Near> near;
     tree.find_nearest(place, count + kEqual, near);

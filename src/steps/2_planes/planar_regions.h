@@ -15,6 +15,10 @@
 
 namespace vcarve {
 
+/// Of points in rows and columns many are equally far; lengths that differ by such a share count as
+/// equal, so that rounding does not tell which of them are asked.
+inline constexpr double kRounding = 1e-6;
+
 /// Points that lie on a plane. It stays where it is made, since its tree refers to the positions.
 struct PlanarRegion {
     Plane plane;                            ///< its normal looks to the views that saw the points

@@ -114,12 +114,10 @@ class Grid {
     }
 
     /// The place for a point of a square: near its middle, and next to the plane, as far off as the
-    /// square's numbers tell. Of points in rows on a plane rounding would tell which cells there
-    /// are.
+    /// square's numbers tell.
     Vector3d place_in(const Square& square) const
     {
         constexpr double kAside = 0.1; // of a side, at most
-        constexpr double kOff = 1e-3;  // the same
         const auto column = static_cast<double>(square.first);
         const auto row = static_cast<double>(square.second);
         const auto turned = [&](double a, double b, double c) {
@@ -130,7 +128,7 @@ class Grid {
         const double up = turned(0.2360679775, 0.6457513111, 0.3166247904);
         const double off = turned(0.1622776602, 0.8729833462, 0.5825756950);
         return at(square, 0.5 + kAside * right, 0.5 + kAside * up) +
-               kOff * side_ * off * region_.plane.normal;
+               kOffPlane * side_ * off * region_.plane.normal;
     }
 
     /// The middle of the plane is no corner: points that stand in rows around it would be on the

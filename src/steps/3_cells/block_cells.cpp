@@ -172,13 +172,12 @@ void look_into(CellHandle cell, Block& block, std::vector<Wanted>& wanted)
 
 std::vector<Wanted> points_in_spheres(Block& block, BlockProgress& progress)
 {
-    constexpr std::size_t kToldEvery = 1024;
     std::vector<Wanted> wanted;
     const auto all = static_cast<double>(block.cells().tds().cells().size());
     std::size_t count = 0;
     for (const CellHandle cell : block.cells().all_cell_handles()) {
         look_into(cell, block, wanted);
-        if (++count % kToldEvery != 0) continue;
+        if (++count % Progress::kToldEvery != 0) continue;
         progress.tell(kOwn + (kFirstLook - kOwn) * static_cast<double>(count) / all);
     }
     return wanted;
@@ -215,14 +214,13 @@ std::vector<VertexHandle> insert_wanted(std::vector<Wanted> wanted, Block& block
 void insert_own(Block& block, const std::vector<Index>& first, const PointRun& own,
                 BlockProgress& progress)
 {
-    constexpr std::size_t kToldEvery = 256;
     for (const Index point : first)
         block.insert(point, block.last_inserted());
     const UnsetArray<std::uint32_t> order = insertion_order(own.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const auto point = static_cast<Index>(own.first + order[i]);
         if (!std::ranges::binary_search(first, point)) block.insert(point, block.last_inserted());
-        if (i % kToldEvery != 0) continue;
+        if (i % Progress::kToldEvery != 0) continue;
         progress.tell(kOwn * static_cast<double>(i) / static_cast<double>(order.size()));
     }
 }

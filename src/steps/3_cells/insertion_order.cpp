@@ -11,9 +11,8 @@ namespace {
 /// before three quarters of the rest, and so on, by chance.
 std::uint32_t insertion_round(std::size_t point, std::uint32_t num_rounds)
 {
-    constexpr std::uint64_t kSeed = 0;
     std::uint32_t round = num_rounds - 1;
-    for (double chance = random_number(kSeed, point); chance < 0.25 && round > 0; chance *= 4.0)
+    for (double chance = random_number(0, point); chance < 0.25 && round > 0; chance *= 4.0)
         --round;
     return round;
 }

@@ -24,9 +24,6 @@ namespace {
 /// Smaller blocks take in so many points of others that they are slower than no blocks (measured).
 constexpr std::size_t kLeastBlock = 10'000;
 
-/// The share of the time that the insertion of points takes; the rest is copying cells.
-constexpr double kInsertion = 0.8;
-
 /// Copies the cells of a triangulation to flat arrays and clears it on the way, so that only one
 /// copy of the cells lives beside it.
 TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress& progress)
@@ -62,8 +59,8 @@ std::size_t usual_blocks(std::size_t points, std::size_t threads)
 TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
 {
     // CGAL's insertion of many points at once does the same, but does not tell how far it is.
-    constexpr std::size_t kToldEvery = 256;
     require_four_points(scene.num_points());
+    const Progress inserting = progress.part(0.0, 0.8);
     Triangulation triangulation;
     {
         const UnsetArray<std::uint32_t> order = insertion_order(scene.num_points());
@@ -71,10 +68,10 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
         for (std::size_t i = 0; i < order.size(); ++i) {
             hint = triangulation.insert(to_point(scene.positions[order[i]]), hint);
             hint->info() = order[i];
-            if (i % kToldEvery == 0) progress.part(0.0, kInsertion).tell(i, order.size());
+            if (i % Progress::kToldEvery == 0) inserting.tell(i, order.size());
         }
     }
-    return flatten(triangulation, scene, progress.part(kInsertion, 1.0));
+    return flatten(triangulation, scene, progress.part(0.8, 1.0));
 }
 
 TetMesh triangulate(const Scene& scene, const Progress& progress)

@@ -19,9 +19,6 @@ namespace vcarve {
 
 namespace {
 
-/// The share of the time that the blocks take; the rest is joining them.
-constexpr double kBlocks = 0.9;
-
 PointRun run_of(std::size_t block, std::size_t num_blocks, std::size_t num_points)
 {
     return {block * num_points / num_blocks, (block + 1) * num_points / num_blocks};
@@ -177,7 +174,7 @@ std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& w
     if (first.size() < 4) throw all_in_one_plane(scene.num_points());
     std::vector<BlockCells> blocks;
     try {
-        blocks = all_blocks(scene, first, wanted, progress.part(0.0, kBlocks));
+        blocks = all_blocks(scene, first, wanted, progress.part(0.0, 0.9));
     } catch (const TooManyTies&) {
         return std::nullopt;
     }

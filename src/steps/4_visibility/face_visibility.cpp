@@ -41,21 +41,17 @@ bool stands_before(const Vector3d& center, const Vector3d& place, const Vector3d
 
 std::vector<Vector3d> places_on(const std::array<Vector3d, 3>& corners)
 {
-    constexpr double kNear = 0.8;
-    constexpr double kFar = 0.1;
-    constexpr double kHalf = 0.475;
-    constexpr double kRim = 0.05;
+    constexpr std::array<std::array<double, 2>, 6> kSpread = {
+        {{0.8, 0.1}, {0.1, 0.8}, {0.1, 0.1}, {0.475, 0.475}, {0.475, 0.05}, {0.05, 0.475}}};
     constexpr double kThin = 0.2;
     const Vector3d& a = corners[0];
     const Vector3d& b = corners[1];
     const Vector3d& c = corners[2];
-    const auto mix = [&](double u, double v) -> Vector3d {
-        return u * a + v * b + (1.0 - u - v) * c;
-    };
     const Vector3d middle = (a + b + c) / 3.0;
-    std::vector<Vector3d> places = {middle,          mix(kNear, kFar),  mix(kFar, kNear),
-                                    mix(kFar, kFar), mix(kHalf, kHalf), mix(kHalf, kRim),
-                                    mix(kRim, kHalf)};
+    std::vector<Vector3d> places = {middle};
+    for (const auto& [u, v] : kSpread) {
+        places.emplace_back(u * a + v * b + (1.0 - u - v) * c);
+    }
     const auto [short_edge, long_edge] =
         std::minmax({(b - a).norm(), (c - b).norm(), (a - c).norm()});
     if (short_edge < kThin * long_edge) {
@@ -109,10 +105,9 @@ bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vec
            view_shows(eye, scene_.cameras[eye.camera], place);
 }
 
-bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place,
-                          double cosine) const
+bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
 {
-    if (!faces(view, facet, place, cosine)) return false;
+    if (!faces(view, facet, place)) return false;
     // Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
     const auto leads_on = [&](const CellFacet& ahead) {
         return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
@@ -122,14 +117,14 @@ bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vect
     return SightWalk(cells_).through_facet(facet, place, center, leads_on).cell == kInfinite;
 }
 
-bool FaceVisibility::is_seen(const CellFacet& facet, double cosine) const
+bool FaceVisibility::is_seen(const CellFacet& facet) const
 {
     const std::vector<Vector3d> places = places_on(facet);
     const Vector3d normal = outward(cells_, facet);
     const auto sees_some = [&](std::uint32_t view) {
         if (normal.dot(scene_.views[view].center - places[0]) <= 0.0) return false; // most are
         return std::ranges::any_of(
-            places, [&](const Vector3d& place) { return sees(view, facet, place, cosine); });
+            places, [&](const Vector3d& place) { return sees(view, facet, place); });
     };
     return any_view(facet, sees_some);
 }
@@ -149,20 +144,6 @@ bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
         }
         return !is_seen;
     });
-}
-
-FaceVisibility::Crossed FaceVisibility::met_beyond(std::uint32_t view, const CellFacet& facet,
-                                                   const Vector3d& place) const
-{
-    Crossed met{facet, Meets::nothing};
-    const auto leads_on = [&](const CellFacet& ahead) {
-        met = crossed_at(ahead);
-        return met.side == Meets::nothing;
-    };
-    const Vector3d way = (place - scene_.views[view].center).normalized();
-    SightWalk(cells_).through_facet(cells_.other_side(facet), place, place + reach_ * way,
-                                    leads_on);
-    return met;
 }
 
 /// What a line crosses of the boundary where it goes through a facet out of the facet's cell.

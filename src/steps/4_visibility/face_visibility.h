@@ -54,16 +54,15 @@ class FaceVisibility {
     /// Places spread over a facet, as over any triangle.
     std::vector<Eigen::Vector3d> places_on(const CellFacet& facet) const;
 
-    /// A view that stands lower before the facet than a cosine of its angle says does not see it.
+    /// Whether a view sees a place on a facet, at more than a graze.
     /// Cost: a walk through the cells up to the view, where the view stands before the facet and
     /// its image shows the place.
-    bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
-              double cosine = kGrazing) const;
+    bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
 
     /// Whether some view sees one of the places on a facet. The views that saw its corners are
     /// asked first. Cost: where no view sees it, a walk for each place and view that stands
     /// before it and shows it in its image.
-    bool is_seen(const CellFacet& facet, double cosine = kGrazing) const;
+    bool is_seen(const CellFacet& facet) const;
 
     /// The same of a place where of the boundary only the facets are there that is_kept(facet)
     /// names.
@@ -91,11 +90,6 @@ class FaceVisibility {
     template <typename IsKept>
     Meets met_behind(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                      const IsKept& is_kept) const;
-
-    /// What a view meets first behind a place, if the cells on both sides of the facet are outside.
-    /// Where that is nothing, so is the side. Cost: a walk through the cells up to there.
-    Crossed met_beyond(std::uint32_t view, const CellFacet& facet,
-                       const Eigen::Vector3d& place) const;
 
   private:
     bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,

@@ -93,8 +93,8 @@ void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
         // Held below the end of 32 bits: so much excess is more than any cell can pass on.
         const std::int64_t sum = std::int64_t{network.terminal_capacities[neighbor]} +
                                  std::int64_t{network.arc_capacities[cell][slot]};
-        constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-        network.terminal_capacities[neighbor] = static_cast<std::int32_t>(std::min(sum, kMost));
+        network.terminal_capacities[neighbor] = static_cast<std::int32_t>(
+            std::min<std::int64_t>(sum, std::numeric_limits<std::int32_t>::max()));
         network.arc_capacities[cell][slot] = 0;
         network.arc_capacities[neighbor][mesh.mirror(cell, slot)] = 0;
     }

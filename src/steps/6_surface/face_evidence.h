@@ -37,6 +37,8 @@ class FaceEvidence {
   public:
     FaceEvidence(const Boundary& boundary, const FaceFlags& keep);
 
+    /// The faces at each vertex, kept or not.
+    const VertexFaces& faces_at() const { return faces_at_; }
     /// The longest edge of a face.
     double length(std::uint32_t face) const { return edges_.longest_edge(face); }
     /// The same over the median edge around the face (LocalEdges::relative_size).

@@ -50,20 +50,18 @@ bool is_unsupported(std::uint32_t face, const FaceEvidence& evidence, double clo
 std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, const FaceRules& rules,
                      FaceFlags& keep)
 {
-    constexpr int kRounds = 20;
     const auto& faces = boundary.surface.faces;
     const double closing = closing_length(boundary.visibility.scene(), rules);
-    const VertexFaces faces_at(faces, boundary.surface.positions.size());
     const FaceNumbers large = those_that(numbers_with(1, keep), [&](std::uint32_t face) {
         return evidence.length(face) >= closing;
     });
     std::int64_t count = 0;
     FaceNumbers dropped = numbers_with(0, keep);
-    for (int round = 0; round < kRounds && (round == 0 || !dropped.empty()); ++round) {
+    do {
         FaceNumbers asked = large;
         for (const std::uint32_t face : dropped) {
             for (const std::uint32_t corner : faces[face]) {
-                std::ranges::copy(faces_at[corner], std::back_inserter(asked));
+                std::ranges::copy(evidence.faces_at()[corner], std::back_inserter(asked));
             }
         }
         sort_unique(asked);
@@ -75,7 +73,7 @@ std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, con
             keep[face] = 0;
         }
         count += static_cast<std::int64_t>(dropped.size());
-    }
+    } while (!dropped.empty());
     return count;
 }
 

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace vcarve {
@@ -58,14 +59,12 @@ class PolygonFill {
         }
     }
 
-    bool exists() const { return chord(0, corners_.size() - 1).area < kImpossible; }
+    bool exists() const { return std::isfinite(chord(0, corners_.size() - 1).area); }
 
     /// Adds the triangles; call it only where they exist.
     void add_to(HalfEdgeMesh& mesh) const { add_behind(mesh, 0, corners_.size() - 1); }
 
   private:
-    static constexpr double kImpossible = std::numeric_limits<double>::infinity();
-
     /// From corner i to corner j: the least area of the polygon i, i + 1, ..., j and the corner
     /// that the triangle on the chord has there.
     struct Chord {
@@ -88,7 +87,7 @@ class PolygonFill {
     void fill_behind(std::size_t i, std::size_t j)
     {
         Chord& best = chord(i, j);
-        best.area = kImpossible;
+        best.area = std::numeric_limits<double>::infinity(); // not possible
         const bool closes_loop = i == 0 && j + 1 == corners_.size();
         const bool taken = mesh_.find_halfedge(corners_[i], corners_[j]).is_valid();
         if (taken && !closes_loop) return;
@@ -149,6 +148,13 @@ std::vector<HalfedgeHandle> boundary_half_edges(const HalfEdgeMesh& mesh)
     });
 }
 
+/// Neither a rim, nor does it touch itself.
+bool is_fillable(const HalfEdgeMesh& mesh, const BoundaryLoop& loop, int max_edges)
+{
+    return loop.size() <= static_cast<std::size_t>(std::max(max_edges, 0)) && !is_rim(mesh, loop) &&
+           !touches_itself(mesh, loop);
+}
+
 } // namespace
 
 std::vector<BoundaryLoop> boundary_loops(const HalfEdgeMesh& mesh)
@@ -201,12 +207,6 @@ void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop)
     } else {
         add_fan(mesh, corners);
     }
-}
-
-bool is_fillable(const HalfEdgeMesh& mesh, const BoundaryLoop& loop, int max_edges)
-{
-    return loop.size() <= static_cast<std::size_t>(std::max(max_edges, 0)) && !is_rim(mesh, loop) &&
-           !touches_itself(mesh, loop);
 }
 
 std::int64_t fill_holes(HalfEdgeMesh& mesh, int max_edges)

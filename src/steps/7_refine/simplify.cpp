@@ -205,7 +205,7 @@ class NoBlockedSights : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
 class CollapseProgress final : public OpenMesh::Decimater::Observer {
   public:
     CollapseProgress(const Progress& progress, std::size_t faces, std::size_t wanted)
-        : Observer(kToldEvery),
+        : Observer(Progress::kToldEvery),
           progress_(progress),
           collapses_(faces > wanted ? static_cast<double>(faces - wanted) / 2.0 : 0.0)
     {
@@ -217,8 +217,6 @@ class CollapseProgress final : public OpenMesh::Decimater::Observer {
     }
 
   private:
-    static constexpr std::size_t kToldEvery = 128;
-
     Progress progress_;
     double collapses_;
 };
