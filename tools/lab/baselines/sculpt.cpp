@@ -177,10 +177,11 @@ class Sculpture {
 
 } // namespace
 
-Labels sculpt(const TetMesh& cells)
+Labels sculpt(const TetMesh& cells, std::size_t most)
 {
     Sculpture sculpture(cells);
-    while (!sculpture.is_finished() && sculpture.take_next()) {
+    for (std::size_t taken = 0; taken < most && !sculpture.is_finished(); ++taken) {
+        if (!sculpture.take_next()) break;
     }
     return std::move(sculpture).labels();
 }

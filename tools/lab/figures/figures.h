@@ -1,0 +1,37 @@
+#pragma once
+
+#include "figures/panel.h"
+
+#include <vector>
+
+namespace vcarve::paper {
+
+// What each figure of docs/paper.md shows and says, as JSON for tools/paper. Panels are as panel()
+// gives them.
+
+/// Figures 15, 16 and 18: the triangulation, and what `--method strict` makes of it.
+Json recovered(const PaperCase& paper_case);
+
+/// Figure 17: the triangulation, and what is left with four views and with seven.
+Json recovered_in_states(const PaperCase& paper_case);
+
+/// Figures 2 and 3: alpha shapes, the best among them.
+Json alpha_shapes(const PaperCase& paper_case);
+
+/// Figure 1: the cell that sculpting takes first, and what it leaves in the end.
+Json sculpted(const PaperCase& paper_case);
+
+/// Figure 13: with two views that carve the object exactly, the facets in empty space that no sight
+/// crosses, which go because their cells do; and the largest of them with its cells and what
+/// crosses these.
+Json unmet_triangles(const PaperCase& paper_case);
+
+/// The paper's future work: of two views that leave too much, what virtual ones find. The pair is
+/// the one that leaves most of those that are mended.
+Json virtual_viewpoints(const PaperCase& paper_case);
+
+/// What one wrong sight does: of all that no view has, the one that drills through most cells of
+/// the solid and none of empty space.
+Json drilled(const PaperCase& paper_case);
+
+} // namespace vcarve::paper

@@ -1,0 +1,64 @@
+// Draws the directions of surfaces side by side, through the camera of a model that sees most, or
+// of a named image. Usage: picture_surfaces OUT.png WIDTH_PX MODEL VIEW MESH...: VIEW is auto or an
+// image's name, a panel is about WIDTH_PX wide, half of what is drawn at first.
+#include "picture/eye.h"
+#include "picture/picture.h"
+#include "picture/shade.h"
+#include "vcarve/io.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+Picture side_by_side(const std::vector<Picture>& panels)
+{
+    constexpr int kGapPx = 6;
+    const int step_px = panels.front().width_px + kGapPx;
+    const int count = static_cast<int>(panels.size());
+    Picture all = even_picture(count * step_px - kGapPx, panels.front().height_px,
+                               Eigen::Array3f::Constant(255.0F));
+    for (int i = 0; i < count; ++i) {
+        paste(panels[static_cast<std::size_t>(i)], i * step_px, 0, all);
+    }
+    return all;
+}
+
+void draw(std::span<char*> words)
+{
+    const std::filesystem::path out = words[0];
+    const double width_px = 2.0 * std::stod(words[1]);
+    Log silent;
+    const Eye eye = choose_eye(read_model(words[2], silent), words[3]);
+    const double height_px = width_px * static_cast<double>(eye.camera.height_px) /
+                             static_cast<double>(eye.camera.width_px);
+    std::vector<Picture> panels;
+    for (const char* mesh : words.subspan(4)) {
+        panels.push_back(shrunk(look_at(read_ply(mesh), eye, width_px * height_px).normals, 2));
+    }
+    write_png(out, side_by_side(panels));
+}
+
+} // namespace
+
+} // namespace vcarve
+
+int main(int argc, char** argv)
+try {
+    if (argc < 6) {
+        fmt::print(stderr, "usage: picture_surfaces OUT.png WIDTH_PX MODEL VIEW MESH...\n");
+        return 2;
+    }
+    vcarve::draw(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+    return 0;
+} catch (const std::exception& error) {
+    fmt::print(stderr, "picture_surfaces: {}\n", error.what());
+    return 1;
+}
