@@ -23,7 +23,8 @@ TEST(PaperFigures, ExactIsTheTrueSolidOnly)
     EXPECT_TRUE(is_exact(solid, solid));
     TriMesh other_order = solid;
     std::ranges::reverse(other_order.faces);
-    std::ranges::rotate(other_order.faces.front(), other_order.faces.front().begin() + 1);
+    Face& first = other_order.faces.front();
+    std::rotate(first.begin(), first.begin() + 1, first.end());
     EXPECT_TRUE(is_exact(other_order, solid));
     TriMesh turned = solid;
     std::swap(turned.faces.front()[0], turned.faces.front()[1]);

@@ -70,7 +70,7 @@ std::vector<std::array<std::array<double, 3>, 3>> sorted_places(const TriMesh& m
             const Eigen::Vector3d place = mesh.positions[vertex] + mesh.offset;
             return std::array<double, 3>{place.x(), place.y(), place.z()};
         });
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         result.push_back(corners);
     }
     std::ranges::sort(result);

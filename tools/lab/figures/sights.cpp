@@ -222,7 +222,8 @@ Json drilled_panel(const PaperCase& paper_case, const Labels& labels)
 
 Json drilled(const PaperCase& paper_case)
 {
-    const auto& [name, scene, solid, cells, crossings, truth] = paper_case;
+    const Scene& scene = paper_case.scene;
+    const TetMesh& cells = paper_case.cells;
     std::pair<std::ptrdiff_t, std::pair<Index, std::uint32_t>> most{0, {0, 0}};
     for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
         for (std::uint32_t view = 0; view < scene.views.size(); ++view) {
@@ -236,7 +237,7 @@ Json drilled(const PaperCase& paper_case)
     }
     const auto [vertex, view] = most.second;
     const Scene wrong = with_sight(scene, vertex, view);
-    return {{"object", name},
+    return {{"object", paper_case.name},
             {"sights", scene.num_sights()},
             {"truth", panel(cells, judged_boundary(paper_case, paper_case.truth))},
             {"line", segment(cells.positions[vertex], scene.views[view].center)},

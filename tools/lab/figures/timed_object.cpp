@@ -33,7 +33,7 @@ std::vector<Spot> fitting_spots()
     constexpr std::int64_t kAnyRadius = 1000 * kSpotsPerUnit;
     for (int seed = 1; seed <= kMostSeeds; ++seed) {
         std::mt19937_64 random(seed);
-        const std::vector<Spot> spots = sample_surface(block_with_a_pit(), kAnyRadius, random);
+        std::vector<Spot> spots = sample_surface(block_with_a_pit(), kAnyRadius, random);
         if (spots.size() == kPapersPoints && triangulate(block_with_a_pit(), spots)) return spots;
     }
     throw std::runtime_error("no sampling of the block with a pit has as many points as wanted");
