@@ -127,7 +127,7 @@ void check_files(const CompareArguments& arguments)
 {
     std::vector<fs::path> inputs = arguments.meshes;
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
-    check_outputs(arguments.outputs, inputs);
+    check_outputs(arguments.outputs, arguments.model, inputs);
     for (const fs::path& input : inputs) {
         if (is_mesh_name(input) && lower_case_end(input) != ".ply") {
             throw UsageError(fmt::format("{}: compare reads PLY only", input.string()));

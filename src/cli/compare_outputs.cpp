@@ -59,13 +59,14 @@ void check_names(const CompareOutputs& outputs, const ParsedArguments& given)
     require_distinct(written(outputs));
 }
 
-void check_outputs(const CompareOutputs& outputs, std::span<const fs::path> inputs)
+void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
+                   const std::vector<fs::path>& meshes)
 {
-    for (const Output& output : written(outputs)) {
-        if (std::ranges::count(inputs, output.path) == 0) continue;
-        throw UsageError(
-            fmt::format("{} would replace the mesh {}", output.name, output.path.string()));
+    std::vector<Output> read;
+    for (const fs::path& mesh : meshes) {
+        read.push_back({"the mesh", mesh});
     }
+    keep_inputs(written(outputs), model, read);
     for (const Output& output : written(outputs)) {
         require_writable(output.path);
     }

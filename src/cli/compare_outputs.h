@@ -1,10 +1,10 @@
 #pragma once
 
+#include "cli/model_input.h"
 #include "cli/option_parser.h"
 #include "cli/preview_output.h"
 
 #include <filesystem>
-#include <span>
 #include <vector>
 
 namespace vcarve::cli {
@@ -24,7 +24,9 @@ OptionList output_options(CompareOutputs& outputs);
 /// Throws UsageError where a name is wrong, or two would be written to one file.
 void check_names(const CompareOutputs& outputs, const ParsedArguments& given);
 
-/// Throws UsageError where a file that is read would be replaced, or one cannot be written.
-void check_outputs(const CompareOutputs& outputs, std::span<const std::filesystem::path> inputs);
+/// Throws UsageError where a file that is read would be replaced (see keep_inputs), or one cannot
+/// be written.
+void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
+                   const std::vector<std::filesystem::path>& meshes);
 
 } // namespace vcarve::cli

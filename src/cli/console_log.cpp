@@ -147,7 +147,7 @@ void ConsoleLog::draw_bar()
 {
     const std::string line = bar();
     if (line.empty()) return;
-    fmt::print(settings_.stream, "{}{}", kClearLine, line);
+    std::fputs((kClearLine + line).c_str(), settings_.stream);
     std::fflush(settings_.stream);
     bar_is_drawn_ = true;
 }
@@ -155,7 +155,8 @@ void ConsoleLog::draw_bar()
 void ConsoleLog::print_line(std::string_view text)
 {
     remove_bar();
-    fmt::print(settings_.stream, "{}\n", text);
+    // What cannot be written is dropped: nobody reads it, but somebody waits for the mesh.
+    std::fputs(fmt::format("{}\n", text).c_str(), settings_.stream);
     std::fflush(settings_.stream);
 }
 

@@ -1,5 +1,6 @@
 #include "cli/interruption.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -83,6 +84,16 @@ void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished
     }
     std::signal(SIGPIPE, SIG_IGN);
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+void hold_standard_streams()
+{
+    // The lowest number that is free is given; writing to it fails, as it did.
+    int descriptor = 0;
+    do {
+        descriptor = ::open("/dev/null", O_RDONLY);
+    } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+    if (descriptor > STDERR_FILENO) ::close(descriptor);
 }
 
 } // namespace vcarve::cli

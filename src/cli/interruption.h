@@ -11,4 +11,8 @@ namespace vcarve::cli {
 /// that leaves stderr does not end a run.
 void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished);
 
+/// Holds the places of standard streams that are closed, as `2>&-` leaves them: else the next file
+/// that is opened takes the place, and what is printed goes into it.
+void hold_standard_streams();
+
 } // namespace vcarve::cli

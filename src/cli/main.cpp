@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
+#include "cli/interruption.h"
 
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 int main(int count, char** words)
 {
     namespace cli = vcarve::cli;
+    cli::hold_standard_streams();
     return cli::report(cli::ending_of([&] {
         const std::vector<std::string> arguments(words + (count > 0 ? 1 : 0), words + count);
         cli::run_command_line(arguments, cli::commands());

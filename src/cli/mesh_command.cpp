@@ -319,6 +319,8 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     MeshArguments arguments = read_mesh_arguments(given);
     const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
     require_work_folder(arguments, processes);
+    const Output region = {"the region", arguments.options.crop.region.file};
+    keep_inputs(outputs_of(arguments), arguments.model, {&region, 1});
     const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
     // What is wrong with the file of a region is said before the work starts.

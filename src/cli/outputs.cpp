@@ -1,19 +1,77 @@
 #include "cli/outputs.h"
 
+#include "io/input/input_files.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
 namespace vcarve::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Also of files that are not there yet.
+bool is_same_file(const fs::path& a, const fs::path& b)
+{
+    std::error_code error;
+    return fs::equivalent(a, b, error) ||
+           fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+[[noreturn]] void refuse(const Output& output, const Output& replaced)
+{
+    throw UsageError(
+        fmt::format("{} would replace {} {}", output.name, replaced.name, replaced.path.string()));
+}
+
+void refuse_replacing(const Output& output, std::span<const Output> files)
+{
+    for (const Output& file : files) {
+        std::error_code error;
+        if (output.path == file.path || fs::equivalent(output.path, file.path, error)) {
+            refuse(output, file);
+        }
+    }
+}
+
+} // namespace
 
 void require_distinct(std::span<const Output> outputs)
 {
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-            if (outputs[i].path != outputs[k].path) continue;
+            if (!is_same_file(outputs[i].path, outputs[k].path)) continue;
             throw UsageError(fmt::format("{} and {} cannot both be written to {}", outputs[i].name,
                                          outputs[k].name, outputs[i].path.string()));
         }
+    }
+}
+
+void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
+                 std::span<const Output> others)
+{
+    for (const Output& output : outputs) {
+        refuse_replacing(output, others);
+    }
+    const auto is_file = [](const Output& output) {
+        std::error_code error;
+        return fs::is_regular_file(output.path, error);
+    };
+    if (std::ranges::none_of(outputs, is_file)) return;
+    const FoundInput found = find_input(model.path, model.all_points());
+    std::vector<Output> inputs;
+    for (const fs::path& file : input_files(model.path, found)) {
+        inputs.push_back({"the input", file});
+    }
+    for (const Output& output : outputs) {
+        if (!is_file(output)) continue;
+        refuse_replacing(output, inputs);
+        if (is_image_of_views(output.path, found)) refuse(output, {"the image", output.path});
     }
 }
 

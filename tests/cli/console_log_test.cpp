@@ -65,6 +65,18 @@ TEST(ConsoleLog, PrintsALineAStageAndANoteAtOnce)
                 MatchesRegex("note: images.txt is ignored.\nread +12 points +[0-9.]+ s\n"));
 }
 
+TEST(ConsoleLog, DropsWhatCannotBeWritten)
+{
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> full(std::fopen("/dev/full", "w"),
+                                                               std::fclose);
+    ConsoleLog log({.stream = full.get(), .live = true, .bar_after_s = 0, .run_bar_after_s = 0});
+    Stage stage(log, "read");
+    std::this_thread::sleep_for(std::chrono::milliseconds(150)); // a bar is drawn
+    log.note("nobody reads this");
+    stage.end({{"points", 7}});
+    log.conclude("nor this");
+}
+
 TEST(ConsoleLog, ShowsNoBarWhereTheStreamIsNoTerminal)
 {
     const Screen screen;

@@ -3,6 +3,7 @@
 #include "support/temporary_folder.h"
 #include "support/usual_signals.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -103,6 +104,21 @@ TEST(EndCleanlyOnSignals, GoesOnWhereAPipeIsClosed)
     const TemporaryFolder folder;
     EXPECT_EQ(exit_code_of(SIGPIPE, folder.write("out.ply.part", "half of it")), 0);
     EXPECT_EQ(folder.num_entries(), 1U);
+}
+
+TEST(HoldStandardStreams, LeavesTheirNumbersToNoFile)
+{
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::close(STDIN_FILENO);
+        ::close(STDERR_FILENO);
+        hold_standard_streams();
+        const int opened = ::open("/dev/null", O_RDONLY);
+        ::_exit(opened > STDERR_FILENO && ::write(STDERR_FILENO, "x", 1) < 0 ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
 }
 
 } // namespace

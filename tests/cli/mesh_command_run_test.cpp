@@ -114,6 +114,21 @@ TEST_F(ProgramOnBall, IsSilentOnRequest)
     EXPECT_THAT(outcome.out + outcome.err, IsEmpty());
 }
 
+TEST_F(ProgramOnBall, GoesOnWhereNobodyTakesWhatItPrints)
+{
+    ASSERT_EQ(run_program({ball, out}).exit_code, 0);
+    const std::string usual = bytes_of(out);
+    for (const std::string to :
+         {"2>/dev/full", "2>&-", ">&- 2>&- <&-", "2>&1 | true", "2>&1 | head -n 1"}) {
+        std::filesystem::remove(out);
+        std::vector<std::string> words = program_with({ball, out, "--verbose"});
+        const std::string script = "\"$@\" " + to + "; exit ${PIPESTATUS[0]}";
+        words.insert(words.begin(), {"/bin/bash", "-c", script, "bash"});
+        EXPECT_EQ(Subprocess(words).wait().exit_code, 0) << to;
+        EXPECT_EQ(bytes_of(out), usual) << to;
+    }
+}
+
 TEST_F(ProgramOnBall, WritesTextOnRequest)
 {
     EXPECT_EQ(run_program({ball, out, "--ascii"}).exit_code, 0);

@@ -29,12 +29,19 @@ constexpr Foreign kForeign[] = {
 };
 
 constexpr Foreign kForeignNames[] = {
-    {".las", "LAS is not read: convert it to PLY with CloudCompare or PDAL"},
-    {".laz", "LAZ is not read: convert it to PLY with CloudCompare or PDAL"},
-    {".e57", "E57 is not read: convert it to PLY with CloudCompare or PDAL"},
-    {".pcd", "PCD is not read: convert it to PLY with pcl_pcd2ply"},
-    {".nvm", "NVM is not read: convert it with colmap model_converter"},
-    {".out", "Bundler's files are not read: convert them with colmap model_converter"},
+    {".las", "is a scan as LAS, which is not read: pdal translate {0} {0}.ply converts it"},
+    {".laz", "is a scan as LAZ, which is not read: pdal translate {0} {0}.ply converts it"},
+    {".e57", "is a scan as E57, which is not read: pdal translate {0} {0}.ply converts it"},
+    {".pcd", "is a cloud of PCL, which is not read: pcl_pcd2ply {0} {0}.ply converts it"},
+    {".xyz", "is a cloud as text, which is not read: pdal translate {0} {0}.ply converts it"},
+    {".nvm", "is a model of VisualSFM, which is not read: kapture_import_nvm.py and "
+             "kapture_export_colmap.py bring it into a folder that is"},
+    {".out", "is a model of Bundler, which is not read: kapture_import_bundler.py and "
+             "kapture_export_colmap.py bring it into a folder that is"},
+    {".mvs", "is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i {0} -o FOLDER brings it "
+             "into a folder that is"},
+    {".json", "seems to hold the poses of nerfstudio or instant-ngp, which are not read: the model "
+              "they were made of is, often colmap/sparse/0 beside it"},
     {".obj", "is a mesh, but a model or a cloud is wanted"},
     {".off", "is a mesh, but a model or a cloud is wanted"},
     {".stl", "is a mesh, but a model or a cloud is wanted"},
@@ -60,7 +67,14 @@ void refuse_foreign_name(const std::filesystem::path& path)
     const std::string end = lower_case_end(path);
     const auto* const foreign = std::ranges::find(kForeignNames, end, &Foreign::begin);
     if (foreign == std::ranges::end(kForeignNames)) return;
-    throw InputError(fmt::format("{}: {}", path.string(), foreign->sentence));
+    throw InputError(path.string() + ": " +
+                     fmt::format(fmt::runtime(foreign->sentence), path.string()));
+}
+
+bool has_image_name(const std::filesystem::path& path)
+{
+    constexpr std::string_view kEnds[] = {".jpg", ".jpeg", ".png", ".tif", ".tiff"};
+    return std::ranges::count(kEnds, lower_case_end(path)) > 0;
 }
 
 } // namespace vcarve

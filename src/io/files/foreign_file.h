@@ -12,4 +12,7 @@ void refuse_foreign_file(const std::filesystem::path& path, std::span<const char
 /// The same by the end of the name: files of points or meshes that are not read, such as .las.
 void refuse_foreign_name(const std::filesystem::path& path);
 
+/// Whether a name ends as those of photographs do.
+bool has_image_name(const std::filesystem::path& path);
+
 } // namespace vcarve

@@ -55,7 +55,15 @@ TEST(ForeignFile, IsNoneThatOnlyBeginsAlike)
 TEST(ForeignFile, IsKnownByTheEndOfItsName)
 {
     EXPECT_EQ(refusal_of_name("a/scan.LAS"),
-              "a/scan.LAS: LAS is not read: convert it to PLY with CloudCompare or PDAL");
+              "a/scan.LAS: is a scan as LAS, which is not read: pdal translate a/scan.LAS "
+              "a/scan.LAS.ply converts it");
+    EXPECT_EQ(refusal_of_name("s.mvs"),
+              "s.mvs: is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i s.mvs -o FOLDER "
+              "brings it into a folder that is");
+    for (const char* const name : {"a.laz", "b.e57", "c.pcd", "d.xyz", "e.nvm", "bundle.out",
+                                   "transforms.json", "TRANSFORMS_TRAIN.JSON"}) {
+        EXPECT_NE(refusal_of_name(name), "accepted") << name;
+    }
     EXPECT_EQ(refusal_of_name("mesh.obj"), "mesh.obj: is a mesh, but a model or a cloud is wanted");
     EXPECT_EQ(refusal_of_name("cloud.ply"), "accepted");
     EXPECT_EQ(refusal_of_name("cloud"), "accepted");
