@@ -156,8 +156,6 @@ def broken_binary():
         "bin_images_truncated": {"images.bin": images[:-1]},
         "bin_images_trailing": {"images.bin": images + b"a"},
         "bin_point_count_huge": {"points3D.bin": patched(points, 0, huge)},
-        "bin_point_image_unknown": {"points3D.bin": points_bin([point(5, (0.0, 0.0, 5.0),
-                                                                      [(1, 0), (9, 0)])])},
         "bin_point_twice": {"points3D.bin": points_bin([point(5, (0.0, 0.0, 5.0), [(1, 0)])] * 2)},
         "bin_points_empty_file": {"points3D.bin": b""},
         "bin_points_track_huge": {"points3D.bin": patched(points, track_length, huge)},
@@ -188,7 +186,6 @@ def broken_text():
         "txt_point_coordinate_word": ("points3D.txt", "5.0", "5,0"),
         "txt_point_coordinate_1e999": ("points3D.txt", "5.0", "1e999"),
         "txt_point_error_missing": ("points3D.txt", " 0.5 1 0 2 0", ""),
-        "txt_point_image_unknown": ("points3D.txt", "0.5 1 0 2 0", "0.5 1 0 9 0"),
         "txt_point_track_odd": ("points3D.txt", "0.5 1 0 2 0", "0.5 1 0 2"),
         "txt_point_twice": ("points3D.txt", "\n2 ", "\n1 "),
     }

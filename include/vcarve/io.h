@@ -14,10 +14,11 @@
 
 namespace vcarve {
 
-/// From where it is known which views saw the points of a cloud.
+/// From where it is known which views saw the points.
 enum class SightsFrom {
-    file,    ///< from the file that COLMAP's stereo_fusion writes
-    nearest, ///< from nowhere: the nearest views are taken before which no other point stands
+    automatic, ///< as file; where most points of a model have fewer than two views then, as nearest
+    file,      ///< from the model's tracks; of a cloud, from the file that stereo_fusion writes
+    nearest,   ///< from nowhere: the nearest views are taken before which no other point stands
 };
 
 /// Which points are read with the views of a model.
@@ -28,7 +29,7 @@ struct PointsOptions {
     std::string points = {};
     /// Which views saw the points of a PLY file; empty: the file that is called like it and .vis.
     std::filesystem::path visibility = {};
-    SightsFrom sights = SightsFrom::file; ///< which views saw the points of a PLY file
+    SightsFrom sights = SightsFrom::automatic; ///< which views saw the points
     /// Where the laser scanner stood that measured all points of a PLY file, in the file's own
     /// coordinates. Needs no model; nothing where the file tells itself.
     std::optional<Eigen::Vector3d> scanner = {};

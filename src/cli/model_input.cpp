@@ -32,10 +32,11 @@ OptionList input_options(ModelArguments& model)
          &model.points.visibility},
         {kStage,
          {.name = "sights",
-          .help = "Which views saw the points of a PLY file. file: as the file of --visibility "
-                  "says. nearest: that is not known; the nearest views are taken before which no "
-                  "other point stands.",
-          .words = {"file", "nearest"}},
+          .help = "Which views saw the points. file: as the model's tracks or the file of "
+                  "--visibility say. nearest: that is not known; the nearest views are taken "
+                  "before which no other point stands. auto: as file, and as nearest where most "
+                  "points of a model have fewer than two views.",
+          .words = {"auto", "file", "nearest"}},
          value_of_enum(model.points.sights)},
         {kStage,
          {.name = "scanner",

@@ -98,6 +98,8 @@ Job input_facts(const FoundInput& input, const Progress& progress)
         facts.push_back({"--scanner", place ? fmt::format("{}", fmt::join(*place, ",")) : "file"});
     } else if (input.dense) {
         facts.push_back({"--sights", input.dense->visibility.empty() ? "nearest" : "file"});
+    } else if (input.sights != SightsFrom::automatic) {
+        facts.push_back({"--sights", input.sights == SightsFrom::nearest ? "nearest" : "file"});
     }
     return facts;
 }

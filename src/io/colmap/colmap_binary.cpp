@@ -51,6 +51,7 @@ void read_cameras(const std::filesystem::path& path, SceneBuilder& builder)
     builder.close_cameras();
 }
 
+/// All but the 2D points.
 ImageRecord read_image(ByteReader& reader)
 {
     ImageRecord image;
@@ -63,23 +64,45 @@ ImageRecord read_image(ByteReader& reader)
     }
     image.camera_id = reader.read<std::uint32_t>("the camera of an image");
     image.name = reader.read_zero_terminated("the name of an image");
-    reader.skip(reader.read_count(kPoint2dBytes, "2D points"), kPoint2dBytes);
     return image;
 }
 
-void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+/// take(reader, image, count) reads the 2D points of an image, which are so many.
+template <typename Take>
+void read_each_image(const std::filesystem::path& path, const Progress& progress, const Take& take)
 {
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
     const std::uint64_t count = reader.read_count(kImageBytes, "images");
     ReadOnce pages(file);
     for (std::uint64_t i = 0; i < count; ++i) {
-        builder.add_image(read_image(reader));
+        const ImageRecord image = read_image(reader);
+        take(reader, image, reader.read_count(kPoint2dBytes, "2D points"));
         pages.read_up_to(reader.offset());
         if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
     reader.expect_end("the last image");
+}
+
+void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+{
+    const auto take = [&](ByteReader& reader, const ImageRecord& image, std::uint64_t count) {
+        builder.add_image(image);
+        reader.skip(count, kPoint2dBytes);
+    };
+    read_each_image(path, progress, take);
     builder.close_images();
+}
+
+void read_sights(const std::filesystem::path& path, const TakeSight& told, const Progress& progress)
+{
+    const auto take = [&](ByteReader& reader, const ImageRecord& image, std::uint64_t count) {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            reader.skip(1, kPoint2dBytes - sizeof(std::uint64_t));
+            told(image.id, reader.read<std::uint64_t>("the point of a 2D point"));
+        }
+    };
+    read_each_image(path, progress, take);
 }
 
 PointRecord read_point(ByteReader& reader)
@@ -119,6 +142,6 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 
 } // namespace
 
-const FormatReader kBinaryReader = {read_cameras, read_images, read_points};
+const FormatReader kBinaryReader = {read_cameras, read_images, read_points, read_sights};
 
 } // namespace vcarve

@@ -3,17 +3,24 @@
 #include "base/progress.h"
 #include "io/colmap/scene_builder.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 
 namespace vcarve {
 
+/// Is told of an image and of a point that one of its 2D points is of, if there is such a point.
+using TakeSight = std::function<void(std::uint32_t image_id, std::uint64_t point_id)>;
+
 /// Readers of a model's three files, to be called in this order; each puts what its file holds into
-/// a builder.
+/// a builder. The last reads the file of images again.
 struct FormatReader {
     void (*read_cameras)(const std::filesystem::path& file, SceneBuilder& builder);
     void (*read_images)(const std::filesystem::path& file, SceneBuilder& builder,
                         const Progress& progress);
     void (*read_points)(const std::filesystem::path& file, SceneBuilder& builder,
+                        const Progress& progress);
+    void (*read_sights)(const std::filesystem::path& file, const TakeSight& take,
                         const Progress& progress);
 };
 

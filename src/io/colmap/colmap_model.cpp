@@ -4,7 +4,10 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/scene_builder.h"
 
+#include <algorithm>
+#include <numeric>
 #include <system_error>
+#include <utility>
 
 namespace vcarve {
 
@@ -36,7 +39,7 @@ SceneBuilder read_views(const std::filesystem::path& folder, ModelFormat format,
 } // namespace
 
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
-                        const Progress& progress)
+                        const Progress& progress, DroppedSights* dropped)
 {
     const std::filesystem::path points_file = folder / model_file("points3D", format);
     const double images = size_of_file(folder / model_file("images", format));
@@ -44,7 +47,37 @@ Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
     const double middle = images / (images + points + 1.0); // the same time for all bytes
     SceneBuilder builder = read_views(folder, format, progress.part(0.0, middle));
     reader_of(format).read_points(points_file, builder, progress.part(middle, 1.0));
+    if (dropped != nullptr) *dropped = builder.dropped();
     return builder.finish();
+}
+
+Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat format,
+                             const Scene& scene, const Progress& progress)
+{
+    std::vector<std::uint32_t> by_id(scene.num_points());
+    std::iota(by_id.begin(), by_id.end(), 0U);
+    const auto id_of = [&](std::uint32_t point) { return scene.point_ids[point]; };
+    std::ranges::sort(by_id, {}, id_of);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> sights; // point, view
+    const auto take = [&](std::uint32_t image_id, std::uint64_t point_id) {
+        const auto point = std::ranges::lower_bound(by_id, point_id, {}, id_of);
+        if (point == by_id.end() || id_of(*point) != point_id) return;
+        const auto view = std::ranges::lower_bound(scene.views, image_id, {}, &View::id);
+        sights.emplace_back(*point, static_cast<std::uint32_t>(view - scene.views.begin()));
+    };
+    reader_of(format).read_sights(folder / model_file("images", format), take, progress);
+    std::ranges::sort(sights);
+    Tracks tracks;
+    auto sight = sights.begin();
+    for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
+        for (; sight != sights.end() && sight->first == point; ++sight) {
+            const bool is_first = tracks.views.size() == tracks.begins.back();
+            if (is_first || tracks.views.back() != sight->second)
+                tracks.views.push_back(sight->second);
+        }
+        tracks.begins.push_back(tracks.views.size());
+    }
+    return tracks;
 }
 
 ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 namespace vcarve {
@@ -20,16 +21,28 @@ struct ColmapViews {
     std::vector<std::uint32_t> file_order;
 };
 
+/// Sights of images that a model does not have, as where one was removed by hand.
+struct DroppedSights {
+    std::uint64_t sights = 0;
+    std::set<std::uint32_t> images; ///< COLMAP's ids
+};
+
 /// Reads cameras, images and points3D (.bin or .txt) of a COLMAP model, of any version since 2016.
 /// Views and cameras are sorted by COLMAP's ids. Points keep the order of the file and all of them
 /// are kept, those whose position is not finite as well; a view that occurs twice in a track counts
-/// once. An error that is not a number becomes -1, unknown. Scene::offset is zero. Files for rigs
-/// and frames are not read, nor are the 2D points of images: images hold their own poses. Throws
-/// InputError naming file and place where a file is missing, broken or contradicts another. Cost:
-/// linear in the size of the files, which are mapped; allocations never exceed a small multiple of
-/// the bytes that are there.
+/// once. Sights of images that are not there are dropped, and counted in `dropped` where that is
+/// not null. An error that is not a number becomes -1, unknown. Scene::offset is zero. Files for
+/// rigs and frames are not read, nor are the 2D points of images: images hold their own poses.
+/// Throws InputError naming file and place where a file is missing, broken or contradicts another.
+/// Cost: linear in the size of the files, which are mapped; allocations never exceed a small
+/// multiple of the bytes that are there.
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
-                        const Progress& progress = {});
+                        const Progress& progress = {}, DroppedSights* dropped = nullptr);
+
+/// The tracks of the points of that scene as the 2D points of its images tell them, which COLMAP
+/// keeps a second time there. Cost: linear in the size of the file, and sorting the sights.
+Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat format,
+                             const Scene& scene, const Progress& progress = {});
 
 /// The same without the points, whose file is not read.
 ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,

@@ -79,17 +79,38 @@ ImageRecord read_image(TextReader& reader)
     return image;
 }
 
-void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+/// take(reader, image) reads the 2D points of an image, or leaves them.
+template <typename Take>
+void read_each_image(const std::filesystem::path& path, const Progress& progress, const Take& take)
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
     ReadOnce pages(file);
     for (std::uint64_t i = 0; reader.next_record(); ++i) {
-        builder.add_image(read_image(reader));
+        const ImageRecord image = read_image(reader);
+        take(reader, image);
         pages.read_up_to(reader.offset());
         if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
     }
+}
+
+void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+{
+    read_each_image(path, progress, [&](TextReader& /*points2d*/, const ImageRecord& image) {
+        builder.add_image(image);
+    });
     builder.close_images();
+}
+
+void read_sights(const std::filesystem::path& path, const TakeSight& told, const Progress& progress)
+{
+    read_each_image(path, progress, [&](TextReader& reader, const ImageRecord& image) {
+        while (!reader.at_line_end()) {
+            reader.read_word("the place of a 2D point");
+            reader.read_word("the place of a 2D point");
+            told(image.id, reader.read_uint64_or_none("the point of a 2D point"));
+        }
+    });
 }
 
 PointRecord read_point(TextReader& reader)
@@ -116,8 +137,8 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
         const PointRecord point = read_point(reader);
         image_ids.clear();
         while (!reader.at_line_end()) {
-            image_ids.push_back(reader.read_uint32("the id of an image in the track"));
-            reader.read_uint32("the index of a 2D point in the track");
+            image_ids.push_back(reader.read_uint32_or_none("the id of an image in the track"));
+            reader.read_uint32_or_none("the index of a 2D point in the track");
         }
         builder.add_point(point, image_ids);
         pages.read_up_to(reader.offset());
@@ -127,6 +148,6 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 
 } // namespace
 
-const FormatReader kTextReader = {read_cameras, read_images, read_points};
+const FormatReader kTextReader = {read_cameras, read_images, read_points, read_sights};
 
 } // namespace vcarve

@@ -1,6 +1,5 @@
 #include "io/colmap/find_model.h"
 
-#include "base/lower_case_end.h"
 #include "io/colmap/byte_reader.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
@@ -12,6 +11,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <optional>
 #include <system_error>
 
@@ -53,11 +54,18 @@ std::vector<std::string> missing_files(const fs::path& folder, ModelFormat forma
     return missing;
 }
 
-/// The format to read `folder` in, or none where it does not hold a whole model.
-std::optional<ModelFormat> format_of(const fs::path& folder)
+/// The format to read `folder` in, or none where it does not hold a whole model, or at least its
+/// views and points in another file.
+std::optional<ModelFormat> format_of(const fs::path& folder, PointsFile points)
 {
-    for (const ModelFormat format : {ModelFormat::binary, ModelFormat::text}) {
+    constexpr std::array kFormats = {ModelFormat::binary, ModelFormat::text};
+    for (const ModelFormat format : kFormats) {
         if (missing_files(folder, format).empty()) return format;
+    }
+    if (points == PointsFile::of_model && !is_file(folder / kPointsPly)) return std::nullopt;
+    for (const ModelFormat format : kFormats) {
+        const std::vector<std::string> missing = missing_files(folder, format);
+        if (missing == std::vector{model_file(kModelFiles.back(), format)}) return format;
     }
     return std::nullopt;
 }
@@ -103,20 +111,32 @@ std::uint64_t count_points_text(const fs::path& path)
     return count;
 }
 
+} // namespace
+
 std::uint64_t count_points(const fs::path& folder, ModelFormat format)
 {
     const fs::path path = folder / model_file("points3D", format);
+    if (!is_file(path)) return 0;
     return format == ModelFormat::binary ? count_points_binary(path) : count_points_text(path);
 }
 
-std::vector<Component> components_in(const fs::path& folder)
+namespace {
+
+/// The models in the folders of a folder, and of those so many levels down.
+std::vector<Component> components_in(const fs::path& folder, PointsFile points, int levels = 1)
 {
     std::vector<Component> components;
     for (const std::string& name : names_in(folder)) {
         const fs::path path = folder / name;
         if (!is_folder(path)) continue;
-        const auto format = format_of(path);
+        const auto format = format_of(path, points);
         if (format) components.push_back({path, *format, count_points(path, *format)});
+        if (levels == 1 || name.starts_with('.')) continue;
+        try {
+            std::ranges::move(components_in(path, points, levels - 1),
+                              std::back_inserter(components));
+        } catch (const InputError&) { // nobody asked for a folder that cannot be read
+        }
     }
     return components;
 }
@@ -142,14 +162,18 @@ FoundModel model_in(const fs::path& folder, ModelFormat format)
 /// The component with most points, the first of them where several have as many.
 FoundModel largest_of(const std::vector<Component>& components)
 {
-    const auto largest = std::max_element(
-        components.begin(), components.end(),
-        [](const Component& a, const Component& b) { return a.num_points < b.num_points; });
+    constexpr std::size_t kMostNamed = 8;
+    const auto largest = std::ranges::max_element(components, {}, &Component::num_points);
     FoundModel found = model_in(largest->folder, largest->format);
     std::vector<std::string> others;
     for (const Component& component : components) {
         if (component.folder == largest->folder) continue;
         others.push_back(fmt::format("{} ({})", component.folder.string(), component.num_points));
+    }
+    if (others.size() > kMostNamed) {
+        const std::string more = fmt::format("{} more", others.size() - kMostNamed);
+        others.resize(kMostNamed);
+        others.push_back(more);
     }
     if (!others.empty()) {
         found.notes.push_back(fmt::format("{} has most points ({}) and is taken; left out: {}",
@@ -159,13 +183,44 @@ FoundModel largest_of(const std::vector<Component>& components)
     return found;
 }
 
+/// Whether a name is a number, as those of the components that COLMAP's mapper writes.
+bool is_number(const std::string& name)
+{
+    return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The model that is `folder` itself. Where another component of it is larger, that is mentioned.
+FoundModel model_itself(const fs::path& folder, ModelFormat format, PointsFile points)
+{
+    FoundModel found = model_in(folder, format);
+    const fs::path real = fs::absolute(folder / "").lexically_normal().parent_path();
+    const std::string own_name = real.filename().string();
+    const std::vector<std::string> names = names_in(real.parent_path());
+    const auto is_other = [&](const std::string& name) {
+        return is_number(name) && name != own_name;
+    };
+    if (!is_number(own_name) || std::ranges::none_of(names, is_other)) return found;
+    std::vector<Component> others = components_in(real.parent_path(), points);
+    std::erase_if(others, [&](const Component& other) {
+        return !is_other(other.folder.filename().string());
+    });
+    const auto largest = std::ranges::max_element(others, {}, &Component::num_points);
+    const std::uint64_t own = count_points(folder, format);
+    if (largest != others.end() && largest->num_points > own) {
+        found.notes.push_back(
+            fmt::format("{} has {} points; the largest part of the model is {} ({})",
+                        folder.string(), own, largest->folder.string(), largest->num_points));
+    }
+    return found;
+}
+
 /// The model that is `folder` itself, or the largest of those in it.
-std::optional<FoundModel> model_at(const fs::path& folder)
+std::optional<FoundModel> model_at(const fs::path& folder, PointsFile points, int levels = 1)
 {
     if (!is_folder(folder)) return std::nullopt;
-    const auto format = format_of(folder);
+    const auto format = format_of(folder, points);
     if (format) return model_in(folder, *format);
-    const std::vector<Component> components = components_in(folder);
+    const std::vector<Component> components = components_in(folder, points, levels);
     if (!components.empty()) return largest_of(components);
     return std::nullopt;
 }
@@ -201,14 +256,10 @@ std::vector<std::string> telling_files(const fs::path& folder)
 void refuse_images(const fs::path& input)
 {
     const std::vector<std::string> names = names_in(input);
-    const auto is_image = [](const std::string& name) {
-        const std::string end = lower_case_end(name);
-        return end == ".jpg" || end == ".jpeg" || end == ".png" || end == ".tif" || end == ".tiff";
-    };
-    if (names.empty() || !std::ranges::all_of(names, is_image)) return;
+    if (names.empty() || !std::ranges::all_of(names, has_image_name)) return;
     const fs::path beside = (input / "..").lexically_normal();
-    std::optional<FoundModel> model = model_at(beside / "sparse");
-    if (!model) model = model_at(beside);
+    std::optional<FoundModel> model = model_at(beside / "sparse", PointsFile::of_model);
+    if (!model) model = model_at(beside, PointsFile::of_model);
     throw InputError(model ? fmt::format("{} is a folder of images; the model is in {}",
                                          input.string(), model->folder.lexically_normal().string())
                            : fmt::format("{} is a folder of images; the model is what COLMAP's "
@@ -237,30 +288,39 @@ void refuse_images(const fs::path& input)
     }
     const std::string instead =
         found.empty() ? "nothing of the kind" : fmt::format("{}", fmt::join(found, ", "));
+    const bool lacks_points = instead.find(" without points3D.") != std::string::npos;
     throw InputError(
         fmt::format("{}: no COLMAP model, looked for cameras, images and points3D, all "
                     ".bin or all .txt, in this folder, in sparse and in the folders "
-                    "they hold, found {}",
-                    input.string(), instead));
+                    "they hold, found {}{}",
+                    input.string(), instead,
+                    lacks_points ? "; colmap point_triangulator makes points where "
+                                   "poses are known, and --points FILE --sights "
+                                   "nearest takes those of a cloud"
+                                 : ""));
 }
 
 } // namespace
 
-FoundModel find_model(const fs::path& input)
+FoundModel find_model(const fs::path& input, PointsFile points)
 {
+    constexpr int kLevels = 4;
     std::error_code error;
     if (!fs::exists(input, error)) {
         throw InputError(fmt::format("{}: does not exist; {}", input.string(), kWhatAModelIs));
     }
     if (!is_folder(input)) {
         refuse_foreign_name(input);
+        const MappedFile file(input); // refuses pages and archives
         throw InputError(fmt::format("{}: is not a folder; {}", input.string(), kWhatAModelIs));
     }
-    // The folder itself first, then the workspace's, then components right in the folder
-    const auto format = format_of(input);
-    if (format) return model_in(input, *format);
-    if (auto found = model_at(input / "sparse")) return *found;
-    if (auto found = model_at(input)) return *found;
+    // The folder itself first, then the workspace's, then what lies below it, near things first
+    const auto format = format_of(input, points);
+    if (format) return model_itself(input, *format, points);
+    if (auto found = model_at(input / "sparse", points)) return *found;
+    for (const int levels : {1, kLevels}) {
+        if (auto found = model_at(input, points, levels)) return *found;
+    }
     fail_not_found(input);
 }
 

@@ -11,6 +11,9 @@ namespace vcarve {
 /// The files a COLMAP model cannot do without, by their names before the dot.
 inline constexpr std::array<const char*, 3> kModelFiles{"cameras", "images", "points3D"};
 
+/// What may stand for points3D beside the others, as converters write it.
+inline constexpr const char* kPointsPly = "points3D.ply";
+
 /// The name of one of them: model_file("images", ModelFormat::text) is "images.txt".
 inline std::string model_file(const char* stem, ModelFormat format)
 {

@@ -26,6 +26,9 @@ auto sort_and_find_twice(std::vector<Record>& records)
                               [](const Record& a, const Record& b) { return a.id == b.id; });
 }
 
+constexpr std::uint32_t kNoView = 0xffffffffU;
+constexpr std::uint32_t kInvalidImageId = 0xffffffffU; ///< COLMAP's, -1 as a signed number
+
 std::string image_label(std::uint32_t id, std::string_view name)
 {
     return fmt::format("image {} ({})", id, printable(name));
@@ -102,7 +105,7 @@ void SceneBuilder::reserve_points(std::size_t count, std::size_t sights)
     scene_.tracks.views.reserve(sights);
 }
 
-std::uint32_t SceneBuilder::view_index(std::uint32_t image_id, std::uint64_t point_id) const
+std::uint32_t SceneBuilder::view_index(std::uint32_t image_id) const
 {
     // Most often the ids have no gaps.
     const std::size_t guess = image_ids_.empty() ? 0 : image_id - image_ids_.front();
@@ -110,11 +113,7 @@ std::uint32_t SceneBuilder::view_index(std::uint32_t image_id, std::uint64_t poi
         return static_cast<std::uint32_t>(guess);
     }
     const auto found = std::lower_bound(image_ids_.begin(), image_ids_.end(), image_id);
-    if (found == image_ids_.end() || *found != image_id) {
-        throw InputError(fmt::format("{}: point {} was seen in image {}, which {} does not have",
-                                     (folder_ / model_file("points3D", format_)).string(), point_id,
-                                     image_id, model_file("images", format_)));
-    }
+    if (found == image_ids_.end() || *found != image_id) return kNoView;
     return static_cast<std::uint32_t>(found - image_ids_.begin());
 }
 
@@ -122,7 +121,13 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
 {
     row_.clear();
     for (const std::uint32_t image_id : image_ids) {
-        row_.push_back(view_index(image_id, point.id));
+        const std::uint32_t view = view_index(image_id);
+        if (view != kNoView) {
+            row_.push_back(view);
+        } else if (image_id != 0 && image_id != kInvalidImageId) {
+            ++dropped_.sights;
+            dropped_.images.insert(image_id);
+        }
     }
     sort_unique(row_);
 

@@ -32,8 +32,10 @@ struct PointRecord {
 };
 
 /// Puts a Scene together from the records of a model, whatever the format of its files, and checks
-/// that they agree: ids occur once, cameras and images that are named exist, poses are poses.
-/// To be given all cameras, then all images, then all points. Throws InputError.
+/// that they agree: ids occur once, cameras that are named exist, poses are poses. Sights of images
+/// that do not exist are dropped and counted, but for placeholders: converters that know of no
+/// sight write a track of image 0 or -1. To be given all cameras, then all images, then all points.
+/// Throws InputError.
 class SceneBuilder {
   public:
     /// Folder and format are for messages only.
@@ -52,13 +54,16 @@ class SceneBuilder {
     /// `image_ids` may be in any order and name an image more than once.
     void add_point(const PointRecord& point, std::span<const std::uint32_t> image_ids);
 
+    /// What was dropped up to now.
+    const DroppedSights& dropped() const { return dropped_; }
     /// The scene, its cameras and views sorted by COLMAP's ids; the builder is spent.
     Scene finish();
     /// Only what belongs to the images; the builder is spent.
     ColmapViews finish_views();
 
   private:
-    std::uint32_t view_index(std::uint32_t image_id, std::uint64_t point_id) const;
+    /// kNoView where no image has that id.
+    std::uint32_t view_index(std::uint32_t image_id) const;
     void refuse_point_ids_twice() const;
 
     std::filesystem::path folder_;
@@ -67,7 +72,8 @@ class SceneBuilder {
     std::vector<std::uint32_t> file_ids_;  ///< of the images, as they were added
     std::vector<std::uint32_t> image_ids_; ///< ascending, parallel to the views
     std::vector<std::uint32_t> row_;       ///< view indices of the point being added
-    bool point_ids_ascend_ = true;         ///< of the points so far, so that none occurs twice
+    DroppedSights dropped_;
+    bool point_ids_ascend_ = true; ///< of the points so far, so that none occurs twice
 };
 
 } // namespace vcarve

@@ -134,6 +134,26 @@ std::uint64_t TextReader::read_uint64(const char* what)
     return read_number<std::uint64_t>(what, "a whole number of 64 bits");
 }
 
+/// Whether the next word is a negative whole number, which is read then.
+bool TextReader::take_none()
+{
+    if (at_line_end() || line_.front() != '-') return false;
+    const std::size_t end = std::min(line_.find_first_not_of("0123456789", 1), line_.size());
+    if (end == 1 || (end < line_.size() && !is_blank(line_[end]))) return false;
+    line_.remove_prefix(end);
+    return true;
+}
+
+std::uint32_t TextReader::read_uint32_or_none(const char* what)
+{
+    return take_none() ? ~std::uint32_t{0} : read_uint32(what);
+}
+
+std::uint64_t TextReader::read_uint64_or_none(const char* what)
+{
+    return take_none() ? ~std::uint64_t{0} : read_uint64(what);
+}
+
 void TextReader::fail(const std::string& sentence) const
 {
     throw InputError(fmt::format("{}: line {}: {}", name_, line_number_, sentence));

@@ -42,6 +42,9 @@ class TextReader {
     std::uint8_t read_uint8(const char* what);
     std::uint32_t read_uint32(const char* what);
     std::uint64_t read_uint64(const char* what);
+    /// The same; a negative one, which stands for none, is the largest number of the type.
+    std::uint32_t read_uint32_or_none(const char* what);
+    std::uint64_t read_uint64_or_none(const char* what);
 
     /// Throws: "NAME: line N: sentence".
     [[noreturn]] void fail(const std::string& sentence) const;
@@ -49,6 +52,7 @@ class TextReader {
   private:
     template <typename T>
     T read_number(const char* what, const char* kind);
+    bool take_none();
 
     std::string_view unread_; ///< the file after the current line
     std::string_view line_;   ///< what is left of the current line

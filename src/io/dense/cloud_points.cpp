@@ -10,8 +10,6 @@ namespace vcarve {
 
 namespace {
 
-constexpr Color kGrey{128, 128, 128};
-
 /// Of unit length, or zero where it is no direction.
 void make_unit(Eigen::Vector3f& normal)
 {
@@ -29,7 +27,7 @@ void take_attributes(PointCloud cloud, std::uint64_t first, Scene& scene)
     scene.normals = std::move(cloud.normals);
     parallel_for(scene.normals.size(), [&](std::size_t i) { make_unit(scene.normals[i]); });
     scene.colors = std::move(cloud.colors);
-    scene.colors.resize(num_points, kGrey);
+    scene.colors.resize(num_points, Color{});
     scene.is_dense = true;
     scene.errors_px.assign(num_points, -1.0);
     scene.point_ids.resize(num_points);

@@ -25,10 +25,10 @@ struct DenseFiles {
 };
 
 /// A scene of the views of a model and the points of a cloud in its frame, all of them and in their
-/// order: point_ids are places in the file from 0, errors are unknown, a colour that the file lacks
-/// is grey, normals are of unit length, or zero where the file's is no direction. Views and cameras
-/// are sorted by COLMAP's ids. Throws InputError naming file and place, and Cancelled. Cost: as
-/// read_ply_cloud and VisibilityReader, or nearest_sights.
+/// order: point_ids are places in the file from 0, errors are unknown, colours that the file lacks
+/// are black, normals are of unit length, or zero where the file's is no direction. Views and
+/// cameras are sorted by COLMAP's ids. Throws InputError naming file and place, and Cancelled.
+/// Cost: as read_ply_cloud and VisibilityReader, or nearest_sights.
 Scene read_dense_scene(const DenseFiles& files, const Progress& progress = {});
 
 /// The same part by part, as it stands in its files, which must have a visibility.

@@ -28,6 +28,9 @@ constexpr double kSteepest = 2.0;
 constexpr double kLeastNearer = 0.01;
 /// Squares of the grid are so many times as wide as points stand apart in the image on average.
 constexpr double kSquareWidth = 2.0;
+/// The same of sparse points, in the part of the image that has any: they gather where there is
+/// texture, and leave gaps elsewhere.
+constexpr double kSparseSquareWidth = 4.0;
 /// The points of which every so many are counted to find how far they stand apart.
 constexpr std::size_t kSampled = 16;
 
@@ -40,11 +43,11 @@ struct Projected {
 /// The least distances that a view finds in squares of its image.
 class NearestGrid {
   public:
-    NearestGrid(const View& view, const Camera& camera, const std::vector<Vector3d>& positions)
-        : view_(view), camera_(camera)
+    NearestGrid(const View& view, const Scene& scene)
+        : view_(view), camera_(scene.cameras[view.camera])
     {
-        choose_squares(positions);
-        for (const Vector3d& position : positions) {
+        choose_squares(scene);
+        for (const Vector3d& position : scene.positions) {
             const auto projected = project_to(position);
             if (!projected) continue;
             float& nearest = least_[square_of(projected->place_px)];
@@ -70,17 +73,31 @@ class NearestGrid {
         return Projected{*place_px, static_cast<float>(in_camera.norm())};
     }
 
-    void choose_squares(const std::vector<Vector3d>& positions)
+    void choose_squares(const Scene& scene)
     {
         std::size_t shown = 1;
-        for (std::size_t i = 0; i < positions.size(); i += kSampled) {
-            if (project_to(positions[i])) shown += kSampled;
+        for (std::size_t i = 0; i < scene.num_points(); i += kSampled) {
+            if (project_to(scene.positions[i])) shown += kSampled;
         }
+        const auto count = static_cast<double>(shown);
+        lay_squares(kSquareWidth, 1.0, count);
+        if (scene.is_dense) return;
+        constexpr float kTaken = 0.0F;
+        for (const Vector3d& position : scene.positions) {
+            const auto projected = project_to(position);
+            if (projected) least_[square_of(projected->place_px)] = kTaken;
+        }
+        const auto taken = static_cast<double>(std::ranges::count(least_, kTaken));
+        lay_squares(kSparseSquareWidth, taken / static_cast<double>(least_.size()), count);
+    }
+
+    /// Empty ones, so many times as wide as so many points stand apart in a share of the image.
+    void lay_squares(double width, double share, double count)
+    {
         const auto width_px = static_cast<double>(camera_.width_px);
         const auto height_px = static_cast<double>(camera_.height_px);
-        const auto count = static_cast<double>(shown);
         // At most as many squares along an edge as points, whatever size an image claims to have.
-        square_px_ = std::max(kSquareWidth * std::sqrt(width_px * height_px / count),
+        square_px_ = std::max(width * std::sqrt(share * width_px * height_px / count),
                               std::max(width_px, height_px) / count);
         columns_ = static_cast<std::size_t>(width_px / square_px_) + 1;
         rows_ = static_cast<std::size_t>(height_px / square_px_) + 1;
@@ -138,7 +155,7 @@ class NearestViews {
         grids_.resize(scene.views.size());
         const auto make = [&](std::size_t i) {
             const Camera& camera = scene.cameras[scene.views[i].camera];
-            if (can_show(camera)) grids_[i].emplace(scene.views[i], camera, scene.positions);
+            if (can_show(camera)) grids_[i].emplace(scene.views[i], scene);
         };
         parallel_for(grids_.size(), progress, make, 1);
     }

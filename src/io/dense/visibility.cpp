@@ -111,8 +111,11 @@ VisibilityReader::VisibilityReader(const std::filesystem::path& path, const Clou
       num_points_(reader_.read_count(kNumberBytes, "points"))
 {
     if (num_points_ != cloud.num_points) {
-        throw InputError(fmt::format("{}: tells of {} points, but {} has {}", path.string(),
-                                     num_points_, cloud.path.string(), cloud.num_points));
+        throw InputError(fmt::format("{}: tells of {} points, but {} has {}; of a cloud that was "
+                                     "cropped or thinned, --sights nearest takes the nearest views "
+                                     "(--crop cuts a part out of the whole)",
+                                     path.string(), num_points_, cloud.path.string(),
+                                     cloud.num_points));
     }
 }
 

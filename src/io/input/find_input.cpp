@@ -1,5 +1,6 @@
 #include "io/input/find_input.h"
 
+#include "io/colmap/model_files.h"
 #include "io/files/foreign_file.h"
 #include "io/ply/ply_cloud.h"
 #include "vcarve/error.h"
@@ -126,35 +127,14 @@ FoundInput scan_input(FoundModel model, const fs::path& cloud, const PointsOptio
 FoundModel model_around(const fs::path& cloud)
 {
     try {
-        return find_model(cloud.has_parent_path() ? cloud.parent_path() : fs::path("."));
+        return find_model(cloud.has_parent_path() ? cloud.parent_path() : fs::path("."),
+                          PointsFile::another);
     } catch (const InputError& error) {
         throw InputError(
             fmt::format("{}; {} tells of no scanner's places either, where it could do "
                         "without a model (--scanner x,y,z tells of one)",
                         error.what(), cloud.string()));
     }
-}
-
-FoundInput sparse_input(FoundModel model, const PointsOptions& options)
-{
-    if (options.scanner) {
-        throw UsageError(fmt::format("--scanner {} says from where the points of a PLY file were "
-                                     "measured, but the sparse points of {} are taken",
-                                     fmt::join(*options.scanner, ","), model.folder.string()));
-    }
-    if (!options.visibility.empty()) {
-        throw UsageError(fmt::format("--visibility {} tells which views saw the points of a cloud, "
-                                     "but the sparse points of {} are taken",
-                                     options.visibility.string(), model.folder.string()));
-    }
-    if (options.sights == SightsFrom::nearest) {
-        throw UsageError(
-            fmt::format("--sights nearest is for the points of a cloud, but the sparse "
-                        "points of {} are taken",
-                        model.folder.string()));
-    }
-    std::vector<std::string> notes = model.notes;
-    return {std::move(model), std::nullopt, std::nullopt, std::move(notes)};
 }
 
 /// Which cloud was taken, as a sentence.
@@ -183,7 +163,7 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
                                      "take with the views of {}",
                                      cloud.string(), model.folder.string()));
     }
-    if (options.sights == SightsFrom::file && !is_file(visibility)) {
+    if (!visibility.empty() && !is_file(visibility)) {
         throw InputError(fmt::format("{}: the file does not exist, which tells which views saw the "
                                      "points of {}, as COLMAP's stereo_fusion writes it "
                                      "(--visibility names another, --sights nearest does without)",
@@ -193,6 +173,35 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
     DenseFiles files{model.folder, model.format, cloud, visibility};
     notes.push_back(note_on(files));
     return {std::move(model), std::move(files), std::nullopt, std::move(notes)};
+}
+
+/// The points that stand as PLY beside cameras and images, where the model has none of its own.
+/// Nothing tells which views saw them.
+std::optional<FoundInput> points_ply_input(const FoundModel& model, const PointsOptions& options)
+{
+    const fs::path cloud = model.folder / kPointsPly;
+    if (!is_file(cloud) || count_points(model.folder, model.format) > 0) return std::nullopt;
+    PointsOptions chosen = options;
+    const bool is_told = !options.visibility.empty() || is_file(visibility_of(cloud, options));
+    if (options.sights == SightsFrom::automatic && !is_told) chosen.sights = SightsFrom::nearest;
+    return dense_input(model, cloud, chosen);
+}
+
+FoundInput sparse_input(FoundModel model, const PointsOptions& options)
+{
+    if (auto found = points_ply_input(model, options)) return *found;
+    if (options.scanner) {
+        throw UsageError(fmt::format("--scanner {} says from where the points of a PLY file were "
+                                     "measured, but the sparse points of {} are taken",
+                                     fmt::join(*options.scanner, ","), model.folder.string()));
+    }
+    if (!options.visibility.empty()) {
+        throw UsageError(fmt::format("--visibility {} tells which views saw the points of a cloud, "
+                                     "but the sparse points of {} are taken",
+                                     options.visibility.string(), model.folder.string()));
+    }
+    std::vector<std::string> notes = model.notes;
+    return {std::move(model), std::nullopt, std::nullopt, std::move(notes), options.sights};
 }
 
 /// A cloud of the workspace around a model, for which the user could have asked.
@@ -246,9 +255,12 @@ FoundInput find_input(const fs::path& input, const PointsOptions& options)
         if (!has_sights) refuse_mesh(input);
         return dense_input(model_around(input), input, options);
     }
-    FoundModel model = find_model(input);
+    const bool has_cloud = !options.points.empty() && options.points != "sparse";
+    const bool needs_no_other = has_cloud || is_file(input / kFused);
+    FoundModel model =
+        find_model(input, needs_no_other ? PointsFile::another : PointsFile::of_model);
     if (options.points.empty()) return look_for_points(std::move(model), input, options);
-    if (options.points == "sparse") return sparse_input(std::move(model), options);
+    if (!has_cloud) return sparse_input(std::move(model), options);
     const fs::path cloud = options.points == "dense" ? input / kFused : fs::path(options.points);
     refuse_foreign_name(cloud);
     return dense_input(std::move(model), cloud, options);

@@ -18,7 +18,8 @@ struct FoundInput {
     FoundModel model; ///< without a folder where there is none beside a scan
     std::optional<DenseFiles> dense;
     std::optional<ScanFile> scan;
-    std::vector<std::string> notes; ///< sentences: what was taken and what not
+    std::vector<std::string> notes;            ///< sentences: what was taken and what not
+    SightsFrom sights = SightsFrom::automatic; ///< of the points of the model
 };
 
 /// Finds what `input` and the options mean, see read_model. Throws UsageError where they contradict

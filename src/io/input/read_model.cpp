@@ -1,8 +1,17 @@
 #include "io/input/read_model.h"
 
 #include "base/log.h"
+#include "io/colmap/model_files.h"
 #include "io/colmap/model_size.h"
+#include "io/input/complete_sights.h"
+#include "io/input/pose_check.h"
+#include "io/input/unknown_values.h"
+#include "vcarve/error.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace vcarve {
@@ -49,14 +58,55 @@ SceneOf gathered(SceneParts& parts, const Gather& gather, const Progress& progre
     return {std::move(scene), counted.sum()};
 }
 
-Scene whole_scene(const FoundInput& found, const Progress& progress)
+std::string file_of(const FoundInput& found, const char* stem)
+{
+    return (found.model.folder / model_file(stem, found.model.format)).string();
+}
+
+/// Says what to do where there is nothing to make a surface of.
+void require_points_and_views(const FoundInput& found, const SceneSize& read)
+{
+    if (read.views == 0 && !found.scan) {
+        throw InputError(
+            fmt::format("{}: holds no images, so it is not known from where the points "
+                        "were seen; take the model that COLMAP's mapper or "
+                        "image_undistorter wrote",
+                        file_of(found, "images")));
+    }
+    if (read.points > 0) return;
+    if (found.scan) throw InputError(found.scan->cloud.string() + ": holds no points");
+    if (found.dense) {
+        throw InputError(fmt::format("{}: holds no points; where stereo_fusion fuses none, a "
+                                     "smaller --StereoFusion.min_num_pixels or better depth maps "
+                                     "help, and --points sparse takes those of the model",
+                                     found.dense->cloud.string()));
+    }
+    throw InputError(fmt::format("{}: holds no points; colmap point_triangulator makes them where "
+                                 "poses are known",
+                                 file_of(found, "points3D")));
+}
+
+/// The points of the model; adds to the notes how it is known which views saw them.
+Scene sparse_scene(FoundInput& found, const Progress& progress)
+{
+    DroppedSights dropped;
+    Scene scene = read_colmap_model(found.model.folder, found.model.format, progress.part(0.0, 0.9),
+                                    &dropped);
+    const std::string warning = warning_of_poses(scene, file_of(found, "images"));
+    if (!warning.empty()) found.notes.push_back(warning);
+    std::ranges::move(complete_sights(found, dropped, scene, progress.part(0.9, 1.0)),
+                      std::back_inserter(found.notes));
+    return scene;
+}
+
+Scene whole_scene(FoundInput& found, const Progress& progress)
 {
     if (found.scan) return read_scan_scene(*found.scan, progress);
     if (found.dense) return read_dense_scene(*found.dense, progress);
-    return read_colmap_model(found.model.folder, found.model.format, progress);
+    return sparse_scene(found, progress);
 }
 
-SceneOf scene_of(const FoundInput& found, const Gather& gather, const Progress& progress)
+SceneOf scene_of(FoundInput& found, const Gather& gather, const Progress& progress)
 {
     if (gather && found.dense && !found.dense->visibility.empty()) {
         DenseSceneReader reader(*found.dense, progress.part(0.0, 0.1));
@@ -89,13 +139,19 @@ ReadModel read_found_model(const std::filesystem::path& input, const PointsOptio
 {
     Stage stage(log, "read");
     FoundInput found = find_input(input, options);
-    for (const std::string& note : found.notes) {
-        log.note(note);
-    }
+    const auto tell = [&](std::size_t first) {
+        std::for_each(found.notes.begin() + static_cast<std::ptrdiff_t>(first), found.notes.end(),
+                      [&](const std::string& note) { log.note(note); });
+    };
+    tell(0);
+    const std::size_t told = found.notes.size();
     const auto size = expected_size(found);
     if (reading.check && size) reading.check(*size);
     auto [scene, read] = scene_of(found, reading.gather, stage);
+    require_points_and_views(found, read);
+    std::ranges::move(forget_unknown_values(scene), std::back_inserter(found.notes));
     end_stage(stage, scene, read);
+    tell(told);
     return {std::move(scene), read, std::move(found)};
 }
 

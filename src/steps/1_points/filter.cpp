@@ -122,7 +122,8 @@ Verdict judge(const Scene& scene, std::uint32_t point, std::span<const std::uint
         return Verdict::high_error;
     }
     const double min_angle_rad = options.min_angle_deg * std::numbers::pi / 180.0;
-    if (min_angle_rad > 0.0 && !has_range &&
+    const bool is_triangulated = track.size() > 1 && !has_range;
+    if (min_angle_rad > 0.0 && is_triangulated &&
         !sees_from_wide_enough(scene, scene.positions[point], track, min_angle_rad)) {
         return Verdict::low_angle;
     }

@@ -2,6 +2,8 @@
 
 #include "base/parallel.h"
 #include "mesh/used_vertices.h"
+#include "model/known_colors.h"
+#include "model/scene_points.h"
 #include "steps/5_labels/boundary.h"
 
 namespace vcarve {
@@ -19,11 +21,10 @@ TriMesh extract_surface(const TetMesh& cells, const std::vector<CellFacet>& face
     mesh.faces = boundary_faces(cells, facets);
     mesh.points = used_vertices(mesh.faces, cells.positions.size());
     mesh.positions.resize(mesh.points.size());
-    mesh.colors.resize(mesh.points.size());
     parallel_for(mesh.points.size(), [&](std::size_t vertex) {
         mesh.positions[vertex] = cells.positions[mesh.points[vertex]];
-        mesh.colors[vertex] = scene.colors[mesh.points[vertex]];
     });
+    if (has_colors(scene)) mesh.colors = values_at(mesh.points, scene.colors);
     renumber(mesh.faces, mesh.points, cells.positions.size());
     return mesh;
 }

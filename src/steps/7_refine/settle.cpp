@@ -3,6 +3,7 @@
 #include "base/median_of_some.h"
 #include "base/parallel.h"
 #include "base/sort_unique.h"
+#include "base/unlimited.h"
 #include "geometry/bilateral_filter.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/camera.h"
@@ -81,19 +82,25 @@ Neighborhoods ring_neighborhoods(const HalfEdgeMesh& mesh, const Vectors& positi
     return neighborhoods;
 }
 
-/// Whether a point was found in images.
-bool is_matched(const Scene& scene, std::size_t point)
+bool knows_errors(const Scene& scene)
+{
+    return std::ranges::any_of(scene.errors_px, [](double error) { return error >= 0.0; });
+}
+
+bool knows_error(const Scene& scene, std::size_t point)
 {
     return scene.errors_px[point] >= 0.0 && scene.kind_of(point) == PointKind::measured;
 }
 
-/// The standard deviation of the points' places in images that their reprojection errors tell.
+/// The standard deviation of the points' places in images that their reprojection errors tell;
+/// without limit where none is known.
 double noise_of_errors_px(const Scene& scene)
 {
     constexpr double kUnknown = -1.0;
+    if (!knows_errors(scene)) return kUnlimited;
     return median_of_some(scene.num_points(), [&](std::size_t point) {
         const auto coordinates = 2.0 * static_cast<double>(scene.tracks[point].size());
-        if (!is_matched(scene, point) || coordinates <= 3.0) return kUnknown;
+        if (!knows_error(scene, point) || coordinates <= 3.0) return kUnknown;
         return scene.errors_px[point] * std::sqrt(coordinates / (coordinates - 3.0)) /
                std::sqrt(std::numbers::pi / 2.0);
     });
@@ -174,12 +181,13 @@ BilateralFilter filter_of(const HalfEdgeMesh& mesh, const Vectors& positions, co
             }};
 }
 
-bool may_move(const HalfEdgeMesh& mesh, const Scene& scene, std::size_t v)
+/// A measured point may; one whose error is not known where that of others is may not.
+bool may_move(const HalfEdgeMesh& mesh, const Scene& scene, std::size_t v, bool with_errors)
 {
     const auto vertex = handle_at<VertexHandle>(v);
     const std::uint32_t point = point_of(mesh, v);
     return !mesh.is_deleted(vertex) && !mesh.is_boundary(vertex) && point != kNoPoint &&
-           is_matched(scene, point);
+           (with_errors ? knows_error(scene, point) : scene.kind_of(point) == PointKind::measured);
 }
 
 /// From the vertices that may move to where the filter has them.
@@ -189,8 +197,9 @@ Vectors ways_to_surface(const HalfEdgeMesh& mesh, const Scene& scene, const Bila
     constexpr double kMost = 0.25; // of the spacing
     Vectors ways(mesh.n_vertices(), Vector3d::Zero());
     const std::vector<double> spacings = vertex_spacings(mesh);
+    const bool with_errors = knows_errors(scene);
     parallel_for(ways.size(), progress, [&](std::size_t v) {
-        if (!may_move(mesh, scene, v)) return;
+        if (!may_move(mesh, scene, v, with_errors)) return;
         const Vector3d way = filter.estimate(v, gate) - mesh.point(handle_at<VertexHandle>(v));
         const double most = kMost * spacings[v];
         ways[v] = way.norm() > most ? Vector3d(way * (most / way.norm())) : way;

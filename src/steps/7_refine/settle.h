@@ -24,14 +24,15 @@ struct SettleCounts {
 /// images are off, reprojection errors tell: the median over the points of their mean error, over
 /// what the mean length of an error is for a deviation of one pixel, and for what fitting the point
 /// took away, sqrt(pi / 2) sqrt((2 n - 3) / (2 n)) with n views; but no more than heights above the
-/// surface tell, where errors are large since cameras are known badly. So which cells are inside
+/// surface tell, where errors are large since cameras are known badly; heights tell alone where no
+/// error is known. So which cells are inside
 /// was told by points as they are, and only then noise is taken off.
 ///
 /// A vertex moves by at most `options.denoise` standard deviations and a quarter of its spacing,
 /// and half or a quarter of that, or stays, where a face around it would turn by more than 60
 /// degrees otherwise. Rims stay, and so do points that were added and those whose reprojection
-/// error is not known. Normals are made anew. The result is the same for any number of threads.
-/// Cost: O(vertices), in parallel; 250 bytes a vertex.
+/// error is not known where others are. Normals are made anew. The result is the same for any
+/// number of threads. Cost: O(vertices), in parallel; 250 bytes a vertex.
 SettleCounts settle_vertices(HalfEdgeMesh& mesh, const Scene& scene, const DenoiseOptions& options,
                              const Progress& progress = {});
 

@@ -57,8 +57,6 @@ const std::vector<Refusal> kBinaryRefusals{
                              "the file can hold 0 at most"},
     {"bin_point_count_huge", "/points3D.bin: byte 0: found a count of 1152921504606846976 points, "
                              "but the rest of the file can hold 2 at most"},
-    {"bin_point_image_unknown",
-     "/points3D.bin: point 5 was seen in image 9, which images.bin does not have"},
     {"bin_point_twice", "/points3D.bin: point 5 occurs twice"},
     {"bin_points_empty_file", "/points3D.bin: the file is empty"},
     {"bin_points_missing", "/points3D.bin: the file does not exist"},
@@ -103,8 +101,6 @@ const std::vector<Refusal> kTextRefusals{
                                   "point, a number, should stand"},
     {"txt_point_error_missing",
      "/points3D.txt: line 2: the line ends where the error of the point should stand"},
-    {"txt_point_image_unknown",
-     "/points3D.txt: point 1 was seen in image 9, which images.txt does not have"},
     {"txt_point_track_odd", "/points3D.txt: line 2: the line ends where the index of a 2D point in "
                             "the track should stand"},
     {"txt_point_twice", "/points3D.txt: point 1 occurs twice"},

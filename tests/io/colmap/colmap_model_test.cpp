@@ -140,6 +140,47 @@ TEST(ColmapModel, TakesAnErrorThatIsNotANumberForUnknown)
     EXPECT_THAT(scene.errors_px, ElementsAre(-1.0, std::numeric_limits<double>::infinity()));
 }
 
+TEST(ColmapModel, DropsSightsOfImagesThatAreNotThereAndCountsThemButForPlaceholders)
+{
+    const TemporaryFolder folder;
+    folder.copy(kFixtures / "formats/rich_txt", "model"); // its images are 7, 40 and 100000
+    folder.write("model/points3D.txt", "1 0 0 0 0 0 0 1 7 0 9 3 40 -1\n"
+                                       "2 0 0 1 0 0 0 1 0 0\n"
+                                       "3 0 1 0 0 0 0 1 -1 -1\n"
+                                       "4 0 1 1 0 0 0 1 9 0 41 5\n");
+    DroppedSights dropped;
+    const Scene scene = read_colmap_model(folder.path() / "model", ModelFormat::text, {}, &dropped);
+    expect_well_formed(scene);
+    EXPECT_THAT(scene.tracks.begins, ElementsAre(0U, 2U, 2U, 2U, 2U));
+    EXPECT_THAT(scene.tracks.views, ElementsAre(0U, 1U));
+    EXPECT_EQ(dropped.sights, 3U);
+    EXPECT_THAT(dropped.images, ElementsAre(9U, 41U));
+}
+
+TEST(ColmapModel, TellsTracksOfImagesInEitherFormat)
+{
+    for (const char* name : {"scene/sparse/0", "scene/sparse_txt"}) {
+        const FoundModel found = find_model(kFixtures / name);
+        const Scene scene = read_colmap_model(found.folder, found.format);
+        const Tracks tracks = read_tracks_of_images(found.folder, found.format, scene);
+        EXPECT_EQ(tracks.begins, scene.tracks.begins) << name;
+        EXPECT_EQ(tracks.views, scene.tracks.views) << name;
+    }
+}
+
+TEST(ColmapModel, TakesASightOnceAndOnlyOfPointsThatAreThere)
+{
+    const TemporaryFolder folder;
+    folder.copy(kFixtures / "formats/rich_txt", "model");
+    folder.write("model/images.txt", "9 1 0 0 0 0 0 0 3 a\n1 1 5 2 2 5 3 3 -1 4 4 77 5 5 6\n"
+                                     "4 1 0 0 0 0 0 0 3 b\n1 1 6\n");
+    folder.write("model/points3D.txt", "6 0 0 0 0 0 0 1\n5 0 0 1 0 0 0 1\n8 1 0 1 0 0 0 1\n");
+    const Scene scene = read_colmap_model(folder.path() / "model", ModelFormat::text);
+    const Tracks tracks = read_tracks_of_images(folder.path() / "model", ModelFormat::text, scene);
+    EXPECT_THAT(tracks.begins, ElementsAre(0U, 2U, 3U, 3U));
+    EXPECT_THAT(tracks.views, ElementsAre(0U, 1U, 1U)); // by id: image 4 is the first
+}
+
 TEST(ColmapModel, ReadsEveryDegenerateFixture)
 {
     struct Sizes {

@@ -109,6 +109,43 @@ TEST(FindModel, TakesAWorkspacesOnlyModelWithoutANote)
     EXPECT_THAT(two.notes, IsEmpty());
 }
 
+TEST(FindModel, LooksAFewLevelsDownAndNamesWhatElseIsThere)
+{
+    const TemporaryFolder folder;
+    folder.copy(kText, "a/colmap/sparse/0");
+    EXPECT_EQ(find_model(folder / "a").folder, folder / "a/colmap/sparse/0");
+    EXPECT_THAT(find_model(folder / "a").notes, IsEmpty());
+    EXPECT_EQ(find_model(folder.path()).folder, folder / "a/colmap/sparse/0");
+
+    folder.copy(kLattice, "a/colmap/sparse/1");
+    const FoundModel found = find_model(folder / "a");
+    EXPECT_EQ(found.folder, folder / "a/colmap/sparse/1");
+    EXPECT_THAT(found.notes, ElementsAre((folder / "a/colmap/sparse/1").string() +
+                                         " has most points (64) and is taken; left out: " +
+                                         (folder / "a/colmap/sparse/0").string() + " (3)"));
+    folder.copy(kText, "b/1/2/3/4/5");
+    EXPECT_THAT(refusal<InputError>([&] { find_model(folder / "b"); }),
+                testing::HasSubstr("no COLMAP model"));
+}
+
+TEST(FindModel, MentionsALargerPartOfTheModelBesideTheOneThatIsNamed)
+{
+    const TemporaryFolder folder;
+    folder.copy(kText, "sparse/0");
+    folder.copy(kLattice, "sparse/1");
+    folder.copy(kLattice, "sparse/other");
+    for (const char* const name : {"sparse/0", "sparse/0/"}) {
+        const FoundModel found = find_model(folder / name);
+        EXPECT_EQ(found.folder, folder / name);
+        EXPECT_THAT(found.notes, ElementsAre((folder / name).string() +
+                                             " has 3 points; the largest part of the "
+                                             "model is " +
+                                             (folder / "sparse/1").string() + " (64)"));
+    }
+    EXPECT_THAT(find_model(folder / "sparse/1").notes, IsEmpty());
+    EXPECT_THAT(find_model(folder / "sparse/other").notes, IsEmpty());
+}
+
 TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
 {
     const TemporaryFolder folder;
@@ -126,9 +163,12 @@ TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
 
     folder.write("b.ply", "");
     folder.copy(kFixtures / "broken/bin_points_missing", "sparse/0");
-    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
-              path + looked_for + "a model in " + path +
-                  "/sparse/0 without points3D.bin, database.db, 2 .ply files");
+    EXPECT_EQ(
+        refusal<InputError>([&] { find_model(folder.path()); }),
+        path + looked_for + "a model in " + path +
+            "/sparse/0 without points3D.bin, database.db, 2 .ply files; colmap "
+            "point_triangulator makes points where poses are known, and --points FILE --sights "
+            "nearest takes those of a cloud");
 }
 
 TEST(FindModel, SaysThatAFolderHasImagesAndWhereTheModelIs)
@@ -146,6 +186,17 @@ TEST(FindModel, SaysThatAFolderHasImagesAndWhereTheModelIs)
                   (folder.path() / name).string() + " is a folder of images; the model is in " +
                       path + "/sparse/0");
     }
+}
+
+TEST(FindModel, NamesWhatLiesInThePlaceOfAModel)
+{
+    const TemporaryFolder folder;
+    const fs::path page = folder.write("model", "<!doctype html><html>");
+    EXPECT_EQ(refusal<InputError>([&] { find_model(page); }),
+              page.string() + " is a web page, not the file: the download failed");
+    const fs::path zip = folder.write("model.zip", "PK\x03\x04...");
+    EXPECT_EQ(refusal<InputError>([&] { find_model(zip); }),
+              zip.string() + " is a zip archive: unpack it first");
 }
 
 TEST(FindModel, RefusesAPathThatIsNoFolder)

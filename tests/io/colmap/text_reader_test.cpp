@@ -69,6 +69,19 @@ TEST(TextReader, ReadsNumbersAsWritten)
     EXPECT_EQ(reader.read_double("n"), 0.5);
 }
 
+TEST(TextReader, TakesNegativeNumbersForNoneOnlyWhereThereMayBeNone)
+{
+    TextReader reader = reader_at("-1 -20 12 -1 -1");
+    EXPECT_EQ(reader.read_uint32_or_none("n"), 4294967295U);
+    EXPECT_EQ(reader.read_uint32_or_none("n"), 4294967295U);
+    EXPECT_EQ(reader.read_uint32_or_none("n"), 12U);
+    EXPECT_EQ(reader.read_uint64_or_none("n"), 18446744073709551615U);
+    EXPECT_THROW(reader.read_uint32("n"), InputError);
+    EXPECT_THROW(reader_at("-").read_uint32_or_none("n"), InputError);
+    EXPECT_THROW(reader_at("-1x").read_uint32_or_none("n"), InputError);
+    EXPECT_THROW(reader_at("-1.5").read_uint64_or_none("n"), InputError);
+}
+
 TEST(TextReader, ReadsNumbersThatAreNotFinite)
 {
     TextReader reader = reader_at("nan -nan(ind) inf -inf");

@@ -29,6 +29,7 @@ void add_square(Scene& scene, double z)
 Scene two_squares()
 {
     Scene scene;
+    scene.is_dense = true;
     scene.cameras.push_back({.id = 1,
                              .model = 1, // PINHOLE
                              .width_px = 1000,
@@ -66,6 +67,32 @@ TEST(NearestSights, DoNotGoThroughAnotherSurface)
             EXPECT_THAT(row(tracks, i), ElementsAre(1, 2)) << i;
         }
     }
+}
+
+TEST(NearestSights, GoLessThroughGapsOfSparsePoints)
+{
+    // Of the upper square, half way to its views, every second row and column is left.
+    Scene scene = two_squares();
+    scene.positions.clear();
+    add_square(scene, 0.0);
+    add_square(scene, 3.0);
+    std::vector<Vector3d> left;
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        const std::size_t row = i % 1681 / 41;
+        const std::size_t column = i % 41;
+        if (i < 1681 || (row % 2 == 0 && column % 2 == 0)) left.push_back(scene.positions[i]);
+    }
+    scene.positions = left;
+    const auto seen_through = [&](bool is_dense) {
+        scene.is_dense = is_dense;
+        const Tracks tracks = nearest_sights(scene);
+        int count = 0;
+        for (std::size_t i = 0; i < 1681; ++i) {
+            count += tracks[i].size() > 1 ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_LT(seen_through(false), seen_through(true) / 2);
 }
 
 TEST(NearestSights, HideNoPointOfASurfaceThatStandsAskew)

@@ -90,7 +90,8 @@ TEST_F(FindInput, RefusesAMeshInThePlaceOfAModel)
 TEST_F(FindInput, NamesTheFormatOfCloudsThatAreNotRead)
 {
     EXPECT_EQ(refused(dense, {.points = "a/scan.las"}),
-              "a/scan.las: LAS is not read: convert it to PLY with CloudCompare or PDAL");
+              "a/scan.las: is a scan as LAS, which is not read: pdal translate a/scan.las "
+              "a/scan.las.ply converts it");
 }
 
 TEST_F(FindInput, TakesWhatTheOptionsChoose)
@@ -178,11 +179,46 @@ TEST_F(FindInput, RefusesOptionsThatContradictEachOther)
               "--visibility a.vis tells which views saw the points of a cloud, but the sparse "
               "points of " +
                   (dense / "sparse").string() + " are taken");
-    EXPECT_EQ(misused(dense, {.points = "sparse", .visibility = {}, .sights = SightsFrom::nearest}),
-              "--sights nearest is for the points of a cloud, but the sparse points of " +
-                  (dense / "sparse").string() + " are taken");
     EXPECT_EQ(misused(dense, {.points = {}, .visibility = "a.vis", .sights = SightsFrom::nearest}),
               "--sights nearest reads no file, so it cannot go with --visibility a.vis");
+}
+
+TEST_F(FindInput, TakesTheNearestViewsForSparsePointsOnRequest)
+{
+    const FoundInput found =
+        find_input(dense, {.points = "sparse", .visibility = {}, .sights = SightsFrom::nearest});
+    EXPECT_FALSE(found.dense);
+    EXPECT_EQ(found.sights, SightsFrom::nearest);
+}
+
+TEST_F(FindInput, NeedsNoPointsOfTheModelWhereOthersAreTaken)
+{
+    fs::remove(dense / "sparse/points3D.bin");
+    EXPECT_EQ(find_input(dense, {}).dense->cloud, fused);
+    EXPECT_EQ(find_input(fused, {}).dense->cloud, fused);
+    EXPECT_EQ(find_input(dense / "sparse", {.points = fused}).dense->cloud, fused);
+    EXPECT_THAT(refused(dense / "sparse", {}), testing::HasSubstr("without points3D.bin"));
+}
+
+TEST_F(FindInput, TakesPointsThatStandAsPlyBesideTheViews)
+{
+    const fs::path sparse = dense / "sparse";
+    fs::copy(fused, sparse / "points3D.ply");
+    EXPECT_FALSE(find_input(sparse, {}).dense) << "points3D.bin has points";
+    for (const bool is_empty : {true, false}) {
+        fs::remove(sparse / "points3D.bin");
+        if (is_empty) folder.write("dense/sparse/points3D.bin", std::string(8, '\0'));
+        const FoundInput found = find_input(sparse, {});
+        ASSERT_TRUE(found.dense);
+        EXPECT_EQ(found.dense->cloud, sparse / "points3D.ply");
+        EXPECT_TRUE(found.dense->visibility.empty());
+        EXPECT_THAT(found.notes, ElementsAre(testing::HasSubstr("the nearest views of")));
+    }
+    fs::copy(visibility, sparse / "points3D.ply.vis");
+    EXPECT_EQ(find_input(sparse, {}).dense->visibility, sparse / "points3D.ply.vis");
+    fs::remove(sparse / "points3D.ply.vis");
+    EXPECT_THAT(refused(sparse, {.sights = SightsFrom::file}),
+                testing::HasSubstr("points3D.ply.vis"));
 }
 
 /// A scan in the workspace, with views beside it that saw its points.

@@ -47,6 +47,14 @@ TEST(Filter, DropsEachBadPointForItsOwnReason)
     EXPECT_EQ(result.report.duplicate, 0);
 }
 
+TEST(Filter, AsksForAnAngleOnlyOfPointsThatWereTriangulated)
+{
+    const Scene scene = make_scene(kCenters, {{{1, 0, 0}, {1}}, {{4, 0, 0}, {0, 2}}});
+    const FilteredPoints result = filter_points(scene, {.min_views = 1});
+    EXPECT_EQ(result.scene.point_ids, (std::vector<std::uint64_t>{1}));
+    EXPECT_EQ(result.report.low_angle, 1);
+}
+
 TEST(Filter, KeepsTheViewsOfAllPointsAtAPlaceBehindOthersThatAreDropped)
 {
     const Scene scene = make_scene(kCenters, {{{2, 0, 0}, {0}},      // one view

@@ -32,6 +32,17 @@ TEST(ExtractSurface, OfOneCellIsItsFourFacetsSeenFromOutside)
     EXPECT_NEAR(volume(mesh), 1.0 / 6.0, 1e-15);
 }
 
+TEST(ExtractSurface, HasNoColorsWhereThePointsHaveNone)
+{
+    Scene scene = bumpy_sphere(40, 5);
+    const TetMesh cells = triangulate(scene);
+    Labels labels(cells.cells.size(), Label::outside);
+    labels[cells.cell_of_vertex[0]] = Label::inside;
+    EXPECT_FALSE(extract_surface(cells, labels, scene).colors.empty());
+    scene.colors.assign(scene.num_points(), {0, 0, 0});
+    EXPECT_TRUE(extract_surface(cells, labels, scene).colors.empty());
+}
+
 TEST(ExtractSurface, EnclosesExactlyTheInsideForAnyLabels)
 {
     const Scene scene = bumpy_sphere(300, 41);

@@ -144,6 +144,16 @@ TEST(SettleVertices, LeavesPointsWithoutErrorsWhereTheyAre)
     EXPECT_EQ(result.mesh.positions, scene.positions);
 }
 
+TEST(SettleVertices, GoesByHeightsWhereNoErrorIsKnown)
+{
+    Scene scene = matched_ground(0.05);
+    const Settled with_errors = settled(scene);
+    scene.errors_px.assign(scene.num_points(), -1.0);
+    const Settled result = settled(scene);
+    EXPECT_NEAR(result.counts.noise_px, 0.05, 0.015);
+    EXPECT_GT(result.counts.moved, with_errors.counts.moved * 9 / 10);
+}
+
 TEST(SettleVertices, LeavesWhatWasNotMatchedInImages)
 {
     Scene scene = matched_ground(0.05);
