@@ -22,10 +22,27 @@ void print(const std::string& text)
     if (std::fflush(stdout) != 0) throw UsageError("cannot write to the standard output");
 }
 
-const Command& command_named(std::string_view name, std::span<const Command> commands)
+/// Whether words are options only, so that what follows them may be a command.
+bool are_options(std::span<const std::string> words, const OptionList& options)
 {
-    const auto named = std::ranges::find(commands, name, &Command::name);
-    return named == commands.end() ? commands.front() : *named;
+    try {
+        return parse_arguments(words, options).operands.empty();
+    } catch (const UsageError&) {
+        return false;
+    }
+}
+
+/// The command that the first operand names, whose name is taken out of the words.
+const Command& command_in(std::vector<std::string>& words, std::span<const Command> commands)
+{
+    for (const Command& command : commands) {
+        const auto named = std::ranges::find(words, command.name);
+        if (command.name.empty() || named == words.end()) continue;
+        if (!are_options({words.begin(), named}, command.manual().options)) continue;
+        words.erase(named);
+        return command;
+    }
+    return commands.front();
 }
 
 std::string version_text()
@@ -74,10 +91,9 @@ std::vector<Command> commands()
 
 void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands)
 {
-    const std::vector<std::string> meant = words_meant(arguments);
+    std::vector<std::string> meant = words_meant(arguments);
+    const Command& command = command_in(meant, commands);
     arguments = meant;
-    const Command& command = command_named(arguments.empty() ? "" : arguments[0], commands);
-    if (!command.name.empty()) arguments = arguments.subspan(1);
 
     const Manual manual = command.manual();
     if (arguments.size() == 1) {

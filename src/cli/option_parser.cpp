@@ -121,6 +121,8 @@ ParsedArguments parse_arguments(std::span<const std::string> words, const Option
             given.operands.insert(given.operands.begin(), take_value(word, words, i));
         } else if (word.name == "-o" || word.name == "--output_path") {
             outputs.push_back(take_value(word, words, i));
+        } else if (word.name == "--input_type") {
+            given.options["points"] = value_of(find_option("--points", options), word, words, i);
         } else {
             const Option& option = find_option(word.name, options);
             given.options[option.info.name] = value_of(option, word, words, i);

@@ -141,6 +141,18 @@ TEST(Program, UnderstandsHelpAndVersionAsWords)
     EXPECT_EQ(run_program({"version"}).out, run_program({"--version"}).out);
 }
 
+TEST(Program, TakesOptionsBeforeACommand)
+{
+    const std::string said = run_program({"compare", "--threads", "3", "--quiet", "m"}).err;
+    EXPECT_THAT(said, HasSubstr("expected a model and meshes"));
+    EXPECT_EQ(run_program({"--threads", "3", "compare", "--quiet", "m"}).err, said);
+    EXPECT_EQ(run_program({"--quiet", "--threads=3", "compare", "m"}).err, said);
+    EXPECT_EQ(run_program({"--help", "compare"}).out, run_program({"compare", "--help"}).out);
+    // Behind an operand it is one, and no option of compare makes it one.
+    EXPECT_THAT(run_program({"a", "compare"}).err, HasSubstr("compare: "));
+    EXPECT_THAT(run_program({"--closed", "compare"}).err, HasSubstr("MODEL OUT.ply"));
+}
+
 TEST(Program, KeepsItsHelpWithinEightyColumns)
 {
     for (const std::vector<std::string>& words :

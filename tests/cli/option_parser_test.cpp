@@ -208,6 +208,14 @@ TEST(OptionParser, TakesOperandsByColmapsNames)
     EXPECT_THAT(parsed({"-o", "out", "in"}).operands, ElementsAre("in", "out"));
 }
 
+TEST(OptionParser, TakesColmapsTypeOfInputForTheChoiceOfPoints)
+{
+    std::string points;
+    const OptionList options = {{"Input", {.name = "points", .help = "Which."}, &points}};
+    const std::vector<std::string> words = {"--input_type", "dense", "--input_path", "in"};
+    EXPECT_EQ(parse_arguments(words, options).options.at("points"), "dense");
+}
+
 TEST(OptionParser, KnowsTheLetterOfHelp)
 {
     EXPECT_TRUE(parsed({"-h"}).has("help"));
