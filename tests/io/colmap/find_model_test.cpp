@@ -133,7 +133,7 @@ TEST(FindModel, MentionsALargerPartOfTheModelBesideTheOneThatIsNamed)
     const TemporaryFolder folder;
     folder.copy(kText, "sparse/0");
     folder.copy(kLattice, "sparse/1");
-    folder.copy(kLattice, "sparse/other");
+    folder.copy(kFixtures / "scene/sparse_txt", "sparse/other"); // larger, but no part
     for (const char* const name : {"sparse/0", "sparse/0/"}) {
         const FoundModel found = find_model(folder / name);
         EXPECT_EQ(found.folder, folder / name);

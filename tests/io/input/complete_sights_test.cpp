@@ -122,6 +122,7 @@ TEST_F(CompleteSights, KeepsTheViewsThatAreKnown)
 {
     rewrite_tracks([](std::size_t i) { return i % 9 == 0 ? "2 0 6 0" : "4 0"; });
     EXPECT_THAT(complete(), ElementsAre(HasSubstr("nothing tells of 622 of 700 points")));
+    EXPECT_GT(scene.num_sights(), 2 * scene.num_points());
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
         if (i % 9 == 0) {
             EXPECT_THAT(scene.tracks[i], ElementsAre(1U, 5U));
