@@ -19,8 +19,8 @@ struct FilterOptions {
 /// Where points are added to planar regions of the surface; 0 adds none. All are multiples of the
 /// spacing of the points of that region.
 struct AddedPointOptions {
-    double crease_reach = 28.0; ///< where two regions meet: how far both may end from that line
-    double border_gap = 3.0;    ///< where a region ends: how near to it sights pass by
+    double crease_reach = 28.0;    ///< where two regions meet: how far both may end from that line
+    double border_gap = 3.0;       ///< where a region ends: how near to it sights pass by
     double textureless_step = 2.0; ///< amid one, where images show no features: how far apart
 
     /// Whether points are added anywhere.
@@ -148,16 +148,16 @@ struct MemoryOptions {
 
 /// Everything a run can be told, step by step.
 struct Options {
-    FilterOptions points;   ///< which points are kept
-    AddedPointOptions added_points;  ///< where points are added
-    ThinOptions thin;       ///< which points become one
-    CropOptions crop;       ///< which part of space counts
-    DenoiseOptions denoise; ///< how far points move
-    LabelOptions labels;    ///< which cells are inside
-    SurfaceOptions surface; ///< which faces are kept
-    RefineOptions refine;   ///< what is done to the surface
-    int threads = 0;        ///< how many are used, 0: all; the surface is the same for any
-    MemoryOptions memory;   ///< how much of it is taken
+    FilterOptions points;           ///< which points are kept
+    AddedPointOptions added_points; ///< where points are added
+    ThinOptions thin;               ///< which points become one
+    CropOptions crop;               ///< which part of space counts
+    DenoiseOptions denoise;         ///< how far points move
+    LabelOptions labels;            ///< which cells are inside
+    SurfaceOptions surface;         ///< which faces are kept
+    RefineOptions refine;           ///< what is done to the surface
+    int threads = 0;                ///< how many are used, 0: all; the surface is the same for any
+    MemoryOptions memory;           ///< how much of it is taken
 };
 
 } // namespace vcarve

@@ -72,10 +72,11 @@ struct Scene {
     std::vector<Eigen::Vector3d> positions; ///< in world minus `offset`
     std::vector<Color> colors;              ///< of the points
     std::vector<double> errors_px;          ///< mean reprojection error; negative where unknown
-    std::vector<std::uint64_t> point_ids;   ///< COLMAP's point3D ids, or places in a cloud's file; 0 if added
-    std::vector<Eigen::Vector3f> normals;   ///< optional: unit, or zero where unknown
-    std::vector<PointKind> kinds;           ///< optional: all are measured where there are none
-    Tracks tracks;                          ///< which views saw which point
+    std::vector<std::uint64_t>
+        point_ids; ///< COLMAP's point3D ids, or places in a cloud's file; 0 if added
+    std::vector<Eigen::Vector3f> normals; ///< optional: unit, or zero where unknown
+    std::vector<PointKind> kinds;         ///< optional: all are measured where there are none
+    Tracks tracks;                        ///< which views saw which point
     bool is_dense = false; ///< points of a dense cloud or a scan, whose errors are not known
     Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the file's
 

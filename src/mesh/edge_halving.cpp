@@ -30,7 +30,9 @@ std::array<std::uint32_t, 2> longest_edge_of(std::span<const Eigen::Vector3d> po
 }
 
 EdgeHalving::EdgeHalving(TriMesh& mesh, const FaceFlags& flags)
-    : mesh_(mesh), num_vertices_(mesh.positions.size()), faces_at_first_(mesh.faces, mesh.positions.size(), flags)
+    : mesh_(mesh),
+      num_vertices_(mesh.positions.size()),
+      faces_at_first_(mesh.faces, mesh.positions.size(), flags)
 {
 }
 

@@ -22,7 +22,8 @@ constexpr double kBlockPoint = 600;
 /// What a run in blocks has in the heap, a point: arrays that are too small for files of their own
 /// (22 bytes were measured of 5 M points).
 constexpr double kHeapPoint = 24;
-/// The same while planar regions are looked for: the nodes of the k-d tree, and the points of regions.
+/// The same while planar regions are looked for: the nodes of the k-d tree, and the points of
+/// regions.
 constexpr double kHeapAddedPoint = 42;
 /// Files in the work folder against what passes are predicted to need: arrays that grow stand
 /// twice.

@@ -195,7 +195,7 @@ TEST(SharesOfSights, AreAllSightsOnceAndAboutAsMany)
 
 TEST(SharesOfSights, SkipRunsOfCellsOfWhichNothingIsSaid)
 {
-    constexpr std::size_t kRun = SparseSums<std::int32_t>::kRun;
+    constexpr std::size_t kRun = kSumsOfRun;
     std::vector<std::int32_t> sums(3 * kRun + kRun / 2, 0);
     sums[kRun] = 4;
     sums.back() = -2;

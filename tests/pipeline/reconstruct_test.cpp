@@ -244,7 +244,7 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     };
     Recorder log;
     reconstruct(bumpy_sphere(500, 8), {}, log);
-    const std::vector<std::string> expected = {"memory", "filter", "fill", "triangulate",
+    const std::vector<std::string> expected = {"memory", "filter", "fill",    "triangulate",
                                                "sights", "cut",    "surface", "clean",
                                                "open",   "settle", "orient"};
     EXPECT_EQ(log.begun, expected);
@@ -255,7 +255,7 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     with_virtual_views.labels.virtual_views.count = 10;
     reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
     const std::vector<std::string> labelled_twice = {
-        "memory", "filter", "fill", "triangulate", "sights", "cut",    "virtual",
+        "memory", "filter", "fill",    "triangulate", "sights", "cut",    "virtual",
         "sights", "cut",    "surface", "clean",       "open",   "settle", "orient"};
     EXPECT_EQ(twice.begun, labelled_twice);
     EXPECT_EQ(twice.ended, labelled_twice);

@@ -127,9 +127,8 @@ DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const 
     const double gate = options.denoise * report.noise_px;
     if (!(gate > 0.0) || is_exact_scan(scene, filter)) return report;
     Vectors estimates(scene.num_points());
-    parallel_for(estimates.size(), progress.part(0.85, 1.0), [&](std::size_t i) {
-        estimates[i] = filter.estimate(i, gate);
-    });
+    parallel_for(estimates.size(), progress.part(0.85, 1.0),
+                 [&](std::size_t i) { estimates[i] = filter.estimate(i, gate); });
     keep_apart(estimates, scene.positions);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (estimates[i] != scene.positions[i]) ++report.moved;

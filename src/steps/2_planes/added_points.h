@@ -27,6 +27,7 @@ struct AddedPoints {
 /// them, before and after. The result does not depend on the number of threads nor, up to rounding,
 /// on where the scene lies and how large it is. Cost: that of the steps named and of a sort; 90
 /// bytes a point, and what crossings take (border_candidates).
-AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress = {});
+AddedPoints add_points(Scene& scene, const AddedPointOptions& options,
+                       const Progress& progress = {});
 
 } // namespace vcarve

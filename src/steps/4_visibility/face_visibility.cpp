@@ -77,7 +77,7 @@ std::vector<Vector3d> grid_on(const std::array<Vector3d, 3>& corners, int to_a_s
 }
 
 FaceVisibility::FaceVisibility(const TetMesh& cells, const Labels& labels, const Scene& scene)
-    : cells_(cells), labels_(labels), scene_(scene)
+    : cells_(cells), labels_(labels), scene_(scene), views_(scene)
 {
     Eigen::AlignedBox3d box;
     for (const Vector3d& position : cells.positions) {
@@ -105,28 +105,35 @@ bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vec
            view_shows(eye, scene_.cameras[eye.camera], place);
 }
 
+/// Whether a way to a view that goes through a facet to be crossed next may be free.
+/// Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
+bool FaceVisibility::is_free(const CellFacet& ahead, const CellFacet& facet) const
+{
+    return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
+           labels_[cells_.other_side(ahead).cell] == Label::outside;
+}
+
 bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
 {
     if (!faces(view, facet, place)) return false;
-    // Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
-    const auto leads_on = [&](const CellFacet& ahead) {
-        return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
-               labels_[cells_.other_side(ahead).cell] == Label::outside;
-    };
+    const auto goes_on = [&](const CellFacet& ahead) { return is_free(ahead, facet); };
     const Vector3d& center = scene_.views[view].center;
-    return SightWalk(cells_).through_facet(facet, place, center, leads_on).cell == kInfinite;
+    return SightWalk(cells_).through_facet(facet, place, center, goes_on).cell == kInfinite;
 }
 
 bool FaceVisibility::is_seen(const CellFacet& facet) const
 {
     const std::vector<Vector3d> places = places_on(facet);
-    const Vector3d normal = outward(cells_, facet);
     const auto sees_some = [&](std::uint32_t view) {
-        if (normal.dot(scene_.views[view].center - places[0]) <= 0.0) return false; // most are
-        return std::ranges::any_of(
-            places, [&](const Vector3d& place) { return sees(view, facet, place); });
+        return std::ranges::any_of(places,
+                                   [&](const Vector3d& place) { return sees(view, facet, place); });
     };
-    return any_view(facet, sees_some);
+    if (any_view_of_corners(facet, sees_some)) return true;
+    const auto goes_on = [&](const CellFacet& ahead) { return is_free(ahead, facet); };
+    return std::ranges::any_of(places, [&](const Vector3d& place) {
+        return views_.any_view(cells_, facet, place, goes_on,
+                               [&](std::uint32_t view) { return sees(view, facet, place); });
+    });
 }
 
 bool FaceVisibility::is_told_by_images(const CellFacet& facet) const

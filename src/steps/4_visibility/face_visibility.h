@@ -2,6 +2,7 @@
 
 #include "model/labels.h"
 #include "model/tet_mesh.h"
+#include "steps/4_visibility/view_tree.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
@@ -60,8 +61,8 @@ class FaceVisibility {
     bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
 
     /// Whether some view sees one of the places on a facet. The views that saw its corners are
-    /// asked first. Cost: where no view sees it, a walk for each place and view that stands
-    /// before it and shows it in its image.
+    /// asked first. Cost: where no view sees it, that of ViewTree::any_view() for each place, and a
+    /// walk for each view that this does not rule out and whose image shows the place.
     bool is_seen(const CellFacet& facet) const;
 
     /// The same of a place where of the boundary only the facets are there that is_kept(facet)
@@ -70,10 +71,12 @@ class FaceVisibility {
     bool sees_among(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                     const IsKept& is_kept, double cosine = kGrazing) const;
 
-    /// Whether ask(view) says yes for some view. Those that saw a corner of the facet, the
-    /// likeliest to see it, are asked first.
-    template <typename Ask>
-    bool any_view(const CellFacet& facet, const Ask& ask) const;
+    /// Whether ask(view) says yes for some view that may see a place on a facet, where of the
+    /// boundary only the facets are there that is_kept(facet) names; others may be asked, too.
+    /// Those that saw a corner of the facet, the likeliest to see it, are asked first.
+    template <typename IsKept, typename Ask>
+    bool any_view_among(const CellFacet& facet, const Eigen::Vector3d& place, const IsKept& is_kept,
+                        const Ask& ask) const;
 
     /// Whether images tell what is seen of a facet: of the views before a corner that saw it, one
     /// shows it at least. Where a lens or a pose is wrong they do not.
@@ -97,6 +100,12 @@ class FaceVisibility {
 
     Crossed crossed_at(const CellFacet& ahead) const;
 
+    bool is_free(const CellFacet& ahead, const CellFacet& facet) const;
+
+    /// Whether ask(view) says yes for some view that saw a corner of a facet.
+    template <typename Ask>
+    bool any_view_of_corners(const CellFacet& facet, const Ask& ask) const;
+
     /// Walks along a line out of a facet's cell, from a place on the facet to a target, and calls
     /// goes_on(crossed) for what it crosses of the boundary behind the facet itself, until that
     /// says no. False where the line does not clearly pass through the facet.
@@ -107,21 +116,28 @@ class FaceVisibility {
     const TetMesh& cells_;
     const Labels& labels_;
     const Scene& scene_;
+    ViewTree views_;
     double reach_ = 0.0; ///< longer than any line within the hull
 };
 
 template <typename Ask>
-bool FaceVisibility::any_view(const CellFacet& facet, const Ask& ask) const
+bool FaceVisibility::any_view_of_corners(const CellFacet& facet, const Ask& ask) const
 {
-    for (const int corner : kFacetCorners[facet.slot]) {
-        for (const std::uint32_t view : scene_.tracks[cells_.cells[facet.cell].vertices[corner]]) {
-            if (ask(view)) return true;
-        }
-    }
-    for (std::uint32_t view = 0; view < scene_.views.size(); ++view) {
-        if (ask(view)) return true;
-    }
-    return false;
+    return std::ranges::any_of(kFacetCorners[facet.slot], [&](int corner) {
+        return std::ranges::any_of(scene_.tracks[cells_.cells[facet.cell].vertices[corner]], ask);
+    });
+}
+
+template <typename IsKept, typename Ask>
+bool FaceVisibility::any_view_among(const CellFacet& facet, const Eigen::Vector3d& place,
+                                    const IsKept& is_kept, const Ask& ask) const
+{
+    const auto goes_on = [&](const CellFacet& ahead) {
+        if (ahead.cell == facet.cell) return true; // through the facet itself
+        const Crossed met = crossed_at(ahead);
+        return met.side == Meets::nothing || !is_kept(met.facet);
+    };
+    return any_view_of_corners(facet, ask) || views_.any_view(cells_, facet, place, goes_on, ask);
 }
 
 template <typename IsKept>

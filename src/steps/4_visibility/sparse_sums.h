@@ -26,7 +26,9 @@ struct SparseSums {
 template <typename Sums, typename T = typename Sums::value_type>
 SparseSums<T> sparse_sums(const Sums& sums)
 {
-    const auto end_of = [&](std::size_t run) { return std::min(sums.size(), (run + 1) * kSumsOfRun); };
+    const auto end_of = [&](std::size_t run) {
+        return std::min(sums.size(), (run + 1) * kSumsOfRun);
+    };
     SparseSums<T> sparse;
     sparse.count = sums.size();
     const std::size_t num_runs = (sums.size() + kSumsOfRun - 1) / kSumsOfRun;
@@ -42,7 +44,8 @@ SparseSums<T> sparse_sums(const Sums& sums)
         8192);
     if (sparse.runs.empty()) return sparse;
     const std::size_t last = sparse.runs.back();
-    sparse.values = UnsetArray<T>((sparse.runs.size() - 1) * kSumsOfRun + end_of(last) - last * kSumsOfRun);
+    sparse.values =
+        UnsetArray<T>((sparse.runs.size() - 1) * kSumsOfRun + end_of(last) - last * kSumsOfRun);
     parallel_for(
         sparse.runs.size(),
         [&](std::size_t k) {

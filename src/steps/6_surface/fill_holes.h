@@ -30,9 +30,10 @@ bool touches_itself(const HalfEdgeMesh& mesh, const BoundaryLoop& loop);
 /// middle, which has the mean colour and is no point of the scene. Cost: O(n^3) for n edges.
 void fill_hole(HalfEdgeMesh& mesh, const BoundaryLoop& loop);
 
-/// Fills the holes of at most so many edges that are neither rims nor touch themselves, but where the mesh knows its points none with a vertex that is no point: there
-/// faces were trimmed (trim.h). The hole of a face that was trimmed away whole has none and is
-/// filled again. Returns how many there were.
+/// Fills the holes of at most so many edges that are neither rims nor touch themselves, but where
+/// the mesh knows its points none with a vertex that is no point: there faces were trimmed
+/// (trim.h). The hole of a face that was trimmed away whole has none and is filled again. Returns
+/// how many there were.
 std::int64_t fill_holes(HalfEdgeMesh& mesh, int max_edges);
 
 } // namespace vcarve

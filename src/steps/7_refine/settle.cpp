@@ -5,6 +5,7 @@
 #include "base/sort_unique.h"
 #include "base/unlimited.h"
 #include "geometry/bilateral_filter.h"
+#include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/camera.h"
 #include "model/pixel_covariance.h"
@@ -92,18 +93,45 @@ bool knows_error(const Scene& scene, std::size_t point)
     return scene.errors_px[point] >= 0.0 && scene.kind_of(point) == PointKind::measured;
 }
 
-/// The standard deviation of the points' places in images that their reprojection errors tell;
-/// without limit where none is known.
+/// The standard deviation of the points' places in images that their reprojection errors tell.
 double noise_of_errors_px(const Scene& scene)
 {
     constexpr double kUnknown = -1.0;
-    if (!knows_errors(scene)) return kUnlimited;
     return median_of_some(scene.num_points(), [&](std::size_t point) {
         const auto coordinates = 2.0 * static_cast<double>(scene.tracks[point].size());
         if (!knows_error(scene, point) || coordinates <= 3.0) return kUnknown;
         return scene.errors_px[point] * std::sqrt(coordinates / (coordinates - 3.0)) /
                std::sqrt(std::numbers::pi / 2.0);
     });
+}
+
+/// Whether so many vertices lie in one plane with all around them that the points are without
+/// noise, as those of a model that was made.
+bool is_exact(const HalfEdgeMesh& mesh)
+{
+    constexpr std::size_t kOneIn = 20;
+    constexpr double kFlat = 1.0 - 1e-9; // cosine
+    const auto is_flat = [&](VertexHandle vertex) {
+        const Vector3d normal = vertex_normal(mesh, vertex); // zero where there are no faces
+        for (const FaceHandle face : mesh.vf_range(vertex)) {
+            const auto [a, b, c] = mesh.triangle(face);
+            if (!(scaled_normal(a, b, c).normalized().dot(normal) > kFlat)) return false;
+        }
+        return !normal.isZero(0.0);
+    };
+    const auto flat =
+        parallel_collect<std::size_t>(mesh.n_vertices(), [&](std::size_t v, auto& found) {
+            const auto vertex = handle_at<VertexHandle>(v);
+            if (!mesh.is_deleted(vertex) && is_flat(vertex)) found.push_back(v);
+        });
+    return kOneIn * flat.size() > mesh.n_vertices();
+}
+
+/// What is known of it before heights are.
+double most_noise_px(const HalfEdgeMesh& mesh, const Scene& scene)
+{
+    if (knows_errors(scene)) return noise_of_errors_px(scene);
+    return is_exact(mesh) ? 0.0 : kUnlimited;
 }
 
 /// Whether a face turns too far if its corners go so far.
@@ -214,7 +242,7 @@ SettleCounts settle_vertices(HalfEdgeMesh& mesh, const Scene& scene, const Denoi
 {
     SettleCounts counts;
     counts.vertices = num_vertices_left(mesh);
-    counts.noise_px = noise_of_errors_px(scene);
+    counts.noise_px = most_noise_px(mesh, scene);
     if (!(options.denoise * counts.noise_px > 0.0)) return counts;
     const Vectors positions = of_vertices(mesh, [&](VertexHandle v) { return mesh.point(v); });
     const BilateralFilter filter = filter_of(mesh, positions, scene, progress.part(0.0, 0.5));

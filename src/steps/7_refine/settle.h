@@ -25,8 +25,8 @@ struct SettleCounts {
 /// what the mean length of an error is for a deviation of one pixel, and for what fitting the point
 /// took away, sqrt(pi / 2) sqrt((2 n - 3) / (2 n)) with n views; but no more than heights above the
 /// surface tell, where errors are large since cameras are known badly; heights tell alone where no
-/// error is known. So which cells are inside
-/// was told by points as they are, and only then noise is taken off.
+/// error is known, unless one vertex in twenty lies in one plane with all around it. So which cells
+/// are inside was told by points as they are, and only then noise is taken off.
 ///
 /// A vertex moves by at most `options.denoise` standard deviations and a quarter of its spacing,
 /// and half or a quarter of that, or stays, where a face around it would turn by more than 60

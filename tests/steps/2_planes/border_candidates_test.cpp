@@ -154,8 +154,10 @@ TEST(BorderCandidates, GoAsFarAsTheGap)
     // Nothing is seen past the board within 2.5 spacings of it.
     const auto far = seen_backdrop(0.25);
     const Scene scene = together({board(), far});
-    EXPECT_GT(num_added(scene, {.crease_reach = 0.0, .border_gap = 4.0, .textureless_step = 0.0}), 8);
-    EXPECT_EQ(num_added(scene, {.crease_reach = 0.0, .border_gap = 1.5, .textureless_step = 0.0}), 0);
+    EXPECT_GT(num_added(scene, {.crease_reach = 0.0, .border_gap = 4.0, .textureless_step = 0.0}),
+              8);
+    EXPECT_EQ(num_added(scene, {.crease_reach = 0.0, .border_gap = 1.5, .textureless_step = 0.0}),
+              0);
     EXPECT_EQ(num_added(together({board(), seen_backdrop()}),
                         {.crease_reach = 0.0, .border_gap = 0.0, .textureless_step = 0.0}),
               0);

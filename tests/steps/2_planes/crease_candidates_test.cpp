@@ -115,8 +115,9 @@ TEST(CreaseCandidates, LeaveGapsWhereOnePlaneIsNotKnown)
         return std::abs(p.position.x()) < 0.65 && p.position.z() > -1.1;
     });
     Scene scene = together({wall(0.35), floor});
-    add_points(scene,
-               {.crease_reach = 6.0, .border_gap = 0.0, .textureless_step = 0.0}); // .6 along the crease, too
+    add_points(scene, {.crease_reach = 6.0,
+                       .border_gap = 0.0,
+                       .textureless_step = 0.0}); // .6 along the crease, too
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_GT(added.size(), 6U);
     for (const std::size_t i : added) {

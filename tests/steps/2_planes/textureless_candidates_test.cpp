@@ -226,8 +226,9 @@ TEST(TexturelessCandidates, NeedTwoViews)
 
 TEST(TexturelessCandidates, AreTheSameInOtherUnitsAndElsewhere)
 {
-    flat_scenes::expect_same_elsewhere(together({floor_with_gap(0.5)}), kTextureless, PointKind::textureless,
-                                       {1.0, 1.0 / 1024.0, 37.3, 1e6}, 1e-6 * kSpacing);
+    flat_scenes::expect_same_elsewhere(together({floor_with_gap(0.5)}), kTextureless,
+                                       PointKind::textureless, {1.0, 1.0 / 1024.0, 37.3, 1e6},
+                                       1e-6 * kSpacing);
 }
 
 } // namespace

@@ -154,6 +154,18 @@ TEST(SettleVertices, GoesByHeightsWhereNoErrorIsKnown)
     EXPECT_GT(result.counts.moved, with_errors.counts.moved * 9 / 10);
 }
 
+TEST(SettleVertices, LeavesExactPointsWhereTheyAreWhereNoErrorIsKnown)
+{
+    Scene scene = matched_ground(0.0);
+    for (std::size_t i = 0; i < scene.num_points(); i += 31) {
+        scene.positions[i].z() += 0.5 * kSpacing; // the shape, not noise
+    }
+    scene.errors_px.assign(scene.num_points(), -1.0);
+    const Settled result = settled(scene);
+    EXPECT_EQ(result.counts.noise_px, 0.0);
+    EXPECT_EQ(result.mesh.positions, scene.positions);
+}
+
 TEST(SettleVertices, LeavesWhatWasNotMatchedInImages)
 {
     Scene scene = matched_ground(0.05);
