@@ -62,12 +62,20 @@ class ViewTree {
     static Side side_of_facet(const TetMesh& cells, const CellFacet& facet,
                               const Eigen::Vector3d& place, const Node& node);
 
+    /// What any_view() is given.
     template <typename GoesOn, typename Ask>
-    bool any_before(const TetMesh& cells, const CellFacet& facet, const Eigen::Vector3d& place,
-                    std::uint32_t number, const GoesOn& goes_on, const Ask& ask) const;
+    struct Question {
+        const TetMesh& cells;
+        const CellFacet& facet;
+        const Eigen::Vector3d& place;
+        const GoesOn& goes_on;
+        const Ask& ask;
+    };
     template <typename GoesOn, typename Ask>
-    bool any_beyond(const TetMesh& cells, CellFacet entered, const Eigen::Vector3d& place,
-                    std::uint32_t number, const GoesOn& goes_on, const Ask& ask) const;
+    bool any_before(const Question<GoesOn, Ask>& question, std::uint32_t number) const;
+    template <typename GoesOn, typename Ask>
+    bool any_beyond(const Question<GoesOn, Ask>& question, CellFacet entered,
+                    std::uint32_t number) const;
     template <typename Ask>
     bool any_of(const Node& node, const Ask& ask) const
     {
@@ -85,32 +93,31 @@ template <typename GoesOn, typename Ask>
 bool ViewTree::any_view(const TetMesh& cells, const CellFacet& facet, const Eigen::Vector3d& place,
                         const GoesOn& goes_on, const Ask& ask) const
 {
-    return !nodes_.empty() && goes_on(facet) && any_before(cells, facet, place, 0, goes_on, ask);
+    const Question<GoesOn, Ask> question = {cells, facet, place, goes_on, ask};
+    return !nodes_.empty() && goes_on(facet) && any_before(question, 0);
 }
 
 /// Of the views of a node that stand before the facet.
 template <typename GoesOn, typename Ask>
-bool ViewTree::any_before(const TetMesh& cells, const CellFacet& facet,
-                          const Eigen::Vector3d& place, std::uint32_t number, const GoesOn& goes_on,
-                          const Ask& ask) const
+bool ViewTree::any_before(const Question<GoesOn, Ask>& question, std::uint32_t number) const
 {
+    const auto& [cells, facet, place, goes_on, ask] = question;
     const Node& node = nodes_[number];
     if (is_out_of_sight(node, place)) return false;
     const Side side = side_of_facet(cells, facet, place, node);
     if (side == Side::behind) return false;
     if (node.right == 0) return any_of(node, ask);
-    if (side == Side::before)
-        return any_beyond(cells, cells.other_side(facet), place, number, goes_on, ask);
-    return any_before(cells, facet, place, number + 1, goes_on, ask) ||
-           any_before(cells, facet, place, node.right, goes_on, ask);
+    if (side == Side::before) return any_beyond(question, cells.other_side(facet), number);
+    return any_before(question, number + 1) || any_before(question, node.right);
 }
 
 /// Of the views of a node, to all of which the way is free up to the facet by which it entered a
 /// cell.
 template <typename GoesOn, typename Ask>
-bool ViewTree::any_beyond(const TetMesh& cells, CellFacet entered, const Eigen::Vector3d& place,
-                          std::uint32_t number, const GoesOn& goes_on, const Ask& ask) const
+bool ViewTree::any_beyond(const Question<GoesOn, Ask>& question, CellFacet entered,
+                          std::uint32_t number) const
 {
+    const auto& [cells, facet, place, goes_on, ask] = question;
     const Node& node = nodes_[number];
     if (is_out_of_sight(node, place)) return false;
     if (node.right == 0) return any_of(node, ask);
@@ -118,8 +125,7 @@ bool ViewTree::any_beyond(const TetMesh& cells, CellFacet entered, const Eigen::
         if (!goes_on(*ahead)) return false;
         entered = cells.other_side(*ahead);
     }
-    return any_beyond(cells, entered, place, number + 1, goes_on, ask) ||
-           any_beyond(cells, entered, place, node.right, goes_on, ask);
+    return any_beyond(question, entered, number + 1) || any_beyond(question, entered, node.right);
 }
 
 } // namespace vcarve

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -56,29 +55,40 @@ struct Asked {
     std::size_t seen = 0;
 };
 
-/// Asks of every place on a boundary; each view that sees it must be asked.
+/// How often each view is asked about a place, if all say no.
+std::vector<int> asked_about(const ViewTree& tree, const LabelledScene& made,
+                             const CellFacet& facet, const Vector3d& place)
+{
+    std::vector<int> asked(made.scene.views.size(), 0);
+    const auto goes_on = [&](const CellFacet& ahead) {
+        return made.labels[made.mesh.other_side(ahead).cell] == Label::outside;
+    };
+    EXPECT_FALSE(tree.any_view(made.mesh, facet, place, goes_on, [&](std::uint32_t view) {
+        ++asked[view];
+        return false;
+    }));
+    return asked;
+}
+
+/// Asks of every place on a boundary; each view that sees it must be asked, once as all others.
 Asked ask_everywhere(const LabelledScene& made)
 {
     const ViewTree tree(made.scene);
     Asked sum;
+    const auto ask = [&](const CellFacet& facet, const Vector3d& place) {
+        const std::vector<int> asked = asked_about(tree, made, facet, place);
+        for (std::uint32_t view = 0; view < asked.size(); ++view) {
+            const int seen = made.visibility.sees(view, facet, place) ? 1 : 0;
+            EXPECT_GE(asked[view], seen) << "view " << view;
+            EXPECT_LE(asked[view], 1);
+            sum.seen += static_cast<std::size_t>(seen);
+            sum.asked += static_cast<std::size_t>(asked[view]);
+        }
+        sum.of += asked.size();
+    };
     for (const CellFacet& facet : made.facets) {
-        const auto goes_on = [&](const CellFacet& ahead) {
-            return made.labels[made.mesh.other_side(ahead).cell] == Label::outside;
-        };
         for (const Vector3d& place : made.visibility.places_on(facet)) {
-            std::vector<std::uint8_t> asked(made.scene.views.size(), 0);
-            EXPECT_FALSE(tree.any_view(made.mesh, facet, place, goes_on, [&](std::uint32_t view) {
-                ++asked[view];
-                return false;
-            }));
-            for (std::uint32_t view = 0; view < asked.size(); ++view) {
-                EXPECT_LE(asked[view], 1);
-                const bool sees = made.visibility.sees(view, facet, place);
-                EXPECT_GE(asked[view], sees ? 1 : 0) << "view " << view;
-                sum.seen += sees ? 1U : 0U;
-                sum.asked += asked[view];
-            }
-            sum.of += asked.size();
+            ask(facet, place);
         }
     }
     return sum;
