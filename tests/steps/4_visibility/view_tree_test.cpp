@@ -120,7 +120,7 @@ TEST(ViewTree, AsksFewerOfManyViewsThatAFacetHides)
         const Asked sum = ask_everywhere(labelled(ball_and_views(num_views, 5), 45));
         return static_cast<double>(sum.asked - sum.seen) / static_cast<double>(sum.of - sum.seen);
     };
-    EXPECT_LT(asked_of_unseen(2000), 0.7 * asked_of_unseen(60));
+    EXPECT_LT(asked_of_unseen(1000), 0.7 * asked_of_unseen(60));
 }
 
 TEST(ViewTree, AsksAllViewsBeforeAFacetWhoseLensIsNotKnown)
