@@ -1,5 +1,6 @@
 #include "io/colmap/colmap_model.h"
 
+#include "base/sort_unique.h"
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/scene_builder.h"
@@ -66,14 +67,12 @@ Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat fo
         sights.emplace_back(*point, static_cast<std::uint32_t>(view - scene.views.begin()));
     };
     reader_of(format).read_sights(folder / model_file("images", format), take, progress);
-    std::ranges::sort(sights);
+    sort_unique(sights);
     Tracks tracks;
     auto sight = sights.begin();
     for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
         for (; sight != sights.end() && sight->first == point; ++sight) {
-            const bool is_first = tracks.views.size() == tracks.begins.back();
-            if (is_first || tracks.views.back() != sight->second)
-                tracks.views.push_back(sight->second);
+            tracks.views.push_back(sight->second);
         }
         tracks.begins.push_back(tracks.views.size());
     }

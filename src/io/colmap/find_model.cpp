@@ -200,16 +200,15 @@ FoundModel model_itself(const fs::path& folder, ModelFormat format, PointsFile p
         return is_number(name) && name != own_name;
     };
     if (!is_number(own_name) || std::ranges::none_of(names, is_other)) return found;
-    std::vector<Component> others = components_in(real.parent_path(), points);
-    std::erase_if(others, [&](const Component& other) {
-        return !is_other(other.folder.filename().string());
-    });
-    const auto largest = std::ranges::max_element(others, {}, &Component::num_points);
-    const std::uint64_t own = count_points(folder, format);
-    if (largest != others.end() && largest->num_points > own) {
-        found.notes.push_back(
-            fmt::format("{} has {} points; the largest part of the model is {} ({})",
-                        folder.string(), own, largest->folder.string(), largest->num_points));
+    const auto name_of = [](const Component& part) { return part.folder.filename().string(); };
+    std::vector<Component> parts = components_in(real.parent_path(), points);
+    std::erase_if(parts, [&](const Component& part) { return !is_number(name_of(part)); });
+    const auto own = std::ranges::find(parts, own_name, name_of);
+    const auto largest = std::ranges::max_element(parts, {}, &Component::num_points);
+    if (own != parts.end() && largest->num_points > own->num_points) {
+        found.notes.push_back(fmt::format(
+            "{} has {} points; the largest part of the model is {} ({})", folder.string(),
+            own->num_points, largest->folder.string(), largest->num_points));
     }
     return found;
 }

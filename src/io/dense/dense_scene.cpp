@@ -65,9 +65,8 @@ Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
     scene.cameras = std::move(model.cameras);
     scene.views = std::move(model.views);
     scene.positions = std::move(cloud.positions);
-    scene.is_dense = true;
-    scene.tracks = nearest_sights(scene, progress.part(0.5, 1.0));
     take_attributes(std::move(cloud), 0, scene);
+    scene.tracks = nearest_sights(scene, progress.part(0.5, 1.0));
     return scene;
 }
 

@@ -26,11 +26,6 @@ std::size_t count_with_few(const Tracks& tracks)
     return few;
 }
 
-bool most_have_few(const Scene& scene)
-{
-    return 2 * count_with_few(scene.tracks) > scene.num_points();
-}
-
 /// The views of both; of `more` only where those of `tracks` are few.
 Tracks joined_where_few(const Tracks& tracks, const Tracks& more)
 {
@@ -72,9 +67,10 @@ std::vector<std::string> complete_sights(const FoundInput& found, const DroppedS
                            "no other point stands");
         return notes;
     }
-    if (found.sights == SightsFrom::file || !most_have_few(scene)) return notes;
-
+    if (found.sights == SightsFrom::file) return notes;
+    const auto are_most = [&](std::size_t points) { return 2 * points > scene.num_points(); };
     const std::size_t few = count_with_few(scene.tracks);
+    if (!are_most(few)) return notes;
     scene.tracks =
         joined_where_few(scene.tracks, read_tracks_of_images(model.folder, model.format, scene,
                                                              progress.part(0.0, 0.3)));
@@ -84,7 +80,7 @@ std::vector<std::string> complete_sights(const FoundInput& found, const DroppedS
                                     "points of {} tell which views saw {} of them",
                                     few, images, few - still_few));
     }
-    if (!most_have_few(scene)) return notes;
+    if (!are_most(still_few)) return notes;
     scene.tracks = joined_where_few(scene.tracks, nearest_sights(scene, progress.part(0.3, 1.0)));
     notes.push_back(fmt::format("nothing tells of {} of {} points which two views saw them, so "
                                 "the nearest views are taken before which no other point stands "
