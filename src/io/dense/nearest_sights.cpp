@@ -1,13 +1,17 @@
 #include "io/dense/nearest_sights.h"
 
 #include "base/parallel.h"
-#include "model/camera.h"
+#include "geometry/hilbert_order.h"
+#include "geometry/point_tree.h"
+#include "io/dense/nearest_grid.h"
+#include "model/scene_points.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -17,199 +21,350 @@ namespace vcarve {
 
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr float kNothing = std::numeric_limits<float>::infinity();
-/// How steep a surface may stand before a view: by how much more the distance of its points differs
-/// than they lie apart across the sights.
-constexpr double kSteepest = 2.0;
-/// What depths are off by, as a share of the distance, where squares are small.
-constexpr double kLeastNearer = 0.01;
-/// Squares of the grid are so many times as wide as points stand apart in the image on average.
-constexpr double kSquareWidth = 2.0;
-/// The same of sparse points, in the part of the image that has any: they gather where there is
-/// texture, and leave gaps elsewhere.
-constexpr double kSparseSquareWidth = 4.0;
-/// The points of which every so many are counted to find how far they stand apart.
-constexpr std::size_t kSampled = 16;
-
-/// Where a point is in an image, and how far from its view.
-struct Projected {
-    Vector2d place_px;
-    float distance = 0.0F;
-};
-
-/// The least distances that a view finds in squares of its image.
-class NearestGrid {
-  public:
-    NearestGrid(const View& view, const Scene& scene)
-        : view_(view), camera_(scene.cameras[view.camera])
-    {
-        choose_squares(scene);
-        for (const Vector3d& position : scene.positions) {
-            const auto projected = project_to(position);
-            if (!projected) continue;
-            float& nearest = least_[square_of(projected->place_px)];
-            nearest = std::min(nearest, projected->distance);
-        }
-    }
-
-    /// Whether the point is in the image, and no other is clearly before it.
-    bool sees(const Vector3d& position) const
-    {
-        const auto projected = project_to(position);
-        if (!projected) return false;
-        return least_[square_of(projected->place_px)] >= projected->distance * hides_from_;
-    }
-
-  private:
-    std::optional<Projected> project_to(const Vector3d& position) const
-    {
-        const Vector3d in_camera = view_.cam_from_world * (position - view_.center);
-        if (!in_camera.allFinite() || !image_shows(camera_, in_camera)) return std::nullopt;
-        const auto place_px = project(camera_, in_camera);
-        if (!place_px) return std::nullopt;
-        return Projected{*place_px, static_cast<float>(in_camera.norm())};
-    }
-
-    void choose_squares(const Scene& scene)
-    {
-        std::size_t shown = 1;
-        for (std::size_t i = 0; i < scene.num_points(); i += kSampled) {
-            if (project_to(scene.positions[i])) shown += kSampled;
-        }
-        const auto count = static_cast<double>(shown);
-        lay_squares(kSquareWidth, 1.0, count);
-        if (scene.is_dense) return;
-        constexpr float kTaken = 0.0F;
-        for (const Vector3d& position : scene.positions) {
-            const auto projected = project_to(position);
-            if (projected) least_[square_of(projected->place_px)] = kTaken;
-        }
-        const auto taken = static_cast<double>(std::ranges::count(least_, kTaken));
-        lay_squares(kSparseSquareWidth, taken / static_cast<double>(least_.size()), count);
-    }
-
-    /// Empty ones, so many times as wide as so many points stand apart in a share of the image.
-    void lay_squares(double width, double share, double count)
-    {
-        const auto width_px = static_cast<double>(camera_.width_px);
-        const auto height_px = static_cast<double>(camera_.height_px);
-        // At most as many squares along an edge as points, whatever size an image claims to have.
-        square_px_ = std::max(width * std::sqrt(share * width_px * height_px / count),
-                              std::max(width_px, height_px) / count);
-        columns_ = static_cast<std::size_t>(width_px / square_px_) + 1;
-        rows_ = static_cast<std::size_t>(height_px / square_px_) + 1;
-        least_.assign(columns_ * rows_, kNothing);
-        const double nearer = std::max(kLeastNearer, kSteepest * square_px_ * radians_a_pixel());
-        hides_from_ = static_cast<float>(1.0 - nearer);
-    }
-
-    /// In the middle of the image; zero where its camera shows no direction there.
-    double radians_a_pixel() const
-    {
-        const Vector2d middle(0.5 * static_cast<double>(camera_.width_px),
-                              0.5 * static_cast<double>(camera_.height_px));
-        const auto ahead = ray(camera_, middle);
-        const auto beside = ray(camera_, middle + Vector2d::UnitX());
-        return ahead && beside ? (*ahead - *beside).norm() : 0.0;
-    }
-
-    std::size_t square_of(const Vector2d& place_px) const
-    {
-        const auto index = [&](double place, std::size_t count) {
-            const double last = static_cast<double>(count) - 1.0;
-            return static_cast<std::size_t>(std::clamp(place / square_px_, 0.0, last));
-        };
-        return index(place_px.y(), rows_) * columns_ + index(place_px.x(), columns_);
-    }
-
-    const View& view_;
-    const Camera& camera_;
-    double square_px_ = 1.0;
-    float hides_from_ = 1.0F; ///< of a point's distance: what is nearer hides it
-    std::size_t columns_ = 1;
-    std::size_t rows_ = 1;
-    std::vector<float> least_; ///< of each square, row by row
-};
-
-/// A camera whose lens or image is not known shows nothing that could be told.
-bool can_show(const Camera& camera)
-{
-    return camera.width_px > 0 && camera.height_px > 0;
-}
-
+/// Of the views that have a point in their image so many are asked, the nearest first, and then so
+/// many more where some of them do not see it.
+constexpr std::array<std::size_t, 2> kAsked{kMostNearestViews, 24};
+constexpr std::size_t kMostAsked = kAsked.back();
+/// So few views look at all points, instead of at what may hide what they are asked about.
+constexpr std::size_t kFewViews = 64;
+/// How far points stand apart in an image is told by so many of them, or twice as many.
+constexpr std::size_t kSampled = 8192;
 constexpr std::uint32_t kNoView = 0xffffffffU; ///< stands in a place that is left
 
-/// The views of a point, ascending; the rest of the places stay empty.
+/// Views, those that are kept first; the rest of the places stay empty.
+template <std::size_t kMost>
 struct Row {
-    std::array<std::uint32_t, kMostNearestViews> views;
+    std::array<std::uint32_t, kMost> views;
     std::uint32_t count = 0;
-};
 
-class NearestViews {
+    Row() { views.fill(kNoView); }
+    void push_back(std::uint32_t view) { views[count++] = view; }
+};
+using Asked = Row<kMostAsked>;
+using Seen = Row<kMostNearestViews>;
+
+/// A camera whose lens or image is not known shows nothing that could be told.
+bool can_show(const Scene& scene, std::size_t view)
+{
+    const Camera& camera = scene.cameras[scene.views[view].camera];
+    return camera.width_px > 0 && camera.height_px > 0 && scene.views[view].center.allFinite();
+}
+
+/// The views from the nearest to a place on that have it in their image.
+class ViewsAround {
   public:
-    NearestViews(const Scene& scene, const Progress& progress) : scene_(scene)
+    explicit ViewsAround(const Scene& scene)
+        : scene_(scene), numbers_(views_that_show(scene)), centers_(centers_of(scene, numbers_))
     {
-        grids_.resize(scene.views.size());
-        const auto make = [&](std::size_t i) {
-            const Camera& camera = scene.cameras[scene.views[i].camera];
-            if (can_show(camera)) grids_[i].emplace(scene.views[i], scene);
-        };
-        parallel_for(grids_.size(), progress, make, 1);
+        const std::vector<std::uint32_t> order = hilbert_order(centers_);
+        numbers_ = values_at(order, numbers_);
+        centers_ = values_at(order, centers_);
+        if (!centers_.empty()) tree_.emplace(centers_);
     }
 
-    /// `order` is what the views are sorted in, and empty.
-    Row of_point(std::size_t point, std::vector<std::pair<double, std::uint32_t>>& order) const
+    /// Up to `most` after the first `passed` views, however many of these showed the place;
+    /// `passed` is raised by those that were looked at.
+    Asked next(const Vector3d& place, std::size_t most, std::uint32_t& passed) const
     {
-        Row row;
-        row.views.fill(kNoView);
-        const Vector3d& position = scene_.positions[point];
-        if (!position.allFinite()) return row;
-        for (std::uint32_t view = 0; view < scene_.views.size(); ++view) {
-            if (grids_[view]) {
-                order.emplace_back((scene_.views[view].center - position).squaredNorm(), view);
+        thread_local std::vector<PointTree::Near> near;
+        Asked row;
+        std::size_t count = passed + most + most / 2;
+        while (passed < centers_.size() && row.count < most) {
+            order_by_distance(place, count, near);
+            for (; passed < near.size() && row.count < most; ++passed) {
+                const std::uint32_t view = numbers_[near[passed].point];
+                if (shows(view, place)) row.push_back(view);
             }
+            count *= 4;
         }
-        std::ranges::make_heap(order, std::greater<>());
-        while (!order.empty() && row.count < kMostNearestViews) {
-            const std::uint32_t view = order.front().second;
-            if (grids_[view]->sees(position)) row.views[row.count++] = view;
-            std::ranges::pop_heap(order, std::greater<>());
-            order.pop_back();
-        }
-        std::ranges::sort(row.views); // those that are left come last
         return row;
     }
 
   private:
+    static std::vector<std::uint32_t> views_that_show(const Scene& scene)
+    {
+        std::vector<std::uint32_t> views;
+        for (std::uint32_t view = 0; view < scene.views.size(); ++view) {
+            if (can_show(scene, view)) views.push_back(view);
+        }
+        return views;
+    }
+
+    static std::vector<Vector3d> centers_of(const Scene& scene,
+                                            const std::vector<std::uint32_t>& views)
+    {
+        std::vector<Vector3d> centers;
+        for (const std::uint32_t view : views) {
+            centers.push_back(scene.views[view].center);
+        }
+        return centers;
+    }
+
+    bool shows(std::uint32_t view, const Vector3d& place) const
+    {
+        const View& of = scene_.views[view];
+        return project_into(of, scene_.cameras[of.camera], place).has_value();
+    }
+
+    /// So many views at least, the nearest first.
+    void order_by_distance(const Vector3d& place, std::size_t count,
+                           std::vector<PointTree::Near>& near) const
+    {
+        constexpr std::size_t kMostByTree = 256; // whose order is kept while they are found
+        if (count <= kMostByTree && count < centers_.size()) {
+            tree_->find_nearest(place, count, near);
+            return;
+        }
+        near.clear();
+        for (std::size_t i = 0; i < centers_.size(); ++i) {
+            near.push_back({(centers_[i] - place).norm(), i});
+        }
+        std::ranges::sort(near);
+    }
+
     const Scene& scene_;
-    std::vector<std::optional<NearestGrid>> grids_; ///< a view
+    std::vector<std::uint32_t> numbers_; ///< of the views, which follow each other in space
+    std::vector<Vector3d> centers_;
+    std::optional<PointTree> tree_;
 };
+
+/// Points that follow each other in space, and what hides them from views.
+class Hiding {
+  public:
+    Hiding(const Scene& scene, const std::vector<Vector3d>& places)
+        : scene_(scene), places_(places), tree_(places)
+    {
+        if (scene.views.size() > kFewViews) return;
+        whole_.resize(scene.views.size());
+        const auto show_all = [&](std::size_t i) {
+            if (!can_show(scene, i)) return;
+            NearestGrid& grid = whole_[i].emplace(empty_grid(scene.views[i]));
+            std::ranges::for_each(places_, [&](const Vector3d& place) { grid.add(place); });
+        };
+        parallel_for(whole_.size(), show_all, 1);
+    }
+
+    /// Tells is_seen(i, sees) of each of some points whether a view sees it. Cost: O(points before
+    /// the farthest of them, within the cone around them).
+    template <typename IsSeen>
+    void ask(std::size_t number, std::span<const std::size_t> points, const IsSeen& is_seen) const
+    {
+        if (!whole_.empty()) {
+            answer(*whole_[number], points, is_seen);
+            return;
+        }
+        const View& view = scene_.views[number];
+        NearestGrid grid = empty_grid(view);
+        const Cone cone = cone_around(view, points, grid.square_angle());
+        const auto bound = [&](const Box& box) { return distance_in(cone, box); };
+        tree_.visit_foreign({0, 0}, cone.length, bound,
+                            [&](std::size_t i) { grid.add(places_[i]); });
+        answer(grid, points, is_seen);
+    }
+
+  private:
+    NearestGrid empty_grid(const View& view) const
+    {
+        constexpr std::size_t kDenseStride = 16; // these stand evenly
+        const std::size_t stride = 1 + places_.size() / (2 * kSampled);
+        return {view, scene_, places_, scene_.is_dense ? std::max(stride, kDenseStride) : stride};
+    }
+
+    template <typename IsSeen>
+    void answer(const NearestGrid& grid, std::span<const std::size_t> points,
+                const IsSeen& is_seen) const
+    {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            is_seen(i, grid.sees(places_[points[i]]));
+        }
+    }
+
+    struct Cone {
+        Vector3d tip;
+        Vector3d axis;
+        double angle;  ///< from the axis to its side
+        double length; ///< along its side
+    };
+
+    /// Around points and what lies in one square of an image with them.
+    Cone cone_around(const View& view, std::span<const std::size_t> points, double square) const
+    {
+        constexpr double kMargin = 4.0; // squares at the edge of an image may be wider
+        Cone cone{view.center, Vector3d::Zero(), 0.0, 0.0};
+        for (const std::size_t point : points) {
+            const Vector3d way = places_[point] - view.center;
+            cone.axis += way.stableNormalized();
+            cone.length = std::max(cone.length, way.norm());
+        }
+        cone.axis.stableNormalize();
+        double least = 1.0;
+        for (const std::size_t point : points) {
+            const Vector3d way = places_[point] - view.center;
+            least = std::min(least, cone.axis.dot(way.stableNormalized()));
+        }
+        cone.angle = std::acos(std::max(least, -1.0)) + kMargin * square;
+        return cone;
+    }
+
+    /// How far the tip of a cone is from a box; infinite where no part of it is in the cone.
+    static double distance_in(const Cone& cone, const Box& box)
+    {
+        const Vector3d middle = 0.5 * (box.low + box.high) - cone.tip;
+        const double distance = middle.norm();
+        const double radius = 0.5 * (box.high - box.low).norm();
+        if (distance > radius) {
+            const double off = std::acos(std::clamp(cone.axis.dot(middle) / distance, -1.0, 1.0));
+            if (off - std::asin(radius / distance) > cone.angle)
+                return std::numeric_limits<double>::infinity();
+        }
+        return distance_between({cone.tip, cone.tip}, box);
+    }
+
+    const Scene& scene_;
+    const std::vector<Vector3d>& places_;
+    PointTree tree_;
+    std::vector<std::optional<NearestGrid>> whole_; ///< a view's, of all points
+};
+
+/// Those of some points that views are asked about, view by view.
+class Questions {
+  public:
+    Questions(const std::vector<Asked>& asked, std::size_t num_views) : begins_(num_views + 1)
+    {
+        for (const Asked& row : asked) {
+            for (std::size_t i = 0; i < row.count; ++i) {
+                ++begins_[row.views[i] + 1];
+            }
+        }
+        std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+        places_.resize(begins_.back());
+        std::vector<std::size_t> next = begins_;
+        for (std::size_t point = 0; point < asked.size(); ++point) {
+            for (std::size_t i = 0; i < asked[point].count; ++i) {
+                places_[next[asked[point].views[i]]++] = point * kMostAsked + i;
+            }
+        }
+    }
+
+    /// Of a view: kMostAsked times the number of a row, and which of its views it is.
+    std::span<const std::size_t> of(std::size_t view) const
+    {
+        return std::span(places_).subspan(begins_[view], begins_[view + 1] - begins_[view]);
+    }
+
+  private:
+    std::vector<std::size_t> begins_; ///< a view's are places_[begins_[view]] up to the next one's
+    std::vector<std::size_t> places_;
+};
+
+/// Finds the sights of points that follow each other in space, a run of them at a time.
+class NearestViews {
+  public:
+    NearestViews(const Scene& scene, const std::vector<Vector3d>& places)
+        : scene_(scene), places_(places), views_(scene), hiding_(scene, places)
+    {
+    }
+
+    /// Of the points of a run, in their order.
+    std::vector<Seen> find(const PointRun& run, const Progress& progress) const
+    {
+        std::vector<Seen> rows(run.size());
+        std::vector<std::uint32_t> passed(run.size());
+        std::vector<std::uint32_t> left(run.size()); // of the run, which may get more
+        std::iota(left.begin(), left.end(), 0U);
+        for (const std::size_t most : kAsked) {
+            const bool is_first = most == kAsked.front();
+            const Progress part = progress.part(is_first ? 0.0 : 0.5, is_first ? 0.5 : 1.0);
+            std::vector<Asked> asked(left.size());
+            parallel_for(left.size(), part.part(0.0, 0.4), [&](std::size_t i) {
+                asked[i] = views_.next(places_[run.first + left[i]], most, passed[left[i]]);
+            });
+            const std::vector<std::uint8_t> sees =
+                ask(run.first, left, Questions(asked, scene_.views.size()), part.part(0.4, 1.0));
+            keep_seen(left, asked, sees, rows);
+        }
+        return rows;
+    }
+
+  private:
+    /// Of each question whether the answer is yes; the points are so many after the first.
+    std::vector<std::uint8_t> ask(std::size_t first, const std::vector<std::uint32_t>& left,
+                                  const Questions& questions, const Progress& progress) const
+    {
+        std::vector<std::uint8_t> sees(left.size() * kMostAsked);
+        const auto ask_view = [&](std::size_t view) {
+            const std::span<const std::size_t> of_view = questions.of(view);
+            if (of_view.empty()) return;
+            std::vector<std::size_t> points(of_view.size());
+            std::ranges::transform(of_view, points.begin(), [&](std::size_t place) {
+                return first + left[place / kMostAsked];
+            });
+            hiding_.ask(view, points,
+                        [&](std::size_t i, bool is_seen) { sees[of_view[i]] = is_seen ? 1 : 0; });
+        };
+        parallel_for(scene_.views.size(), progress, ask_view, 1);
+        return sees;
+    }
+
+    /// Keeps the views that see, and of the points those that may get more.
+    static void keep_seen(std::vector<std::uint32_t>& left, const std::vector<Asked>& asked,
+                          const std::vector<std::uint8_t>& sees, std::vector<Seen>& rows)
+    {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            Seen& row = rows[left[i]];
+            for (std::size_t k = 0; k < asked[i].count && row.count < kMostNearestViews; ++k) {
+                if (sees[i * kMostAsked + k] != 0) row.push_back(asked[i].views[k]);
+            }
+            if (asked[i].count > 0 && row.count < kMostNearestViews) left[kept++] = left[i];
+        }
+        left.resize(kept);
+    }
+
+    const Scene& scene_;
+    const std::vector<Vector3d>& places_;
+    ViewsAround views_;
+    Hiding hiding_;
+};
+
+/// The finite points along a Hilbert curve.
+std::vector<std::uint32_t> order_of(const std::vector<Vector3d>& positions)
+{
+    std::vector<std::uint32_t> finite;
+    for (std::uint32_t i = 0; i < positions.size(); ++i) {
+        if (positions[i].allFinite()) finite.push_back(i);
+    }
+    return values_at(hilbert_order(values_at(finite, positions)), finite);
+}
 
 } // namespace
 
 Tracks nearest_sights(const Scene& scene, const Progress& progress)
 {
-    using Order = std::pair<double, std::uint32_t>;
-    const NearestViews nearest(scene, progress.part(0.0, 0.5));
-    const Progress second = progress.part(0.5, 1.0);
-    std::vector<Row> rows(scene.num_points());
-    const auto find_range = [&](std::size_t first, std::size_t last) {
-        std::vector<Order> order;
-        for (std::size_t point = first; point != last; ++point) {
-            order.clear();
-            rows[point] = nearest.of_point(point, order);
+    const std::vector<std::uint32_t> order = order_of(scene.positions);
+    const std::vector<Vector3d> places = values_at(order, scene.positions);
+    std::vector<Seen> rows(scene.num_points());
+    if (!places.empty()) {
+        constexpr std::size_t kAtOnce = std::size_t{1} << 18U; // so that questions take little
+        const NearestViews nearest(scene, places);
+        const auto share = [&](std::size_t point) {
+            return static_cast<double>(point) / static_cast<double>(places.size());
+        };
+        for (std::size_t first = 0; first < places.size(); first += kAtOnce) {
+            const PointRun run{first, std::min(places.size(), first + kAtOnce)};
+            const std::vector<Seen> found =
+                nearest.find(run, progress.part(share(run.first), share(run.last)));
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                Seen& row = rows[order[run.first + i]];
+                row = found[i];
+                std::ranges::sort(row.views); // the empty places come last
+            }
         }
-    };
-    parallel_for_ranges(rows.size(), second, find_range);
-    Tracks tracks;
-    tracks.begins.reserve(rows.size() + 1);
-    for (const Row& row : rows) {
-        tracks.push_back(std::span(row.views).first(row.count));
     }
-    return tracks;
+    return make_tracks(
+        rows.size(), [&](std::size_t i) { return std::span(rows[i].views).first(rows[i].count); });
 }
 
 } // namespace vcarve

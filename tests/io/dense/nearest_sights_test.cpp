@@ -1,11 +1,16 @@
+#include "io/dense/nearest_grid.h"
 #include "io/dense/nearest_sights.h"
 #include "support/scene_checks.h"
+#include "support/scenes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
 #include <vector>
 
 namespace vcarve {
@@ -51,6 +56,62 @@ Scene two_squares()
 std::vector<std::uint32_t> row(const Tracks& tracks, std::size_t point)
 {
     return {tracks[point].begin(), tracks[point].end()};
+}
+
+/// The same rule, followed by showing every view every point and asking one after the other.
+std::vector<std::uint32_t> sights_by_asking_all(const Scene& scene,
+                                                const std::vector<NearestGrid>& grids,
+                                                const Vector3d& place)
+{
+    std::vector<std::uint32_t> order(scene.views.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::sort(
+        order, {}, [&](std::uint32_t view) { return (scene.views[view].center - place).norm(); });
+    std::vector<std::uint32_t> row;
+    std::size_t shown = 0;
+    for (const std::uint32_t view : order) {
+        if (!project_into(scene.views[view], scene.cameras[0], place)) continue;
+        if (++shown > 32 || row.size() == kMostNearestViews) break;
+        if (grids[view].sees(place)) row.push_back(view);
+    }
+    std::ranges::sort(row);
+    return row;
+}
+
+/// A ball with points within, and views all around it that look at it or past it.
+Scene ball_among_views(std::size_t num_views)
+{
+    Scene scene = bumpy_sphere(3000, 5);
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    const auto anywhere = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
+    scene.views.resize(1);
+    scene.views.resize(num_views, scene.views.front());
+    for (View& view : scene.views) {
+        view.center = (3.0 + std::abs(normal(random))) * anywhere().normalized();
+        const Vector3d ahead = anywhere() - view.center;
+        view.cam_from_world = Eigen::Quaterniond::FromTwoVectors(ahead, Vector3d::UnitZ());
+    }
+    return scene;
+}
+
+TEST(NearestSights, AreAsIfEveryViewWereShownEveryPoint)
+{
+    for (const std::size_t num_views : {5U, 60U, 500U}) {
+        const Scene scene = ball_among_views(num_views);
+        std::vector<NearestGrid> grids;
+        for (const View& view : scene.views) {
+            grids.emplace_back(view, scene, scene.positions, 1);
+            for (const Vector3d& position : scene.positions) {
+                grids.back().add(position);
+            }
+        }
+        const Tracks tracks = nearest_sights(scene);
+        for (std::size_t i = 0; i < scene.num_points(); ++i) {
+            ASSERT_EQ(row(tracks, i), sights_by_asking_all(scene, grids, scene.positions[i]))
+                << i << " of " << num_views << " views";
+        }
+    }
 }
 
 TEST(NearestSights, DoNotGoThroughAnotherSurface)

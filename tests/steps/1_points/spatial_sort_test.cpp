@@ -36,18 +36,5 @@ TEST(SpatialSortPoints, KeepsWhatBelongsToAPointTogether)
     }
 }
 
-TEST(SpatialSortPoints, PutsNeighboursNextToEachOther)
-{
-    const Scene scene = bumpy_sphere(4000, 13);
-    const auto way = [](const Scene& s) {
-        double length = 0.0;
-        for (std::size_t i = 1; i < s.num_points(); ++i) {
-            length += (s.positions[i] - s.positions[i - 1]).norm();
-        }
-        return length;
-    };
-    EXPECT_LT(way(spatial_sort(scene)), 0.2 * way(scene));
-}
-
 } // namespace
 } // namespace vcarve

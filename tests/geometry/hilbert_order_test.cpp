@@ -1,0 +1,53 @@
+#include "geometry/hilbert_order.h"
+#include "support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<Vector3d> in_order(const std::vector<Vector3d>& places)
+{
+    std::vector<Vector3d> ordered;
+    for (const std::uint32_t place : hilbert_order(places)) {
+        ordered.push_back(places[place]);
+    }
+    return ordered;
+}
+
+TEST(HilbertOrder, NamesEachPlaceOnce)
+{
+    std::vector<std::uint32_t> order = hilbert_order(bumpy_sphere(1000, 3).positions);
+    std::ranges::sort(order);
+    std::vector<std::uint32_t> all(1000);
+    std::iota(all.begin(), all.end(), 0U);
+    EXPECT_EQ(order, all);
+    EXPECT_TRUE(hilbert_order({}).empty());
+}
+
+TEST(HilbertOrder, DoesNotDependOnTheOrderOfTheInput)
+{
+    const Scene scene = bumpy_sphere(2000, 11);
+    EXPECT_EQ(in_order(scene.positions), in_order(permuted(scene, 3).positions));
+}
+
+TEST(HilbertOrder, PutsNeighboursNextToEachOther)
+{
+    const std::vector<Vector3d> places = bumpy_sphere(4000, 13).positions;
+    const auto way = [](const std::vector<Vector3d>& along) {
+        double length = 0.0;
+        for (std::size_t i = 1; i < along.size(); ++i) {
+            length += (along[i] - along[i - 1]).norm();
+        }
+        return length;
+    };
+    EXPECT_LT(way(in_order(places)), 0.2 * way(places));
+}
+
+} // namespace
+} // namespace vcarve
