@@ -26,13 +26,11 @@ int main(int count, char** words)
 {
     try {
         if (count != 4)
-            throw vcarve::UsageError("make_sample_model surface|terrain|hall POINTS FOLDER");
+            throw vcarve::UsageError("make_sample_model surface|terrain|hall|wide POINTS FOLDER");
         const std::size_t points = count_in(words[2]);
         vcarve::bench::SampleKind kind;
         kind.shape = vcarve::bench::shape_named(words[1]);
-        const auto views = vcarve::bench::usual_views(points);
-        vcarve::bench::write_colmap_model(words[3],
-                                          *vcarve::bench::sample_parts(kind, points, views));
+        vcarve::bench::write_colmap_model(words[3], *vcarve::bench::sample_parts(kind, points));
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "make_sample_model: %s\n", error.what());

@@ -121,7 +121,7 @@ Json stages_of(const cli::Json& recorded, const Meter& meter, const Run& run, in
 void make_model(const std::filesystem::path& folder, const SampleKind& kind, std::size_t points)
 {
     if (std::filesystem::exists(folder)) return;
-    write_colmap_model(folder, *sample_parts(kind, points, usual_views(points)));
+    write_colmap_model(folder, *sample_parts(kind, points));
 }
 
 Json prepare(const Sample& sample)

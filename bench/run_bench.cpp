@@ -4,6 +4,7 @@
 
 #include "block_bench.h"
 #include "measurements.h"
+#include "program_run.h"
 #include "rank_bench.h"
 #include "run_report.h"
 
@@ -27,13 +28,16 @@ namespace {
 
 struct Arguments {
     std::filesystem::path folder;              ///< for models and surfaces
-    std::vector<std::filesystem::path> models; ///< to measure; none: samples are made
-    std::string shape = "surface";
+    std::vector<std::filesystem::path> models; ///< to measure
+    std::vector<std::string> shapes = {"surface"};
     std::vector<double> noise_along = {SampleKind().noise_along};
     std::vector<double> noise_across; ///< none: as along
     std::vector<double> outliers = {SampleKind().outliers};
     bool clustered = false;
-    std::vector<std::uint64_t> points = {10'000, 100'000};
+    std::size_t views = SampleKind().views;
+    std::vector<std::uint64_t>
+        points;                 ///< of samples; none: the usual sizes, unless there are models
+    std::filesystem::path peer; ///< empty: none is timed
     std::vector<int> threads = {1, 2};
     std::size_t rounds = 3;
     std::vector<std::string> blocks; ///< none: runs are not measured in blocks
@@ -59,6 +63,7 @@ std::map<int, Json> medians_of(const Rounds& rounds)
 SampleResult measure(const Sample& sample, const Arguments& arguments)
 {
     std::vector<Json> sequential;
+    std::vector<Json> peer;
     Rounds parallel;
     Rounds runs;
     const auto measure_all = [&](int threads) {
@@ -72,9 +77,13 @@ SampleResult measure(const Sample& sample, const Arguments& arguments)
         sequential.push_back(
             in_own_process([&] { return measure_sequential_triangulation(sample); }));
         std::ranges::for_each(arguments.threads, measure_all);
+        if (arguments.peer.empty()) continue;
+        peer.push_back(measure_program({arguments.peer, sample.model, sample.scratch / "peer.ply"},
+                                       sample.scratch / "none"));
     }
     return {.sizes = {},
             .sequential = median_of(sequential),
+            .peer = peer.empty() ? Json() : median_of(peer),
             .parallel = medians_of(parallel),
             .runs = medians_of(runs)};
 }
@@ -103,26 +112,37 @@ std::string rank_line()
         load_line(), std::thread::hardware_concurrency());
 }
 
-/// Every noise with every share of outliers.
+/// Every shape with every noise and every share of outliers.
 std::vector<SampleKind> kinds(const Arguments& arguments)
 {
     std::vector<SampleKind> result;
-    SampleKind kind;
-    kind.shape = shape_named(arguments.shape);
-    kind.clustered = arguments.clustered;
-    for (const double along : arguments.noise_along) {
+    const auto add = [&](SampleKind kind, double along) {
+        kind.noise_along = along;
         const std::vector<double> as_along = {along};
         for (const double across :
              arguments.noise_across.empty() ? as_along : arguments.noise_across) {
-            kind.noise_along = along;
             kind.noise_across = across;
             for (const double outliers : arguments.outliers) {
                 kind.outliers = outliers;
                 result.push_back(kind);
             }
         }
+    };
+    for (const std::string& shape : arguments.shapes) {
+        for (const double along : arguments.noise_along) {
+            add({.shape = shape_named(shape),
+                 .clustered = arguments.clustered,
+                 .views = arguments.views},
+                along);
+        }
     }
     return result;
+}
+
+std::vector<std::uint64_t> sizes(const Arguments& arguments)
+{
+    if (!arguments.points.empty()) return arguments.points;
+    return {10'000, 100'000};
 }
 
 /// A model made of so many points.
@@ -136,16 +156,16 @@ Sample made_sample(const Arguments& arguments, const SampleKind& kind, std::uint
     return {folder, folder};
 }
 
-/// The models given, or models made of as many points as asked for.
+/// The models given, and models made of as many points as asked for.
 std::vector<Sample> samples(const Arguments& arguments)
 {
     std::vector<Sample> result;
     for (const std::filesystem::path& model : arguments.models) {
         result.push_back({model, arguments.folder / std::to_string(result.size())});
     }
-    if (!result.empty()) return result;
+    if (!result.empty() && arguments.points.empty()) return result;
     for (const SampleKind& kind : kinds(arguments)) {
-        for (const std::uint64_t points : arguments.points) {
+        for (const std::uint64_t points : sizes(arguments)) {
             result.push_back(made_sample(arguments, kind, points));
         }
     }
@@ -202,7 +222,7 @@ bool run_on_ranks(const Arguments& arguments)
     bool is_same = true;
     fmt::print("{}\n\n", rank_line());
     for (const SampleKind& kind : kinds(arguments)) {
-        for (const std::uint64_t points : arguments.points) {
+        for (const std::uint64_t points : sizes(arguments)) {
             const auto results = measure_ranks(rank_models(arguments, kind, points), runs);
             const std::string title = fmt::format("{}: {} points a rank", name_of(kind), points);
             fmt::print("{}\n", rank_report(title, results));
@@ -235,9 +255,11 @@ void run(const Arguments& arguments)
 
 void add_sample_options(CLI::App& app, Arguments& arguments)
 {
-    app.add_option("--model", arguments.models, "models or dense workspaces, instead of samples")
+    app.add_option("--model", arguments.models,
+                   "models or dense workspaces; with --points beside samples")
         ->check(CLI::ExistingDirectory);
-    app.add_option("--shape", arguments.shape, "surface, terrain or hall");
+    app.add_option("--shape", arguments.shapes, "surface,terrain,hall,wide")->delimiter(',');
+    app.add_option("--views", arguments.views, "of a sample; 100, or 300 from a million points on");
     app.add_option("--noise", arguments.noise_along,
                    "of points along their sights, in spacings of the points: .1,.25,.5,1")
         ->delimiter(',')
@@ -301,6 +323,9 @@ int main(int count, char** words)
         vcarve::bench::add_sample_options(app, arguments);
         vcarve::bench::add_block_options(app, arguments);
         vcarve::bench::add_rank_options(app, arguments);
+        app.add_option("--peer", arguments.peer,
+                       "a program that is run in turn, as PROGRAM MODEL OUT.ply")
+            ->check(CLI::ExistingFile);
         app.add_option("--threads", arguments.threads, "1,2")->delimiter(',');
         app.add_option("--rounds", arguments.rounds, "of which medians are printed")
             ->check(CLI::PositiveNumber);

@@ -147,24 +147,30 @@ std::string report(const SampleResult& result)
 
 std::string summary(const std::vector<SampleResult>& results)
 {
-    std::string text =
-        "| model | points | sights | threads | CGAL, s | run, s | x CGAL | triangulate "
-        "| sights | cut | bytes a point |\n"
-        "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
+    constexpr const char* kStages[] = {"fill", "triangulate", "sights", "cut", "surface"};
+    std::string text = "| model | points | sights | views | threads | CGAL, s | run, s | x CGAL | "
+                       "x one thread | fill | triangulate | sights | cut | surface | "
+                       "bytes a point | peer, s |\n"
+                       "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
+                       "---:|---:|\n";
     for (const SampleResult& result : results) {
         const auto& [threads, run] = *result.runs.rbegin();
         const auto parallel = result.parallel.find(threads);
         const double cgal_s =
             seconds_of(parallel != result.parallel.end() ? parallel->second : result.sequential);
         const std::filesystem::path model = result.sizes["model"].get<std::string>();
-        text +=
-            fmt::format("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | "
-                        "{:.2f} | {:.0f} |\n",
-                        model.filename().string(), result.sizes["points"].get<std::size_t>(),
-                        result.sizes["sights"].get<std::size_t>(), threads, cgal_s, seconds_of(run),
-                        seconds_of(run) / cgal_s, seconds_of_stage(run, "triangulate"),
-                        seconds_of_stage(run, "sights"), seconds_of_stage(run, "cut"),
-                        run["peak_bytes"].get<double>() / result.sizes["points"].get<double>());
+        const auto points = result.sizes["points"].get<std::size_t>();
+        text += fmt::format(
+            "| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |",
+            model.filename().string(), points, result.sizes["sights"].get<std::size_t>(),
+            result.sizes["views"].get<std::size_t>(), threads, cgal_s, seconds_of(run),
+            seconds_of(run) / cgal_s, seconds_of(result.runs.begin()->second) / seconds_of(run));
+        for (const char* stage : kStages) {
+            text += fmt::format(" {:.2f} |", seconds_of_stage(run, stage));
+        }
+        text += fmt::format(" {:.0f} | {} |\n",
+                            run["peak_bytes"].get<double>() / static_cast<double>(points),
+                            result.peer.is_null() ? "-" : two_digits(seconds_of(result.peer)));
     }
     return text;
 }
@@ -173,6 +179,7 @@ Json json_of(const SampleResult& result)
 {
     Json json = result.sizes;
     json["sequential_triangulation"] = result.sequential;
+    json["peer"] = result.peer;
     for (const auto& [threads, measured] : result.parallel) {
         json["parallel_triangulation"][std::to_string(threads)] = measured;
     }

@@ -12,6 +12,7 @@ namespace vcarve::bench {
 struct SampleResult {
     Json sizes;                   ///< as prepare() has it
     Json sequential;              ///< CGAL's triangulation
+    Json peer;                    ///< another program's whole run; null where none was given
     std::map<int, Json> parallel; ///< by the number of threads, from two on
     std::map<int, Json> runs;     ///< by the number of threads
 };
@@ -24,7 +25,8 @@ Json median_of(const std::vector<Json>& measurements);
 std::string report(const SampleResult& result);
 
 /// A table in Markdown with a row for each sample: what its run on most threads took, and how much
-/// of it the triangulation, the sights and the cut, against CGAL's triangulation.
+/// of it added points, the triangulation, the sights, the cut and the surface, against CGAL's
+/// triangulation and another program.
 std::string summary(const std::vector<SampleResult>& results);
 
 /// All figures.

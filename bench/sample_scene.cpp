@@ -18,10 +18,16 @@ namespace {
 using Eigen::Vector3d;
 using ViewIndices = std::vector<std::uint32_t>;
 
-/// For each view those near it, the nearest (itself) first.
-std::vector<ViewIndices> nearby_views(const std::vector<View>& views)
+/// Sights of a point leave from views so near to each other; of a wide shape from any.
+std::size_t most_nearby(const SampleKind& kind, std::size_t views)
 {
     constexpr std::size_t kNearby = 12;
+    return kind.shape == Shape::wide ? views : std::min(kNearby, views);
+}
+
+/// For each view so many near it, the nearest (itself) first.
+std::vector<ViewIndices> nearby_views(const std::vector<View>& views, std::size_t most)
+{
     ViewIndices all(views.size());
     std::iota(all.begin(), all.end(), 0U);
     std::vector<ViewIndices> nearby;
@@ -30,8 +36,7 @@ std::vector<ViewIndices> nearby_views(const std::vector<View>& views)
             return (views[i].center - view.center).squaredNorm();
         };
         std::ranges::stable_sort(all, {}, distance);
-        nearby.emplace_back(
-            all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(kNearby, all.size())));
+        nearby.emplace_back(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(most));
     }
     return nearby;
 }
@@ -44,7 +49,7 @@ class Photographer {
                  double spacing)
         : shape_(shape),
           views_(std::move(views)),
-          nearby_(nearby_views(views_)),
+          nearby_(nearby_views(views_, most_nearby(kind, views_.size()))),
           kind_(kind),
           spacing_(spacing)
     {
@@ -56,14 +61,17 @@ class Photographer {
     {
         Random random(seed);
         for (std::size_t i = 0; i < count; ++i) {
-            random.uniform() < kind_.outliers ? add_outlier(random, scene)
-                                              : add_inlier(random, scene);
+            const bool is_outlier = random.uniform() < kind_.outliers;
+            is_outlier&& kind_.shape != Shape::wide ? add_outlier(random, scene)
+                                                    : add_seen(is_outlier, random, scene);
         }
     }
 
   private:
-    void add_inlier(Random& random, Scene& scene) const
+    /// On the shape, but for noise; an outlier slides along its first sight.
+    void add_seen(bool is_outlier, Random& random, Scene& scene) const
     {
+        constexpr double kSlide = 0.25;
         const std::size_t wanted = track_length(random);
         while (true) {
             const Spot spot = shape_.spot(random);
@@ -75,7 +83,11 @@ class Photographer {
                         [&](std::uint32_t view) { return sees(views_[view], spot); });
             // What fewer than two views see is in no model
             if (track.size() < 2) continue;
-            const Vector3d noise = spacing_ / std::sqrt(density) * noise_of(spot, track, random);
+            Vector3d noise = spacing_ / std::sqrt(density) * noise_of(spot, track, random);
+            if (is_outlier) {
+                const Vector3d sight = views_[track.front()].center - spot.position;
+                noise += kSlide * random.normal_3d().x() * sight.normalized();
+            }
             return add(spot.position + noise, track, random, scene);
         }
     }
@@ -199,6 +211,7 @@ std::unique_ptr<SampleShape> make_shape(Shape shape)
 {
     switch (shape) {
     case Shape::surface:
+    case Shape::wide:
         return bumpy_ball();
     case Shape::terrain:
         return terrain();
@@ -236,10 +249,10 @@ Scene numbered_views(std::vector<View> views)
 
 class SampleParts final : public SceneParts {
   public:
-    SampleParts(const SampleKind& kind, std::size_t points, std::size_t views)
+    SampleParts(const SampleKind& kind, std::size_t points)
         : shape_(make_shape(kind.shape)),
           num_points_(points),
-          photographer_(*shape_, shape_->views(views), kind,
+          photographer_(*shape_, shape_->views(kind.views_of(points)), kind,
                         std::sqrt(shape_->area() / static_cast<double>(points))),
           views_(numbered_views(photographer_.views()))
     {
@@ -282,10 +295,11 @@ class SampleParts final : public SceneParts {
 
 Shape shape_named(std::string_view name)
 {
-    for (const Shape shape : {Shape::surface, Shape::terrain, Shape::hall}) {
+    for (const Shape shape : {Shape::surface, Shape::terrain, Shape::hall, Shape::wide}) {
         if (name == name_of(shape)) return shape;
     }
-    throw UsageError(fmt::format("a sample shows a surface, terrain or hall, not \"{}\"", name));
+    throw UsageError(
+        fmt::format("a sample is called surface, terrain, hall or wide, not \"{}\"", name));
 }
 
 const char* name_of(Shape shape)
@@ -297,6 +311,8 @@ const char* name_of(Shape shape)
         return "terrain";
     case Shape::hall:
         return "hall";
+    case Shape::wide:
+        return "wide";
     }
     return "";
 }
@@ -310,24 +326,25 @@ std::string name_of(const SampleKind& kind)
         name += fmt::format("_across{}", kind.noise_across);
     }
     if (kind.outliers != usual.outliers) name += fmt::format("_outliers{}", kind.outliers);
-    return kind.clustered ? name + "_clustered" : name;
+    if (kind.clustered) name += "_clustered";
+    return kind.views != 0 ? name + fmt::format("_{}views", kind.views) : name;
 }
 
-std::size_t usual_views(std::size_t points)
+std::size_t SampleKind::views_of(std::size_t points) const
 {
     constexpr std::size_t kMany = 1'000'000;
+    if (views != 0) return views;
     return points >= kMany ? 300 : 100;
 }
 
-std::unique_ptr<SceneParts> sample_parts(const SampleKind& kind, std::size_t points,
-                                         std::size_t views)
+std::unique_ptr<SceneParts> sample_parts(const SampleKind& kind, std::size_t points)
 {
-    return std::make_unique<SampleParts>(kind, points, views);
+    return std::make_unique<SampleParts>(kind, points);
 }
 
-Scene make_sample_scene(const SampleKind& kind, std::size_t points, std::size_t views)
+Scene make_sample_scene(const SampleKind& kind, std::size_t points)
 {
-    return SampleParts(kind, points, views).next(points, {});
+    return SampleParts(kind, points).next(points, {});
 }
 
 } // namespace vcarve::bench

@@ -45,7 +45,7 @@ std::filesystem::path make_folder(std::int64_t points)
     if (points == 0) return std::getenv("VCARVE_MODEL");
     const auto count = static_cast<std::size_t>(points);
     std::filesystem::path folder = models.path() / std::to_string(points);
-    write_colmap_model(folder, *sample_parts(SampleKind(), count, usual_views(count)));
+    write_colmap_model(folder, *sample_parts(SampleKind(), count));
     return folder;
 }
 

@@ -35,13 +35,13 @@ class SmallParts final : public SceneParts {
 
 TEST(SampleParts, AreTheSceneMadeAtOnceForAnyPartAndThreads)
 {
-    const SampleKind kind = {.shape = Shape::terrain};
+    const SampleKind kind = {.shape = Shape::terrain, .views = 50};
     constexpr std::size_t kPoints = 3 * kSampleBlock + 1000;
-    const Scene all = make_sample_scene(kind, kPoints, 50);
+    const Scene all = make_sample_scene(kind, kPoints);
     ASSERT_EQ(all.num_points(), kPoints);
     expect_well_formed(all);
     for (const std::size_t most : {kSampleBlock, 2 * kSampleBlock + 1}) {
-        const auto parts = sample_parts(kind, kPoints, 50);
+        const auto parts = sample_parts(kind, kPoints);
         EXPECT_EQ(parts->num_points(), kPoints);
         std::size_t first = 0;
         for (Scene part = parts->next(most, {}); part.num_points() > 0;
@@ -62,7 +62,7 @@ TEST(SampleParts, AreTheSceneMadeAtOnceForAnyPartAndThreads)
 /// More sights than are written at once.
 Scene some_scene()
 {
-    return make_sample_scene({.shape = Shape::surface}, 50'000, 40);
+    return make_sample_scene({.shape = Shape::surface, .views = 40}, 50'000);
 }
 
 TEST(WriteColmapModel, WritesPartsAsItWritesTheScene)
@@ -182,7 +182,7 @@ TEST(WriteColmapModel, TakesNoMoreMemoryForMorePoints)
 
 TEST(SampleParts, TakeNoMoreMemoryForMorePoints)
 {
-    const auto parts = sample_parts({.shape = Shape::terrain}, 1'000'000'000, 300);
+    const auto parts = sample_parts({.shape = Shape::terrain}, 1'000'000'000);
     EXPECT_LT(
         memory_taken([&] { EXPECT_EQ(parts->next(kSampleBlock, {}).num_points(), kSampleBlock); }),
         20e6);
