@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace vcarve::cli {
@@ -49,18 +51,21 @@ void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
 {
     constexpr double kMany = 0.2;
     constexpr std::int64_t kFew = 500;
-    const auto before = static_cast<double>(std::max<std::int64_t>(outcome.points_before, 1));
-    const auto propose = [&](std::int64_t dropped, const char* remedy) {
-        const double share = static_cast<double>(dropped) / before;
-        if (share < kMany) return;
+    std::vector<std::pair<std::int64_t, const char*>> losses = {
+        {outcome.few_views, options.min_views > 2   ? "a smaller --min-views"
+                            : options.min_views > 1 ? "--min-views 1 or --sights nearest"
+                                                    : "--sights nearest"},
+        {outcome.high_error, "a larger --max-error"},
+        {outcome.low_angle, "a smaller --min-angle"},
+        {outcome.stray, "a larger --stray-spacing"}};
+    std::ranges::stable_sort(losses, std::greater(), [](const auto& loss) { return loss.first; });
+    for (const auto& [dropped, remedy] : losses) {
+        const double share = static_cast<double>(dropped) /
+                             static_cast<double>(std::max<std::int64_t>(outcome.points_before, 1));
+        if (share < kMany) break;
         proposals.push_back(fmt::format("if parts are missing, try {}: {} of the points fell to it",
                                         remedy, percent(share)));
-    };
-    // One view says nothing about where a point is.
-    if (options.min_views > 2) propose(outcome.few_views, "a smaller --min-views");
-    propose(outcome.high_error, "a larger --max-error");
-    propose(outcome.low_angle, "a smaller --min-angle");
-    propose(outcome.stray, "a larger --stray-spacing");
+    }
     if (proposals.empty() && outcome.points < kFew && !outcome.is_dense) {
         proposals.push_back(
             fmt::format("{} points are few, more images or dense points (stereo_fusion) show more",

@@ -100,16 +100,32 @@ TEST(ClosingLine, NamesTheLimitThatManyPointsFellTo)
     EXPECT_EQ(line(outcome), begin + "larger --stray-spacing: 30 % of the points fell to it");
 }
 
-TEST(ClosingLine, DoesNotProposePointsOfOneView)
+TEST(ClosingLine, SaysAtTheDefaultsHowToKeepPointsOfOneView)
 {
     RunOutcome outcome = closed();
     outcome.few_views = 11000;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\nif parts are missing, try "
+                             "--min-views 1 or --sights nearest: 50 % of the points fell to it");
+    outcome.few_views = 4000; // 18 %
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
     Options options;
     options.points.min_views = 3;
+    outcome.few_views = 11000;
     EXPECT_EQ(line(outcome, options),
               "wrote out.ply: 22,268 faces, closed\nif parts are missing, try a smaller "
               "--min-views: 50 % of the points fell to it");
+}
+
+TEST(ClosingLine, NamesFirstWhereMostPointsWereLost)
+{
+    const std::string begin = "\nif parts are missing, try ";
+    const std::string angle = "a smaller --min-angle: 23 % of the points fell to it";
+    const std::string stray = "a larger --stray-spacing: 25 % of the points fell to it";
+    RunOutcome outcome = closed();
+    outcome.high_error = 4500;
+    outcome.low_angle = 5000;
+    outcome.stray = 5500;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed" + begin + stray + begin + angle);
 }
 
 TEST(ClosingLine, ProposesAtMostTwoThings)

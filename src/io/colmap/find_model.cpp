@@ -151,10 +151,11 @@ FoundModel model_in(const fs::path& folder, ModelFormat format)
         found.notes.push_back(
             fmt::format("{} holds .bin and .txt files: the .bin are read", folder.string()));
     }
-    if (format == ModelFormat::text && has_other(ModelFormat::binary)) {
-        found.notes.push_back(fmt::format(
-            "{} holds .bin and .txt files: the .txt are read, for {} is missing", folder.string(),
-            fmt::join(missing_files(folder, ModelFormat::binary), " and ")));
+    const std::vector<std::string> missing = missing_files(folder, ModelFormat::binary);
+    if (format == ModelFormat::text && has_other(ModelFormat::binary) && !missing.empty()) {
+        found.notes.push_back(
+            fmt::format("{} holds .bin and .txt files: the .txt are read, for {} is missing",
+                        folder.string(), fmt::join(missing, " and ")));
     }
     return found;
 }
@@ -299,6 +300,27 @@ void refuse_images(const fs::path& input)
                                  : ""));
 }
 
+/// The model in the folder of one of its files, in the format of the file where the folder has all
+/// of that; nothing where the file has no name of a model's, or its folder no model.
+std::optional<FoundModel> model_of_file(const fs::path& file, PointsFile points)
+{
+    constexpr std::array kStems = {"cameras", "images", "points3D", "rigs", "frames"};
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    const auto in_folder = format_of(folder, points);
+    for (const ModelFormat format : {ModelFormat::binary, ModelFormat::text}) {
+        const auto is_it = [&](const char* stem) {
+            return file.filename() == model_file(stem, format);
+        };
+        if (!in_folder || std::ranges::none_of(kStems, is_it)) continue;
+        FoundModel found =
+            model_in(folder, missing_files(folder, format).empty() ? format : *in_folder);
+        found.notes.push_back(fmt::format("{} is a file of the model in {}, which is read",
+                                          file.string(), folder.string()));
+        return found;
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 FoundModel find_model(const fs::path& input, PointsFile points)
@@ -309,6 +331,7 @@ FoundModel find_model(const fs::path& input, PointsFile points)
         throw InputError(fmt::format("{}: does not exist; {}", input.string(), kWhatAModelIs));
     }
     if (!is_folder(input)) {
+        if (auto found = model_of_file(input, points)) return *found;
         refuse_foreign_name(input);
         const MappedFile file(input); // refuses pages and archives
         throw InputError(fmt::format("{}: is not a folder; {}", input.string(), kWhatAModelIs));

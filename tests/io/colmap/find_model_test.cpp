@@ -146,6 +146,37 @@ TEST(FindModel, MentionsALargerPartOfTheModelBesideTheOneThatIsNamed)
     EXPECT_THAT(find_model(folder / "sparse/other").notes, IsEmpty());
 }
 
+TEST(FindModel, TakesTheFolderOfAFileOfTheModelAndSaysSo)
+{
+    const TemporaryFolder folder;
+    folder.copy(kBinary, "m");
+    for (const char* const name : {"cameras.bin", "images.bin", "points3D.bin"}) {
+        const FoundModel found = find_model(folder / "m" / name);
+        EXPECT_EQ(found.folder, folder / "m");
+        EXPECT_EQ(found.format, ModelFormat::binary);
+        EXPECT_THAT(found.notes,
+                    ElementsAre((folder / "m" / name).string() + " is a file of the model in " +
+                                (folder / "m").string() + ", which is read"));
+    }
+    for (const char* const name : {"cameras.txt", "images.txt", "points3D.txt"}) {
+        fs::copy_file(kText / name, folder / "m" / name);
+    }
+    EXPECT_EQ(find_model(folder / "m/images.txt").format, ModelFormat::text);
+    EXPECT_EQ(find_model(folder / "m/images.bin").format, ModelFormat::binary);
+    EXPECT_EQ(find_model(folder.write("m/rigs.bin", "")).folder, folder / "m");
+}
+
+TEST(FindModel, TakesNoOtherFilesAndNoneWithoutAWholeModelAround)
+{
+    const TemporaryFolder folder;
+    folder.copy(kBinary, "m");
+    EXPECT_THAT(refusal<InputError>([&] { find_model(folder.write("m/notes.txt", "a")); }),
+                testing::HasSubstr("is not a folder"));
+    fs::remove(folder / "m/cameras.bin");
+    EXPECT_THAT(refusal<InputError>([&] { find_model(folder / "m/images.bin"); }),
+                testing::HasSubstr("is not a folder"));
+}
+
 TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
 {
     const TemporaryFolder folder;
