@@ -1,5 +1,5 @@
-# cmake --install gives the library with its public headers for find_package(vcarve), and where it is
-# built the program with its man page and completion.
+# cmake --install gives the library with its public headers for find_package(vcarve) and pkg-config,
+# and where it is built the program with its man page and completion.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS vcarve EXPORT vcarve_targets
@@ -13,8 +13,11 @@ install(EXPORT vcarve_targets NAMESPACE vcarve:: FILE vcarveTargets.cmake
 get_target_property(library_type vcarve TYPE)
 if(library_type STREQUAL "SHARED_LIBRARY")
   set(VCARVE_IS_SHARED TRUE)
+  set(VCARVE_STATIC_LIBS "")
 else()
   set(VCARVE_IS_SHARED FALSE)
+  set(VCARVE_STATIC_LIBS
+    " -lOpenMeshTools -lOpenMeshCore -ltinygltf -ltbb -ltbbmalloc -lfmt -lgmp -lmpfr")
 endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vcarveConfig.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfig.cmake INSTALL_DESTINATION ${package_folder})
@@ -24,17 +27,22 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfigVersion.cmake
   DESTINATION ${package_folder})
 
+file(RELATIVE_PATH VCARVE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/vcarve.pc.in ${CMAKE_CURRENT_BINARY_DIR}/vcarve.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vcarve.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+# What was not built is left out: `tools/build vcarve` makes the library, tools/run the program.
 if(VCARVE_PROGRAM)
   # A shared library beside it is found without being known to the system.
-  set_target_properties(colmap-vcarve PROPERTIES
-    INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-  install(TARGETS colmap-vcarve RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set(programs colmap-vcarve)
   if(TARGET colmap-vcarve-mpi)
-    set_target_properties(colmap-vcarve-mpi PROPERTIES
-      INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-    install(TARGETS colmap-vcarve-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    list(APPEND programs colmap-vcarve-mpi)
   endif()
-  install(FILES ${man_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  install(FILES ${completion} RENAME colmap-vcarve
-    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  set_target_properties(${programs} PROPERTIES
+    INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
+  install(FILES ${PROJECT_BINARY_DIR}/colmap-vcarve.1
+    DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+  install(FILES ${PROJECT_BINARY_DIR}/colmap-vcarve.bash RENAME colmap-vcarve
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
 endif()
