@@ -99,7 +99,7 @@ OptionList run_options(CompareArguments& arguments)
 
 OptionList options_of(CompareArguments& arguments)
 {
-    return joined({input_options(arguments.model), truth_options(arguments),
+    return joined({options_of(arguments.model), truth_options(arguments),
                    vcarve::options_of(arguments.measure), baseline_options(arguments),
                    output_options(arguments.outputs), run_options(arguments),
                    cli::options_of(arguments.help)});

@@ -112,7 +112,7 @@ OptionList options_of(OutputOptions& output)
 
 OptionList options_of(MeshArguments& arguments)
 {
-    return joined({input_options(arguments.model), options_of(arguments.options),
+    return joined({options_of(arguments.model), options_of(arguments.options),
                    work_options(arguments), options_of(arguments.output),
                    preview_options(arguments.preview), record_options(arguments),
                    options_of(arguments.help)});

@@ -4,7 +4,7 @@
 #include "cli/run_log.h"
 #include "cli/run_record.h"
 #include "io/input/read_model.h"
-#include "options/option.h"
+#include "options/points_arguments.h"
 
 #include <filesystem>
 #include <memory>
@@ -19,16 +19,9 @@ struct ModelInput {
 };
 
 /// What the command line says of a model: the operand and the options beside it.
-struct ModelArguments {
+struct ModelArguments : PointsArguments {
     std::filesystem::path path;
-    PointsOptions points; ///< but for the scanner
-    WordOrVector scanner;
-
-    PointsOptions all_points() const;
 };
-
-/// The options that choose points, under a heading of their own.
-OptionList input_options(ModelArguments& model);
 
 /// Finds and reads the model the user means, as the stage "read". Throws InputError.
 ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading = {});

@@ -1,0 +1,226 @@
+#include "scene_class.h"
+
+#include "arrays.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "io/dense/nearest_sights.h"
+#include "io/dense/scanner_views.h"
+#include "model/lens_model.h"
+#include "told_run.h"
+#include "vcarve/error.h"
+#include "vcarve/scene.h"
+
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace vcarve::python {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Room for so many points of which nothing is known, to be filled in.
+std::shared_ptr<Scene> empty_scene(std::size_t points, std::size_t sights)
+{
+    auto scene = std::make_shared<Scene>();
+    scene->positions.resize(points, Vector3d::Zero());
+    scene->colors.resize(points, Color{});
+    scene->errors_px.resize(points, -1.0);
+    scene->point_ids.resize(points);
+    std::iota(scene->point_ids.begin(), scene->point_ids.end(), std::uint64_t{1});
+    scene->tracks.begins.resize(points + 1, 0);
+    scene->tracks.views.resize(sights, 0);
+    return scene;
+}
+
+int number_of_lens(const std::string& name)
+{
+    const LensModel* const model = lens_model(std::string_view(name));
+    if (model == nullptr) throw UsageError(fmt::format("COLMAP knows no lens \"{}\"", name));
+    return model->number;
+}
+
+/// A camera, and how many there are then.
+std::size_t add_camera(Scene& scene, const std::string& lens,
+                       const std::array<std::uint64_t, 2>& size_px,
+                       const std::vector<double>& params, bool measures_range)
+{
+    const int number = number_of_lens(lens);
+    const std::size_t wanted = lens_model(number)->num_params;
+    if (params.size() != wanted) {
+        throw UsageError(
+            fmt::format("the lens {} has {} parameters, not {}", lens, wanted, params.size()));
+    }
+    scene.cameras.push_back({.id = static_cast<std::uint32_t>(scene.cameras.size() + 1),
+                             .model = number,
+                             .width_px = size_px[0],
+                             .height_px = size_px[1],
+                             .params = params,
+                             .measures_range = measures_range});
+    return scene.cameras.size();
+}
+
+/// The rotation of a pose as it was given, to the digits of a float.
+Eigen::Quaterniond rotation_of(const Eigen::Matrix3d& matrix, const std::string& view)
+{
+    constexpr double kRounding = 1e-4;
+    const double off = (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm();
+    if (!(off < kRounding) || !(matrix.determinant() > 0.0)) {
+        throw UsageError(fmt::format("the pose of view {} holds no rotation", view));
+    }
+    return Eigen::Quaterniond(matrix).normalized();
+}
+
+void add_view(Scene& scene, std::uint32_t camera, const std::string& name,
+              const Eigen::Matrix3d& rotation, const Vector3d& center)
+{
+    if (!center.allFinite()) {
+        throw UsageError(fmt::format("the place of view {} is not finite", name));
+    }
+    scene.views.push_back({.id = static_cast<std::uint32_t>(scene.views.size() + 1),
+                           .camera = camera,
+                           .name = name,
+                           .cam_from_world = rotation_of(rotation, name),
+                           .center = center});
+}
+
+/// Rows of views in any order become tracks.
+void set_tracks(Scene& scene, const Given<std::uint64_t>& begins, const Given<std::uint32_t>& views)
+{
+    const auto begin_of = rows_of<std::uint64_t>(begins, "the beginnings of the tracks");
+    const auto all = rows_of<std::uint32_t>(views, "the views of the tracks");
+    if (begin_of.size() != scene.num_points() + 1 || begin_of.front() != 0 ||
+        begin_of.back() != all.size() || !std::ranges::is_sorted(begin_of)) {
+        throw UsageError(fmt::format("the beginnings of the tracks of {} points must be {} numbers "
+                                     "from 0 to the number of their views, {}, none less than that "
+                                     "before",
+                                     scene.num_points(), scene.num_points() + 1, all.size()));
+    }
+    Tracks tracks;
+    tracks.begins.reserve(begin_of.size());
+    tracks.views.reserve(all.size());
+    std::vector<std::uint32_t> row;
+    for (std::size_t i = 0; i + 1 < begin_of.size(); ++i) {
+        row.assign(all.begin() + static_cast<std::ptrdiff_t>(begin_of[i]),
+                   all.begin() + static_cast<std::ptrdiff_t>(begin_of[i + 1]));
+        std::ranges::sort(row);
+        row.erase(std::unique(row.begin(), row.end()), row.end());
+        if (!row.empty() && row.back() >= scene.views.size()) {
+            throw UsageError(fmt::format("the track of point {} has view {}, but there are {}, "
+                                         "counted from 0",
+                                         i, row.back(), scene.views.size()));
+        }
+        tracks.push_back(row);
+    }
+    scene.tracks = std::move(tracks);
+}
+
+void take_nearest_views(Scene& scene, const py::object& listener)
+{
+    Tracks tracks;
+    run_told(listener, [&](Log& log) {
+        Stage stage(log, "sights");
+        tracks = nearest_sights(scene, stage);
+        stage.end({{"sights", size_of(tracks.views.size())}});
+    });
+    scene.tracks = std::move(tracks);
+}
+
+void place_scanners(Scene& scene, const Given<double>& places)
+{
+    const auto scanners = rows_of<Vector3d>(places, "the places of scanners");
+    if (scanners.size() != 1 && scanners.size() != scene.num_points()) {
+        throw UsageError(fmt::format("{} places of scanners are neither one nor one for each of {} "
+                                     "points",
+                                     scanners.size(), scene.num_points()));
+    }
+    scene.tracks = {};
+    add_scanner_views(scanners, scene);
+}
+
+void set_normals(Scene& scene, const Given<float>& normals)
+{
+    scene.normals = rows_of<Eigen::Vector3f>(normals, "normals");
+}
+
+py::array_t<double> centers(const Scene& scene)
+{
+    py::array_t<double> places({static_cast<py::ssize_t>(scene.views.size()), py::ssize_t{3}});
+    auto rows = places.mutable_unchecked<2>();
+    for (std::size_t i = 0; i < scene.views.size(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            rows(static_cast<py::ssize_t>(i), axis) = scene.views[i].center[axis];
+        }
+    }
+    return places;
+}
+
+std::vector<std::string> names(const Scene& scene)
+{
+    std::vector<std::string> all;
+    std::ranges::transform(scene.views, std::back_inserter(all), &View::name);
+    return all;
+}
+
+/// A method that replaces arrays, which NumPy must not look at meanwhile.
+template <typename... Arguments>
+auto replacing(void (*method)(Scene&, Arguments...))
+{
+    return [method](const std::shared_ptr<Scene>& scene, Arguments... given) {
+        require_unseen(scene);
+        method(*scene, given...);
+    };
+}
+
+/// A property that is an array of the scene, at its address.
+template <typename Entry>
+auto array_of(std::vector<Entry> Scene::*field)
+{
+    return [field](const std::shared_ptr<Scene>& scene) { return view_of((*scene).*field, scene); };
+}
+
+} // namespace
+
+void require_shape(const py::array& given, const std::string& name, py::ssize_t columns)
+{
+    const bool fits =
+        columns == 0 ? given.ndim() == 1 : given.ndim() == 2 && given.shape(1) == columns;
+    if (fits) return;
+    std::string shape;
+    for (py::ssize_t i = 0; i < given.ndim(); ++i) {
+        shape += fmt::format("{}{}", i == 0 ? "" : ", ", given.shape(i));
+    }
+    throw UsageError(fmt::format("{} must be an array of shape (n{}), not ({})", name,
+                                 columns == 0 ? "" : fmt::format(", {}", columns), shape));
+}
+
+void add_scene_class(py::module_& module)
+{
+    using Shared = std::shared_ptr<Scene>;
+    const auto begins = [](const Shared& scene) { return view_of(scene->tracks.begins, scene); };
+    const auto views = [](const Shared& scene) { return view_of(scene->tracks.views, scene); };
+    py::class_<Scene, Shared>(module, "Scene")
+        .def_static("empty", &empty_scene, py::arg("points"), py::arg("sights") = 0)
+        .def_property_readonly("positions", array_of(&Scene::positions))
+        .def_property_readonly("colors", array_of(&Scene::colors))
+        .def_property_readonly("errors_px", array_of(&Scene::errors_px))
+        .def_property_readonly("point_ids", array_of(&Scene::point_ids))
+        .def_property_readonly("normals", array_of(&Scene::normals))
+        .def_property_readonly("track_begins", begins)
+        .def_property_readonly("track_views", views)
+        .def_property_readonly("centers", &centers)
+        .def_property_readonly("names", &names)
+        .def_readwrite("is_dense", &Scene::is_dense)
+        .def("add_camera", &add_camera)
+        .def("add_view", &add_view)
+        .def("set_tracks", replacing(&set_tracks))
+        .def("set_normals", replacing(&set_normals))
+        .def("place_scanners", replacing(&place_scanners))
+        .def("take_nearest_views", replacing(&take_nearest_views));
+}
+
+} // namespace vcarve::python

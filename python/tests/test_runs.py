@@ -1,0 +1,182 @@
+"""Runs: the same surface as the program's, options, progress, interruption, errors."""
+import logging
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import vcarve
+from vcarve import _options
+
+
+def test_a_model_gives_the_bytes_of_the_program(model, program, tmp_path):
+    program("--quiet", "--max-hole", 20, "--crop", "auto", "--attributes", model,
+            tmp_path / "program.ply")
+    mesh = vcarve.reconstruct(model, max_hole=20, crop="auto", attributes=True)
+    mesh.write(tmp_path / "python.ply")
+    assert (tmp_path / "python.ply").read_bytes() == (tmp_path / "program.ply").read_bytes()
+
+
+def test_a_scene_gives_the_surface_of_its_model(model):
+    scene = vcarve.read_model(str(model))
+    of_scene = vcarve.reconstruct(scene)
+    of_model = vcarve.reconstruct(model)
+    assert np.array_equal(of_scene.vertices, of_model.vertices)
+    assert np.array_equal(of_scene.faces, of_model.faces)
+
+
+def test_a_consumed_scene_is_empty(room):
+    scene = room.scene()
+    kept = vcarve.reconstruct(scene)
+    consumed = vcarve.reconstruct(scene, consume=True)
+    assert np.array_equal(kept.vertices, consumed.vertices)
+    assert len(scene.positions) == 0
+
+
+def test_arrays_in_use_forbid_to_consume(room):
+    scene = room.scene()
+    positions = scene.positions
+    with pytest.raises(BufferError, match="in use"):
+        vcarve.reconstruct(scene, consume=True)
+    assert np.array_equal(positions, room.positions)
+
+
+@pytest.mark.parametrize("option", _options.DECLARED["reconstruct"], ids=lambda o: o["name"])
+def test_every_option_is_a_keyword_that_takes_its_default(option, room):
+    given = {option["name"]: _options.default_of(option)}
+    mesh = vcarve.reconstruct(room.scene(), **given)
+    assert np.array_equal(mesh.faces, vcarve.reconstruct(room.scene()).faces)
+
+
+def test_options_are_documented_and_in_the_signature():
+    documented = vcarve.reconstruct.__doc__
+    for group in ("input", "reconstruct"):
+        for option in _options.DECLARED[group]:
+            assert option["help"] in documented
+            assert option["name"] in vcarve.reconstruct.__signature__.parameters
+
+
+def test_numbers_texts_paths_and_rows_are_values(room, tmp_path):
+    box = [0.5, 0.5, -0.5, 5.0, 5.0, 5.0]
+    cropped = vcarve.reconstruct(room.scene(), crop=box, max_hole=np.int64(20),
+                                 denoise=np.float32(1))
+    typed = vcarve.reconstruct(room.scene(), crop="0.5,0.5,-0.5,5,5,5", max_hole="20", denoise="1")
+    assert np.array_equal(cropped.vertices, typed.vertices)
+    assert len(cropped.faces) < len(vcarve.reconstruct(room.scene()).faces)
+    polygon = tmp_path / "polygon.txt"
+    polygon.write_text("0.5 0.5\n5 0.5\n5 5\n0.5 5\n", encoding="utf-8")
+    assert len(vcarve.reconstruct(room.scene(), crop=polygon).faces) > 0
+
+
+def test_flags_are_true_or_false(room):
+    open_, closed = (vcarve.reconstruct(room.scene(), closed=flag) for flag in (False, True))
+    assert np.array_equal(open_.faces, vcarve.reconstruct(room.scene()).faces)
+    assert len(closed.faces) > len(open_.faces)
+    with pytest.raises(vcarve.UsageError, match="--closed takes True or False, not yes"):
+        vcarve.reconstruct(room.scene(), closed="yes")
+
+
+@pytest.mark.parametrize("name, value", [("min_views", 0), ("max_error", "much"),
+                                         ("method", "paint"), ("crop", "1,2"), ("max_memory", "2Q"),
+                                         ("min_views", True), ("threads", 2.5)])
+def test_values_are_refused_in_the_words_of_the_program(name, value, model, refusal, tmp_path):
+    with pytest.raises(vcarve.UsageError) as error:
+        vcarve.reconstruct(model, **{name: value})
+    option = "--" + name.replace("_", "-")
+    assert str(error.value) in refusal(option, value, model, tmp_path / "out.ply")
+
+
+def test_a_keyword_that_is_no_option_is_a_type_error(model):
+    with pytest.raises(TypeError, match="unexpected keyword argument 'min_vews'"):
+        vcarve.reconstruct(model, min_vews=2)
+
+
+def test_input_errors_are_the_sentences_of_the_program(refusal, tmp_path):
+    with pytest.raises(vcarve.InputError) as error:
+        vcarve.reconstruct(tmp_path)
+    assert str(error.value) in refusal(tmp_path, tmp_path / "out.ply")
+    assert isinstance(error.value, (vcarve.Error, ValueError))
+
+
+def test_progress_grows_to_the_end_of_every_stage(model):
+    told = []
+    mesh = vcarve.reconstruct(model, progress=lambda stage, share: told.append((stage, share)))
+    stages = [stage for stage, share in told if share == 0.0]
+    assert stages[0] == "read" and "triangulate" in stages
+    for stage in mesh.counts:
+        shares = [share for name, share in told if name == stage]
+        assert shares == sorted(shares) and shares[-1] == 1.0
+    assert mesh.counts["triangulate"]["cells"] > 0
+
+
+def test_an_exception_of_the_callback_ends_the_run(model):
+    def refuse(stage, share):
+        if stage == "triangulate":
+            raise RuntimeError("enough")
+    with pytest.raises(RuntimeError, match="enough"):
+        vcarve.reconstruct(model, progress=refuse)
+
+
+def test_notes_are_logged(caplog, model):
+    with caplog.at_level(logging.WARNING, "vcarve"):
+        vcarve.reconstruct(model, sights="nearest")
+    assert "nearest views" in caplog.text
+
+
+def test_an_interrupted_run_ends_within_a_second(big_room):
+    begun = threading.Event()
+
+    def interrupt():
+        begun.wait()
+        time.sleep(0.5)
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    sent = []
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        vcarve.reconstruct(big_room, progress=lambda stage, share: begun.set())
+    ended = time.monotonic()
+    thread.join()
+    assert ended - sent[0] < 1.0
+
+
+def test_other_threads_go_on_meanwhile(big_room):
+    counted = [0]
+    stop = threading.Event()
+
+    def count():
+        while not stop.is_set():
+            counted[0] += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    begun = time.monotonic()
+    with pytest.raises(RuntimeError):
+        vcarve.reconstruct(big_room, progress=_after(0.5))
+    stop.set()
+    thread.join()
+    assert counted[0] > 20 * (time.monotonic() - begun)
+
+
+def _after(seconds):
+    """A callback that ends a run after a while."""
+    begun = time.monotonic()
+
+    def tell(stage, share):
+        del stage, share
+        if time.monotonic() - begun > seconds:
+            raise RuntimeError("long enough")
+    return tell
+
+
+@pytest.fixture(scope="module")
+def big_room():
+    """A scene that takes many seconds."""
+    from conftest import Room
+    return Room(300_000).scene()

@@ -1,0 +1,158 @@
+"""Scenes: from arrays, from what looks like pycolmap's, and their arrays in memory."""
+import types
+
+import numpy as np
+import pytest
+
+import vcarve
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+def test_a_million_points_are_numpys_and_the_librarys_at_once():
+    scene = vcarve.Scene.empty(points=1_000_000, sights=3_000_000)
+    for name, dtype, shape in (("positions", np.float64, (1_000_000, 3)),
+                               ("colors", np.uint8, (1_000_000, 3)),
+                               ("errors_px", np.float64, (1_000_000,)),
+                               ("point_ids", np.uint64, (1_000_000,)),
+                               ("track_begins", np.uint64, (1_000_001,)),
+                               ("track_views", np.uint32, (3_000_000,))):
+        array = getattr(scene, name)
+        assert array.dtype == dtype and array.shape == shape and not array.flags.owndata
+        assert address(array) == address(getattr(scene, name))
+        array[-1] = 7
+        assert np.all(getattr(scene, name)[-1] == 7)
+
+
+def test_what_is_written_into_an_array_is_reconstructed(room):
+    scene, moved = room.scene(), room.scene()
+    moved.positions[:] *= 2.0
+    moved.positions[:] += 1.0
+    for_comparison = vcarve.Scene.from_arrays(room.positions * 2.0 + 1.0, centers=room.centers,
+                                              tracks=room.tracks)
+    assert np.array_equal(vcarve.reconstruct(moved).vertices,
+                          vcarve.reconstruct(for_comparison).vertices)
+    assert not np.array_equal(vcarve.reconstruct(scene).vertices,
+                              vcarve.reconstruct(moved).vertices)
+
+
+def test_arrays_outlive_their_scene(room):
+    positions = room.scene().positions
+    assert np.array_equal(positions, room.positions)
+
+
+def test_tracks_are_a_list_a_pair_or_a_sparse_matrix(room):
+    count, views = len(room.positions), len(room.centers)
+    begins = np.arange(count + 1) * views
+    flat = np.tile(np.arange(views)[::-1], count)
+    rows = room.scene()
+    pair = room.scene(tracks=(begins, flat))
+    sparse = room.scene(tracks=types.SimpleNamespace(indptr=begins.astype(np.int32),
+                                                     indices=flat.astype(np.int32)))
+    for scene in (pair, sparse):
+        assert np.array_equal(scene.track_begins, rows.track_begins)
+        assert np.array_equal(scene.track_views, rows.track_views)
+
+
+def test_without_tracks_the_nearest_views_are_taken(room):
+    scene = room.scene(tracks=None)
+    assert len(scene.track_views) > 2 * len(room.positions)
+    assert len(vcarve.reconstruct(scene).faces) > 100
+
+
+def test_poses_either_way_and_centres_stand_in_the_same_places(model):
+    scene = vcarve.read_model(model)
+    centers = scene.centers
+    rotation = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    world_from_cam = np.zeros((len(centers), 4, 4))
+    world_from_cam[:, :3, :3] = rotation
+    world_from_cam[:, :3, 3] = centers
+    world_from_cam[:, 3, 3] = 1.0
+    cam_from_world = np.linalg.inv(world_from_cam)[:, :3]
+    for given in ({"world_from_cam": world_from_cam}, {"cam_from_world": cam_from_world},
+                  {"centers": centers}):
+        made = vcarve.Scene.from_arrays(scene.positions, tracks=(scene.track_begins,
+                                                                 scene.track_views), **given)
+        assert np.allclose(made.centers, centers)
+
+
+def test_scanners_are_views_of_their_points(room):
+    scene = vcarve.Scene.from_arrays(room.positions, scanners=[2.0, 1.5, 1.2])
+    assert scene.centers.tolist() == [[2.0, 1.5, 1.2]] and scene.is_dense
+    assert len(vcarve.reconstruct(scene).faces) > 100
+
+
+def test_colours_are_bytes_or_shares(room):
+    colors = np.zeros_like(room.positions)
+    colors[:, 0] = 1.0
+    scene = room.scene(colors=colors)
+    assert scene.colors[0].tolist() == [255, 0, 0]
+    assert vcarve.reconstruct(scene).colors.max(axis=0).tolist() == [255, 0, 0]
+
+
+@pytest.mark.parametrize("given, sentence", [
+    ({"centers": [[0.0, 0.0]]}, r"centers must be an array of shape \(n, 3\), not \(1, 2\)"),
+    ({"tracks": [[0, 9]] * 2000}, "the track of point 0 has view 9, but there are 4"),
+    ({"tracks": ([0, 1], [0])}, "the beginnings of the tracks of 2000 points must be 2001 numbers"),
+    ({"tracks": [[-1]] * 2000}, "tracks must be whole numbers from 0"),
+    ({"cam_from_world": np.zeros((1, 3, 4))}, "views are given as one of"),
+    ({"centers": None, "cam_from_world": np.zeros((4, 3, 4))},
+     "the pose of view 0 holds no rotation"),
+    ({"colors": np.zeros((3, 3))}, r"colors must be an array of shape \(2000, 3\), not \(3, 3\)"),
+    ({"intrinsics": np.eye(3)}, "intrinsics need the size of the images"),
+    ({"scanners": [0, 0, 0]}, "scanners tell all"),
+])
+def test_arrays_that_do_not_fit_are_refused_in_a_sentence(given, sentence, room):
+    with pytest.raises(vcarve.UsageError, match=sentence):
+        room.scene(**given)
+
+
+def _as_method(value):
+    return lambda: value
+
+
+def pycolmap_like(scene, newest):
+    """What pycolmap would hold of a scene, with its newer or its older names."""
+    views, images = range(len(scene.centers)), {}
+    for i in views:
+        image = types.SimpleNamespace(image_id=i + 1, camera_id=1, name=scene.names[i])
+        translation = -scene.centers[i]
+        if newest:
+            pose = types.SimpleNamespace(matrix=_as_method(np.c_[np.eye(3), translation]))
+            image.cam_from_world, image.has_pose = _as_method(pose), True
+        else:
+            image.rotmat, image.tvec, image.registered = _as_method(np.eye(3)), translation, True
+        images[i + 1] = image
+    lens = types.SimpleNamespace(name="EQUIRECTANGULAR") if newest else "EQUIRECTANGULAR"
+    camera = types.SimpleNamespace(model=lens, width=4000, height=2000, params=[4000.0, 2000.0])
+    points = {}
+    for i, row in enumerate(np.split(scene.track_views, scene.track_begins[1:-1].astype(int))):
+        elements = [types.SimpleNamespace(image_id=int(view) + 1, point2D_idx=0) for view in row]
+        points[i + 1] = types.SimpleNamespace(xyz=scene.positions[i], color=scene.colors[i],
+                                              error=scene.errors_px[i],
+                                              track=types.SimpleNamespace(elements=elements))
+    return types.SimpleNamespace(cameras={1: camera}, images=images, points3D=points)
+
+
+@pytest.mark.parametrize("newest", [True, False])
+def test_a_reconstruction_of_pycolmaps_shape_is_a_scene(newest, room):
+    scene = room.scene()
+    of_shape = vcarve.reconstruct(pycolmap_like(scene, newest))
+    assert np.array_equal(of_shape.vertices, vcarve.reconstruct(scene).vertices)
+
+
+def test_what_is_no_scene_is_a_type_error():
+    with pytest.raises(TypeError, match="a list is neither a Scene, nor a path, nor shaped like"):
+        vcarve.reconstruct([1, 2])
+
+
+def test_arrays_in_use_forbid_other_tracks(room):
+    scene = room.scene()
+    kept = scene.track_views
+    with pytest.raises(BufferError):
+        scene.set_tracks([0] * 2001, [])
+    del kept
+    scene.set_tracks([0] * 2001, np.zeros(0, dtype=np.uint32))
+    assert len(scene.track_views) == 0

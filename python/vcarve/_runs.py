@@ -1,0 +1,22 @@
+"""What a run tells of itself."""
+import logging
+
+LOG = logging.getLogger("vcarve")
+
+
+class Listener:
+    """Keeps the counts of every stage, logs what the user should read, and tells of progress."""
+
+    def __init__(self, progress=None):
+        self.counts = {}
+        self.progress = progress
+
+    def __call__(self, kind, name, value):
+        if kind == "note":
+            LOG.warning("%s", name)
+            return
+        if kind == "end":
+            self.counts[name] = value
+            LOG.info("%s: %s", name, value)
+        if self.progress is not None:
+            self.progress(name, {"begin": 0.0, "end": 1.0}.get(kind, value))

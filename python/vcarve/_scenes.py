@@ -1,0 +1,128 @@
+"""Scenes from NumPy arrays."""
+import numpy as np
+
+from ._runs import Listener
+from ._vcarve import Scene, UsageError
+
+# A view of which only the place is known looks all round, by COLMAP's lens for panoramas.
+PANORAMA = ("EQUIRECTANGULAR", (4000, 2000), [4000.0, 2000.0])
+
+
+def _filled(name, target, values):
+    """Copies values into an array of the scene; None leaves what is there."""
+    if values is None:
+        return
+    values = np.asarray(values)
+    if values.shape != target.shape:
+        raise UsageError(f"{name} must be an array of shape {target.shape}, not {values.shape}")
+    if name == "colors" and values.dtype.kind == "f":
+        values = np.rint(np.clip(values, 0.0, 1.0) * 255.0)
+    target[...] = values
+
+
+def _poses(cam_from_world, world_from_cam, centers):
+    """Rotations and places of the views, whichever is given."""
+    given = [value for value in (cam_from_world, world_from_cam, centers) if value is not None]
+    if len(given) != 1:
+        raise UsageError("views are given as one of cam_from_world, world_from_cam, centers and "
+                         f"scanners, not as {len(given)} of them")
+    if centers is not None:
+        centers = np.asarray(centers, dtype=np.float64)
+        if centers.ndim != 2 or centers.shape[1] != 3:
+            raise UsageError(f"centers must be an array of shape (n, 3), not {centers.shape}")
+        return np.broadcast_to(np.eye(3), (len(centers), 3, 3)), centers
+    poses = np.asarray(given[0], dtype=np.float64)
+    if poses.ndim != 3 or poses.shape[1:] not in ((3, 4), (4, 4)):
+        raise UsageError(f"poses must be an array of shape (n, 3, 4) or (n, 4, 4), not "
+                         f"{poses.shape}")
+    rotations, places = poses[:, :3, :3], poses[:, :3, 3]
+    if world_from_cam is not None:
+        return rotations.transpose(0, 2, 1), places
+    return rotations, -np.einsum("nji,nj->ni", rotations, places)
+
+
+def _add_cameras(scene, views, intrinsics, size, ranges):
+    """Adds one camera for all views, or one for each; returns the camera of every view."""
+    if intrinsics is None:
+        scene.add_camera(*PANORAMA, ranges)
+        return np.zeros(views, dtype=np.uint32)
+    if size is None:
+        raise UsageError("intrinsics need the size of the images, size=(width, height)")
+    matrices = np.asarray(intrinsics, dtype=np.float64).reshape(-1, 3, 3)
+    sizes = np.broadcast_to(np.asarray(size, dtype=np.int64).reshape(-1, 2), (len(matrices), 2))
+    if len(matrices) not in (1, views):
+        raise UsageError(f"{len(matrices)} intrinsics are neither one nor one for each of {views} "
+                         "views")
+    for matrix, (width, height) in zip(matrices, sizes):
+        params = [matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2]]
+        scene.add_camera("PINHOLE", (int(width), int(height)), params, ranges)
+    return np.arange(views, dtype=np.uint32) if len(matrices) > 1 else np.zeros(views, np.uint32)
+
+
+def _rows(tracks):
+    """Beginnings and views of tracks that are a list of rows, a pair of arrays or a sparse matrix
+    of SciPy's, points by views."""
+    if hasattr(tracks, "indptr") and hasattr(tracks, "indices"):
+        return tracks.indptr, tracks.indices
+    if isinstance(tracks, tuple) and len(tracks) == 2:
+        return tracks
+    lengths = [len(row) for row in tracks]
+    begins = np.zeros(len(lengths) + 1, dtype=np.uint64)
+    np.cumsum(lengths, out=begins[1:])
+    rows = [np.asarray(row) for row in tracks if len(row)]
+    return begins, np.concatenate(rows) if rows else np.zeros(0, dtype=np.uint32)
+
+
+def _whole(name, values):
+    """Whole numbers that fit; NumPy would turn -1 into a large one."""
+    values = np.asarray(values)
+    if values.dtype.kind not in "iu" or (values.size and (values.min() < 0)):
+        raise UsageError(f"{name} must be whole numbers from 0")
+    return values
+
+
+def from_arrays(positions, *, cam_from_world=None, world_from_cam=None, centers=None,
+                scanners=None, intrinsics=None, size=None, tracks=None, colors=None, normals=None,
+                errors_px=None, ranges=False, dense=False, progress=None):
+    """A scene of points and of views that saw them, from arrays.
+
+    positions: (n, 3).
+    cam_from_world or world_from_cam: poses of the views, (v, 3, 4) or (v, 4, 4), x right, y down
+        and z ahead as in COLMAP and OpenCV; or centers, (v, 3), where only their places are known;
+        or scanners, (3,) or (n, 3): where the scanner of all points, or of each, stood.
+    intrinsics: (3, 3) or (v, 3, 3) with focal lengths and principal point in pixels, of images of
+        size (width, height); without them views look all round.
+    tracks: which views saw which point, as numbers from 0: a list of rows, a pair (begins, views)
+        in which row i is views[begins[i]:begins[i + 1]], or a scipy.sparse.csr matrix of points by
+        views. None: not known; the nearest views are taken before which no other point stands.
+    colors: (n, 3), bytes or from 0 to 1. normals: (n, 3). errors_px: (n,), reprojection errors.
+    ranges: the views measured how far the points are, as depth maps do, so one view is enough.
+    dense: the points are a dense cloud, to be merged where images do not resolve them.
+    """
+    positions = np.asarray(positions)
+    if positions.ndim != 2 or positions.shape[1] != 3:
+        raise UsageError(f"positions must be an array of shape (n, 3), not {positions.shape}")
+    scene = Scene.empty(len(positions))
+    _filled("positions", scene.positions, positions)
+    _filled("colors", scene.colors, colors)
+    _filled("errors_px", scene.errors_px, errors_px)
+    if normals is not None:
+        _filled("normals", np.empty(positions.shape, dtype=bool), normals)
+        scene.set_normals(normals)
+    scene.is_dense = bool(dense) or scanners is not None
+    if scanners is not None:
+        others = (tracks, cam_from_world, world_from_cam, centers)
+        if any(value is not None for value in others):
+            raise UsageError("scanners tell all of the views and tracks, so no other are given")
+        scene.place_scanners(np.asarray(scanners, dtype=np.float64).reshape(-1, 3))
+        return scene
+    rotations, places = _poses(cam_from_world, world_from_cam, centers)
+    cameras = _add_cameras(scene, len(places), intrinsics, size, bool(ranges))
+    for i, (rotation, place) in enumerate(zip(rotations, places)):
+        scene.add_view(int(cameras[i]), str(i), rotation, place)
+    if tracks is None:
+        scene.take_nearest_views(Listener(progress))
+    else:
+        begins, views = _rows(tracks)
+        scene.set_tracks(_whole("the beginnings of tracks", begins), _whole("tracks", views))
+    return scene
