@@ -5,6 +5,7 @@
 #include "geometry/point_tree.h"
 #include "io/dense/nearest_grid.h"
 #include "model/scene_points.h"
+#include "model/view_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -26,7 +27,8 @@ using Eigen::Vector3d;
 /// Of the views that have a point in their image so many are asked, the nearest first, and then so
 /// many more where some of them do not see it.
 constexpr std::array<std::size_t, 2> kAsked{kMostNearestViews, 24};
-constexpr std::size_t kMostAsked = kAsked.back();
+constexpr std::size_t kMostAtOnce = kAsked.back();
+static_assert(kAsked.front() + kAsked.back() == kMostAsked);
 /// So few views look at all points, instead of at what may hide what they are asked about.
 constexpr std::size_t kFewViews = 64;
 /// How far points stand apart in an image is told by so many of them, or twice as many.
@@ -42,7 +44,7 @@ struct Row {
     Row() { views.fill(kNoView); }
     void push_back(std::uint32_t view) { views[count++] = view; }
 };
-using Asked = Row<kMostAsked>;
+using Asked = Row<kMostAtOnce>;
 using Seen = Row<kMostNearestViews>;
 
 /// A camera whose lens or image is not known shows nothing that could be told.
@@ -52,83 +54,23 @@ bool can_show(const Scene& scene, std::size_t view)
     return camera.width_px > 0 && camera.height_px > 0 && scene.views[view].center.allFinite();
 }
 
-/// The views from the nearest to a place on that have it in their image.
-class ViewsAround {
-  public:
-    explicit ViewsAround(const Scene& scene)
-        : scene_(scene), numbers_(views_that_show(scene)), centers_(centers_of(scene, numbers_))
-    {
-        const std::vector<std::uint32_t> order = hilbert_order(centers_);
-        numbers_ = values_at(order, numbers_);
-        centers_ = values_at(order, centers_);
-        if (!centers_.empty()) tree_.emplace(centers_);
-    }
-
-    /// Up to `most` after the first `passed` views, however many of these showed the place;
-    /// `passed` is raised by those that were looked at.
-    Asked next(const Vector3d& place, std::size_t most, std::uint32_t& passed) const
-    {
-        thread_local std::vector<PointTree::Near> near;
-        Asked row;
-        std::size_t count = passed + most + most / 2;
-        while (passed < centers_.size() && row.count < most) {
-            order_by_distance(place, count, near);
-            for (; passed < near.size() && row.count < most; ++passed) {
-                const std::uint32_t view = numbers_[near[passed].point];
-                if (shows(view, place)) row.push_back(view);
-            }
-            count *= 4;
-        }
-        return row;
-    }
-
-  private:
-    static std::vector<std::uint32_t> views_that_show(const Scene& scene)
-    {
-        std::vector<std::uint32_t> views;
-        for (std::uint32_t view = 0; view < scene.views.size(); ++view) {
-            if (can_show(scene, view)) views.push_back(view);
-        }
-        return views;
-    }
-
-    static std::vector<Vector3d> centers_of(const Scene& scene,
-                                            const std::vector<std::uint32_t>& views)
-    {
-        std::vector<Vector3d> centers;
-        for (const std::uint32_t view : views) {
-            centers.push_back(scene.views[view].center);
-        }
-        return centers;
-    }
-
-    bool shows(std::uint32_t view, const Vector3d& place) const
-    {
-        const View& of = scene_.views[view];
-        return project_into(of, scene_.cameras[of.camera], place).has_value();
-    }
-
-    /// So many views at least, the nearest first.
-    void order_by_distance(const Vector3d& place, std::size_t count,
-                           std::vector<PointTree::Near>& near) const
-    {
-        constexpr std::size_t kMostByTree = 256; // whose order is kept while they are found
-        if (count <= kMostByTree && count < centers_.size()) {
-            tree_->find_nearest(place, count, near);
-            return;
-        }
-        near.clear();
-        for (std::size_t i = 0; i < centers_.size(); ++i) {
-            near.push_back({(centers_[i] - place).norm(), i});
-        }
-        std::ranges::sort(near);
-    }
-
-    const Scene& scene_;
-    std::vector<std::uint32_t> numbers_; ///< of the views, which follow each other in space
-    std::vector<Vector3d> centers_;
-    std::optional<PointTree> tree_;
-};
+/// Up to `most` views that have a place in their image, from the nearest on, after the first
+/// `passed` that the tree names, however many of these do; `passed` is raised by those looked at.
+Asked next_views(const Scene& scene, const ViewTree& tree, const Vector3d& place, std::size_t most,
+                 std::uint32_t& passed)
+{
+    Asked row;
+    std::uint32_t looked_at = 0;
+    tree.any_from_nearest(place, Vector3d::Zero(), [&](std::uint32_t number) {
+        if (++looked_at <= passed) return false;
+        const View& view = scene.views[number];
+        if (can_show(scene, number) && project_into(view, scene.cameras[view.camera], place))
+            row.push_back(number);
+        return row.count == most;
+    });
+    passed = looked_at;
+    return row;
+}
 
 /// Points that follow each other in space, and what hides them from views.
 class Hiding {
@@ -243,12 +185,12 @@ class Questions {
         std::vector<std::size_t> next = begins_;
         for (std::size_t point = 0; point < asked.size(); ++point) {
             for (std::size_t i = 0; i < asked[point].count; ++i) {
-                places_[next[asked[point].views[i]]++] = point * kMostAsked + i;
+                places_[next[asked[point].views[i]]++] = point * kMostAtOnce + i;
             }
         }
     }
 
-    /// Of a view: kMostAsked times the number of a row, and which of its views it is.
+    /// Of a view: kMostAtOnce times the number of a row, and which of its views it is.
     std::span<const std::size_t> of(std::size_t view) const
     {
         return std::span(places_).subspan(begins_[view], begins_[view + 1] - begins_[view]);
@@ -279,7 +221,8 @@ class NearestViews {
             const Progress part = progress.part(is_first ? 0.0 : 0.5, is_first ? 0.5 : 1.0);
             std::vector<Asked> asked(left.size());
             parallel_for(left.size(), part.part(0.0, 0.4), [&](std::size_t i) {
-                asked[i] = views_.next(places_[run.first + left[i]], most, passed[left[i]]);
+                asked[i] =
+                    next_views(scene_, views_, places_[run.first + left[i]], most, passed[left[i]]);
             });
             const std::vector<std::uint8_t> sees =
                 ask(run.first, left, Questions(asked, scene_.views.size()), part.part(0.4, 1.0));
@@ -293,13 +236,13 @@ class NearestViews {
     std::vector<std::uint8_t> ask(std::size_t first, const std::vector<std::uint32_t>& left,
                                   const Questions& questions, const Progress& progress) const
     {
-        std::vector<std::uint8_t> sees(left.size() * kMostAsked);
+        std::vector<std::uint8_t> sees(left.size() * kMostAtOnce);
         const auto ask_view = [&](std::size_t view) {
             const std::span<const std::size_t> of_view = questions.of(view);
             if (of_view.empty()) return;
             std::vector<std::size_t> points(of_view.size());
             std::ranges::transform(of_view, points.begin(), [&](std::size_t place) {
-                return first + left[place / kMostAsked];
+                return first + left[place / kMostAtOnce];
             });
             hiding_.ask(view, points,
                         [&](std::size_t i, bool is_seen) { sees[of_view[i]] = is_seen ? 1 : 0; });
@@ -316,7 +259,7 @@ class NearestViews {
         for (std::size_t i = 0; i < left.size(); ++i) {
             Seen& row = rows[left[i]];
             for (std::size_t k = 0; k < asked[i].count && row.count < kMostNearestViews; ++k) {
-                if (sees[i * kMostAsked + k] != 0) row.push_back(asked[i].views[k]);
+                if (sees[i * kMostAtOnce + k] != 0) row.push_back(asked[i].views[k]);
             }
             if (asked[i].count > 0 && row.count < kMostNearestViews) left[kept++] = left[i];
         }
@@ -325,7 +268,7 @@ class NearestViews {
 
     const Scene& scene_;
     const std::vector<Vector3d>& places_;
-    ViewsAround views_;
+    ViewTree views_;
     Hiding hiding_;
 };
 

@@ -22,13 +22,6 @@ std::array<Vector3d, 3> facet_corners(const TetMesh& mesh, const CellFacet& face
     return {mesh.positions[vertices[a]], mesh.positions[vertices[b]], mesh.positions[vertices[c]]};
 }
 
-/// Towards the outside; not of unit length.
-Vector3d outward(const TetMesh& mesh, const CellFacet& facet)
-{
-    const auto [a, b, c] = facet_corners(mesh, facet); // counter-clockwise from inside
-    return scaled_normal(a, c, b);
-}
-
 } // namespace
 
 bool stands_before(const Vector3d& center, const Vector3d& place, const Vector3d& normal,
@@ -91,6 +84,12 @@ std::array<Vector3d, 3> FaceVisibility::corners_of(const CellFacet& facet) const
     return facet_corners(cells_, facet);
 }
 
+Vector3d FaceVisibility::outward(const CellFacet& facet) const
+{
+    const auto [a, b, c] = corners_of(facet); // counter-clockwise from inside
+    return scaled_normal(a, c, b);
+}
+
 std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
 {
     return vcarve::places_on(corners_of(facet));
@@ -101,7 +100,7 @@ bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vec
                            double cosine) const
 {
     const View& eye = scene_.views[view];
-    return stands_before(eye.center, place, outward(cells_, facet).normalized(), cosine) &&
+    return stands_before(eye.center, place, outward(facet).normalized(), cosine) &&
            view_shows(eye, scene_.cameras[eye.camera], place);
 }
 
@@ -129,16 +128,15 @@ bool FaceVisibility::is_seen(const CellFacet& facet) const
                                    [&](const Vector3d& place) { return sees(view, facet, place); });
     };
     if (any_view_of_corners(facet, sees_some)) return true;
-    const auto goes_on = [&](const CellFacet& ahead) { return is_free(ahead, facet); };
     return std::ranges::any_of(places, [&](const Vector3d& place) {
-        return views_.any_view(cells_, facet, place, goes_on,
-                               [&](std::uint32_t view) { return sees(view, facet, place); });
+        return any_near_view(facet, place,
+                             [&](std::uint32_t view) { return sees(view, facet, place); });
     });
 }
 
 bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
 {
-    const Vector3d normal = outward(cells_, facet).normalized();
+    const Vector3d normal = outward(facet).normalized();
     return std::ranges::all_of(kFacetCorners[facet.slot], [&](int corner) {
         const Index vertex = cells_.cells[facet.cell].vertices[corner];
         const Vector3d& place = cells_.positions[vertex];

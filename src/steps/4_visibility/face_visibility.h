@@ -2,7 +2,7 @@
 
 #include "model/labels.h"
 #include "model/tet_mesh.h"
-#include "steps/4_visibility/view_tree.h"
+#include "model/view_tree.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
@@ -60,9 +60,8 @@ class FaceVisibility {
     /// its image shows the place.
     bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
 
-    /// Whether some view sees one of the places on a facet. The views that saw its corners are
-    /// asked first. Cost: where no view sees it, that of ViewTree::any_view() for each place, and a
-    /// walk for each view that this does not rule out and whose image shows the place.
+    /// Whether some view sees one of the places on a facet, as any_view() asks them. Cost: up to 32
+    /// walks for each place, and one for each view that saw a corner.
     bool is_seen(const CellFacet& facet) const;
 
     /// The same of a place where of the boundary only the facets are there that is_kept(facet)
@@ -71,12 +70,11 @@ class FaceVisibility {
     bool sees_among(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                     const IsKept& is_kept, double cosine = kGrazing) const;
 
-    /// Whether ask(view) says yes for some view that may see a place on a facet, where of the
-    /// boundary only the facets are there that is_kept(facet) names; others may be asked, too.
-    /// Those that saw a corner of the facet, the likeliest to see it, are asked first.
-    template <typename IsKept, typename Ask>
-    bool any_view_among(const CellFacet& facet, const Eigen::Vector3d& place, const IsKept& is_kept,
-                        const Ask& ask) const;
+    /// Whether ask(view) says yes for some view that may see a place on a facet: of those that saw
+    /// a corner of it, the likeliest to see it, or of the nearest 32 that stand before it and whose
+    /// images show it.
+    template <typename Ask>
+    bool any_view(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const;
 
     /// Whether images tell what is seen of a facet: of the views before a corner that saw it, one
     /// shows it at least. Where a lens or a pose is wrong they do not.
@@ -95,6 +93,9 @@ class FaceVisibility {
                      const IsKept& is_kept) const;
 
   private:
+    /// Towards the outside; not of unit length.
+    Eigen::Vector3d outward(const CellFacet& facet) const;
+
     bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                double cosine = kGrazing) const;
 
@@ -102,9 +103,10 @@ class FaceVisibility {
 
     bool is_free(const CellFacet& ahead, const CellFacet& facet) const;
 
-    /// Whether ask(view) says yes for some view that saw a corner of a facet.
     template <typename Ask>
     bool any_view_of_corners(const CellFacet& facet, const Ask& ask) const;
+    template <typename Ask>
+    bool any_near_view(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const;
 
     /// Walks along a line out of a facet's cell, from a place on the facet to a target, and calls
     /// goes_on(crossed) for what it crosses of the boundary behind the facet itself, until that
@@ -128,16 +130,25 @@ bool FaceVisibility::any_view_of_corners(const CellFacet& facet, const Ask& ask)
     });
 }
 
-template <typename IsKept, typename Ask>
-bool FaceVisibility::any_view_among(const CellFacet& facet, const Eigen::Vector3d& place,
-                                    const IsKept& is_kept, const Ask& ask) const
+template <typename Ask>
+bool FaceVisibility::any_near_view(const CellFacet& facet, const Eigen::Vector3d& place,
+                                   const Ask& ask) const
 {
-    const auto goes_on = [&](const CellFacet& ahead) {
-        if (ahead.cell == facet.cell) return true; // through the facet itself
-        const Crossed met = crossed_at(ahead);
-        return met.side == Meets::nothing || !is_kept(met.facet);
-    };
-    return any_view_of_corners(facet, ask) || views_.any_view(cells_, facet, place, goes_on, ask);
+    std::size_t asked = 0;
+    bool is_yes = false;
+    views_.any_from_nearest(place, outward(facet), [&](std::uint32_t view) {
+        if (!faces(view, facet, place)) return false;
+        is_yes = ask(view);
+        return is_yes || ++asked == kMostAsked;
+    });
+    return is_yes;
+}
+
+template <typename Ask>
+bool FaceVisibility::any_view(const CellFacet& facet, const Eigen::Vector3d& place,
+                              const Ask& ask) const
+{
+    return any_view_of_corners(facet, ask) || any_near_view(facet, place, ask);
 }
 
 template <typename IsKept>

@@ -37,7 +37,7 @@ bool is_seen(const Boundary& boundary, const FaceFlags& keep, const CellFacet& f
              const Vector3d& place, double cosine)
 {
     const KeptFacets is_kept{boundary, keep};
-    return boundary.visibility.any_view_among(facet, place, is_kept, [&](std::uint32_t view) {
+    return boundary.visibility.any_view(facet, place, [&](std::uint32_t view) {
         return boundary.visibility.sees_among(view, facet, place, is_kept, cosine);
     });
 }
@@ -93,7 +93,7 @@ bool FaceEvidence::hides_a_back(std::uint32_t face) const
     const FaceVisibility& visibility = boundary_.visibility;
     const KeptFacets is_kept{boundary_, keep_};
     return std::ranges::any_of(visibility.places_on(facet), [&](const Vector3d& place) {
-        return visibility.any_view_among(facet, place, is_kept, [&](std::uint32_t view) {
+        return visibility.any_view(facet, place, [&](std::uint32_t view) {
             return visibility.sees_among(view, facet, place, is_kept) &&
                    visibility.met_behind(view, facet, place, is_kept) ==
                        FaceVisibility::Meets::back;

@@ -211,6 +211,20 @@ TEST(FaceVisibility, NeedsNoTrackToSeeAFacet)
     EXPECT_FALSE(nobody.made.visibility.is_seen(nobody.base));
 }
 
+TEST(FaceVisibility, AsksTheNearestThirtyTwoViewsThatMightSeeAFacet)
+{
+    const auto is_seen_beside = [](std::size_t num_hidden) {
+        std::vector<Vector3d> centers(num_hidden, Vector3d(0.03, 0.0, -5.0));
+        centers.emplace_back(8.0, 0.0, -5.0); // looks in from the side, and is farther off
+        Scene scene = make_scene(centers, TwoTetrahedra::points());
+        const TwoTetrahedra pair(aimed(std::move(scene), TwoTetrahedra::kMiddle), true, true);
+        return pair.made.visibility.is_seen(pair.base);
+    };
+    EXPECT_TRUE(is_seen_beside(0));
+    EXPECT_TRUE(is_seen_beside(31));
+    EXPECT_FALSE(is_seen_beside(32));
+}
+
 TEST(FaceVisibility, BelievesNoTrackThatIsBlocked)
 {
     auto points = TwoTetrahedra::points();

@@ -1,4 +1,4 @@
-#include "steps/4_visibility/view_tree.h"
+#include "model/view_tree.h"
 
 #include "model/camera.h"
 
@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 namespace vcarve {
 
@@ -43,9 +42,12 @@ double angle_between(const Vector3d& a, const Vector3d& b)
 
 } // namespace
 
-ViewTree::ViewTree(const Scene& scene) : order_(scene.views.size())
+ViewTree::ViewTree(const Scene& scene) : centers_(scene.views.size())
 {
-    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::transform(scene.views, centers_.begin(), &View::center);
+    for (std::uint32_t view = 0; view < centers_.size(); ++view) {
+        if (centers_[view].allFinite()) order_.push_back(view);
+    }
     if (!order_.empty())
         add_node(scene, angles_of(scene), 0, static_cast<std::uint32_t>(order_.size()));
 }
@@ -71,23 +73,25 @@ void ViewTree::add_node(const Scene& scene, const std::vector<double>& angles, s
         return scene.views[view].cam_from_world.conjugate() * Vector3d::UnitZ();
     };
     for (std::uint32_t i = first; i < last; ++i) {
-        box.extend(scene.views[order_[i]].center);
+        box.extend(centers_[order_[i]]);
         axis += axis_of(order_[i]);
     }
     double angle = 0.0;
     for (std::uint32_t i = first; i < last; ++i) {
         angle = std::max(angle, angles[order_[i]] + angle_between(axis, axis_of(order_[i])));
     }
+    angle = std::min(angle, std::numbers::pi);
     const std::size_t number = nodes_.size();
-    nodes_.push_back({box.center(), 0.5 * box.sizes(), first, last, 0, axis, angle});
+    nodes_.push_back({box.center(), 0.5 * box.sizes(), first, last, 0, axis.normalized(),
+                      std::cos(angle), std::sin(angle)});
     if (last - first <= kFew) return;
     int longest = 0;
     box.sizes().maxCoeff(&longest);
     const std::uint32_t middle = first + (last - first) / 2;
     std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
                      [&](std::uint32_t a, std::uint32_t b) {
-                         const double at_a = scene.views[a].center[longest];
-                         const double at_b = scene.views[b].center[longest];
+                         const double at_a = centers_[a][longest];
+                         const double at_b = centers_[b][longest];
                          return at_a < at_b || (at_a == at_b && a < b);
                      });
     add_node(scene, angles, first, middle);
@@ -97,60 +101,50 @@ void ViewTree::add_node(const Scene& scene, const std::vector<double>& angles, s
 
 bool ViewTree::is_out_of_sight(const Node& node, const Vector3d& place)
 {
-    if (!(node.angle < std::numbers::pi)) return false;
     const Vector3d way = place - node.middle;
     const double radius = node.half.norm();
     const double distance = way.norm();
-    if (distance <= radius) return false;
-    return angle_between(way, node.axis) > node.angle + std::asin(radius / distance);
+    if (!(distance > radius)) return false;
+    // Around the box the cone is as much wider as the box looks half wide from the place.
+    const double half_sine = radius / distance;
+    const double half_cosine = std::sqrt(1.0 - half_sine * half_sine);
+    const double wide_sine = node.sine * half_cosine + node.cosine * half_sine;
+    const double wide_cosine = node.cosine * half_cosine - node.sine * half_sine;
+    return wide_sine > 0.0 && way.dot(node.axis) < distance * wide_cosine;
 }
 
-ViewTree::Side ViewTree::side_of(const Node& node, const Vector3d& place, const Vector3d& normal,
-                                 double length)
+bool ViewTree::is_behind(const Node& node, const Vector3d& place, const Vector3d& normal)
 {
     constexpr double kRounding = 1e-11;
     const Vector3d way = node.middle - place;
-    const double slack = normal.cwiseAbs().dot(node.half) +
-                         kRounding * length * (way.cwiseAbs() + node.half + place.cwiseAbs()).sum();
-    const double height = normal.dot(way);
-    if (height > slack) return Side::before;
-    return height < -slack ? Side::behind : Side::unclear;
+    const double slack = normal.cwiseAbs().dot(
+        node.half + kRounding * (way.cwiseAbs() + node.half + place.cwiseAbs()));
+    return normal.dot(way) < -slack;
 }
 
-ViewTree::Side ViewTree::side_of_facet(const TetMesh& cells, const CellFacet& facet,
-                                       const Vector3d& place, const Node& node)
+void ViewTree::add(std::size_t number, const Vector3d& place, const Vector3d& normal,
+                   std::vector<Near>& queue) const
 {
-    const auto& [a, b, c] = kFacetCorners[facet.slot];
-    const auto& vertices = cells.cells[facet.cell].vertices;
-    const Vector3d& from = cells.positions[vertices[a]];
-    const Vector3d one = cells.positions[vertices[c]] - from;
-    const Vector3d other = cells.positions[vertices[b]] - from;
-    return side_of(node, place, one.cross(other), one.cwiseAbs().sum() * other.cwiseAbs().sum());
+    const Node& node = nodes_[number];
+    if (is_out_of_sight(node, place) || is_behind(node, place, normal)) return;
+    const Vector3d gap = (place - node.middle).cwiseAbs() - node.half;
+    queue.push_back({gap.cwiseMax(0.0).norm(), number});
+    std::ranges::push_heap(queue, std::greater<>());
 }
 
-std::optional<CellFacet> ViewTree::exit_of(const TetMesh& cells, const CellFacet& entered,
-                                           const Vector3d& place, const Node& node)
+void ViewTree::add_parts(std::size_t number, const Vector3d& place, const Vector3d& normal,
+                         std::vector<Near>& queue) const
 {
-    const Cell& cell = cells.cells[entered.cell];
-    if (cell.is_infinite()) return std::nullopt;
-    const auto& corners = kFacetCorners[entered.slot];
-    const Vector3d tip = cells.positions[cell.vertices[entered.slot]] - place;
-    const double tip_length = tip.cwiseAbs().sum();
-    // From behind the tip the corners run counter-clockwise around the way there.
-    std::array<Side, 3> sides{};
-    for (int i = 0; i < 3; ++i) {
-        const Vector3d corner = cells.positions[cell.vertices[corners[i]]] - place;
-        sides[i] = side_of(node, place, tip.cross(corner), tip_length * corner.cwiseAbs().sum());
+    const Node& node = nodes_[number];
+    if (node.right != 0) {
+        add(number + 1, place, normal, queue);
+        add(node.right, place, normal, queue);
+        return;
     }
-    for (int i = 0; i < 3; ++i) {
-        if (sides[i] != Side::before || sides[(i + 1) % 3] != Side::behind) continue;
-        const CellFacet ahead{entered.cell, corners[(i + 2) % 3]};
-        const bool is_beyond =
-            side_of_facet(cells, ahead, cells.positions[cell.vertices[corners[i]]], node) ==
-            Side::before;
-        return is_beyond ? std::optional(ahead) : std::nullopt;
+    for (std::uint32_t i = node.first; i < node.last; ++i) {
+        queue.push_back({(centers_[order_[i]] - place).norm(), nodes_.size() + order_[i]});
+        std::ranges::push_heap(queue, std::greater<>());
     }
-    return std::nullopt;
 }
 
 } // namespace vcarve
