@@ -103,6 +103,14 @@ OptionList options_of(OutputOptions& output)
           .min = -kUnlimited,
           .words = {"none", "auto"}},
          &output.offset},
+        {kStage,
+         {.name = "transform",
+          .unit = "file or scale",
+          .help = "What is done to the coordinates that are written, before --offset, and said in "
+                  "the file: a number scales them; a file moves them to another frame, as COLMAP's "
+                  "model_aligner writes it (scale, quaternion, translation) or as a matrix of 3 or "
+                  "4 rows."},
+         &output.transform},
         {kStage, {.name = "quiet", .help = "Print nothing but errors."}, &output.quiet},
         {kStage,
          {.name = "verbose", .help = "Print every stage and all that it counted."},
@@ -168,7 +176,8 @@ Manual mesh_manual()
          "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
          "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
          "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken. Or a PLY file: "
-         "of a dense workspace, or of a laser scan with the places of its scanners."},
+         "of a dense workspace, or of a laser scan with the places of its scanners. Or a "
+         "transforms.json of nerfstudio, with its points."},
         {"OUT.ply",
          "The surface: triangles with colours and normals, in the model's frame. The end "
          "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "

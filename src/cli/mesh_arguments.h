@@ -4,22 +4,23 @@
 #include "cli/model_input.h"
 #include "cli/option_parser.h"
 #include "cli/outputs.h"
+#include "cli/placing.h"
 #include "cli/preview_output.h"
 #include "vcarve/options.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace vcarve::cli {
 
-enum class OffsetWord { none, automatic };
-
 /// How the program writes what it computes.
 struct OutputOptions {
     bool ascii = false;
     bool attributes = false;
-    WordOrVector offset; ///< the words are those of OffsetWord
+    WordOrVector offset;   ///< the words are those of OffsetWord
+    std::string transform; ///< a file, or a scale; empty for none
     bool quiet = false;
     bool verbose = false;
 };
@@ -35,6 +36,7 @@ struct MeshArguments {
     bool keeps_work = false;      ///< also at the end
     std::string command;          ///< as it was typed
     OutputOptions output;
+    std::optional<Similarity> transform; ///< what --transform says, once it is read
     Options options;
     HelpOptions help;
 };

@@ -8,9 +8,11 @@
 #include "cli/mesh_arguments.h"
 #include "cli/mesh_report.h"
 #include "cli/model_input.h"
+#include "cli/placing.h"
 #include "cli/preview_output.h"
 #include "cli/run_memory.h"
 #include "cli/run_record.h"
+#include "io/colmap/sim3_text.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
@@ -29,6 +31,7 @@
 #include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -61,28 +64,30 @@ struct Surface {
     RemovedFaces removed; ///< in the same case: what was taken away
 };
 
-Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted)
-{
-    if (wanted.word == WordOrVector::kNoWord) return wanted.vector;
-    const bool automatic = static_cast<OffsetWord>(wanted.word) == OffsetWord::automatic;
-    return automatic ? round_offset(model) : Eigen::Vector3d::Zero();
-}
-
 void write_surface(const MeshArguments& arguments, const Surface& surface,
                    const Eigen::Vector3d& offset, Log& log)
 {
+    std::vector<std::string> comments = {"made by colmap-vcarve " + versions().program};
+    std::optional<TriMesh> moved;
+    if (arguments.transform) {
+        moved = transformed(surface.mesh, *arguments.transform);
+        comments.push_back("transform " + sim3_text(*arguments.transform));
+        log.note(fmt::format("the coordinates written are those of the model transformed by {}",
+                             arguments.output.transform));
+    }
+    const TriMesh& mesh = moved ? *moved : surface.mesh;
     if (!offset.isZero(0.0)) {
-        log.note(fmt::format("the coordinates written are those of the model minus {}",
-                             fmt::join(offset, ", ")));
+        log.note(fmt::format("the coordinates written are those of the model{} minus {}",
+                             moved ? ", transformed," : "", fmt::join(offset, ", ")));
     }
     Stage stage(log, "write");
     const MeshFormat format = {.ascii = arguments.output.ascii,
-                               .comments = {"made by colmap-vcarve " + versions().program},
+                               .comments = comments,
                                .provenance =
                                    surface.provenance.has_value() ? &*surface.provenance : nullptr,
                                .offset = offset};
-    write_mesh(arguments.out, surface.mesh, format);
-    const double share = rounding_share(arguments.out, surface.mesh, format);
+    write_mesh(arguments.out, mesh, format);
+    const double share = rounding_share(arguments.out, mesh, format);
     constexpr double kSeen = 1e-6;
     if (share > kSeen) {
         log.note(
@@ -90,7 +95,7 @@ void write_surface(const MeshArguments& arguments, const Surface& surface,
                         "--offset auto avoids that",
                         arguments.out.string(), share));
     }
-    stage.end({{"faces", surface.mesh.faces.size()}, {"vertices", surface.mesh.positions.size()}});
+    stage.end({{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}});
 }
 
 Json check_json(const MeshCheck& check)
@@ -241,8 +246,10 @@ Made make_surface(const Run& run, Json& record)
     PreviewOutput preview(arguments.preview);
     preview.stand_in(input.scene);
     record["preview"] = preview.record();
-    const Eigen::Vector3d offset = offset_for(input.scene, arguments.output.offset);
+    const Eigen::Vector3d offset =
+        offset_for(input.scene, arguments.output.offset, arguments.transform);
     record["offset"] = {offset.x(), offset.y(), offset.z()};
+    if (arguments.transform) record["transform"] = sim3_text(*arguments.transform);
     Made made;
     made.is_dense = input.read.is_dense;
     const Surface surface = surface_of(std::move(input), run);
@@ -251,7 +258,9 @@ Made make_surface(const Run& run, Json& record)
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
     if (arguments.stats.empty() && arguments.report.empty()) return made;
-    record["mesh"] = check_json(check_mesh(surface.mesh));
+    MeshCheck check = check_mesh(surface.mesh);
+    if (arguments.transform) check.area *= arguments.transform->scale * arguments.transform->scale;
+    record["mesh"] = check_json(check);
     if (!arguments.report.empty()) {
         made.report = make_report(surface.mesh, surface.removed, surface.scene, logs.told);
     }
@@ -307,6 +316,7 @@ Json begun_record(MeshArguments& arguments, int threads, const Processes& proces
             {"input", nullptr},
             {"output", arguments.out.string()},
             {"offset", nullptr},
+            {"transform", nullptr},
             {"preview", nullptr},
             {"options",
              options_json(joined({options_of(arguments.options), options_of(arguments.output)}))},
@@ -319,11 +329,13 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     MeshArguments arguments = read_mesh_arguments(given);
     const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
     require_work_folder(arguments, processes);
-    const Output region = {"the region", arguments.options.crop.region.file};
-    keep_inputs(outputs_of(arguments), arguments.model, {&region, 1});
+    const std::array<Output, 2> others = {{{"the region", arguments.options.crop.region.file},
+                                           {"the transformation", arguments.output.transform}}};
+    keep_inputs(outputs_of(arguments), arguments.model, others);
     const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
-    // What is wrong with the file of a region is said before the work starts.
+    // What is wrong with the file of a region or a transformation is said before the work starts.
+    arguments.transform = transform_of(arguments.output.transform);
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
         make_region(arguments.options.crop.region, Scene());
     }

@@ -246,6 +246,46 @@ TEST_F(ProgramOnBall, SaysWhichOffsetItSubtracts)
               "colmap-vcarve: --offset takes none, auto or x,y,z, not \"5e5,4.6e6\"\n");
 }
 
+TEST_F(ProgramOnBall, TransformsWhatItWritesBeforeItSubtractsTheOffset)
+{
+    EXPECT_EQ(run_program({ball, out}).exit_code, 0);
+    const TriMesh plain = read_ply(out);
+    const std::string file = folder.write("sim3.txt", "2 0 0 0 1 500000 0 0"); // half a turn
+    const Outcome outcome =
+        run_program({ball, out, "--transform", file, "--offset", "auto", "--stats", stats});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("the coordinates written are those of the model transformed "
+                                       "by " +
+                                       file + "\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("of the model, transformed, minus 500000, 0, 0\n"));
+    EXPECT_THAT(bytes_of(out), HasSubstr("comment transform 2 0 0 0 1 500000 0 0\n"));
+    const TriMesh moved = read_ply(out);
+    ASSERT_EQ(moved.positions.size(), plain.positions.size());
+    EXPECT_EQ(moved.faces, plain.faces);
+    EXPECT_EQ(moved.offset, Eigen::Vector3d(500000, 0, 0));
+    for (std::size_t i = 0; i < moved.positions.size(); ++i) {
+        const Eigen::Vector3d& p = plain.positions[i];
+        EXPECT_LT((moved.positions[i] - Eigen::Vector3d(-2, -2, 2).cwiseProduct(p)).norm(), 1e-9);
+        const Eigen::Vector3f& n = plain.normals[i];
+        EXPECT_LT((moved.normals[i] - Eigen::Vector3f(-1, -1, 1).cwiseProduct(n)).norm(), 1e-6F);
+    }
+    const auto record = nlohmann::json::parse(bytes_of(stats));
+    EXPECT_EQ(record["transform"], "2 0 0 0 1 500000 0 0");
+    EXPECT_EQ(record["options"]["transform"], file);
+    EXPECT_NEAR(record["mesh"]["area"], 4.0 * 4.0 * std::numbers::pi, 1.0);
+}
+
+TEST_F(ProgramOnBall, RefusesAReflectionAndToReplaceTheTransformation)
+{
+    const std::string mirror = folder.write("mirror.ply", "1 0 0 0 0 1 0 0 0 0 -1 0");
+    EXPECT_EQ(sentence_of(3, {ball, out, "--transform", mirror}),
+              "colmap-vcarve: " + mirror +
+                  ": the transformation is a reflection, which turns "
+                  "surfaces inside out, expected a rotation with a scale and a translation\n");
+    EXPECT_EQ(sentence_of(2, {ball, mirror, "--transform", mirror}),
+              "colmap-vcarve: the surface would replace the transformation " + mirror + "\n");
+}
+
 TEST_F(ProgramOnBall, WarnsOfFloatsFarFromTheOrigin)
 {
     write_ball_model(ball, 400, {5e5, 4.6e6, 1.0});
