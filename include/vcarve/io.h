@@ -36,18 +36,20 @@ struct PointsOptions {
 };
 
 /// Reads the COLMAP model that `input` means: a folder with cameras, images and points3D (.bin or
-/// .txt), a `sparse` folder with such components (the one with most points is taken), or a
-/// workspace that holds `sparse/0` or `sparse`. Where a folder has both formats, .bin is taken.
-/// A dense workspace, which holds fused.ply, fused.ply.vis and sparse, gives its dense points; so
-/// does the PLY file itself. A PLY file that tells where the scanner of its points stood needs no
-/// model: each vertex has x_origin, y_origin and z_origin, or scanner_x, scanner_y and scanner_z;
-/// or an element `camera`, as PCL writes it, has view_px, view_py and view_pz, which counts where
-/// the file has no .vis beside it. Its views are then the places of the scanners. Runs as the stage
-/// "read" of `log`, which also gets a note on what was taken and what not. Views and cameras are
-/// sorted by COLMAP's ids, points keep the order of the file, and Scene::offset is zero. Throws
-/// UsageError where the options contradict each other, and InputError naming file and place where a
-/// file is missing, broken or contradicts another, and Cancelled. Cost: linear in the size of the
-/// files; allocations never exceed a small multiple of it.
+/// .txt) or one of these files, a `sparse` folder with such components (the one with most points is
+/// taken), or a workspace that holds `sparse/0` or `sparse`. Where a folder has both formats, .bin
+/// is taken. A dense workspace, which holds fused.ply, fused.ply.vis and sparse, gives its dense
+/// points; so does the PLY file itself, whose points may have lists of views instead (OpenMVS's
+/// view_indices). A transforms.json of nerfstudio or instant-ngp gives its poses with the points of
+/// its PLY file. A PLY file that tells where the scanner of its points stood needs no model: each
+/// vertex has x_origin, y_origin and z_origin, or scanner_x, scanner_y and scanner_z; or an element
+/// `camera`, as PCL writes it, has view_px, view_py and view_pz, which counts where the file has no
+/// .vis beside it. Its views are then the places of the scanners. Runs as the stage "read" of
+/// `log`, which also gets a note on what was taken and what not. Views and cameras are sorted by
+/// COLMAP's ids, points keep the order of the file, and Scene::offset is zero. Throws UsageError
+/// where the options contradict each other, and InputError naming file and place where a file is
+/// missing, broken or contradicts another, and Cancelled. Cost: linear in the size of the files;
+/// allocations never exceed a small multiple of it.
 Scene read_model(const std::filesystem::path& input, const PointsOptions& options, Log& log);
 
 /// The same, of points found by looking.

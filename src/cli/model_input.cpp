@@ -2,6 +2,7 @@
 
 #include "cli/console_log.h"
 
+#include <array>
 #include <utility>
 
 namespace vcarve::cli {
@@ -10,10 +11,11 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading
 {
     ReadModel read = read_found_model(model.path, model.all_points(), log, reading);
     const FoundModel& found = read.found.model;
+    constexpr std::array kFormats = {"binary", "text", "transforms"};
     ModelInput input;
     input.record = {{"model", model.path.string()},
                     {"folder", found.folder.string()},
-                    {"format", found.format == ModelFormat::binary ? "binary" : "text"},
+                    {"format", kFormats.at(static_cast<std::size_t>(found.format))},
                     {"cloud", nullptr},
                     {"points", read.read.points},
                     {"views", read.read.views},

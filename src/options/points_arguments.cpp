@@ -24,7 +24,8 @@ OptionList options_of(PointsArguments& arguments)
         {kStage,
          {.name = "visibility",
           .help = "Which views saw the points of a PLY file, as COLMAP's stereo_fusion writes it; "
-                  "by default the file called like it and .vis."},
+                  "by default the file called like it and .vis.",
+          .tuning = true},
          &arguments.points.visibility},
         {kStage,
          {.name = "sights",

@@ -29,11 +29,12 @@ std::vector<ReadFile> files_of(const FoundInput& input)
     std::vector<ReadFile> files;
     for (const char* const stem : kModelFiles) {
         if (is_dense && std::string_view(stem) == "points3D") continue; // is not read then
-        const std::string name = model_file(stem, format);
-        files.push_back({name, folder / name});
+        const std::filesystem::path path = model_path(folder, stem, format);
+        if (files.empty() || files.back().path != path) files.push_back({path.filename(), path});
     }
     if (!is_dense) return files;
-    files.push_back({"the cloud", input.dense->cloud});
+    files.push_back(
+        {input.dense->are_sparse ? "the sparse cloud" : "the cloud", input.dense->cloud});
     if (!input.dense->visibility.empty()) {
         files.push_back({"the visibility", input.dense->visibility});
     }

@@ -33,8 +33,9 @@ class KeepInputs : public testing::Test {
     {
         const std::vector<Output> outputs = {{"--stats", folder / "new.json"},
                                              {"the surface", out}};
-        const std::string said = refusal<UsageError>(
-            [&] { keep_inputs(outputs, {.path = dense, .points = options, .scanner = {}}, {}); });
+        const std::string said = refusal<UsageError>([&] {
+            keep_inputs(outputs, {{.points = options, .scanner = {}}, dense}, {});
+        });
         return said == "no exception" ? "" : said;
     }
 

@@ -28,6 +28,8 @@ struct FormatReader {
 extern const FormatReader kBinaryReader;
 /// cameras.txt, images.txt and points3D.txt.
 extern const FormatReader kTextReader;
+/// transforms.json, which has no points and so no readers of them.
+extern const FormatReader kTransformsReader;
 
 /// So many records are read between two calls of Progress::tell.
 inline constexpr std::uint64_t kRecordsBetweenTells = 256;

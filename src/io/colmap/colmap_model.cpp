@@ -24,6 +24,7 @@ double size_of_file(const std::filesystem::path& path)
 
 const FormatReader& reader_of(ModelFormat format)
 {
+    if (format == ModelFormat::transforms) return kTransformsReader;
     return format == ModelFormat::binary ? kBinaryReader : kTextReader;
 }
 
@@ -32,8 +33,8 @@ SceneBuilder read_views(const std::filesystem::path& folder, ModelFormat format,
 {
     const FormatReader& reader = reader_of(format);
     SceneBuilder builder(folder, format);
-    reader.read_cameras(folder / model_file("cameras", format), builder);
-    reader.read_images(folder / model_file("images", format), builder, progress);
+    reader.read_cameras(model_path(folder, "cameras", format), builder);
+    reader.read_images(model_path(folder, "images", format), builder, progress);
     return builder;
 }
 
@@ -42,8 +43,8 @@ SceneBuilder read_views(const std::filesystem::path& folder, ModelFormat format,
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
                         const Progress& progress, DroppedSights* dropped)
 {
-    const std::filesystem::path points_file = folder / model_file("points3D", format);
-    const double images = size_of_file(folder / model_file("images", format));
+    const std::filesystem::path points_file = model_path(folder, "points3D", format);
+    const double images = size_of_file(model_path(folder, "images", format));
     const double points = size_of_file(points_file);
     const double middle = images / (images + points + 1.0); // the same time for all bytes
     SceneBuilder builder = read_views(folder, format, progress.part(0.0, middle));
@@ -66,7 +67,7 @@ Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat fo
         const auto view = std::ranges::lower_bound(scene.views, image_id, {}, &View::id);
         sights.emplace_back(*point, static_cast<std::uint32_t>(view - scene.views.begin()));
     };
-    reader_of(format).read_sights(folder / model_file("images", format), take, progress);
+    reader_of(format).read_sights(model_path(folder, "images", format), take, progress);
     sort_unique(sights);
     Tracks tracks;
     auto sight = sights.begin();

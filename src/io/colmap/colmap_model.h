@@ -10,7 +10,11 @@
 
 namespace vcarve {
 
-enum class ModelFormat { binary, text };
+enum class ModelFormat {
+    binary,
+    text,
+    transforms, ///< no folder, but the file transforms.json of nerfstudio or instant-ngp
+};
 
 /// The cameras and views of a model, sorted by COLMAP's ids.
 struct ColmapViews {

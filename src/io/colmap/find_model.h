@@ -16,7 +16,7 @@ enum class PointsFile {
 
 /// A model on disk, and what the user should know about how it was chosen.
 struct FoundModel {
-    std::filesystem::path folder;
+    std::filesystem::path folder; ///< or the file transforms.json
     ModelFormat format = ModelFormat::binary;
     std::vector<std::string> notes; ///< sentences: components not taken, .txt files ignored, ...
 };
@@ -25,10 +25,10 @@ struct FoundModel {
 /// hold that many; as many as points3D.txt has lines; zero where there is neither.
 std::uint64_t count_points(const std::filesystem::path& folder, ModelFormat format);
 
-/// Finds the model that `input` means: the model's own folder, a `sparse` folder with components
-/// (the one with most points is taken), a workspace that holds `sparse/0` or `sparse`, or a folder
-/// with models up to four levels down. Where a folder has both formats, .bin is taken. Throws
-/// InputError where there is none, saying what was looked for and what is there.
+/// Finds the model that `input` means: the model's own folder or a file in it, a `sparse` folder
+/// with components (the one with most points is taken), a workspace that holds `sparse/0` or
+/// `sparse`, or a folder with models up to four levels down. Where a folder has both formats, .bin
+/// is taken. Throws InputError where there is none, saying what was looked for and what is there.
 FoundModel find_model(const std::filesystem::path& input, PointsFile points = PointsFile::of_model);
 
 } // namespace vcarve

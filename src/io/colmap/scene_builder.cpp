@@ -46,14 +46,13 @@ void SceneBuilder::close_cameras()
     const auto twice = sort_and_find_twice(scene_.cameras);
     if (twice == scene_.cameras.end()) return;
     throw InputError(fmt::format("{}: camera {} occurs twice",
-                                 (folder_ / model_file("cameras", format_)).string(), twice->id));
+                                 model_path(folder_, "cameras", format_).string(), twice->id));
 }
 
 void SceneBuilder::add_image(const ImageRecord& image)
 {
     const auto fail = [&](const std::string& finding) {
-        throw InputError(fmt::format("{}: {} {}",
-                                     (folder_ / model_file("images", format_)).string(),
+        throw InputError(fmt::format("{}: {} {}", model_path(folder_, "images", format_).string(),
                                      image_label(image.id, image.name), finding));
     };
     const auto camera =
@@ -85,7 +84,7 @@ void SceneBuilder::close_images()
     const auto twice = sort_and_find_twice(scene_.views);
     if (twice != scene_.views.end()) {
         throw InputError(fmt::format("{}: {} has the id of {}",
-                                     (folder_ / model_file("images", format_)).string(),
+                                     model_path(folder_, "images", format_).string(),
                                      image_label(std::next(twice)->id, std::next(twice)->name),
                                      image_label(twice->id, twice->name)));
     }
@@ -148,7 +147,7 @@ void SceneBuilder::refuse_point_ids_twice() const
     const auto twice = std::adjacent_find(ids.begin(), ids.end());
     if (twice == ids.end()) return;
     throw InputError(fmt::format("{}: point {} occurs twice",
-                                 (folder_ / model_file("points3D", format_)).string(), *twice));
+                                 model_path(folder_, "points3D", format_).string(), *twice));
 }
 
 Scene SceneBuilder::finish()

@@ -4,7 +4,13 @@
 #include "io/colmap/model_size.h"
 #include "io/dense/cloud_points.h"
 #include "io/dense/nearest_sights.h"
+#include "io/dense/splats.h"
+#include "io/dense/view_lists.h"
+#include "vcarve/error.h"
 
+#include <fmt/format.h>
+
+#include <functional>
 #include <system_error>
 #include <utility>
 
@@ -24,6 +30,34 @@ std::optional<std::uint64_t> sights_in(const std::filesystem::path& visibility,
     const std::uint64_t numbers = (bytes - kCountBytes) / kNumberBytes;
     if (num_points > numbers) return std::nullopt;
     return numbers - num_points;
+}
+
+/// A scene of a cloud whose views no file of their own tells.
+Scene scene_of_bare_cloud(const DenseFiles& files, const Progress& progress,
+                          const std::function<void(const std::string&)>& tell)
+{
+    ColmapViews model = read_colmap_views(files.model, files.format, progress.part(0.0, 0.1));
+    PointCloud cloud = read_ply_cloud(files.cloud, progress.part(0.1, 0.5));
+    Scene scene;
+    scene.cameras = std::move(model.cameras);
+    scene.views = std::move(model.views);
+    const KeptSplats kept = keep_solid_splats(cloud);
+    tell(kept.note);
+    if (!kept.note.empty() && kept.places.empty()) {
+        throw InputError(fmt::format("{}: {}, so none is left", files.cloud.string(), kept.note));
+    }
+    scene.positions = std::move(cloud.positions);
+    std::optional<Tracks> tracks;
+    if (files.takes_lists && cloud.splats.empty()) {
+        std::string note;
+        tracks = tracks_of_lists(cloud.images, model.file_order, scene, note);
+        tell(note);
+    }
+    take_attributes(std::move(cloud), 0, scene);
+    scene.is_dense = !files.are_sparse;
+    if (!kept.note.empty()) scene.point_ids = kept.places;
+    scene.tracks = tracks ? std::move(*tracks) : nearest_sights(scene, progress.part(0.5, 1.0));
+    return scene;
 }
 
 } // namespace
@@ -52,22 +86,17 @@ Scene DenseSceneReader::next(std::size_t most, const Progress& progress)
     return part;
 }
 
-Scene read_dense_scene(const DenseFiles& files, const Progress& progress)
+Scene read_dense_scene(const DenseFiles& files, const Progress& progress,
+                       std::vector<std::string>* notes)
 {
-    const Progress first = progress.part(0.0, 0.1);
-    if (!files.visibility.empty()) {
-        DenseSceneReader reader(files, first);
-        return reader.next(reader.num_points(), progress.part(0.1, 1.0));
+    if (files.visibility.empty()) {
+        return scene_of_bare_cloud(files, progress, [&](const std::string& note) {
+            if (notes == nullptr || note.empty()) return;
+            notes->push_back(fmt::format("{}: {}", files.cloud.string(), note));
+        });
     }
-    ColmapViews model = read_colmap_views(files.model, files.format, first);
-    PointCloud cloud = read_ply_cloud(files.cloud, progress.part(0.1, 0.5));
-    Scene scene;
-    scene.cameras = std::move(model.cameras);
-    scene.views = std::move(model.views);
-    scene.positions = std::move(cloud.positions);
-    take_attributes(std::move(cloud), 0, scene);
-    scene.tracks = nearest_sights(scene, progress.part(0.5, 1.0));
-    return scene;
+    DenseSceneReader reader(files, progress.part(0.0, 0.1));
+    return reader.next(reader.num_points(), progress.part(0.1, 1.0));
 }
 
 std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files)
@@ -75,7 +104,9 @@ std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files)
     const PlyHeader header = read_ply_header(files.cloud);
     const PlyElement* const vertices = header.find("vertex");
     if (vertices == nullptr || vertices->count > kMostIndices) return std::nullopt;
-    const auto sights = files.visibility.empty()
+    // A number of a list takes a byte at least
+    const auto sights = files.takes_lists ? sights_in(files.cloud, vertices->count)
+                        : files.visibility.empty()
                             ? std::optional(kMostNearestViews * vertices->count)
                             : sights_in(files.visibility, vertices->count);
     if (!sights) return std::nullopt;
@@ -84,7 +115,7 @@ std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files)
                      .sights = *sights,
                      .views = model ? model->views : 0,
                      .has_normals = PlyVertexLayout(*vertices).has_normals(),
-                     .is_dense = true};
+                     .is_dense = !files.are_sparse};
 }
 
 } // namespace vcarve

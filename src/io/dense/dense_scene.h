@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace vcarve {
 
@@ -22,14 +24,19 @@ struct DenseFiles {
     std::filesystem::path cloud; ///< PLY
     /// Which views saw its points, as stereo_fusion writes it; empty: the nearest ones that can.
     std::filesystem::path visibility;
+    bool takes_lists = false; ///< but the lists of its points tell, where they fit the model
+    bool are_sparse = false;  ///< the points are features of images, though they come as a cloud
 };
 
 /// A scene of the views of a model and the points of a cloud in its frame, all of them and in their
 /// order: point_ids are places in the file from 0, errors are unknown, colours that the file lacks
-/// are black, normals are of unit length, or zero where the file's is no direction. Views and
-/// cameras are sorted by COLMAP's ids. Throws InputError naming file and place, and Cancelled.
-/// Cost: as read_ply_cloud and VisibilityReader, or nearest_sights.
-Scene read_dense_scene(const DenseFiles& files, const Progress& progress = {});
+/// are black, normals are of unit length, or zero where the file's is no direction. Of Gaussians
+/// the solid ones are left (keep_solid_splats). Views and cameras are sorted by COLMAP's ids. Where
+/// `notes` is not null, what was left out and which lists did not fit is added to it. Throws
+/// InputError naming file and place, and Cancelled. Cost: as read_ply_cloud and VisibilityReader,
+/// or nearest_sights.
+Scene read_dense_scene(const DenseFiles& files, const Progress& progress = {},
+                       std::vector<std::string>* notes = nullptr);
 
 /// The same part by part, as it stands in its files, which must have a visibility.
 class DenseSceneReader final : public SceneParts {

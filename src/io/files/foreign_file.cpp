@@ -33,15 +33,17 @@ constexpr Foreign kForeignNames[] = {
     {".laz", "is a scan as LAZ, which is not read: pdal translate {0} {0}.ply converts it"},
     {".e57", "is a scan as E57, which is not read: pdal translate {0} {0}.ply converts it"},
     {".pcd", "is a cloud of PCL, which is not read: pcl_pcd2ply {0} {0}.ply converts it"},
-    {".xyz", "is a cloud as text, which is not read: pdal translate {0} {0}.ply converts it"},
-    {".nvm", "is a model of VisualSFM, which is not read: kapture_import_nvm.py and "
-             "kapture_export_colmap.py bring it into a folder that is"},
-    {".out", "is a model of Bundler, which is not read: kapture_import_bundler.py and "
-             "kapture_export_colmap.py bring it into a folder that is"},
+    {".xyz", "is a cloud as text, which is not read: pdal translate --reader readers.text "
+             "--readers.text.header=\"X Y Z\" {0} {0}.ply converts it (the header names all of its "
+             "columns)"},
+    {".nvm", "is a model of VisualSFM, which is not read: kapture_import_nvm.py -i {0} -im IMAGES "
+             "-o KAPTURE --add-reconstruction, then kapture_export_colmap.py -i KAPTURE -db "
+             "KAPTURE/colmap.db -txt FOLDER make a folder that is"},
+    {".out", "is a model of Bundler, which is not read: kapture_import_bundler.py -i {0} -l "
+             "LIST.txt -im IMAGES -o KAPTURE --add-reconstruction, then kapture_export_colmap.py "
+             "-i KAPTURE -db KAPTURE/colmap.db -txt FOLDER make a folder that is"},
     {".mvs", "is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i {0} -o FOLDER brings it "
              "into a folder that is"},
-    {".json", "seems to hold the poses of nerfstudio or instant-ngp, which are not read: the model "
-              "they were made of is, often colmap/sparse/0 beside it"},
     {".obj", "is a mesh, but a model or a cloud is wanted"},
     {".off", "is a mesh, but a model or a cloud is wanted"},
     {".stl", "is a mesh, but a model or a cloud is wanted"},

@@ -58,7 +58,7 @@ std::vector<std::string> complete_sights(const FoundInput& found, const DroppedS
                                          Scene& scene, const Progress& progress)
 {
     const FoundModel& model = found.model;
-    const std::string images = (model.folder / model_file("images", model.format)).string();
+    const std::string images = model_path(model.folder, "images", model.format).string();
     std::vector<std::string> notes;
     if (dropped.sights > 0) notes.push_back(note_on_dropped(dropped, images));
     if (found.sights == SightsFrom::nearest) {

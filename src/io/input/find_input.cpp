@@ -1,6 +1,8 @@
 #include "io/input/find_input.h"
 
+#include "base/lower_case_end.h"
 #include "io/colmap/model_files.h"
+#include "io/colmap/transforms_json.h"
 #include "io/files/foreign_file.h"
 #include "io/ply/ply_cloud.h"
 #include "vcarve/error.h"
@@ -37,6 +39,26 @@ fs::path visibility_of(const fs::path& cloud, const PointsOptions& options)
     if (!options.visibility.empty()) return options.visibility;
     fs::path beside = cloud;
     return beside += ".vis";
+}
+
+/// Whether a cloud has lists of the images that saw its points. Of one that cannot be read,
+/// reading tells.
+bool has_lists(const fs::path& cloud)
+{
+    try {
+        const PlyHeader header = read_ply_header(cloud);
+        const PlyElement* const vertices = header.find("vertex");
+        return vertices != nullptr && PlyVertexLayout(*vertices).has_images();
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+/// Whether something tells which views saw the points of a cloud, or none is to be asked.
+bool has_sights(const fs::path& cloud, const PointsOptions& options)
+{
+    return options.sights == SightsFrom::nearest || is_file(visibility_of(cloud, options)) ||
+           has_lists(cloud);
 }
 
 /// A surface in the place of points. MeshLab writes an element of no faces into clouds.
@@ -140,6 +162,11 @@ FoundModel model_around(const fs::path& cloud)
 /// Which cloud was taken, as a sentence.
 std::string note_on(const DenseFiles& files)
 {
+    if (files.takes_lists) {
+        return fmt::format("the points are those of {}, seen by the views of {} that their lists "
+                           "view_indices name",
+                           files.cloud.string(), files.model.string());
+    }
     if (files.visibility.empty()) {
         return fmt::format("the points are those of {}; no file tells which views saw them, so the "
                            "nearest views of {} are taken before which no other point stands",
@@ -157,7 +184,10 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
                                      "--visibility {}",
                                      options.visibility.string()));
     }
-    const fs::path visibility = visibility_of(cloud, options);
+    fs::path visibility = visibility_of(cloud, options);
+    const bool takes_lists = options.visibility.empty() && !visibility.empty() &&
+                             !is_file(visibility) && has_lists(cloud);
+    if (takes_lists) visibility.clear();
     if (!is_file(cloud)) {
         throw InputError(fmt::format("{}: the file does not exist, so there are no dense points to "
                                      "take with the views of {}",
@@ -170,9 +200,24 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
                                      visibility.string(), cloud.string()));
     }
     std::vector<std::string> notes = model.notes;
-    DenseFiles files{model.folder, model.format, cloud, visibility};
+    DenseFiles files{model.folder, model.format, cloud, visibility, takes_lists};
     notes.push_back(note_on(files));
     return {std::move(model), std::move(files), std::nullopt, std::move(notes)};
+}
+
+/// The nearest views where nothing tells which saw the points. These are sparse then if they are
+/// called as nerfstudio and converters call COLMAP's.
+FoundInput input_of_points(FoundModel model, const fs::path& cloud, const PointsOptions& options)
+{
+    PointsOptions chosen = options;
+    const bool is_told = !options.visibility.empty() || has_sights(cloud, options);
+    if (options.sights == SightsFrom::automatic && !is_told) {
+        chosen.sights = SightsFrom::nearest;
+    }
+    FoundInput found = dense_input(std::move(model), cloud, chosen);
+    const bool is_named_so = cloud.filename() == kSparsePly || cloud.filename() == kPointsPly;
+    if (found.dense) found.dense->are_sparse = chosen.sights == SightsFrom::nearest && is_named_so;
+    return found;
 }
 
 /// The points that stand as PLY beside cameras and images, where the model has none of its own.
@@ -181,10 +226,41 @@ std::optional<FoundInput> points_ply_input(const FoundModel& model, const Points
 {
     const fs::path cloud = model.folder / kPointsPly;
     if (!is_file(cloud) || count_points(model.folder, model.format) > 0) return std::nullopt;
-    PointsOptions chosen = options;
-    const bool is_told = !options.visibility.empty() || is_file(visibility_of(cloud, options));
-    if (options.sights == SightsFrom::automatic && !is_told) chosen.sights = SightsFrom::nearest;
-    return dense_input(model, cloud, chosen);
+    return input_of_points(model, cloud, options);
+}
+
+/// The poses of transforms.json, and the points it names or --points does.
+FoundInput transforms_input(const fs::path& file, const PointsOptions& options)
+{
+    fs::path cloud = points_of_transforms(file);
+    if (options.points == "dense") {
+        cloud = file.parent_path() / kFused;
+    } else if (!options.points.empty() && options.points != "sparse") {
+        cloud = options.points;
+    }
+    if (cloud.empty()) {
+        throw InputError(fmt::format("{}: names no points (ply_file_path), and there is neither "
+                                     "sparse_pc.ply nor points3D.ply beside it; --points FILE "
+                                     "takes those of a PLY file in the frame of its poses",
+                                     file.string()));
+    }
+    refuse_foreign_name(cloud);
+    return input_of_points({file, ModelFormat::transforms, {}}, cloud, options);
+}
+
+/// The transforms.json that is meant: the file itself, or the one of a folder without a model of
+/// COLMAP's, which has tracks.
+std::optional<fs::path> find_transforms(const fs::path& input)
+{
+    if (is_file(input) && lower_case_end(input) == ".json") return input;
+    const fs::path file = input / "transforms.json";
+    if (!is_file(file)) return std::nullopt;
+    try {
+        find_model(input);
+    } catch (const InputError&) {
+        return file;
+    }
+    return std::nullopt;
 }
 
 FoundInput sparse_input(FoundModel model, const PointsOptions& options)
@@ -250,11 +326,10 @@ FoundInput find_input(const fs::path& input, const PointsOptions& options)
                                          options.points, input.string()));
         }
         if (is_scan(input, options)) return scan_input({}, input, options);
-        const bool has_sights =
-            options.sights == SightsFrom::nearest || is_file(visibility_of(input, options));
-        if (!has_sights) refuse_mesh(input);
+        if (!has_sights(input, options)) refuse_mesh(input);
         return dense_input(model_around(input), input, options);
     }
+    if (const auto file = find_transforms(input)) return transforms_input(*file, options);
     const bool has_cloud = !options.points.empty() && options.points != "sparse";
     const bool needs_no_other = has_cloud || is_file(input / kFused);
     FoundModel model =

@@ -12,9 +12,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kNamesBesideModels[] = {"rigs.bin",      "rigs.txt",     "frames.bin",
-                                              "frames.txt",    "points3D.ply", "fused.ply",
-                                              "fused.ply.vis", "database.db",  "project.ini"};
+constexpr const char* kNamesBesideModels[] = {
+    "rigs.bin",      "rigs.txt",    "frames.bin",  "frames.txt",      "points3D.ply", "fused.ply",
+    "fused.ply.vis", "database.db", "project.ini", "transforms.json", "sparse_pc.ply"};
 
 void add_if_there(const fs::path& path, std::vector<fs::path>& files)
 {
@@ -67,6 +67,7 @@ std::vector<fs::path> input_files(const fs::path& input, const FoundInput& found
         add_of_folder(folder, files);
         folder = folder.parent_path();
     }
+    if (found.model.format == ModelFormat::transforms) files.push_back(found.model.folder);
     if (found.dense) {
         add_cloud(found.dense->cloud, files);
         if (!found.dense->visibility.empty()) files.push_back(found.dense->visibility);

@@ -87,4 +87,25 @@ std::string warning_of_poses(const Scene& scene, const std::filesystem::path& im
                        finding, images.string());
 }
 
+std::string warning_of_frames(const Scene& scene, const std::filesystem::path& cloud,
+                              const std::filesystem::path& images)
+{
+    constexpr std::size_t kPoints = 1000;
+    constexpr double kMost = 0.5;
+    const std::size_t step = scene.num_points() / kPoints + 1;
+    double points = 0.0;
+    double shown = 0.0;
+    for (std::size_t point = 0; point < scene.num_points(); point += step) {
+        const auto shows = [&](const View& view) {
+            return view_shows(view, scene.cameras[view.camera], scene.positions[point]);
+        };
+        points += 1.0;
+        shown += std::ranges::any_of(scene.views, shows) ? 1.0 : 0.0;
+    }
+    if (shown >= kMost * points) return "";
+    return fmt::format("{:.0f} % of the points of {} show in no image of {}: they seem to stand in "
+                       "another frame than the poses, so the surface will be wrong",
+                       100.0 * (1.0 - shown / points), cloud.string(), images.string());
+}
+
 } // namespace vcarve

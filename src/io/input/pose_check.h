@@ -15,4 +15,10 @@ namespace vcarve {
 /// Cost: a look at every sight of a thousand points.
 std::string warning_of_poses(const Scene& scene, const std::filesystem::path& images);
 
+/// A warning where more than half of the points of a cloud show in no image, as where these were
+/// scaled or moved to the middle; empty else. The paths are for the words. Cost: a look at a
+/// thousand points through every view.
+std::string warning_of_frames(const Scene& scene, const std::filesystem::path& cloud,
+                              const std::filesystem::path& images);
+
 } // namespace vcarve

@@ -60,7 +60,7 @@ SceneOf gathered(SceneParts& parts, const Gather& gather, const Progress& progre
 
 std::string file_of(const FoundInput& found, const char* stem)
 {
-    return (found.model.folder / model_file(stem, found.model.format)).string();
+    return model_path(found.model.folder, stem, found.model.format).string();
 }
 
 /// Says what to do where there is nothing to make a surface of.
@@ -99,10 +99,21 @@ Scene sparse_scene(FoundInput& found, const Progress& progress)
     return scene;
 }
 
+/// The points of a cloud; adds to the notes what was left out and what seems wrong.
+Scene dense_scene(FoundInput& found, const Progress& progress)
+{
+    Scene scene = read_dense_scene(*found.dense, progress, &found.notes);
+    if (!found.dense->visibility.empty()) return scene;
+    const std::string warning =
+        warning_of_frames(scene, found.dense->cloud, file_of(found, "images"));
+    if (!warning.empty()) found.notes.push_back(warning);
+    return scene;
+}
+
 Scene whole_scene(FoundInput& found, const Progress& progress)
 {
     if (found.scan) return read_scan_scene(*found.scan, progress);
-    if (found.dense) return read_dense_scene(*found.dense, progress);
+    if (found.dense) return dense_scene(found, progress);
     return sparse_scene(found, progress);
 }
 

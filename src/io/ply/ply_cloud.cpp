@@ -61,6 +61,7 @@ PointCloud PlyCloudReader::next(std::size_t most, const Progress& progress)
     if (layout_.has_normals()) cloud.normals.resize(count);
     if (layout_.has_colors()) cloud.colors.resize(count);
     if (with_scanners_) cloud.scanners.resize(count);
+    if (layout_.are_splats()) cloud.splats.resize(count);
     if (const auto bytes = data_.bytes_of_entry(vertices_)) {
         read_parallel(cloud, *bytes, progress);
     } else {
@@ -161,9 +162,13 @@ void PlyCloudReader::read_parallel(PointCloud& cloud, std::size_t vertex_bytes,
 void PlyCloudReader::read_in_order(PointCloud& cloud, const Progress& progress)
 {
     const std::size_t count = cloud.positions.size();
+    const bool has_images = layout_.has_images();
+    std::vector<std::uint32_t> images;
     data_.read_some(vertices_, {done_, done_ + count}, [&](std::uint64_t vertex) {
         const std::size_t i = vertex - done_;
-        put(cloud, i, layout_.read(data_));
+        images.clear();
+        put(cloud, i, layout_.read(data_, &images));
+        if (has_images) cloud.images.push_back(images);
         if (i % kVerticesBetweenTells == 0) {
             progress.tell(static_cast<double>(i), static_cast<double>(count));
         }
@@ -176,6 +181,7 @@ void PlyCloudReader::put(PointCloud& cloud, std::size_t i, const PlyVertex& vert
     if (!cloud.normals.empty()) cloud.normals[i] = vertex.normal;
     if (!cloud.colors.empty()) cloud.colors[i] = vertex.color;
     if (with_scanners_) cloud.scanners[i] = vertex.scanner + header_.offset;
+    if (!cloud.splats.empty()) cloud.splats[i] = vertex.splat;
 }
 
 PointCloud read_ply_cloud(const std::filesystem::path& path, const Progress& progress,

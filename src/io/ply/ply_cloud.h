@@ -23,6 +23,8 @@ struct PointCloud {
     /// Where the scanners stood, offset added: one a point, or one for all of them. Finite, but of
     /// points that are not.
     std::vector<Eigen::Vector3d> scanners;
+    std::vector<Splat> splats; ///< optional: of Gaussians
+    Tracks images;             ///< optional: the numbers of the images that its list names
 };
 
 /// What is read of where the scanners stood.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vcarve {
 
@@ -10,6 +11,30 @@ namespace {
 /// As the benchmark IQmulus/TerraMobilita has them, and as words.
 constexpr std::array<PlyNames, 2> kScannersOfVertices = {
     {{"x_origin", "y_origin", "z_origin"}, {"scanner_x", "scanner_y", "scanner_z"}}};
+
+constexpr PlyNames kColorNames = {"red", "green", "blue"};
+constexpr PlyNames kHarmonics = {"f_dc_0", "f_dc_1", "f_dc_2"};
+constexpr std::string_view kImages = "view_indices";
+
+/// A constant term of spherical harmonics as a colour from 0 to 1.
+double color_of_harmonic(double term)
+{
+    constexpr double kConstant = 0.28209479177387814; // 1 / (2 sqrt(pi))
+    return 0.5 + kConstant * term;
+}
+
+/// The images of a list that is read.
+void take_images(PlyData& data, const PlyProperty& list, std::vector<std::uint32_t>& images)
+{
+    constexpr double kMost = 4294967294.0;
+    for (std::size_t n = data.list_length(list); n > 0; --n) {
+        const double image = data.number(list.type);
+        if (!(image >= 0.0 && image <= kMost) || image != std::floor(image)) {
+            throw BadPlyEntry{fmt::format("its list {} names image {}", list.name, image)};
+        }
+        images.push_back(static_cast<std::uint32_t>(image));
+    }
+}
 
 /// A colour of any number type as one of 0 to 255.
 std::uint8_t channel(double value, PlyType type)
@@ -23,11 +48,14 @@ std::uint8_t channel(double value, PlyType type)
 } // namespace
 
 PlyVertexLayout::PlyVertexLayout(const PlyElement& vertices)
+    : are_splats_(count_names(vertices, kHarmonics) == 3),
+      colors_are_harmonics_(are_splats_ && count_names(vertices, kColorNames) < 3)
 {
     const PlyNames& scanner = names_of_scanner(vertices);
-    const std::array<std::string_view, kNowhere> names{"x",    "y",        "z",        "nx",
-                                                       "ny",   "nz",       "red",      "green",
-                                                       "blue", scanner[0], scanner[1], scanner[2]};
+    const PlyNames& color = colors_are_harmonics_ ? kHarmonics : kColorNames;
+    const std::array<std::string_view, kNowhere> names{
+        "x",      "y",        "z",        "nx",       "ny",      "nz",      color[0],  color[1],
+        color[2], scanner[0], scanner[1], scanner[2], "opacity", "scale_0", "scale_1", "scale_2"};
     constexpr std::string_view kDiffuse = "diffuse_";
     for (const PlyProperty& property : vertices.properties) {
         std::string_view name = property.name;
@@ -48,12 +76,21 @@ bool PlyVertexLayout::has_three_from(std::size_t first) const
     return has(first) && has(first + 1) && has(first + 2);
 }
 
-PlyVertex PlyVertexLayout::read(PlyData& data) const
+bool PlyVertexLayout::has_images() const
+{
+    return std::ranges::any_of(properties_, [](const Property& property) {
+        return property.in_file.name == kImages && property.in_file.length_type;
+    });
+}
+
+PlyVertex PlyVertexLayout::read(PlyData& data, std::vector<std::uint32_t>* images) const
 {
     std::array<double, kNowhere + 1> values{};
+    std::fill_n(&values[kAxes], 3, -std::numeric_limits<double>::infinity());
     for (const Property& property : properties_) {
         if (property.in_file.length_type) {
-            data.skip(property.in_file);
+            const bool are_images = images != nullptr && property.in_file.name == kImages;
+            are_images ? take_images(data, property.in_file, *images) : data.skip(property.in_file);
         } else {
             values[property.slot] = data.number(property.in_file.type);
         }
@@ -65,8 +102,13 @@ PlyVertex PlyVertexLayout::read(PlyData& data) const
                      .scanner = three(kScanner),
                      .normal = three(kNormal).cast<float>()};
     for (std::size_t i = 0; i < vertex.color.size(); ++i) {
-        vertex.color[i] = channel(values[kColor + i], channel_types_[i]);
+        const double value = values[kColor + i];
+        vertex.color[i] = colors_are_harmonics_
+                              ? channel(color_of_harmonic(value), PlyType::float64)
+                              : channel(value, channel_types_[i]);
     }
+    const double longest = std::max({values[kAxes], values[kAxes + 1], values[kAxes + 2]});
+    vertex.splat = {static_cast<float>(values[kOpacity]), static_cast<float>(longest)};
     return vertex;
 }
 

@@ -156,5 +156,16 @@ TEST(DenseScene, HasASentenceForEveryBrokenFixture)
     EXPECT_EQ(static_cast<std::size_t>(folders), refusals().size());
 }
 
+TEST(DenseScene, MayHaveSparsePoints)
+{
+    DenseFiles files = files_of("dense_little");
+    files.visibility.clear();
+    EXPECT_TRUE(read_dense_scene(files).is_dense);
+    EXPECT_TRUE(dense_size_before_reading(files)->is_dense);
+    files.are_sparse = true;
+    EXPECT_FALSE(read_dense_scene(files).is_dense);
+    EXPECT_FALSE(dense_size_before_reading(files)->is_dense);
+}
+
 } // namespace
 } // namespace vcarve

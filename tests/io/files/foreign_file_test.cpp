@@ -60,8 +60,15 @@ TEST(ForeignFile, IsKnownByTheEndOfItsName)
     EXPECT_EQ(refusal_of_name("s.mvs"),
               "s.mvs: is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i s.mvs -o FOLDER "
               "brings it into a folder that is");
-    for (const char* const name : {"a.laz", "b.e57", "c.pcd", "d.xyz", "e.nvm", "bundle.out",
-                                   "transforms.json", "TRANSFORMS_TRAIN.JSON"}) {
+    EXPECT_EQ(refusal_of_name("d.xyz"),
+              "d.xyz: is a cloud as text, which is not read: pdal translate --reader readers.text "
+              "--readers.text.header=\"X Y Z\" d.xyz d.xyz.ply converts it (the header names all "
+              "of its columns)");
+    EXPECT_EQ(refusal_of_name("e.nvm"),
+              "e.nvm: is a model of VisualSFM, which is not read: kapture_import_nvm.py -i e.nvm "
+              "-im IMAGES -o KAPTURE --add-reconstruction, then kapture_export_colmap.py -i "
+              "KAPTURE -db KAPTURE/colmap.db -txt FOLDER make a folder that is");
+    for (const char* const name : {"a.laz", "b.e57", "c.pcd", "bundle.out", "b/list.OUT"}) {
         EXPECT_NE(refusal_of_name(name), "accepted") << name;
     }
     EXPECT_EQ(refusal_of_name("mesh.obj"), "mesh.obj: is a mesh, but a model or a cloud is wanted");

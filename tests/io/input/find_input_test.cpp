@@ -305,5 +305,76 @@ TEST_F(FindScan, RefusesAScannerThatCannotBeMeant)
               "none.ply: the file does not exist, so there are no points of a scanner to take");
 }
 
+/// Poses of nerfstudio's without any image: what is in them is not asked here.
+const std::string kTransforms = R"({"frames": [{}]})";
+
+TEST_F(FindInput, TakesTransformsWithTheirPointsAndTheNearestViews)
+{
+    const fs::path json = folder.write("nerf/transforms.json", kTransforms);
+    const fs::path cloud = folder.write("nerf/sparse_pc.ply", "ply\n");
+    const fs::path other = folder.write("other.ply", "ply\n");
+    for (const fs::path& input : {json, folder / "nerf"}) {
+        const FoundInput found = find_input(input, {});
+        ASSERT_TRUE(found.dense);
+        EXPECT_EQ(found.model.folder, json);
+        EXPECT_EQ(found.dense->model, json);
+        EXPECT_EQ(found.dense->format, ModelFormat::transforms);
+        EXPECT_EQ(found.dense->cloud, cloud);
+        EXPECT_EQ(found.dense->visibility, fs::path());
+        EXPECT_THAT(found.notes,
+                    ElementsAre("the points are those of " + cloud.string() +
+                                "; no file tells "
+                                "which views saw them, so the nearest views of " +
+                                json.string() + " are taken before which no other point stands"));
+        EXPECT_TRUE(found.dense->are_sparse);
+        EXPECT_EQ(find_input(input, {.points = other}).dense->cloud, other);
+        EXPECT_FALSE(find_input(input, {.points = other}).dense->are_sparse);
+    }
+}
+
+TEST_F(FindInput, SaysThatTransformsNeedPoints)
+{
+    const fs::path json = folder.write("ngp/transforms.json", kTransforms);
+    EXPECT_EQ(refused(folder / "ngp", {}),
+              json.string() + ": names no points (ply_file_path), and there is neither "
+                              "sparse_pc.ply nor points3D.ply beside it; --points FILE takes "
+                              "those of a PLY file in the frame of its poses");
+    EXPECT_THAT(refused(json, {.points = folder / "nothing.ply"}),
+                testing::HasSubstr("nothing.ply: the file does not exist"));
+    EXPECT_THAT(refused(json, {.points = "dense"}),
+                testing::HasSubstr("ngp/fused.ply: the file does not exist"));
+}
+
+TEST_F(FindInput, PrefersAModelWithTracksToTransforms)
+{
+    folder.copy(fixtures_folder() / "formats/rich_bin", "nerf/colmap/sparse/0");
+    const fs::path json = folder.write("nerf/transforms.json", kTransforms);
+    folder.write("nerf/sparse_pc.ply", "ply\n");
+    EXPECT_EQ(find_input(folder / "nerf", {}).model.folder, folder / "nerf/colmap/sparse/0");
+    EXPECT_EQ(find_input(json, {}).model.folder, json);
+}
+
+TEST_F(FindInput, TakesTheListsOfACloudWhereNoFileTellsOfItsViews)
+{
+    const std::string header = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
+                               "property float y\nproperty float z\n"
+                               "property list uchar uint view_indices\nend_header\n";
+    const fs::path cloud = folder.write("dense/scene_dense.ply", header);
+    for (const auto& [input, points] : {std::pair(cloud, ""), std::pair(dense, cloud.c_str())}) {
+        const FoundInput found = find_input(input, {.points = points});
+        ASSERT_TRUE(found.dense);
+        EXPECT_TRUE(found.dense->takes_lists);
+        EXPECT_EQ(found.dense->visibility, fs::path());
+        EXPECT_THAT(found.notes,
+                    ElementsAre("the points are those of " + cloud.string() +
+                                ", seen by the views of " + (dense / "sparse").string() +
+                                " that their lists view_indices name"));
+    }
+    EXPECT_FALSE(find_input(cloud, {.sights = SightsFrom::nearest}).dense->takes_lists);
+    EXPECT_EQ(find_input(cloud, {.visibility = visibility}).dense->visibility, visibility);
+    folder.write("dense/scene_dense.ply.vis", "");
+    EXPECT_FALSE(find_input(cloud, {}).dense->takes_lists);
+}
+
 } // namespace
 } // namespace vcarve

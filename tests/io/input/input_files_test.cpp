@@ -37,6 +37,15 @@ TEST(InputFiles, AreTheCloudAndItsViews)
                 AllOf(Contains(scan), Contains(views)));
 }
 
+TEST(InputFiles, AreTransformsAndTheirPoints)
+{
+    const TemporaryFolder folder;
+    const auto json = folder.write("t/poses.json", R"({"frames": [{}]})");
+    const auto points = folder.write("points.ply", "");
+    EXPECT_THAT(input_files(json, find_input(json, {.points = points})),
+                AllOf(Contains(json), Contains(points)));
+}
+
 TEST(IsImageOfViews, GoesByTheEndOfThePath)
 {
     const TemporaryFolder folder;

@@ -87,5 +87,18 @@ TEST(WarningOfPoses, IsEmptyWhereTheLensIsNotKnown)
     EXPECT_THAT(warning_of_poses(scene, "images.txt"), IsEmpty());
 }
 
+TEST(WarningOfFrames, IsGivenWhereMostPointsShowInNoImage)
+{
+    Scene scene = ball_of_views();
+    EXPECT_THAT(warning_of_frames(scene, "a.ply", "transforms.json"), IsEmpty());
+    for (std::size_t i = 0; i < scene.num_points(); ++i) {
+        if (i % 3 != 0) scene.positions[i] *= 1000.0;
+    }
+    EXPECT_EQ(warning_of_frames(scene, "a.ply", "transforms.json"),
+              "67 % of the points of a.ply show in no image of transforms.json: they seem to stand "
+              "in another frame than the poses, so the surface will be wrong");
+    EXPECT_THAT(warning_of_frames({}, "a.ply", "transforms.json"), IsEmpty());
+}
+
 } // namespace
 } // namespace vcarve

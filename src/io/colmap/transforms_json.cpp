@@ -1,0 +1,324 @@
+// The format is described at https://docs.nerf.studio/quickstart/data_conventions.html: poses lead
+// from the camera to the world, x right, y up, z backwards; what is said of the lens counts for all
+// images unless an image says otherwise. `applied_transform` is what has been done to the poses and
+// the points alike, so nothing is left to do.
+
+#include "io/colmap/transforms_json.h"
+
+#include "io/colmap/colmap_formats.h"
+#include "io/colmap/model_files.h"
+#include "io/colmap/text_reader.h"
+#include "io/files/mapped_file.h"
+#include "model/lens_model.h"
+#include "model/similarity.h"
+#include "vcarve/error.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace vcarve {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A value, or none, and where it stands.
+struct Place {
+    const fs::path& file;
+    std::string name;
+    const Json* value;
+
+    [[noreturn]] void refuse(std::string_view found, std::string_view expected) const
+    {
+        throw InputError(fmt::format("{}: {}: found {}, expected {}", file.string(),
+                                     name.empty() ? "the file" : name, found, expected));
+    }
+    [[noreturn]] void refuse(std::string_view expected) const
+    {
+        if (value == nullptr) refuse("nothing", expected);
+        const bool is_short = value->is_primitive();
+        refuse(is_short ? printable(value->dump(-1, ' ', false, Json::error_handler_t::replace))
+                        : fmt::format("an {} of {}", value->type_name(), value->size()),
+               expected);
+    }
+    Place member(const std::string& key) const
+    {
+        const std::string path = name.empty() ? key : name + "." + key;
+        const bool has_it = value->is_object() && value->contains(key);
+        return {file, path, has_it ? &value->at(key) : nullptr};
+    }
+    Place entry(std::size_t i) const
+    {
+        return {file, fmt::format("{}[{}]", name, i), &value->at(i)};
+    }
+    bool is_array() const { return value != nullptr && value->is_array(); }
+    double number(std::string_view expected) const
+    {
+        if (value == nullptr || !value->is_number()) refuse(expected);
+        return value->get<double>();
+    }
+    std::string text(std::string_view expected) const
+    {
+        if (value == nullptr || !value->is_string()) refuse(expected);
+        return value->get<std::string>();
+    }
+};
+
+/// Says where a text stops being JSON.
+[[noreturn]] void refuse_text(const fs::path& path, std::string_view text, std::size_t byte)
+{
+    const std::size_t at = std::min(byte, text.size());
+    const std::string_view before = text.substr(0, at);
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::size_t begin = before.find_last_of('\n') + 1; // npos + 1 is 0
+    constexpr std::size_t kShown = 40;
+    const std::size_t from = std::max(begin, at > kShown ? at - kShown : 0);
+    throw InputError(fmt::format("{}: line {}: no JSON after '{}', expected a transforms.json as "
+                                 "nerfstudio and instant-ngp write it",
+                                 path.string(), line, printable(text.substr(from, at - from))));
+}
+
+Json parse(const fs::path& path)
+{
+    constexpr int kDeepest = 64; // a pose is five deep
+    const MappedFile file(path);
+    const std::string_view text(file.bytes().data(), file.bytes().size());
+    const auto is_shallow = [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+        if (depth <= kDeepest) return true;
+        throw InputError(fmt::format("{}: its values stand more than {} deep in each other, "
+                                     "expected a transforms.json as nerfstudio and instant-ngp "
+                                     "write it",
+                                     path.string(), kDeepest));
+    };
+    try {
+        return Json::parse(text, is_shallow);
+    } catch (const Json::parse_error& error) {
+        refuse_text(path, text, error.byte);
+    } catch (const Json::exception&) { // a number that no double holds
+        throw InputError(fmt::format("{}: holds a number too large to be one", path.string()));
+    }
+}
+
+/// The entries of `frames`, of which there is at least one.
+Place frames_of(const Json& json, const fs::path& path)
+{
+    const Place frames = Place{path, "", &json}.member("frames");
+    if (!frames.is_array() || frames.value->empty()) {
+        frames.refuse("a list of images with their poses, as nerfstudio and instant-ngp write it");
+    }
+    return frames;
+}
+
+/// What is said of the lens of an image, by the image or for all.
+class Lens {
+  public:
+    Lens(const Place& all, const Place& frame) : all_(all), frame_(frame) {}
+
+    Camera camera() const
+    {
+        Camera camera;
+        camera.width_px = size_px("w");
+        camera.height_px = size_px("h");
+        const auto width = static_cast<double>(camera.width_px);
+        const auto height = static_cast<double>(camera.height_px);
+        const double focal_x = focal_px("fl_x", "camera_angle_x", width, 0.0);
+        const double focal_y = focal_px("fl_y", "camera_angle_y", height, focal_x);
+        camera.params = {focal_x, focal_y, number_or("cx", 0.5 * width),
+                         number_or("cy", 0.5 * height)};
+        add_distortion(camera);
+        return camera;
+    }
+
+  private:
+    Place at(const std::string& key) const
+    {
+        const Place own = frame_.member(key);
+        const Place shared = all_.member(key);
+        return own.value == nullptr && shared.value != nullptr ? shared : own;
+    }
+
+    double number_or(const std::string& key, double other) const
+    {
+        const Place place = at(key);
+        return place.value == nullptr ? other : place.number("a number");
+    }
+
+    std::uint64_t size_px(const std::string& key) const
+    {
+        constexpr const char* kExpected = "the size of the images in pixels";
+        const Place place = at(key);
+        const double size = place.number(kExpected);
+        if (!(size >= 1.0 && size <= 1e9) || size != std::floor(size)) place.refuse(kExpected);
+        return static_cast<std::uint64_t>(size);
+    }
+
+    /// From the angle that the image spans where it is not given.
+    double focal_px(const char* key, const char* angle, double size_px, double other) const
+    {
+        const Place focal = at(key);
+        const Place spans = at(angle);
+        if (focal.value == nullptr && spans.value != nullptr) {
+            const double radians = spans.number("an angle in radians");
+            if (radians > 0.0 && radians < std::numbers::pi) {
+                return 0.5 * size_px / std::tan(0.5 * radians);
+            }
+            spans.refuse("an angle in radians, between 0 and pi");
+        }
+        if (focal.value == nullptr && other > 0.0) return other;
+        const std::string expected =
+            fmt::format("the focal length in pixels, above 0, or else {}", angle);
+        const double length = focal.number(expected);
+        if (!(length > 0.0)) focal.refuse(expected);
+        return length;
+    }
+
+    bool is_fisheye() const
+    {
+        constexpr std::array kPerspective = {"PINHOLE", "SIMPLE_PINHOLE", "SIMPLE_RADIAL",
+                                             "RADIAL",  "OPENCV",         "PERSPECTIVE"};
+        const Place model = at("camera_model");
+        if (model.value == nullptr) {
+            const Place flag = at("is_fisheye");
+            return flag.value != nullptr && *flag.value == true;
+        }
+        constexpr const char* kExpected = "PINHOLE, OPENCV or OPENCV_FISHEYE";
+        const std::string name = model.text(kExpected);
+        if (name == "OPENCV_FISHEYE") return true;
+        if (std::ranges::count(kPerspective, name) == 0) model.refuse(kExpected);
+        return false;
+    }
+
+    /// nerfstudio's k4 of a perspective lens is left out: COLMAP's lenses have none such.
+    void add_distortion(Camera& camera) const
+    {
+        const auto take = [&](std::initializer_list<const char*> keys) {
+            for (const char* const key : keys) {
+                camera.params.push_back(number_or(key, 0.0));
+            }
+        };
+        const std::size_t num_pinhole = camera.params.size();
+        const bool fisheye = is_fisheye();
+        fisheye ? take({"k1", "k2", "k3", "k4"}) : take({"k1", "k2", "p1", "p2", "k3"});
+        const bool is_plain =
+            std::all_of(camera.params.begin() + static_cast<std::ptrdiff_t>(num_pinhole),
+                        camera.params.end(), [](double parameter) { return parameter == 0.0; });
+        const bool is_pinhole = is_plain && !fisheye;
+        const LensModel* const model = lens_model(std::string_view(fisheye      ? "OPENCV_FISHEYE"
+                                                                   : is_pinhole ? "PINHOLE"
+                                                                                : "FULL_OPENCV"));
+        camera.model = model->number;
+        camera.params.resize(model->num_params);
+    }
+
+    const Place& all_;
+    const Place& frame_;
+};
+
+bool are_same(const Camera& a, const Camera& b)
+{
+    return a.model == b.model && a.width_px == b.width_px && a.height_px == b.height_px &&
+           a.params == b.params;
+}
+
+/// The camera of each frame; images in a row that say the same of it share one.
+std::vector<Camera> cameras_of(const Json& json, const Place& frames)
+{
+    const Place all{frames.file, "", &json};
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < frames.value->size(); ++i) {
+        const Place frame = frames.entry(i);
+        Camera camera = Lens(all, frame).camera();
+        camera.id = 1;
+        if (!cameras.empty()) {
+            camera.id = cameras.back().id + (are_same(camera, cameras.back()) ? 0 : 1);
+        }
+        cameras.push_back(std::move(camera));
+    }
+    return cameras;
+}
+
+Matrix34 pose_of(const Place& frame)
+{
+    constexpr const char* kExpected = "a pose: 4 rows of 4 numbers, from the camera to the world";
+    const Place rows = frame.member("transform_matrix");
+    if (!rows.is_array() || rows.value->size() < 3 || rows.value->size() > 4) {
+        rows.refuse(kExpected);
+    }
+    Matrix34 pose;
+    for (int r = 0; r < 3; ++r) {
+        const Place row = rows.entry(static_cast<std::size_t>(r));
+        if (!row.is_array() || row.value->size() != 4) row.refuse(kExpected);
+        for (int c = 0; c < 4; ++c) {
+            pose(r, c) = row.entry(static_cast<std::size_t>(c)).number("a number");
+        }
+    }
+    const std::string fault = fault_of_similarity(pose);
+    if (!fault.empty()) rows.refuse(fault, "a rotation and a place, from the camera to the world");
+    return pose;
+}
+
+void read_cameras(const fs::path& path, SceneBuilder& builder)
+{
+    const Json json = parse(path);
+    std::uint32_t last = 0;
+    for (Camera& camera : cameras_of(json, frames_of(json, path))) {
+        if (camera.id == last) continue;
+        last = camera.id;
+        builder.add_camera(std::move(camera));
+    }
+    builder.close_cameras();
+}
+
+void read_images(const fs::path& path, SceneBuilder& builder, const Progress& /*progress*/)
+{
+    const Json json = parse(path);
+    const Place frames = frames_of(json, path);
+    const std::vector<Camera> cameras = cameras_of(json, frames);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const Place frame = frames.entry(i);
+        const Similarity pose = similarity_of(pose_of(frame));
+        // From axes with y up and z backwards
+        const Eigen::Matrix3d world_from_cam =
+            pose.linear / pose.scale * Eigen::Vector3d(1, -1, -1).asDiagonal();
+        const Eigen::Quaterniond rotation(Eigen::Matrix3d(world_from_cam.transpose()));
+        const std::string name =
+            fs::path(frame.member("file_path").text("the name of the image")).lexically_normal();
+        builder.add_image(
+            {.id = static_cast<std::uint32_t>(i + 1),
+             .rotation_wxyz = {rotation.w(), rotation.x(), rotation.y(), rotation.z()},
+             .translation = -(rotation.normalized() * pose.translation),
+             .camera_id = cameras[i].id,
+             .name = name});
+    }
+    builder.close_images();
+}
+
+} // namespace
+
+const FormatReader kTransformsReader = {read_cameras, read_images, nullptr, nullptr};
+
+fs::path points_of_transforms(const fs::path& file)
+{
+    const Json json = parse(file);
+    frames_of(json, file); // says of any other file what it is not
+    const Place named = Place{file, "", &json}.member("ply_file_path");
+    const fs::path folder = file.parent_path();
+    if (named.value != nullptr) return folder / named.text("the path of a PLY file");
+    for (const char* const name : {kSparsePly, kPointsPly}) {
+        std::error_code error;
+        if (fs::is_regular_file(folder / name, error)) return folder / name;
+    }
+    return {};
+}
+
+} // namespace vcarve

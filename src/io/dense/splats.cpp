@@ -1,0 +1,72 @@
+#include "io/dense/splats.h"
+
+#include "base/grouped_digits.h"
+#include "base/median.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+/// The sigmoid of it is a half.
+constexpr float kLeastLogit = 0.0F;
+constexpr double kHuge = 10.0; ///< times the median
+
+bool is_solid(const Splat& splat)
+{
+    return splat.opacity_logit >= kLeastLogit;
+}
+
+/// The logarithm of the largest half-axis that is not huge.
+float largest_log_axis(const std::vector<Splat>& splats)
+{
+    std::vector<double> logs;
+    for (const Splat& splat : splats) {
+        if (is_solid(splat) && !std::isnan(splat.log_axis)) logs.push_back(splat.log_axis);
+    }
+    return logs.empty() ? 0.0F : static_cast<float>(median_in_place(logs) + std::log(kHuge));
+}
+
+template <typename Value>
+void keep(std::vector<Value>& values, const std::vector<std::uint64_t>& places)
+{
+    if (values.empty()) return;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        values[i] = values[places[i]];
+    }
+    values.resize(places.size());
+}
+
+} // namespace
+
+KeptSplats keep_solid_splats(PointCloud& cloud)
+{
+    const float largest = largest_log_axis(cloud.splats);
+    KeptSplats kept;
+    std::int64_t faint = 0;
+    std::int64_t huge = 0;
+    for (std::uint64_t i = 0; i < cloud.splats.size(); ++i) {
+        if (!is_solid(cloud.splats[i])) {
+            ++faint;
+        } else if (!(cloud.splats[i].log_axis <= largest)) {
+            ++huge;
+        } else {
+            kept.places.push_back(i);
+        }
+    }
+    if (faint + huge == 0) return kept;
+    keep(cloud.positions, kept.places);
+    keep(cloud.normals, kept.places);
+    keep(cloud.colors, kept.places);
+    kept.note =
+        fmt::format("of {} Gaussians {} are left out for less than half the opacity, {} for "
+                    "being {} times as large as the median",
+                    grouped_digits(static_cast<std::int64_t>(cloud.splats.size())),
+                    grouped_digits(faint), grouped_digits(huge), kHuge);
+    return kept;
+}
+
+} // namespace vcarve

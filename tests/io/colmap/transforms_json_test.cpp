@@ -1,0 +1,244 @@
+#include "io/colmap/colmap_model.h"
+#include "io/colmap/find_model.h"
+#include "io/colmap/transforms_json.h"
+#include "model/camera.h"
+#include "support/places.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace vcarve {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using Json = nlohmann::json;
+using testing::ElementsAre;
+using testing::EndsWith;
+
+const Json kPose = {{0, 0, 1, 5}, {1, 0, 0, 6}, {0, 1, 0, 7}, {0, 0, 0, 1}};
+
+/// One image of 640 x 480 at (5, 6, 7).
+Json small_file()
+{
+    return {{"fl_x", 500.0},
+            {"fl_y", 510.0},
+            {"cx", 321.0},
+            {"cy", 239.0},
+            {"w", 640},
+            {"h", 480},
+            {"frames", {{{"file_path", "./images/a.jpg"}, {"transform_matrix", kPose}}}}};
+}
+
+class TransformsJson : public testing::Test {
+  protected:
+    ColmapViews read(const std::string& text) const
+    {
+        return read_colmap_views(folder.write("transforms.json", text), ModelFormat::transforms);
+    }
+    ColmapViews read(const Json& json) const { return read(json.dump()); }
+
+    /// What is said of it after the name of the file.
+    std::string refused(const std::string& text) const
+    {
+        const std::string sentence = refusal<InputError>([&] { read(text); });
+        const std::string begin = (folder / "transforms.json").string() + ": ";
+        EXPECT_TRUE(sentence.starts_with(begin)) << sentence;
+        return sentence.substr(std::min(begin.size(), sentence.size()));
+    }
+    /// The same with a value in the place of another, or without it where it is null.
+    std::string refused_with(const std::string& pointer, const Json& value) const
+    {
+        Json json = small_file();
+        json[Json::json_pointer(pointer)] = value;
+        return refused(json.dump());
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(TransformsJson, HasPosesFromTheCameraWithAxesOfOpenGL)
+{
+    const ColmapViews views = read(small_file());
+    ASSERT_EQ(views.views.size(), 1U);
+    const View& view = views.views[0];
+    EXPECT_EQ(view.name, "images/a.jpg");
+    EXPECT_EQ(view.id, 1U);
+    EXPECT_TRUE(view.center.isApprox(Vector3d(5, 6, 7), 1e-15));
+    // The camera's x, y and z are the world's y, z and x; it looks along -z, and its y points up
+    EXPECT_TRUE((view.cam_from_world * Vector3d(-1, 0, 0)).isApprox(Vector3d(0, 0, 1), 1e-15));
+    EXPECT_TRUE((view.cam_from_world * Vector3d(0, 1, 0)).isApprox(Vector3d(1, 0, 0), 1e-15));
+    EXPECT_TRUE((view.cam_from_world * Vector3d(0, 0, 1)).isApprox(Vector3d(0, -1, 0), 1e-15));
+    ASSERT_EQ(views.cameras.size(), 1U);
+    EXPECT_EQ(views.cameras[0].model, 1);
+    EXPECT_EQ(views.cameras[0].width_px, 640U);
+    EXPECT_EQ(views.cameras[0].height_px, 480U);
+    EXPECT_THAT(views.cameras[0].params, ElementsAre(500, 510, 321, 239));
+}
+
+TEST_F(TransformsJson, GivesBackTheViewsOfTheModelItWasMadeOf)
+{
+    const fs::path model = fixtures_folder() / "scene/sparse/0";
+    const ColmapViews views = read_colmap_views(model, ModelFormat::binary);
+    Json frames = Json::array();
+    for (const View& view : views.views) {
+        Eigen::Matrix3d axes = view.cam_from_world.conjugate().toRotationMatrix();
+        axes.rightCols<2>() *= -1.0;
+        Json rows = Json::array();
+        for (int r = 0; r < 3; ++r) {
+            rows.push_back({axes(r, 0), axes(r, 1), axes(r, 2), view.center[r]});
+        }
+        frames.push_back({{"file_path", view.name}, {"transform_matrix", rows}});
+    }
+    Json json = small_file();
+    json["frames"] = frames;
+    const ColmapViews again = read(json);
+    ASSERT_EQ(again.views.size(), views.views.size());
+    for (std::size_t i = 0; i < views.views.size(); ++i) {
+        EXPECT_LT((again.views[i].center - views.views[i].center).norm(), 1e-12);
+        EXPECT_LT(again.views[i].cam_from_world.angularDistance(views.views[i].cam_from_world),
+                  1e-7);
+        EXPECT_EQ(again.views[i].name, views.views[i].name);
+    }
+    EXPECT_EQ(again.cameras.size(), 1U);
+}
+
+TEST_F(TransformsJson, SaysOfALensWhatAnImageSaysElseWhatCountsForAll)
+{
+    Json json = small_file();
+    Json other = json["frames"][0];
+    other["k1"] = 0.1;
+    other["p2"] = 0.02;
+    other["k3"] = 0.003;
+    other["fl_x"] = 400;
+    json["frames"].push_back(other);
+    json["frames"].push_back(other);
+    const ColmapViews views = read(json);
+    ASSERT_EQ(views.cameras.size(), 2U);
+    EXPECT_EQ(views.views[2].camera, 1U);
+    EXPECT_EQ(views.cameras[1].model, 6); // FULL_OPENCV
+    EXPECT_THAT(views.cameras[1].params,
+                ElementsAre(400, 510, 321, 239, 0.1, 0, 0, 0.02, 0.003, 0, 0, 0));
+}
+
+TEST_F(TransformsJson, KnowsFisheyes)
+{
+    Json json = small_file();
+    json["camera_model"] = "OPENCV_FISHEYE";
+    json["k1"] = 0.1;
+    json["k4"] = 0.4;
+    const std::vector<double> params = {500, 510, 321, 239, 0.1, 0, 0, 0.4};
+    EXPECT_EQ(read(json).cameras[0].model, 5);
+    EXPECT_EQ(read(json).cameras[0].params, params);
+    json.erase("camera_model");
+    json["is_fisheye"] = true; // instant-ngp
+    EXPECT_EQ(read(json).cameras[0].params, params);
+}
+
+TEST_F(TransformsJson, TakesTheFocalLengthFromTheAngleAndTheMiddleForTheAxis)
+{
+    Json json = small_file();
+    for (const char* const key : {"fl_x", "fl_y", "cx", "cy"}) {
+        json.erase(key);
+    }
+    json["camera_angle_x"] = 2.0 * std::atan(0.5);
+    const Camera camera = read(json).cameras[0];
+    EXPECT_NEAR(camera.params[0], 640.0, 1e-9);
+    EXPECT_EQ(camera.params[1], camera.params[0]);
+    EXPECT_EQ(camera.params[2], 320.0);
+    EXPECT_EQ(camera.params[3], 240.0);
+}
+
+TEST_F(TransformsJson, SaysWhereItIsNoJson)
+{
+    const std::string end = ", expected a transforms.json as nerfstudio and instant-ngp write it";
+    EXPECT_EQ(refused(""), "line 1: no JSON after ''" + end);
+    EXPECT_EQ(refused("{\n\"w\": 640,\n\"h\": NaN}"), "line 3: no JSON after '\"h\": N'" + end);
+    EXPECT_EQ(refused("{\"w\": 1e999}"), "holds a number too large to be one");
+    const std::string deep(200, '[');
+    EXPECT_EQ(refused(deep), "its values stand more than 64 deep in each other" + end);
+    EXPECT_EQ(refused(std::string(20'000'000, '[')),
+              "its values stand more than 64 deep in each other" + end);
+    EXPECT_THAT(refused("{\"w\": \"\xff\"}"), EndsWith(end));
+    const std::string whole = small_file().dump();
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        EXPECT_THAT(refused(whole.substr(0, length)), EndsWith(end));
+    }
+}
+
+TEST_F(TransformsJson, SaysWhatWasFoundInstead)
+{
+    const std::string frames = "frames: found ";
+    const std::string list = ", expected a list of images with their poses, as nerfstudio and "
+                             "instant-ngp write it";
+    EXPECT_EQ(refused("{}"), frames + "nothing" + list);
+    EXPECT_EQ(refused("[1, 2]"), frames + "nothing" + list);
+    EXPECT_EQ(refused("7"), frames + "nothing" + list);
+    EXPECT_EQ(refused_with("/frames", "many"), frames + "\"many\"" + list);
+    EXPECT_EQ(refused_with("/frames", Json::array()), frames + "an array of 0" + list);
+    EXPECT_EQ(refused_with("/w", "wide"),
+              "w: found \"wide\", expected the size of the images in pixels");
+    EXPECT_EQ(refused_with("/h", 480.5),
+              "h: found 480.5, expected the size of the images in pixels");
+    EXPECT_EQ(refused_with("/fl_x", -3),
+              "fl_x: found -3, expected the focal length in pixels, above 0, or else "
+              "camera_angle_x");
+    EXPECT_EQ(refused_with("/frames/0/cx", nullptr), "frames[0].cx: found null, expected a number");
+    EXPECT_EQ(refused_with("/camera_model", "EQUIRECTANGULAR"),
+              "camera_model: found \"EQUIRECTANGULAR\", expected PINHOLE, OPENCV or "
+              "OPENCV_FISHEYE");
+    EXPECT_EQ(refused_with("/frames/0", 3), // has nothing of its own
+              "frames[0].transform_matrix: found nothing, expected a pose: 4 rows of 4 numbers, "
+              "from the camera to the world");
+    EXPECT_EQ(refused_with("/frames/0/file_path", 3),
+              "frames[0].file_path: found 3, expected the name of the image");
+    Json json = small_file();
+    json.erase("w");
+    EXPECT_EQ(refused(json.dump()),
+              "frames[0].w: found nothing, expected the size of the images in pixels");
+}
+
+TEST_F(TransformsJson, RefusesWhatIsNoPose)
+{
+    const std::string place = "frames[0].transform_matrix";
+    const std::string pose = ", expected a pose: 4 rows of 4 numbers, from the camera to the world";
+    EXPECT_EQ(refused_with("/frames/0/transform_matrix", "I"), place + ": found \"I\"" + pose);
+    EXPECT_EQ(refused_with("/frames/0/transform_matrix", {1, 2}),
+              place + ": found an array of 2" + pose);
+    EXPECT_EQ(refused_with("/frames/0/transform_matrix/1", {1, 2, 3}),
+              place + "[1]: found an array of 3" + pose);
+    EXPECT_EQ(refused_with("/frames/0/transform_matrix/1/2", nullptr),
+              place + "[1][2]: found null, expected a number");
+    const std::string expected = ", expected a rotation and a place, from the camera to the world";
+    EXPECT_EQ(refused_with("/frames/0/transform_matrix/0/2", -1),
+              place + ": found a reflection, which turns surfaces inside out" + expected);
+    EXPECT_EQ(refused_with("/frames/0/transform_matrix/0/2", 0),
+              place + ": found no matrix that could be inverted" + expected);
+}
+
+TEST_F(TransformsJson, NamesItsPointsOrHasThemBesideIt)
+{
+    const fs::path file = folder.write("transforms.json", small_file().dump());
+    EXPECT_EQ(points_of_transforms(file), fs::path());
+    folder.write("points3D.ply", "");
+    EXPECT_EQ(points_of_transforms(file), folder / "points3D.ply");
+    folder.write("sparse_pc.ply", "");
+    EXPECT_EQ(points_of_transforms(file), folder / "sparse_pc.ply");
+    Json json = small_file();
+    json["ply_file_path"] = "a/b.ply";
+    folder.write("transforms.json", json.dump());
+    EXPECT_EQ(points_of_transforms(file), folder / "a/b.ply");
+    EXPECT_EQ(
+        points_of_transforms(folder.write("t.json", R"({"ply_file_path": "a", "frames": [1]})")),
+        folder / "a");
+    EXPECT_THAT(refusal<InputError>([&] { points_of_transforms(folder.write("c.json", "{}")); }),
+                testing::HasSubstr("c.json: frames: found nothing"));
+}
+
+} // namespace
+} // namespace vcarve
