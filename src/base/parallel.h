@@ -8,6 +8,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #endif
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -16,6 +17,12 @@
 #include <vector>
 
 namespace vcarve {
+
+/// How many threads the surrounding tbb arena has.
+inline std::size_t num_threads()
+{
+    return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+}
 
 /// Calls body(first, last) for ranges [first, last) that make up [0, count), each of `grain` or a
 /// few more, from as many threads as the surrounding tbb arena has. The body must not depend on how

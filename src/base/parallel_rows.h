@@ -3,8 +3,6 @@
 #include "base/parallel.h"
 #include "base/unset_array.h"
 
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -35,8 +33,7 @@ RowTable gather_rows(std::size_t count, std::size_t num_rows, const ForEach& for
 {
     constexpr std::size_t kMostBlocks = 8;
     constexpr std::size_t kLeastSources = 65536; // a thread of its own does not pay for fewer
-    const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-    const std::size_t blocks = std::min({kMostBlocks, threads, 1 + count / kLeastSources});
+    const std::size_t blocks = std::min({kMostBlocks, num_threads(), 1 + count / kLeastSources});
     const auto visit_block = [&](std::size_t block, const auto& visit) {
         const std::size_t end = count * (block + 1) / blocks;
         for (std::size_t i = count * block / blocks; i < end; ++i) {

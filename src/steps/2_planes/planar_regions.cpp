@@ -15,6 +15,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -96,18 +97,27 @@ struct Surroundings {
     }
 };
 
-/// Grows one region after the other.
+/// What grew from a seed: its points, and its plane and spacing if they are a region.
+struct Grown {
+    std::vector<std::uint32_t> points;
+    std::optional<Plane> plane;
+    double spacing = 0.0;
+};
+
+/// Grows regions among the points that are of none yet. It changes nothing but its own marks, so
+/// that many may grow side by side.
 class Growth {
   public:
-    Growth(const Scene& scene, const Surroundings& surroundings, PlanarRegions& found)
-        : scene_(scene), surroundings_(surroundings), found_(found)
+    Growth(const Scene& scene, const Surroundings& surroundings, const PlanarRegions& found)
+        : scene_(scene), surroundings_(surroundings), found_(found), mark_(scene.num_points())
     {
     }
 
-    /// Adds the region around a flat point, unless that is another's or there is none.
-    void grow(std::uint32_t seed)
+    /// The region around a flat point, unless that is another's or there is none.
+    Grown grow(std::uint32_t seed)
     {
-        if (found_.region_of[seed] != PlanarRegions::kNone) return;
+        region_.clear();
+        if (is_taken(seed)) return {};
         begin(seed);
         for (std::size_t done = 0; done < region_.size();) {
             for (const std::size_t ring = region_.size(); done < ring; ++done) {
@@ -115,20 +125,33 @@ class Growth {
             }
             if (region_.size() >= refit_at_) fit();
         }
-        if (region_.size() >= kAround && add_if_planar()) return;
-        for (const std::uint32_t point : region_) {
-            found_.region_of[point] = PlanarRegions::kNone;
-        }
+        Grown grown{region_, std::nullopt};
+        if (region_.size() < kAround) return grown;
+        std::ranges::sort(region_);
+        fit();
+        if (goes_on_beside()) return grown;
+        std::vector<double> spacings = values_at(region_, surroundings_.spacings);
+        return {region_, plane_, median_in_place(spacings)};
     }
 
   private:
-    std::uint32_t number() const { return static_cast<std::uint32_t>(found_.regions.size()); }
+    bool is_taken(std::uint32_t point) const
+    {
+        return found_.region_of[point] != PlanarRegions::kNone;
+    }
+    bool is_own(std::uint32_t point) const { return mark_[point] == current_; }
+
+    void take_in(std::uint32_t point)
+    {
+        mark_[point] = current_;
+        region_.push_back(point);
+    }
 
     void begin(std::uint32_t seed)
     {
         constexpr double kSparser = 2.0; // than at the seed
-        region_ = {seed};
-        found_.region_of[seed] = number();
+        ++current_;
+        take_in(seed);
         plane_.normal = towards_views(scene_, seed);
         set_plane(fit_plane(scene_.positions, surroundings_.around[seed]).plane);
         plane_.center = scene_.positions[seed];
@@ -151,10 +174,7 @@ class Growth {
     void take_in_around(std::uint32_t point)
     {
         for (const std::uint32_t other : surroundings_.around[point]) {
-            if (found_.region_of[other] != PlanarRegions::kNone || !is_within(other, kThickness))
-                continue;
-            found_.region_of[other] = number();
-            region_.push_back(other);
+            if (!is_own(other) && !is_taken(other) && is_within(other, kThickness)) take_in(other);
         }
     }
 
@@ -167,16 +187,6 @@ class Growth {
                towards_views(scene_, point).dot(plane_.normal) > 0.0;
     }
 
-    bool add_if_planar()
-    {
-        std::ranges::sort(region_);
-        fit();
-        if (goes_on_beside()) return false;
-        std::vector<double> spacings = values_at(region_, surroundings_.spacings);
-        found_.regions.emplace_back(scene_, plane_, median_in_place(spacings), region_);
-        return true;
-    }
-
     /// Whether many points lie right beside the slab.
     bool goes_on_beside() const
     {
@@ -186,10 +196,9 @@ class Growth {
         std::size_t beside = 0;
         for (const std::uint32_t point : region_) {
             for (const std::uint32_t other : surroundings_.around[point]) {
-                const bool is_own = found_.region_of[other] == number();
-                if (!is_own && !is_within(other, kWider * kThickness)) continue;
+                if (!is_own(other) && !is_within(other, kWider * kThickness)) continue;
                 ++all;
-                beside += is_own ? 0 : 1;
+                beside += is_own(other) ? 0 : 1;
             }
         }
         return kOneIn * beside > all;
@@ -197,11 +206,88 @@ class Growth {
 
     const Scene& scene_;
     const Surroundings& surroundings_;
-    PlanarRegions& found_;
+    const PlanarRegions& found_;
+    std::vector<std::uint32_t> mark_; ///< of each point, which growth took it in last
+    std::uint32_t current_ = 0;
     Plane plane_;
     std::vector<std::uint32_t> region_;
     double most_spacing_ = 0.0;
     std::size_t refit_at_ = 0;
+};
+
+/// Grows one region after the other from the seeds, in their order, or as if so: some grow side by
+/// side, as if none of them took a point, and those that would have met one which did grow anew.
+class GrowthInTurn {
+  public:
+    GrowthInTurn(const Scene& scene, const Surroundings& surroundings, PlanarRegions& found)
+        : scene_(scene), surroundings_(surroundings), found_(found)
+    {
+        constexpr std::size_t kMost = 16; // since each marks all points
+        for (std::size_t i = 0; i < std::min(num_threads(), kMost); ++i) {
+            growths_.emplace_back(scene, surroundings, found);
+        }
+    }
+
+    void grow(std::span<const std::uint32_t> seeds, const Progress& progress)
+    {
+        constexpr std::size_t kMostAtOnce = 256; // times the number of threads
+        std::size_t at_once = 1;
+        ProgressCount done(progress, seeds.size());
+        while (!seeds.empty()) {
+            const std::size_t count = std::min(seeds.size(), at_once * growths_.size());
+            const bool has_added = grow_some(seeds.first(count));
+            at_once = has_added ? 1 : std::min(2 * at_once, kMostAtOnce);
+            seeds = seeds.subspan(count);
+            done.add(count);
+        }
+    }
+
+  private:
+    /// Whether there is a new region.
+    bool grow_some(std::span<const std::uint32_t> seeds)
+    {
+        std::vector<Grown> grown(seeds.size());
+        const auto grow_part = [&](std::size_t part) {
+            for (std::size_t i = part; i < seeds.size(); i += growths_.size()) {
+                grown[i] = growths_[part].grow(seeds[i]);
+            }
+        };
+        parallel_for(std::min(seeds.size(), growths_.size()), grow_part, 1);
+        const std::size_t before = found_.regions.size();
+        for (std::size_t i = 0; i < seeds.size(); ++i) {
+            if (meets_since(before, grown[i])) grown[i] = growths_.front().grow(seeds[i]);
+            if (grown[i].plane) add(std::move(grown[i]));
+        }
+        return found_.regions.size() > before;
+    }
+
+    /// Whether a growth looked at a point that is of a region which was added since there were so
+    /// many.
+    bool meets_since(std::size_t regions, const Grown& grown) const
+    {
+        if (found_.regions.size() == regions) return false;
+        const auto is_new = [&](std::uint32_t point) {
+            const std::uint32_t region = found_.region_of[point];
+            return region != PlanarRegions::kNone && region >= regions;
+        };
+        return std::ranges::any_of(grown.points, [&](std::uint32_t point) {
+            return is_new(point) || std::ranges::any_of(surroundings_.around[point], is_new);
+        });
+    }
+
+    void add(Grown grown)
+    {
+        const auto number = static_cast<std::uint32_t>(found_.regions.size());
+        for (const std::uint32_t point : grown.points) {
+            found_.region_of[point] = number;
+        }
+        found_.regions.emplace_back(scene_, *grown.plane, grown.spacing, std::move(grown.points));
+    }
+
+    const Scene& scene_;
+    const Surroundings& surroundings_;
+    PlanarRegions& found_;
+    std::deque<Growth> growths_; ///< of each thread
 };
 
 } // namespace
@@ -267,13 +353,8 @@ PlanarRegions planar_regions(const Scene& scene, const Progress& progress)
     PlanarRegions found(scene);
     if (scene.num_points() <= kAround) return found;
     const Surroundings surroundings(scene, found.tree, progress.part(0.0, 0.6));
-    Growth growth(scene, surroundings, found);
-    const std::vector<std::uint32_t> seeds = surroundings.flat_points();
-    ProgressCount done(progress.part(0.6, 1.0), seeds.size());
-    for (const std::uint32_t seed : seeds) {
-        growth.grow(seed);
-        done.add(1);
-    }
+    GrowthInTurn(scene, surroundings, found)
+        .grow(surroundings.flat_points(), progress.part(0.6, 1.0));
     found.spacings = surroundings.spacings;
     return found;
 }

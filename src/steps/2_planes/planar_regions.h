@@ -67,8 +67,8 @@ struct PlanarRegions {
 /// times as thick at least four in five are its own.
 ///
 /// The result does not depend on the number of threads nor on where the scene lies or how large it
-/// is, up to rounding. Cost: O(points log points + sights), the search for neighbours in parallel,
-/// and 90 bytes a point.
+/// is, up to rounding. Cost: O(points log points + sights), in parallel, and 90 bytes a point and 4
+/// for each of up to 16 threads.
 PlanarRegions planar_regions(const Scene& scene, const Progress& progress);
 
 } // namespace vcarve

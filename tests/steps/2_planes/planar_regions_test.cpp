@@ -4,12 +4,14 @@
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -224,6 +226,42 @@ TEST(PlanarRegions, KeepTheirPointsToThemselves)
         for (const std::uint32_t point : region.points) {
             EXPECT_EQ(taken[point]++, 0);
         }
+    }
+}
+
+/// Many small walls of which some cross, amid what is rough.
+Scene crossing_walls()
+{
+    std::vector<MadePoint> points = wall(0.5, 0.05, kBefore, 0.004);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
+    for (int i = 0; i < 40; ++i) {
+        const Vector3d middle(anywhere(random), anywhere(random), anywhere(random));
+        const Eigen::AngleAxisd turn(0.5 * anywhere(random), Vector3d::UnitX());
+        for (const MadePoint& point : wall(0.0, 0.25, kBefore, 0.01)) {
+            points.push_back({middle + 0.3 * (turn * point.position), kBefore});
+        }
+    }
+    for (int i = 0; i < 1000; ++i) {
+        points.push_back({{anywhere(random), anywhere(random), anywhere(random)}, kBefore});
+    }
+    return sorted(std::move(points));
+}
+
+TEST(PlanarRegions, AreTheSameForAnyNumberOfThreads)
+{
+    const Scene scene = crossing_walls();
+    const auto found_by = [&](int threads) {
+        std::optional<PlanarRegions> found;
+        tbb::task_arena(threads).execute([&] { found.emplace(regions_of(scene)); });
+        return found->region_of;
+    };
+    const std::vector<std::uint32_t> by_one = found_by(1);
+    EXPECT_GT(std::ranges::count_if(
+                  by_one, [](std::uint32_t r) { return r != PlanarRegions::kNone && r > 4; }),
+              100);
+    for (const int threads : {2, 3, 16}) {
+        EXPECT_EQ(found_by(threads), by_one) << threads;
     }
 }
 
