@@ -137,7 +137,7 @@ bool FaceVisibility::any_near_view(const CellFacet& facet, const Eigen::Vector3d
     std::size_t asked = 0;
     bool is_yes = false;
     views_.any_from_nearest(place, outward(facet), [&](std::uint32_t view) {
-        if (!faces(view, facet, place)) return false;
+        if (!faces(view, facet, place, 0.0)) return false;
         is_yes = ask(view);
         return is_yes || ++asked == kMostAsked;
     });
