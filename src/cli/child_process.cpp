@@ -39,6 +39,7 @@ double seconds_since(Clock::time_point start)
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     ::signal(SIGPIPE, SIG_DFL);
+    ::signal(SIGXFSZ, SIG_DFL);
     const int nothing = ::open("/dev/null", O_RDONLY);
     const int out = ::open(printed, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     const bool ready = nothing >= 0 && out >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&

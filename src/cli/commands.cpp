@@ -4,23 +4,17 @@
 #include "cli/compare_command.h"
 #include "cli/mesh_arguments.h"
 #include "cli/mesh_command.h"
+#include "io/files/output_file.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string_view>
 
 namespace vcarve::cli {
 
 namespace {
-
-void print(const std::string& text)
-{
-    std::fputs(text.c_str(), stdout);
-    if (std::fflush(stdout) != 0) throw UsageError("cannot write to the standard output");
-}
 
 /// Whether words are options only, so that what follows them may be a command.
 bool are_options(std::span<const std::string> words, const OptionList& options)

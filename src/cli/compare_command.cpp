@@ -22,7 +22,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -226,12 +225,6 @@ std::vector<Comparison> measure_files(const CompareArguments& arguments, const Y
     return columns;
 }
 
-void print_table(const std::string& table)
-{
-    std::fputs(table.c_str(), stdout);
-    if (std::fflush(stdout) != 0) throw UsageError("cannot write to the standard output");
-}
-
 } // namespace
 
 Manual compare_manual()
@@ -291,7 +284,7 @@ void run_compare(const ParsedArguments& given)
     std::ranges::move(measure_files(arguments, by), std::back_inserter(comparisons));
     preview.write();
     report.write(comparisons, reference, arguments.command, *log);
-    print_table(comparison_table(comparisons, reference));
+    print(comparison_table(comparisons, reference));
     if (arguments.outputs.json.empty()) return;
     OutputFile file(arguments.outputs.json);
     file.stream() << comparison_json(comparisons, reference);

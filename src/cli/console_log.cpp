@@ -1,5 +1,6 @@
 #include "cli/console_log.h"
 
+#include "base/control_free.h"
 #include "cli/stage_lines.h"
 
 #include <fmt/format.h>
@@ -200,7 +201,7 @@ void ConsoleLog::stage_ends(std::string_view name, const Counts& counts)
     const std::lock_guard lock(mutex_);
     const StageWords words = settings_.verbose ? StageWords{std::string(name), counts_text(counts)}
                                                : stage_words(name, counts);
-    if (words.is_shown) print_line(stage_line(words, stage_seconds()));
+    if (words.is_shown) print_line(control_free(stage_line(words, stage_seconds())));
     clock_.stage_ends(counts, run_seconds());
     stage_.clear();
 }
@@ -208,7 +209,7 @@ void ConsoleLog::stage_ends(std::string_view name, const Counts& counts)
 void ConsoleLog::note(std::string_view sentence)
 {
     const std::lock_guard lock(mutex_);
-    print_line(fmt::format("{} {}", emphasised("note:"), sentence));
+    print_line(fmt::format("{} {}", emphasised("note:"), control_free(sentence)));
 }
 
 void ConsoleLog::expect(const PredictedTimes& times)

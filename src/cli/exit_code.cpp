@@ -1,5 +1,6 @@
 #include "cli/exit_code.h"
 
+#include "base/control_free.h"
 #include "run/ranks.h"
 #include "vcarve/error.h"
 
@@ -33,7 +34,8 @@ int report(const Ending& ending)
 {
     if (ending.exit_code == 0) return 0;
     std::fputs("colmap-vcarve: ", stderr);
-    std::fputs(ending.sentence.empty() ? "out of memory" : ending.sentence.c_str(), stderr);
+    std::fputs(ending.sentence.empty() ? "out of memory" : control_free(ending.sentence).c_str(),
+               stderr);
     std::fputs("\n", stderr);
     return ending.exit_code;
 }

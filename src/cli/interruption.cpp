@@ -3,7 +3,13 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
 #include <csignal>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -19,8 +25,11 @@ constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
 std::vector<std::string> files_to_remove;
 
-/// Like what follows, calls only functions that are safe in a handler: unlink, rmdir, write,
-/// _exit.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
+std::atomic_flag is_reporting;
+
+/// Like what follows, calls only functions that are safe in a handler: unlink, rmdir, open, read,
+/// write, pause, _exit.
 void remove_files()
 {
     for (const std::string& file : files_to_remove) {
@@ -33,7 +42,45 @@ void say(std::string_view text)
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
-extern "C" void remove_and_exit(int signal)
+/// The line of /proc/self/maps that tells what is mapped at an address; empty where there is none.
+/// A system call a byte, for nothing may be allocated.
+std::string_view mapping_at(std::uintptr_t address, std::span<char> line)
+{
+    const int maps = ::open("/proc/self/maps", O_RDONLY | O_CLOEXEC);
+    std::size_t size = 0;
+    for (char byte = 0; ::read(maps, &byte, 1) == 1;) {
+        if (byte != '\n') {
+            const bool is_control = static_cast<unsigned char>(byte) < ' ' || byte == 0x7F;
+            line[size] = is_control ? '?' : byte;
+            size = std::min(size + 1, line.size() - 1);
+            continue;
+        }
+        std::uintptr_t begin = 0;
+        std::uintptr_t end = 0;
+        const char* const last = line.data() + size;
+        const char* const dash = std::from_chars(line.data(), last, begin, 16).ptr;
+        std::from_chars(std::min(dash + 1, last), last, end, 16);
+        if (begin <= address && address < end) return {line.data(), size};
+        size = 0;
+    }
+    return {};
+}
+
+/// Says which file of a name the system could not read at an address, if there is one.
+bool say_unreadable(const void* address)
+{
+    std::array<char, 5000> line{}; // longer than the longest path
+    const std::string_view mapping =
+        mapping_at(reinterpret_cast<std::uintptr_t>(address), std::span(line));
+    const std::size_t path = mapping.find('/');
+    if (path == std::string_view::npos || mapping.ends_with(" (deleted)")) return false;
+    say("colmap-vcarve: ");
+    say(mapping.substr(path));
+    say(": the file was shortened while it was read, or its disk fails\n");
+    return true;
+}
+
+extern "C" void remove_and_exit(int signal, siginfo_t*, void*)
 {
     remove_files();
     // A progress bar may stand on the terminal's line.
@@ -41,9 +88,16 @@ extern "C" void remove_and_exit(int signal)
     ::_exit(128 + signal);
 }
 
-extern "C" void remove_and_report(int signal)
+extern "C" void remove_and_report(int signal, siginfo_t* info, void*)
 {
+    // Another thread reports.
+    while (is_reporting.test_and_set()) {
+        ::pause();
+    }
     remove_files();
+    if (signal == SIGBUS && info->si_code == BUS_ADRERR && say_unreadable(info->si_addr)) {
+        ::_exit(3);
+    }
     const char number[] = {static_cast<char>('0' + signal / 10),
                            static_cast<char>('0' + signal % 10), '\0'};
     say("colmap-vcarve: internal error: stopped by signal ");
@@ -54,12 +108,13 @@ extern "C" void remove_and_report(int signal)
 
 /// Leaves a signal alone that somebody else handles, as sanitizers do with crashes, or ignores, as
 /// nohup does with SIGHUP.
-void handle(int signal, void (*handler)(int))
+void handle(int signal, void (*handler)(int, siginfo_t*, void*))
 {
     struct sigaction action = {};
     sigaction(signal, nullptr, &action);
     if (action.sa_handler != SIG_DFL) return;
-    action.sa_handler = handler;
+    action.sa_sigaction = handler;
+    action.sa_flags = SA_SIGINFO;
     sigfillset(&action.sa_mask);
     sigaction(signal, &action, nullptr);
 }
@@ -83,6 +138,7 @@ void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished
         handle(signal, remove_and_report);
     }
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 

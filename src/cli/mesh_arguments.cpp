@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <system_error>
 
 namespace vcarve::cli {
 
@@ -75,7 +76,8 @@ OptionList record_options(MeshArguments& arguments)
 void check_output(const fs::path& out, const OutputOptions& options)
 {
     // What is a folder is refused as such later.
-    if (!out.has_filename() || fs::is_directory(out)) return;
+    std::error_code error;
+    if (!out.has_filename() || fs::is_directory(out, error)) return;
     require_mesh_name(out);
     if (options.ascii) require_ply(out, "--ascii");
     if (options.attributes) require_ply(out, "--attributes");

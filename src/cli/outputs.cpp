@@ -19,8 +19,9 @@ namespace {
 bool is_same_file(const fs::path& a, const fs::path& b)
 {
     std::error_code error;
-    return fs::equivalent(a, b, error) ||
-           fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+    if (fs::equivalent(a, b, error)) return true;
+    const fs::path real = fs::weakly_canonical(a, error);
+    return !error && real == fs::weakly_canonical(b, error);
 }
 
 [[noreturn]] void refuse(const Output& output, const Output& replaced)

@@ -24,7 +24,7 @@ fs::path folder_beside(const fs::path& out)
 {
     std::error_code error;
     const bool is_device = fs::is_character_file(out, error);
-    fs::path folder = is_device ? fs::temp_directory_path() / "colmap-vcarve" : out;
+    fs::path folder = is_device ? fs::temp_directory_path(error) / "colmap-vcarve" : out;
     folder += fmt::format(".scratch-{}", ::getpid());
     return folder;
 }

@@ -1,5 +1,6 @@
 #include "picture/eye.h"
 
+#include "io/colmap/text_reader.h"
 #include "model/camera.h"
 #include "model/region_of_interest.h"
 #include "model/seen_places.h"
@@ -128,7 +129,7 @@ std::string names_of(const Scene& scene)
     if (scene.views.empty()) return "none";
     std::string names;
     for (std::size_t i = 0; i < std::min(kShown, scene.views.size()); ++i) {
-        names += (i == 0 ? "" : ", ") + scene.views[i].name;
+        names += (i == 0 ? "" : ", ") + printable(scene.views[i].name);
     }
     return names + (scene.views.size() > kShown ? ", ..." : "");
 }

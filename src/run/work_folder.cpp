@@ -73,16 +73,20 @@ bool make_folder(const fs::path& folder)
 {
     std::error_code error;
     const bool was_made = fs::create_directory(folder, error);
-    if (fs::is_directory(folder)) return was_made;
-    const std::string reason =
-        fs::exists(folder) ? "there is a file of that name" : error.message();
+    std::error_code status_error;
+    const fs::file_status status = fs::status(folder, status_error);
+    if (fs::is_directory(status)) return was_made;
+    const std::string reason = fs::exists(status)         ? "there is a file of that name"
+                               : fs::status_known(status) ? error.message()
+                                                          : status_error.message();
     throw UsageError(fmt::format("cannot make the work folder {}: {}", folder.string(), reason));
 }
 
 /// Nobody's files are to be taken for ours, nor mixed with them.
 void require_ours(const fs::path& folder)
 {
-    if (fs::exists(folder / kJobName)) return;
+    std::error_code error; // of a folder that one may not enter: writing tells
+    if (fs::exists(folder / kJobName, error)) return;
     for (const fs::path& file : files_in(folder)) {
         const std::string name = file.filename();
         if (name == kLockName || (is_ours(name) && is_part(name))) continue;
@@ -252,7 +256,8 @@ fs::path WorkFolder::file_of(std::string_view stage) const
 
 bool WorkFolder::has(std::string_view stage) const
 {
-    return fs::exists(file_of(stage));
+    std::error_code error;
+    return fs::exists(file_of(stage), error);
 }
 
 void WorkFolder::wait_for(std::string_view stage, const Progress& progress) const
@@ -260,7 +265,8 @@ void WorkFolder::wait_for(std::string_view stage, const Progress& progress) cons
     // A network file system may believe for half a minute that what was not there is not there.
     const auto begin = std::chrono::steady_clock::now();
     while (!has(stage)) {
-        const std::chrono::seconds most(fs::exists(folder_) ? 60 : 5);
+        std::error_code error;
+        const std::chrono::seconds most(fs::exists(folder_, error) ? 60 : 5);
         progress.tell(0.0);
         if (std::chrono::steady_clock::now() > begin + most) {
             throw UsageError(fmt::format("there is no {}; --work takes a folder on a file system "

@@ -65,6 +65,20 @@ TEST(ConsoleLog, PrintsALineAStageAndANoteAtOnce)
                 MatchesRegex("note: images.txt is ignored.\nread +12 points +[0-9.]+ s\n"));
 }
 
+TEST(ConsoleLog, ObeysNoName)
+{
+    const Screen screen;
+    {
+        ConsoleLog log({.stream = screen.stream(), .verbose = true});
+        Stage stage(log, "read");
+        log.note("of \x1b[2J.ply");
+        stage.end({{"points of \x1b[2J.ply", 12}});
+    }
+    EXPECT_THAT(screen.text(), MatchesRegex("note: of .\\[2J.ply\nread +12 points of .\\[2J.ply "
+                                            "+[0-9.]+ s\n"));
+    EXPECT_THAT(screen.text(), Not(HasSubstr("\x1b")));
+}
+
 TEST(ConsoleLog, DropsWhatCannotBeWritten)
 {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> full(std::fopen("/dev/full", "w"),

@@ -1,4 +1,5 @@
 #include "cli/interruption.h"
+#include "io/files/mapped_file.h"
 #include "support/subprocess.h"
 #include "support/temporary_folder.h"
 #include "support/usual_signals.h"
@@ -99,10 +100,46 @@ TEST(EndCleanlyOnSignals, MakesACrashAnInternalError)
 }
 #endif
 
+#ifndef VCARVE_WATCHES_MEMORY
+/// How a process ends that reads a mapped file which was shortened.
+int exit_code_of_reading(const std::filesystem::path& path)
+{
+    const pid_t child = ::fork();
+    if (child == 0) {
+        take_signals_as_usual();
+        end_cleanly_on_signals({});
+        const MappedFile file(path);
+        if (::truncate(path.c_str(), 0) != 0) ::_exit(99);
+        ::_exit(std::ranges::count(file.bytes(), 'x') == 0 ? 0 : 98);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(EndCleanlyOnSignals, NamesTheFileThatWasShortenedWhileItWasRead)
+{
+    const TemporaryFolder folder;
+    const auto path = folder.write("points3D \x1b.bin", std::string(100'000, 'x'));
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(exit_code_of_reading(path), 3);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "colmap-vcarve: " + (folder / "points3D ?.bin").string() +
+                  ": the file was shortened while it was read, or its disk fails\n");
+}
+#endif
+
 TEST(EndCleanlyOnSignals, GoesOnWhereAPipeIsClosed)
 {
     const TemporaryFolder folder;
     EXPECT_EQ(exit_code_of(SIGPIPE, folder.write("out.ply.part", "half of it")), 0);
+    EXPECT_EQ(folder.num_entries(), 1U);
+}
+
+TEST(EndCleanlyOnSignals, GoesOnWhereAFileMayNotGrow)
+{
+    const TemporaryFolder folder;
+    EXPECT_EQ(exit_code_of(SIGXFSZ, folder.write("out.ply.part", "half of it")), 0);
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 

@@ -83,9 +83,36 @@ TEST(Program, SaysBeforeItReadsAnythingThatAnOutputCannotBeWritten)
     EXPECT_EQ(sentence_of(2, {nowhere, folder / "out.ply", "--stats", nowhere + "/s.json"}),
               "colmap-vcarve: cannot write " + nowhere + "/s.json: the folder " + nowhere +
                   " does not exist\n");
+    std::filesystem::create_symlink("loop.ply", folder / "loop.ply");
+    const std::string endless = folder / (std::string(300, 'n') + ".ply");
+    for (const std::string& path : {(folder / "loop.ply").string(), endless}) {
+        for (const std::string option : {"", "--stats", "--work"}) {
+            std::vector<std::string> words = {nowhere, path};
+            if (!option.empty()) words = {nowhere, folder / "out.ply", option, path};
+            EXPECT_THAT(sentence_of(2, words),
+                        MatchesRegex("colmap-vcarve: cannot (write|make the work folder) [^:]+: "
+                                     "([^:]+: )?(Too many levels of symbolic links|File name too "
+                                     "long)\n"));
+        }
+    }
+    EXPECT_THAT(sentence_of(2, {nowhere, endless, "--stats", endless + ".json"}),
+                HasSubstr("cannot write " + endless + ": "))
+        << "not: both to one file";
+    std::filesystem::remove(folder / "loop.ply");
     EXPECT_EQ(sentence_of(2, {nowhere, "out.ply", "--stats", "out.ply"}),
               "colmap-vcarve: --stats and the surface cannot both be written to out.ply\n");
     EXPECT_EQ(folder.num_entries(), 0U);
+}
+
+TEST(Program, SaysThatNobodyTookWhatItWasToPrint)
+{
+    for (const std::string words : {"--help", "--help-all", "--version", "--help-man",
+                                    "help compare", "compare --help-all"}) {
+        const std::string script = built_program() + " " + words + " >/dev/full";
+        EXPECT_EQ(sentence_of_run(2, Subprocess({"/bin/sh", "-c", script}).wait()),
+                  "colmap-vcarve: cannot write to the standard output\n")
+            << words;
+    }
 }
 
 TEST(Program, ExitsWithThreeWhereTheInputIsWrong)

@@ -3,6 +3,7 @@
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -87,6 +88,9 @@ TEST(ChooseEye, RefusesANameThatNoImageHas)
     EXPECT_EQ(refusal<UsageError>([&] { choose_eye(scene, ""); }),
               "--view takes auto, top, orbit or the name of an image, but the model has no image "
               ": it has 4 (a.jpg, b.jpg, c.jpg, ...)");
+    scene.views[0].name = "a\x1b[2J";
+    EXPECT_THAT(refusal<UsageError>([&] { choose_eye(scene, "x"); }),
+                testing::HasSubstr("x: it has 4 (a?[2J, b.jpg, c.jpg, ...)"));
 }
 
 TEST(ChooseEye, LooksDownFromTheTopWithTheCamerasBelow)

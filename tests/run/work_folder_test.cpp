@@ -196,6 +196,15 @@ TEST_F(Work, IsNoFolderOfSomethingElse)
     EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(folder / "no/work"); }),
               "cannot make the work folder " + (folder / "no/work").string() +
                   ": No such file or directory");
+    fs::create_symlink("loop", folder / "loop");
+    for (const char* loop : {"loop", "loop/work"}) {
+        EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(folder / loop); }),
+                  "cannot make the work folder " + (folder / loop).string() +
+                      ": Too many levels of symbolic links");
+    }
+    const fs::path endless = folder / std::string(300, 'n');
+    EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(endless); }),
+              "cannot make the work folder " + endless.string() + ": File name too long");
 }
 
 TEST_F(Work, IsClearedOfWhatIsOurs)

@@ -194,7 +194,9 @@ bool is_number(const std::string& name)
 FoundModel model_itself(const fs::path& folder, ModelFormat format, PointsFile points)
 {
     FoundModel found = model_in(folder, format);
-    const fs::path real = fs::absolute(folder / "").lexically_normal().parent_path();
+    std::error_code error;
+    const fs::path real = fs::absolute(folder / "", error).lexically_normal().parent_path();
+    if (error) return found; // nobody knows where it lies
     const std::string own_name = real.filename().string();
     const std::vector<std::string> names = names_in(real.parent_path());
     const auto is_other = [&](const std::string& name) {
@@ -327,8 +329,12 @@ FoundModel find_model(const fs::path& input, PointsFile points)
 {
     constexpr int kLevels = 4;
     std::error_code error;
-    if (!fs::exists(input, error)) {
-        throw InputError(fmt::format("{}: does not exist; {}", input.string(), kWhatAModelIs));
+    const fs::file_status status = fs::status(input, error);
+    if (!fs::exists(status)) {
+        const std::string reason = fs::status_known(status)
+                                       ? "does not exist"
+                                       : fmt::format("cannot be read ({})", error.message());
+        throw InputError(fmt::format("{}: {}; {}", input.string(), reason, kWhatAModelIs));
     }
     if (!is_folder(input)) {
         if (auto found = model_of_file(input, points)) return *found;

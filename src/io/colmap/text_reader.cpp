@@ -1,5 +1,6 @@
 #include "io/colmap/text_reader.h"
 
+#include "base/control_free.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -18,11 +19,6 @@ constexpr std::string_view kBlanks = " \t\r\v\f";
 bool is_blank(char c)
 {
     return kBlanks.find(c) != std::string_view::npos;
-}
-
-bool is_control(char c)
-{
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
 }
 
 bool continues_utf8(char c)
@@ -45,8 +41,7 @@ std::string printable(std::string_view text)
         shown.resize(end);
         shown += "...";
     }
-    std::replace_if(shown.begin(), shown.end(), is_control, '?');
-    return shown;
+    return control_free(shown);
 }
 
 TextReader::TextReader(std::span<const char> bytes, std::string name)

@@ -18,14 +18,8 @@ namespace {
 
 bip::mapped_region map_file(const std::filesystem::path& path)
 {
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) {
-        throw InputError(fmt::format("{}: the file does not exist", path.string()));
-    }
-    if (!std::filesystem::is_regular_file(status)) {
-        throw InputError(fmt::format("{}: found something that is not a file", path.string()));
-    }
+    const std::string reason = why_no_file(path);
+    if (!reason.empty()) throw InputError(fmt::format("{}: {}", path.string(), reason));
     try {
         const bip::file_mapping file(path.c_str(), bip::read_only);
         // No system maps zero bytes
@@ -38,6 +32,16 @@ bip::mapped_region map_file(const std::filesystem::path& path)
 }
 
 } // namespace
+
+std::string why_no_file(const std::filesystem::path& path)
+{
+    std::error_code error;
+    const auto type = std::filesystem::status(path, error).type();
+    if (type == std::filesystem::file_type::regular) return "";
+    if (type == std::filesystem::file_type::not_found) return "the file does not exist";
+    if (type != std::filesystem::file_type::none) return "found something that is not a file";
+    return fmt::format("the file cannot be read ({})", error.message());
+}
 
 MappedFile::MappedFile(const std::filesystem::path& path)
     : region_(map_file(path)), pages_(region_.get_address(), region_.get_size())

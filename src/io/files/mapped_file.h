@@ -7,8 +7,12 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace vcarve {
+
+/// Why there is no file of that path, as a clause; empty where there is one.
+std::string why_no_file(const std::filesystem::path& path);
 
 /// The bytes of a file, read-only and mapped into memory for as long as the object lives; an empty
 /// file gives an empty span. The file must not be shortened by somebody else in the meantime.

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <string_view>
 #include <utility>
@@ -49,13 +50,17 @@ void require_sound_target(const fs::path& path, const fs::path& target)
     if (fs::exists(status) && ::access(target.c_str(), W_OK) != 0) {
         refuse(path, std::strerror(errno));
     }
+    const std::string reason = error.message();
     const fs::path folder = folder_of(target);
-    if (!fs::exists(folder, error)) {
+    const fs::file_type type = fs::status(folder, error).type();
+    if (type == fs::file_type::not_found) {
         refuse(path, fmt::format("the folder {} does not exist", folder.string()));
     }
-    if (!fs::is_directory(folder, error)) {
+    if (type != fs::file_type::none && type != fs::file_type::directory) {
         refuse(path, fmt::format("{} is not a folder", folder.string()));
     }
+    // Such as links in a circle
+    if (!fs::status_known(status) && fs::is_symlink(target, error)) refuse(path, reason);
 }
 
 bool is_device(const fs::path& target)
@@ -169,6 +174,14 @@ std::filesystem::path part_path(const std::filesystem::path& path)
 void require_writable(const std::filesystem::path& path)
 {
     const OutputFile probe(path);
+}
+
+void print(std::string_view text)
+{
+    const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
+    // What was written may wait in a buffer; what was flushed before is forgotten there.
+    if (std::fflush(stdout) == 0 && written == text.size() && std::ferror(stdout) == 0) return;
+    throw UsageError("cannot write to the standard output");
 }
 
 } // namespace vcarve

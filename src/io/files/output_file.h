@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <ostream>
 #include <streambuf>
+#include <string_view>
 #include <vector>
 
 namespace vcarve {
@@ -16,6 +17,9 @@ std::filesystem::path part_path(const std::filesystem::path& path);
 /// Throws UsageError, one sentence, where `path` could not be written: an empty path, a folder, a
 /// folder that does not exist or takes no new file, a protected file. Leaves nothing behind.
 void require_writable(const std::filesystem::path& path);
+
+/// Writes to the standard output. Throws UsageError where that takes not all of it.
+void print(std::string_view text);
 
 /// A file that appears whole or not at all: what is streamed goes to part_path(path), commit()
 /// renames it, and without a commit the destructor removes it. A character device (/dev/null,

@@ -4,6 +4,7 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/transforms_json.h"
 #include "io/files/foreign_file.h"
+#include "io/files/mapped_file.h"
 #include "io/ply/ply_cloud.h"
 #include "vcarve/error.h"
 
@@ -129,9 +130,8 @@ FoundInput scan_input(FoundModel model, const fs::path& cloud, const PointsOptio
 {
     check_scanner(cloud, options);
     if (!is_file(cloud)) {
-        throw InputError(fmt::format("{}: the file does not exist, so there are no points of a "
-                                     "scanner to take",
-                                     cloud.string()));
+        throw InputError(fmt::format("{}: {}, so there are no points of a scanner to take",
+                                     cloud.string(), why_no_file(cloud)));
     }
     std::string note = note_on_scan(cloud, options);
     const fs::path visibility = visibility_of(cloud, options);
@@ -189,15 +189,15 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
                              !is_file(visibility) && has_lists(cloud);
     if (takes_lists) visibility.clear();
     if (!is_file(cloud)) {
-        throw InputError(fmt::format("{}: the file does not exist, so there are no dense points to "
-                                     "take with the views of {}",
-                                     cloud.string(), model.folder.string()));
+        throw InputError(fmt::format("{}: {}, so there are no dense points to take with the "
+                                     "views of {}",
+                                     cloud.string(), why_no_file(cloud), model.folder.string()));
     }
     if (!visibility.empty() && !is_file(visibility)) {
-        throw InputError(fmt::format("{}: the file does not exist, which tells which views saw the "
-                                     "points of {}, as COLMAP's stereo_fusion writes it "
-                                     "(--visibility names another, --sights nearest does without)",
-                                     visibility.string(), cloud.string()));
+        throw InputError(fmt::format("{}: {}, which tells which views saw the points of {}, as "
+                                     "COLMAP's stereo_fusion writes it (--visibility names "
+                                     "another, --sights nearest does without)",
+                                     visibility.string(), why_no_file(visibility), cloud.string()));
     }
     std::vector<std::string> notes = model.notes;
     DenseFiles files{model.folder, model.format, cloud, visibility, takes_lists};

@@ -59,7 +59,7 @@ std::vector<fs::path> input_files(const fs::path& input, const FoundInput& found
     std::vector<fs::path> files;
     std::error_code error;
     fs::path folder =
-        fs::weakly_canonical(fs::is_directory(input) ? input : input.parent_path(), error);
+        fs::weakly_canonical(fs::is_directory(input, error) ? input : input.parent_path(), error);
     add_of_folder(folder, files);
     // sparse/0 lies two folders below the project
     folder = fs::weakly_canonical(found.model.folder, error);

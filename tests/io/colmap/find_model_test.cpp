@@ -240,6 +240,10 @@ TEST(FindModel, RefusesAPathThatIsNoFolder)
               file.string() + ": is not a folder" + what);
     EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path() / "none"); }),
               folder.path().string() + "/none: does not exist" + what);
+    fs::create_symlink("loop", folder / "loop");
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder / "loop"); }),
+              folder.path().string() + "/loop: cannot be read (Too many levels of symbolic links)" +
+                  what);
 }
 
 } // namespace

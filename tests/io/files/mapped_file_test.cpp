@@ -4,6 +4,7 @@
 #include "vcarve/error.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <string>
 #include <string_view>
@@ -54,6 +55,12 @@ TEST(MappedFile, RefusesWhatIsNotAFile)
               path + "/no.bin: the file does not exist");
     EXPECT_EQ(refusal<InputError>([&] { MappedFile{folder.path()}; }),
               path + ": found something that is not a file");
+    ::mkfifo((path + "/pipe").c_str(), 0600);
+    EXPECT_EQ(refusal<InputError>([&] { MappedFile{folder.path() / "pipe"}; }),
+              path + "/pipe: found something that is not a file");
+    std::filesystem::create_symlink("loop", folder / "loop");
+    EXPECT_EQ(refusal<InputError>([&] { MappedFile{folder.path() / "loop"}; }),
+              path + "/loop: the file cannot be read (Too many levels of symbolic links)");
 }
 
 TEST(MappedFile, IsReadAgainWhereItsPagesWereDropped)

@@ -194,6 +194,13 @@ TEST(RequireWritable, RefusesInOneSentence)
               "cannot write " + name + "/plain/out.ply: " + name + "/plain is not a folder");
     EXPECT_EQ(refusal_to_write(folder / "pipe"),
               "cannot write " + name + "/pipe: it is neither a file nor a character device");
+    fs::create_symlink("loop", folder / "loop");
+    const std::string circle = "Too many levels of symbolic links";
+    EXPECT_EQ(refusal_to_write(folder / "loop"), "cannot write " + name + "/loop: " + circle);
+    EXPECT_EQ(refusal_to_write(folder / "loop/out.ply"),
+              "cannot write " + name + "/loop/out.ply: no file can be created in the folder " +
+                  name + "/loop: " + circle);
+    EXPECT_TRUE(fs::is_symlink(folder / "loop"));
     const std::string endless(300, 'n');
     EXPECT_EQ(refusal_to_write(folder / endless), "cannot write " + name + "/" + endless +
                                                       ": no file can be created in the folder " +

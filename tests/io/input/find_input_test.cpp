@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <string>
 #include <utility>
@@ -149,6 +150,21 @@ TEST_F(FindInput, MentionsACloudFartherDown)
                                          " means those of " + fused.string()));
     fs::rename(dense, folder / "other");
     EXPECT_THAT(find_input(folder.path(), {}).notes, IsEmpty());
+}
+
+TEST_F(FindInput, SaysWhatLiesInTheCloudsPlace)
+{
+    const std::string pipe = folder / "pipe.ply";
+    ::mkfifo(pipe.c_str(), 0600);
+    EXPECT_EQ(refused(dense / "sparse", {.points = pipe}),
+              pipe +
+                  ": found something that is not a file, so there are no dense points to take "
+                  "with the views of " +
+                  (dense / "sparse").string());
+    EXPECT_THAT(refused(dense, {.points = fused, .visibility = pipe}),
+                testing::StartsWith(pipe + ": found something that is not a file, which tells"));
+    EXPECT_THAT(refused(dense, {.points = pipe, .scanner = {{0, 0, 0}}}),
+                testing::StartsWith(pipe + ": found something that is not a file, so there"));
 }
 
 TEST_F(FindInput, RefusesACloudOrViewsThatAreNotThere)

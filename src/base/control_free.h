@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace vcarve {
+
+/// `text` with question marks for control characters, which a terminal would obey; also for those
+/// of UTF-8, U+0080 to U+009F.
+inline std::string control_free(std::string_view text)
+{
+    std::string shown(text);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(shown[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < shown.size() ? shown[i + 1] : '\0');
+        if (byte == 0xC2 && next >= 0x80 && next < 0xA0) shown.replace(i, 2, "?");
+        if (byte < 0x20 || byte == 0x7F) shown[i] = '?';
+    }
+    return shown;
+}
+
+} // namespace vcarve
