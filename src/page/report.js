@@ -62,7 +62,7 @@ function fillStages() {
 // ---- filter
 
 const kReasons = [
-  ["non-finite", "not finite", () => "a coordinate is no finite number"],
+  ["non-finite", "not finite", () => "a coordinate is no finite number, or beyond 1e100"],
   ["duplicate", "double", () => "at the place of another point, and merged with it"],
   ["few views", "few views", (o) => "seen by fewer than " + o["min-views"] + " views (--min-views)"],
   ["high error", "high error", (o) => "reprojection error over " + o["max-error"] + " px (--max-error)"],

@@ -1,5 +1,6 @@
 #include "pipeline/stage_runs.h"
 
+#include "model/place.h"
 #include "pipeline/memory.h"
 #include "pipeline/rank_shares.h"
 #include "steps/1_points/crop.h"
@@ -82,6 +83,11 @@ Counts filter(RunState& run, const Progress& progress)
     scene = spatial_sort(std::move(filtered.scene), progress.part(0.6, 0.9));
     const std::int64_t stray = drop_stray_points(scene, options);
     const FilterReport& dropped = filtered.report;
+    if (dropped.non_finite > 0) {
+        run.notes.push_back(fmt::format("{} of the points are dropped, of which a coordinate is no "
+                                        "finite number or beyond {:.0e}",
+                                        dropped.non_finite, kFarthest));
+    }
     return {{"points", size_of(scene.num_points())}, {"of", before},
             {"non-finite", dropped.non_finite},      {"duplicate", dropped.duplicate},
             {"few views", dropped.few_views},        {"high error", dropped.high_error},

@@ -129,6 +129,34 @@ TEST_F(ProgramOnBall, GoesOnWhereNobodyTakesWhatItPrints)
     }
 }
 
+TEST_F(ProgramOnBall, TakesALimitOfTheSizeOfFilesForAFullDisk)
+{
+    std::vector<std::string> words = program_with({ball, out, "--quiet"});
+    words.insert(words.begin(), {"/bin/bash", "-c", "ulimit -f 1; exec \"$@\"", "bash"});
+    EXPECT_EQ(sentence_of_run(2, Subprocess(words).wait()),
+              "colmap-vcarve: cannot write " + out + ": File too large\n");
+    EXPECT_EQ(folder.num_entries(), 1U) << "the model only";
+}
+
+TEST_F(ProgramOnBall, DropsPointsThatAreTooFarOutWithANote)
+{
+    ASSERT_EQ(run_program({ball, out}).exit_code, 0);
+    const std::string usual = bytes_of(out);
+    const std::string points = bytes_of(ball + "/points3D.txt");
+    folder.write("ball/points3D.txt", points + "9001 1e300 0 0 9 9 9 0.5 1 0 2 0 3 0\n"
+                                               "9002 0 -1e160 0 9 9 9 0.5 1 0 2 0 3 0\n"
+                                               "9003 0 0 2e100 9 9 9 0.5 1 0 2 0 3 0\n");
+    for (const char* method : {"cut", "strict"}) {
+        const Outcome outcome = run_program({ball, out, "--method", method});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("note: 3 of the points are dropped, of which a "
+                                           "coordinate is no finite number or beyond 1e+100\n"));
+        if (std::string(method) == "cut") {
+            EXPECT_EQ(bytes_of(out), usual);
+        }
+    }
+}
+
 TEST_F(ProgramOnBall, WritesTextOnRequest)
 {
     EXPECT_EQ(run_program({ball, out, "--ascii"}).exit_code, 0);

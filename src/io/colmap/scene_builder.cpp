@@ -4,6 +4,7 @@
 #include "base/sort_unique.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
+#include "model/place.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>
@@ -75,7 +76,7 @@ void SceneBuilder::add_image(const ImageRecord& image)
     view.name = image.name;
     view.cam_from_world = {rotation[0], rotation[1], rotation[2], rotation[3]};
     view.center = -(view.cam_from_world.conjugate() * image.translation);
-    if (!view.center.allFinite()) fail("has a centre too far out to be a number");
+    if (!is_place(view.center)) fail("has a centre too far out to be a number");
     scene_.views.push_back(std::move(view));
 }
 
@@ -132,7 +133,7 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
 
     const std::vector<std::uint64_t>& ids = scene_.point_ids;
     point_ids_ascend_ = point_ids_ascend_ && (ids.empty() || ids.back() < point.id);
-    scene_.positions.push_back(point.position);
+    scene_.positions.push_back(place_or_none(point.position));
     scene_.colors.push_back(point.color);
     scene_.errors_px.push_back(std::isnan(point.error_px) ? -1.0 : point.error_px);
     scene_.point_ids.push_back(point.id);

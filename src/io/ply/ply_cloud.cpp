@@ -1,6 +1,7 @@
 #include "io/ply/ply_cloud.h"
 
 #include "base/parallel.h"
+#include "model/place.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -103,7 +104,7 @@ void PlyCloudReader::require_finite_scanners(const PointCloud& cloud) const
 {
     for (std::size_t i = 0; i < cloud.scanners.size(); ++i) {
         const Eigen::Vector3d& place = cloud.scanners[i];
-        if (place.allFinite() || !cloud.positions[i].allFinite()) continue;
+        if (is_place(place) || !cloud.positions[i].allFinite()) continue;
         data_.refuse(
             fmt::format("vertex {} of {}: {}", done_ + i, vertices_.count, not_finite(place)));
     }
@@ -131,7 +132,7 @@ void PlyCloudReader::read_camera()
                 place[name - kPlyCameraPlace.begin()] = data_.number(property.type);
             }
         }
-        if (!place.allFinite()) throw BadPlyEntry{not_finite(place)};
+        if (!is_place(place)) throw BadPlyEntry{not_finite(place)};
     });
     place_of_camera_ = place + header_.offset;
 }
@@ -177,7 +178,7 @@ void PlyCloudReader::read_in_order(PointCloud& cloud, const Progress& progress)
 
 void PlyCloudReader::put(PointCloud& cloud, std::size_t i, const PlyVertex& vertex) const
 {
-    cloud.positions[i] = vertex.position + header_.offset;
+    cloud.positions[i] = place_or_none(vertex.position + header_.offset);
     if (!cloud.normals.empty()) cloud.normals[i] = vertex.normal;
     if (!cloud.colors.empty()) cloud.colors[i] = vertex.color;
     if (with_scanners_) cloud.scanners[i] = vertex.scanner + header_.offset;

@@ -17,9 +17,10 @@ namespace vcarve {
 
 /// The points of a PLY file, in its order. The optional arrays are empty or have one entry a point.
 struct PointCloud {
-    std::vector<Eigen::Vector3d> positions; ///< offset added; also those that are not finite
-    std::vector<Eigen::Vector3f> normals;   ///< optional: as they stand in the file
-    std::vector<Color> colors;              ///< optional
+    std::vector<Eigen::Vector3d>
+        positions; ///< offset added; what is no place (model/place.h) is not finite
+    std::vector<Eigen::Vector3f> normals; ///< optional: as they stand in the file
+    std::vector<Color> colors;            ///< optional
     /// Where the scanners stood, offset added: one a point, or one for all of them. Finite, but of
     /// points that are not.
     std::vector<Eigen::Vector3d> scanners;

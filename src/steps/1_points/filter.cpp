@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/unlimited.h"
 #include "model/measured_range.h"
+#include "model/place.h"
 #include "model/scene_points.h"
 #include "model/united_tracks.h"
 #include "steps/1_points/same_place.h"
@@ -43,11 +44,11 @@ std::uint32_t best_of(const Scene& scene, const PointIndices& points)
                              [&](std::uint32_t a, std::uint32_t b) { return worth(a) < worth(b); });
 }
 
-/// The points with finite coordinates, ascending.
+/// The points that lie at a place, ascending.
 PointIndices finite_points(const Scene& scene)
 {
     return parallel_collect<std::uint32_t>(scene.num_points(), [&](std::size_t i, auto& finite) {
-        if (scene.positions[i].allFinite()) finite.push_back(static_cast<std::uint32_t>(i));
+        if (is_place(scene.positions[i])) finite.push_back(static_cast<std::uint32_t>(i));
     });
 }
 

@@ -10,7 +10,7 @@ namespace vcarve {
 
 /// How many points were dropped, and why; each dropped point counts once, for the first reason.
 struct FilterReport {
-    std::int64_t non_finite = 0; ///< a coordinate is not a finite number
+    std::int64_t non_finite = 0; ///< a coordinate is not a finite number, or beyond 1e100
     std::int64_t duplicate = 0;  ///< merged into another point at the same place
     std::int64_t few_views = 0;
     std::int64_t high_error = 0;

@@ -47,6 +47,17 @@ TEST(Filter, DropsEachBadPointForItsOwnReason)
     EXPECT_EQ(result.report.duplicate, 0);
 }
 
+TEST(Filter, DropsPointsBeyondAllPlaces)
+{
+    const Scene scene = make_scene(kCenters, {{{1, 0, 0}, {0, 1}},
+                                              {{1e160, 0, 0}, {0, 1}},
+                                              {{0, -1e300, 0}, {0, 1}},
+                                              {{0, 0, 1.1e100}, {0, 1}}});
+    const FilteredPoints result = filter_points(scene, {});
+    EXPECT_EQ(result.scene.point_ids, (std::vector<std::uint64_t>{1}));
+    EXPECT_EQ(result.report.non_finite, 3);
+}
+
 TEST(Filter, AsksForAnAngleOnlyOfPointsThatWereTriangulated)
 {
     const Scene scene = make_scene(kCenters, {{{1, 0, 0}, {1}}, {{4, 0, 0}, {0, 2}}});

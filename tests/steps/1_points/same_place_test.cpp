@@ -78,6 +78,35 @@ TEST(FirstAtPlace, IsTheSameWhereRoundingIsCoarse)
     EXPECT_EQ(first_at_place(far, all_of(far.size())), expected);
 }
 
+TEST(FirstAtPlace, JudgesAPartByItselfHoweverFarTheRestLies)
+{
+    for (const double away : {1e12, 1e50, 1e100}) {
+        const double size = std::max(1.0, 1e-12 * away); // of the part, so that it has digits
+        const Positions places = random_points(1000, 5);
+        std::vector<Vector3d> parts = places;
+        for (const Vector3d& place : places) {
+            parts.emplace_back(size * place + Vector3d(0, away, 0));
+        }
+        Numbers expected = all_of(parts.size());
+        EXPECT_EQ(first_at_place(parts, expected), expected) << away;
+        parts.push_back(parts[3]);
+        parts.emplace_back(parts[1500] * (1.0 + 4e-16));
+        expected.insert(expected.end(), {3, 1500});
+        EXPECT_EQ(first_at_place(parts, all_of(parts.size())), expected) << away;
+    }
+}
+
+TEST(FirstAtPlace, IsOneForManyCopiesToo)
+{
+    std::vector<Vector3d> places = random_points(1000, 6);
+    Numbers expected = all_of(places.size());
+    for (int copy = 0; copy < 100; ++copy) {
+        places.emplace_back(places[7] * (1.0 + 2e-16 * (copy % 3)));
+        expected.push_back(7);
+    }
+    EXPECT_EQ(first_at_place(places, all_of(places.size())), expected);
+}
+
 TEST(FirstAtPlace, TellsPointsOfAPlaneAcrossAnAxisApart)
 {
     std::vector<Vector3d> places;
