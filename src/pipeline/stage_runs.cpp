@@ -84,9 +84,9 @@ Counts filter(RunState& run, const Progress& progress)
     const std::int64_t stray = drop_stray_points(scene, options);
     const FilterReport& dropped = filtered.report;
     if (dropped.non_finite > 0) {
-        run.notes.push_back(fmt::format("{} of the points are dropped, of which a coordinate is no "
-                                        "finite number or beyond {:.0e}",
-                                        dropped.non_finite, kFarthest));
+        run.notes.push_back(fmt::format("{} of {} points are left out: a coordinate is no finite "
+                                        "number, or beyond {:.0e}",
+                                        dropped.non_finite, before, kFarthest));
     }
     return {{"points", size_of(scene.num_points())}, {"of", before},
             {"non-finite", dropped.non_finite},      {"duplicate", dropped.duplicate},

@@ -149,8 +149,8 @@ TEST_F(ProgramOnBall, DropsPointsThatAreTooFarOutWithANote)
     for (const char* method : {"cut", "strict"}) {
         const Outcome outcome = run_program({ball, out, "--method", method});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        EXPECT_THAT(outcome.err, HasSubstr("note: 3 of the points are dropped, of which a "
-                                           "coordinate is no finite number or beyond 1e+100\n"));
+        EXPECT_THAT(outcome.err, HasSubstr("note: 3 of 403 points are left out: a coordinate is "
+                                           "no finite number, or beyond 1e+100\n"));
         if (std::string(method) == "cut") {
             EXPECT_EQ(bytes_of(out), usual);
         }
