@@ -72,6 +72,7 @@ Points join_within(double size, const Positions& positions, const Points& points
             if (apart.cwiseAbs().maxCoeff() <= size) places.join(order[i].point, order[j].point);
         }
     });
+    std::vector<Along>().swap(order); // before there is more
     Points firsts(points.size());
     parallel_for(firsts.size(),
                  [&](std::size_t i) { firsts[i] = places.root(static_cast<std::uint32_t>(i)); });
