@@ -85,6 +85,10 @@ void find_firsts(double size, const Positions& positions, const Points& points, 
 {
     constexpr std::uint32_t kMostCopies = 8;
     const Points joined = join_within(size, positions, points);
+    if (firsts.empty()) {
+        firsts.resize(positions.size()); // only now: joining takes the most memory
+        std::iota(firsts.begin(), firsts.end(), 0U);
+    }
     Points counts(points.size());
     for (const std::uint32_t first : joined) {
         ++counts[first];
@@ -110,8 +114,7 @@ void find_firsts(double size, const Positions& positions, const Points& points, 
 std::vector<std::uint32_t> first_at_place(const std::vector<Eigen::Vector3d>& positions,
                                           const std::vector<std::uint32_t>& finite)
 {
-    Points firsts(positions.size());
-    std::iota(firsts.begin(), firsts.end(), 0U);
+    Points firsts;
     find_firsts(same_place_size(positions, finite), positions, finite, firsts);
     return firsts;
 }
