@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <tuple>
 #include <vector>
 
 namespace vcarve {
@@ -51,7 +51,10 @@ class ViewTree {
         double distance;
         std::size_t number;
 
-        auto operator<=>(const Near&) const = default;
+        bool operator>(const Near& other) const
+        {
+            return std::tie(distance, number) > std::tie(other.distance, other.number);
+        }
     };
 
     /// How far off its axis each view shows things at most.

@@ -15,7 +15,8 @@ Scene square_before_a_view()
 {
     Scene scene = make_scene({Vector3d::Zero()}, {});
     for (int i = 0; i < 400; ++i) {
-        scene.positions.emplace_back(0.05 * (i % 20) - 0.5, 0.05 * (i / 20) - 0.5, 5.0);
+        const int row = i / 20;
+        scene.positions.emplace_back(0.05 * (i % 20) - 0.5, 0.05 * row - 0.5, 5.0);
     }
     return scene;
 }

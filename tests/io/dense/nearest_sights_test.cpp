@@ -78,6 +78,18 @@ std::vector<std::uint32_t> sights_by_asking_all(const Scene& scene,
     return row;
 }
 
+std::vector<NearestGrid> grids_of_all_points(const Scene& scene)
+{
+    std::vector<NearestGrid> grids;
+    for (const View& view : scene.views) {
+        grids.emplace_back(view, scene, scene.positions, 1);
+        for (const Vector3d& position : scene.positions) {
+            grids.back().add(position);
+        }
+    }
+    return grids;
+}
+
 /// A ball with points within, and views all around it that look at it or past it.
 Scene ball_among_views(std::size_t num_views)
 {
@@ -99,13 +111,7 @@ TEST(NearestSights, AreAsIfEveryViewWereShownEveryPoint)
 {
     for (const std::size_t num_views : {5U, 60U, 500U}) {
         const Scene scene = ball_among_views(num_views);
-        std::vector<NearestGrid> grids;
-        for (const View& view : scene.views) {
-            grids.emplace_back(view, scene, scene.positions, 1);
-            for (const Vector3d& position : scene.positions) {
-                grids.back().add(position);
-            }
-        }
+        const std::vector<NearestGrid> grids = grids_of_all_points(scene);
         const Tracks tracks = nearest_sights(scene);
         for (std::size_t i = 0; i < scene.num_points(); ++i) {
             ASSERT_EQ(row(tracks, i), sights_by_asking_all(scene, grids, scene.positions[i]))
