@@ -10,12 +10,14 @@ namespace vcarve {
 /// of UTF-8, U+0080 to U+009F.
 inline std::string control_free(std::string_view text)
 {
-    std::string shown(text);
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(shown[i]);
-        const auto next = static_cast<unsigned char>(i + 1 < shown.size() ? shown[i + 1] : '\0');
-        if (byte == 0xC2 && next >= 0x80 && next < 0xA0) shown.replace(i, 2, "?");
-        if (byte < 0x20 || byte == 0x7F) shown[i] = '?';
+    std::string shown;
+    shown.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : '\0');
+        const bool is_wide = byte == 0xC2 && next >= 0x80 && next < 0xA0;
+        shown += is_wide || byte < 0x20 || byte == 0x7F ? '?' : text[i];
+        if (is_wide) ++i;
     }
     return shown;
 }
