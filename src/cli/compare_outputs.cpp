@@ -63,6 +63,7 @@ void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
                    const std::vector<fs::path>& meshes)
 {
     std::vector<Output> read;
+    read.reserve(meshes.size());
     for (const fs::path& mesh : meshes) {
         read.push_back({"the mesh", mesh});
     }
