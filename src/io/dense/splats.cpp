@@ -2,6 +2,7 @@
 
 #include "base/grouped_digits.h"
 #include "base/median.h"
+#include "model/scene_points.h"
 
 #include <fmt/format.h>
 
@@ -30,16 +31,6 @@ float largest_log_axis(const std::vector<Splat>& splats)
     return logs.empty() ? 0.0F : static_cast<float>(median_in_place(logs) + std::log(kHuge));
 }
 
-template <typename Value>
-void keep(std::vector<Value>& values, const std::vector<std::uint64_t>& places)
-{
-    if (values.empty()) return;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        values[i] = values[places[i]];
-    }
-    values.resize(places.size());
-}
-
 } // namespace
 
 KeptSplats keep_solid_splats(PointCloud& cloud)
@@ -58,9 +49,9 @@ KeptSplats keep_solid_splats(PointCloud& cloud)
         }
     }
     if (faint + huge == 0) return kept;
-    keep(cloud.positions, kept.places);
-    keep(cloud.normals, kept.places);
-    keep(cloud.colors, kept.places);
+    cloud.positions = values_at(kept.places, cloud.positions);
+    cloud.normals = values_at(kept.places, cloud.normals);
+    cloud.colors = values_at(kept.places, cloud.colors);
     kept.note =
         fmt::format("of {} Gaussians {} are left out for less than half the opacity, {} for "
                     "being {} times as large as the median",
