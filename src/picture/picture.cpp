@@ -1,13 +1,10 @@
 #include "picture/picture.h"
 
 #include "io/files/output_file.h"
-
-#include <fmt/format.h>
-#include <png.h>
+#include "io/images/encode_image.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <stdexcept>
 
 namespace vcarve {
 
@@ -61,20 +58,11 @@ Picture shrunk(const Picture& picture, int factor)
 
 void write_png(const std::filesystem::path& path, const Picture& picture)
 {
-    const std::vector<std::uint8_t> pixels = bytes_of(picture);
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(picture.width_px);
-    image.height = static_cast<png_uint_32>(picture.height_px);
-    image.format = PNG_FORMAT_RGB;
-    image.flags = PNG_IMAGE_FLAG_FAST;
-    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
-    std::vector<char> file(size);
-    if (png_image_write_to_memory(&image, file.data(), &size, 0, pixels.data(), 0, nullptr) == 0) {
-        throw std::runtime_error(fmt::format("libpng makes no PNG: {}", image.message));
-    }
+    const std::vector<std::uint8_t> file =
+        encode_png({picture.width_px, picture.height_px, bytes_of(picture)});
     OutputFile out(path);
-    out.stream().write(file.data(), static_cast<std::streamsize>(size));
+    out.stream().write(reinterpret_cast<const char*>(file.data()),
+                       static_cast<std::streamsize>(file.size()));
     out.commit();
 }
 

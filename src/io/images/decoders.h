@@ -1,0 +1,35 @@
+#pragma once
+
+#include "model/photograph.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace vcarve {
+
+/// A file that a decoder is given, and its path, for what is said of it.
+struct ImageFile {
+    const std::filesystem::path& path;
+    std::span<const std::uint8_t> bytes;
+};
+
+PhotographSize jpeg_size(const ImageFile& file);
+PhotographSize png_size(const ImageFile& file);
+PhotographSize tiff_size(const ImageFile& file);
+
+Photograph decode_jpeg(const ImageFile& file);
+Photograph decode_png(const ImageFile& file);
+Photograph decode_tiff(const ImageFile& file);
+
+/// Throws InputError with the library's reason.
+[[noreturn]] void refuse_image(const ImageFile& file, const char* kind, std::string_view reason);
+
+/// The size that a header declares. Throws InputError where it is zero or too large.
+PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::uint64_t height_px);
+
+/// One of that size, to be filled.
+Photograph blank_photograph(const PhotographSize& size);
+
+} // namespace vcarve

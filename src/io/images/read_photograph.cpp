@@ -1,0 +1,96 @@
+#include "io/images/read_photograph.h"
+
+#include "io/files/mapped_file.h"
+#include "io/images/decoders.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace vcarve {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Decoder {
+    PhotographSize (*size)(const ImageFile&);
+    Photograph (*decode)(const ImageFile&);
+};
+
+constexpr Decoder kJpeg{jpeg_size, decode_jpeg};
+constexpr Decoder kPng{png_size, decode_png};
+constexpr Decoder kTiff{tiff_size, decode_tiff};
+
+/// What a file begins with; TIFF has two orders of bytes, and two sizes of offsets.
+constexpr struct {
+    std::string_view begin;
+    Decoder decoder;
+} kKinds[] = {
+    {"\xff\xd8\xff"sv, kJpeg}, {"\x89PNG\r\n\x1a\n"sv, kPng},
+    {"II*\0"sv, kTiff},        {"MM\0*"sv, kTiff},
+    {"II+\0"sv, kTiff},        {"MM\0+"sv, kTiff},
+};
+
+const Decoder& decoder_of(const std::filesystem::path& path, std::span<const char> bytes)
+{
+    if (bytes.empty()) {
+        throw InputError(fmt::format("{}: the file is empty, but a photograph is expected; copy "
+                                     "it again",
+                                     path.string()));
+    }
+    const std::string_view text(bytes.data(), bytes.size());
+    for (const auto& kind : kKinds) {
+        if (text.starts_with(kind.begin)) return kind.decoder;
+    }
+    throw InputError(fmt::format("{}: found neither JPEG nor PNG nor TIFF by the first bytes, but "
+                                 "photographs are read as these only; convert it to one of them",
+                                 path.string()));
+}
+
+ImageFile image_file(const std::filesystem::path& path, std::span<const char> bytes)
+{
+    return {path, {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}};
+}
+
+} // namespace
+
+void refuse_image(const ImageFile& file, const char* kind, std::string_view reason)
+{
+    throw InputError(fmt::format("{}: found a {} that cannot be read ({}), but a whole photograph "
+                                 "is expected; copy or convert it again",
+                                 file.path.string(), kind, reason));
+}
+
+PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::uint64_t height_px)
+{
+    constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 29U;
+    const bool fits = width_px > 0 && height_px > 0 && width_px <= kMostPixels / height_px;
+    if (!fits) {
+        throw InputError(fmt::format("{}: found an image of {} x {} pixels, but 1 to {} are "
+                                     "expected; replace it, or make it smaller",
+                                     file.path.string(), width_px, height_px, kMostPixels));
+    }
+    return {static_cast<int>(width_px), static_cast<int>(height_px)};
+}
+
+Photograph blank_photograph(const PhotographSize& size)
+{
+    const std::size_t bytes = std::size_t{3} * size.width_px * size.height_px;
+    return {size.width_px, size.height_px, std::vector<std::uint8_t>(bytes)};
+}
+
+PhotographSize photograph_size(const std::filesystem::path& path)
+{
+    const MappedFile file(path);
+    return decoder_of(path, file.bytes()).size(image_file(path, file.bytes()));
+}
+
+Photograph read_photograph(const std::filesystem::path& path)
+{
+    const MappedFile file(path);
+    return decoder_of(path, file.bytes()).decode(image_file(path, file.bytes()));
+}
+
+} // namespace vcarve

@@ -1,0 +1,127 @@
+#include "io/images/encode_image.h"
+#include "io/images/find_photographs.h"
+#include "support/image_files.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace vcarve {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Scene scene_of(const std::vector<std::string>& names)
+{
+    Scene scene;
+    scene.cameras.emplace_back();
+    for (const std::string& name : names) {
+        scene.views.emplace_back().name = name;
+    }
+    return scene;
+}
+
+std::filesystem::path put_photo(const TemporaryFolder& folder, const std::string& name,
+                                int width_px)
+{
+    return folder.write(name, text_of(encode_jpeg(gradient(width_px, 2), 90)));
+}
+
+TEST(FindPhotographs, FindsThemByTheNamesOfTheViews)
+{
+    const TemporaryFolder folder;
+    const auto first = put_photo(folder, "a.jpg", 3);
+    const auto second = put_photo(folder, "left/b.jpg", 5);
+    put_photo(folder, "c.JPG", 7); // is another's, for some are there under their names
+    const Photographs found =
+        find_photographs(scene_of({"left/b.jpg", "c.jpg", "a.jpg"}), folder.path());
+    EXPECT_EQ(found.folder, folder.path());
+    EXPECT_THAT(found.of_view, ElementsAre(second, "", first));
+    EXPECT_EQ(found.sizes[0].width_px, 5);
+    EXPECT_EQ(found.sizes[1].width_px, 0);
+    EXPECT_EQ(found.sizes[2].width_px, 3);
+    EXPECT_EQ(found.sizes[2].height_px, 2);
+    EXPECT_EQ(found.missing, 1U);
+    EXPECT_THAT(found.unreadable, IsEmpty());
+}
+
+TEST(FindPhotographs, TakesOtherEndsWhereNoneIsThereUnderItsName)
+{
+    const TemporaryFolder folder;
+    const auto first = put_photo(folder, "a.JPG", 3);
+    const auto second = put_photo(folder, "left/b.c.tif", 3);
+    const Photographs found =
+        find_photographs(scene_of({"a.png", "left/b.c.png", "d.png"}), folder.path());
+    EXPECT_THAT(found.of_view, ElementsAre(first, second, ""));
+    EXPECT_EQ(found.missing, 1U);
+}
+
+TEST(FindPhotographs, StaysWithinTheFolder)
+{
+    const TemporaryFolder folder;
+    const auto outside = put_photo(folder, "outside.jpg", 3);
+    const auto inside = put_photo(folder, "images/inside.jpg", 3);
+    const Photographs found = find_photographs(
+        scene_of({"../outside.jpg", outside, "x/../../outside.jpg", "", "inside.jpg"}),
+        folder / "images");
+    EXPECT_THAT(found.of_view, ElementsAre("", "", "", "", inside));
+    EXPECT_EQ(found.missing, 4U);
+}
+
+TEST(FindPhotographs, TellsWhichFilesAreUnreadable)
+{
+    const TemporaryFolder folder;
+    const auto good = put_photo(folder, "good.jpg", 3);
+    const auto text = folder.write("text.jpg", "no photograph");
+    const Photographs found =
+        find_photographs(scene_of({"text.jpg", "good.jpg", "gone.jpg"}), folder.path());
+    EXPECT_THAT(found.of_view, ElementsAre("", good, ""));
+    EXPECT_EQ(found.missing, 1U);
+    EXPECT_THAT(found.unreadable, ElementsAre(HasSubstr(text.string() + ": found neither JPEG")));
+    EXPECT_THAT(refusal<InputError>([&] {
+                    find_photographs(scene_of({"text.jpg", "gone.jpg"}), folder.path());
+                }),
+                HasSubstr(text.string() + ": found neither JPEG"));
+}
+
+TEST(FindPhotographs, RefusesAFolderThatHoldsNone)
+{
+    const TemporaryFolder folder;
+    const std::string path = folder.path().string();
+    const auto refused = [&](const std::string& name) {
+        return refusal<InputError>([&] {
+            find_photographs(scene_of({"left/a.jpg", "b.jpg"}), folder / name);
+        });
+    };
+    EXPECT_EQ(refused("."), path + "/.: found the photograph of none of the 2 views, such as "
+                                   "left/a.jpg; expected the folder that the names of the views "
+                                   "are paths in");
+    EXPECT_EQ(refused("gone"), path + "/gone: the folder does not exist or cannot be entered, but "
+                                      "the folder of the photographs is expected");
+    folder.write("file", "");
+    EXPECT_EQ(refused("file"),
+              path + "/file: found a file, but the folder of the photographs is expected");
+    EXPECT_THAT(refusal<InputError>([&] { find_photographs(scene_of({}), folder.path()); }),
+                HasSubstr("none of the 0 views"));
+}
+
+TEST(PhotographsBeside, LooksWhereCOLMAPAndItsUsersPutThem)
+{
+    const TemporaryFolder folder;
+    put_photo(folder, "images/a.jpg", 3);
+    folder.write("sparse/0/cameras.bin", "");
+    folder.write("other/0/cameras.bin", "");
+    const auto canonical = std::filesystem::canonical(folder.path());
+    EXPECT_EQ(photographs_beside(folder / "sparse/0"), canonical / "images");
+    EXPECT_EQ(photographs_beside(folder / "sparse/0/"), canonical / "images");
+    EXPECT_EQ(photographs_beside(folder / "sparse"), canonical / "images");
+    EXPECT_EQ(photographs_beside(folder.path()), folder / "images");
+    EXPECT_EQ(photographs_beside(folder / "other/0"), std::nullopt);
+    EXPECT_EQ(photographs_beside(folder / "other"), std::nullopt);
+    EXPECT_EQ(photographs_beside(folder / "gone"), std::nullopt);
+}
+
+} // namespace
+} // namespace vcarve

@@ -1,0 +1,76 @@
+#include "io/images/encode_image.h"
+#include "io/images/read_photograph.h"
+#include "support/image_files.h"
+#include "vcarve/error.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <tiffio.h>
+
+namespace vcarve {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(ReadPhotograph, GoesByWhatFilesAreNotByTheirNames)
+{
+    const TemporaryFolder folder;
+    const Photograph photo = gradient(6, 4);
+    const auto png = folder.write("a.jpg", text_of(encode_png(photo)));
+    EXPECT_EQ(read_photograph(png).rgb, photo.rgb);
+    EXPECT_EQ(photograph_size(png).width_px, 6);
+    const auto jpeg = folder.write("b.png", text_of(encode_jpeg(photo, 90)));
+    EXPECT_EQ(read_photograph(jpeg).rgb, decode_jpeg({jpeg, encode_jpeg(photo, 90)}).rgb);
+    EXPECT_EQ(photograph_size(jpeg).height_px, 4);
+}
+
+TEST(ReadPhotograph, KnowsEachKindOfTiff)
+{
+    const TemporaryFolder folder;
+    for (const char* const mode : {"wl", "wb", "wl8", "wb8"}) {
+        const auto path = folder / "a.png";
+        TIFF* const tiff = TIFFOpen(path.c_str(), mode);
+        TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 2);
+        TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 1);
+        TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+        TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+        Bytes row{3, 4};
+        TIFFWriteScanline(tiff, row.data(), 0, 0);
+        TIFFClose(tiff);
+        EXPECT_THAT(read_photograph(path).rgb, ElementsAre(3, 3, 3, 4, 4, 4)) << mode;
+        EXPECT_EQ(photograph_size(path).width_px, 2);
+    }
+}
+
+TEST(ReadPhotograph, TakesASinglePixel)
+{
+    const TemporaryFolder folder;
+    const auto png = folder.write("1.png", text_of(encode_png({1, 1, {1, 2, 3}})));
+    EXPECT_THAT(read_photograph(png).rgb, ElementsAre(1, 2, 3));
+    const auto jpeg = folder.write("1.jpg", text_of(encode_jpeg({1, 1, {128, 128, 128}}, 90)));
+    EXPECT_THAT(read_photograph(jpeg).rgb, ElementsAre(128, 128, 128));
+}
+
+TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
+{
+    const TemporaryFolder folder;
+    const auto refused = [](const std::filesystem::path& path) {
+        const std::string sentence = refusal<InputError>([&] { read_photograph(path); });
+        EXPECT_EQ(refusal<InputError>([&] { photograph_size(path); }), sentence);
+        return sentence;
+    };
+    const auto text = folder.write("text.jpg", "to be replaced by a photograph\n");
+    EXPECT_EQ(refused(text), text.string() +
+                                 ": found neither JPEG nor PNG nor TIFF by the first bytes, but "
+                                 "photographs are read as these only; convert it to one of them");
+    const auto empty = folder.write("empty.jpg", "");
+    EXPECT_EQ(refused(empty), empty.string() + ": the file is empty, but a photograph is "
+                                               "expected; copy it again");
+    EXPECT_EQ(refused(folder.path()),
+              folder.path().string() + ": found something that is not a file");
+    EXPECT_EQ(refused(folder / "no.jpg"),
+              (folder / "no.jpg").string() + ": the file does not exist");
+}
+
+} // namespace
+} // namespace vcarve
