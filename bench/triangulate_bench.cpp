@@ -37,9 +37,10 @@ void triangulate_in_blocks(benchmark::State& state)
     const std::size_t size = scene.num_points() / num_blocks;
     const std::size_t first = num_blocks / 2 * size;
     ProgressCount silent({}, size);
+    CellCount count({});
     BlockProgress progress(silent, size);
     const BlockCells block =
-        block_cells(tree, first_points(scene.positions), {first, first + size}, progress);
+        block_cells(tree, first_points(scene.positions), {first, first + size}, count, progress);
     state.SetItemsProcessed(state.iterations() * state.range(0));
     state.counters["taken in"] = static_cast<double>(block.taken_in) / static_cast<double>(size);
 }

@@ -138,6 +138,9 @@ MemoryOptions RunMemory::options() const
 {
     MemoryOptions options = wanted_;
     options.blocks = plan_.blocks;
+    // What grows as nobody could foresee is held to this, too.
+    if (wanted_.blocks != 0 && wanted_.most == MemoryOptions::kAutoMemory)
+        options.most = plan_.most;
     return options;
 }
 

@@ -34,6 +34,22 @@ std::int64_t rounded(double bytes)
     return std::llround(std::min(bytes, 0x1p62));
 }
 
+std::vector<StageMemory> memory_of(const Needs& needs)
+{
+    const double program = kProgram + kThread * needs.threads;
+    std::vector<StageMemory> stages;
+    for (const RunStage& stage : all_stages()) {
+        if (stage.bytes == nullptr || !stage.applies(needs)) continue;
+        stages.push_back({stage.name, rounded(program + stage.bytes(needs))});
+    }
+    return stages;
+}
+
+std::int64_t peak_of(const Needs& needs)
+{
+    return std::ranges::max(memory_of(needs), {}, &StageMemory::bytes).bytes;
+}
+
 [[noreturn]] void refuse_in_blocks(const RunSize& size, std::int64_t least, std::int64_t most)
 {
     throw InputError(fmt::format("{} points with {} sights need about {} of memory even in blocks, "
@@ -55,20 +71,12 @@ RunSize size_before_thinning(const SceneSize& read, const Options& options)
 
 std::vector<StageMemory> predicted_memory(const RunSize& size, int threads)
 {
-    const Needs needs = needs_of(size, threads);
-    const double program = kProgram + kThread * needs.threads;
-    std::vector<StageMemory> stages;
-    for (const RunStage& stage : all_stages()) {
-        if (stage.bytes == nullptr || !stage.applies(needs)) continue;
-        stages.push_back({stage.name, rounded(program + stage.bytes(needs))});
-    }
-    return stages;
+    return memory_of(needs_of(size, threads));
 }
 
 std::int64_t predicted_peak(const RunSize& size, int threads)
 {
-    const std::vector<StageMemory> stages = predicted_memory(size, threads);
-    return std::ranges::max(stages, {}, &StageMemory::bytes).bytes;
+    return peak_of(needs_of(size, threads));
 }
 
 void require_memory(const RunSize& size, int threads, std::int64_t most)
@@ -84,6 +92,29 @@ void require_memory(const RunSize& size, int threads, std::int64_t most)
 void require_memory_of(const RunSize& size, int threads)
 {
     if (size.options.memory.blocks <= 0) require_memory(size, threads, size.options.memory.most);
+}
+
+CellLimit limit_of_cells(const RunSize& size, int threads)
+{
+    constexpr double kSome = 1000; // of few points the hull has more than its share
+    constexpr double kMostOfPoint = 0x1p32;
+    constexpr double kGrowing = 1.1; // with what is noted of a block's cells
+    const std::int64_t most = size.options.memory.most;
+    if (most <= 0) return {};
+    const bool in_blocks = size.options.memory.blocks > 0;
+    const auto fits = [&](double cells_of_point) {
+        Needs needs = needs_of(size, threads);
+        needs.left.cells_of_point = cells_of_point;
+        if (!in_blocks) return peak_of(needs) <= most;
+        const std::int64_t left = most - least_memory(size, threads);
+        return kGrowing * cgal(needs.left) <= static_cast<double>(left);
+    };
+    double of_point = 8; // with the points that blocks take in
+    for (double step = kMostOfPoint; step > 0.1; step /= 2) {
+        if (fits(of_point + step)) of_point += step;
+    }
+    const double cells = of_point * static_cast<double>(size.thinned.points) + kSome;
+    return {.most = static_cast<std::size_t>(cells), .counts_made = !in_blocks};
 }
 
 std::int64_t predicted_scratch(const RunSize& size)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/stage_memory.h"
+#include "steps/3_cells/cell_limit.h"
 #include "vcarve/options.h"
 
 #include <cstdint>
@@ -38,6 +39,10 @@ void require_memory(const RunSize& size, int threads, std::int64_t most);
 
 /// The same as the options of the run say; blocks that are asked for are not looked at.
 void require_memory_of(const RunSize& size, int threads);
+
+/// How many cells a run may make, for its memory to do: in memory all of them, in blocks those of
+/// the blocks in work. Never less than points usually have.
+CellLimit limit_of_cells(const RunSize& size, int threads);
 
 /// How a run gets by with the memory it may take.
 struct BlockPlan {

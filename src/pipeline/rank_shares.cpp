@@ -30,12 +30,16 @@ constexpr std::array<std::string_view, 2> kNeededForSights = {"points", "cells"}
 using MakeBlock = std::function<BlockCells()>;
 
 /// The blocks of a rank, which are kept as parts of the checkpoint "cells".
-Blocks kept_blocks(std::size_t count, const Rank& rank, Checkpoints& work)
+Blocks kept_blocks(const BlocksTask& all, const Rank& rank, Checkpoints& work)
 {
-    const auto keep = [count, &work](std::size_t block, const MakeBlock& make) {
+    const auto keep = [count = all.count, &work](std::size_t block, const MakeBlock& make) {
         return work.piece({"cells", block, count}, make);
     };
-    return {.count = count, .keep = keep, .first = rank.number, .step = rank.of};
+    return {.count = all.count,
+            .keep = keep,
+            .first = rank.number,
+            .step = rank.of,
+            .limit = all.limit};
 }
 
 StagePiece share_name(const Rank& rank)
@@ -45,20 +49,20 @@ StagePiece share_name(const Rank& rank)
 
 } // namespace
 
-std::optional<TetMesh> triangulate_by_ranks(std::size_t blocks, RunState& run,
+std::optional<TetMesh> triangulate_by_ranks(const BlocksTask& blocks, RunState& run,
                                             const Progress& progress)
 {
     const Scene& scene = run.points.scene;
     Checkpoints& work = run.checkpoints;
     // With other ranks, all blocks but those that gave up are there then.
-    const bool is_shared = work.share(kBlocksTask, BlocksTask{blocks}, kNeededForBlocks, [&] {
+    const bool is_shared = work.share(kBlocksTask, blocks, kNeededForBlocks, [&] {
         triangulate_share(scene, kept_blocks(blocks, {0, work.num_ranks()}, work),
                           progress.part(0.0, 0.8));
     });
     Blocks all = kept_blocks(blocks, {}, work);
     if (!is_shared) return triangulate_in_blocks(scene, all, progress);
     all.keep = [&](std::size_t block, const MakeBlock& make) {
-        return work.shared_piece({"cells", block, blocks}, make);
+        return work.shared_piece({"cells", block, blocks.count}, make);
     };
     return triangulate_in_blocks(scene, all, progress.part(0.8, 1.0));
 }
@@ -119,7 +123,7 @@ void RankShares::triangulate(std::string_view file, Log& log)
     folder_.map(file, task);
     Checkpoints work(&folder_, log);
     Stage stage(work.log(), "triangulate");
-    triangulate_share(scene(), kept_blocks(task.count, rank_, work), stage);
+    triangulate_share(scene(), kept_blocks(task, rank_, work), stage);
     return_freed_memory();
 }
 

@@ -2,6 +2,7 @@
 
 #include "pipeline/run_state.h"
 #include "run/ranks.h"
+#include "steps/3_cells/cell_limit.h"
 #include "steps/4_visibility/each_vertex.h"
 #include "vcarve/log.h"
 #include "vcarve/options.h"
@@ -23,11 +24,12 @@ inline constexpr std::string_view kSightsTask = "task-sights";
 /// What is to be known of blocks, beside the points.
 struct BlocksTask {
     std::size_t count = 0; ///< of all blocks
+    CellLimit limit{};
 };
 
 /// The same cells as triangulate(), made in so many blocks, each of which is kept by itself, by all
 /// ranks. Nothing where triangulate_in_blocks() gives up.
-std::optional<TetMesh> triangulate_by_ranks(std::size_t blocks, RunState& run,
+std::optional<TetMesh> triangulate_by_ranks(const BlocksTask& blocks, RunState& run,
                                             const Progress& progress);
 
 /// What the sights of the photographs say of the cells, walked by all ranks. A share that is

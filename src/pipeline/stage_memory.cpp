@@ -32,11 +32,6 @@ constexpr double kFlatVertex = 24 + 4;
 constexpr double kNetworkCell = 16 + 4;
 constexpr double kSolverCell = 16 + 8;
 
-double cgal(const Sizes& n)
-{
-    return n.cells() * kCgalCell + n.points * kCgalVertex;
-}
-
 /// Points that are merged: their footprints, leaders and cubes, or the members of clusters, and the
 /// rows of views that become united ones.
 double merging(const Sizes& n)
@@ -59,6 +54,11 @@ double merging_parts(const Needs& needs)
 }
 
 } // namespace
+
+double cgal(const Sizes& n)
+{
+    return n.cells() * kCgalCell + n.points * kCgalVertex;
+}
 
 double Sizes::scene() const
 {

@@ -20,10 +20,11 @@ struct Sizes {
     double sights;
     double views;
     double point_bytes; ///< of the scene
+    /// Points as they usually are: points at random in space have 6.77 and points near a surface
+    /// about 6.
+    double cells_of_point = 6.8;
 
-    /// Points as they usually are: 6.8 cells a point, where points at random in space have 6.77 and
-    /// points near a surface about 6.
-    double cells() const { return 6.8 * points; }
+    double cells() const { return cells_of_point * points; }
     double faces() const { return 2.0 * points; } ///< of a closed surface through all points
     double scene() const;                         ///< bytes
     double after_triangulation() const;           ///< bytes of the scene and the cells
@@ -58,6 +59,9 @@ double carving(const Needs& n);
 double extracting(const Needs& n);
 double cleaning(const Needs& n);
 double settling(const Needs& n);
+
+/// CGAL's structure of all cells and points.
+double cgal(const Sizes& n);
 
 /// What the sights say that one rank walks.
 double sums_of_sights(const Sizes& n);

@@ -129,14 +129,15 @@ Counts triangulate(RunState& run, const Progress& progress)
 {
     const Scene& scene = run.points.scene;
     const auto blocks = static_cast<std::size_t>(std::max(run.options().memory.blocks, 0));
+    const CellLimit limit = limit_of_cells(run.size, tbb::this_task_arena::max_concurrency());
     if (blocks == 0) {
-        run.cells = vcarve::triangulate(scene, progress);
-    } else if (auto cells = triangulate_by_ranks(blocks, run, progress)) {
+        run.cells = vcarve::triangulate(scene, progress, limit);
+    } else if (auto cells = triangulate_by_ranks({blocks, limit}, run, progress)) {
         run.cells = std::move(*cells);
     } else {
         run.notes.emplace_back("so many points lie on common spheres or planes, or next to them, "
                                "that they are triangulated at once, which takes more memory");
-        run.cells = triangulate_at_once(scene, progress);
+        run.cells = triangulate_at_once(scene, progress, limit);
     }
     return {{"cells", size_of(run.cells.cells.size())}};
 }

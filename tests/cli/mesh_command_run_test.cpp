@@ -5,6 +5,7 @@
 #include "support/temporary_folder.h"
 #include "vcarve/reconstruct.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -214,6 +215,31 @@ TEST_F(ProgramOnBall, RefusesAModelThatNeedsTooMuchMemory)
     EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M"}),
                 HasSubstr("M of memory even in blocks, and --max-memory allows 1M\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ProgramOnBall, KeepsToItsMemoryWherePointsHaveManyCells)
+{
+    // On two lines that do not meet, which have 2,250,000 cells: some 160 MB of CGAL's alone.
+    std::string points;
+    for (int i = 0; i < 3000; ++i) {
+        const double along = (i / 2) / 1500.0 - 0.5;
+        points += i % 2 == 0 ? fmt::format("{} {} 0 -0.3", i + 1, along)
+                             : fmt::format("{} 0 {} 0.3", i + 1, along);
+        points += " 1 2 3 0.5 1 0 3 0 5 0\n";
+    }
+    folder.write("ball/points3D.txt", points);
+    constexpr double kMost = 80 << 20;
+    for (const char* const blocks : {"auto", "0", "3"}) {
+        const Outcome outcome = run_program(
+            {"--quiet", ball, out, "--max-memory", "80M", "--blocks", blocks, "--threads", "2"});
+        EXPECT_EQ(outcome.exit_code, 3) << blocks;
+        EXPECT_THAT(outcome.err,
+                    MatchesRegex("colmap-vcarve: .*ball: the points have more than [0-9]+ cells "
+                                 "between them, all that --max-memory allows: many of them lie on "
+                                 "few lines or curves\n"));
+        EXPECT_LT(outcome.peak_memory_bytes, kMost) << blocks;
+        EXPECT_FALSE(std::filesystem::exists(out));
+    }
 }
 
 TEST_F(ProgramOnBall, RefusesABinaryModelForItsMemoryBeforeReadingIt)

@@ -288,6 +288,32 @@ TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
                                       "memory, and --max-memory allows 4M"));
 }
 
+TEST(LimitOfCells, IsWhatTheMemoryHolds)
+{
+    RunSize run = size_of_run(kMillion);
+    run.options.memory = {.most = 0, .blocks = 0};
+    EXPECT_EQ(limit_of_cells(run, 1).most, CellLimit().most);
+    run.options.memory.most = 2 * predicted_peak(run, 1);
+    const auto in_memory = static_cast<double>(limit_of_cells(run, 1).most);
+    EXPECT_GT(in_memory, 2 * 6.8e6);
+    EXPECT_LT(in_memory, 3 * 6.8e6);
+    EXPECT_TRUE(limit_of_cells(run, 1).counts_made);
+    run.options.memory = {.most = 2 * kGiB, .blocks = 100};
+    const CellLimit in_blocks = limit_of_cells(run, 1);
+    EXPECT_LT(73.0 * static_cast<double>(in_blocks.most), 1.9 * kGiB);
+    EXPECT_GT(73.0 * static_cast<double>(in_blocks.most), 1.6 * kGiB);
+    EXPECT_FALSE(in_blocks.counts_made);
+}
+
+TEST(LimitOfCells, LeavesPointsWhatTheyUsuallyHave)
+{
+    RunSize run = size_of_run(kMillion);
+    for (const int blocks : {0, 100}) {
+        run.options.memory = {.most = predicted_peak(run, 1) / 2, .blocks = blocks};
+        EXPECT_GE(limit_of_cells(run, 1).most, 8'000'000U) << blocks;
+    }
+}
+
 TEST(Reconstruct, RefusesAModelThatNeedsTooMuchMemoryBeforeAnyWork)
 {
     struct Stages : Log {

@@ -84,6 +84,17 @@ Positions body_centered_lattice(int n)
     return points;
 }
 
+Positions two_skew_lines(int points_of_line)
+{
+    Positions points;
+    for (int i = 0; i < points_of_line; ++i) {
+        const double along = 2.0 * i / points_of_line - 1.0;
+        points.emplace_back(along, 0.0, -0.5);
+        points.emplace_back(0.0, along, 0.5);
+    }
+    return points;
+}
+
 Positions points_on_sphere()
 {
     Positions points;

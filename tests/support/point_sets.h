@@ -26,6 +26,9 @@ Positions random_points(std::size_t count, std::uint64_t seed);
 Positions lattice(int n);
 /// The lattice and the centres of its cubes.
 Positions body_centered_lattice(int n);
+/// So many points on each of two lines that do not meet: every two neighbours on one make a cell
+/// with every two on the other.
+Positions two_skew_lines(int points_of_line);
 /// 30 points with whole coordinates on the sphere of radius 3 around the origin.
 Positions points_on_sphere();
 /// Off one sphere by as much as `noise`, of its radius, so that the tetrahedra amid them are all

@@ -45,8 +45,8 @@ constexpr double kForeign = 0.95;
 /// The triangulation of a block's own points and of the others that it takes in.
 class Block {
   public:
-    Block(const PointTree& tree, const PointRun& own)
-        : tree_(tree), own_(own), to_foreign_(tree.distances_to_foreign(own))
+    Block(const PointTree& tree, const PointRun& own, CellCount& count)
+        : tree_(tree), own_(own), count_(count), to_foreign_(tree.distances_to_foreign(own))
     {
         triangulation_.infinite_vertex()->info() = kInfinite;
     }
@@ -57,6 +57,8 @@ class Block {
         last_->info() = point;
         ++inserted_;
         if (triangulation_.number_of_vertices() != inserted_) throw two_at_one_place();
+        count_.change(counted_, triangulation_.number_of_cells());
+        counted_ = triangulation_.number_of_cells();
     }
     VertexHandle last_inserted() const { return last_; }
 
@@ -84,9 +86,9 @@ class Block {
             [&](std::size_t i) {
                 const double at = bound.least_at(tree_.points()[i]);
                 const auto point = static_cast<Index>(i);
-                count(looks_, kLooks);
+                count_look(looks_, kLooks);
                 if (at > least) return;
-                count(exact_looks_, kExactLooks);
+                count_look(exact_looks_, kExactLooks);
                 if (!is_inside(cell, point)) return;
                 least = at;
                 deepest = point;
@@ -95,7 +97,7 @@ class Block {
     }
 
   private:
-    void count(std::size_t& looks, std::size_t most) const
+    void count_look(std::size_t& looks, std::size_t most) const
     {
         if (++looks > most * (own_.size() + kFreeLooks)) throw TooManyTies();
     }
@@ -144,6 +146,8 @@ class Block {
 
     const PointTree& tree_;
     PointRun own_;
+    CellCount& count_;
+    std::size_t counted_ = 0;
     std::vector<double> to_foreign_; ///< from each own leaf's box to the nearest point of others
     Triangulation triangulation_;
     VertexHandle last_;
@@ -287,15 +291,16 @@ std::vector<Index> first_points(const std::vector<Vector3d>& points)
 }
 
 BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, const PointRun& own,
-                       BlockProgress& progress)
+                       CellCount& count, BlockProgress& progress)
 {
-    Block block(tree, own);
+    Block block(tree, own, count);
     insert_own(block, first, own, progress);
     insert_foreign(block, progress);
     BlockCells result;
     result.cells = in_canonical_order(unordered_cells(block.cells()), static_cast<Index>(own.first),
                                       own.size());
     result.open_facets = open_facets(result.cells);
+    count.end(block.cells().number_of_cells(), result.cells.size());
     result.taken_in = block.cells().number_of_vertices() - own.size();
     return result;
 }

@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "geometry/point_tree.h"
 #include "model/tet_mesh.h"
+#include "steps/3_cells/cell_limit.h"
 
 #include <array>
 #include <cstddef>
@@ -60,8 +61,9 @@ std::vector<Index> first_points(const std::vector<Eigen::Vector3d>& points);
 /// at: where another point lies in the sphere around one, the deepest such point is inserted, until
 /// there is none. Then each of these cells is one of the whole triangulation, which is unique, as
 /// CGAL decides by the points alone where several lie on one sphere. `first` is first_points().
-/// Throws TooManyTies. Memory: about 450 bytes for each point inserted.
+/// Throws TooManyTies, and InputError as `count` does, which counts the cells of all blocks.
+/// Memory: about 450 bytes for each point inserted.
 BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, const PointRun& own,
-                       BlockProgress& progress);
+                       CellCount& count, BlockProgress& progress);
 
 } // namespace vcarve

@@ -19,6 +19,13 @@ InputError all_in_one_plane(std::size_t num_points)
                                   num_points));
 }
 
+InputError too_many_cells(std::size_t most)
+{
+    return InputError(fmt::format("the points have more than {} cells between them, all that "
+                                  "--max-memory allows: many of them lie on few lines or curves",
+                                  most));
+}
+
 std::logic_error two_at_one_place()
 {
     return std::logic_error("two points to triangulate lie at one place");

@@ -56,7 +56,7 @@ std::size_t usual_blocks(std::size_t points, std::size_t threads)
     return most >= 2 * threads ? 2 * threads : std::min(most, threads);
 }
 
-TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
+TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const CellLimit& limit)
 {
     // CGAL's insertion of many points at once does the same, but does not tell how far it is.
     require_four_points(scene.num_points());
@@ -65,24 +65,29 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress)
     {
         const UnsetArray<std::uint32_t> order = insertion_order(scene.num_points());
         Triangulation::Vertex_handle hint;
+        CellCount count(limit);
+        std::size_t cells = 0;
         for (std::size_t i = 0; i < order.size(); ++i) {
             hint = triangulation.insert(to_point(scene.positions[order[i]]), hint);
             hint->info() = order[i];
+            count.change(cells, triangulation.number_of_cells());
+            cells = triangulation.number_of_cells();
             if (i % Progress::kToldEvery == 0) inserting.tell(i, order.size());
         }
     }
     return flatten(triangulation, scene, progress.part(0.8, 1.0));
 }
 
-TetMesh triangulate(const Scene& scene, const Progress& progress)
+TetMesh triangulate(const Scene& scene, const Progress& progress, const CellLimit& limit)
 {
     const int threads = tbb::this_task_arena::max_concurrency();
     const std::size_t blocks = usual_blocks(scene.num_points(), static_cast<std::size_t>(threads));
     if (blocks > 1) {
-        std::optional<TetMesh> mesh = triangulate_in_blocks(scene, {.count = blocks}, progress);
+        std::optional<TetMesh> mesh =
+            triangulate_in_blocks(scene, {.count = blocks, .limit = limit}, progress);
         if (mesh) return std::move(*mesh);
     }
-    return triangulate_at_once(scene, progress);
+    return triangulate_at_once(scene, progress, limit);
 }
 
 } // namespace vcarve

@@ -59,11 +59,12 @@ void for_each_block_of(const Blocks& share, const Scene& scene, const std::vecto
     const std::size_t count = (all - share.first + share.step - 1) / share.step;
     const PointTree tree(scene.positions);
     ProgressCount done(progress, count * scene.num_points() / all);
+    CellCount cells(share.limit);
     for_each_block(count, [&](std::size_t k) {
         const std::size_t block = share.first + k * share.step;
         const PointRun own = run_of(block, all, scene.num_points());
         BlockProgress told(done, own.size());
-        use(block, share.keep(block, [&] { return block_cells(tree, first, own, told); }));
+        use(block, share.keep(block, [&] { return block_cells(tree, first, own, cells, told); }));
         told.tell(1.0);
     });
 }

@@ -22,6 +22,7 @@ struct Blocks {
     KeepBlock keep = [](std::size_t, const auto& make) { return make(); };
     std::size_t first = 0; ///< of a share: the first block it has, and
     std::size_t step = 1;  ///< every so many-th from there on
+    CellLimit limit{};
 };
 
 /// What triangulate() gives, to the last bit, made in so many blocks: runs of points that follow
@@ -31,7 +32,8 @@ struct Blocks {
 /// common spheres or planes, or next to them, as on a ball, and so many that blocks would take far
 /// too long; triangulate() takes these. Cost: a block takes in more points of others the smaller it
 /// is; of 100,000 points and more, less than a fifth. Memory: CGAL's structure of the blocks in
-/// work, and the cells twice.
+/// work, and the cells twice. Throws
+/// InputError where there are more cells than the limit says.
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& blocks,
                                              const Progress& progress = {});
 

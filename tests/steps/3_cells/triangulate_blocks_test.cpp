@@ -139,10 +139,33 @@ TEST(TriangulateBlocks, TakesInFewPointsOfOtherBlocks)
     const std::vector<Index> first = first_points(scene.positions);
     const PointRun own{5000, 7500};
     ProgressCount silent({}, own.size());
+    CellCount count({});
     BlockProgress progress(silent, own.size());
-    const BlockCells block = block_cells(tree, first, own, progress);
+    const BlockCells block = block_cells(tree, first, own, count, progress);
     EXPECT_LT(block.taken_in, own.size());
     EXPECT_GT(block.taken_in, own.size() / 10);
+}
+
+TEST(TriangulateBlocks, CountsTheCellsOfAllBlocksWhileTheyGrow)
+{
+    const Scene scene = scene_of(two_skew_lines(100));
+    const std::size_t all = triangulate(scene).cells.size();
+    EXPECT_GT(all, 99U * 99U);
+    tbb::task_arena alone(1);
+    const auto in_four = [&](const CellLimit& limit) {
+        return alone.execute([&] {
+            return triangulate_in_blocks(scene, {.count = 4, .limit = limit})->cells.size();
+        });
+    };
+    // Every block takes in nearly all points here.
+    EXPECT_EQ(in_four({.most = 2 * all}), all);
+    EXPECT_THROW(in_four({.most = 3 * all / 2}), InputError);
+    EXPECT_EQ(refusal<InputError>([&] { in_four({.most = 5000}); }),
+              "the points have more than 5000 cells between them, all that --max-memory allows: "
+              "many of them lie on few lines or curves");
+    // Of blocks that are done nothing counts where it is in files.
+    EXPECT_EQ(in_four({.most = 3 * all / 2, .counts_made = false}), all);
+    EXPECT_THROW(in_four({.most = 5000, .counts_made = false}), InputError);
 }
 
 TEST(TriangulateBlocks, RefusesWhatTheWholeRefuses)

@@ -330,6 +330,16 @@ std::string refusal_of(const Positions& points)
     return refusal<InputError>([&] { triangulation_of(points); });
 }
 
+TEST(Triangulate, RefusesMoreCellsThanMayBeAsSoonAsThereAre)
+{
+    const Scene scene = scene_of(two_skew_lines(40));
+    const std::size_t all = triangulate(scene).cells.size();
+    EXPECT_EQ(triangulate(scene, {}, {.most = all}).cells.size(), all);
+    EXPECT_THROW(triangulate(scene, {}, {.most = all - 1}), InputError);
+    const Scene many = scene_of(two_skew_lines(20'000)); // 400 million cells
+    EXPECT_THROW(triangulate_at_once(many, {}, {.most = 100'000}), InputError);
+}
+
 TEST(Triangulate, RefusesFewerThanFourPoints)
 {
     EXPECT_EQ(refusal_of({}), "0 points passed the filter; a surface needs at least four that do "
