@@ -13,6 +13,8 @@ using Eigen::Vector3d;
 
 /// The share of the time that building the tree takes.
 constexpr double kTreeShare = 0.3;
+/// How many faces, which lie next to each other for the most part, are asked about at once.
+constexpr std::size_t kNeighbors = 4;
 
 /// Per point, how much of its sights does not count; of two vertices at a point the lesser.
 std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& surface)
@@ -35,23 +37,26 @@ SightGuard::SightGuard(const Scene& scene, const HalfEdgeMesh& surface, const Pr
     : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)
 {
     progress.tell(kTreeShare);
-    parallel_for(
+    parallel_for_ranges(
         surface.n_faces(), progress.part(kTreeShare, 1.0),
-        [&](std::size_t f) {
-            const auto face = handle_at<OpenMesh::FaceHandle>(f);
-            if (surface.is_deleted(face)) return;
-            tree_.visit_meeting(surface.triangle(face), [&](std::size_t sight) {
+        [&](std::size_t first, std::size_t last) {
+            std::vector<std::array<Vector3d, 3>> triangles;
+            for (std::size_t f = first; f < last; ++f) {
+                const auto face = handle_at<OpenMesh::FaceHandle>(f);
+                if (!surface.is_deleted(face)) triangles.push_back(surface.triangle(face));
+            }
+            tree_.visit_meeting(triangles, [&](std::size_t sight) {
                 std::atomic_ref(blocked_[sight]).store(1, std::memory_order_relaxed);
                 return true;
             });
         },
-        64);
+        kNeighbors);
 }
 
-bool SightGuard::blocks(const std::array<Vector3d, 3>& triangle) const
+bool SightGuard::blocks(std::span<const std::array<Vector3d, 3>> triangles) const
 {
     bool found = false;
-    tree_.visit_meeting(triangle, [&](std::size_t sight) {
+    tree_.visit_meeting(triangles, [&](std::size_t sight) {
         found = blocked_[sight] == 0;
         return !found;
     });

@@ -5,6 +5,7 @@
 #include "vcarve/scene.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace vcarve {
@@ -21,9 +22,14 @@ class SightGuard {
     /// Finds the free sights. Cost: O(sights log sights + faces x sights near them), in parallel.
     SightGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress = {});
 
-    /// Whether a triangle meets a free sight, its border included; decided exactly. A triangle
-    /// without area meets none. Safe from many threads.
-    bool blocks(const std::array<Eigen::Vector3d, 3>& triangle) const;
+    /// Whether one of the triangles meets a free sight, its border included; decided exactly. A
+    /// triangle without area meets none. Faster for triangles next to each other than for one by
+    /// one. Safe from many threads.
+    bool blocks(std::span<const std::array<Eigen::Vector3d, 3>> triangles) const;
+    bool blocks(const std::array<Eigen::Vector3d, 3>& triangle) const
+    {
+        return blocks(std::span(&triangle, 1));
+    }
 
     std::int64_t num_sights() const { return static_cast<std::int64_t>(tree_.size()); }
     std::int64_t num_free() const;

@@ -5,12 +5,15 @@
 #include "geometry/triangle.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
+using Triangle = std::array<Vector3d, 3>;
 
 constexpr std::size_t kLeafSights = 8;
 constexpr std::size_t kParallelSights = 1U << 14U;
@@ -31,75 +34,90 @@ std::size_t num_nodes(std::size_t sights)
     return nodes;
 }
 
-/// The stretch of t in [0, 1] where c + s t <= 0 is cut out of `from` .. `to`.
-void clip(double c, double s, double& from, double& to)
+/// The stretch of t in [0, 1] where what goes evenly from `begin` to `end` is at most 0 is cut out
+/// of `from` .. `to`, which are left as they are where that is so at both ends.
+inline void clip(double begin, double end, double& from, double& to)
 {
-    if (s > 0.0) {
-        to = std::min(to, -c / s);
-    } else if (s < 0.0) {
-        from = std::max(from, -c / s);
-    } else if (c > 0.0) {
-        to = -1.0;
+    if (begin <= 0.0) {
+        if (end > 0.0) to = std::min(to, begin / (begin - end));
+    } else {
+        from = end <= 0.0 ? std::max(from, begin / (begin - end)) : 2.0;
     }
 }
 
 } // namespace
 
-/// A triangle, and what rules most sights out at once. Tolerances only make it look at more.
+/// Some triangles, and what rules most sights out at once. Tolerances only make it look at more.
 struct SightTree::Query {
-    const std::array<Vector3d, 3>& triangle;
+    std::vector<Triangle> triangles; ///< that have an area
     const Visitor& visit;
     Box box;
-    Vector3d normal;
-    double height; ///< of the plane along `normal`
-    double tolerance;
+    Vector3d normal = Vector3d::Zero();
+    double low = HUGE_VAL; ///< along `normal`
+    double high = -HUGE_VAL;
 
-    Query(const std::array<Vector3d, 3>& t, const Visitor& visitor, double extent)
-        : triangle(t), visit(visitor), box(t[0])
+    Query(std::span<const Triangle> all, const Visitor& visitor, double extent) : visit(visitor)
     {
         constexpr double kRounding = 1e-12;
-        box.extend(t[1]).extend(t[2]);
+        std::ranges::copy_if(all, std::back_inserter(triangles),
+                             [](const Triangle& t) { return !collinear(t[0], t[1], t[2]); });
+        double longest_sq = 0.0;
+        for (const auto& [a, b, c] : triangles) {
+            box.extend(a).extend(b).extend(c);
+            normal += scaled_normal(a, b, c);
+            longest_sq = std::max({longest_sq, (b - a).squaredNorm(), (c - a).squaredNorm()});
+        }
         const double reach = kRounding * std::max(extent, box.min().cwiseAbs().maxCoeff() +
                                                               box.max().cwiseAbs().maxCoeff());
         box.min().array() -= reach;
         box.max().array() += reach;
-        normal = scaled_normal(t[0], t[1], t[2]);
-        height = normal.dot(t[0]);
-        // The cross product's own rounding, times the lever it acts on.
-        const double longest = std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
-        tolerance = 4.0 * (normal.lpNorm<1>() + longest * longest) * reach;
+        for (const Triangle& triangle : triangles) {
+            for (const Vector3d& corner : triangle) {
+                low = std::min(low, normal.dot(corner));
+                high = std::max(high, normal.dot(corner));
+            }
+        }
+        // The cross products' own rounding, times the lever it acts on.
+        const double count = static_cast<double>(triangles.size());
+        const double tolerance = 4.0 * (normal.lpNorm<1>() + count * longest_sq) * reach;
+        low -= tolerance;
+        high += tolerance;
     }
 
-    /// Whether, on the way from one box to the other, there is a place that touches the plane and
-    /// the box of the triangle.
+    /// Whether, on the way from one box to the other, there is a place that touches the slab and
+    /// the box of the triangles.
     bool may_meet(const Box& begins, const Box& ends) const
     {
         double from = 0.0;
         double to = 1.0;
+        for (int axis = 0; axis < 3 && from <= to; ++axis) {
+            clip(begins.min()[axis] - box.max()[axis], ends.min()[axis] - box.max()[axis], from,
+                 to);
+            clip(box.min()[axis] - begins.max()[axis], box.min()[axis] - ends.max()[axis], from,
+                 to);
+        }
+        if (from > to) return false;
         const auto [begin_low, begin_high] = heights_of(begins);
         const auto [end_low, end_high] = heights_of(ends);
-        clip(begin_low, end_low - begin_low, from, to);
-        clip(-begin_high, begin_high - end_high, from, to);
-        for (int axis = 0; axis < 3 && from <= to; ++axis) {
-            const double low = begins.min()[axis];
-            const double high = begins.max()[axis];
-            clip(low - box.max()[axis], ends.min()[axis] - low, from, to);
-            clip(box.min()[axis] - high, high - ends.max()[axis], from, to);
-        }
+        clip(begin_low - high, end_low - high, from, to);
+        clip(low - begin_high, low - end_high, from, to);
         return from <= to;
     }
 
-    /// The lowest and the highest place of a box above the plane, to be on the safe side.
+    /// The lowest and the highest place of a box along `normal`.
     std::pair<double, double> heights_of(const Box& b) const
     {
-        const double middle = normal.dot(b.center()) - height;
-        const double reach = normal.cwiseAbs().dot(b.sizes()) / 2 + tolerance;
+        const double middle = normal.dot(b.center());
+        const double reach = normal.cwiseAbs().dot(b.sizes()) / 2;
         return {middle - reach, middle + reach};
     }
 
     bool meets(const Vector3d& begin, const Vector3d& end) const
     {
-        return may_meet(Box(begin), Box(end)) && meets_triangle(begin, end, triangle);
+        return may_meet(Box(begin), Box(end)) &&
+               std::ranges::any_of(triangles, [&](const Triangle& triangle) {
+                   return meets_triangle(begin, end, triangle);
+               });
     }
 };
 
@@ -154,15 +172,15 @@ void SightTree::build(std::size_t node, std::size_t first, std::size_t last)
     }
 }
 
-void SightTree::visit_meeting(const std::array<Vector3d, 3>& triangle, const Visitor& visit) const
+void SightTree::visit_meeting(std::span<const Triangle> triangles, const Visitor& visit) const
 {
-    if (nodes_.empty() || collinear(triangle[0], triangle[1], triangle[2])) return;
+    if (nodes_.empty()) return;
     const Shaft& all = nodes_[0];
     const auto reach = [](const Box& box) {
         return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
     };
-    const Query query(triangle, visit, std::max(reach(all.begins), reach(all.ends)));
-    descend(0, 0, sights_.size(), query);
+    const Query query(triangles, visit, std::max(reach(all.begins), reach(all.ends)));
+    if (!query.triangles.empty()) descend(0, 0, sights_.size(), query);
 }
 
 bool SightTree::descend(std::size_t node, std::size_t first, std::size_t last,

@@ -1,270 +1,300 @@
 #include "steps/7_refine/simplify.h"
 
 #include "base/parallel.h"
+#include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
 
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
+#include <OpenMesh/Core/Geometry/QuadricT.hh>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using OpenMesh::EdgeHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 using OpenMesh::Geometry::Quadricd;
 
-using Collapse = OpenMesh::Decimater::CollapseInfoT<HalfEdgeMesh>;
-using Corners = std::array<VertexHandle, 3>;
 using Triangle = std::array<Vector3d, 3>;
 
-Triangle triangle(const HalfEdgeMesh& mesh, const Corners& corners)
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// The plane through a place, by its unit normal, as what it costs to leave it.
+Quadricd plane(const Vector3d& normal, const Vector3d& place, double weight)
 {
-    return {mesh.point(corners[0]), mesh.point(corners[1]), mesh.point(corners[2])};
+    Quadricd quadric(normal.x(), normal.y(), normal.z(), -normal.dot(place));
+    quadric *= weight;
+    return quadric;
 }
 
-/// Calls visit(corners) for each face that a collapse changes, as it becomes, until that says no.
-/// Returns whether it never did.
-template <typename Visit>
-bool all_changed_faces(const HalfEdgeMesh& mesh, const Collapse& collapse, const Visit& visit)
+/// One a vertex: the planes of its faces, weighted by area, and for rims, which these know nothing
+/// of, planes along a rim and across its face.
+std::vector<Quadricd> quadrics(const HalfEdgeMesh& mesh)
 {
-    for (const auto face : mesh.vf_range(collapse.v0)) {
-        if (face == collapse.fl || face == collapse.fr) continue;
-        Corners corners = mesh.corners(face);
-        std::ranges::replace(corners, collapse.v0, collapse.v1);
-        if (!visit(corners)) return false;
+    constexpr double kRimWeight = 4.0;
+    std::vector<Quadricd> result(mesh.n_vertices());
+    parallel_for(result.size(), [&](std::size_t v) {
+        const auto vertex = handle_at<VertexHandle>(v);
+        const auto add_rim = [&](HalfedgeHandle inner) {
+            Vector3d normal;
+            mesh.calc_sector_normal(inner, normal);
+            const Vector3d along = mesh.calc_edge_vector(inner);
+            const Vector3d across = normal.cross(along).normalized();
+            result[v] += plane(across, mesh.point(vertex), kRimWeight * along.squaredNorm());
+        };
+        for (const auto outgoing : mesh.voh_range(vertex)) {
+            const auto incoming = outgoing.opp();
+            if (outgoing.is_boundary()) {
+                add_rim(incoming);
+                continue;
+            }
+            if (incoming.is_boundary()) add_rim(outgoing);
+            const Triangle t = mesh.triangle(outgoing.face());
+            const Vector3d normal = scaled_normal(t[0], t[1], t[2]);
+            result[v] += plane(normal.normalized(), t[0], normal.norm() / 2.0);
+        }
+    });
+    return result;
+}
+
+/// 1 for an equilateral triangle, 0 for one without area.
+double roundness(const Triangle& t)
+{
+    const double sum_sq =
+        (t[1] - t[0]).squaredNorm() + (t[2] - t[1]).squaredNorm() + (t[0] - t[2]).squaredNorm();
+    const double twice_area = scaled_normal(t[0], t[1], t[2]).norm();
+    return sum_sq > 0.0 ? 2.0 * std::sqrt(3.0) * twice_area / sum_sq : 0.0;
+}
+
+/// Calls visit(before, after) for each face that going along a half-edge changes, until that says
+/// no. Returns whether it never did.
+template <typename Visit>
+bool all_changed_faces(const HalfEdgeMesh& mesh, HalfedgeHandle half_edge, const Visit& visit)
+{
+    const VertexHandle from = mesh.from_vertex_handle(half_edge);
+    const VertexHandle to = mesh.to_vertex_handle(half_edge);
+    for (const auto face : mesh.vf_range(from)) {
+        const auto corners = mesh.corners(face);
+        if (std::ranges::count(corners, to) > 0) continue;
+        const Triangle before = mesh.triangle(face);
+        Triangle after = before;
+        after[static_cast<std::size_t>(std::ranges::find(corners, from) - corners.begin())] =
+            mesh.point(to);
+        if (!visit(before, after)) return false;
     }
     return true;
 }
 
-/// What a collapse costs: OpenMesh's quadrics, and for rims, which these know nothing of, the same
-/// for planes along a rim and across its face.
-class RimQuadrics : public OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh> {
-  public:
-    using Faces = OpenMesh::Decimater::ModQuadricT<HalfEdgeMesh>;
-    using Handle = OpenMesh::Decimater::ModHandleT<RimQuadrics>;
-
-    explicit RimQuadrics(HalfEdgeMesh& mesh) : Faces(mesh), rims_(mesh.n_vertices()) {}
-
-    void initialize() override
-    {
-        Faces::initialize();
-        for (const auto edge : mesh().edges()) {
-            if (mesh().is_boundary(edge)) add_rim(edge);
-        }
+/// Whether no face turns far or becomes a worse sliver than those that are replaced.
+bool keeps_faces_in_shape(const HalfEdgeMesh& mesh, HalfedgeHandle half_edge)
+{
+    constexpr double kMostTurnCosine = 0.5; // 60 degrees
+    constexpr double kSliver = 0.1;         // of roundness
+    double least = kSliver;
+    for (const auto face : mesh.vf_range(mesh.from_vertex_handle(half_edge))) {
+        least = std::min(least, roundness(mesh.triangle(face)));
     }
+    return all_changed_faces(mesh, half_edge, [&](const Triangle& before, const Triangle& after) {
+        const Vector3d was = scaled_normal(before[0], before[1], before[2]);
+        const Vector3d is = scaled_normal(after[0], after[1], after[2]);
+        return was.dot(is) >= kMostTurnCosine * was.norm() * is.norm() && roundness(after) >= least;
+    });
+}
 
-    float collapse_priority(const Collapse& collapse) override
-    {
-        Quadricd rim = rims_[index(collapse.v0)];
-        rim += rims_[index(collapse.v1)];
-        // Rounding must not make a cost of nothing a negative one, which would rule it out.
-        return std::max(Faces::collapse_priority(collapse), 0.0F) +
-               static_cast<float>(std::max(rim(collapse.p1), 0.0));
-    }
-
-    void postprocess_collapse(const Collapse& collapse) override
-    {
-        Faces::postprocess_collapse(collapse);
-        rims_[index(collapse.v1)] += rims_[index(collapse.v0)];
-    }
-
-  private:
-    void add_rim(EdgeHandle edge)
-    {
-        constexpr double kRimWeight = 4.0;
-        const HalfedgeHandle first = mesh().halfedge_handle(edge, 0);
-        const HalfedgeHandle inner =
-            mesh().is_boundary(first) ? mesh().opposite_halfedge_handle(first) : first;
-        const VertexHandle end = mesh().to_vertex_handle(inner);
-        Vector3d normal;
-        mesh().calc_sector_normal(inner, normal);
-        const Vector3d along = mesh().calc_edge_vector(inner);
-        const Vector3d across = normal.cross(along).normalized();
-        const double offset = -across.dot(mesh().point(end));
-        if (across.isZero()) return;
-        Quadricd quadric(across.x(), across.y(), across.z(), offset);
-        quadric *= kRimWeight * along.squaredNorm();
-        rims_[index(end)] += quadric;
-        rims_[index(mesh().from_vertex_handle(inner))] += quadric;
-    }
-
-    std::vector<Quadricd> rims_; ///< one a vertex
-};
-
-/// Rules out faces that are worse slivers than those they replace. OpenMesh's ModRoundnessT looks
-/// at the wrong ones of the faces around and rounds to floats, and its ModAspectRatioT takes no
-/// Eigen vectors.
-class NoNewSlivers : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
-  public:
-    using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;
-    using Handle = OpenMesh::Decimater::ModHandleT<NoNewSlivers>;
-
-    explicit NoNewSlivers(HalfEdgeMesh& mesh) : Base(mesh, true) {}
-
-    float collapse_priority(const Collapse& collapse) override
-    {
-        constexpr double kSliver = 0.1; // of roundness
-        double least = kSliver;
-        for (const auto face : mesh().vf_range(collapse.v0)) {
-            least = std::min(least, roundness(mesh().triangle(face)));
-        }
-        const bool is_legal = all_changed_faces(mesh(), collapse, [&](const Corners& corners) {
-            return roundness(triangle(mesh(), corners)) >= least;
-        });
-        return is_legal ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE;
-    }
-
-  private:
-    /// 1 for an equilateral triangle, 0 for one without area.
-    static double roundness(const Triangle& t)
-    {
-        const double sum_sq =
-            (t[1] - t[0]).squaredNorm() + (t[2] - t[1]).squaredNorm() + (t[0] - t[2]).squaredNorm();
-        const double twice_area = (t[1] - t[0]).cross(t[2] - t[0]).norm();
-        return sum_sq > 0.0 ? 2.0 * std::sqrt(3.0) * twice_area / sum_sq : 0.0;
-    }
-};
-
-/// Rules out faces that would block a free sight. Asking costs more than all else, so collapses
-/// that cost no less than one of the same vertex found legal before are ruled out unasked: the
-/// decimater takes the cheapest of a vertex. Hence this module comes last.
-class NoBlockedSights : public OpenMesh::Decimater::ModBaseT<HalfEdgeMesh> {
-  public:
-    using Base = OpenMesh::Decimater::ModBaseT<HalfEdgeMesh>;
-    using Handle = OpenMesh::Decimater::ModHandleT<NoBlockedSights>;
-
-    explicit NoBlockedSights(HalfEdgeMesh& mesh)
-        : Base(mesh, true), verdicts_(8 * mesh.n_vertices() + 1)
-    {
-    }
-
-    /// A unit of the mesh is so many units of the guard's scene.
-    void set_guard(const SightGuard& guard, double unit)
-    {
-        guard_ = &guard;
-        unit_ = unit;
-    }
-    void set_costs(RimQuadrics& costs) { costs_ = &costs; }
-
-    float collapse_priority(const Collapse& collapse) override
-    {
-        if (collapse.v0 != vertex_) {
-            vertex_ = collapse.v0;
-            least_cost_ = HUGE_VALF;
-        }
-        const float cost = costs_->collapse_priority(collapse);
-        const bool is_legal =
-            cost < least_cost_ && all_changed_faces(mesh(), collapse, [&](const Corners& corners) {
-                return !blocks(corners);
-            });
-        if (!is_legal) return Base::ILLEGAL_COLLAPSE;
-        least_cost_ = cost;
-        return Base::LEGAL_COLLAPSE;
-    }
-
-    void postprocess_collapse(const Collapse& /*collapse*/) override { vertex_.invalidate(); }
-
-  private:
-    /// Whether a triangle of these vertices, ascending, blocks a free sight.
-    struct Verdict {
-        std::array<int, 3> corners{-1, -1, -1};
-        bool blocks = false;
+/// Whether the surface stays manifold and has all its pieces, handles and rims: what OpenMesh's
+/// decimater asks.
+bool keeps_topology(HalfEdgeMesh& mesh, HalfedgeHandle half_edge)
+{
+    if (!mesh.is_collapse_ok(half_edge)) return false;
+    const HalfedgeHandle twin = mesh.opposite_halfedge_handle(half_edge);
+    const auto opposite = [&](HalfedgeHandle side) {
+        return mesh.is_boundary(side) ? VertexHandle()
+                                      : mesh.to_vertex_handle(mesh.next_halfedge_handle(side));
     };
+    const VertexHandle left = opposite(half_edge);
+    const VertexHandle right = opposite(twin);
+    const bool is_inner = left.is_valid() && right.is_valid();
+    const bool is_tetrahedron = is_inner && mesh.find_halfedge(left, right).is_valid() &&
+                                mesh.valence(left) == 3 && mesh.valence(right) == 3;
+    const bool leaves_rim = is_inner && mesh.is_boundary(mesh.from_vertex_handle(half_edge));
+    const auto turned = [&](HalfedgeHandle h) { return mesh.cw_rotated_halfedge_handle(h); };
+    return !is_tetrahedron && !leaves_rim && turned(turned(half_edge)) != half_edge;
+}
 
-    /// Vertices never move, so what was found out holds: neighbours ask for the same again.
-    bool blocks(const Corners& corners)
+/// Going from the beginning of a half-edge to its end, and what that costs.
+struct Collapse {
+    double cost = kNever;
+    HalfedgeHandle half_edge;
+
+    friend bool operator<(const Collapse& a, const Collapse& b)
     {
-        std::array<int, 3> numbers{corners[0].idx(), corners[1].idx(), corners[2].idx()};
-        std::ranges::sort(numbers);
-        const std::size_t hash = (static_cast<std::size_t>(numbers[0]) * 0x9E3779B97F4A7C15U) ^
-                                 (static_cast<std::size_t>(numbers[1]) * 0xC2B2AE3D27D4EB4FU) ^
-                                 (static_cast<std::size_t>(numbers[2]) * 0x165667B19E3779F9U);
-        Verdict& verdict = verdicts_[(hash >> 32U) % verdicts_.size()];
-        if (verdict.corners != numbers) {
-            const auto [a, b, c] = triangle(mesh(), corners);
-            verdict = {numbers, guard_->blocks({a * unit_, b * unit_, c * unit_})};
-        }
-        return verdict.blocks;
+        return a.cost != b.cost ? a.cost < b.cost : a.half_edge < b.half_edge;
     }
-
-    const SightGuard* guard_ = nullptr;
-    double unit_ = 1.0;
-    RimQuadrics* costs_ = nullptr;
-    VertexHandle vertex_;           ///< whose collapses are being compared
-    float least_cost_ = HUGE_VALF;  ///< of them so far
-    std::vector<Verdict> verdicts_; ///< by hash, the last one at each place
 };
 
-/// Tells how far collapsing has come. A collapse takes two faces, one at a rim.
-class CollapseProgress final : public OpenMesh::Decimater::Observer {
+/// Collapses edges in passes: in each of them some of the cheapest ones that have no face in
+/// common, so that threads can look at them at once. Asking the guard costs more than all else, so
+/// only what is about to be done is asked about.
+class Collapser {
   public:
-    CollapseProgress(const Progress& progress, std::size_t faces, std::size_t wanted)
-        : Observer(Progress::kToldEvery),
-          progress_(progress),
-          collapses_(faces > wanted ? static_cast<double>(faces - wanted) / 2.0 : 0.0)
+    Collapser(HalfEdgeMesh& mesh, const SightGuard& guard)
+        : mesh_(mesh),
+          guard_(guard),
+          quadrics_(quadrics(mesh)),
+          best_(mesh.n_vertices()),
+          is_changed_(mesh.n_vertices(), 1),
+          is_refused_(mesh.n_halfedges(), 0),
+          neighbor_in_(mesh.n_vertices(), 0),
+          faces_(num_faces_left(mesh))
     {
+        for (std::size_t v = 0; v < mesh.n_vertices(); ++v) {
+            const auto vertex = handle_at<VertexHandle>(v);
+            if (!mesh.is_deleted(vertex)) vertices_.push_back(vertex);
+        }
     }
 
-    void notify(std::size_t collapses) override
+    std::int64_t faces() const { return faces_; }
+
+    /// Whether there was anything to try. At most as many faces go as are more than `wanted`.
+    bool pass(std::int64_t wanted, const Progress& progress)
     {
-        progress_.tell(std::min(1.0, static_cast<double>(collapses) / collapses_));
+        look_at_changed();
+        const std::vector<Collapse> chosen = choose(wanted);
+        std::vector<std::uint8_t> hides(chosen.size());
+        parallel_for(
+            chosen.size(), progress,
+            [&](std::size_t i) { hides[i] = guard_.blocks(fan(chosen[i].half_edge)) ? 1 : 0; }, 16);
+        for (std::size_t i = 0; i < chosen.size() && faces_ > wanted; ++i) {
+            if (hides[i] != 0) {
+                refuse(chosen[i].half_edge);
+            } else if (keeps_topology(mesh_, chosen[i].half_edge)) {
+                collapse(chosen[i].half_edge);
+            }
+        }
+        return has_tried_;
     }
 
   private:
-    Progress progress_;
-    double collapses_;
-};
-
-/// The power of two next to the mean length of an edge; 1 where that is none.
-double usual_length(const HalfEdgeMesh& mesh)
-{
-    double sum = 0.0;
-    for (const auto edge : mesh.edges()) {
-        sum += mesh.calc_edge_length(edge);
+    /// Finds anew the cheapest collapse of vertices where something changed.
+    void look_at_changed()
+    {
+        std::erase_if(vertices_, [&](VertexHandle v) { return mesh_.is_deleted(v); });
+        parallel_for_with_list<Collapse>(vertices_.size(), [&](std::size_t i, auto& collapses) {
+            const std::size_t v = index(vertices_[i]);
+            if (is_changed_[v] == 0) return;
+            is_changed_[v] = 0;
+            for (const auto outgoing : mesh_.voh_range(vertices_[i])) {
+                if (is_refused_[index(outgoing)] != 0) continue;
+                Quadricd quadric = quadrics_[v];
+                quadric += quadrics_[index(outgoing.to())];
+                // Rounding must not make one of two costs of nothing the lesser.
+                collapses.push_back({std::max(quadric(mesh_.point(outgoing.to())), 0.0), outgoing});
+            }
+            std::ranges::sort(collapses, std::less<>());
+            const auto found = std::ranges::find_if(collapses, [&](const Collapse& collapse) {
+                return keeps_faces_in_shape(mesh_, collapse.half_edge);
+            });
+            best_[v] = found == collapses.end() ? Collapse() : *found;
+        });
     }
-    const double mean = sum / static_cast<double>(std::max<std::size_t>(mesh.n_edges(), 1));
-    return mean > 0.0 ? std::exp2(std::round(std::log2(mean))) : 1.0;
-}
 
-void scale(HalfEdgeMesh& mesh, double factor)
-{
-    parallel_for(mesh.n_vertices(),
-                 [&](std::size_t v) { mesh.point(handle_at<VertexHandle>(v)) *= factor; });
-}
+    /// The cheapest quarter, in order.
+    std::vector<Collapse> cheapest() const
+    {
+        constexpr std::size_t kShare = 4; // one in so many
+        std::vector<Collapse> all;
+        for (const VertexHandle vertex : vertices_) {
+            const Collapse& best = best_[index(vertex)];
+            if (best.cost < kNever) all.push_back(best);
+        }
+        const std::size_t count = (all.size() + kShare - 1) / kShare;
+        const auto end = all.begin() + static_cast<std::ptrdiff_t>(count);
+        if (end != all.end()) std::nth_element(all.begin(), end, all.end());
+        all.resize(count);
+        std::ranges::sort(all, std::less<>());
+        return all;
+    }
 
-void decimate(HalfEdgeMesh& mesh, const SightGuard& guard, double unit, std::size_t num_faces,
-              const Progress& progress)
-{
-    constexpr double kMostTurnDeg = 60.0;
-    mesh.request_face_normals();
-    mesh.update_face_normals();
-    OpenMesh::Decimater::DecimaterT<HalfEdgeMesh> decimater(mesh);
-    RimQuadrics::Handle quadrics;
-    OpenMesh::Decimater::ModNormalFlippingT<HalfEdgeMesh>::Handle flipping;
-    NoNewSlivers::Handle slivers;
-    NoBlockedSights::Handle sights;
-    decimater.add(quadrics);
-    decimater.add(flipping);
-    decimater.add(slivers);
-    decimater.add(sights);
-    decimater.module(flipping).set_max_normal_deviation(kMostTurnDeg);
-    decimater.module(sights).set_guard(guard, unit);
-    decimater.module(sights).set_costs(decimater.module(quadrics));
-    decimater.initialize();
-    const auto num_left = static_cast<std::size_t>(num_faces_left(mesh));
-    CollapseProgress told(progress, num_left, num_faces);
-    decimater.set_observer(&told);
-    // The decimater counts deleted faces as well.
-    const std::size_t num_deleted = mesh.n_faces() - num_left;
-    decimater.decimate_to_faces(0, num_faces + num_deleted);
-    mesh.release_face_normals();
-}
+    /// Of these, ones between whose first ends there is no edge.
+    std::vector<Collapse> choose(std::int64_t wanted)
+    {
+        ++pass_;
+        std::vector<Collapse> chosen;
+        const std::vector<Collapse> candidates = cheapest();
+        has_tried_ = !candidates.empty();
+        for (const Collapse& candidate : candidates) {
+            if (2 * static_cast<std::int64_t>(chosen.size()) >= faces_ - wanted) break;
+            const VertexHandle vertex = mesh_.from_vertex_handle(candidate.half_edge);
+            if (neighbor_in_[index(vertex)] == pass_) continue;
+            if (!keeps_topology(mesh_, candidate.half_edge)) {
+                refuse(candidate.half_edge);
+                continue;
+            }
+            for (const auto neighbor : mesh_.vv_range(vertex)) {
+                neighbor_in_[index(neighbor)] = pass_;
+            }
+            chosen.push_back(candidate);
+        }
+        // What lies close in space is asked about one after the other, as it is in memory.
+        std::ranges::sort(chosen, {}, [&](const Collapse& collapse) {
+            return mesh_.from_vertex_handle(collapse.half_edge).idx();
+        });
+        return chosen;
+    }
+
+    /// The faces that a collapse leaves around its second end.
+    std::vector<Triangle> fan(HalfedgeHandle half_edge) const
+    {
+        std::vector<Triangle> triangles;
+        all_changed_faces(mesh_, half_edge, [&](const Triangle& /*before*/, const Triangle& after) {
+            triangles.push_back(after);
+            return true;
+        });
+        return triangles;
+    }
+
+    void refuse(HalfedgeHandle half_edge)
+    {
+        is_refused_[index(half_edge)] = 1;
+        is_changed_[index(mesh_.from_vertex_handle(half_edge))] = 1;
+    }
+
+    void collapse(HalfedgeHandle half_edge)
+    {
+        const VertexHandle to = mesh_.to_vertex_handle(half_edge);
+        quadrics_[index(to)] += quadrics_[index(mesh_.from_vertex_handle(half_edge))];
+        faces_ -= mesh_.is_boundary(mesh_.edge_handle(half_edge)) ? 1 : 2;
+        mesh_.collapse(half_edge);
+        change(to);
+        for (const auto neighbor : mesh_.vv_range(to)) {
+            change(neighbor);
+        }
+    }
+
+    /// What was refused at a vertex may be possible now.
+    void change(VertexHandle vertex)
+    {
+        is_changed_[index(vertex)] = 1;
+        for (const auto outgoing : mesh_.voh_range(vertex)) {
+            is_refused_[index(outgoing)] = 0;
+        }
+    }
+
+    HalfEdgeMesh& mesh_;
+    const SightGuard& guard_;
+    std::vector<Quadricd> quadrics_;
+    std::vector<VertexHandle> vertices_;     ///< not deleted when the pass began
+    std::vector<Collapse> best_;             ///< of each vertex
+    std::vector<std::uint8_t> is_changed_;   ///< whether that is to be found anew
+    std::vector<std::uint8_t> is_refused_;   ///< one a half-edge
+    std::vector<std::uint32_t> neighbor_in_; ///< in which pass it was a neighbour of a chosen one
+    std::uint32_t pass_ = 0;
+    bool has_tried_ = false;
+    std::int64_t faces_;
+};
 
 } // namespace
 
@@ -272,14 +302,19 @@ SimplifyCounts simplify_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
                                 const SimplifyOptions& options, const Progress& progress)
 {
     SimplifyCounts counts{.faces_before = num_faces_left(mesh)};
-    // OpenMesh's costs are floats: edges of about 1 keep them in range. Powers of two scale
-    // exactly.
-    const double unit = usual_length(mesh);
-    scale(mesh, 1.0 / unit);
-    decimate(mesh, guard, unit, static_cast<std::size_t>(options.faces), progress);
-    scale(mesh, unit);
+    mesh.request_edge_status();
+    mesh.request_halfedge_status();
+    Collapser collapser(mesh, guard);
+    const auto done = [&, all = static_cast<double>(counts.faces_before - options.faces)] {
+        return static_cast<double>(counts.faces_before - collapser.faces()) / all;
+    };
+    while (collapser.faces() > options.faces &&
+           collapser.pass(options.faces, progress.part(done(), done()))) {
+    }
+    mesh.release_edge_status();
+    mesh.release_halfedge_status();
     set_vertex_normals(mesh);
-    counts.faces = num_faces_left(mesh);
+    counts.faces = collapser.faces();
     return counts;
 }
 

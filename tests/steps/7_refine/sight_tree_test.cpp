@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <random>
+#include <set>
+#include <span>
 
 namespace vcarve {
 namespace {
@@ -17,7 +19,7 @@ using testing::Triangle;
 std::vector<std::size_t> met_by(const SightTree& tree, const Triangle& triangle)
 {
     std::vector<std::size_t> met;
-    tree.visit_meeting(triangle, [&](std::size_t sight) {
+    tree.visit_meeting(std::span(&triangle, 1), [&](std::size_t sight) {
         met.push_back(sight);
         return true;
     });
@@ -50,6 +52,37 @@ TEST(SightTree, FindsWhatBruteForceFinds)
     EXPECT_GT(num_met, 400U);
 }
 
+TEST(SightTree, FindsForSomeTrianglesWhatItFindsForEach)
+{
+    const Scene scene = bumpy_sphere(300, 11);
+    const SightTree tree(scene, std::vector<double>(scene.num_points(), 0.01));
+    std::mt19937 random(7);
+    const auto anywhere = [&] {
+        const auto number = [&] { return random() / 2147483648.0 - 1.0; };
+        return Vector3d{number(), number(), number()};
+    };
+    std::size_t num_met = 0;
+    for (int round = 0; round < 400; ++round) {
+        std::vector<Triangle> triangles(1 + round % 5);
+        const Vector3d place = 2.0 * anywhere();
+        std::set<std::size_t> expected;
+        for (Triangle& triangle : triangles) {
+            triangle = {place, place + 0.3 * anywhere(), place + 0.3 * anywhere()};
+            const std::vector<std::size_t> met = met_by(tree, triangle);
+            expected.insert(met.begin(), met.end());
+        }
+        std::vector<std::size_t> met;
+        tree.visit_meeting(triangles, [&](std::size_t sight) {
+            met.push_back(sight);
+            return true;
+        });
+        ASSERT_EQ(met, std::vector(expected.begin(), expected.end())) << "round " << round;
+        num_met += met.size();
+    }
+    EXPECT_GT(num_met, 200U);
+    tree.visit_meeting({}, [](std::size_t) { return ADD_FAILURE() << "of no triangle", false; });
+}
+
 TEST(SightTree, CutsTheMarginOff)
 {
     const Scene scene = make_scene({{0, 0, 4}, {0, 4, 0}}, {{{0, 0, 0}, {0, 1}}});
@@ -70,7 +103,7 @@ TEST(SightTree, StopsWhenTold)
     int calls = 0;
     const Triangle everywhere = {Vector3d(-9, -9, 0.1), {9, -9, 0.1}, {0, 19, 0.1}};
     ASSERT_GT(met_by(tree, everywhere).size(), 3U);
-    tree.visit_meeting(everywhere, [&](std::size_t) { return ++calls < 3; });
+    tree.visit_meeting(std::span(&everywhere, 1), [&](std::size_t) { return ++calls < 3; });
     EXPECT_EQ(calls, 3);
 }
 
