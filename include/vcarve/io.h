@@ -62,6 +62,7 @@ struct MeshFormat {
     const Provenance* provenance = nullptr; ///< PLY only: written as well where there is one
     /// Subtracted from every position that is written, and said in the file unless it is zero.
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+    Eigen::Vector3d up = Eigen::Vector3d::Zero(); ///< GLB only: what y is to be there; zero: y
 };
 
 /// Writes a surface in the format that the end of the file's name means, in large or small letters.
@@ -78,9 +79,9 @@ struct MeshFormat {
 /// - `.glb`: glTF 2.0 in one file, with normals and colours. Positions are floats relative to the
 ///   middle of their box, which is the node's translation and a double; so they are right to 1e-7
 ///   of the box wherever it lies. The offset is the asset's extra `offset`. Colours are linear with
-///   16 bits, as glTF wants them. Axes are those of the mesh, though glTF takes y to point up:
-///   COLMAP does not know what is up. No more than 4 GiB; a surface without faces is an empty
-///   asset.
+///   16 bits, as glTF wants them. glTF takes y to point up: the node turns the way that `up` of
+///   `format` points there, which is the asset's extra `up`. No more than 4 GiB; a surface without
+///   faces is an empty asset.
 ///
 /// The bytes depend on the arguments alone. The file appears whole or not at all. Throws UsageError
 /// where it cannot be written, its name ends otherwise, or `format` asks for what is for PLY only.

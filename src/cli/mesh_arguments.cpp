@@ -113,6 +113,13 @@ OptionList options_of(OutputOptions& output)
                   "model_aligner writes it (scale, quaternion, translation) or as a matrix of 3 or "
                   "4 rows."},
          &output.transform},
+        {kStage,
+         {.name = "up",
+          .help = "What points up in .glb, whose y is up: auto, what is above for most cameras; z, "
+                  "of what is written; none, y as it is. It is said in the file.",
+          .words = {"auto", "z", "none"},
+          .tuning = true},
+         value_of_enum(output.up)},
         {kStage, {.name = "quiet", .help = "Print nothing but errors."}, &output.quiet},
         {kStage,
          {.name = "verbose", .help = "Print every stage and all that it counted."},

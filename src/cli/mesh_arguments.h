@@ -21,6 +21,7 @@ struct OutputOptions {
     bool attributes = false;
     WordOrVector offset;   ///< the words are those of OffsetWord
     std::string transform; ///< a file, or a scale; empty for none
+    UpWord up = UpWord::automatic;
     bool quiet = false;
     bool verbose = false;
 };

@@ -64,8 +64,14 @@ struct Surface {
     RemovedFaces removed; ///< in the same case: what was taken away
 };
 
-void write_surface(const MeshArguments& arguments, const Surface& surface,
-                   const Eigen::Vector3d& offset, Log& log)
+/// Where it is to lie in the file.
+struct Place {
+    Eigen::Vector3d offset; ///< subtracted
+    Eigen::Vector3d up;
+};
+
+void write_surface(const MeshArguments& arguments, const Surface& surface, const Place& place,
+                   Log& log)
 {
     std::vector<std::string> comments = {"made by colmap-vcarve " + versions().program};
     std::optional<TriMesh> moved;
@@ -76,16 +82,17 @@ void write_surface(const MeshArguments& arguments, const Surface& surface,
                              arguments.output.transform));
     }
     const TriMesh& mesh = moved ? *moved : surface.mesh;
-    if (!offset.isZero(0.0)) {
+    if (!place.offset.isZero(0.0)) {
         log.note(fmt::format("the coordinates written are those of the model{} minus {}",
-                             moved ? ", transformed," : "", fmt::join(offset, ", ")));
+                             moved ? ", transformed," : "", fmt::join(place.offset, ", ")));
     }
     Stage stage(log, "write");
     const MeshFormat format = {.ascii = arguments.output.ascii,
                                .comments = comments,
                                .provenance =
                                    surface.provenance.has_value() ? &*surface.provenance : nullptr,
-                               .offset = offset};
+                               .offset = place.offset,
+                               .up = place.up};
     write_mesh(arguments.out, mesh, format);
     const double share = rounding_share(arguments.out, mesh, format);
     constexpr double kSeen = 1e-6;
@@ -246,14 +253,14 @@ Made make_surface(const Run& run, Json& record)
     PreviewOutput preview(arguments.preview);
     preview.stand_in(input.scene);
     record["preview"] = preview.record();
-    const Eigen::Vector3d offset =
-        offset_for(input.scene, arguments.output.offset, arguments.transform);
-    record["offset"] = {offset.x(), offset.y(), offset.z()};
+    const Place place = {offset_for(input.scene, arguments.output.offset, arguments.transform),
+                         up_for(input.scene, arguments.output.up, arguments.transform)};
+    record["offset"] = {place.offset.x(), place.offset.y(), place.offset.z()};
     if (arguments.transform) record["transform"] = sim3_text(*arguments.transform);
     Made made;
     made.is_dense = input.read.is_dense;
     const Surface surface = surface_of(std::move(input), run);
-    write_surface(arguments, surface, offset, logs.told);
+    write_surface(arguments, surface, place, logs.told);
     preview.add(arguments.out.filename().string(), surface.mesh, logs.told);
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);

@@ -1,6 +1,7 @@
 #include "cli/placing.h"
 
 #include "io/colmap/sim3_text.h"
+#include "model/up_of.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -37,6 +38,15 @@ Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted,
     moved.offset = model.offset;
     move_positions(*transform, moved.positions, moved.offset);
     return round_offset(moved);
+}
+
+Eigen::Vector3d up_for(const Scene& model, UpWord wanted,
+                       const std::optional<Similarity>& transform)
+{
+    if (wanted == UpWord::none) return Eigen::Vector3d::Zero();
+    if (wanted == UpWord::z) return Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d up = up_of(model);
+    return transform ? (transform->linear * up).normalized() : up;
 }
 
 TriMesh transformed(TriMesh mesh, const Similarity& to)

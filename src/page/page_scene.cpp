@@ -6,6 +6,7 @@
 #include "model/camera.h"
 #include "model/scene_points.h"
 #include "model/seen_places.h"
+#include "model/up_of.h"
 #include "page/display_mesh.h"
 #include "page/pack.h"
 #include "picture/eye.h"

@@ -4,6 +4,7 @@
 #include "model/camera.h"
 #include "model/region_of_interest.h"
 #include "model/seen_places.h"
+#include "model/up_of.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 namespace vcarve {
@@ -26,8 +26,6 @@ constexpr double kHalfAngleRad = 22.5 * std::numbers::pi / 180.0;
 constexpr double kOrbitHeightRad = 35.0 * std::numbers::pi / 180.0;
 /// What lies a little outside the ball, such as the tops of walls, is seen as well.
 constexpr double kRoom = 1.2;
-/// A mean of unit vectors that is shorter says nothing.
-constexpr double kAgreeing = 0.1;
 
 bool has_lens(const Camera& camera)
 {
@@ -43,18 +41,6 @@ Eye eye_of(const Scene& scene, const View& view)
             .camera = scene.cameras[view.camera],
             .cam_from_world = view.cam_from_world,
             .center = view.center + scene.offset};
-}
-
-/// The mean of what `direction` says of the views; nothing where these cancel out.
-template <typename Direction>
-std::optional<Vector3d> mean_direction(const Scene& scene, const Direction& direction)
-{
-    Vector3d sum = Vector3d::Zero();
-    for (const View& view : scene.views) {
-        sum += direction(view);
-    }
-    if (!(sum.norm() > kAgreeing * static_cast<double>(scene.views.size()))) return std::nullopt;
-    return sum.normalized();
 }
 
 /// The level direction from a place to most cameras; any where these stand evenly around.
@@ -135,19 +121,6 @@ std::string names_of(const Scene& scene)
 }
 
 } // namespace
-
-Vector3d up_of(const Scene& scene)
-{
-    const auto up = mean_direction(scene, [&](const View& view) -> Vector3d {
-        if (scene.cameras[view.camera].measures_range) return Vector3d::UnitZ();
-        return view.cam_from_world.conjugate() * -Vector3d::UnitY();
-    });
-    if (up) return *up;
-    const auto back = mean_direction(scene, [&](const View& view) -> Vector3d {
-        return view.cam_from_world.conjugate() * -Vector3d::UnitZ();
-    });
-    return back.value_or(Vector3d::UnitZ());
-}
 
 Eye choose_eye(const Scene& scene, const std::string& word)
 {

@@ -20,11 +20,6 @@ struct Eye {
     bool through_backs = false;
 };
 
-/// The direction that is up, unit. COLMAP does not know it: it is the mean of the upward directions
-/// of the cameras; where these cancel out, the mean direction they look back along; z of a laser
-/// scan.
-Eigen::Vector3d up_of(const Scene& scene);
-
 /// The place that a word means.
 ///
 /// - "auto": the view that sees most of what was looked at (seen_places), of equal ones the first

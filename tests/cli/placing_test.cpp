@@ -1,4 +1,5 @@
 #include "cli/placing.h"
+#include "support/scenes.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
 
@@ -38,6 +39,18 @@ TEST(OffsetFor, IsRoundOnceTheModelIsTransformed)
     const WordOrVector given = {.word = WordOrVector::kNoWord, .vector = {1, 2, 3}};
     EXPECT_EQ(offset_for(scene, given, far), Vector3d(1, 2, 3));
     EXPECT_EQ(offset_for(scene, {}, far), Vector3d(0, 0, 0));
+}
+
+TEST(UpFor, IsOfTheFrameThatIsWritten)
+{
+    Scene scene = make_scene({{0, 0, 0}}, {});
+    Similarity quarter; // around x: what was -y is -z
+    quarter.scale = 2.0;
+    quarter.linear << 2, 0, 0, 0, 0, -2, 0, 2, 0;
+    EXPECT_EQ(up_for(scene, UpWord::automatic, std::nullopt), Vector3d(0, -1, 0));
+    EXPECT_EQ(up_for(scene, UpWord::automatic, quarter), Vector3d(0, 0, -1));
+    EXPECT_EQ(up_for(scene, UpWord::z, quarter), Vector3d(0, 0, 1));
+    EXPECT_EQ(up_for(scene, UpWord::none, quarter), Vector3d(0, 0, 0));
 }
 
 TEST(Transformed, TurnsNormalsWithoutScalingThem)

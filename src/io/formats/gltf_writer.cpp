@@ -167,18 +167,26 @@ tinygltf::Material matt()
     return material;
 }
 
-/// What was subtracted: {"offset": [x, y, z]}.
-tinygltf::Value offset_json(const Vector3d& offset)
+/// What was subtracted, and what now is y: {"offset": [x, y, z], "up": [x, y, z]}.
+tinygltf::Value placing_json(const MeshFormat& format)
 {
-    tinygltf::Value::Array numbers;
-    for (const double coordinate : offset) {
-        numbers.emplace_back(coordinate);
-    }
-    return tinygltf::Value({{kOffsetWord, tinygltf::Value(std::move(numbers))}});
+    tinygltf::Value::Object said;
+    const auto say = [&](const char* word, const Vector3d& vector) {
+        if (vector.isZero(0.0)) return;
+        tinygltf::Value::Array numbers;
+        for (const double coordinate : vector) {
+            numbers.emplace_back(coordinate);
+        }
+        said[word] = tinygltf::Value(std::move(numbers));
+    };
+    say(kOffsetWord, format.offset);
+    say("up", format.up);
+    return tinygltf::Value(std::move(said));
 }
 
-/// One mesh in one node, which moves the mesh back to where it belongs minus `offset`.
-void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const Vector3d& offset)
+/// One mesh in one node, which moves the mesh back to where it belongs minus the offset, and turns
+/// it upright.
+void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const MeshFormat& format)
 {
     Eigen::AlignedBox3d box;
     for (const Vector3d& position : mesh.positions) {
@@ -199,7 +207,12 @@ void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const Vector3d& offset
     model.materials.push_back(matt());
     model.meshes.emplace_back().primitives.push_back(std::move(triangles));
     tinygltf::Node& node = model.nodes.emplace_back();
-    const Vector3d translation = mesh.offset - offset + center;
+    Vector3d translation = mesh.offset - format.offset + center;
+    if (!format.up.isZero(0.0)) {
+        const auto turn = Eigen::Quaterniond::FromTwoVectors(format.up, Vector3d::UnitY());
+        node.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+        translation = turn * translation;
+    }
     node.translation.assign(translation.begin(), translation.end());
     node.mesh = 0;
     model.scenes.emplace_back().nodes.push_back(0);
@@ -223,11 +236,12 @@ void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
     tinygltf::Model& model = builder.model();
     model.asset.version = "2.0";
     model.asset.generator = fmt::to_string(fmt::join(format.comments, ", "));
-    if (!format.offset.isZero(0.0)) model.asset.extras = offset_json(format.offset);
+    const tinygltf::Value said = placing_json(format);
+    if (said.Size() > 0) model.asset.extras = said;
     if (mesh.faces.empty()) {
         model.buffers.clear(); // glTF knows no empty buffers, meshes or scenes
     } else {
-        add_mesh(builder, mesh, format.offset);
+        add_mesh(builder, mesh, format);
     }
     constexpr bool kIndented = false;
     constexpr bool kBinary = true;

@@ -231,6 +231,31 @@ TEST(WriteGlb, IsReadByAssimp)
     }
 }
 
+TEST(WriteGlb, TurnsWhatIsUpToY)
+{
+    const TemporaryFolder folder;
+    TriMesh mesh = sample_sheet();
+    mesh.offset = {2.5, -1.0, 8.0};
+    const MeshFormat upright = {.offset = {2, 0, 0}, .up = {0, 0, 1}};
+    write_mesh(folder / "a.glb", mesh, upright);
+    const Json extras = chunks_of(bytes_of(folder / "a.glb")).json["asset"]["extras"];
+    EXPECT_EQ(extras, Json::parse(R"({"offset": [2.0, 0.0, 0.0], "up": [0.0, 0.0, 1.0]})"));
+    for (Vector3d& position : mesh.positions) {
+        position = Vector3d(position.x() + 0.5, position.z() + 8.0, 1.0 - position.y());
+    }
+    for (Vector3f& normal : mesh.normals) {
+        normal = Vector3f(normal.x(), normal.z(), -normal.y());
+    }
+    mesh.offset = Vector3d::Zero();
+    const std::vector<Corner> expected = corners_of(mesh);
+    const std::vector<Corner> back = corners_of(read_by_assimp(folder / "a.glb"));
+    ASSERT_EQ(back.size(), expected.size());
+    for (std::size_t i = 0; i < back.size(); ++i) {
+        ASSERT_LT((back[i].position - expected[i].position).norm(), 4e-6);
+        ASSERT_LT((back[i].normal - expected[i].normal).norm(), 1e-6F);
+    }
+}
+
 TEST(WriteGlb, RefusesWhatItsLengthsCannotSay)
 {
     EXPECT_NO_THROW(require_glb_room(4294901759));
