@@ -1,0 +1,34 @@
+# The library, without the program, for Homebrew on Linux:
+#   brew install --HEAD --build-from-source packaging/homebrew/vcarve.rb
+# where the checkout stands at HOMEBREW_VCARVE.
+class Vcarve < Formula
+  desc "Surface meshes of COLMAP models"
+  license "GPL-3.0-or-later"
+  head "file://#{ENV.fetch("HOMEBREW_VCARVE", Dir.pwd)}", using: :git
+
+  depends_on "cmake" => :build
+  depends_on "ninja" => :build
+  depends_on "nlohmann-json" => :build
+  depends_on "cgal"
+  depends_on "eigen"
+  depends_on "fmt"
+  depends_on "jpeg-turbo"
+  depends_on "libpng"
+  depends_on "libtiff"
+  depends_on :linux
+  depends_on "open-mesh"
+  depends_on "tbb"
+  depends_on "tinygltf"
+
+  def install
+    system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", *std_cmake_args,
+           "-DBUILD_SHARED_LIBS=ON", "-DVCARVE_PROGRAM=OFF", "-DVCARVE_TESTS=OFF",
+           "-DVCARVE_BENCHMARKS=OFF", "-DVCARVE_LAB=OFF", "-DVCARVE_PYTHON=OFF", "-DVCARVE_MPI=OFF"
+    system "cmake", "--build", "build"
+    system "cmake", "--install", "build"
+  end
+
+  test do
+    assert_path_exists include/"vcarve/vcarve.h"
+  end
+end
