@@ -45,14 +45,15 @@ std::vector<Quadricd> quadrics(const HalfEdgeMesh& mesh)
             const Vector3d across = normal.cross(along).normalized();
             result[v] += plane(across, mesh.point(vertex), kRimWeight * along.squaredNorm());
         };
-        for (const auto outgoing : mesh.voh_range(vertex)) {
-            const auto incoming = outgoing.opp();
-            if (outgoing.is_boundary()) {
+        for (const auto half_edge : mesh.voh_range(vertex)) {
+            const auto outgoing = handle_at<HalfedgeHandle>(index(half_edge));
+            const HalfedgeHandle incoming = mesh.opposite_halfedge_handle(outgoing);
+            if (mesh.is_boundary(outgoing)) {
                 add_rim(incoming);
                 continue;
             }
-            if (incoming.is_boundary()) add_rim(outgoing);
-            const Triangle t = mesh.triangle(outgoing.face());
+            if (mesh.is_boundary(incoming)) add_rim(outgoing);
+            const Triangle t = mesh.triangle(mesh.face_handle(outgoing));
             const Vector3d normal = scaled_normal(t[0], t[1], t[2]);
             result[v] += plane(normal.normalized(), t[0], normal.norm() / 2.0);
         }
@@ -188,10 +189,11 @@ class Collapser {
             is_changed_[v] = 0;
             for (const auto outgoing : mesh_.voh_range(vertices_[i])) {
                 if (is_refused_[index(outgoing)] != 0) continue;
+                const VertexHandle to = mesh_.to_vertex_handle(outgoing);
                 Quadricd quadric = quadrics_[v];
-                quadric += quadrics_[index(outgoing.to())];
+                quadric += quadrics_[index(to)];
                 // Rounding must not make one of two costs of nothing the lesser.
-                collapses.push_back({std::max(quadric(mesh_.point(outgoing.to())), 0.0), outgoing});
+                collapses.push_back({std::max(quadric(mesh_.point(to)), 0.0), outgoing});
             }
             std::ranges::sort(collapses, std::less<>());
             const auto found = std::ranges::find_if(collapses, [&](const Collapse& collapse) {
