@@ -216,6 +216,15 @@ void ConsoleLog::expect(const PredictedTimes& times)
 {
     const std::lock_guard lock(mutex_);
     clock_.expect(times);
+    constexpr double kLong = 120.0;
+    double seconds = 0.0;
+    for (const StageTime& stage : times.stages) {
+        seconds += stage.seconds;
+    }
+    if (seconds < kLong || std::exchange(is_said_long_, true)) return;
+    const auto& longest = *std::ranges::max_element(times.stages, {}, &StageTime::seconds);
+    print_line(fmt::format("{} this may take {}, of which {} takes {}", emphasised("note:"),
+                           time_text(seconds), longest.stage, time_text(longest.seconds)));
 }
 
 void ConsoleLog::conclude(std::string_view sentence)

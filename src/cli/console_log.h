@@ -65,6 +65,7 @@ class ConsoleLog final : public RunLog {
     Clock::time_point stage_began_;
     RunClock clock_;
     bool run_is_long_ = false;
+    bool is_said_long_ = false;
     bool bar_is_drawn_ = false;
     bool ends_ = false;
     std::thread ticker_;

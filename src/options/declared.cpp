@@ -205,6 +205,7 @@ OptionList virtual_view_options(VirtualViewOptions& views)
           .help = "How many viewpoints to place in space that rays have shown to be free, to look "
                   "from there at the points around and label the cells again; 100 suit some "
                   "thousand points, 0 places none.",
+          .max = 10'000,
           .tuning = true},
          &views.count},
         {kSights,

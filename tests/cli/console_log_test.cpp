@@ -154,6 +154,18 @@ TEST(ConsoleLog, MovesABarOfTheRunWhereItIsExpectedToBeLong)
     EXPECT_THAT(screen.text(), MatchesRegex("(.|\n)*left\r\x1b\\[Kread +1 points +[0-9.]+ s\n"));
 }
 
+TEST(ConsoleLog, ForetellsARunOfMinutesOnce)
+{
+    const Screen screen;
+    ConsoleLog log({.stream = screen.stream()});
+    log.expect({.stages = {{"read", 50}, {"cut", 60}}, .points = 0});
+    EXPECT_EQ(screen.text(), "");
+    for (int i = 0; i < 2; ++i) {
+        log.expect({.stages = {{"read", 50}, {"smooth", 670}, {"cut", 60}}, .points = 0});
+        EXPECT_EQ(screen.text(), "note: this may take 13 min, of which smooth takes 11 min\n");
+    }
+}
+
 TEST(ConsoleLog, ShowsNoBarOfAShortRun)
 {
     const Screen screen;

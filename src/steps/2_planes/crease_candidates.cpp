@@ -104,8 +104,12 @@ class Crease {
         const bool stands_out = total_height(a) + total_height(b) <= 0.0;
         const double step = kStep * spacing_;
         const double low = std::max(a.front().along, b.front().along);
-        const double last = std::floor(std::min(a.back().along, b.back().along) / step + kRounding);
+        const double high = std::min(a.back().along, b.back().along);
+        const double last = std::floor(high / step + kRounding);
+        constexpr double kMost = 1e15; // beyond, whole numbers do not tell places apart
+        if (!(std::max(std::abs(low), std::abs(high)) < kMost * step)) return;
         for (double i = std::ceil(low / step - kRounding); i <= last; ++i) {
+            i = std::max({i, first_near(a, i, step), first_near(b, i, step)});
             if (!are_to_both_sides(a, i * step) || !are_to_both_sides(b, i * step)) continue;
             found.push_back({.position = place_at(i, step),
                              .kind = PointKind::crease,
@@ -148,6 +152,15 @@ class Crease {
             sum += support.high;
         }
         return sum;
+    }
+
+    /// No more than the number of the next place near any support, which may be far away.
+    double first_near(const std::vector<Support>& supports, double i, double step) const
+    {
+        const double within = reach_ * spacing_;
+        const auto next =
+            std::ranges::lower_bound(supports, i * step - within, {}, &Support::along);
+        return next == supports.end() ? i : std::floor((next->along - within) / step);
     }
 
     /// Whether there are some within the reach to both sides of a place along the line.

@@ -1,5 +1,6 @@
 #include "steps/1_points/spatial_sort.h"
 #include "steps/2_planes/added_points.h"
+#include "steps/2_planes/crease_candidates.h"
 #include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>
@@ -331,6 +332,30 @@ TEST(CreaseCandidates, OfOneCreaseLieOnNoPlane)
         }
         EXPECT_GT(std::abs(edges.determinant()), 1e-12 * std::pow(kSpacing, 3));
     }
+}
+
+TEST(CreaseCandidates, AreLookedForNearPointsOnlyHoweverFarTheseAreApart)
+{
+    // Where the planes meet there is room for 3e13 of them between the points.
+    Scene scene;
+    for (const double y : {-1e10, -1e10 + 0.004, 0.0, 0.004, 1e10 - 0.004, 1e10}) {
+        scene.positions.emplace_back(0.0, y, 0.0);
+    }
+    PlanarRegions planes(scene);
+    planes.spacings.assign(6, 1e-3);
+    for (const Vector3d& normal : {Vector3d(1, 0, 0), Vector3d(0, 0, 1)}) {
+        planes.regions.emplace_back(scene, Plane{{0, 0, 0}, normal}, 1e-3,
+                                    std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5});
+    }
+    const std::vector<Candidate> found = crease_candidates(scene, planes, 8.0, {});
+    EXPECT_GE(found.size(), 9U);
+    EXPECT_LE(found.size(), 24U);
+    // Nor is there an end of those that whole numbers cannot tell apart.
+    planes.spacings.assign(6, 1e-12);
+    for (PlanarRegion& region : planes.regions) {
+        region.spacing = 1e-12;
+    }
+    EXPECT_TRUE(crease_candidates(scene, planes, 8.0, {}).empty());
 }
 
 } // namespace
