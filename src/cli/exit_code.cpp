@@ -1,17 +1,46 @@
 #include "cli/exit_code.h"
 
 #include "base/control_free.h"
+#include "cli/interruption.h"
 #include "run/ranks.h"
 #include "vcarve/error.h"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
 namespace vcarve::cli {
 
+namespace {
+
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): handlers get no arguments
+std::atomic<bool> memory_is_short = false;
+
+[[noreturn]] void refuse_memory()
+{
+    memory_is_short = true;
+    throw std::bad_alloc();
+}
+
+/// Memory may also be short where no exception may pass, as in the standard library's own.
+[[noreturn]] void end_without_exception()
+{
+    if (!memory_is_short) std::abort();
+    remove_unfinished();
+    std::fputs("colmap-vcarve: out of memory\n", stderr);
+    ::_exit(1);
+}
+
+} // namespace
+
 Ending ending_of(const std::function<void()>& main)
 {
+    std::set_new_handler(refuse_memory);
+    std::set_terminate(end_without_exception);
     try {
         main();
         return {};

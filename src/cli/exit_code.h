@@ -12,7 +12,8 @@ struct Ending {
 };
 
 /// Calls main() and tells how it ended: 0 done, 1 internal error, 2 wrong usage or output, 3 wrong
-/// input.
+/// input. From then on memory that is short where no exception may pass ends the program as
+/// elsewhere.
 Ending ending_of(const std::function<void()>& main);
 
 /// Prints what went wrong as one line of stderr, "colmap-vcarve: ...", if anything did; returns the

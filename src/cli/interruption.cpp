@@ -28,15 +28,8 @@ std::vector<std::string> files_to_remove;
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
 std::atomic_flag is_reporting;
 
-/// Like what follows, calls only functions that are safe in a handler: unlink, rmdir, open, read,
-/// write, pause, _exit.
-void remove_files()
-{
-    for (const std::string& file : files_to_remove) {
-        if (::unlink(file.c_str()) != 0) ::rmdir(file.c_str());
-    }
-}
-
+/// Like what follows, calls only functions that are safe in a handler: open, read, write, pause,
+/// _exit.
 void say(std::string_view text)
 {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
@@ -82,7 +75,7 @@ bool say_unreadable(const void* address)
 
 extern "C" void remove_and_exit(int signal, siginfo_t*, void*)
 {
-    remove_files();
+    remove_unfinished();
     // A progress bar may stand on the terminal's line.
     if (::isatty(STDERR_FILENO) != 0) say("\n");
     ::_exit(128 + signal);
@@ -94,7 +87,7 @@ extern "C" void remove_and_report(int signal, siginfo_t* info, void*)
     while (is_reporting.test_and_set()) {
         ::pause();
     }
-    remove_files();
+    remove_unfinished();
     if (signal == SIGBUS && info->si_code == BUS_ADRERR && say_unreadable(info->si_addr)) {
         ::_exit(3);
     }
@@ -140,6 +133,13 @@ void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+void remove_unfinished()
+{
+    for (const std::string& file : files_to_remove) {
+        if (::unlink(file.c_str()) != 0) ::rmdir(file.c_str());
+    }
 }
 
 void hold_standard_streams()

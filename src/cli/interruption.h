@@ -14,6 +14,9 @@ namespace vcarve::cli {
 /// fails to be written as where the disk is full.
 void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished);
 
+/// Removes what end_cleanly_on_signals() was told of. Safe in a handler.
+void remove_unfinished();
+
 /// Holds the places of standard streams that are closed, as `2>&-` leaves them: else the next file
 /// that is opened takes the place, and what is printed goes into it.
 void hold_standard_streams();

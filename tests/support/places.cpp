@@ -14,4 +14,9 @@ std::string built_program()
     return VCARVE_PROGRAM;
 }
 
+std::string failing_calls_library()
+{
+    return VCARVE_FAILING_CALLS;
+}
+
 } // namespace vcarve

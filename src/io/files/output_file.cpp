@@ -90,7 +90,7 @@ int open_for_writing(const fs::path& path, const fs::path& target, const fs::pat
 
 } // namespace
 
-OutputFile::Sink::Sink(int descriptor) : descriptor_(descriptor), buffer_(1 << 16)
+OutputFile::Sink::Sink() : buffer_(1 << 16)
 {
     setp(buffer_.data(), buffer_.data() + buffer_.size());
 }
@@ -138,10 +138,10 @@ OutputFile::OutputFile(std::filesystem::path path)
     : path_(std::move(path)),
       target_(followed(path_)),
       part_(is_device(target_) ? fs::path() : part_path(path_)),
-      descriptor_(open_for_writing(path_, target_, part_)),
-      sink_(descriptor_),
-      stream_(&sink_)
+      stream_(&sink_),
+      descriptor_(open_for_writing(path_, target_, part_))
 {
+    sink_.write_to(descriptor_);
 }
 
 OutputFile::~OutputFile()

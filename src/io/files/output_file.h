@@ -42,7 +42,8 @@ class OutputFile {
     /// Bytes on their way to a file descriptor; remembers the first error.
     class Sink : public std::streambuf {
       public:
-        explicit Sink(int descriptor);
+        Sink();
+        void write_to(int descriptor) { descriptor_ = descriptor; }
         int error() const { return error_; }
         bool flush();
 
@@ -54,7 +55,7 @@ class OutputFile {
       private:
         bool write_all(const char* bytes, std::size_t count);
 
-        int descriptor_;
+        int descriptor_ = -1;
         int error_ = 0;
         std::vector<char> buffer_;
     };
@@ -62,9 +63,9 @@ class OutputFile {
     std::filesystem::path path_;   ///< as the user wrote it, for messages
     std::filesystem::path target_; ///< what is replaced: symbolic links followed
     std::filesystem::path part_;   ///< empty where the target is written straight
-    int descriptor_;
     Sink sink_;
     std::ostream stream_;
+    int descriptor_; ///< opened last, so that memory which runs out before leaves no part
 };
 
 } // namespace vcarve
