@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace vcarve {
 namespace {
@@ -75,6 +76,26 @@ TEST(SimplifySurface, MakesNoSliverOfRoundFaces)
         for (const Face& face : simple.faces) {
             EXPECT_GE(roundness(simple, face), 0.1);
         }
+    }
+}
+
+TEST(SimplifySurface, FoldsNothing)
+{
+    // Teeth at random, which collapses would lay over their neighbours: all are seen from above.
+    TriMesh mesh = flat_grid(41);
+    std::mt19937 random(3);
+    for (Vector3d& position : mesh.positions) {
+        const bool is_inner =
+            (position.head<2>().array() * (1.0 - position.head<2>().array()) > 1e-9).all();
+        if (is_inner) position.z() = 0.02 * static_cast<double>(random()) / 4294967296.0;
+    }
+    const SightGuard guard = unguarded();
+    // So few go that none turns twice.
+    const TriMesh simple = simplified(mesh, guard, {.faces = 2600});
+    for (const Face& face : simple.faces) {
+        const Vector3d ab = simple.positions[face[1]] - simple.positions[face[0]];
+        const Vector3d ac = simple.positions[face[2]] - simple.positions[face[0]];
+        ASSERT_GT(ab.cross(ac).z(), -1e-12);
     }
 }
 
