@@ -41,7 +41,7 @@ void bench_look_at(benchmark::State& state)
     if (state.range(1) == 0) eye.camera.params.resize(4);
     if (state.range(1) == 0) eye.camera.model = 1;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(look_at(mesh, eye, 1280.0 * 960.0));
+        benchmark::DoNotOptimize(look_at(mesh, {}, eye, 1280.0 * 960.0));
     }
 }
 

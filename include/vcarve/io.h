@@ -55,11 +55,14 @@ Scene read_model(const std::filesystem::path& input, const PointsOptions& option
 /// The same, of points found by looking.
 Scene read_model(const std::filesystem::path& input, Log& log);
 
+struct Texture;
+
 /// How a mesh is written.
 struct MeshFormat {
     bool ascii = false;                     ///< PLY only: numbers as text instead of binary
     std::vector<std::string> comments = {}; ///< said in the file: program version, options
     const Provenance* provenance = nullptr; ///< PLY only: written as well where there is one
+    const Texture* texture = nullptr; ///< PLY, OBJ and glTF: written as well where there is one
     /// Subtracted from every position that is written, and said in the file unless it is zero.
     Eigen::Vector3d offset = Eigen::Vector3d::Zero();
     Eigen::Vector3d up = Eigen::Vector3d::Zero(); ///< GLB only: what y is to be there; zero: y

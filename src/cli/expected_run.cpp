@@ -16,6 +16,17 @@ PredictedTimes expected_run(const SceneSize& read, const Options& options,
     constexpr double kFacesPerPoint = 1.8;
     constexpr double kFacesOnPage = 200'000;
     PredictedTimes times = predicted_times(read, options, threads);
+    if (outputs.photo_pixels > 0.0) {
+        constexpr double kPhotosFace = 45e-6;
+        constexpr double kReadPixel = 20e-9;
+        constexpr double kPaintPixel = 30e-9;
+        const double faces = kFacesPerPoint * times.points;
+        times.stages.push_back({"photos", kPhotosFace * faces / threads});
+        times.stages.push_back({"colors", kReadPixel * outputs.photo_pixels / threads});
+        if (outputs.texture) {
+            times.stages.push_back({"texture", kPaintPixel * outputs.photo_pixels / threads});
+        }
+    }
     if (outputs.preview) {
         const double seconds = kPreview / threads + kPreviewPoint * times.points;
         times.stages.push_back({"preview", seconds});

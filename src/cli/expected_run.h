@@ -8,6 +8,8 @@ namespace vcarve::cli {
 struct ExpectedOutputs {
     bool preview = false;
     bool report = false;
+    double photo_pixels = 0.0; ///< of all photographs that colours are taken from
+    bool texture = false;
 };
 
 /// What the program will take, with what it writes.

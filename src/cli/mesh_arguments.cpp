@@ -2,6 +2,7 @@
 
 #include "cli/run_record.h"
 #include "io/formats/mesh_file.h"
+#include "io/formats/textured_files.h"
 #include "options/declared.h"
 #include "page/page.h"
 #include "vcarve/error.h"
@@ -90,7 +91,9 @@ OptionList options_of(OutputOptions& output)
     constexpr const char* kStage = "Output";
     return {
         {kStage,
-         {.name = "ascii", .help = "Write numbers as text instead of binary; PLY only."},
+         {.name = "ascii",
+          .help = "Write numbers as text instead of binary; PLY only.",
+          .tuning = true},
          &output.ascii},
         {kStage,
          {.name = "attributes",
@@ -131,13 +134,18 @@ OptionList options_of(MeshArguments& arguments)
 {
     return joined({options_of(arguments.model), options_of(arguments.options),
                    work_options(arguments), options_of(arguments.output),
-                   preview_options(arguments.preview), record_options(arguments),
-                   options_of(arguments.help)});
+                   texture_options(arguments.texture), preview_options(arguments.preview),
+                   record_options(arguments), options_of(arguments.help)});
 }
 
-std::vector<Output> outputs_of(const MeshArguments& arguments)
+std::vector<Output> outputs_of(const MeshArguments& arguments, std::size_t pages)
 {
     std::vector<Output> outputs = {{"the surface", arguments.out}};
+    if (arguments.texture.texture) {
+        for (const fs::path& file : files_beside(arguments.out, pages)) {
+            outputs.push_back({"the texture", file});
+        }
+    }
     if (!arguments.preview.out.empty()) outputs.push_back({"--preview", arguments.preview.out});
     if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
     if (!arguments.report.empty()) outputs.push_back({"--report", arguments.report});
@@ -152,6 +160,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.model.path = given.operands[0];
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
+    check_texture(arguments.texture, arguments.out, given);
     check_preview(arguments.preview, given);
     if (!arguments.report.empty()) require_page_name(arguments.report);
     if (arguments.keeps_work && arguments.work.empty()) {
@@ -177,6 +186,7 @@ Manual mesh_manual()
         {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it"},
         {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "and a picture of it"},
         {"colmap-vcarve sparse/0 mesh.glb", "for browsers and engines"},
+        {"colmap-vcarve sparse/0 mesh.glb --texture", "with the photographs"},
         {"colmap-vcarve --closed sparse/0 mesh.ply", "watertight"},
         {"colmap-vcarve --crop auto sparse/0 mesh.ply", "what was looked at only"},
     };

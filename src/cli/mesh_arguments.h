@@ -6,6 +6,7 @@
 #include "cli/outputs.h"
 #include "cli/placing.h"
 #include "cli/preview_output.h"
+#include "cli/texture_output.h"
 #include "vcarve/options.h"
 
 #include <filesystem>
@@ -30,6 +31,7 @@ struct OutputOptions {
 struct MeshArguments {
     ModelArguments model;
     std::filesystem::path out;
+    TextureArguments texture;
     PreviewArguments preview;
     std::filesystem::path stats;  ///< empty: not written
     std::filesystem::path report; ///< ...
@@ -53,7 +55,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given);
 /// What a user can read about the bare form, `colmap-vcarve MODEL OUT.ply`.
 Manual mesh_manual();
 
-/// All that a run is to write.
-std::vector<Output> outputs_of(const MeshArguments& arguments);
+/// All that a run is to write, with a texture of so many pages where there is to be one.
+std::vector<Output> outputs_of(const MeshArguments& arguments, std::size_t pages = 1);
 
 } // namespace vcarve::cli

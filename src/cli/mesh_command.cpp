@@ -12,6 +12,7 @@
 #include "cli/preview_output.h"
 #include "cli/run_memory.h"
 #include "cli/run_record.h"
+#include "cli/texture_output.h"
 #include "io/colmap/sim3_text.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
@@ -31,6 +32,7 @@
 #include <fmt/ranges.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -41,8 +43,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What cannot be written is said before the work starts, and nothing half written stays behind.
-void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scratch)
+/// Files that are read beside the model.
+std::array<Output, 2> inputs_beside(const MeshArguments& arguments)
+{
+    return {{{"the region", arguments.options.crop.region.file},
+             {"the transformation", arguments.output.transform}}};
+}
+
+/// A signal leaves nothing half written behind.
+void tell_unfinished(const std::vector<Output>& outputs, const ArrayFolder& scratch)
 {
     std::vector<fs::path> parts;
     parts.reserve(outputs.size() + 1);
@@ -51,6 +60,12 @@ void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scra
     }
     if (scratch.is_temporary()) parts.push_back(scratch.path());
     end_cleanly_on_signals(parts);
+}
+
+/// What cannot be written is said before the work starts, and nothing half written stays behind.
+void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scratch)
+{
+    tell_unfinished(outputs, scratch);
     for (const Output& output : outputs) {
         require_writable(output.path);
     }
@@ -59,6 +74,7 @@ void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scra
 /// What is written.
 struct Surface {
     TriMesh mesh;
+    Texture texture; ///< without pages where there is none
     std::optional<Provenance> provenance;
     Scene scene;          ///< the points it was made from; empty where no report tells of them
     RemovedFaces removed; ///< in the same case: what was taken away
@@ -91,6 +107,7 @@ void write_surface(const MeshArguments& arguments, const Surface& surface, const
                                .comments = comments,
                                .provenance =
                                    surface.provenance.has_value() ? &*surface.provenance : nullptr,
+                               .texture = surface.texture.is_empty() ? nullptr : &surface.texture,
                                .offset = place.offset,
                                .up = place.up};
     write_mesh(arguments.out, mesh, format);
@@ -145,6 +162,7 @@ struct Run {
     const MeshArguments& arguments;
     RunLogs logs;
     RunMemory& memory;
+    const ArrayFolder& scratch;
     WorkFolder* work; ///< null for nowhere
     RunRanks* ranks;  ///< null for this process alone
 };
@@ -184,6 +202,39 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
     return folder;
 }
 
+/// How long it will take is said again when more is known.
+void expect_run(const Run& run, const SceneSize& size, const Photographs* photographs = nullptr)
+{
+    const MeshArguments& arguments = run.arguments;
+    ExpectedOutputs outputs = {.preview = !arguments.preview.out.empty(),
+                               .report = !arguments.report.empty(),
+                               .texture = arguments.texture.texture};
+    if (photographs != nullptr) {
+        for (const PhotographSize& photo : photographs->sizes) {
+            outputs.photo_pixels += static_cast<double>(photo.width_px) * photo.height_px;
+        }
+    }
+    run.logs.shown.expect(
+        expected_run(size, arguments.options, outputs, threads_of(arguments.options)));
+}
+
+/// What is wrong with the photographs is said before the work starts.
+std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
+                                                 const ModelInput& input, const Run& run)
+{
+    if (!arguments.texture.reads_images()) return std::nullopt;
+    constexpr std::size_t kPages = 64; // more are no texture that anybody could look at
+    Photographs photographs =
+        photographs_of(arguments.texture, arguments.model.path, input.scene, run.logs.told);
+    std::vector<Output> files;
+    for (const fs::path& file : photographs.of_view) {
+        if (!file.empty()) files.push_back({"the photograph", file});
+    }
+    keep_inputs(outputs_of(arguments, kPages), arguments.model, files);
+    expect_run(run, input.read, &photographs);
+    return photographs;
+}
+
 /// The surface of a scene. What the scene lacks is said of the model it was read from.
 Surface surface_of(ModelInput input, const Run& run)
 {
@@ -195,11 +246,19 @@ Surface surface_of(ModelInput input, const Run& run)
         if (run.ranks != nullptr && run.work != nullptr) {
             run.ranks->begin({run.work->job(), digest_of_options(options), run.memory.in_files()});
         }
+        const std::optional<Photographs> photographs = photographs_if_wanted(arguments, input, run);
         Reconstruction made =
             reconstruct_thinned(std::move(input.scene), input.read, options, run.logs.told,
                                 {.removed = arguments.report.empty() ? nullptr : &surface.removed,
                                  .work = run.work,
                                  .ranks = run.ranks});
+        if (photographs) {
+            const std::int64_t most = std::max<std::int64_t>(arguments.options.memory.most, 0);
+            TexturedMesh covered = textured(std::move(made.mesh), made.scene, *photographs,
+                                            {arguments.texture, most}, run.logs.told);
+            made.mesh = std::move(covered.mesh);
+            surface.texture = std::move(covered.texture);
+        }
         if (arguments.output.attributes) {
             surface.provenance = find_provenance(made.mesh, made.scene);
         }
@@ -221,12 +280,7 @@ struct Made {
 ModelInput read_input(const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
-    const auto expect = [&](const SceneSize& size) {
-        run.logs.shown.expect(expected_run(
-            size, arguments.options,
-            {.preview = !arguments.preview.out.empty(), .report = !arguments.report.empty()},
-            threads_of(arguments.options)));
-    };
+    const auto expect = [&](const SceneSize& size) { expect_run(run, size); };
     bool is_expected = false;
     const auto check = [&](const SceneSize& size) {
         fit_memory(run, size_before_thinning(size, arguments.options));
@@ -241,6 +295,15 @@ ModelInput read_input(const Run& run)
     size.thinned = size_of(input.scene);
     fit_memory(run, size);
     return input;
+}
+
+/// How many pages a texture has shows late, and so what else is written.
+void prepare_pages(const Run& run, const Texture& texture)
+{
+    if (texture.is_empty()) return;
+    const std::vector<Output> outputs = outputs_of(run.arguments, texture.pages.size());
+    keep_inputs(outputs, run.arguments.model, inputs_beside(run.arguments));
+    tell_unfinished(outputs, run.scratch);
 }
 
 /// From the model to the file; tells the record what went in and came out.
@@ -260,8 +323,9 @@ Made make_surface(const Run& run, Json& record)
     Made made;
     made.is_dense = input.read.is_dense;
     const Surface surface = surface_of(std::move(input), run);
+    prepare_pages(run, surface.texture);
     write_surface(arguments, surface, place, logs.told);
-    preview.add(arguments.out.filename().string(), surface.mesh, logs.told);
+    preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, logs.told);
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
     if (arguments.stats.empty() && arguments.report.empty()) return made;
@@ -269,7 +333,8 @@ Made make_surface(const Run& run, Json& record)
     if (arguments.transform) check.area *= arguments.transform->scale * arguments.transform->scale;
     record["mesh"] = check_json(check);
     if (!arguments.report.empty()) {
-        made.report = make_report(surface.mesh, surface.removed, surface.scene, logs.told);
+        made.report =
+            make_report(surface.mesh, surface.texture, surface.removed, surface.scene, logs.told);
     }
     return made;
 }
@@ -336,9 +401,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     MeshArguments arguments = read_mesh_arguments(given);
     const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
     require_work_folder(arguments, processes);
-    const std::array<Output, 2> others = {{{"the region", arguments.options.crop.region.file},
-                                           {"the transformation", arguments.output.transform}}};
-    keep_inputs(outputs_of(arguments), arguments.model, others);
+    keep_inputs(outputs_of(arguments), arguments.model, inputs_beside(arguments));
     const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
     // What is wrong with the file of a region or a transformation is said before the work starts.
@@ -363,7 +426,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
     RunMemory memory(arguments.options.memory, threads, scratch, processes);
-    const Made made = make_or_clear({arguments, logs, memory, work.get(), ranks}, record);
+    const Made made = make_or_clear({arguments, logs, memory, scratch, work.get(), ranks}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());

@@ -7,14 +7,17 @@
 
 namespace vcarve::cli {
 
-ReportParts make_report(const TriMesh& mesh, const RemovedFaces& removed, const Scene& scene,
-                        Log& log)
+ReportParts make_report(const TriMesh& mesh, const Texture& texture, const RemovedFaces& removed,
+                        const Scene& scene, Log& log)
 {
     Stage stage(log, "report");
     ReportParts parts;
     parts.figures = surface_figures(mesh, face_supports(mesh, scene), scene);
     parts.scene = packed_scene(scene);
     parts.scene["surface"] = packed_surface(mesh, scene, {}, stage);
+    // A surface that is simplified for the page has other corners than its texture.
+    const bool is_whole = parts.scene["surface"]["faces"]["count"] == mesh.faces.size();
+    parts.scene["surface"]["texture"] = is_whole ? packed_texture(texture) : Json(nullptr);
     parts.scene["removed"] = packed_removed(removed);
     stage.end({{"faces shown", parts.scene["surface"]["faces"]["count"].get<std::int64_t>()},
                {"of", parts.figures.faces}});

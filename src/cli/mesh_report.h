@@ -3,6 +3,7 @@
 #include "base/log.h"
 #include "cli/run_record.h"
 #include "mesh/removed_faces.h"
+#include "model/texture.h"
 #include "page/run_figures.h"
 
 #include <filesystem>
@@ -15,10 +16,10 @@ struct ReportParts {
     Json scene; ///< what the page draws
 };
 
-/// Measures and packs a surface, what was taken away from it and the scene it was made from, as the
-/// stage "report".
-ReportParts make_report(const TriMesh& mesh, const RemovedFaces& removed, const Scene& scene,
-                        Log& log);
+/// Measures and packs a surface, its texture, what was taken away from it and the scene it was made
+/// from, as the stage "report".
+ReportParts make_report(const TriMesh& mesh, const Texture& texture, const RemovedFaces& removed,
+                        const Scene& scene, Log& log);
 
 /// What a record says of a report: figures, and warnings made of them and of the record's stages.
 Json report_json(const ReportParts& parts, const Json& record);

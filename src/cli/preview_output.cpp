@@ -43,11 +43,12 @@ void PreviewOutput::stand_in(const Scene& scene)
     if (!arguments_.out.empty()) preview_.emplace(choose_eye(scene, arguments_.view));
 }
 
-void PreviewOutput::add(const std::string& name, const TriMesh& mesh, Log& log)
+void PreviewOutput::add(const std::string& name, const TriMesh& mesh, const Texture& texture,
+                        Log& log)
 {
     if (!preview_) return;
     Stage stage(log, "preview");
-    const std::int64_t pixels = preview_->add(name, mesh);
+    const std::int64_t pixels = preview_->add(name, mesh, texture);
     is_empty_ = false;
     stage.end({{"pixels of " + name, pixels}});
 }

@@ -31,7 +31,7 @@ class PreviewOutput {
     /// Chooses the place to look from. Throws UsageError, as choose_eye does.
     void stand_in(const Scene& scene);
     /// Draws a mesh in the frame of that scene, as the stage "preview".
-    void add(const std::string& name, const TriMesh& mesh, Log& log);
+    void add(const std::string& name, const TriMesh& mesh, const Texture& texture, Log& log);
     /// Writes the file, which shows nothing where no mesh was added.
     void write();
     /// "file" and "view", the name of the image that was looked from; null where there is none.

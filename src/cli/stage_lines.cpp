@@ -54,6 +54,10 @@ constexpr Wording kWordings[] = {
     {"smooth", "smooth", "{vertices moved} of {of} vertices moved"},
     {"simplify", "simplify", "{of} faces merged to {faces}"},
     {"orient", "orient", ""},
+    {"photos", "photos", "{seen} of {faces} faces shown by {photographs} photographs"},
+    {"colors", "colours", "{vertices} vertices coloured|, {outliers} views of passers-by left out"},
+    {"texture", "texture", "{charts} charts on {pages} pages"},
+    {"look", "look", "from {photographs} photographs that were left out"},
     {"write", "write", ""},
 };
 

@@ -69,7 +69,7 @@ ComparisonReport compare(const Scene& model, std::span<const NamedMesh> meshes,
     ComparisonReport report;
     report.table = comparison_table(comparisons, reference);
     report.json = comparison_json(comparisons, reference);
-    const std::vector<Figure> judged_by = figures(reference, false);
+    const std::vector<Figure> judged_by = figures(reference, {});
     for (const Comparison& comparison : comparisons) {
         report.figures.push_back(known_figures(comparison, judged_by));
     }

@@ -87,7 +87,7 @@ Json mesh_json(const Comparison& comparison, const std::vector<Figure>& figures)
 nlohmann::ordered_json comparison_record(std::span<const Comparison> comparisons,
                                          const Reference& reference)
 {
-    const std::vector<Figure> judged_by = figures(reference, has_costs(comparisons));
+    const std::vector<Figure> judged_by = figures(reference, comparisons);
     Json report;
     report["definitions"] = definitions(reference, judged_by);
     report["options"] = {{"samples", reference.options.samples},
@@ -124,7 +124,7 @@ std::vector<TableRow> table_rows(std::span<const Comparison> comparisons,
                                  const Reference& reference)
 {
     std::vector<TableRow> rows;
-    for (const Figure& figure : figures(reference, has_costs(comparisons))) {
+    for (const Figure& figure : figures(reference, comparisons)) {
         if (figure.title.empty()) continue;
         TableRow row{figure.title, figure.place, figure.better, {}};
         for (const Comparison& comparison : comparisons) {
@@ -137,7 +137,7 @@ std::vector<TableRow> table_rows(std::span<const Comparison> comparisons,
 
 std::string comparison_table(std::span<const Comparison> comparisons, const Reference& reference)
 {
-    const std::vector<Figure> judged_by = figures(reference, has_costs(comparisons));
+    const std::vector<Figure> judged_by = figures(reference, comparisons);
     std::string text = table(comparisons, table_rows(comparisons, reference));
     text += '\n';
     for (const std::string& line : definitions(reference, judged_by)) {

@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "geometry/triangle.h"
+#include "io/images/encode_image.h"
 #include "mesh/used_vertices.h"
 #include "model/camera.h"
 #include "model/scene_points.h"
@@ -11,8 +12,10 @@
 #include "page/pack.h"
 #include "picture/eye.h"
 #include "steps/4_visibility/seen_corners.h"
+#include "texture/photo_pyramid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -183,6 +186,41 @@ Json packed_surface(const TriMesh& mesh, const Scene& scene, const PageLimits& l
                  {"faces", {{"count", shown.faces.size()}, {"data", pack_faces(shown.faces)}}}};
     json.update(attributes_json(shown, scene));
     return json;
+}
+
+Json packed_texture(const Texture& texture, const PageLimits& limits)
+{
+    if (texture.is_empty()) return nullptr;
+    constexpr int kQuality = 80;
+    std::vector<Photograph> pages = texture.pages;
+    const auto texels = [&] {
+        std::size_t sum = 0;
+        for (const Photograph& page : pages) {
+            sum += page.rgb.size() / 3;
+        }
+        return sum;
+    };
+    while (texels() > limits.texels) {
+        std::ranges::transform(pages, pages.begin(), halved);
+    }
+    Json images = Json::array();
+    for (const Photograph& page : pages) {
+        images.push_back(base64(encode_jpeg(page, kQuality)));
+    }
+    std::vector<std::uint8_t> places;
+    for (const auto& corners : texture.places) {
+        for (const Eigen::Vector2f& corner : corners) {
+            for (const float coordinate : corner) {
+                const auto number = static_cast<std::uint32_t>(
+                    std::lround(65535.0F * std::clamp(coordinate, 0.0F, 1.0F)));
+                places.push_back(static_cast<std::uint8_t>(number & 0xffU));
+                places.push_back(static_cast<std::uint8_t>(number >> 8U));
+            }
+        }
+    }
+    const std::vector<std::int32_t> page_of_face(texture.page_of_face.begin(),
+                                                 texture.page_of_face.end());
+    return {{"pages", images}, {"places", base64(places)}, {"page", pack_bytes(page_of_face)}};
 }
 
 Json packed_scene(const Scene& scene, const PageLimits& limits)

@@ -2,6 +2,7 @@
 
 #include "base/progress.h"
 #include "mesh/removed_faces.h"
+#include "model/texture.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
@@ -16,10 +17,11 @@ namespace vcarve {
 
 /// How much of a run a page holds, so that it opens at once and stays below 8 MB.
 struct PageLimits {
-    std::int64_t faces = 200'000; ///< of a surface; larger ones are simplified
-    std::size_t points = 100'000; ///< evenly chosen of more
-    std::size_t views = 2'000;    ///< evenly chosen of more
-    std::size_t removed = 40'000; ///< faces that were taken away: the largest of more
+    std::int64_t faces = 200'000;   ///< of a surface; larger ones are simplified
+    std::size_t points = 100'000;   ///< evenly chosen of more
+    std::size_t views = 2'000;      ///< evenly chosen of more
+    std::size_t removed = 40'000;   ///< faces that were taken away: the largest of more
+    std::size_t texels = 6'000'000; ///< of a texture; a larger one is made smaller
 };
 
 /// [x, y, z].
@@ -33,6 +35,11 @@ nlohmann::ordered_json positions_json(std::span<const Eigen::Vector3d> positions
 /// itself has. `mesh` needs TriMesh::points, which count the points of `scene`.
 nlohmann::ordered_json packed_surface(const TriMesh& mesh, const Scene& scene,
                                       const PageLimits& limits = {}, const Progress& progress = {});
+
+/// A texture as the page's script reads it: "pages", JPEG files in base64; "places", of each corner
+/// of each face two numbers of two bytes, the lower first, 65535 for the right or lower edge of its
+/// page; and "page", of each face the number of its page. Null where there is no texture.
+nlohmann::ordered_json packed_texture(const Texture& texture, const PageLimits& limits = {});
 
 /// The points of a scene, its views as frusta, the direction that is up (up_of) and the view to
 /// start from: the one that saw most of what was looked at (seen_places), with the median depth of

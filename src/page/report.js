@@ -252,7 +252,8 @@ function driveView() {
     if (event.key === "]") step(1);
   });
   const colour = byId("colour");
-  if (!view.hasColours) { colour.querySelector("[value=rgb]").remove(); colour.value = "plain"; }
+  if (!view.hasTexture) { colour.querySelector("[value=texture]").remove(); colour.value = "rgb"; }
+  if (!view.hasColours) { colour.querySelector("[value=rgb]").remove(); if (!view.hasTexture) colour.value = "plain"; }
   colour.addEventListener("change", () => showLegend(view.colourBy(colour.value)));
   view.colourBy(colour.value);
   view.start();

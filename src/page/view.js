@@ -135,6 +135,61 @@ void main() {
   gl_FragColor = vec4(colour * shade, 1.0);
 }`;
 
+const kTextureVertexShader = `
+varying vec2 vPlace;
+varying vec3 vEye;
+void main() {
+  vPlace = uv;
+  vec4 eye = modelViewMatrix * vec4(position, 1.0);
+  vEye = eye.xyz;
+  gl_Position = projectionMatrix * eye;
+}`;
+const kTextureFragmentShader = `
+uniform sampler2D page;
+varying vec2 vPlace;
+varying vec3 vEye;
+void main() {
+  float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
+  vec3 back = mix(vec3(0.72, 0.42, 0.36), vec3(0.62, 0.34, 0.29), stripe);
+  gl_FragColor = vec4(gl_FrontFacing ? texture2D(page, vPlace).rgb : back, 1.0);
+}`;
+
+/// The surface in its texture: its faces page by page, and a material a page. Pages appear once the
+/// browser has decoded them, and `changed` is called then.
+function texturedSurface(texture, cornerPositions, changed) {
+  const pageOfFace = bytesOf(texture.page), bytes = bytesOf(texture.places);
+  const geometry = new THREE.BufferGeometry();
+  const places = new Float32Array(cornerPositions.length), uvs = new Float32Array(2 * cornerPositions.length / 3);
+  const materials = [];
+  let corner = 0;
+  texture.pages.forEach((page, number) => {
+    const first = corner;
+    for (let face = 0; face < pageOfFace.length; ++face) {
+      if (pageOfFace[face] !== number) continue;
+      for (let i = 3 * face; i < 3 * face + 3; ++i, ++corner) {
+        places.set(cornerPositions.subarray(3 * i, 3 * i + 3), 3 * corner);
+        for (let axis = 0; axis < 2; ++axis) {
+          uvs[2 * corner + axis] = (bytes[4 * i + 2 * axis] | bytes[4 * i + 2 * axis + 1] << 8) / 65535;
+        }
+      }
+    }
+    geometry.addGroup(first, corner - first, number);
+    const image = new Image();
+    const map = new THREE.Texture(image);
+    map.flipY = false;
+    map.generateMipmaps = false;
+    map.minFilter = THREE.LinearFilter;
+    image.onload = () => { map.needsUpdate = true; changed(); };
+    image.src = "data:image/jpeg;base64," + page;
+    materials.push(new THREE.ShaderMaterial({ vertexShader: kTextureVertexShader, fragmentShader: kTextureFragmentShader,
+      uniforms: { page: { value: map } }, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1 }));
+  });
+  geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
+  geometry.setAttribute("uv", new THREE.BufferAttribute(uvs, 2));
+  return { geometry, materials };
+}
+
 function vectorOf(array) { return new THREE.Vector3(array[0], array[1], array[2]); }
 
 /// Where most of the vertices are: the middle and half the diagonal of a box that leaves out 3 % at
@@ -258,6 +313,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   const state = { position: new THREE.Vector3(), target: new THREE.Vector3(), up: up.clone(), fov: 45, view: null };
   let pending = false;
   let marked = null; // a place and the element that follows it
+  let textured = null;
   let cut = null;    // the surface in smaller faces, see distance.js
 
   function style(name) { return getComputedStyle(document.documentElement).getPropertyValue(name).trim(); }
@@ -493,8 +549,10 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   function show(name, on) {
     shown[name] = on;
     if (name === "backs") {
-      material.side = on ? THREE.DoubleSide : THREE.FrontSide;
-      material.needsUpdate = true;
+      for (const one of [material, ...(textured ? textured.materials : [])]) {
+        one.side = on ? THREE.DoubleSide : THREE.FrontSide;
+        one.needsUpdate = true;
+      }
     } else {
       if (on && !layers[name]) layers[name] = makeLayer(name);
       if (on) scene.add(layers[name]); else if (layers[name]) scene.remove(layers[name]);
@@ -505,6 +563,14 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     const isDistance = wanted === "distance" && Boolean(surfaceData.distances);
     mode = wanted === "distance" && !isDistance ? "plain" : wanted;
     if (isDistance && !cut) cut = cutByDistance(positions, surface.corners, surfaceData.distances, sceneData.scale);
+    const isTextured = mode === "texture" && Boolean(surfaceData.texture);
+    if (isTextured && !textured) textured = texturedSurface(surfaceData.texture, cornerPositions, redraw);
+    layers.surface.material = isTextured ? textured.materials : material;
+    if (isTextured) {
+      layers.surface.geometry = textured.geometry;
+      redraw();
+      return null;
+    }
     const made = isDistance ? cut : colouring(mode, surface);
     if (!isDistance) geometry.setAttribute("color", new THREE.BufferAttribute(made.colours, 3, true));
     layers.surface.geometry = isDistance ? cut.geometry : geometry;
@@ -524,6 +590,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   return {
     state, shown, show, colourBy, overview, top, through, start, draw, views, flyTo, mark,
     hasColours: surface.colours !== null,
+    hasTexture: Boolean(surfaceData.texture),
     follow(other) {
       state.position.copy(other.position); state.target.copy(other.target); state.up.copy(other.up);
       state.fov = other.fov; state.view = other.view;

@@ -46,15 +46,19 @@ Item* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std
         rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), count));
 }
 
-/// Relative to the eye, the farthest at about 1, so that neither products of lengths nor lengths
+/// Lengths times this are at most about 1, so that neither products of lengths nor lengths
 /// themselves leave what floats hold.
-void fill_corners(const TriMesh& mesh, const Eigen::Vector3d& eye, Corner* corners)
+double scale_of(const TriMesh& mesh, const Eigen::Vector3d& eye)
 {
     double farthest = 0.0;
     for (const Eigen::Vector3d& position : mesh.positions) {
         farthest = std::max(farthest, (position - eye).lpNorm<Eigen::Infinity>());
     }
-    const double scale = farthest > 0.0 ? 1.0 / farthest : 1.0;
+    return farthest > 0.0 ? 1.0 / farthest : 1.0;
+}
+
+void fill_corners(const TriMesh& mesh, const Eigen::Vector3d& eye, double scale, Corner* corners)
+{
     parallel_for(mesh.positions.size(), [&](std::size_t i) {
         const Eigen::Vector3f corner = (scale * (mesh.positions[i] - eye)).cast<float>();
         corners[i] = {corner.x(), corner.y(), corner.z()};
@@ -78,7 +82,7 @@ struct FirstFaces::Tree {
 };
 
 FirstFaces::FirstFaces(const TriMesh& mesh, const Eigen::Vector3d& eye)
-    : tree_(std::make_unique<Tree>())
+    : tree_(std::make_unique<Tree>()), eye_(eye), scale_(scale_of(mesh, eye))
 {
     if (mesh.faces.empty()) return;
     tree_->device.reset(rtcNewDevice(nullptr));
@@ -94,7 +98,7 @@ FirstFaces::FirstFaces(const TriMesh& mesh, const Eigen::Vector3d& eye)
     auto* faces =
         new_buffer<Face>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.faces.size());
     require_success(device);
-    fill_corners(mesh, eye, corners);
+    fill_corners(mesh, eye, scale_, corners);
     std::ranges::copy(mesh.faces, faces);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
@@ -108,10 +112,14 @@ FirstFaces::FirstFaces(const TriMesh& mesh, const Eigen::Vector3d& eye)
 
 FirstFaces::~FirstFaces() = default;
 
-FirstFace FirstFaces::first(const Eigen::Vector3d& direction, bool only_fronts) const
+FirstFace FirstFaces::first(const Eigen::Vector3f& start, const Eigen::Vector3d& direction,
+                            bool only_fronts) const
 {
     if (!tree_->scene) return {};
     RTCRayHit query{};
+    query.ray.org_x = start.x();
+    query.ray.org_y = start.y();
+    query.ray.org_z = start.z();
     const Eigen::Vector3f towards = direction.cast<float>();
     query.ray.dir_x = towards.x();
     query.ray.dir_y = towards.y();
@@ -130,12 +138,17 @@ FirstFace FirstFaces::first(const Eigen::Vector3d& direction, bool only_fronts) 
 
 FirstFace FirstFaces::along(const Eigen::Vector3d& direction) const
 {
-    return first(direction, false);
+    return first(Eigen::Vector3f::Zero(), direction, false);
 }
 
 FirstFace FirstFaces::front_along(const Eigen::Vector3d& direction) const
 {
-    return first(direction, true);
+    return first(Eigen::Vector3f::Zero(), direction, true);
+}
+
+FirstFace FirstFaces::from(const Eigen::Vector3d& place, const Eigen::Vector3d& direction) const
+{
+    return first((scale_ * (place - eye_)).cast<float>(), direction, false);
 }
 
 } // namespace vcarve

@@ -36,12 +36,17 @@ class FirstFaces {
     FirstFace along(const Eigen::Vector3d& direction) const;
     /// The same of faces that show their front, the side their corners run counter-clockwise on.
     FirstFace front_along(const Eigen::Vector3d& direction) const;
+    /// The same from another place in the frame of mesh.positions, which is rounded to floats, too.
+    FirstFace from(const Eigen::Vector3d& place, const Eigen::Vector3d& direction) const;
 
   private:
-    FirstFace first(const Eigen::Vector3d& direction, bool only_fronts) const;
+    FirstFace first(const Eigen::Vector3f& start, const Eigen::Vector3d& direction,
+                    bool only_fronts) const;
 
     struct Tree;
     std::unique_ptr<Tree> tree_;
+    Eigen::Vector3d eye_;
+    double scale_ = 1.0; ///< so that the farthest corner lies at about 1
 };
 
 } // namespace vcarve

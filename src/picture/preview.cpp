@@ -50,9 +50,9 @@ Preview::Preview(Eye eye, double panel_pixels) : eye_(std::move(eye)), panel_pix
 {
 }
 
-std::int64_t Preview::add(const std::string& name, const TriMesh& mesh)
+std::int64_t Preview::add(const std::string& name, const TriMesh& mesh, const Texture& texture)
 {
-    const Looks looks = look_at(mesh, eye_, panel_pixels_);
+    const Looks looks = look_at(mesh, texture, eye_, panel_pixels_);
     const int width_px = looks.shaded.width_px;
     const int caption_px = caption_height_px(width_px);
     Picture row = even_picture(2 * width_px + kGapPx, caption_px + looks.shaded.height_px, kPaper);

@@ -5,7 +5,9 @@
 #include "picture/first_faces.h"
 #include "picture/lens_rays.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace vcarve {
@@ -26,18 +28,50 @@ constexpr float kNormalStrength = 0.75F;
 struct Sample {
     Array3f shaded;
     Array3f normal;
+    bool is_front = false;
 };
 
 Sample even_sample(const Array3f& color)
 {
-    return {color, color};
+    return {color, color, false};
+}
+
+std::array<float, 3> shares_of(const FirstFace& hit)
+{
+    return {1.0F - hit.second - hit.third, hit.second, hit.third};
+}
+
+/// Between the middles of four texels.
+Array3f texture_color(const Texture& texture, const FirstFace& hit)
+{
+    const Photograph& page = texture.pages[texture.page_of_face[hit.face]];
+    const std::array<float, 3> shares = shares_of(hit);
+    Eigen::Vector2f place = Eigen::Vector2f::Zero();
+    for (int i = 0; i < 3; ++i) {
+        place += shares[i] * texture.places[hit.face][i];
+    }
+    const auto wide = static_cast<float>(page.width_px);
+    const auto high = static_cast<float>(page.height_px);
+    const float column = std::clamp(place.x() * wide - 0.5F, 0.0F, wide - 1.0F);
+    const float row = std::clamp(place.y() * high - 0.5F, 0.0F, high - 1.0F);
+    const auto texel = [&](int right, int below) {
+        const int x = std::min(static_cast<int>(column) + right, page.width_px - 1);
+        const int y = std::min(static_cast<int>(row) + below, page.height_px - 1);
+        const std::uint8_t* rgb =
+            page.rgb.data() + 3 * (static_cast<std::size_t>(y) * page.width_px + x);
+        return Array3f(rgb[0], rgb[1], rgb[2]);
+    };
+    const float right = column - std::floor(column);
+    const float below = row - std::floor(row);
+    return (1.0F - below) * ((1.0F - right) * texel(0, 0) + right * texel(1, 0)) +
+           below * ((1.0F - right) * texel(0, 1) + right * texel(1, 1));
 }
 
 Array3f own_color(const TriMesh& mesh, const FirstFace& hit)
 {
     if (mesh.colors.empty()) return kUncolored;
     const Face& face = mesh.faces[hit.face];
-    const std::array<float, 3> shares = {1.0F - hit.second - hit.third, hit.second, hit.third};
+    const std::array<float, 3> shares = shares_of(hit);
     Array3f sum = Array3f::Zero();
     for (int i = 0; i < 3; ++i) {
         const Color& color = mesh.colors[face[i]];
@@ -49,8 +83,9 @@ Array3f own_color(const TriMesh& mesh, const FirstFace& hit)
 /// Looks along one ray at a time.
 class Looker {
   public:
-    Looker(const TriMesh& mesh, const Eye& eye)
+    Looker(const TriMesh& mesh, const Texture& texture, const Eye& eye)
         : mesh_(mesh),
+          texture_(texture),
           eye_(eye),
           faces_(mesh, eye.center - mesh.offset),
           world_from_cam_(eye.cam_from_world.toRotationMatrix().transpose())
@@ -71,7 +106,9 @@ class Looker {
         // The camera's y points down and its z ahead.
         const Vector3d turned = world_from_cam_.transpose() * normal;
         const Array3f shown = Vector3d(turned.x(), -turned.y(), -turned.z()).cast<float>().array();
-        return {light * own_color(mesh_, hit), 127.5F * (1.0F + kNormalStrength * shown)};
+        const Array3f color = texture_.is_empty() ? Array3f(light * own_color(mesh_, hit))
+                                                  : texture_color(texture_, hit);
+        return {color, 127.5F * (1.0F + kNormalStrength * shown), true};
     }
 
   private:
@@ -85,6 +122,7 @@ class Looker {
     }
 
     const TriMesh& mesh_;
+    const Texture& texture_;
     const Eye& eye_;
     FirstFaces faces_;
     Eigen::Matrix3d world_from_cam_;
@@ -92,24 +130,29 @@ class Looker {
 
 } // namespace
 
-Looks look_at(const TriMesh& mesh, const Eye& eye, double most_pixels)
+Looks look_at(const TriMesh& mesh, const Texture& texture, const Eye& eye, double most_pixels)
 {
     const Eigen::Array2i size = picture_size(eye.camera, most_pixels);
     const int width_px = size.x();
     Looks looks{even_picture(width_px, size.y(), Array3f::Zero()),
-                even_picture(width_px, size.y(), Array3f::Zero())};
+                even_picture(width_px, size.y(), Array3f::Zero()),
+                {}};
+    looks.is_front.resize(looks.shaded.pixels.size());
     const LensRays rays(eye.camera, size);
-    const Looker looker(mesh, eye);
+    const Looker looker(mesh, texture, eye);
     const auto fill = [&](std::size_t pixel) {
         const auto x = static_cast<int>(pixel % width_px);
         const auto y = static_cast<int>(pixel / width_px);
+        bool is_front = true;
         for (int i = 0; i < kSamples; ++i) {
             const Eigen::Array2i column_and_row(i % kSamplesASide, i / kSamplesASide);
             const Eigen::Array2d within = (column_and_row.cast<double>() + 0.5) / kSamplesASide;
             const Sample sample = looker.along(rays.at(x, y, within));
             looks.shaded.pixels[pixel] += sample.shaded / kSamples;
             looks.normals.pixels[pixel] += sample.normal / kSamples;
+            is_front = is_front && sample.is_front;
         }
+        looks.is_front[pixel] = is_front ? 1 : 0;
     };
     parallel_for(looks.shaded.pixels.size(), fill, 2048);
     return looks;

@@ -1,8 +1,12 @@
 #pragma once
 
+#include "model/texture.h"
 #include "picture/eye.h"
 #include "picture/picture.h"
 #include "vcarve/tri_mesh.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace vcarve {
 
@@ -14,14 +18,16 @@ inline const Eigen::Array3f kUncolored{200.0F, 200.0F, 205.0F}; ///< of meshes w
 
 /// A mesh as an eye sees it, twice.
 struct Looks {
-    Picture shaded;  ///< in its vertex colours, lit from the eye
+    Picture shaded;  ///< in its texture, or in its vertex colours, lit from the eye
     Picture normals; ///< of the faces: red grows to the right, green upwards, blue towards the eye
+    std::vector<std::uint8_t> is_front; ///< of the pixels: all its rays meet fronts of faces
 };
 
 /// Both pictures have picture_size(). Each pixel is the mean of four rays through the lens, as
 /// LensRays has them. Backs of faces are kBack in both. The mesh and the eye are given in one
 /// frame, apart from the mesh's offset. The bytes do not depend on the number of threads. Cost:
-/// that of FirstFaces, four rays a pixel in parallel.
-Looks look_at(const TriMesh& mesh, const Eye& eye, double most_pixels);
+/// that of FirstFaces, four rays a pixel in parallel. A texture without pages is none; one with
+/// pages has the light of its photographs, and gets no other.
+Looks look_at(const TriMesh& mesh, const Texture& texture, const Eye& eye, double most_pixels);
 
 } // namespace vcarve

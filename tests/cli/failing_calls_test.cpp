@@ -97,8 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Failing{"write", "", 2}, Failing{"write", "+", 3}, Failing{"rename", "", 1},
                     Failing{"fsync", "", 1}, Failing{"mmap", "", 1}, Failing{"open", "", 3},
                     Failing{"malloc", "", 199}, Failing{"fallocate", "", 1, 60'000, "2"}),
-    [](const auto& info) {
-        return std::string(info.param.call) + (*info.param.goes_on == '\0' ? "" : "AndAllLater");
+    [](const auto& made) {
+        return std::string(made.param.call) + (*made.param.goes_on == '\0' ? "" : "AndAllLater");
     });
 
 } // namespace vcarve

@@ -1,3 +1,4 @@
+#include "page/pack.h"
 #include "page/page_scene.h"
 #include "support/scenes.h"
 
@@ -56,6 +57,26 @@ TEST(PackedScene, HoldsNothingOfNothing)
     const auto json = packed_scene({});
     EXPECT_TRUE(json["start"].is_null());
     EXPECT_EQ(json["views"].size(), 0U);
+}
+
+TEST(PackedTexture, IsSmallerThanItsLimit)
+{
+    Texture texture;
+    texture.pages = {Photograph{64, 32, std::vector<std::uint8_t>(3 * 64 * 32, 100)}};
+    texture.page_of_face = {0};
+    texture.places = {{{{0.0F, 1.0F}, {0.5F, 0.0F}, {1.0F, 0.25F}}}};
+    const auto whole = packed_texture(texture);
+    const auto small = packed_texture(texture, {.texels = 1000});
+    EXPECT_GT(whole["pages"][0].get<std::string>().size(),
+              small["pages"][0].get<std::string>().size());
+    const std::vector<std::uint8_t> places = {0, 0, 255, 255, 0, 128, 0, 0, 255, 255, 0, 64};
+    EXPECT_EQ(whole["places"].get<std::string>(), base64(places));
+    EXPECT_EQ(whole["places"], small["places"]);
+}
+
+TEST(PackedTexture, IsNullWithoutPages)
+{
+    EXPECT_TRUE(packed_texture({}).is_null());
 }
 
 } // namespace

@@ -145,5 +145,24 @@ TEST(FirstFaces, AreNoneOfAMeshWithoutFacesOrArea)
     EXPECT_EQ(FirstFaces(mesh, Vector3d::Zero()).along(Vector3d::UnitZ()).face, FirstFace::kNone);
 }
 
+TEST(FirstFaces, FindsFromAnotherPlaceWhatItFindsFromThere)
+{
+    const TriMesh mesh = any_triangles(300, {3, 4, 5});
+    const FirstFaces faces(mesh, {3, 4, 5});
+    const Vector3d place(3.4, 4.2, 9.0);
+    const FirstFaces from_there(mesh, place);
+    std::mt19937 random(8);
+    int met = 0;
+    int same = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const Vector3d towards = (Vector3d(3, 4, 5) + 4.0 * any_place(random) - place).normalized();
+        const std::uint32_t expected = from_there.along(towards).face;
+        met += expected != FirstFace::kNone ? 1 : 0;
+        same += faces.from(place, towards).face == expected ? 1 : 0;
+    }
+    EXPECT_GT(met, 500);
+    EXPECT_GE(same, 1998); // but for rays through an edge
+}
+
 } // namespace
 } // namespace vcarve

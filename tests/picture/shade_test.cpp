@@ -119,14 +119,14 @@ Array3f tried(const TriMesh& mesh, const Vector3d& towards)
 
 TEST(LookAt, ShowsFrontsInPlainGreyWithoutColorsAndBacksFlat)
 {
-    expect_front_and_back(look_at(front_and_back(), eye_ahead(), 48), kUncolored);
+    expect_front_and_back(look_at(front_and_back(), {}, eye_ahead(), 48), kUncolored);
 }
 
 TEST(LookAt, ShowsFrontsInTheirColors)
 {
     TriMesh mesh = front_and_back();
     mesh.colors.assign(mesh.positions.size(), Color{10, 200, 30});
-    expect_front_and_back(look_at(mesh, eye_ahead(), 48), {10.0F, 200.0F, 30.0F});
+    expect_front_and_back(look_at(mesh, {}, eye_ahead(), 48), {10.0F, 200.0F, 30.0F});
 }
 
 TEST(LookAt, BlendsTheColorsOfCorners)
@@ -135,7 +135,7 @@ TEST(LookAt, BlendsTheColorsOfCorners)
     mesh.positions = {{-2, -50, 4}, {-2, 50, 4}, {2, 0, 4}};
     mesh.faces = {{0, 1, 2}};
     mesh.colors = {{0, 80, 0}, {0, 80, 0}, {240, 80, 0}};
-    const Looks looks = look_at(mesh, eye_ahead(), 48);
+    const Looks looks = look_at(mesh, {}, eye_ahead(), 48);
     // The middle of the pixel in column 2, two units from the left edge of the face, of eight.
     EXPECT_NEAR(looks.shaded.pixels[3 * kWidth + 2][0] / light_at(2, 3), 240.0 * 2.5 / 8.0, 0.5);
     EXPECT_NEAR(looks.shaded.pixels[3 * kWidth + 2][1] / light_at(2, 3), 80.0, 0.1);
@@ -152,7 +152,7 @@ TEST(LookAt, ColorsNormalsByTheAxesOfTheCamera)
     Eigen::Matrix3d axes;
     axes << 0, 1, 0, 0, 0, -1, -1, 0, 0;
     eye.cam_from_world = Eigen::Quaterniond(axes);
-    const Looks looks = look_at(mesh, eye, 48);
+    const Looks looks = look_at(mesh, {}, eye, 48);
     const Array3f upwards(127.5F, 127.5F * 1.75F, 127.5F);
     EXPECT_LT((looks.normals.pixels[5 * kWidth + 4] - upwards).abs().maxCoeff(), 1e-3F);
     EXPECT_TRUE((looks.normals.pixels[0] == kNothing).all());
@@ -167,7 +167,7 @@ TEST(LookAt, LooksThroughBacksIfItIsToUnlessNoFrontIsBehind)
     mesh.faces.push_back({6, 7, 8}); // a back before all
     Eye eye = eye_ahead();
     const auto is_back = [&](int x, int y) {
-        const Looks looks = look_at(mesh, eye, 48);
+        const Looks looks = look_at(mesh, {}, eye, 48);
         return (looks.shaded.pixels[static_cast<std::size_t>(y) * kWidth + x] == kBack).all();
     };
     EXPECT_TRUE(is_back(1, 1));
@@ -186,7 +186,7 @@ TEST(LookAt, AgreesWithARayAPixelThroughADistortedLens)
                   .width_px = 80,
                   .height_px = 60,
                   .params = {70, 68, 41, 29, -0.3, 0.12, 0.01, -0.005}};
-    const Looks looks = look_at(mesh, eye, 40.0 * 30.0);
+    const Looks looks = look_at(mesh, {}, eye, 40.0 * 30.0);
     ASSERT_EQ(looks.shaded.pixels.size(), 1200U);
     int different = 0;
     int fronts = 0;
@@ -209,7 +209,7 @@ TEST(LookAt, MarksWhereTheLensHasNoDirection)
     Eye eye = eye_ahead();
     eye.camera.model = 2; // SIMPLE_RADIAL, which turns back within the image
     eye.camera.params = {2, 4, 3, -0.5};
-    const Looks looks = look_at(front_and_back(), eye, 48);
+    const Looks looks = look_at(front_and_back(), {}, eye, 48);
     EXPECT_TRUE((looks.shaded.pixels[0] == kNoRay).all());
     EXPECT_TRUE((looks.normals.pixels[0] == kNoRay).all());
     EXPECT_GT(looks.shaded.pixels[3 * kWidth + 3][0], 150.0F);
@@ -219,10 +219,10 @@ TEST(LookAt, MarksWhereTheLensHasNoDirection)
 TEST(LookAt, ShowsTheSameForAnyNumberOfThreadsAndOffset)
 {
     TriMesh mesh = strewn(30000);
-    const Looks first = look_at(mesh, eye_ahead(), 40000);
+    const Looks first = look_at(mesh, {}, eye_ahead(), 40000);
     for (const std::size_t threads : {1U, 2U, 3U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        const Looks looks = look_at(mesh, eye_ahead(), 40000);
+        const Looks looks = look_at(mesh, {}, eye_ahead(), 40000);
         EXPECT_EQ(looks.shaded.pixels.size(), first.shaded.pixels.size());
         const auto same = [](const Array3f& a, const Array3f& b) { return (a == b).all(); };
         EXPECT_TRUE(std::ranges::equal(looks.shaded.pixels, first.shaded.pixels, same));
@@ -231,20 +231,43 @@ TEST(LookAt, ShowsTheSameForAnyNumberOfThreadsAndOffset)
     mesh.offset = {1024, -2048, 512};
     Eye moved = eye_ahead();
     moved.center = mesh.offset;
-    const Looks looks = look_at(mesh, moved, 40000);
+    const Looks looks = look_at(mesh, {}, moved, 40000);
     const auto same = [](const Array3f& a, const Array3f& b) { return (a == b).all(); };
     EXPECT_TRUE(std::ranges::equal(looks.shaded.pixels, first.shaded.pixels, same));
 }
 
 TEST(LookAt, ShowsNothingOfAMeshWithoutFaces)
 {
-    const Looks looks = look_at({}, eye_ahead(), 48);
+    const Looks looks = look_at({}, {}, eye_ahead(), 48);
     for (const Picture& picture : {looks.shaded, looks.normals}) {
         ASSERT_EQ(picture.pixels.size(), 48U);
         for (const Array3f& pixel : picture.pixels) {
             EXPECT_TRUE((pixel == kNothing).all());
         }
     }
+}
+
+TEST(LookAt, ShowsATextureInItsOwnLight)
+{
+    const TriMesh mesh = front_and_back();
+    Texture texture;
+    texture.pages = {Photograph{2, 1, {10, 20, 30, 110, 120, 130}}};
+    texture.page_of_face = {0, 0};
+    texture.places.resize(2);
+    texture.places[0].fill({0.5F, 0.5F}); // between both texels
+    const Looks looks = look_at(mesh, texture, eye_ahead(), 48);
+    EXPECT_TRUE(looks.shaded.pixels[0].isApprox(Array3f(60, 70, 80))) << looks.shaded.pixels[0];
+    texture.places[0].fill({0.0F, 0.0F});
+    EXPECT_TRUE(
+        look_at(mesh, texture, eye_ahead(), 48).shaded.pixels[0].isApprox(Array3f(10, 20, 30)));
+}
+
+TEST(LookAt, TellsWhichPixelsShowFronts)
+{
+    const Looks looks = look_at(front_and_back(), {}, eye_ahead(), 48);
+    EXPECT_EQ(looks.is_front[0], 1);              // left
+    EXPECT_EQ(looks.is_front[kWidth - 1], 0);     // a back
+    EXPECT_EQ(looks.is_front[6 * kWidth - 1], 0); // nothing
 }
 
 } // namespace

@@ -92,7 +92,7 @@ std::map<std::string, Judged> judged(const Measured& measured)
     const NamedMesh ours{"ours.ply", reconstruct(model, Options(), silent).mesh};
     const Comparison comparison = compare_mesh(ours, reference, silent);
     std::map<std::string, Judged> all;
-    for (const Figure& figure : figures(reference, false)) {
+    for (const Figure& figure : figures(reference, {})) {
         const std::optional<double> value = figure.number(comparison);
         if (value) all[figure.place] = {*value, figure.better};
     }

@@ -41,7 +41,7 @@ void draw(std::span<char*> words)
                              static_cast<double>(eye.camera.width_px);
     std::vector<Picture> panels;
     for (const char* mesh : words.subspan(4)) {
-        panels.push_back(shrunk(look_at(read_ply(mesh), eye, width_px * height_px).normals, 2));
+        panels.push_back(shrunk(look_at(read_ply(mesh), {}, eye, width_px * height_px).normals, 2));
     }
     write_png(out, side_by_side(panels));
 }

@@ -2,6 +2,8 @@
 #include "io/files/block_writer.h"
 #include "io/files/comment_lines.h"
 #include "io/formats/mesh_file.h"
+#include "io/formats/unwrap.h"
+#include "io/images/encode_image.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>
@@ -13,6 +15,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,6 +39,8 @@ constexpr Layout kVectors = {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
                              TINYGLTF_TARGET_ARRAY_BUFFER};
 constexpr Layout kColors = {TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
                             TINYGLTF_TARGET_ARRAY_BUFFER, true};
+constexpr Layout kPlaces = {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2,
+                            TINYGLTF_TARGET_ARRAY_BUFFER};
 constexpr Layout kIndices = {TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
                              TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER};
 
@@ -82,6 +88,20 @@ class ModelBuilder {
         const auto bytes = little_endian(number);
         auto& data = model_.buffers[0].data;
         data.insert(data.end(), bytes.begin(), bytes.end());
+    }
+
+    /// A file within the file; returns the index of its view of the buffer.
+    int add_bytes(const std::vector<std::uint8_t>& bytes)
+    {
+        tinygltf::BufferView view;
+        view.buffer = 0;
+        auto& data = model_.buffers[0].data;
+        view.byteOffset = data.size();
+        view.byteLength = bytes.size();
+        data.insert(data.end(), bytes.begin(), bytes.end());
+        data.resize((data.size() + 3) / 4 * 4);
+        model_.bufferViews.push_back(std::move(view));
+        return static_cast<int>(model_.bufferViews.size()) - 1;
     }
 
     tinygltf::Model& model() { return model_; }
@@ -147,7 +167,18 @@ int add_colors(ModelBuilder& builder, const std::vector<Color>& colors)
     return accessor;
 }
 
-int add_indices(ModelBuilder& builder, const std::vector<Face>& faces)
+int add_places(ModelBuilder& builder, const std::vector<Eigen::Vector2f>& places)
+{
+    const int accessor = builder.begin(kPlaces, places.size());
+    for (const Eigen::Vector2f& place : places) {
+        for (const float coordinate : place) {
+            builder.put(coordinate);
+        }
+    }
+    return accessor;
+}
+
+int add_indices(ModelBuilder& builder, std::span<const Face> faces)
 {
     const int accessor = builder.begin(kIndices, 3 * faces.size());
     for (const Face& face : faces) {
@@ -184,9 +215,33 @@ tinygltf::Value placing_json(const MeshFormat& format)
     return tinygltf::Value(std::move(said));
 }
 
+/// A material that is matt and shows an image, which becomes a part of the file.
+int add_page(ModelBuilder& builder, const Photograph& page)
+{
+    tinygltf::Model& model = builder.model();
+    tinygltf::Image& image = model.images.emplace_back();
+    image.bufferView = builder.add_bytes(encode_jpeg(page, kTextureQuality));
+    image.mimeType = "image/jpeg";
+    if (model.samplers.empty()) {
+        tinygltf::Sampler& sampler = model.samplers.emplace_back();
+        sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+        sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+        sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+        sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    }
+    tinygltf::Texture& texture = model.textures.emplace_back();
+    texture.source = static_cast<int>(model.images.size()) - 1;
+    texture.sampler = 0;
+    model.materials.push_back(matt());
+    model.materials.back().pbrMetallicRoughness.baseColorTexture.index =
+        static_cast<int>(model.textures.size()) - 1;
+    return static_cast<int>(model.materials.size()) - 1;
+}
+
 /// One mesh in one node, which moves the mesh back to where it belongs minus the offset, and turns
-/// it upright.
-void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const MeshFormat& format)
+/// it upright. The faces of each page are drawn by themselves.
+void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const MeshFormat& format,
+              const UnwrappedMesh* unwrapped)
 {
     Eigen::AlignedBox3d box;
     for (const Vector3d& position : mesh.positions) {
@@ -195,17 +250,30 @@ void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const MeshFormat& form
     const Vector3d center = box.center();
     tinygltf::Primitive triangles;
     triangles.mode = TINYGLTF_MODE_TRIANGLES;
-    triangles.material = 0;
     triangles.attributes["POSITION"] = add_positions(builder, mesh, center);
     if (!mesh.normals.empty()) {
         triangles.attributes["NORMAL"] = add_normals(builder, mesh.normals);
     }
     if (!mesh.colors.empty()) triangles.attributes["COLOR_0"] = add_colors(builder, mesh.colors);
-    triangles.indices = add_indices(builder, mesh.faces);
-
     tinygltf::Model& model = builder.model();
-    model.materials.push_back(matt());
-    model.meshes.emplace_back().primitives.push_back(std::move(triangles));
+    std::vector<tinygltf::Primitive> primitives;
+    if (unwrapped == nullptr) {
+        model.materials.push_back(matt());
+        triangles.material = 0;
+        triangles.indices = add_indices(builder, mesh.faces);
+        primitives.push_back(std::move(triangles));
+    } else {
+        triangles.attributes["TEXCOORD_0"] = add_places(builder, unwrapped->places);
+        for (std::size_t page = 0; page < format.texture->pages.size(); ++page) {
+            const auto [first, last] =
+                std::pair(unwrapped->begins[page], unwrapped->begins[page + 1]);
+            triangles.indices =
+                add_indices(builder, std::span(mesh.faces).subspan(first, last - first));
+            triangles.material = add_page(builder, format.texture->pages[page]);
+            primitives.push_back(triangles);
+        }
+    }
+    model.meshes.emplace_back().primitives = std::move(primitives);
     tinygltf::Node& node = model.nodes.emplace_back();
     Vector3d translation = mesh.offset - format.offset + center;
     if (!format.up.isZero(0.0)) {
@@ -241,7 +309,10 @@ void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
     if (mesh.faces.empty()) {
         model.buffers.clear(); // glTF knows no empty buffers, meshes or scenes
     } else {
-        add_mesh(builder, mesh, format);
+        std::optional<UnwrappedMesh> unwrapped;
+        if (format.texture != nullptr) unwrapped = unwrap(mesh, *format.texture);
+        add_mesh(builder, unwrapped ? unwrapped->mesh : mesh, format,
+                 unwrapped ? &*unwrapped : nullptr);
     }
     constexpr bool kIndented = false;
     constexpr bool kBinary = true;

@@ -2,6 +2,7 @@
 
 #include "base/lower_case_end.h"
 #include "io/files/output_file.h"
+#include "io/formats/textured_files.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>
@@ -82,9 +83,15 @@ double rounding_share(const fs::path& path, const TriMesh& mesh, const MeshForma
 void write_mesh(const fs::path& path, const TriMesh& mesh, const MeshFormat& format)
 {
     const Kind& kind = kind_of(path);
-    if (kind.write == nullptr) return write_ply(path, mesh, format);
+    if (kind.write == nullptr) {
+        return format.texture != nullptr ? write_textured_ply(path, mesh, format)
+                                         : write_ply(path, mesh, format);
+    }
     if (format.ascii) require_ply(path, "--ascii");
     if (format.provenance != nullptr) require_ply(path, "--attributes");
+    if (format.texture != nullptr && kind.write == write_obj) {
+        return write_textured_obj(path, mesh, format);
+    }
     OutputFile file(path);
     try {
         kind.write(file.stream(), mesh, format);

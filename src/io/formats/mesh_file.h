@@ -17,6 +17,9 @@ void require_mesh_name(const std::filesystem::path& path);
 /// Throws UsageError where such a file is no PLY file, which `option` is for.
 void require_ply(const std::filesystem::path& path, const char* option);
 
+/// Of the JPEG files that textures are written as, from 1 to 100.
+inline constexpr int kTextureQuality = 92;
+
 /// How far rounding to floats moves the vertices of a surface that write_mesh() writes to `path`,
 /// as a share of the diagonal of its box: the largest change of a coordinate, where the format is
 /// STL, and zero for all others, which lose nothing that could be seen.

@@ -1,7 +1,9 @@
+#include "io/ply/ply_writer.h"
+
 #include "io/files/block_writer.h"
 #include "io/files/comment_lines.h"
 #include "io/files/output_file.h"
-#include "vcarve/io.h"
+#include "model/texture.h"
 
 #include <fmt/format.h>
 
@@ -36,11 +38,15 @@ void end_line(fmt::memory_buffer& block, bool binary)
     if (!binary) block[block.size() - 1] = '\n';
 }
 
-void write_header(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
+void write_header(std::ostream& out, const TriMesh& mesh, const MeshFormat& format,
+                  const std::vector<std::string>& page_names)
 {
     out << "ply\nformat " << (format.ascii ? "ascii" : "binary_little_endian") << " 1.0\n";
     for (const std::string& comment : comment_lines(format)) {
         out << "comment " << comment << '\n';
+    }
+    for (const std::string& name : page_names) {
+        out << "comment TextureFile " << name << '\n';
     }
     out << "element vertex " << mesh.positions.size() << '\n'
         << "property double x\nproperty double y\nproperty double z\n";
@@ -55,6 +61,9 @@ void write_header(std::ostream& out, const TriMesh& mesh, const MeshFormat& form
     }
     out << "element face " << mesh.faces.size() << '\n'
         << "property list uchar int vertex_indices\n";
+    if (format.texture != nullptr) {
+        out << "property list uchar float texcoord\nproperty int texnumber\n";
+    }
     if (format.provenance != nullptr) {
         out << "element face_support " << mesh.faces.size() << "\nproperty int support\n";
     }
@@ -85,13 +94,26 @@ void write_vertices(std::ostream& out, const TriMesh& mesh, const MeshFormat& fo
     }
 }
 
-void write_faces(std::ostream& out, const TriMesh& mesh, bool binary)
+/// Where the corners of a face lie in its page, v upwards, and which page it is.
+void put_places(fmt::memory_buffer& block, const Texture& texture, std::size_t face, bool binary)
 {
+    put_one(block, std::uint8_t{6}, binary);
+    for (const Eigen::Vector2f& place : texture.places[face]) {
+        put_one(block, place.x(), binary);
+        put_one(block, 1.0F - place.y(), binary);
+    }
+    put_one(block, static_cast<std::int32_t>(texture.page_of_face[face]), binary);
+}
+
+void write_faces(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
+{
+    const bool binary = !format.ascii;
     BlockWriter writer(out);
-    for (const Face& face : mesh.faces) {
+    for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
         fmt::memory_buffer& block = writer.block();
         put_one(block, std::uint8_t{3}, binary);
-        put_triple(block, face, binary);
+        put_triple(block, mesh.faces[i], binary);
+        if (format.texture != nullptr) put_places(block, *format.texture, i, binary);
         end_line(block, binary);
     }
 }
@@ -108,15 +130,19 @@ void write_supports(std::ostream& out, const Provenance& provenance, bool binary
 
 } // namespace
 
+void write_ply(std::ostream& out, const TriMesh& mesh, const MeshFormat& format,
+               const std::vector<std::string>& page_names)
+{
+    write_header(out, mesh, format, page_names);
+    write_vertices(out, mesh, format);
+    write_faces(out, mesh, format);
+    if (format.provenance != nullptr) write_supports(out, *format.provenance, !format.ascii);
+}
+
 void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const MeshFormat& format)
 {
     OutputFile file(path);
-    write_header(file.stream(), mesh, format);
-    write_vertices(file.stream(), mesh, format);
-    write_faces(file.stream(), mesh, !format.ascii);
-    if (format.provenance != nullptr) {
-        write_supports(file.stream(), *format.provenance, !format.ascii);
-    }
+    write_ply(file.stream(), mesh, format, {});
     // Errors of the stream are told by commit, which knows their cause.
     file.commit();
 }

@@ -1,0 +1,135 @@
+#include "io/formats/textured_files.h"
+
+#include "base/lower_case_end.h"
+#include "io/files/block_writer.h"
+#include "io/files/output_file.h"
+#include "io/formats/mesh_file.h"
+#include "io/images/encode_image.h"
+#include "io/ply/ply_writer.h"
+#include "model/texture.h"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <string>
+
+namespace vcarve {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path materials_path(const fs::path& surface)
+{
+    return fs::path(surface).replace_extension(".mtl");
+}
+
+/// Encodes the pages into files that do not appear yet.
+void write_pages(const fs::path& path, const Texture& texture, std::deque<OutputFile>& files)
+{
+    for (std::size_t page = 0; page < texture.pages.size(); ++page) {
+        const auto bytes = encode_jpeg(texture.pages[page], kTextureQuality);
+        files.emplace_back(page_path(path, page))
+            .stream()
+            .write(reinterpret_cast<const char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()));
+    }
+}
+
+/// Files appear in order, so the surface is the last.
+void commit(std::deque<OutputFile>& files)
+{
+    for (OutputFile& file : files) {
+        file.commit();
+    }
+}
+
+/// A matt material a page.
+void write_materials(std::ostream& out, const fs::path& path, const Texture& texture)
+{
+    for (std::size_t page = 0; page < texture.pages.size(); ++page) {
+        out << "newmtl page_" << page << "\nKa 1 1 1\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd "
+            << page_path(path, page).filename().string() << '\n';
+    }
+}
+
+/// Three places a face, v upwards as OBJ has it.
+void put_places(BlockWriter& writer, const Texture& texture)
+{
+    for (const auto& corners : texture.places) {
+        fmt::memory_buffer& block = writer.block();
+        for (const Eigen::Vector2f& place : corners) {
+            fmt::format_to(fmt::appender(block), "vt {} {}\n", place.x(), 1.0F - place.y());
+        }
+    }
+}
+
+void put_faces(BlockWriter& writer, const TriMesh& mesh, const Texture& texture)
+{
+    for (std::size_t page = 0; page < texture.pages.size(); ++page) {
+        fmt::format_to(fmt::appender(writer.block()), "usemtl page_{}\n", page);
+        for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
+            if (texture.page_of_face[face] != page) continue;
+            fmt::memory_buffer& block = writer.block();
+            block.push_back('f');
+            for (std::size_t i = 0; i < 3; ++i) {
+                const std::uint64_t vertex = std::uint64_t{mesh.faces[face][i]} + 1;
+                fmt::format_to(fmt::appender(block), " {}/{}", vertex, 3 * face + i + 1);
+                if (!mesh.normals.empty()) fmt::format_to(fmt::appender(block), "/{}", vertex);
+            }
+            block.push_back('\n');
+        }
+    }
+}
+
+} // namespace
+
+fs::path page_path(const fs::path& surface, std::size_t page)
+{
+    fs::path path = surface;
+    return path.replace_filename(fmt::format("{}_{}.jpg", surface.stem().string(), page));
+}
+
+std::vector<fs::path> files_beside(const fs::path& surface, std::size_t pages)
+{
+    const std::string end = lower_case_end(surface);
+    std::vector<fs::path> files;
+    if (end == ".obj") files.push_back(materials_path(surface));
+    for (std::size_t page = 0; end != ".glb" && page < pages; ++page) {
+        files.push_back(page_path(surface, page));
+    }
+    return files;
+}
+
+void write_textured_obj(const fs::path& path, const TriMesh& mesh, const MeshFormat& format)
+{
+    std::deque<OutputFile> files;
+    write_pages(path, *format.texture, files);
+    write_materials(files.emplace_back(materials_path(path)).stream(), path, *format.texture);
+    std::ostream& out = files.emplace_back(path).stream();
+    TriMesh uncolored = mesh;
+    uncolored.colors.clear(); // would darken the texture in some viewers
+    uncolored.faces.clear();
+    write_obj(out, uncolored, format);
+    out << "mtllib " << materials_path(path).filename().string() << '\n';
+    {
+        BlockWriter writer(out);
+        put_places(writer, *format.texture);
+        put_faces(writer, mesh, *format.texture);
+    }
+    commit(files);
+}
+
+void write_textured_ply(const fs::path& path, const TriMesh& mesh, const MeshFormat& format)
+{
+    std::deque<OutputFile> files;
+    write_pages(path, *format.texture, files);
+    std::vector<std::string> names;
+    for (std::size_t page = 0; page < format.texture->pages.size(); ++page) {
+        names.push_back(page_path(path, page).filename().string());
+    }
+    write_ply(files.emplace_back(path).stream(), mesh, format, names);
+    commit(files);
+}
+
+} // namespace vcarve

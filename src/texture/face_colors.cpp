@@ -1,0 +1,236 @@
+#include "texture/face_colors.h"
+
+#include "base/median.h"
+#include "base/parallel.h"
+#include "geometry/triangle.h"
+#include "io/images/read_photograph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Array3f;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A place in a list of all that photographs show of faces.
+struct Look {
+    std::uint32_t face;
+    std::uint32_t place; ///< among the photographs of the face
+};
+
+/// Of each photograph the faces it shows.
+std::vector<std::vector<Look>> looks_of_photos(std::size_t num_photos,
+                                               const std::vector<PhotosOfFace>& photos_of_faces)
+{
+    std::vector<std::vector<Look>> looks(num_photos);
+    for (std::uint32_t face = 0; face < photos_of_faces.size(); ++face) {
+        const auto shown = photos_of_faces[face].shown();
+        for (std::uint32_t place = 0; place < shown.size(); ++place) {
+            looks[shown[place].photo].push_back({face, place});
+        }
+    }
+    return looks;
+}
+
+Array3f array_of(const Color& color)
+{
+    return {static_cast<float>(color[0]), static_cast<float>(color[1]),
+            static_cast<float>(color[2])};
+}
+
+Color color_of(const Array3f& channels)
+{
+    Color color;
+    for (int i = 0; i < 3; ++i) {
+        color[i] = static_cast<std::uint8_t>(std::lround(std::clamp(channels[i], 0.0F, 255.0F)));
+    }
+    return color;
+}
+
+ColorsOfFace colors_in(const PhotoPyramid& pyramid, const CalibratedPhoto& photo,
+                       const std::array<Vector3d, 3>& corners, double area_px2)
+{
+    const double side_px = std::sqrt(area_px2);
+    const double corner_px = std::clamp(0.4 * side_px, 2.0, 24.0);
+    ColorsOfFace colors{};
+    const auto look = [&](const Vector3d& place, double width_px) {
+        const auto pixel = pixel_beyond(photo, place);
+        return pixel ? color_of(pyramid.at(*pixel, width_px)) : Color{};
+    };
+    for (int i = 0; i < 3; ++i) {
+        colors[i] = look(corners[i], corner_px);
+    }
+    colors[3] = look((corners[0] + corners[1] + corners[2]) / 3.0, 0.6 * side_px);
+    return colors;
+}
+
+double mean_level(const Color& color)
+{
+    return (color[0] + color[1] + color[2]) / 3.0;
+}
+
+/// The median of each channel over what photographs show at one of a face's four places.
+Array3f median_color(std::span<const Array3f> colors)
+{
+    Array3f median;
+    for (int channel = 0; channel < 3; ++channel) {
+        std::vector<double> values;
+        values.reserve(colors.size());
+        for (const Array3f& color : colors) {
+            values.push_back(color[channel]);
+        }
+        median[channel] = static_cast<float>(median_in_place(values));
+    }
+    return median;
+}
+
+/// How far each photograph of a face is from the median of all, in levels of 255.
+std::vector<double>
+distances_from_median(const PhotosOfFace& photos,
+                      const std::array<ColorsOfFace, PhotosOfFace::kMost>& colors,
+                      const Gains& gains)
+{
+    std::vector<double> distances(photos.count);
+    std::vector<Array3f> shown(photos.count);
+    for (std::size_t place = 0; place < 4; ++place) {
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            shown[i] = array_of(colors[i][place]) * gains[photos.best[i].photo];
+        }
+        const Array3f median = median_color(shown);
+        for (std::size_t i = 0; i < shown.size(); ++i) {
+            distances[i] += (shown[i] - median).abs().mean() / 4.0;
+        }
+    }
+    return distances;
+}
+
+} // namespace
+
+void for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
+                         const std::function<void(std::uint32_t, const PhotoPyramid&)>& body)
+{
+    constexpr std::size_t kAtATime = 4;
+    for (std::size_t first = 0; first < photos.size(); first += kAtATime) {
+        const std::size_t count = std::min(kAtATime, photos.size() - first);
+        parallel_for(
+            count,
+            [&](std::size_t i) {
+                const auto photo = static_cast<std::uint32_t>(first + i);
+                body(photo, PhotoPyramid(read_photograph(photos[photo].file)));
+            },
+            1);
+        progress.tell(static_cast<double>(first + count), static_cast<double>(photos.size()));
+    }
+}
+
+FaceColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
+                          const std::vector<PhotosOfFace>& photos_of_faces,
+                          const Progress& progress)
+{
+    FaceColors colors(mesh.faces.size());
+    const auto looks = looks_of_photos(photos.size(), photos_of_faces);
+    for_each_photograph(photos, progress, [&](std::uint32_t photo, const PhotoPyramid& pyramid) {
+        for (const auto& [face, place] : looks[photo]) {
+            colors[face][place] =
+                colors_in(pyramid, photos[photo], corners_of(mesh.positions, mesh.faces[face]),
+                          photos_of_faces[face].best[place].area_px2);
+        }
+    });
+    return colors;
+}
+
+Color brightened(const Color& color, const Array3f& gain)
+{
+    return color_of(array_of(color) * gain);
+}
+
+Gains find_gains(std::size_t num_photos, const std::vector<PhotosOfFace>& photos_of_faces,
+                 const FaceColors& colors)
+{
+    Gains gains(num_photos, Array3f::Ones());
+    constexpr int kRounds = 8;
+    constexpr std::size_t kMostFaces = 4000; // of a photograph
+    // What is nearly black or white says nothing of exposure.
+    const auto tells = [](const Color& color) {
+        return mean_level(color) > 16.0 && mean_level(color) < 240.0;
+    };
+    const auto looks = looks_of_photos(num_photos, photos_of_faces);
+    for (int round = 0; round < kRounds; ++round) {
+        Gains next = gains;
+        parallel_for(
+            num_photos,
+            [&](std::size_t photo) {
+                std::array<std::vector<double>, 3> quotients;
+                const std::size_t step = looks[photo].size() / kMostFaces + 1;
+                for (std::size_t i = 0; i < looks[photo].size(); i += step) {
+                    const auto [face, place] = looks[photo][i];
+                    const auto shown = photos_of_faces[face].shown();
+                    if (shown.size() < 2 || !tells(colors[face][place][3])) continue;
+                    Array3f others = Array3f::Zero();
+                    for (std::size_t k = 0; k < shown.size(); ++k) {
+                        if (k == place) continue;
+                        others += array_of(colors[face][k][3]) * gains[shown[k].photo];
+                    }
+                    others /= static_cast<float>(shown.size() - 1);
+                    const Array3f own = array_of(colors[face][place][3]);
+                    for (int channel = 0; channel < 3; ++channel) {
+                        if (own[channel] > 4.0F)
+                            quotients[channel].push_back(others[channel] / own[channel]);
+                    }
+                }
+                constexpr double kPrior = 20.0; // so few faces pull half as much as they say
+                for (int channel = 0; channel < 3; ++channel) {
+                    const auto count = static_cast<double>(quotients[channel].size());
+                    if (count == 0.0) continue;
+                    const double gain = std::clamp(median_in_place(quotients[channel]), 0.4, 2.5);
+                    next[photo][channel] =
+                        static_cast<float>((count * gain + kPrior) / (count + kPrior));
+                }
+            },
+            1);
+        Array3f mean = Array3f::Zero();
+        for (const Array3f& gain : next) {
+            mean += gain / static_cast<float>(num_photos);
+        }
+        for (std::size_t photo = 0; photo < num_photos; ++photo) {
+            // Halfway, so that two photographs do not change places round by round.
+            gains[photo] = 0.5F * (gains[photo] + next[photo] / mean);
+        }
+    }
+    return gains;
+}
+
+std::size_t drop_outliers(const Gains& gains, std::vector<PhotosOfFace>& photos_of_faces,
+                          FaceColors& colors)
+{
+    constexpr double kLeastLevels = 24.0;
+    constexpr double kTimesMedian = 3.0;
+    std::vector<std::uint8_t> dropped(photos_of_faces.size());
+    parallel_for(photos_of_faces.size(), [&](std::size_t face) {
+        PhotosOfFace& photos = photos_of_faces[face];
+        if (photos.count < 3) return;
+        const std::vector<double> distances = distances_from_median(photos, colors[face], gains);
+        const double most = std::max(kLeastLevels, kTimesMedian * median(distances));
+        std::uint8_t kept = 0;
+        for (std::size_t i = 0; i < distances.size(); ++i) {
+            if (distances[i] > most) continue;
+            photos.best[kept] = photos.best[i];
+            colors[face][kept] = colors[face][i];
+            ++kept;
+        }
+        dropped[face] = static_cast<std::uint8_t>(photos.count - kept);
+        photos.count = kept;
+    });
+    std::size_t sum = 0;
+    for (const std::uint8_t count : dropped) {
+        sum += count;
+    }
+    return sum;
+}
+
+} // namespace vcarve

@@ -1,0 +1,281 @@
+#include "texture/face_photos.h"
+
+#include "base/parallel.h"
+#include "geometry/triangle.h"
+#include "mesh/edge_halving.h"
+#include "model/camera.h"
+#include "picture/first_faces.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Corners = std::array<Vector3d, 3>;
+
+constexpr double kLeastCosine = 0.1;
+/// Photographs that may show a face are asked in the order of how large they show it, so many.
+constexpr std::size_t kMostAsked = 48;
+constexpr int kMostRounds = 9;
+constexpr double kShortestPx = 24.0; ///< an edge that is not halved for being partly hidden
+
+/// Where a face is looked at: near its corners, amid its edges, in its middle.
+std::array<Vector3d, 7> places_of(const Corners& corners)
+{
+    constexpr double kPulled = 0.08;
+    const auto& [a, b, c] = corners;
+    const Vector3d middle = (a + b + c) / 3.0;
+    std::array<Vector3d, 7> places = {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), middle};
+    for (Vector3d& place : places) {
+        place += kPulled * (middle - place);
+    }
+    return places;
+}
+
+double area_px2(const std::array<Vector2d, 3>& pixels)
+{
+    const Vector2d ab = pixels[1] - pixels[0];
+    const Vector2d ac = pixels[2] - pixels[0];
+    return 0.5 * std::abs(ab.x() * ac.y() - ab.y() * ac.x());
+}
+
+double longest_px(const std::array<Vector2d, 3>& pixels)
+{
+    return std::max({(pixels[1] - pixels[0]).norm(), (pixels[2] - pixels[1]).norm(),
+                     (pixels[0] - pixels[2]).norm()});
+}
+
+/// What hides what: the mesh as it was before any face was halved.
+class Occlusion {
+  public:
+    explicit Occlusion(const TriMesh& mesh) : mesh_(mesh), faces_(mesh_, middle_of(mesh)) {}
+
+    /// How many of a face's places a photograph sees, of seven. `whole` is the face that this one
+    /// was a part of at first.
+    int seen_places(const CalibratedPhoto& photo, const Corners& corners, std::uint32_t whole) const
+    {
+        int seen = 0;
+        for (const Vector3d& place : places_of(corners)) {
+            seen += pixel_of(photo, place) && sees(photo.pose.center, place, whole) ? 1 : 0;
+        }
+        return seen;
+    }
+
+  private:
+    static Vector3d middle_of(const TriMesh& mesh)
+    {
+        Eigen::AlignedBox3d box;
+        for (const Vector3d& position : mesh.positions) {
+            box.extend(position);
+        }
+        if (mesh.positions.empty()) return Vector3d::Zero();
+        return box.center();
+    }
+
+    bool sees(const Vector3d& center, const Vector3d& place, std::uint32_t whole) const
+    {
+        constexpr double kNear = 1e-3; // of the way
+        const Vector3d way = place - center;
+        const FirstFace hit = faces_.from(center, way.normalized());
+        if (hit.face == whole) return true;
+        if (hit.face == FirstFace::kNone) return false;
+        const auto [a, b, c] = corners_of(mesh_.positions, mesh_.faces[hit.face]);
+        const double second = hit.second;
+        const double third = hit.third;
+        const Vector3d met = (1.0 - second - third) * a + second * b + third * c;
+        return (met - center).norm() >= (1.0 - kNear) * way.norm();
+    }
+
+    TriMesh mesh_;
+    FirstFaces faces_;
+};
+
+struct Asked {
+    std::uint32_t photo;
+    double area_px2; ///< 0 where the photograph shows but a part of the face
+    double longest_px;
+};
+
+/// How long the longest edge is about, where the photograph does not show both its ends.
+double guessed_px(const CalibratedPhoto& photo, const Corners& corners, double distance)
+{
+    const double focal_px = mean_focals_px({photo.camera}).front() * photo.scale.mean();
+    return focal_px * longest_edge(corners) / distance;
+}
+
+bool shows_part(const CalibratedPhoto& photo, const Corners& corners)
+{
+    return std::ranges::any_of(places_of(corners), [&](const Vector3d& place) {
+        return pixel_of(photo, place).has_value();
+    });
+}
+
+/// The photographs before which a face lies and that it looks at, those that show it largest first.
+void photos_before(const std::vector<CalibratedPhoto>& photos, const Corners& corners,
+                   std::vector<Asked>& asked)
+{
+    const Vector3d normal = scaled_normal(corners[0], corners[1], corners[2]).normalized();
+    const Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    for (std::uint32_t i = 0; i < photos.size(); ++i) {
+        const Vector3d back = photos[i].pose.center - middle;
+        if (!(normal.dot(back) >= kLeastCosine * back.norm()) || back.isZero(0.0)) continue;
+        const auto pixels = corner_pixels(photos[i], corners);
+        if (pixels) {
+            asked.push_back({i, area_px2(*pixels), longest_px(*pixels)});
+        } else if (shows_part(photos[i], corners)) {
+            asked.push_back({i, 0.0, guessed_px(photos[i], corners, back.norm())});
+        }
+    }
+    std::ranges::sort(asked, [](const Asked& a, const Asked& b) {
+        return a.area_px2 > b.area_px2 || (a.area_px2 == b.area_px2 && a.photo < b.photo);
+    });
+    if (asked.size() > kMostAsked) asked.resize(kMostAsked);
+}
+
+/// Whether a face is to be halved.
+struct Looked {
+    PhotosOfFace photos;
+    bool is_large = false; ///< in the photograph that shows it best, or could
+};
+
+Looked look_at_face(const std::vector<CalibratedPhoto>& photos, const Occlusion& occlusion,
+                    const Corners& corners, std::uint32_t whole, std::vector<Asked>& asked)
+{
+    photos_before(photos, corners, asked);
+    Looked looked;
+    double longest = 0.0;
+    int side = 0;
+    for (const Asked& one : asked) {
+        if (looked.photos.count == PhotosOfFace::kMost) break;
+        const int seen = occlusion.seen_places(photos[one.photo], corners, whole);
+        if (seen == 0) continue;
+        if (longest == 0.0) {
+            longest = one.longest_px;
+            side = std::max(photos[one.photo].size.width_px, photos[one.photo].size.height_px);
+        }
+        if (seen == 7 && one.area_px2 > 0.0) {
+            looked.photos.best[looked.photos.count] = {one.photo, static_cast<float>(one.area_px2)};
+            ++looked.photos.count;
+        }
+    }
+    looked.photos.is_partly_shown = looked.photos.count == 0 && longest > kShortestPx;
+    looked.is_large = longest > 0.125 * side;
+    return looked;
+}
+
+/// Halves the faces that want it; tells of which face at first each is a part.
+class Splitter {
+  public:
+    explicit Splitter(TriMesh& mesh)
+        : mesh_(mesh),
+          normals_(std::move(mesh.normals)),
+          halving_(mesh, {}),
+          whole_(mesh.faces.size())
+    {
+        mesh.normals.clear();
+        for (std::uint32_t face = 0; face < whole_.size(); ++face) {
+            whole_[face] = face;
+        }
+    }
+
+    std::uint32_t whole(std::uint32_t face) const { return whole_[face]; }
+
+    /// Appends the faces that changed to `changed`.
+    void halve(std::uint32_t face, std::vector<std::uint32_t>& changed)
+    {
+        const auto [a, b] = longest_edge_of(mesh_.positions, mesh_.faces[face]);
+        for (const auto& [half, other_half] : halving_.halve(a, b)) {
+            whole_.resize(std::max<std::size_t>(whole_.size(), other_half + 1));
+            whole_[other_half] = whole_[half];
+            changed.insert(changed.end(), {half, other_half});
+        }
+        if (!normals_.empty()) normals_.push_back((normals_[a] + normals_[b]).normalized());
+    }
+
+    void end() { mesh_.normals = std::move(normals_); }
+
+  private:
+    TriMesh& mesh_;
+    std::vector<Eigen::Vector3f> normals_;
+    EdgeHalving halving_;
+    std::vector<std::uint32_t> whole_;
+};
+
+} // namespace
+
+std::optional<std::array<Vector2d, 3>> corner_pixels(const CalibratedPhoto& photo,
+                                                     const Corners& corners)
+{
+    std::array<Vector2d, 3> pixels;
+    for (int i = 0; i < 3; ++i) {
+        const std::optional<Vector2d> pixel = pixel_of(photo, corners[i]);
+        if (!pixel) return std::nullopt;
+        pixels[i] = *pixel;
+    }
+    const auto middle = pixel_of(photo, (corners[0] + corners[1] + corners[2]) / 3.0);
+    const Vector2d mean = (pixels[0] + pixels[1] + pixels[2]) / 3.0;
+    constexpr double kBent = 0.25; // of the longest edge
+    if (!middle || (*middle - mean).norm() > kBent * longest_px(pixels)) return std::nullopt;
+    return pixels;
+}
+
+std::vector<PhotosOfFace> find_photos_of_faces(TriMesh& mesh,
+                                               const std::vector<CalibratedPhoto>& photos,
+                                               const Progress& progress)
+{
+    const Occlusion occlusion(mesh);
+    const std::size_t most_faces = 4 * mesh.faces.size() + 10000;
+    Splitter splitter(mesh);
+    std::vector<PhotosOfFace> found(mesh.faces.size());
+    std::vector<std::uint32_t> waiting(mesh.faces.size());
+    for (std::uint32_t face = 0; face < waiting.size(); ++face) {
+        waiting[face] = face;
+    }
+    for (int round = 0; !waiting.empty(); ++round) {
+        std::vector<std::uint8_t> is_split(waiting.size());
+        ProgressCount done(progress.part(round == 0 ? 0.0 : 0.7, round == 0 ? 0.7 : 1.0),
+                           waiting.size());
+        parallel_for_ranges(
+            waiting.size(),
+            [&](std::size_t first, std::size_t last) {
+                std::vector<Asked> asked;
+                for (std::size_t i = first; i < last; ++i) {
+                    asked.clear();
+                    const std::uint32_t face = waiting[i];
+                    const Looked looked = look_at_face(photos, occlusion,
+                                                       corners_of(mesh.positions, mesh.faces[face]),
+                                                       splitter.whole(face), asked);
+                    found[face] = looked.photos;
+                    is_split[i] = looked.photos.is_partly_shown || looked.is_large ? 1 : 0;
+                }
+                done.add(last - first);
+            },
+            64);
+        if (round == kMostRounds || mesh.faces.size() > most_faces) break;
+        std::vector<std::uint32_t> changed;
+        std::vector<std::uint8_t> is_changed(mesh.faces.size());
+        for (std::size_t i = 0; i < waiting.size(); ++i) {
+            if (is_split[i] == 0 || is_changed[waiting[i]] != 0) continue;
+            const std::size_t before = changed.size();
+            splitter.halve(waiting[i], changed);
+            is_changed.resize(mesh.faces.size());
+            for (std::size_t k = before; k < changed.size(); ++k) {
+                is_changed[changed[k]] = 1;
+            }
+        }
+        std::ranges::sort(changed);
+        changed.erase(std::ranges::unique(changed).begin(), changed.end());
+        found.resize(mesh.faces.size());
+        waiting = std::move(changed);
+    }
+    splitter.end();
+    return found;
+}
+
+} // namespace vcarve

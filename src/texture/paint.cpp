@@ -1,0 +1,325 @@
+#include "texture/paint.h"
+
+#include "base/parallel.h"
+#include "geometry/triangle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace vcarve {
+
+namespace {
+
+using Eigen::Array3f;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A texel belongs to a face in whose triangle its middle lies, or else to one that is so near.
+constexpr double kBeyondPx = 0.75;
+
+/// The shares that a triangle's corners have of a place in its plane.
+class Shares {
+  public:
+    explicit Shares(const std::array<Vector2d, 3>& corners)
+        : corner_(corners[0]),
+          to_second_(corners[1] - corners[0]),
+          to_third_(corners[2] - corners[0]),
+          determinant_(to_second_.x() * to_third_.y() - to_second_.y() * to_third_.x())
+    {
+        const std::array<Vector2d, 3> opposite = {corners[2] - corners[1], to_third_, to_second_};
+        for (int i = 0; i < 3; ++i) {
+            a_pixel_[i] = opposite[i].norm() / std::max(std::abs(determinant_), 1e-12);
+        }
+    }
+
+    Vector3d at(const Vector2d& place) const
+    {
+        if (std::abs(determinant_) < 1e-12) return Vector3d::Constant(1.0 / 3.0);
+        const Vector2d way = place - corner_;
+        const double second = (way.x() * to_third_.y() - way.y() * to_third_.x()) / determinant_;
+        const double third = (to_second_.x() * way.y() - to_second_.y() * way.x()) / determinant_;
+        return {1.0 - second - third, second, third};
+    }
+
+    /// How far outside of the triangle a place with these shares lies, about.
+    double beyond(const Vector3d& shares) const
+    {
+        double most = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            most = std::max(most, -shares[i] / a_pixel_[i]);
+        }
+        return most;
+    }
+
+  private:
+    Vector2d corner_;
+    Vector2d to_second_;
+    Vector2d to_third_;
+    double determinant_;
+    Vector3d a_pixel_; ///< how much a share changes over one texel
+};
+
+/// Shows visit(texel, shares, beyond) the texels of a face: column and row, and how far outside.
+template <typename Visit>
+void visit_texels(const std::array<Vector2d, 3>& corners, const Visit& visit)
+{
+    const Shares shares(corners);
+    const Vector2d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]).array() - kBeyondPx;
+    const Vector2d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]).array() + kBeyondPx;
+    for (int y = static_cast<int>(std::floor(low.y())); y + 0.5 <= high.y(); ++y) {
+        for (int x = static_cast<int>(std::floor(low.x())); x + 0.5 <= high.x(); ++x) {
+            const Vector3d at = shares.at({x + 0.5, y + 0.5});
+            const double beyond = shares.beyond(at);
+            if (beyond <= kBeyondPx) visit(x, y, at, beyond);
+        }
+    }
+}
+
+/// A page that is painted, and which face each of its texels belongs to.
+struct Canvas {
+    Photograph page;
+    std::vector<std::uint32_t> owners;
+
+    std::size_t texel(int x, int y) const
+    {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(page.width_px) +
+               static_cast<std::size_t>(x);
+    }
+    void set(std::size_t texel, const Array3f& color)
+    {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const float level = std::clamp(color[static_cast<Eigen::Index>(i)], 0.0F, 255.0F);
+            page.rgb[3 * texel + i] = static_cast<std::uint8_t>(std::lround(level));
+        }
+    }
+    Array3f get(std::size_t texel) const
+    {
+        return {static_cast<float>(page.rgb[3 * texel]),
+                static_cast<float>(page.rgb[3 * texel + 1]),
+                static_cast<float>(page.rgb[3 * texel + 2])};
+    }
+};
+
+/// What shows through at a texel.
+struct Stroke {
+    std::uint64_t texel;
+    std::uint32_t page;
+    float weight;
+    Array3f color;
+};
+
+Array3f mixed(const std::array<Array3f, 3>& corners, const Vector3d& shares)
+{
+    const Eigen::Vector3f s = shares.cast<float>();
+    return s[0] * corners[0] + s[1] * corners[1] + s[2] * corners[2];
+}
+
+class Painter {
+  public:
+    explicit Painter(const PaintPlan& plan) : plan_(plan)
+    {
+        for (const Eigen::Array2i& size : plan.atlas.page_sizes) {
+            Canvas& canvas = canvases_.emplace_back();
+            canvas.page = {size.x(), size.y(), {}};
+            const auto texels =
+                static_cast<std::size_t>(size.x()) * static_cast<std::size_t>(size.y());
+            canvas.page.rgb.resize(3 * texels);
+            canvas.owners.assign(texels, kNoFace);
+        }
+        share_out();
+    }
+
+    /// The faces that a photograph covers, one after the other: their texels are theirs alone.
+    void paint(std::uint32_t photo, const std::vector<std::uint32_t>& faces,
+               const PhotoPyramid& pyramid)
+    {
+        for (const std::uint32_t face : faces) {
+            visit_own(face, [&](Canvas& canvas, std::size_t texel, const Vector3d& shares) {
+                const auto color = seen(photo, face, shares, pyramid);
+                canvas.set(texel, color + mixed(plan_.levels[face], shares));
+            });
+        }
+    }
+
+    std::vector<Stroke> strokes(std::uint32_t photo, const PhotoPyramid& pyramid)
+    {
+        std::vector<Stroke> strokes;
+        for (const Blend& blend : plan_.blends[photo]) {
+            const std::uint32_t page = plan_.atlas.page_of_face[blend.face];
+            visit_own(blend.face, [&](Canvas&, std::size_t texel, const Vector3d& shares) {
+                const auto far = static_cast<float>(shares[0]) * blend.far[0] +
+                                 static_cast<float>(shares[1]) * blend.far[1] +
+                                 static_cast<float>(shares[2]) * blend.far[2];
+                if (far >= 1.0F) return;
+                const Array3f color = seen(photo, blend.face, shares, pyramid);
+                strokes.push_back(
+                    {texel, page, std::min(1.0F, 1.0F - far), color + mixed(blend.levels, shares)});
+            });
+        }
+        return strokes;
+    }
+
+    /// Of a texel that several show through, all at once: each as much as it weighs, beside what is
+    /// painted there, which weighs 1.
+    void blend(std::vector<Stroke> strokes)
+    {
+        std::ranges::stable_sort(strokes, [](const Stroke& a, const Stroke& b) {
+            return std::tie(a.page, a.texel) < std::tie(b.page, b.texel);
+        });
+        for (std::size_t i = 0; i < strokes.size();) {
+            Canvas& canvas = canvases_[strokes[i].page];
+            const std::uint64_t texel = strokes[i].texel;
+            const std::uint32_t page = strokes[i].page;
+            Array3f sum = canvas.get(texel);
+            float weights = 1.0F;
+            for (; i < strokes.size() && strokes[i].texel == texel && strokes[i].page == page;
+                 ++i) {
+                sum += strokes[i].weight * strokes[i].color;
+                weights += strokes[i].weight;
+            }
+            canvas.set(texel, sum / weights);
+        }
+    }
+
+    /// The faces that no photograph shows.
+    void paint_unseen()
+    {
+        parallel_for(plan_.mesh.faces.size(), [&](std::size_t face) {
+            if (plan_.photo_of_face[face] != kNoPhoto) return;
+            std::array<Array3f, 3> colors;
+            for (int i = 0; i < 3; ++i) {
+                const Color& color = plan_.mesh.colors[plan_.mesh.faces[face][i]];
+                colors[i] = Array3f(color[0], color[1], color[2]);
+            }
+            visit_own(static_cast<std::uint32_t>(face),
+                      [&](Canvas& canvas, std::size_t texel, const Vector3d& shares) {
+                          canvas.set(texel, mixed(colors, shares));
+                      });
+        });
+    }
+
+    std::vector<Photograph> take()
+    {
+        parallel_for(
+            canvases_.size(), [&](std::size_t i) { surround(canvases_[i]); }, 1);
+        std::vector<Photograph> pages;
+        for (Canvas& canvas : canvases_) {
+            pages.push_back(std::move(canvas.page));
+        }
+        return pages;
+    }
+
+  private:
+    /// Which texels belong to which face: those within it, then those beside.
+    void share_out()
+    {
+        const Atlas& atlas = plan_.atlas;
+        for (const bool within : {true, false}) {
+            for (std::uint32_t face = 0; face < atlas.corners.size(); ++face) {
+                Canvas& canvas = canvases_[atlas.page_of_face[face]];
+                visit_texels(atlas.corners[face],
+                             [&](int x, int y, const Vector3d&, double beyond) {
+                                 std::uint32_t& owner = canvas.owners[canvas.texel(x, y)];
+                                 if (owner == kNoFace && (!within || beyond == 0.0)) owner = face;
+                             });
+            }
+        }
+    }
+
+    template <typename Visit>
+    void visit_own(std::uint32_t face, const Visit& visit)
+    {
+        Canvas& canvas = canvases_[plan_.atlas.page_of_face[face]];
+        visit_texels(plan_.atlas.corners[face],
+                     [&](int x, int y, const Vector3d& shares, double /*beyond*/) {
+                         const std::size_t texel = canvas.texel(x, y);
+                         if (canvas.owners[texel] == face) visit(canvas, texel, shares);
+                     });
+    }
+
+    Array3f seen(std::uint32_t photo, std::uint32_t face, const Vector3d& shares,
+                 const PhotoPyramid& pyramid) const
+    {
+        const auto [a, b, c] = corners_of(plan_.mesh.positions, plan_.mesh.faces[face]);
+        const Vector3d place = shares[0] * a + shares[1] * b + shares[2] * c;
+        const auto pixel = pixel_beyond(plan_.photos[photo], place);
+        if (!pixel) return Array3f::Zero();
+        return pyramid.at(*pixel) * plan_.gains[photo];
+    }
+
+    /// Lets the colours of charts go on around them, texel by texel, and fills the rest.
+    static void surround(Canvas& canvas)
+    {
+        const int width = canvas.page.width_px;
+        const int height = canvas.page.height_px;
+        constexpr std::array<std::array<int, 2>, 4> kSides = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+        std::vector<std::size_t> edge; // texels painted last
+        Eigen::Array3d sum = Eigen::Array3d::Zero();
+        double count = 0.0;
+        for (std::size_t texel = 0; texel < canvas.owners.size(); ++texel) {
+            if (canvas.owners[texel] == kNoFace) continue;
+            edge.push_back(texel);
+            sum += canvas.get(texel).cast<double>();
+            count += 1.0;
+        }
+        const Array3f mean = (sum / std::max(count, 1.0)).cast<float>();
+        for (int round = 0; round < Atlas::kPadding; ++round) {
+            std::vector<std::size_t> next;
+            for (const std::size_t texel : edge) {
+                const int x = static_cast<int>(texel % static_cast<std::size_t>(width));
+                const int y = static_cast<int>(texel / static_cast<std::size_t>(width));
+                for (const auto& [right, below] : kSides) {
+                    if (x + right < 0 || x + right >= width || y + below < 0 ||
+                        y + below >= height) {
+                        continue;
+                    }
+                    const std::size_t beside = canvas.texel(x + right, y + below);
+                    if (canvas.owners[beside] != kNoFace) continue;
+                    canvas.owners[beside] = canvas.owners[texel];
+                    canvas.set(beside, canvas.get(texel));
+                    next.push_back(beside);
+                }
+            }
+            edge = std::move(next);
+        }
+        for (std::size_t texel = 0; texel < canvas.owners.size(); ++texel) {
+            if (canvas.owners[texel] == kNoFace) canvas.set(texel, mean);
+        }
+    }
+
+    const PaintPlan& plan_;
+    std::vector<Canvas> canvases_;
+};
+
+} // namespace
+
+std::vector<Photograph> paint_pages(const PaintPlan& plan, const Progress& progress)
+{
+    Painter painter(plan);
+    std::vector<std::vector<std::uint32_t>> faces_of_photo(plan.photos.size());
+    for (std::uint32_t face = 0; face < plan.photo_of_face.size(); ++face) {
+        if (plan.photo_of_face[face] != kNoPhoto) {
+            faces_of_photo[plan.photo_of_face[face]].push_back(face);
+        }
+    }
+    std::vector<std::vector<Stroke>> strokes(plan.photos.size());
+    for_each_photograph(plan.photos, progress.part(0.0, 0.9),
+                        [&](std::uint32_t photo, const PhotoPyramid& pyramid) {
+                            painter.paint(photo, faces_of_photo[photo], pyramid);
+                            strokes[photo] = painter.strokes(photo, pyramid);
+                        });
+    std::vector<Stroke> all;
+    for (std::vector<Stroke>& of_photo : strokes) {
+        all.insert(all.end(), of_photo.begin(), of_photo.end());
+        of_photo = {};
+    }
+    painter.blend(std::move(all));
+    painter.paint_unseen();
+    return painter.take();
+}
+
+} // namespace vcarve

@@ -1,0 +1,64 @@
+#include "texture/photo_pyramid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace vcarve {
+
+Photograph halved(const Photograph& whole)
+{
+    Photograph half{std::max(1, whole.width_px / 2), std::max(1, whole.height_px / 2), {}};
+    half.rgb.resize(static_cast<std::size_t>(3) * half.width_px * half.height_px);
+    const auto row_bytes = static_cast<std::size_t>(3) * whole.width_px;
+    const std::size_t right = whole.width_px > 1 ? 3 : 0;
+    const std::size_t below = whole.height_px > 1 ? row_bytes : 0;
+    std::size_t to = 0;
+    for (int y = 0; y < half.height_px; ++y) {
+        const std::uint8_t* from = whole.rgb.data() + 2 * row_bytes * y;
+        for (int x = 0; x < half.width_px; ++x, from += 6) {
+            for (int channel = 0; channel < 3; ++channel, ++to) {
+                const std::uint8_t* at = from + channel;
+                half.rgb[to] = static_cast<std::uint8_t>(
+                    (at[0] + at[right] + at[below] + at[right + below] + 2) / 4);
+            }
+        }
+    }
+    return half;
+}
+
+PhotoPyramid::PhotoPyramid(Photograph photograph)
+{
+    levels_.push_back(std::move(photograph));
+    while (std::min(levels_.back().width_px, levels_.back().height_px) > 1) {
+        levels_.push_back(halved(levels_.back()));
+    }
+}
+
+Eigen::Array3f PhotoPyramid::at(const Eigen::Vector2d& pixel, double width_px) const
+{
+    const double finest = std::round(std::log2(std::max(width_px, 1.0)));
+    const auto level = std::min(static_cast<std::size_t>(finest), levels_.size() - 1);
+    const Photograph& image = levels_[level];
+    const double scale = 1.0 / static_cast<double>(std::size_t{1} << level);
+    const double column = std::clamp(scale * pixel.x() - 0.5, 0.0, image.width_px - 1.0);
+    const double row = std::clamp(scale * pixel.y() - 0.5, 0.0, image.height_px - 1.0);
+    const int x = static_cast<int>(column);
+    const int y = static_cast<int>(row);
+    const auto right = static_cast<float>(column - x);
+    const auto below = static_cast<float>(row - y);
+    const std::size_t step = x + 1 < image.width_px ? 3 : 0;
+    const auto row_bytes = static_cast<std::size_t>(3) * image.width_px;
+    const std::uint8_t* upper = image.rgb.data() + y * row_bytes + static_cast<std::size_t>(3) * x;
+    const std::uint8_t* lower = upper + (y + 1 < image.height_px ? row_bytes : 0);
+    const auto mixed = [&](const std::uint8_t* at) {
+        const Eigen::Array3f left(at[0], at[1], at[2]);
+        const Eigen::Array3f next(at[step], at[step + 1], at[step + 2]);
+        return Eigen::Array3f(left + right * (next - left));
+    };
+    const Eigen::Array3f above = mixed(upper);
+    return above + below * (mixed(lower) - above);
+}
+
+} // namespace vcarve

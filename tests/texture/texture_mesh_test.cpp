@@ -1,0 +1,242 @@
+#include "geometry/triangle.h"
+#include "support/photographed_wall.h"
+#include "support/told_log.h"
+#include "texture/texture_mesh.h"
+#include "vcarve/error.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <map>
+
+namespace vcarve {
+namespace {
+
+using Eigen::Array3d;
+using Eigen::Vector3d;
+
+/// Photographs of the wall, written where they are read from.
+class PhotographedWall {
+  public:
+    void add(const Vector3d& center, const Array3d& exposure = {1.0, 1.0, 1.0},
+             const std::function<void(int, int, Array3d&)>& paint_over = {})
+    {
+        CalibratedPhoto photo = photo_from(center);
+        photo.view = static_cast<std::uint32_t>(photos.size());
+        photo.file = folder / (std::to_string(photos.size()) + ".png");
+        write_photograph(photo.file, photograph_of_wall(photo, exposure, paint_over));
+        photos.push_back(photo);
+    }
+
+    TemporaryFolder folder;
+    std::vector<CalibratedPhoto> photos;
+};
+
+/// The texel in which a place of a page lies.
+Array3d texel_at(const Photograph& page, const Eigen::Vector2f& place)
+{
+    const int x = std::min(static_cast<int>(place.x() * static_cast<float>(page.width_px)),
+                           page.width_px - 1);
+    const int y = std::min(static_cast<int>(place.y() * static_cast<float>(page.height_px)),
+                           page.height_px - 1);
+    const std::uint8_t* rgb =
+        page.rgb.data() + 3 * (static_cast<std::size_t>(y) * page.width_px + x);
+    return {rgb[0] * 1.0, rgb[1] * 1.0, rgb[2] * 1.0};
+}
+
+/// Compares the texture with the wall at places spread over all faces: the largest difference of a
+/// channel, in levels of 255, but for the gain that all photographs share.
+double worst_difference(const TexturedMesh& made, const Array3d& gain = {1.0, 1.0, 1.0})
+{
+    double worst = 0.0;
+    for (std::size_t face = 0; face < made.mesh.faces.size(); ++face) {
+        const Photograph& page = made.texture.pages[made.texture.page_of_face[face]];
+        const auto [a, b, c] = corners_of(made.mesh.positions, made.mesh.faces[face]);
+        for (const auto& [u, v] :
+             {std::pair(0.3F, 0.3F), {0.6F, 0.2F}, {0.1F, 0.1F}, {0.2F, 0.7F}}) {
+            const auto& places = made.texture.places[face];
+            const Eigen::Vector2f place =
+                (1.0F - u - v) * places[0] + u * places[1] + v * places[2];
+            const Vector3d at =
+                (1.0 - u - v) * a + static_cast<double>(u) * b + static_cast<double>(v) * c;
+            const Array3d difference = texel_at(page, place) - gain * wall_color(at.x(), at.y());
+            worst = std::max(worst, difference.abs().maxCoeff());
+        }
+    }
+    return worst;
+}
+
+TEST(TextureMesh, ShowsTheWallAsItIs)
+{
+    PhotographedWall wall;
+    wall.add({-0.5, 0, -2.5});
+    wall.add({0.5, 0, -2.5});
+    wall.add({0.0, 0.3, -2.6});
+    ToldLog log;
+    const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
+    EXPECT_LT(worst_difference(made), 6.0); // half a texel of the steepest colour is 3 levels
+}
+
+TEST(TextureMesh, AgreesWhereExposuresDiffer)
+{
+    PhotographedWall wall;
+    wall.add({-0.5, 0, -2.5}, {0.8, 0.8, 0.85});
+    wall.add({0.5, 0, -2.5}, {1.2, 1.2, 1.15});
+    wall.add({0.0, 0.3, -2.6});
+    ToldLog log;
+    const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
+    EXPECT_LT(worst_difference(made), 20.0); // up to 40 levels apart without
+}
+
+TEST(TextureMesh, LeavesHardlyAStepWhereChartsMeet)
+{
+    PhotographedWall wall;
+    wall.add({-0.5, 0, -1.2}, {0.8, 0.8, 0.85});
+    wall.add({0.5, 0, -1.2}, {1.2, 1.2, 1.15});
+    ToldLog log;
+    const TexturedMesh made = texture_mesh(wall_mesh(20), wall.photos, {}, log);
+    std::map<std::array<std::uint32_t, 2>, std::size_t> face_of_edge;
+    std::vector<double> steps;
+    for (std::size_t face = 0; face < made.mesh.faces.size(); ++face) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t from = made.mesh.faces[face][i];
+            const std::uint32_t to = made.mesh.faces[face][(i + 1) % 3];
+            face_of_edge[{from, to}] = 3 * face + i;
+            const auto other = face_of_edge.find({to, from});
+            if (other == face_of_edge.end()) continue;
+            if (made.view_of_face[other->second / 3] == made.view_of_face[face]) continue;
+            const auto middle = [&](std::size_t half_edge) {
+                const auto& places = made.texture.places[half_edge / 3];
+                return texel_at(made.texture.pages[made.texture.page_of_face[half_edge / 3]],
+                                0.5F * (places[half_edge % 3] + places[(half_edge + 1) % 3]));
+            };
+            const Array3d step = middle(3 * face + i) - middle(other->second);
+            steps.push_back(step.abs().maxCoeff());
+        }
+    }
+    ASSERT_GT(steps.size(), 10U);
+    std::ranges::sort(steps);
+    EXPECT_LE(steps[steps.size() / 2], 2.0);
+}
+
+TEST(TextureMesh, IsMadeCoarserWhereItHasTooManyTexels)
+{
+    PhotographedWall wall;
+    wall.add({0, 0, -2.2});
+    ToldLog log;
+    const TexturedMesh whole = texture_mesh(wall_mesh(4), wall.photos, {}, log);
+    const TexturedMesh small = texture_mesh(wall_mesh(4), wall.photos, {.most_texels = 2000}, log);
+    EXPECT_LT(small.texture.pages[0].rgb.size(), whole.texture.pages[0].rgb.size() / 2);
+    EXPECT_LT(worst_difference(small), 25.0);
+}
+
+TEST(TextureMesh, LeavesOutWhatStandsBeforeTheWallInOnePhotograph)
+{
+    const auto passer_by = [](int x, int y, Array3d& color) {
+        if (x > 60 && x < 110 && y > 20) color = {255.0, 0.0, 255.0};
+    };
+    PhotographedWall wall;
+    wall.add({0.0, 0.0, -2.4}, {1.0, 1.0, 1.0}, passer_by); // the nearest
+    wall.add({-0.3, 0, -2.5});
+    wall.add({0.3, 0, -2.5});
+    wall.add({0.0, 0.2, -2.5});
+    ToldLog log;
+    const TexturedMesh made = texture_mesh(wall_mesh(20), wall.photos, {}, log);
+    std::size_t magenta = 0;
+    for (const Photograph& page : made.texture.pages) {
+        for (std::size_t i = 0; i + 2 < page.rgb.size(); i += 3) {
+            magenta += page.rgb[i] > 200 && page.rgb[i + 1] < 60 && page.rgb[i + 2] > 200 ? 1 : 0;
+        }
+    }
+    EXPECT_LT(magenta, 200U); // of 2,200 that the passer-by takes; the rest lies within faces
+}
+
+TEST(TextureMesh, FillsFacesThatNoPhotographShowsFromAround)
+{
+    PhotographedWall wall;
+    wall.add({0.9, 0, -1.0});
+    ToldLog log;
+    const TexturedMesh made = texture_mesh(wall_mesh(12), wall.photos, {}, log);
+    std::size_t unseen = 0;
+    for (std::size_t face = 0; face < made.mesh.faces.size(); ++face) {
+        if (made.view_of_face[face] >= 0) continue;
+        ++unseen;
+        const auto& places = made.texture.places[face];
+        const Array3d color = texel_at(made.texture.pages[made.texture.page_of_face[face]],
+                                       (places[0] + places[1] + places[2]) / 3.0F);
+        EXPECT_GT(color.minCoeff(), 40.0) << face;
+        EXPECT_LT(color.maxCoeff(), 190.0) << face;
+    }
+    EXPECT_GT(unseen, 0U);
+    EXPECT_LT(unseen, made.mesh.faces.size());
+}
+
+TEST(TextureMesh, ColorsVerticesByThePhotographs)
+{
+    PhotographedWall wall;
+    wall.add({-0.2, 0, -2.5});
+    wall.add({0.2, 0, -2.5});
+    ToldLog log;
+    const TexturedMesh made = texture_mesh(wall_mesh(16), wall.photos, {.only_colors = true}, log);
+    EXPECT_TRUE(made.texture.is_empty());
+    for (std::size_t vertex = 0; vertex < made.mesh.positions.size(); ++vertex) {
+        const Vector3d& at = made.mesh.positions[vertex];
+        const Color& color = made.mesh.colors[vertex];
+        const Array3d difference =
+            Array3d(color[0], color[1], color[2]) - wall_color(at.x(), at.y());
+        EXPECT_LT(difference.abs().maxCoeff(), 12.0) << at.transpose();
+    }
+}
+
+TEST(TextureMesh, GivesTheSameBytesForAnyNumberOfThreads)
+{
+    PhotographedWall wall;
+    for (int i = 0; i < 7; ++i) {
+        wall.add({0.2 * i - 0.6, 0.1 * (i % 3), -2.2 - 0.1 * (i % 2)},
+                 {0.8 + 0.05 * i, 1.0, 1.1 - 0.03 * i});
+    }
+    std::map<int, TexturedMesh> made;
+    for (const int threads : {1, 2, 5}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                        static_cast<std::size_t>(threads));
+        ToldLog log;
+        made[threads] = texture_mesh(wall_mesh(10), wall.photos, {}, log);
+    }
+    for (const int threads : {2, 5}) {
+        EXPECT_EQ(made[threads].mesh.positions, made[1].mesh.positions);
+        EXPECT_EQ(made[threads].mesh.faces, made[1].mesh.faces);
+        EXPECT_EQ(made[threads].mesh.colors, made[1].mesh.colors);
+        EXPECT_EQ(made[threads].texture.page_of_face, made[1].texture.page_of_face);
+        ASSERT_EQ(made[threads].texture.pages.size(), made[1].texture.pages.size());
+        for (std::size_t page = 0; page < made[1].texture.pages.size(); ++page) {
+            EXPECT_EQ(made[threads].texture.pages[page].rgb, made[1].texture.pages[page].rgb);
+        }
+    }
+}
+
+TEST(TextureMesh, OfASurfaceWithoutFacesIsEmpty)
+{
+    PhotographedWall wall;
+    wall.add({0, 0, -2.5});
+    ToldLog log;
+    const TexturedMesh made = texture_mesh({}, wall.photos, {}, log);
+    EXPECT_TRUE(made.mesh.faces.empty());
+    EXPECT_TRUE(made.texture.is_empty());
+}
+
+TEST(TextureMesh, NamesAPhotographThatCannotBeRead)
+{
+    PhotographedWall wall;
+    wall.add({0, 0, -2.5});
+    wall.folder.write("0.png", "no image");
+    ToldLog log;
+    try {
+        texture_mesh(wall_mesh(2), wall.photos, {}, log);
+        FAIL() << "it was read";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("0.png"), std::string::npos) << error.what();
+    }
+}
+
+} // namespace
+} // namespace vcarve
