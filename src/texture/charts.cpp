@@ -67,14 +67,18 @@ void place_in_chart(const TriMesh& mesh, const CalibratedPhoto& photo, const Atl
             box.extend(corner);
         }
     }
+    // From a whole pixel on: at a scale of 1 the middles of texels are those of pixels, and nothing
+    // is blurred.
+    const Vector2d first = box.min().array().floor();
+    const Vector2d sizes = box.max() - first;
     const int most_px = options.most_page_px - 2 * Atlas::kPadding - 1;
-    const double scale = std::min(options.scale, most_px / std::max(box.sizes().maxCoeff(), 1.0));
+    const double scale = std::min(options.scale, most_px / std::max(sizes.maxCoeff(), 1.0));
     for (const std::uint32_t face : chart.faces) {
         for (Vector2d& corner : corners[face]) {
-            corner = scale * (corner - box.min());
+            corner = scale * (corner - first);
         }
     }
-    chart.size_px = (scale * box.sizes().array()).ceil().cast<int>().max(1);
+    chart.size_px = (scale * sizes.array()).ceil().cast<int>().max(1);
 }
 
 /// The charts of the faces that no photograph shows: tiles in rows.
