@@ -14,7 +14,7 @@ namespace vcarve {
 namespace {
 
 /// Code, libraries and small things; the stack of a thread, and what allocators keep for it.
-constexpr double kProgram = 11.5e6;
+constexpr double kProgram = 12.5e6;
 constexpr double kThread = 0.5e6;
 
 /// CGAL's triangulation of a block, with the ghosts around it, a point of the block.

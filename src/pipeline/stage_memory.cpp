@@ -193,7 +193,7 @@ double extracting(const Needs& needs)
 double cleaning(const Needs& needs)
 {
     const Sizes& n = needs.left;
-    constexpr double kFace = 150;
+    constexpr double kFace = 165;
     return n.scene() + n.faces() * kFace;
 }
 
