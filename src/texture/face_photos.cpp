@@ -1,6 +1,7 @@
 #include "texture/face_photos.h"
 
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_halving.h"
 #include "model/camera.h"
@@ -269,8 +270,7 @@ std::vector<PhotosOfFace> find_photos_of_faces(TriMesh& mesh,
                 is_changed[changed[k]] = 1;
             }
         }
-        std::ranges::sort(changed);
-        changed.erase(std::ranges::unique(changed).begin(), changed.end());
+        sort_unique(changed);
         found.resize(mesh.faces.size());
         waiting = std::move(changed);
     }

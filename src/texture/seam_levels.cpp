@@ -1,6 +1,7 @@
 #include "texture/seam_levels.h"
 
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -38,8 +39,7 @@ Nodes gather_nodes(const TriMesh& mesh, const std::vector<std::uint32_t>& photo_
             nodes.all.push_back({vertex, photo_of_face[face]});
         }
     }
-    std::ranges::sort(nodes.all);
-    nodes.all.erase(std::ranges::unique(nodes.all).begin(), nodes.all.end());
+    sort_unique(nodes.all);
     nodes.of_face.resize(mesh.faces.size());
     parallel_for(mesh.faces.size(), [&](std::size_t face) {
         if (photo_of_face[face] == kNoPhoto) return;

@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "mesh/vertex_faces.h"
 
 #include <algorithm>
@@ -93,8 +94,7 @@ void spread(const VertexFaces& faces_at, std::vector<std::optional<Array3d>>& co
                 }
             }
         }
-        std::ranges::sort(next);
-        next.erase(std::ranges::unique(next).begin(), next.end());
+        sort_unique(next);
         std::vector<Array3d> means;
         for (const std::uint32_t vertex : next) {
             Array3d sum = Array3d::Zero();
