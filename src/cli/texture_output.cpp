@@ -89,8 +89,8 @@ TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photo
         options.most_texels = std::min(
             options.most_texels, static_cast<std::size_t>(task.most_memory / 2 / kBytesOfTexel));
     }
-    return texture_mesh(std::move(mesh), calibrated_photos(scene, photographs, mesh.offset),
-                        options, log);
+    const std::vector<CalibratedPhoto> photos = calibrated_photos(scene, photographs, mesh.offset);
+    return texture_mesh(std::move(mesh), photos, options, log);
 }
 
 } // namespace vcarve::cli

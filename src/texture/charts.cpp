@@ -27,7 +27,8 @@ struct Chart {
     Array2i size_px{0, 0};
 };
 
-constexpr int kTilePx = 5;      ///< of a face that no photograph shows
+constexpr int kTilePx = 5; ///< of a face that no photograph shows
+constexpr std::size_t kTilesOfChart = 1024;
 constexpr int kTilesASide = 32; ///< of a chart of such faces
 
 /// The faces that one covers with the same photograph, from each on across edges.
@@ -36,19 +37,19 @@ std::vector<Chart> gather_charts(const std::vector<std::uint32_t>& photo_of_face
 {
     std::vector<Chart> charts;
     std::vector<std::uint8_t> is_taken(photo_of_face.size());
+    const auto take = [&](std::uint32_t face, Chart& chart) {
+        is_taken[face] = 1;
+        chart.faces.push_back(face);
+    };
     for (std::uint32_t first = 0; first < photo_of_face.size(); ++first) {
         if (is_taken[first] != 0 || photo_of_face[first] == kNoPhoto) continue;
-        is_taken[first] = 1;
         Chart chart;
-        chart.faces.push_back(first);
+        take(first, chart);
         for (std::size_t i = 0; i < chart.faces.size(); ++i) {
             for (const std::uint32_t other : beside[chart.faces[i]]) {
-                if (other == kNoFace || is_taken[other] != 0 ||
-                    photo_of_face[other] != photo_of_face[first]) {
-                    continue;
-                }
-                is_taken[other] = 1;
-                chart.faces.push_back(other);
+                const bool goes_on = other != kNoFace && is_taken[other] == 0 &&
+                                     photo_of_face[other] == photo_of_face[first];
+                if (goes_on) take(other, chart);
             }
         }
         charts.push_back(std::move(chart));
@@ -88,7 +89,7 @@ std::vector<Chart> tile_unseen(const std::vector<std::uint32_t>& photo_of_face,
     std::vector<Chart> charts;
     for (std::uint32_t face = 0; face < photo_of_face.size(); ++face) {
         if (photo_of_face[face] != kNoPhoto) continue;
-        if (charts.empty() || charts.back().faces.size() == kTilesASide * kTilesASide) {
+        if (charts.empty() || charts.back().faces.size() == kTilesOfChart) {
             charts.emplace_back();
         }
         Chart& chart = charts.back();
@@ -146,6 +147,20 @@ void pack_page(int most_px, std::vector<stbrp_rect>& rectangles)
     pack(most_px, rectangles);
 }
 
+/// Moves a chart to its place on the last page.
+void put_on_page(const Chart& chart, const stbrp_rect& rectangle, Atlas& atlas)
+{
+    const Vector2d move(rectangle.x + Atlas::kPadding, rectangle.y + Atlas::kPadding);
+    for (const std::uint32_t face : chart.faces) {
+        atlas.page_of_face[face] = static_cast<std::uint32_t>(atlas.page_sizes.size() - 1);
+        for (Vector2d& corner : atlas.corners[face]) {
+            corner += move;
+        }
+    }
+    Array2i& size = atlas.page_sizes.back();
+    size = size.max(Array2i(rectangle.x + rectangle.w, rectangle.y + rectangle.h));
+}
+
 } // namespace
 
 Atlas lay_out_charts(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
@@ -170,18 +185,9 @@ Atlas lay_out_charts(const TriMesh& mesh, const std::vector<CalibratedPhoto>& ph
     std::vector<stbrp_rect> rectangles = rectangles_of(charts);
     while (!rectangles.empty()) {
         pack_page(options.most_page_px, rectangles);
-        const auto page = static_cast<std::uint32_t>(atlas.page_sizes.size());
-        Array2i& size = atlas.page_sizes.emplace_back(1, 1);
+        atlas.page_sizes.emplace_back(1, 1);
         for (const stbrp_rect& rectangle : rectangles) {
-            if (rectangle.was_packed == 0) continue;
-            const Vector2d move(rectangle.x + Atlas::kPadding, rectangle.y + Atlas::kPadding);
-            for (const std::uint32_t face : charts[rectangle.id].faces) {
-                atlas.page_of_face[face] = page;
-                for (Vector2d& corner : atlas.corners[face]) {
-                    corner += move;
-                }
-            }
-            size = size.max(Array2i(rectangle.x + rectangle.w, rectangle.y + rectangle.h));
+            if (rectangle.was_packed != 0) put_on_page(charts[rectangle.id], rectangle, atlas);
         }
         std::erase_if(rectangles, [](const stbrp_rect& rect) { return rect.was_packed != 0; });
     }

@@ -77,6 +77,13 @@ struct Shown {
     std::uint32_t place;
 };
 
+/// One of the three sides of a face, and the face's node in the cut.
+struct Side {
+    Index node;
+    std::uint32_t face;
+    int side;
+};
+
 /// The faces covered as they are, to be covered better.
 class Covering {
   public:
@@ -117,7 +124,7 @@ class Covering {
             cell = {{0, 0, 0, 0}, {node, node, node, node}};
             graph.mirrors[node] = 0b11100100; // each slot its own
             for (int side = 0; side < 3; ++side) {
-                add_seam(photo, node, shown, side, graph, network);
+                add_seam(photo, {node, face, side}, graph, network);
             }
         }
         const Labels labels = minimum_cut(graph, std::move(network));
@@ -138,10 +145,11 @@ class Covering {
   private:
     /// What the seam between a face and one beside it costs: of two that may change, from the lower
     /// one's side. Inside is what takes the photograph.
-    void add_seam(std::uint32_t photo, Index node, const std::vector<Shown>& shown, int side,
-                  TetMesh& graph, FlowNetwork& network) const
+    void add_seam(std::uint32_t photo, const Side& of, TetMesh& graph, FlowNetwork& network) const
     {
-        const std::uint32_t face = shown[node].face;
+        const Index node = of.node;
+        const std::uint32_t face = of.face;
+        const int side = of.side;
         const std::uint32_t other = beside_[face][side];
         if (other == kNoFace || photos_[other] == kNoPhoto) return;
         const std::int32_t cost = energy_.of_seam(face, side);

@@ -109,6 +109,51 @@ distances_from_median(const PhotosOfFace& photos,
     return distances;
 }
 
+/// What the other photographs of a face show over its middle, the mean.
+Array3f shown_by_others(const Look& look, const PhotosOfFace& photos, const FaceColors& colors,
+                        const Gains& gains)
+{
+    Array3f sum = Array3f::Zero();
+    for (std::size_t i = 0; i < photos.count; ++i) {
+        if (i == look.place) continue;
+        sum += array_of(colors[look.face][i][3]) * gains[photos.best[i].photo];
+    }
+    return sum / static_cast<float>(photos.count - 1);
+}
+
+/// Of each channel what others show of the faces of a photograph over what it shows itself.
+std::array<std::vector<double>, 3> quotients_of(const std::vector<Look>& looks,
+                                                const std::vector<PhotosOfFace>& photos_of_faces,
+                                                const FaceColors& colors, const Gains& gains)
+{
+    constexpr std::size_t kMostFaces = 4000;
+    constexpr double kBlack = 16.0; // what is nearly black or white says nothing of exposure
+    constexpr double kWhite = 240.0;
+    std::array<std::vector<double>, 3> quotients;
+    const std::size_t step = looks.size() / kMostFaces + 1;
+    for (std::size_t i = 0; i < looks.size(); i += step) {
+        const Look& look = looks[i];
+        const PhotosOfFace& photos = photos_of_faces[look.face];
+        const Color& color = colors[look.face][look.place][3];
+        if (photos.count < 2 || mean_level(color) < kBlack || mean_level(color) > kWhite) continue;
+        const Array3f others = shown_by_others(look, photos, colors, gains);
+        for (int channel = 0; channel < 3; ++channel) {
+            const float own = color[channel];
+            if (own > 4.0F) quotients[channel].push_back(others[channel] / own);
+        }
+    }
+    return quotients;
+}
+
+/// Their median; of few it is drawn to 1.
+float gain_of(std::vector<double>& quotients)
+{
+    constexpr double kPrior = 20.0; // so few faces pull half as much as they say
+    const auto count = static_cast<double>(quotients.size());
+    const double gain = std::clamp(median_in_place(quotients), 0.4, 2.5);
+    return static_cast<float>((count * gain + kPrior) / (count + kPrior));
+}
+
 } // namespace
 
 void for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
@@ -154,42 +199,16 @@ Gains find_gains(std::size_t num_photos, const std::vector<PhotosOfFace>& photos
 {
     Gains gains(num_photos, Array3f::Ones());
     constexpr int kRounds = 8;
-    constexpr std::size_t kMostFaces = 4000; // of a photograph
-    // What is nearly black or white says nothing of exposure.
-    const auto tells = [](const Color& color) {
-        return mean_level(color) > 16.0 && mean_level(color) < 240.0;
-    };
     const auto looks = looks_of_photos(num_photos, photos_of_faces);
     for (int round = 0; round < kRounds; ++round) {
         Gains next = gains;
         parallel_for(
             num_photos,
             [&](std::size_t photo) {
-                std::array<std::vector<double>, 3> quotients;
-                const std::size_t step = looks[photo].size() / kMostFaces + 1;
-                for (std::size_t i = 0; i < looks[photo].size(); i += step) {
-                    const auto [face, place] = looks[photo][i];
-                    const auto shown = photos_of_faces[face].shown();
-                    if (shown.size() < 2 || !tells(colors[face][place][3])) continue;
-                    Array3f others = Array3f::Zero();
-                    for (std::size_t k = 0; k < shown.size(); ++k) {
-                        if (k == place) continue;
-                        others += array_of(colors[face][k][3]) * gains[shown[k].photo];
-                    }
-                    others /= static_cast<float>(shown.size() - 1);
-                    const Array3f own = array_of(colors[face][place][3]);
-                    for (int channel = 0; channel < 3; ++channel) {
-                        if (own[channel] > 4.0F)
-                            quotients[channel].push_back(others[channel] / own[channel]);
-                    }
-                }
-                constexpr double kPrior = 20.0; // so few faces pull half as much as they say
+                auto quotients = quotients_of(looks[photo], photos_of_faces, colors, gains);
                 for (int channel = 0; channel < 3; ++channel) {
-                    const auto count = static_cast<double>(quotients[channel].size());
-                    if (count == 0.0) continue;
-                    const double gain = std::clamp(median_in_place(quotients[channel]), 0.4, 2.5);
-                    next[photo][channel] =
-                        static_cast<float>((count * gain + kPrior) / (count + kPrior));
+                    if (quotients[channel].empty()) continue;
+                    next[photo][channel] = gain_of(quotients[channel]);
                 }
             },
             1);

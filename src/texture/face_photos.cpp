@@ -199,6 +199,26 @@ class Splitter {
         if (!normals_.empty()) normals_.push_back((normals_[a] + normals_[b]).normalized());
     }
 
+    /// Halves those of the faces that have a flag, but for those that changed since; returns all
+    /// that changed.
+    std::vector<std::uint32_t> halve_all(std::span<const std::uint32_t> faces,
+                                         std::span<const std::uint8_t> is_split)
+    {
+        std::vector<std::uint32_t> changed;
+        std::vector<std::uint8_t> is_changed(mesh_.faces.size());
+        for (std::size_t i = 0; i < faces.size(); ++i) {
+            if (is_split[i] == 0 || is_changed[faces[i]] != 0) continue;
+            const std::size_t before = changed.size();
+            halve(faces[i], changed);
+            is_changed.resize(mesh_.faces.size());
+            for (std::size_t k = before; k < changed.size(); ++k) {
+                is_changed[changed[k]] = 1;
+            }
+        }
+        sort_unique(changed);
+        return changed;
+    }
+
     void end() { mesh_.normals = std::move(normals_); }
 
   private:
@@ -259,18 +279,7 @@ std::vector<PhotosOfFace> find_photos_of_faces(TriMesh& mesh,
             },
             64);
         if (round == kMostRounds || mesh.faces.size() > most_faces) break;
-        std::vector<std::uint32_t> changed;
-        std::vector<std::uint8_t> is_changed(mesh.faces.size());
-        for (std::size_t i = 0; i < waiting.size(); ++i) {
-            if (is_split[i] == 0 || is_changed[waiting[i]] != 0) continue;
-            const std::size_t before = changed.size();
-            splitter.halve(waiting[i], changed);
-            is_changed.resize(mesh.faces.size());
-            for (std::size_t k = before; k < changed.size(); ++k) {
-                is_changed[changed[k]] = 1;
-            }
-        }
-        sort_unique(changed);
+        std::vector<std::uint32_t> changed = splitter.halve_all(waiting, is_split);
         found.resize(mesh.faces.size());
         waiting = std::move(changed);
     }

@@ -35,8 +35,10 @@ std::vector<Array3f> resized(const CalibratedPhoto& photo, const Picture& pictur
     std::vector<Array3f> pixels(picture.pixels.size());
     parallel_for(pixels.size(), [&](std::size_t i) {
         const auto width = static_cast<std::size_t>(picture.width_px);
-        const Eigen::Vector2d pixel((static_cast<double>(i % width) + 0.5) * step_x,
-                                    (static_cast<double>(i / width) + 0.5) * step_y);
+        const std::size_t column = i % width;
+        const std::size_t row = i / width;
+        const Eigen::Vector2d pixel((static_cast<double>(column) + 0.5) * step_x,
+                                    (static_cast<double>(row) + 0.5) * step_y);
         pixels[i] = pyramid.at(pixel, std::max(step_x, step_y));
     });
     return pixels;

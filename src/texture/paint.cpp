@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -251,11 +252,22 @@ class Painter {
         return pyramid.at(*pixel) * plan_.gains[photo];
     }
 
+    /// The texel so many to the right and below; nothing beyond the page.
+    static std::optional<std::size_t> beside_texel(const Canvas& canvas, std::size_t texel,
+                                                   const std::array<int, 2>& side)
+    {
+        const auto width = static_cast<std::size_t>(canvas.page.width_px);
+        const int x = static_cast<int>(texel % width) + side[0];
+        const int y = static_cast<int>(texel / width) + side[1];
+        if (x < 0 || x >= canvas.page.width_px || y < 0 || y >= canvas.page.height_px) {
+            return std::nullopt;
+        }
+        return canvas.texel(x, y);
+    }
+
     /// Lets the colours of charts go on around them, texel by texel, and fills the rest.
     static void surround(Canvas& canvas)
     {
-        const int width = canvas.page.width_px;
-        const int height = canvas.page.height_px;
         constexpr std::array<std::array<int, 2>, 4> kSides = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
         std::vector<std::size_t> edge; // texels painted last
         Eigen::Array3d sum = Eigen::Array3d::Zero();
@@ -270,18 +282,12 @@ class Painter {
         for (int round = 0; round < Atlas::kPadding; ++round) {
             std::vector<std::size_t> next;
             for (const std::size_t texel : edge) {
-                const int x = static_cast<int>(texel % static_cast<std::size_t>(width));
-                const int y = static_cast<int>(texel / static_cast<std::size_t>(width));
-                for (const auto& [right, below] : kSides) {
-                    if (x + right < 0 || x + right >= width || y + below < 0 ||
-                        y + below >= height) {
-                        continue;
-                    }
-                    const std::size_t beside = canvas.texel(x + right, y + below);
-                    if (canvas.owners[beside] != kNoFace) continue;
-                    canvas.owners[beside] = canvas.owners[texel];
-                    canvas.set(beside, canvas.get(texel));
-                    next.push_back(beside);
+                for (const auto& side : kSides) {
+                    const std::optional<std::size_t> beside = beside_texel(canvas, texel, side);
+                    if (!beside || canvas.owners[*beside] != kNoFace) continue;
+                    canvas.owners[*beside] = canvas.owners[texel];
+                    canvas.set(*beside, canvas.get(texel));
+                    next.push_back(*beside);
                 }
             }
             edge = std::move(next);

@@ -148,7 +148,7 @@ Blend blend_of(const TriMesh& mesh, const std::map<Through, Near>& near, const A
 
 } // namespace
 
-std::vector<std::vector<Blend>> find_blends(const TriMesh& mesh, std::size_t num_photos,
+std::vector<std::vector<Blend>> find_blends(const TriMesh& mesh,
                                             const std::vector<PhotosOfFace>& photos_of_faces,
                                             const std::vector<std::uint32_t>& photo_of_face,
                                             const Atlas& atlas, const CornerLevels& levels)
@@ -157,7 +157,7 @@ std::vector<std::vector<Blend>> find_blends(const TriMesh& mesh, std::size_t num
     distances.start(levels);
     const std::map<Through, Near> near = distances.spread();
     std::set<std::pair<std::uint32_t, std::uint32_t>> done; // other photograph, face
-    std::vector<std::vector<Blend>> blends(num_photos);
+    std::vector<std::vector<Blend>> blends;
     for (const auto& [through, unused] : near) {
         const auto& [vertex, photo, other] = through;
         for (const std::uint32_t face : distances.faces_at()[vertex]) {
@@ -165,6 +165,7 @@ std::vector<std::vector<Blend>> find_blends(const TriMesh& mesh, std::size_t num
                 !done.insert({other, face}).second) {
                 continue;
             }
+            blends.resize(std::max<std::size_t>(blends.size(), other + 1));
             blends[other].push_back(blend_of(mesh, near, atlas, face, through));
         }
     }

@@ -24,8 +24,8 @@ struct Blend {
 
 /// The faces near seams, of each photograph those that it shows through, as far as it shows them:
 /// on either side of a seam within so many texels, as distances along edges tell. Cost: O(vertices
-/// near seams).
-std::vector<std::vector<Blend>> find_blends(const TriMesh& mesh, std::size_t num_photos,
+/// near seams). Photographs after the last that shows through anywhere have no row.
+std::vector<std::vector<Blend>> find_blends(const TriMesh& mesh,
                                             const std::vector<PhotosOfFace>& photos_of_faces,
                                             const std::vector<std::uint32_t>& photo_of_face,
                                             const Atlas& atlas, const CornerLevels& levels);

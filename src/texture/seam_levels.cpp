@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 
 namespace vcarve {
 
@@ -21,7 +22,11 @@ struct Node {
     std::uint32_t vertex;
     std::uint32_t photo;
 
-    auto operator<=>(const Node&) const = default;
+    bool operator==(const Node&) const = default;
+    bool operator<(const Node& other) const
+    {
+        return std::tie(vertex, photo) < std::tie(other.vertex, other.photo);
+    }
 };
 
 /// All of them, each once, in order; and which one each corner is.
@@ -46,7 +51,7 @@ Nodes gather_nodes(const TriMesh& mesh, const std::vector<std::uint32_t>& photo_
         for (int i = 0; i < 3; ++i) {
             const Node node = {mesh.faces[face][i], photo_of_face[face]};
             nodes.of_face[face][i] = static_cast<std::uint32_t>(
-                std::ranges::lower_bound(nodes.all, node) - nodes.all.begin());
+                std::lower_bound(nodes.all.begin(), nodes.all.end(), node) - nodes.all.begin());
         }
     });
     return nodes;

@@ -129,8 +129,8 @@ TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& phot
     const Atlas atlas =
         lay_out_charts(mesh, photos, photo_of_face, beside, {scale, options.most_page_px});
     const CornerLevels levels = level_seams(mesh, photos_of_faces, colors, gains, photo_of_face);
-    const auto blends =
-        find_blends(mesh, photos.size(), photos_of_faces, photo_of_face, atlas, levels);
+    auto blends = find_blends(mesh, photos_of_faces, photo_of_face, atlas, levels);
+    blends.resize(photos.size());
     result.texture =
         texture_of(atlas, paint_pages({mesh, photos, photo_of_face, atlas, gains, levels, blends},
                                       progress.part(0.3, 1.0)));

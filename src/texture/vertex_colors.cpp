@@ -29,25 +29,34 @@ Color rounded(const Array3d& channels)
     return color;
 }
 
+/// What is known of the faces.
+struct Known {
+    const TriMesh& mesh;
+    const std::vector<PhotosOfFace>& photos_of_faces;
+    const FaceColors& colors;
+    const Gains& gains;
+};
+
 /// What the photographs show at a vertex, each the mean over the faces it shows there.
 std::vector<Array3d> shown_at(std::uint32_t vertex, std::span<const std::uint32_t> faces,
-                              const TriMesh& mesh, const std::vector<PhotosOfFace>& photos_of_faces,
-                              const FaceColors& colors, const Gains& gains)
+                              const Known& known)
 {
     std::map<std::uint32_t, std::pair<Array3d, double>> sums;
     for (const std::uint32_t face : faces) {
-        const auto corner = static_cast<std::size_t>(std::ranges::find(mesh.faces[face], vertex) -
-                                                     mesh.faces[face].begin());
-        const auto shown = photos_of_faces[face].shown();
+        const auto corner = static_cast<std::size_t>(
+            std::ranges::find(known.mesh.faces[face], vertex) - known.mesh.faces[face].begin());
+        const auto shown = known.photos_of_faces[face].shown();
         for (std::size_t place = 0; place < shown.size(); ++place) {
-            const Color& color = colors[face][place][corner];
+            const Color& color = known.colors[face][place][corner];
             auto& [sum, count] =
                 sums.try_emplace(shown[place].photo, Array3d::Zero(), 0.0).first->second;
-            sum += Array3d(color[0], color[1], color[2]) * gains[shown[place].photo].cast<double>();
+            sum += Array3d(color[0], color[1], color[2]) *
+                   known.gains[shown[place].photo].cast<double>();
             count += 1.0;
         }
     }
     std::vector<Array3d> means;
+    means.reserve(sums.size());
     for (const auto& [photo, sum] : sums) {
         means.push_back(sum.first / sum.second);
     }
@@ -77,6 +86,18 @@ Array3d robust_mean(const std::vector<Array3d>& shown)
     return mean;
 }
 
+/// Shows visit(other) the vertices of the faces at a vertex, itself too, some of them twice.
+template <typename Visit>
+void visit_around(std::uint32_t vertex, const VertexFaces& faces_at, const TriMesh& mesh,
+                  const Visit& visit)
+{
+    for (const std::uint32_t face : faces_at[vertex]) {
+        for (const std::uint32_t other : mesh.faces[face]) {
+            visit(other);
+        }
+    }
+}
+
 /// Colours the vertices that have none by those beside them, ring by ring.
 void spread(const VertexFaces& faces_at, std::vector<std::optional<Array3d>>& colors,
             const TriMesh& mesh)
@@ -88,25 +109,21 @@ void spread(const VertexFaces& faces_at, std::vector<std::optional<Array3d>>& co
     while (!ring.empty()) {
         std::vector<std::uint32_t> next;
         for (const std::uint32_t vertex : ring) {
-            for (const std::uint32_t face : faces_at[vertex]) {
-                for (const std::uint32_t other : mesh.faces[face]) {
-                    if (!colors[other]) next.push_back(other);
-                }
-            }
+            visit_around(vertex, faces_at, mesh, [&](std::uint32_t other) {
+                if (!colors[other]) next.push_back(other);
+            });
         }
         sort_unique(next);
-        std::vector<Array3d> means;
-        for (const std::uint32_t vertex : next) {
+        std::vector<Array3d> means(next.size());
+        for (std::size_t i = 0; i < next.size(); ++i) {
             Array3d sum = Array3d::Zero();
             double count = 0.0;
-            for (const std::uint32_t face : faces_at[vertex]) {
-                for (const std::uint32_t other : mesh.faces[face]) {
-                    if (!colors[other]) continue;
-                    sum += *colors[other];
-                    count += 1.0;
-                }
-            }
-            means.emplace_back(sum / count);
+            visit_around(next[i], faces_at, mesh, [&](std::uint32_t other) {
+                if (!colors[other]) return;
+                sum += *colors[other];
+                count += 1.0;
+            });
+            means[i] = sum / count;
         }
         for (std::size_t i = 0; i < next.size(); ++i) {
             colors[next[i]] = means[i];
@@ -120,12 +137,12 @@ void spread(const VertexFaces& faces_at, std::vector<std::optional<Array3d>>& co
 std::size_t color_vertices(const std::vector<PhotosOfFace>& photos_of_faces,
                            const FaceColors& colors, const Gains& gains, TriMesh& mesh)
 {
+    const Known known = {mesh, photos_of_faces, colors, gains};
     const VertexFaces faces_at(mesh.faces, mesh.positions.size());
     std::vector<std::optional<Array3d>> found(mesh.positions.size());
     parallel_for(found.size(), [&](std::size_t i) {
         const auto vertex = static_cast<std::uint32_t>(i);
-        const std::vector<Array3d> shown =
-            shown_at(vertex, faces_at[vertex], mesh, photos_of_faces, colors, gains);
+        const std::vector<Array3d> shown = shown_at(vertex, faces_at[vertex], known);
         if (!shown.empty()) found[i] = robust_mean(shown);
     });
     const std::size_t seen = static_cast<std::size_t>(

@@ -43,7 +43,9 @@ struct HalfAndHalf {
 
     std::vector<std::vector<Blend>> blends() const
     {
-        return find_blends(mesh, 2, photos_of_faces, photo_of_face, atlas, levels);
+        auto blends = find_blends(mesh, photos_of_faces, photo_of_face, atlas, levels);
+        blends.resize(2);
+        return blends;
     }
 };
 
