@@ -41,7 +41,7 @@ fs::path with_another_end(const fs::path& path)
 {
     for (const char* const end :
          {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".JPG", ".JPEG", ".PNG", ".TIF", ".TIFF"}) {
-        const fs::path other = fs::path(path).replace_extension(end);
+        fs::path other = fs::path(path).replace_extension(end);
         if (is_file(other)) return other;
     }
     return {};
