@@ -201,7 +201,7 @@ struct Yardstick {
 /// How a mesh looks from the photographs that were left out.
 PhotoFigures photo_figures(const TriMesh& mesh, const SplitPhotos& photos, Log& log)
 {
-    TexturedMesh colored = texture_mesh(mesh, photos.kept, {.only_colors = true}, log);
+    // Its vertices have the photographs' colours, too.
     const TexturedMesh covered = texture_mesh(mesh, photos.kept, {}, log);
     Stage stage(log, "look");
     const Progress all = stage;
@@ -209,7 +209,7 @@ PhotoFigures photo_figures(const TriMesh& mesh, const SplitPhotos& photos, Log& 
         return compare_with_photos(shown, texture, photos.left_out, all.part(from, from + 0.33));
     };
     const PhotoLikeness own = likeness(mesh, {}, 0.0);
-    const PhotoLikeness in_colors = likeness(colored.mesh, {}, 0.33);
+    const PhotoLikeness in_colors = likeness(covered.mesh, {}, 0.33);
     const PhotoLikeness textured = likeness(covered.mesh, covered.texture, 0.66);
     stage.end({{"photographs", size_of(photos.left_out.size())}});
     return {.own_colors_db = own.psnr_db,

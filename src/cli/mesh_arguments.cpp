@@ -138,11 +138,12 @@ OptionList options_of(MeshArguments& arguments)
                    record_options(arguments), options_of(arguments.help)});
 }
 
-std::vector<Output> outputs_of(const MeshArguments& arguments, std::size_t pages)
+std::vector<Output> outputs_of(const MeshArguments& arguments)
 {
+    constexpr std::size_t kManyPages = 64;
     std::vector<Output> outputs = {{"the surface", arguments.out}};
     if (arguments.texture.texture) {
-        for (const fs::path& file : files_beside(arguments.out, pages)) {
+        for (const fs::path& file : files_beside(arguments.out, kManyPages)) {
             outputs.push_back({"the texture", file});
         }
     }

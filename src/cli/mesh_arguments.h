@@ -55,7 +55,8 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given);
 /// What a user can read about the bare form, `colmap-vcarve MODEL OUT.ply`.
 Manual mesh_manual();
 
-/// All that a run is to write, with a texture of so many pages where there is to be one.
-std::vector<Output> outputs_of(const MeshArguments& arguments, std::size_t pages = 1);
+/// All that a run may write. How many pages a texture has shows late, so here it has many: fewer
+/// hold all the texels there may be (TextureOptions).
+std::vector<Output> outputs_of(const MeshArguments& arguments);
 
 } // namespace vcarve::cli

@@ -43,15 +43,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that are read beside the model.
-std::array<Output, 2> inputs_beside(const MeshArguments& arguments)
-{
-    return {{{"the region", arguments.options.crop.region.file},
-             {"the transformation", arguments.output.transform}}};
-}
-
-/// A signal leaves nothing half written behind.
-void tell_unfinished(const std::vector<Output>& outputs, const ArrayFolder& scratch)
+/// What cannot be written is said before the work starts, and nothing half written stays behind.
+void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scratch)
 {
     std::vector<fs::path> parts;
     parts.reserve(outputs.size() + 1);
@@ -60,12 +53,6 @@ void tell_unfinished(const std::vector<Output>& outputs, const ArrayFolder& scra
     }
     if (scratch.is_temporary()) parts.push_back(scratch.path());
     end_cleanly_on_signals(parts);
-}
-
-/// What cannot be written is said before the work starts, and nothing half written stays behind.
-void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scratch)
-{
-    tell_unfinished(outputs, scratch);
     for (const Output& output : outputs) {
         require_writable(output.path);
     }
@@ -162,7 +149,6 @@ struct Run {
     const MeshArguments& arguments;
     RunLogs logs;
     RunMemory& memory;
-    const ArrayFolder& scratch;
     WorkFolder* work; ///< null for nowhere
     RunRanks* ranks;  ///< null for this process alone
 };
@@ -223,14 +209,13 @@ std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
                                                  const ModelInput& input, const Run& run)
 {
     if (!arguments.texture.reads_images()) return std::nullopt;
-    constexpr std::size_t kPages = 64; // more are no texture that anybody could look at
     Photographs photographs =
         photographs_of(arguments.texture, arguments.model.path, input.scene, run.logs.told);
     std::vector<Output> files;
     for (const fs::path& file : photographs.of_view) {
         if (!file.empty()) files.push_back({"the photograph", file});
     }
-    keep_inputs(outputs_of(arguments, kPages), arguments.model, files);
+    keep_inputs(outputs_of(arguments), arguments.model, files);
     expect_run(run, input.read, &photographs);
     return photographs;
 }
@@ -297,15 +282,6 @@ ModelInput read_input(const Run& run)
     return input;
 }
 
-/// How many pages a texture has shows late, and so what else is written.
-void prepare_pages(const Run& run, const Texture& texture)
-{
-    if (texture.is_empty()) return;
-    const std::vector<Output> outputs = outputs_of(run.arguments, texture.pages.size());
-    keep_inputs(outputs, run.arguments.model, inputs_beside(run.arguments));
-    tell_unfinished(outputs, run.scratch);
-}
-
 /// From the model to the file; tells the record what went in and came out.
 Made make_surface(const Run& run, Json& record)
 {
@@ -323,7 +299,6 @@ Made make_surface(const Run& run, Json& record)
     Made made;
     made.is_dense = input.read.is_dense;
     const Surface surface = surface_of(std::move(input), run);
-    prepare_pages(run, surface.texture);
     write_surface(arguments, surface, place, logs.told);
     preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, logs.told);
     preview.write();
@@ -401,7 +376,9 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     MeshArguments arguments = read_mesh_arguments(given);
     const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
     require_work_folder(arguments, processes);
-    keep_inputs(outputs_of(arguments), arguments.model, inputs_beside(arguments));
+    const std::array<Output, 2> others = {{{"the region", arguments.options.crop.region.file},
+                                           {"the transformation", arguments.output.transform}}};
+    keep_inputs(outputs_of(arguments), arguments.model, others);
     const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
     // What is wrong with the file of a region or a transformation is said before the work starts.
@@ -426,7 +403,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
     RunMemory memory(arguments.options.memory, threads, scratch, processes);
-    const Made made = make_or_clear({arguments, logs, memory, scratch, work.get(), ranks}, record);
+    const Made made = make_or_clear({arguments, logs, memory, work.get(), ranks}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());

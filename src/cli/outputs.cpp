@@ -1,5 +1,6 @@
 #include "cli/outputs.h"
 
+#include "io/files/path_kind.h"
 #include "io/input/input_files.h"
 #include "vcarve/error.h"
 
@@ -59,18 +60,14 @@ void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
     for (const Output& output : outputs) {
         refuse_replacing(output, others);
     }
-    const auto is_file = [](const Output& output) {
-        std::error_code error;
-        return fs::is_regular_file(output.path, error);
-    };
-    if (std::ranges::none_of(outputs, is_file)) return;
+    if (std::ranges::none_of(outputs, is_file, &Output::path)) return;
     const FoundInput found = find_input(model.path, model.all_points());
     std::vector<Output> inputs;
     for (const fs::path& file : input_files(model.path, found)) {
         inputs.push_back({"the input", file});
     }
     for (const Output& output : outputs) {
-        if (!is_file(output)) continue;
+        if (!is_file(output.path)) continue;
         refuse_replacing(output, inputs);
         if (is_image_of_views(output.path, found)) refuse(output, {"the image", output.path});
     }

@@ -3,9 +3,16 @@
 #include "vcarve/tri_mesh.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 namespace vcarve {
+
+/// Which of the corners of a face a vertex is; 3 where it is none.
+inline std::size_t corner_of(const Face& face, std::uint32_t vertex)
+{
+    return static_cast<std::size_t>(std::ranges::find(face, vertex) - face.begin());
+}
 
 /// A face with another vertex instead of one of its own.
 inline Face with(Face face, std::uint32_t corner, std::uint32_t other)

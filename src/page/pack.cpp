@@ -102,17 +102,26 @@ std::string pack_bytes(std::span<const std::int32_t> numbers)
     return base64(bytes);
 }
 
-std::string pack_errors(std::span<const double> errors_px)
+std::string pack_two_bytes(std::span<const std::uint16_t> numbers)
 {
     Bytes bytes;
-    bytes.reserve(2 * errors_px.size());
-    for (const double error_px : errors_px) {
-        const double thousandths = std::min(std::round(1000.0 * error_px), kNoError - 1.0);
-        const auto number = error_px < 0.0 ? kNoError : static_cast<std::uint16_t>(thousandths);
+    bytes.reserve(2 * numbers.size());
+    for (const std::uint16_t number : numbers) {
         bytes.push_back(static_cast<std::uint8_t>(number & 255U));
         bytes.push_back(static_cast<std::uint8_t>(number >> 8));
     }
     return base64(bytes);
+}
+
+std::string pack_errors(std::span<const double> errors_px)
+{
+    std::vector<std::uint16_t> numbers;
+    numbers.reserve(errors_px.size());
+    for (const double error_px : errors_px) {
+        const double thousandths = std::min(std::round(1000.0 * error_px), kNoError - 1.0);
+        numbers.push_back(error_px < 0.0 ? kNoError : static_cast<std::uint16_t>(thousandths));
+    }
+    return pack_two_bytes(numbers);
 }
 
 } // namespace vcarve

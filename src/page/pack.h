@@ -33,6 +33,9 @@ std::string pack_colors(std::span<const Color> colors);
 /// Numbers from 0 to 255, a byte each; larger ones as 255.
 std::string pack_bytes(std::span<const std::int32_t> numbers);
 
+/// Numbers, two bytes each, the lower first.
+std::string pack_two_bytes(std::span<const std::uint16_t> numbers);
+
 /// What stands for an error that is not known.
 inline constexpr std::uint16_t kNoError = 65535;
 

@@ -207,20 +207,20 @@ Json packed_texture(const Texture& texture, const PageLimits& limits)
     for (const Photograph& page : pages) {
         images.push_back(base64(encode_jpeg(page, kQuality)));
     }
-    std::vector<std::uint8_t> places;
+    std::vector<std::uint16_t> places;
+    places.reserve(6 * texture.places.size());
     for (const auto& corners : texture.places) {
         for (const Eigen::Vector2f& corner : corners) {
             for (const float coordinate : corner) {
-                const auto number = static_cast<std::uint32_t>(
-                    std::lround(65535.0F * std::clamp(coordinate, 0.0F, 1.0F)));
-                places.push_back(static_cast<std::uint8_t>(number & 0xffU));
-                places.push_back(static_cast<std::uint8_t>(number >> 8U));
+                places.push_back(static_cast<std::uint16_t>(
+                    std::lround(65535.0F * std::clamp(coordinate, 0.0F, 1.0F))));
             }
         }
     }
     const std::vector<std::int32_t> page_of_face(texture.page_of_face.begin(),
                                                  texture.page_of_face.end());
-    return {{"pages", images}, {"places", base64(places)}, {"page", pack_bytes(page_of_face)}};
+    return {
+        {"pages", images}, {"places", pack_two_bytes(places)}, {"page", pack_bytes(page_of_face)}};
 }
 
 Json packed_scene(const Scene& scene, const PageLimits& limits)

@@ -109,9 +109,14 @@ function colouring(mode, surface) {
 
 const kVertexShader = `
 varying vec3 vColour;
+varying vec2 vPlace;
 varying vec3 vEye;
 void main() {
+  #ifdef TEXTURED
+  vPlace = uv;
+  #else
   vColour = color;
+  #endif
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
   vEye = eye.xyz;
   gl_Position = projectionMatrix * eye;
@@ -120,12 +125,19 @@ const kFragmentShader = `
 uniform float byNormal;
 uniform float contrast;
 uniform float ownBacks;
+uniform sampler2D page;
 varying vec3 vColour;
+varying vec2 vPlace;
 varying vec3 vEye;
 void main() {
   vec3 normal = normalize(cross(dFdx(vEye), dFdy(vEye)));
   float lit = max(dot(normal, normalize(vec3(0.3, 0.5, 1.0))), 0.0);
-  vec3 colour = mix(vColour, 0.5 + 0.5 * normal, byNormal);
+  #ifdef TEXTURED
+  vec3 own = texture2D(page, vPlace).rgb;
+  #else
+  vec3 own = vColour;
+  #endif
+  vec3 colour = mix(own, 0.5 + 0.5 * normal, byNormal);
   float shade = 1.0 - contrast * (1.0 - lit);
   if (!gl_FrontFacing) {
     float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
@@ -135,24 +147,16 @@ void main() {
   gl_FragColor = vec4(colour * shade, 1.0);
 }`;
 
-const kTextureVertexShader = `
-varying vec2 vPlace;
-varying vec3 vEye;
-void main() {
-  vPlace = uv;
-  vec4 eye = modelViewMatrix * vec4(position, 1.0);
-  vEye = eye.xyz;
-  gl_Position = projectionMatrix * eye;
-}`;
-const kTextureFragmentShader = `
-uniform sampler2D page;
-varying vec2 vPlace;
-varying vec3 vEye;
-void main() {
-  float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
-  vec3 back = mix(vec3(0.72, 0.42, 0.36), vec3(0.62, 0.34, 0.29), stripe);
-  gl_FragColor = vec4(gl_FrontFacing ? texture2D(page, vPlace).rgb : back, 1.0);
-}`;
+/// How a surface is shaded: in the colours of its corners, or in a page of a texture, whose light is its
+/// own.
+function surfaceMaterial(page) {
+  return new THREE.ShaderMaterial({
+    vertexShader: kVertexShader, fragmentShader: kFragmentShader, defines: page ? { TEXTURED: 1 } : {},
+    vertexColors: page ? THREE.NoColors : THREE.VertexColors, side: THREE.DoubleSide, extensions: { derivatives: true },
+    uniforms: { byNormal: { value: 0 }, contrast: { value: page ? 0 : 0.5 }, ownBacks: { value: 0 }, page: { value: page } },
+    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+  });
+}
 
 /// The surface in its texture: its faces page by page, and a material a page. Pages appear once the
 /// browser has decoded them, and `changed` is called then.
@@ -181,9 +185,7 @@ function texturedSurface(texture, cornerPositions, changed) {
     map.minFilter = THREE.LinearFilter;
     image.onload = () => { map.needsUpdate = true; changed(); };
     image.src = "data:image/jpeg;base64," + page;
-    materials.push(new THREE.ShaderMaterial({ vertexShader: kTextureVertexShader, fragmentShader: kTextureFragmentShader,
-      uniforms: { page: { value: map } }, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1,
-      polygonOffsetUnits: 1 }));
+    materials.push(surfaceMaterial(map));
   });
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
   geometry.setAttribute("uv", new THREE.BufferAttribute(uvs, 2));
@@ -277,11 +279,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(cornerPositions, 3));
-  const material = new THREE.ShaderMaterial({
-    vertexShader: kVertexShader, fragmentShader: kFragmentShader, vertexColors: THREE.VertexColors,
-    uniforms: { byNormal: { value: 0 }, contrast: { value: 0.5 }, ownBacks: { value: 0 } }, side: THREE.DoubleSide,
-    extensions: { derivatives: true }, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-  });
+  const material = surfaceMaterial(null);
   const layers = { surface: new THREE.Mesh(geometry, material) };
 
   function makeLayer(name) {

@@ -2,12 +2,12 @@
 
 #include "base/parallel.h"
 #include "geometry/triangle.h"
+#include "model/between_pixels.h"
+#include "model/channels.h"
 #include "picture/first_faces.h"
 #include "picture/lens_rays.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 
 namespace vcarve {
@@ -41,7 +41,6 @@ std::array<float, 3> shares_of(const FirstFace& hit)
     return {1.0F - hit.second - hit.third, hit.second, hit.third};
 }
 
-/// Between the middles of four texels.
 Array3f texture_color(const Texture& texture, const FirstFace& hit)
 {
     const Photograph& page = texture.pages[texture.page_of_face[hit.face]];
@@ -50,21 +49,8 @@ Array3f texture_color(const Texture& texture, const FirstFace& hit)
     for (int i = 0; i < 3; ++i) {
         place += shares[i] * texture.places[hit.face][i];
     }
-    const auto wide = static_cast<float>(page.width_px);
-    const auto high = static_cast<float>(page.height_px);
-    const float column = std::clamp(place.x() * wide - 0.5F, 0.0F, wide - 1.0F);
-    const float row = std::clamp(place.y() * high - 0.5F, 0.0F, high - 1.0F);
-    const auto texel = [&](int right, int below) {
-        const int x = std::min(static_cast<int>(column) + right, page.width_px - 1);
-        const int y = std::min(static_cast<int>(row) + below, page.height_px - 1);
-        const std::uint8_t* rgb =
-            page.rgb.data() + 3 * (static_cast<std::size_t>(y) * page.width_px + x);
-        return Array3f(rgb[0], rgb[1], rgb[2]);
-    };
-    const float right = column - std::floor(column);
-    const float below = row - std::floor(row);
-    return (1.0F - below) * ((1.0F - right) * texel(0, 0) + right * texel(1, 0)) +
-           below * ((1.0F - right) * texel(0, 1) + right * texel(1, 1));
+    const Eigen::Vector2d size(page.width_px, page.height_px);
+    return between_pixels(page, place.cast<double>().cwiseProduct(size));
 }
 
 Array3f own_color(const TriMesh& mesh, const FirstFace& hit)
@@ -74,8 +60,7 @@ Array3f own_color(const TriMesh& mesh, const FirstFace& hit)
     const std::array<float, 3> shares = shares_of(hit);
     Array3f sum = Array3f::Zero();
     for (int i = 0; i < 3; ++i) {
-        const Color& color = mesh.colors[face[i]];
-        sum += shares[i] * Array3f(color[0], color[1], color[2]);
+        sum += shares[i] * channels_of(mesh.colors[face[i]]);
     }
     return sum;
 }

@@ -17,6 +17,7 @@ struct CalibratedPhoto {
     PhotographSize size;
     std::uint32_t view = 0;         ///< index into Scene::views
     View pose;                      ///< its centre in the frame of the mesh
+    double focal_px = 0.0;          ///< of the photograph, the mean
     Camera camera;                  ///< of the model
     Eigen::Array2d scale{1.0, 1.0}; ///< pixels of the photograph a pixel of the camera
 };

@@ -27,9 +27,9 @@ struct Chart {
     Array2i size_px{0, 0};
 };
 
-constexpr int kTilePx = 5; ///< of a face that no photograph shows
-constexpr std::size_t kTilesOfChart = 1024;
+constexpr int kTilePx = 5;      ///< of a face that no photograph shows
 constexpr int kTilesASide = 32; ///< of a chart of such faces
+constexpr std::size_t kTilesOfChart = std::size_t{kTilesASide} * kTilesASide;
 
 /// The faces that one covers with the same photograph, from each on across edges.
 std::vector<Chart> gather_charts(const std::vector<std::uint32_t>& photo_of_face,

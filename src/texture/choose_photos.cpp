@@ -71,12 +71,6 @@ class Energy {
     std::vector<std::array<std::int32_t, 3>> seams_;
 };
 
-/// A face that a photograph shows, and at which place of the face's list it is.
-struct Shown {
-    std::uint32_t face;
-    std::uint32_t place;
-};
-
 /// One of the three sides of a face, and the face's node in the cut.
 struct Side {
     Index node;
@@ -104,7 +98,7 @@ class Covering {
 
     /// Covers with a photograph those of the faces it shows for which all together cost less then.
     /// Returns whether any changed.
-    bool expand(std::uint32_t photo, const std::vector<Shown>& shown)
+    bool expand(std::uint32_t photo, const std::vector<FaceOfPhoto>& shown)
     {
         for (Index node = 0; node < shown.size(); ++node) {
             node_of_[shown[node].face] = node;
@@ -211,13 +205,7 @@ std::vector<std::uint32_t> choose_photos(const TriMesh& mesh,
                                          const std::vector<PhotosOfFace>& photos_of_faces,
                                          const FacesBeside& beside, const Progress& progress)
 {
-    std::vector<std::vector<Shown>> shown(photos.size());
-    for (std::uint32_t face = 0; face < photos_of_faces.size(); ++face) {
-        const auto list = photos_of_faces[face].shown();
-        for (std::uint32_t place = 0; place < list.size(); ++place) {
-            shown[list[place].photo].push_back({face, place});
-        }
-    }
+    const auto shown = faces_of_photos(photos.size(), photos_of_faces);
     const Energy energy(mesh, photos_of_faces, beside);
     Covering covering(energy, photos_of_faces, beside);
     constexpr std::size_t kRounds = 2;

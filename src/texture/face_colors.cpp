@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "io/images/read_photograph.h"
+#include "model/channels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,41 +18,6 @@ using Eigen::Array3f;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A place in a list of all that photographs show of faces.
-struct Look {
-    std::uint32_t face;
-    std::uint32_t place; ///< among the photographs of the face
-};
-
-/// Of each photograph the faces it shows.
-std::vector<std::vector<Look>> looks_of_photos(std::size_t num_photos,
-                                               const std::vector<PhotosOfFace>& photos_of_faces)
-{
-    std::vector<std::vector<Look>> looks(num_photos);
-    for (std::uint32_t face = 0; face < photos_of_faces.size(); ++face) {
-        const auto shown = photos_of_faces[face].shown();
-        for (std::uint32_t place = 0; place < shown.size(); ++place) {
-            looks[shown[place].photo].push_back({face, place});
-        }
-    }
-    return looks;
-}
-
-Array3f array_of(const Color& color)
-{
-    return {static_cast<float>(color[0]), static_cast<float>(color[1]),
-            static_cast<float>(color[2])};
-}
-
-Color color_of(const Array3f& channels)
-{
-    Color color;
-    for (int i = 0; i < 3; ++i) {
-        color[i] = static_cast<std::uint8_t>(std::lround(std::clamp(channels[i], 0.0F, 255.0F)));
-    }
-    return color;
-}
-
 ColorsOfFace colors_in(const PhotoPyramid& pyramid, const CalibratedPhoto& photo,
                        const std::array<Vector3d, 3>& corners, double area_px2)
 {
@@ -60,7 +26,7 @@ ColorsOfFace colors_in(const PhotoPyramid& pyramid, const CalibratedPhoto& photo
     ColorsOfFace colors{};
     const auto look = [&](const Vector3d& place, double width_px) {
         const auto pixel = pixel_beyond(photo, place);
-        return pixel ? color_of(pyramid.at(*pixel, width_px)) : Color{};
+        return pixel ? rounded_color(pyramid.at(*pixel, width_px)) : Color{};
     };
     for (int i = 0; i < 3; ++i) {
         colors[i] = look(corners[i], corner_px);
@@ -99,7 +65,7 @@ distances_from_median(const PhotosOfFace& photos,
     std::vector<Array3f> shown(photos.count);
     for (std::size_t place = 0; place < 4; ++place) {
         for (std::size_t i = 0; i < shown.size(); ++i) {
-            shown[i] = array_of(colors[i][place]) * gains[photos.best[i].photo];
+            shown[i] = channels_of(colors[i][place]) * gains[photos.best[i].photo];
         }
         const Array3f median = median_color(shown);
         for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -110,19 +76,19 @@ distances_from_median(const PhotosOfFace& photos,
 }
 
 /// What the other photographs of a face show over its middle, the mean.
-Array3f shown_by_others(const Look& look, const PhotosOfFace& photos, const FaceColors& colors,
-                        const Gains& gains)
+Array3f shown_by_others(const FaceOfPhoto& look, const PhotosOfFace& photos,
+                        const FaceColors& colors, const Gains& gains)
 {
     Array3f sum = Array3f::Zero();
     for (std::size_t i = 0; i < photos.count; ++i) {
         if (i == look.place) continue;
-        sum += array_of(colors[look.face][i][3]) * gains[photos.best[i].photo];
+        sum += channels_of(colors[look.face][i][3]) * gains[photos.best[i].photo];
     }
     return sum / static_cast<float>(photos.count - 1);
 }
 
 /// Of each channel what others show of the faces of a photograph over what it shows itself.
-std::array<std::vector<double>, 3> quotients_of(const std::vector<Look>& looks,
+std::array<std::vector<double>, 3> quotients_of(const std::vector<FaceOfPhoto>& faces,
                                                 const std::vector<PhotosOfFace>& photos_of_faces,
                                                 const FaceColors& colors, const Gains& gains)
 {
@@ -130,9 +96,9 @@ std::array<std::vector<double>, 3> quotients_of(const std::vector<Look>& looks,
     constexpr double kBlack = 16.0; // what is nearly black or white says nothing of exposure
     constexpr double kWhite = 240.0;
     std::array<std::vector<double>, 3> quotients;
-    const std::size_t step = looks.size() / kMostFaces + 1;
-    for (std::size_t i = 0; i < looks.size(); i += step) {
-        const Look& look = looks[i];
+    const std::size_t step = faces.size() / kMostFaces + 1;
+    for (std::size_t i = 0; i < faces.size(); i += step) {
+        const FaceOfPhoto& look = faces[i];
         const PhotosOfFace& photos = photos_of_faces[look.face];
         const Color& color = colors[look.face][look.place][3];
         if (photos.count < 2 || mean_level(color) < kBlack || mean_level(color) > kWhite) continue;
@@ -178,9 +144,9 @@ FaceColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto
                           const Progress& progress)
 {
     FaceColors colors(mesh.faces.size());
-    const auto looks = looks_of_photos(photos.size(), photos_of_faces);
+    const auto faces = faces_of_photos(photos.size(), photos_of_faces);
     for_each_photograph(photos, progress, [&](std::uint32_t photo, const PhotoPyramid& pyramid) {
-        for (const auto& [face, place] : looks[photo]) {
+        for (const auto& [face, place] : faces[photo]) {
             colors[face][place] =
                 colors_in(pyramid, photos[photo], corners_of(mesh.positions, mesh.faces[face]),
                           photos_of_faces[face].best[place].area_px2);
@@ -189,23 +155,18 @@ FaceColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto
     return colors;
 }
 
-Color brightened(const Color& color, const Array3f& gain)
-{
-    return color_of(array_of(color) * gain);
-}
-
 Gains find_gains(std::size_t num_photos, const std::vector<PhotosOfFace>& photos_of_faces,
                  const FaceColors& colors)
 {
     Gains gains(num_photos, Array3f::Ones());
     constexpr int kRounds = 8;
-    const auto looks = looks_of_photos(num_photos, photos_of_faces);
+    const auto faces = faces_of_photos(num_photos, photos_of_faces);
     for (int round = 0; round < kRounds; ++round) {
         Gains next = gains;
         parallel_for(
             num_photos,
             [&](std::size_t photo) {
-                auto quotients = quotients_of(looks[photo], photos_of_faces, colors, gains);
+                auto quotients = quotients_of(faces[photo], photos_of_faces, colors, gains);
                 for (int channel = 0; channel < 3; ++channel) {
                     if (quotients[channel].empty()) continue;
                     next[photo][channel] = gain_of(quotients[channel]);

@@ -47,7 +47,4 @@ Gains find_gains(std::size_t num_photos, const std::vector<PhotosOfFace>& photos
 std::size_t drop_outliers(const Gains& gains, std::vector<PhotosOfFace>& photos_of_faces,
                           FaceColors& colors);
 
-/// A colour after the gain, each channel from 0 to 255.
-Color brightened(const Color& color, const Eigen::Array3f& gain);
-
 } // namespace vcarve

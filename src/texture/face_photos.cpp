@@ -4,7 +4,6 @@
 #include "base/sort_unique.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_halving.h"
-#include "model/camera.h"
 #include "picture/first_faces.h"
 
 #include <Eigen/Geometry>
@@ -106,8 +105,7 @@ struct Asked {
 /// How long the longest edge is about, where the photograph does not show both its ends.
 double guessed_px(const CalibratedPhoto& photo, const Corners& corners, double distance)
 {
-    const double focal_px = mean_focals_px({photo.camera}).front() * photo.scale.mean();
-    return focal_px * longest_edge(corners) / distance;
+    return photo.focal_px * longest_edge(corners) / distance;
 }
 
 bool shows_part(const CalibratedPhoto& photo, const Corners& corners)
@@ -229,6 +227,19 @@ class Splitter {
 };
 
 } // namespace
+
+std::vector<std::vector<FaceOfPhoto>>
+faces_of_photos(std::size_t num_photos, const std::vector<PhotosOfFace>& photos_of_faces)
+{
+    std::vector<std::vector<FaceOfPhoto>> faces(num_photos);
+    for (std::uint32_t face = 0; face < photos_of_faces.size(); ++face) {
+        const auto shown = photos_of_faces[face].shown();
+        for (std::uint32_t place = 0; place < shown.size(); ++place) {
+            faces[shown[place].photo].push_back({face, place});
+        }
+    }
+    return faces;
+}
 
 std::optional<std::array<Vector2d, 3>> corner_pixels(const CalibratedPhoto& photo,
                                                      const Corners& corners)

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -30,6 +31,16 @@ struct PhotosOfFace {
 
     std::span<const PhotoOfFace> shown() const { return {best.data(), count}; }
 };
+
+/// A face that a photograph shows.
+struct FaceOfPhoto {
+    std::uint32_t face = 0;
+    std::uint32_t place = 0; ///< of the photograph among those that show the face
+};
+
+/// Of each photograph the faces it shows, ascending. Cost: O(faces).
+std::vector<std::vector<FaceOfPhoto>>
+faces_of_photos(std::size_t num_photos, const std::vector<PhotosOfFace>& photos_of_faces);
 
 /// The pixels of a face's corners; nothing where one of them is not shown, or where the photograph
 /// bends the face so much that its corners do not tell where it lies (at the seam of a panorama).

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "geometry/triangle.h"
+#include "model/channels.h"
 
 #include <algorithm>
 #include <array>
@@ -90,12 +91,13 @@ struct Canvas {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(page.width_px) +
                static_cast<std::size_t>(x);
     }
+    static std::ptrdiff_t offset(std::size_t texel)
+    {
+        return static_cast<std::ptrdiff_t>(3 * texel);
+    }
     void set(std::size_t texel, const Array3f& color)
     {
-        for (std::size_t i = 0; i < 3; ++i) {
-            const float level = std::clamp(color[static_cast<Eigen::Index>(i)], 0.0F, 255.0F);
-            page.rgb[3 * texel + i] = static_cast<std::uint8_t>(std::lround(level));
-        }
+        std::ranges::copy(rounded_color(color), page.rgb.begin() + offset(texel));
     }
     Array3f get(std::size_t texel) const
     {
@@ -193,8 +195,7 @@ class Painter {
             if (plan_.photo_of_face[face] != kNoPhoto) return;
             std::array<Array3f, 3> colors;
             for (int i = 0; i < 3; ++i) {
-                const Color& color = plan_.mesh.colors[plan_.mesh.faces[face][i]];
-                colors[i] = Array3f(color[0], color[1], color[2]);
+                colors[i] = channels_of(plan_.mesh.colors[plan_.mesh.faces[face][i]]);
             }
             visit_own(static_cast<std::uint32_t>(face),
                       [&](Canvas& canvas, std::size_t texel, const Vector3d& shares) {

@@ -1,5 +1,7 @@
 #include "texture/photo_pyramid.h"
 
+#include "model/between_pixels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -40,25 +42,8 @@ Eigen::Array3f PhotoPyramid::at(const Eigen::Vector2d& pixel, double width_px) c
 {
     const double finest = std::round(std::log2(std::max(width_px, 1.0)));
     const auto level = std::min(static_cast<std::size_t>(finest), levels_.size() - 1);
-    const Photograph& image = levels_[level];
     const double scale = 1.0 / static_cast<double>(std::size_t{1} << level);
-    const double column = std::clamp(scale * pixel.x() - 0.5, 0.0, image.width_px - 1.0);
-    const double row = std::clamp(scale * pixel.y() - 0.5, 0.0, image.height_px - 1.0);
-    const int x = static_cast<int>(column);
-    const int y = static_cast<int>(row);
-    const auto right = static_cast<float>(column - x);
-    const auto below = static_cast<float>(row - y);
-    const std::size_t step = x + 1 < image.width_px ? 3 : 0;
-    const auto row_bytes = static_cast<std::size_t>(3) * image.width_px;
-    const std::uint8_t* upper = image.rgb.data() + y * row_bytes + static_cast<std::size_t>(3) * x;
-    const std::uint8_t* lower = upper + (y + 1 < image.height_px ? row_bytes : 0);
-    const auto mixed = [&](const std::uint8_t* at) {
-        const Eigen::Array3f left(at[0], at[1], at[2]);
-        const Eigen::Array3f next(at[step], at[step + 1], at[step + 2]);
-        return Eigen::Array3f(left + right * (next - left));
-    };
-    const Eigen::Array3f above = mixed(upper);
-    return above + below * (mixed(lower) - above);
+    return between_pixels(levels_[level], scale * pixel);
 }
 
 } // namespace vcarve

@@ -1,5 +1,6 @@
 #include "texture/seam_blends.h"
 
+#include "mesh/face_corners.h"
 #include "mesh/vertex_faces.h"
 
 #include <algorithm>
@@ -55,7 +56,8 @@ class SeamDistances {
             std::map<std::uint32_t, Array3f> level_of_photo;
             for (const std::uint32_t face : faces_at_[vertex]) {
                 if (photo_of_face_[face] == kNoPhoto) continue;
-                level_of_photo[photo_of_face_[face]] = levels[face][corner_of(face, vertex)];
+                level_of_photo[photo_of_face_[face]] =
+                    levels[face][corner_of(mesh_.faces[face], vertex)];
             }
             for (const auto& [photo, level] : level_of_photo) {
                 for (const auto& [other, other_level] : level_of_photo) {
@@ -84,17 +86,11 @@ class SeamDistances {
     const VertexFaces& faces_at() const { return faces_at_; }
 
   private:
-    int corner_of(std::uint32_t face, std::uint32_t vertex) const
-    {
-        return static_cast<int>(std::ranges::find(mesh_.faces[face], vertex) -
-                                mesh_.faces[face].begin());
-    }
-
     void go_on(std::uint32_t face, const Waiting& from)
     {
         const auto& [vertex, photo, other] = from.through;
-        const int corner = corner_of(face, vertex);
-        for (int i = 0; i < 3; ++i) {
+        const std::size_t corner = corner_of(mesh_.faces[face], vertex);
+        for (std::size_t i = 0; i < 3; ++i) {
             if (i == corner) continue;
             const double distance =
                 from.distance_px + (atlas_.corners[face][i] - atlas_.corners[face][corner]).norm();

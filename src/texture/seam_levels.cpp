@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/sort_unique.h"
+#include "model/channels.h"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -72,8 +73,7 @@ std::vector<Eigen::Array3d> colors_of(const Nodes& nodes,
         for (int i = 0; i < 3; ++i) {
             const Color& color = colors[face][static_cast<std::size_t>(place)][i];
             const std::uint32_t node = nodes.of_face[face][i];
-            sums[node] +=
-                Eigen::Array3d(color[0], color[1], color[2]) * gains[photo].cast<double>();
+            sums[node] += channels_of(color).cast<double>() * gains[photo].cast<double>();
             counts[node] += 1.0;
         }
     }

@@ -72,6 +72,7 @@ std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photogr
                                                const Eigen::Vector3d& mesh_offset)
 {
     std::vector<CalibratedPhoto> photos;
+    const std::vector<double> focals_px = mean_focals_px(scene.cameras);
     for (std::uint32_t i = 0; i < scene.views.size(); ++i) {
         const View& view = scene.views[i];
         const Camera& camera = scene.cameras[view.camera];
@@ -88,6 +89,7 @@ std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photogr
         photo.camera = camera;
         photo.scale = {photo.size.width_px / static_cast<double>(camera.width_px),
                        photo.size.height_px / static_cast<double>(camera.height_px)};
+        photo.focal_px = focals_px[view.camera] * photo.scale.mean();
     }
     return photos;
 }

@@ -3,7 +3,9 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "base/sort_unique.h"
+#include "mesh/face_corners.h"
 #include "mesh/vertex_faces.h"
+#include "model/channels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +22,6 @@ using Eigen::Array3d;
 
 constexpr Color kGrey = {160, 160, 160};
 
-Color rounded(const Array3d& channels)
-{
-    Color color;
-    for (int i = 0; i < 3; ++i) {
-        color[i] = static_cast<std::uint8_t>(std::lround(std::clamp(channels[i], 0.0, 255.0)));
-    }
-    return color;
-}
-
 /// What is known of the faces.
 struct Known {
     const TriMesh& mesh;
@@ -43,15 +36,14 @@ std::vector<Array3d> shown_at(std::uint32_t vertex, std::span<const std::uint32_
 {
     std::map<std::uint32_t, std::pair<Array3d, double>> sums;
     for (const std::uint32_t face : faces) {
-        const auto corner = static_cast<std::size_t>(
-            std::ranges::find(known.mesh.faces[face], vertex) - known.mesh.faces[face].begin());
+        const std::size_t corner = corner_of(known.mesh.faces[face], vertex);
         const auto shown = known.photos_of_faces[face].shown();
         for (std::size_t place = 0; place < shown.size(); ++place) {
             const Color& color = known.colors[face][place][corner];
             auto& [sum, count] =
                 sums.try_emplace(shown[place].photo, Array3d::Zero(), 0.0).first->second;
-            sum += Array3d(color[0], color[1], color[2]) *
-                   known.gains[shown[place].photo].cast<double>();
+            sum +=
+                channels_of(color).cast<double>() * known.gains[shown[place].photo].cast<double>();
             count += 1.0;
         }
     }
@@ -150,7 +142,7 @@ std::size_t color_vertices(const std::vector<PhotosOfFace>& photos_of_faces,
     spread(faces_at, found, mesh);
     mesh.colors.resize(mesh.positions.size(), kGrey);
     for (std::size_t vertex = 0; vertex < found.size(); ++vertex) {
-        if (found[vertex]) mesh.colors[vertex] = rounded(*found[vertex]);
+        if (found[vertex]) mesh.colors[vertex] = rounded_color(*found[vertex]);
     }
     return seen;
 }

@@ -50,6 +50,7 @@ inline CalibratedPhoto photo_from(const Eigen::Vector3d& center)
 {
     CalibratedPhoto photo;
     photo.size = {160, 120};
+    photo.focal_px = 100;
     photo.pose.center = center;
     photo.camera = {
         .id = 1, .model = 0, .width_px = 160, .height_px = 120, .params = {100, 80, 60}};

@@ -67,10 +67,5 @@ TEST(DropOutliers, LeavesTwoThatDiffer)
     EXPECT_EQ(drop_outliers(Gains(2, Eigen::Array3f::Ones()), shown.photos, shown.colors), 0U);
 }
 
-TEST(Brightened, StaysWithinAByte)
-{
-    EXPECT_EQ(brightened({100, 200, 3}, {2.0F, 2.0F, 0.5F}), (Color{200, 255, 2}));
-}
-
 } // namespace
 } // namespace vcarve

@@ -5,6 +5,7 @@
 #include "io/colmap/text_reader.h"
 #include "io/files/foreign_file.h"
 #include "io/files/mapped_file.h"
+#include "io/files/path_kind.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -31,18 +32,6 @@ struct Component {
     ModelFormat format = ModelFormat::binary;
     std::uint64_t num_points = 0;
 };
-
-bool is_file(const fs::path& path)
-{
-    std::error_code error;
-    return fs::is_regular_file(path, error);
-}
-
-bool is_folder(const fs::path& path)
-{
-    std::error_code error;
-    return fs::is_directory(path, error);
-}
 
 std::vector<std::string> missing_files(const fs::path& folder, ModelFormat format)
 {

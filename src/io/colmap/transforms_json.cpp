@@ -9,6 +9,7 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
+#include "io/files/path_kind.h"
 #include "model/lens_model.h"
 #include "model/similarity.h"
 #include "vcarve/error.h"
@@ -315,8 +316,7 @@ fs::path points_of_transforms(const fs::path& file)
     const fs::path folder = file.parent_path();
     if (named.value != nullptr) return folder / named.text("the path of a PLY file");
     for (const char* const name : {kSparsePly, kPointsPly}) {
-        std::error_code error;
-        if (fs::is_regular_file(folder / name, error)) return folder / name;
+        if (is_file(folder / name)) return folder / name;
     }
     return {};
 }

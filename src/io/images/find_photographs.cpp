@@ -1,31 +1,19 @@
 #include "io/images/find_photographs.h"
 
 #include "base/parallel.h"
+#include "io/files/path_kind.h"
 #include "io/images/read_photograph.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
 
 namespace vcarve {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-bool is_file(const fs::path& path)
-{
-    std::error_code error;
-    return fs::is_regular_file(path, error);
-}
-
-bool is_folder(const fs::path& path)
-{
-    std::error_code error;
-    return fs::is_directory(path, error);
-}
 
 bool leads_out(const fs::path& name)
 {

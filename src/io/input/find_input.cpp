@@ -5,6 +5,7 @@
 #include "io/colmap/transforms_json.h"
 #include "io/files/foreign_file.h"
 #include "io/files/mapped_file.h"
+#include "io/files/path_kind.h"
 #include "io/ply/ply_cloud.h"
 #include "vcarve/error.h"
 
@@ -21,12 +22,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kFused = "fused.ply";
-
-bool is_file(const fs::path& path)
-{
-    std::error_code error;
-    return fs::is_regular_file(path, error);
-}
 
 bool is_ply_file(const fs::path& path)
 {

@@ -2,6 +2,7 @@
 
 #include "io/colmap/model_files.h"
 #include "io/files/foreign_file.h"
+#include "io/files/path_kind.h"
 
 #include <algorithm>
 #include <system_error>
@@ -18,8 +19,7 @@ constexpr const char* kNamesBesideModels[] = {
 
 void add_if_there(const fs::path& path, std::vector<fs::path>& files)
 {
-    std::error_code error;
-    if (fs::is_regular_file(path, error)) files.push_back(path);
+    if (is_file(path)) files.push_back(path);
 }
 
 void add_all_below(const fs::path& folder, std::vector<fs::path>& files)

@@ -119,6 +119,19 @@ TEST(SimplifySurface, StopsWhereASolidWouldVanish)
     EXPECT_LT(check.faces, 100);
 }
 
+TEST(SimplifySurface, KeepsAFlatTetrahedron)
+{
+    // Its apex could go to a corner without a face that turns or becomes a sliver; nothing closed
+    // would be left.
+    TriMesh mesh;
+    mesh.positions = {{1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0}, {0, 0, 0.02}};
+    mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const SightGuard guard = unguarded();
+    const TriMesh simple = simplified(mesh, guard, {.faces = 1});
+    EXPECT_EQ(simple.faces, mesh.faces);
+    EXPECT_TRUE(check_mesh(simple).is_closed());
+}
+
 /// A corrugated sheet, and points that hover close above its vertices: their sights count to the
 /// end, so nothing may fill a trough.
 struct Sheet {
