@@ -113,7 +113,7 @@ Json parse(const fs::path& path)
 /// The entries of `frames`, of which there is at least one.
 Place frames_of(const Json& json, const fs::path& path)
 {
-    const Place frames = Place{path, "", &json}.member("frames");
+    Place frames = Place{path, "", &json}.member("frames");
     if (!frames.is_array() || frames.value->empty()) {
         frames.refuse("a list of images with their poses, as nerfstudio and instant-ngp write it");
     }
