@@ -71,6 +71,14 @@ OptionList record_options(MeshArguments& arguments)
                   "with cameras, points and the faces that were taken away, what every stage "
                   "took, what the filter dropped and why, and what to be wary of."},
          &arguments.report},
+        {kStage,
+         {.name = "check",
+          .help =
+              "Check the surface before it is written, as --stats and --report do, too: that it "
+              "is manifold and oriented and has no degenerate face. Edges where it ends, faces "
+              "that go through others and rays that meet it from behind are counted.",
+          .tuning = true},
+         &arguments.checks},
     };
 }
 

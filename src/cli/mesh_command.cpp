@@ -12,11 +12,11 @@
 #include "cli/preview_output.h"
 #include "cli/run_memory.h"
 #include "cli/run_record.h"
+#include "cli/surface_check.h"
 #include "cli/texture_output.h"
 #include "io/colmap/sim3_text.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
-#include "mesh/check.h"
 #include "mesh/long_faces.h"
 #include "options/declared.h"
 #include "pipeline/memory.h"
@@ -109,23 +109,6 @@ void write_surface(const MeshArguments& arguments, const Surface& surface, const
     stage.end({{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}});
 }
 
-Json check_json(const MeshCheck& check)
-{
-    return {{"vertices", check.vertices},
-            {"faces", check.faces},
-            {"degenerate_faces", check.degenerate_faces},
-            {"components", check.components},
-            {"boundary_edges", check.boundary_edges},
-            {"nonmanifold_edges", check.nonmanifold_edges},
-            {"nonmanifold_vertices", check.nonmanifold_vertices},
-            {"orientation_faults", check.orientation_faults},
-            {"unreferenced_vertices", check.unreferenced_vertices},
-            {"euler_characteristic", check.euler_characteristic},
-            {"area", check.area},
-            {"is_closed", check.is_closed()},
-            {"is_manifold", check.is_manifold()}};
-}
-
 void write_stats(const fs::path& path, const Json& record)
 {
     OutputFile file(path);
@@ -138,10 +121,11 @@ int threads_of(const Options& options)
     return options.threads == 0 ? available_threads() : options.threads;
 }
 
-/// The logs of a run: what is shown, and what is told of it, which goes there, too.
+/// The logs of a run: what is shown, what is told of it, which goes there, too, and what was counted.
 struct RunLogs {
     RunLog& shown;
     Log& told;
+    const CountsOfStages& counts;
 };
 
 /// A run: what it is to do, whom it tells, where its arrays are, and where its stages are kept.
@@ -282,6 +266,19 @@ ModelInput read_input(const Run& run)
     return input;
 }
 
+/// Tells the record what the surface is, before it is written.
+void check_surface(const Run& run, const TriMesh& mesh, Json& record)
+{
+    const MeshArguments& arguments = run.arguments;
+    if (!arguments.checks && arguments.stats.empty() && arguments.report.empty()) return;
+    Json& surface = record["mesh"];
+    surface = checked(mesh, run.logs.counts, run.logs.told);
+    require_promised(surface, arguments.command, arguments.model.path.string());
+    if (!arguments.transform) return;
+    const double scale = arguments.transform->scale;
+    surface["area"] = surface["area"].get<double>() * scale * scale;
+}
+
 /// From the model to the file; tells the record what went in and came out.
 Made make_surface(const Run& run, Json& record)
 {
@@ -299,14 +296,11 @@ Made make_surface(const Run& run, Json& record)
     Made made;
     made.is_dense = input.read.is_dense;
     const Surface surface = surface_of(std::move(input), run);
+    check_surface(run, surface.mesh, record);
     write_surface(arguments, surface, place, logs.told);
     preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, logs.told);
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
-    if (arguments.stats.empty() && arguments.report.empty()) return made;
-    MeshCheck check = check_mesh(surface.mesh);
-    if (arguments.transform) check.area *= arguments.transform->scale * arguments.transform->scale;
-    record["mesh"] = check_json(check);
     if (!arguments.report.empty()) {
         made.report =
             make_report(surface.mesh, surface.texture, surface.removed, surface.scene, logs.told);
@@ -398,7 +392,8 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     // for.
     std::optional<StageRecorder> recorder;
     if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(keeper);
-    const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper};
+    const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper,
+                          keeper.counts()};
     Json record = begun_record(arguments, threads, processes);
 
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);

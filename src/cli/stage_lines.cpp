@@ -58,6 +58,9 @@ constexpr Wording kWordings[] = {
     {"colors", "colours", "{vertices} vertices coloured|, {outliers} views of passers-by left out"},
     {"texture", "texture", "{charts} charts on {pages} pages"},
     {"look", "look", "from {photographs} photographs that were left out"},
+    {"check", "check",
+     "{open edges} open edges|, {self-intersections} faces through others"
+     "|, {sights from behind} rays from behind"},
     {"write", "write", ""},
 };
 
