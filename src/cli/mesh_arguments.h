@@ -38,6 +38,7 @@ struct MeshArguments {
     std::filesystem::path work;   ///< empty where nothing is kept between stages
     bool keeps_work = false;      ///< also at the end
     bool checks = false;          ///< the surface, also where no record is written
+    std::filesystem::path replay; ///< the surface whose command is asked for
     std::string command;          ///< as it was typed
     OutputOptions output;
     std::optional<Similarity> transform; ///< what --transform says, once it is read

@@ -1,7 +1,6 @@
 #include "cli/mesh_command.h"
 
 #include "base/threads.h"
-#include "base/version.h"
 #include "cli/closing_line.h"
 #include "cli/expected_run.h"
 #include "cli/interruption.h"
@@ -10,6 +9,7 @@
 #include "cli/model_input.h"
 #include "cli/placing.h"
 #include "cli/preview_output.h"
+#include "cli/replay.h"
 #include "cli/run_memory.h"
 #include "cli/run_record.h"
 #include "cli/surface_check.h"
@@ -22,6 +22,7 @@
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
+#include "run/scene_digest.h"
 #include "run/work_folder.h"
 #include "steps/6_surface/provenance.h"
 #include "vcarve/error.h"
@@ -58,9 +59,10 @@ void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scra
     }
 }
 
-/// What is written.
+/// What is written, and what is said of it in its file.
 struct Surface {
     TriMesh mesh;
+    std::vector<std::string> comments;
     Texture texture; ///< without pages where there is none
     std::optional<Provenance> provenance;
     Scene scene;          ///< the points it was made from; empty where no report tells of them
@@ -76,7 +78,7 @@ struct Place {
 void write_surface(const MeshArguments& arguments, const Surface& surface, const Place& place,
                    Log& log)
 {
-    std::vector<std::string> comments = {"made by colmap-vcarve " + versions().program};
+    std::vector<std::string> comments = surface.comments;
     std::optional<TriMesh> moved;
     if (arguments.transform) {
         moved = transformed(surface.mesh, *arguments.transform);
@@ -121,7 +123,8 @@ int threads_of(const Options& options)
     return options.threads == 0 ? available_threads() : options.threads;
 }
 
-/// The logs of a run: what is shown, what is told of it, which goes there, too, and what was counted.
+/// The logs of a run: what is shown, what is told of it, which goes there, too, and what was
+/// counted.
 struct RunLogs {
     RunLog& shown;
     Log& told;
@@ -285,7 +288,9 @@ Made make_surface(const Run& run, Json& record)
     const MeshArguments& arguments = run.arguments;
     const RunLogs& logs = run.logs;
     ModelInput input = read_input(run);
+    const Digest digest = digest_of(input.scene);
     record["input"] = input.record;
+    record["input"]["digest"] = digest_text(digest);
     PreviewOutput preview(arguments.preview);
     preview.stand_in(input.scene);
     record["preview"] = preview.record();
@@ -295,7 +300,10 @@ Made make_surface(const Run& run, Json& record)
     if (arguments.transform) record["transform"] = sim3_text(*arguments.transform);
     Made made;
     made.is_dense = input.read.is_dense;
-    const Surface surface = surface_of(std::move(input), run);
+    Surface surface = surface_of(std::move(input), run);
+    MeshArguments told = arguments;
+    if (place.offset.isZero(0.0)) told.output.offset = {}; // makes no difference
+    surface.comments = record_comments(told, digest);
     check_surface(run, surface.mesh, record);
     write_surface(arguments, surface, place, logs.told);
     preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, logs.told);
@@ -412,6 +420,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
 
 void run_mesh(const ParsedArguments& given, RunRanks* ranks)
 {
+    if (given.has("replay")) return print(replay_text(given.options.at("replay")));
     try {
         run(given, ranks);
     } catch (const ScratchError& error) {

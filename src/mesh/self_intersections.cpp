@@ -16,7 +16,9 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Corners = std::array<Kernel::Point_3, 3>;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
+using Box =
+    CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t,
+                                              CGAL::Box_intersection_d::ID_FROM_BOX_ADDRESS>;
 
 Kernel::Triangle_3 triangle(const Corners& corners)
 {
@@ -69,10 +71,14 @@ std::int64_t count_self_intersections(const TriMesh& mesh)
         if (CGAL::collinear(corners[0], corners[1], corners[2])) continue;
         boxes.emplace_back(CGAL::bbox_3(corners.begin(), corners.end()), f);
     }
+    std::vector<const Box*> all; // pointers are moved faster
+    for (const Box& box : boxes) {
+        all.push_back(&box);
+    }
+    constexpr std::ptrdiff_t kFewBoxes = 1000; // takes half the time of CGAL's default, 10
     std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-        near.emplace_back(a.info(), b.info());
-    });
+    const auto keep = [&](const Box* a, const Box* b) { near.emplace_back(a->info(), b->info()); };
+    CGAL::box_self_intersection_d(all.begin(), all.end(), keep, kFewBoxes);
     return static_cast<std::int64_t>(parallel_count(near.size(), [&](std::size_t i) {
         return intersect(corners_of(near[i].first), corners_of(near[i].second));
     }));

@@ -8,7 +8,6 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tiny_gltf.h>
 
 #include <array>
@@ -198,20 +197,17 @@ tinygltf::Material matt()
     return material;
 }
 
-/// What was subtracted, and what now is y: {"offset": [x, y, z], "up": [x, y, z]}.
-tinygltf::Value placing_json(const MeshFormat& format)
+/// What was subtracted, what now is y, and the comments, where there are any:
+/// {"offset": [x, y, z], "up": [x, y, z], "comments": []}.
+tinygltf::Value extras_json(const MeshFormat& format)
 {
     tinygltf::Value::Object said;
-    const auto say = [&](const char* word, const Vector3d& vector) {
-        if (vector.isZero(0.0)) return;
-        tinygltf::Value::Array numbers;
-        for (const double coordinate : vector) {
-            numbers.emplace_back(coordinate);
-        }
-        said[word] = tinygltf::Value(std::move(numbers));
+    const auto say = [&](const char* word, const auto& items) {
+        said[word] = tinygltf::Value(tinygltf::Value::Array(items.begin(), items.end()));
     };
-    say(kOffsetWord, format.offset);
-    say("up", format.up);
+    if (!format.offset.isZero(0.0)) say(kOffsetWord, format.offset);
+    if (!format.up.isZero(0.0)) say("up", format.up);
+    if (!format.comments.empty()) say("comments", format.comments);
     return tinygltf::Value(std::move(said));
 }
 
@@ -303,8 +299,8 @@ void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
     ModelBuilder builder;
     tinygltf::Model& model = builder.model();
     model.asset.version = "2.0";
-    model.asset.generator = fmt::to_string(fmt::join(format.comments, ", "));
-    const tinygltf::Value said = placing_json(format);
+    if (!format.comments.empty()) model.asset.generator = format.comments.front();
+    const tinygltf::Value said = extras_json(format);
     if (said.Size() > 0) model.asset.extras = said;
     if (mesh.faces.empty()) {
         model.buffers.clear(); // glTF knows no empty buffers, meshes or scenes

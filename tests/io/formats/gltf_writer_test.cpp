@@ -94,7 +94,8 @@ void expect_read_back(const TriMesh& mesh, const std::filesystem::path& path)
 TEST(WriteGlb, SaysWhatItHolds)
 {
     const Json json = chunks_of(written(sample_sheet(), {.comments = {"made here", "x"}})).json;
-    EXPECT_EQ(json["asset"], Json::parse(R"({"generator": "made here, x", "version": "2.0"})"));
+    EXPECT_EQ(json["asset"], Json::parse(R"({"generator": "made here", "version": "2.0",
+                                            "extras": {"comments": ["made here", "x"]}})"));
     EXPECT_EQ(json["scene"], 0);
     EXPECT_EQ(json["scenes"], Json::parse(R"([{"nodes": [0]}])"));
     EXPECT_EQ(json["materials"], Json::parse(R"([{"doubleSided": true,
