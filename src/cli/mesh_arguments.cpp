@@ -76,13 +76,15 @@ OptionList record_options(MeshArguments& arguments)
           .help =
               "Check the surface before it is written, as --stats and --report do, too: that it "
               "is manifold and oriented and has no degenerate face. Edges where it ends, faces "
-              "that go through others and rays that meet it from behind are counted."},
+              "that go through others and rays that meet it from behind are counted.",
+          .tuning = true},
          &arguments.checks},
         {kStage,
          {.name = "replay",
           .unit = "file",
           .help = "Print the command that made this surface, as its file tells (.ply, .obj, .off "
-                  "or .glb), and do nothing else."},
+                  "or .glb), and do nothing else.",
+          .tuning = true},
          &arguments.replay},
     };
 }

@@ -22,7 +22,6 @@
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
-#include "run/scene_digest.h"
 #include "run/work_folder.h"
 #include "steps/6_surface/provenance.h"
 #include "vcarve/error.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/mesh_arguments.h"
-#include "run/digest.h"
+#include "run/job.h"
 
 #include <filesystem>
 #include <string>

@@ -3,6 +3,7 @@
 #include "io/input/find_input.h"
 #include "run/digest.h"
 #include "vcarve/options.h"
+#include "vcarve/scene.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -27,6 +28,11 @@ using Job = std::vector<JobFact>;
 /// A line a fact: its name, a tab, its value.
 std::string job_text(const Job& job);
 Digest digest_of(const Job& job);
+
+/// The digest of all views and points, whichever files they were read from and in whatever order
+/// the points stand there. Points that are nowhere (is_place()) do not count. Cost: that of the
+/// digest of their bytes, and a sort.
+Digest digest_of(const Scene& scene);
 
 /// Which program it is: another version, or one built by another compiler, may round otherwise.
 JobFact program_fact();
