@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 
 namespace vcarve::cli {
@@ -39,18 +38,13 @@ OptionList counting_options(MeshArguments& arguments)
 std::string told(const Option& option)
 {
     if (is_flag(option)) return option.info.name;
-    std::string value = value_text(option);
-    const auto* const* region = std::get_if<RegionChoice*>(&option.value);
-    const bool is_name = std::holds_alternative<std::string*>(option.value) &&
-                         std::ranges::find(option.info.words, value) == option.info.words.end();
-    double number = 0.0;
-    if (std::holds_alternative<std::filesystem::path*>(option.value) ||
-        (region != nullptr && (*region)->kind == RegionChoice::Kind::file) ||
-        (is_name && std::from_chars(value.data(), value.data() + value.size(), number).ptr !=
-                        value.data() + value.size())) {
-        value = "FILE";
-    }
-    return option.info.name + "=" + value;
+    const std::string value = value_text(option);
+    const bool may_be_path = std::holds_alternative<std::filesystem::path*>(option.value) ||
+                             std::holds_alternative<RegionChoice*>(option.value) ||
+                             std::holds_alternative<std::string*>(option.value);
+    const bool is_path = may_be_path && std::ranges::count(option.info.words, value) == 0 &&
+                         value.find_first_not_of("0123456789.,+-e") != std::string::npos;
+    return option.info.name + "=" + (is_path ? "FILE" : value);
 }
 
 /// What follows the word in each comment that begins with it: in a line of text, or in a string of

@@ -133,13 +133,18 @@ void StageWriter::put(const T& value)
 template <typename T>
 void StageReader::get(T& value)
 {
-    if constexpr (kIsPlain<T>) {
+    if constexpr (std::is_same_v<T, bool>) {
+        std::uint8_t byte = 0;
+        get(byte);
+        if (byte > 1) refuse("its content is damaged: a yes or no is neither");
+        value = byte != 0;
+    } else if constexpr (kIsPlain<T>) {
         get_bytes(&value, sizeof(T));
     } else if constexpr (kIsOptional<T>) {
-        std::uint8_t has_value = 0;
+        bool has_value = false;
         get(has_value);
         value.reset();
-        if (has_value != 0) get(value.emplace());
+        if (has_value) get(value.emplace());
     } else if constexpr (kIsArray<T>) {
         using Item = typename T::value_type;
         value.clear();

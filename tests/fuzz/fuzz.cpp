@@ -2,8 +2,10 @@
 // An input is the files of a model, one after the other, with kNext in between. What is refused is
 // well; what crashes, hangs, takes too much memory or throws anything else is a finding.
 #include "io/colmap/sim3_text.h"
+#include "io/images/read_photograph.h"
 #include "pipeline/run_state.h"
 #include "region/region.h"
+#include "run/checkpoints.h"
 #include "run/stage_file.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
@@ -113,11 +115,22 @@ void read_transformation(std::string_view input)
     read_sim3(folder() / "sim3.txt");
 }
 
+void read_image(std::string_view input)
+{
+    put(input, {"photo"});
+    const PhotographSize size = photograph_size(folder() / "photo");
+    constexpr double kManyPixels = 1e6; // are a large array, and no fault
+    if (static_cast<double>(size.width_px) * size.height_px > kManyPixels) return;
+    read_photograph(folder() / "photo");
+}
+
 template <typename Noun>
 void read_stage_as(const fs::path& path)
 {
+    std::vector<ToldEvent> told;
     Noun noun{};
     StageReader reader(path, {"cells", {}}, {});
+    reader.get(told);
     reader.get(noun);
     reader.finish();
 }
@@ -135,8 +148,9 @@ void read_stage(std::string_view input)
         std::ofstream(path, std::ios::binary) << input;
     } else {
         StageWriter writer(path, {"cells", {}}, input.size(), {});
-        for (const char byte : input)
+        for (const char byte : input) {
             writer.put(byte);
+        }
         writer.commit();
     }
     switch (first / 2 % 4) {
@@ -167,11 +181,17 @@ void run(std::string_view input)
 const std::map<std::string_view, void (*)(std::string_view)>& targets()
 {
     static const std::map<std::string_view, void (*)(std::string_view)> all = {
-        {"binary", read_binary}, {"text", read_text},
-        {"cloud", read_cloud},   {"scan", read_scan},
-        {"mesh", read_mesh},     {"transforms", read_transforms},
-        {"region", read_region}, {"transformation", read_transformation},
-        {"stage", read_stage},   {"run", run}};
+        {"binary", read_binary},
+        {"text", read_text},
+        {"cloud", read_cloud},
+        {"scan", read_scan},
+        {"mesh", read_mesh},
+        {"transforms", read_transforms},
+        {"region", read_region},
+        {"transformation", read_transformation},
+        {"stage", read_stage},
+        {"image", read_image},
+        {"run", run}};
     return all;
 }
 

@@ -257,6 +257,12 @@ TEST_F(StageFile, SaysWhatIsWrong)
               path.string() + ": it is of another input or other options");
 }
 
+TEST_F(StageFile, RefusesAYesOrNoThatIsNeither)
+{
+    write(std::uint8_t{2});
+    EXPECT_THAT(refusal<InputError>([&] { read<bool>(); }), HasSubstr("a yes or no is neither"));
+}
+
 TEST_F(StageFile, OfMoreThanItsReaderAsksForIsRefused)
 {
     write(scene);
