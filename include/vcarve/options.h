@@ -58,6 +58,8 @@ struct TraceOptions {
                                  ///< is e > 1 medians; 0: none
     int bundle_sights = 5;       ///< this many near sights of a dense cloud go on as one far from
                                  ///< their points; 1: each by itself
+    double inferred_weight = 1.0; ///< of a sight that a dense cloud's file leaves out, where views
+                                  ///< likely saw a point (inferred_sights); 0: none
 };
 
 /// How the minimum cut weighs shapes against sights.

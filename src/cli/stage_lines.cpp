@@ -37,7 +37,7 @@ constexpr Wording kWordings[] = {
      "{points} of {of} points in the region|, {outside but seen through it} seen through it"},
     {"fill", "fill", "{points added} points added on planes"},
     {"triangulate", "triangulate", "{cells} cells"},
-    {"sights", "rays", "{sights} rays from points to cameras"},
+    {"sights", "rays", "{sights} rays from points to cameras|, {inferred} more likely"},
     {"virtual", "viewpoints", "{views} more viewpoints, {sights} rays"},
     {"carve", "carve", "{inside} of {of} cells are solid"},
     {"cut", "cut", "{inside} of {of} cells are solid"},

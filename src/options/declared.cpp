@@ -172,6 +172,15 @@ OptionList depth_options(TraceOptions& trace)
           .max = 64,
           .tuning = true},
          &trace.bundle_sights},
+        {kSights,
+         {.name = "inferred-sights",
+          .unit = "weight",
+          .help = "Of a dense cloud: how much a ray counts of a camera that likely saw a point, "
+                  "though fused.ply.vis does not say so; 0 leaves them out.",
+          .min = 0.0,
+          .max = 10.0,
+          .tuning = true},
+         &trace.inferred_weight},
     };
 }
 

@@ -132,7 +132,7 @@ std::int64_t predicted_share(const RunSize& size)
 
 std::int64_t least_memory(const RunSize& size, int threads)
 {
-    const double point = kHeapPoint + (size.read.is_dense ? 0.0 : kHeapAddedPoint);
+    const double point = kHeapPoint + kHeapAddedPoint;
     return rounded(kProgram + kThread * threads + point * sizes_of(size.thinned).points);
 }
 

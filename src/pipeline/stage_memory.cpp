@@ -160,8 +160,10 @@ double tracing(const Needs& needs)
     const double walked =
         std::min(n.sights, needs.threads * 512 * n.sights / std::max(n.points, 1.0));
     constexpr double kSight = 96;
+    constexpr double kInferred = 20; // of a cloud, about as many as there are; and what they say
+    const double inferred = needs.is_dense ? kInferred * n.sights + kNetworkCell * n.cells() : 0.0;
     return n.after_triangulation() +
-           std::max(24 * edges, n.cells() * kNetworkCell + kSight * walked);
+           std::max(24 * edges, n.cells() * kNetworkCell + kSight * walked + inferred);
 }
 
 /// The network, the solver, and the labels.

@@ -12,6 +12,7 @@
 #include "steps/2_planes/added_points.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/count_crossings.h"
+#include "steps/4_visibility/inferred_sights.h"
 #include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/virtual_views.h"
 #include "steps/5_labels/label_cells.h"
@@ -49,6 +50,21 @@ Counts cut_by(VisibilityEnergy energy, RunState& run, const Progress& progress)
     return {{"inside", made.inside},
             {"of", size_of(run.cells.cells.size())},
             {"faces of the hull", made.on_hull}};
+}
+
+/// Adds what the sights that a cloud's file leaves out say to the energy; how many they are.
+std::int64_t walk_inferred(RunState& run, double weight, const Progress& progress)
+{
+    const Scene& scene = run.points.scene;
+    const Tracks inferred = inferred_sights(scene, progress.part(0.0, 0.5));
+    RaySource source = photographs(scene);
+    source.rays = &inferred;
+    source.weight = weight;
+    source.is_measured = false;
+    const Scales scales = measure_scales(run.cells, scene);
+    RayCaster(run.cells, scene, scales, run.options().labels.trace)
+        .cast(source, run.evidence.energy, progress.part(0.5, 1.0));
+    return size_of(inferred.views.size());
 }
 
 RemovedFaces* wanted_removals(RunState& run)
@@ -145,12 +161,16 @@ Counts triangulate(RunState& run, const Progress& progress)
 Counts walk_sights(RunState& run, const Progress& progress)
 {
     const Scene& scene = run.points.scene;
+    std::int64_t inferred = 0;
     if (run.options().labels.method == Method::strict) {
         CrossingCounter(run.cells).cast(photographs(scene), run.evidence.crossings, progress);
     } else {
-        run.evidence.energy = walk_by_ranks(run, progress);
+        const double weight = run.options().labels.trace.inferred_weight;
+        const bool infers = scene.is_dense && weight > 0.0;
+        run.evidence.energy = walk_by_ranks(run, progress.part(0.0, infers ? 0.5 : 1.0));
+        if (infers) inferred = walk_inferred(run, weight, progress.part(0.5, 1.0));
     }
-    return {{"sights", size_of(scene.num_sights())}};
+    return {{"sights", size_of(scene.num_sights())}, {"inferred", inferred}};
 }
 
 Counts place_virtual_views(RunState& run, const Progress& progress)

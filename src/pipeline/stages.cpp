@@ -47,7 +47,19 @@ bool merges_in_memory(const Needs& n)
 /// The paper's own method is of the points that are given.
 bool adds_points(const Needs& n)
 {
-    return n.options.added_points.add_any() && is_cut(n) && !n.is_dense;
+    return n.options.added_points.add_any() && is_cut(n);
+}
+
+/// Those of a model are added before it is cropped, by all that is known of its planes; those of a
+/// cloud once its noise is gone.
+bool adds_to_model(const Needs& n)
+{
+    return adds_points(n) && !n.is_dense;
+}
+
+bool adds_to_cloud(const Needs& n)
+{
+    return adds_points(n) && n.is_dense;
 }
 
 bool is_cropped(const Needs& n)
@@ -180,9 +192,10 @@ constexpr RunStage kStages[] = {
     {"thin", input, merges_in_memory, run::thin, thinning},
     {"memory", plan, always, run::foresee_memory},
     {"filter", points, always, run::filter, filtering, of_points<650, 80>},
-    {"fill", points, adds_points, run::add_points, finding_planes, of_points<7000, 84>},
+    {"fill", points, adds_to_model, run::add_points, finding_planes, of_points<7000, 84>},
     {"crop", points, is_cropped, run::crop, nullptr, of_points<300, 80>},
     {"denoise", points, denoises_points, run::denoise, denoising, of_points<1900, 95>},
+    {"fill", points, adds_to_cloud, run::add_points, finding_planes, of_points<7000, 84>},
     {"triangulate", cells, always, run::triangulate, triangulating, triangulate_seconds},
     {"sights", sights, always, run::walk_sights, tracing, walk_seconds},
     // Virtual views are placed by what the sights say, and say more.

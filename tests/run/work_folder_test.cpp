@@ -166,7 +166,7 @@ TEST_F(Work, IsFreeWhenItsProcessWasKilled)
         WorkFolder work(path);
         work.begin(kJob);
         work.save("numbers", {}, Numbers{1, 2, 3});
-        static_cast<void>(::write(ready[1], "x", 1));
+        if (::write(ready[1], "x", 1) != 1) ::_exit(1);
         ::pause();
         ::_exit(0);
     }

@@ -27,7 +27,7 @@ std::vector<Candidate> candidates_of(const Scene& scene, const PlanarRegions& pl
     };
     if (options.crease_reach > 0.0)
         add(crease_candidates(scene, planes, options.crease_reach, progress.part(0.0, 0.3)));
-    if (options.border_gap > 0.0)
+    if (options.border_gap > 0.0 && !scene.is_dense)
         add(border_candidates(scene, planes, options.border_gap, progress.part(0.3, 0.9)));
     if (options.textureless_step > 0.0)
         add(textureless_candidates(planes, options.textureless_step, progress.part(0.9, 1.0)));
@@ -51,7 +51,7 @@ void add_point(Scene& scene, const AcceptedPoint& point)
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress)
 {
     AddedPoints report;
-    if (!options.add_any() || scene.is_dense) return report;
+    if (!options.add_any()) return report;
     std::vector<AcceptedPoint> points;
     {
         const PlanarRegions planes = planar_regions(scene, progress.part(0.0, 0.4));

@@ -23,10 +23,10 @@ struct AddedPoints {
 /// nothing of what lies behind them (RayCaster).
 ///
 /// A new point has the mean colour of the points beside it and the error of the one next to it.
-/// Dense scenes stay as they are. The points follow each other in space, as spatial_sort() puts
-/// them, before and after. The result does not depend on the number of threads nor, up to rounding,
-/// on where the scene lies and how large it is. Cost: that of the steps named and of a sort; 90
-/// bytes a point, and what crossings take (border_candidates).
+/// Borders of dense clouds get none: points stand close enough there. The points follow each other
+/// in space, as spatial_sort() puts them, before and after. The result does not depend on the
+/// number of threads nor, up to rounding, on where the scene lies and how large it is. Cost: that
+/// of the steps named and of a sort; 90 bytes a point, and what crossings take (border_candidates).
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options,
                        const Progress& progress = {});
 

@@ -27,8 +27,6 @@ using Eigen::Vector3d;
 
 /// How many points around a point tell how the surface runs there, and how many make a region.
 constexpr std::size_t kAround = 12;
-/// How far from its plane a point of a region may lie, in spacings.
-constexpr double kThickness = 1.0 / 7.0;
 using Around = std::array<std::uint32_t, kAround>;
 
 /// The plane that lies nearest to points, and how far from it they lie: the root of the mean
@@ -59,13 +57,15 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, std::span<const st
 struct Surroundings {
     std::vector<Around> around;
     std::vector<double> spacings;
-    std::vector<double> bends; ///< how far they lie from a plane, in spacings, rounded
+    std::vector<double> bends;    ///< how far they lie from a plane, in spacings, rounded
+    double thickness = 1.0 / 7.0; ///< how far from its plane a point of a region may lie, too
 
     Surroundings(const Scene& scene, const NearestNeighbors& tree, const Progress& progress)
         : around(scene.num_points()), spacings(scene.num_points()), bends(scene.num_points())
     {
         parallel_for(around.size(), progress,
                      [&](std::size_t i) { look_around(scene.positions, tree, i); });
+        if (scene.is_dense) thickness = std::max(thickness, kOfNoise * median_bend());
     }
 
     /// The flat points, the flattest first.
@@ -73,13 +73,23 @@ struct Surroundings {
     {
         std::vector<std::uint32_t> flat;
         for (std::uint32_t i = 0; i < bends.size(); ++i) {
-            if (bends[i] <= kThickness) flat.push_back(i);
+            if (bends[i] <= thickness) flat.push_back(i);
         }
         std::ranges::stable_sort(flat, {}, [&](std::uint32_t i) { return bends[i]; });
         return flat;
     }
 
   private:
+    /// Three standard deviations of heights over a plane that was fitted to twelve of them.
+    static constexpr double kOfNoise = 3.5;
+
+    /// Most points of a dense cloud lie on smooth surfaces, and bend by their noise only.
+    double median_bend() const
+    {
+        std::vector<double> all = bends;
+        return median_in_place(all);
+    }
+
     void look_around(const std::vector<Vector3d>& positions, const NearestNeighbors& tree,
                      std::size_t i)
     {
@@ -174,7 +184,8 @@ class Growth {
     void take_in_around(std::uint32_t point)
     {
         for (const std::uint32_t other : surroundings_.around[point]) {
-            if (!is_own(other) && !is_taken(other) && is_within(other, kThickness)) take_in(other);
+            if (!is_own(other) && !is_taken(other) && is_within(other, surroundings_.thickness))
+                take_in(other);
         }
     }
 
@@ -196,7 +207,7 @@ class Growth {
         std::size_t beside = 0;
         for (const std::uint32_t point : region_) {
             for (const std::uint32_t other : surroundings_.around[point]) {
-                if (!is_own(other) && !is_within(other, kWider * kThickness)) continue;
+                if (!is_own(other) && !is_within(other, kWider * surroundings_.thickness)) continue;
                 ++all;
                 beside += is_own(other) ? 0 : 1;
             }
@@ -220,7 +231,7 @@ class Growth {
 class GrowthInTurn {
   public:
     GrowthInTurn(const Scene& scene, const Surroundings& surroundings, PlanarRegions& found)
-        : scene_(scene), surroundings_(surroundings), found_(found)
+        : scene_(scene), surroundings_(surroundings), found_(found), is_tried_(scene.num_points())
     {
         constexpr std::size_t kMost = 16; // since each marks all points
         for (std::size_t i = 0; i < std::min(num_threads(), kMost); ++i) {
@@ -249,14 +260,21 @@ class GrowthInTurn {
         std::vector<Grown> grown(seeds.size());
         const auto grow_part = [&](std::size_t part) {
             for (std::size_t i = part; i < seeds.size(); i += growths_.size()) {
-                grown[i] = growths_[part].grow(seeds[i]);
+                if (is_tried_[seeds[i]] == 0) grown[i] = growths_[part].grow(seeds[i]);
             }
         };
         parallel_for(std::min(seeds.size(), growths_.size()), grow_part, 1);
         const std::size_t before = found_.regions.size();
         for (std::size_t i = 0; i < seeds.size(); ++i) {
+            if (is_tried_[seeds[i]] != 0) continue;
             if (meets_since(before, grown[i])) grown[i] = growths_.front().grow(seeds[i]);
-            if (grown[i].plane) add(std::move(grown[i]));
+            if (grown[i].plane) {
+                add(std::move(grown[i]));
+            } else if (grown[i].points.size() >= kMany) {
+                for (const std::uint32_t point : grown[i].points) {
+                    is_tried_[point] = 1;
+                }
+            }
         }
         return found_.regions.size() > before;
     }
@@ -284,10 +302,15 @@ class GrowthInTurn {
         found_.regions.emplace_back(scene_, *grown.plane, grown.spacing, std::move(grown.points));
     }
 
+    static constexpr std::size_t kMany = 256;
+
     const Scene& scene_;
     const Surroundings& surroundings_;
     PlanarRegions& found_;
     std::deque<Growth> growths_; ///< of each thread
+    /// Whether a point was of many that grew from a seed and are no region: neither is what would
+    /// grow from this one, which is about the same.
+    std::vector<std::uint8_t> is_tried_;
 };
 
 } // namespace

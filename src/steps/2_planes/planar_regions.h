@@ -60,6 +60,9 @@ struct PlanarRegions {
 /// plane (root of the mean square). From there a region takes in those of the 12 points around each
 /// of its points that its views look at from the same side and that lie no farther from its plane
 /// than a seventh of the spacing around; the plane is fitted anew whenever the points have doubled.
+/// In a dense cloud it is three standard deviations of the noise, where these are more: what the
+/// median point and those around lie off a plane. A point of hundreds that grew from another and
+/// are no region begins no growth of its own, so that noise is not looked at again and again.
 ///
 /// Such a slab can be laid through anything that has points enough: through noise, of which it is
 /// a slice, and along something round, which bends out of it. In both many points lie right beside

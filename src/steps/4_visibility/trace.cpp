@@ -263,8 +263,7 @@ VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& po
         std::vector<OutwardSight> sights;
         for (Index vertex = first; vertex < last; ++vertex) {
             const std::int32_t full = weights.full_weight(vertex, source.weight);
-            const std::int32_t bundle =
-                source.is_measured && scene_.is_dense ? options_.bundle_sights : 1;
+            const std::int32_t bundle = scene_.is_dense ? options_.bundle_sights : 1;
             if (source.is_measured && scene_.kind_of(vertex) != PointKind::border)
                 terms.add_inside_terms(walk, vertex, source, full, options_.sink_depth);
             for (const std::uint32_t view : (*source.rays)[vertex]) {

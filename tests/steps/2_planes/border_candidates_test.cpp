@@ -80,6 +80,13 @@ TEST(BorderCandidates, AreAddedAroundABoard)
     EXPECT_LT(added.size(), 70U);
 }
 
+TEST(BorderCandidates, AreNotAddedToDenseClouds)
+{
+    Scene scene = together({board(), seen_backdrop()});
+    scene.is_dense = true;
+    EXPECT_EQ(num_added(scene), 0);
+}
+
 TEST(BorderCandidates, StandInThePlaneNextToTheBoard)
 {
     Scene scene = together({board(), seen_backdrop()});

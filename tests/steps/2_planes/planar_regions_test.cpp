@@ -105,8 +105,9 @@ TEST(PlanarRegions, LeaveWhatStandsOffThem)
 
 TEST(PlanarRegions, MayBeALittleRough)
 {
-    const auto largest = [](double noise) {
-        const Scene scene = sorted(wall(0.0, 0.1, kBefore, noise));
+    const auto largest = [](double noise, bool is_dense = false) {
+        Scene scene = sorted(wall(0.0, 0.1, kBefore, noise));
+        scene.is_dense = is_dense;
         std::size_t most = 0;
         for (const PlanarRegion& region : regions_of(scene).regions) {
             most = std::max(most, region.points.size());
@@ -115,6 +116,8 @@ TEST(PlanarRegions, MayBeALittleRough)
     };
     EXPECT_EQ(largest(0.005), 1.0);
     EXPECT_LT(largest(0.08), 0.5);
+    EXPECT_LT(largest(0.03), 0.7);
+    EXPECT_GT(largest(0.03, true), 0.98) << "of a cloud, by its noise";
 }
 
 TEST(PlanarRegions, HaveTwelvePointsOrMore)

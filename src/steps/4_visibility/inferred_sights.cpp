@@ -1,0 +1,185 @@
+#include "steps/4_visibility/inferred_sights.h"
+
+#include "base/parallel.h"
+#include "base/sort_unique.h"
+#include "io/dense/nearest_grid.h"
+#include "model/camera.h"
+#include "model/scene_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace vcarve {
+
+namespace {
+
+/// The points of each view, ascending.
+class PointsOfViews {
+  public:
+    PointsOfViews(const Tracks& tracks, std::size_t num_views) : begins_(num_views + 1)
+    {
+        for (const std::uint32_t view : tracks.views) {
+            ++begins_[view + 1];
+        }
+        std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+        points_.resize(tracks.views.size());
+        std::vector<std::size_t> next = begins_;
+        for (std::uint32_t point = 0; point < tracks.size(); ++point) {
+            for (const std::uint32_t view : tracks[point]) {
+                points_[next[view]++] = point;
+            }
+        }
+    }
+
+    std::span<const std::uint32_t> of(std::size_t view) const
+    {
+        return std::span(points_).subspan(begins_[view], begins_[view + 1] - begins_[view]);
+    }
+
+  private:
+    std::vector<std::size_t> begins_; ///< a view's are points_[begins_[view]] up to the next one's
+    std::vector<std::uint32_t> points_;
+};
+
+/// Where in its image a view saw points, and how far from it.
+class SeenPlaces {
+  public:
+    SeenPlaces(const Scene& scene, const View& view, double focal_px,
+               std::span<const std::uint32_t> points)
+        : view_(view), camera_(scene.cameras[view.camera])
+    {
+        constexpr double kSquareWidth = 2.0; // over how far the points stand apart in the image
+        constexpr double kSteepest = 2.0;    // a surface rises before a view, over its width
+        constexpr double kLeast = 0.01;      // what distances are off by at any rate
+        const auto width_px = static_cast<double>(camera_.width_px);
+        const auto height_px = static_cast<double>(camera_.height_px);
+        const auto count = static_cast<double>(points.size());
+        square_px_ = std::max(kSquareWidth * std::sqrt(width_px * height_px / count),
+                              std::max(width_px, height_px) / count);
+        unlike_ = 1.0 + kLeast + kSteepest * square_px_ / focal_px;
+        columns_ = static_cast<std::size_t>(width_px / square_px_) + 3;
+        for (const std::uint32_t point : points) {
+            if (const auto place = project_into(view_, camera_, scene.positions[point]))
+                seen_.emplace_back(square_of(*place), place->distance);
+        }
+        std::ranges::sort(seen_);
+    }
+
+    /// Whether the view saw a point beside a place, in one of the nine squares around it, about as
+    /// far off, and in its own square none that is clearly nearer.
+    bool shows(const Eigen::Vector3d& position) const
+    {
+        const auto place = project_into(view_, camera_, position);
+        if (!place) return false;
+        const std::size_t own = square_of(*place);
+        const double near = place->distance / unlike_;
+        if (has_between(own, 0.0, near)) return false;
+        for (const std::size_t middle : {own - columns_, own, own + columns_}) {
+            for (const std::size_t square : {middle - 1, middle, middle + 1}) {
+                if (has_between(square, near, place->distance * unlike_)) return true;
+            }
+        }
+        return false;
+    }
+
+  private:
+    using Seen = std::pair<std::size_t, double>; ///< in which square, and how far
+
+    bool has_between(std::size_t square, double near, double far) const
+    {
+        const auto nearest = std::ranges::lower_bound(seen_, Seen(square, near));
+        return nearest != seen_.end() && *nearest < Seen(square, far);
+    }
+
+    /// Row by row, with an empty square around the image.
+    std::size_t square_of(const Projected& place) const
+    {
+        const auto square = [&](double at_px) {
+            return static_cast<std::size_t>(std::max(at_px, 0.0) / square_px_) + 1;
+        };
+        return square(place.place_px.y()) * columns_ + square(place.place_px.x());
+    }
+
+    const View& view_;
+    const Camera& camera_;
+    double square_px_;
+    double unlike_; ///< by what factor distances on one surface differ at most, beside each other
+    std::size_t columns_;
+    std::vector<Seen> seen_; ///< ascending
+};
+
+bool is_before(const Scene& scene, std::size_t view, std::size_t point)
+{
+    return scene.normals.empty() || scene.normals[point].isZero() ||
+           scene.normals[point].cast<double>().dot(scene.views[view].center -
+                                                   scene.positions[point]) > 0.0;
+}
+
+bool has_image(const Scene& scene, std::uint32_t view)
+{
+    const Camera& camera = scene.cameras[scene.views[view].camera];
+    return camera.width_px > 0 && camera.height_px > 0;
+}
+
+/// The views before a point that saw points around it, but not it, where few saw it.
+std::vector<std::uint32_t> views_around(const Scene& scene, std::size_t point)
+{
+    constexpr std::size_t kEnough = 5;
+    constexpr std::size_t kAround = 32; // before it and behind
+    constexpr std::size_t kStep = 4;
+    std::vector<std::uint32_t> views;
+    if (scene.tracks[point].size() >= kEnough) return views;
+    const std::size_t last = std::min(point + kAround + 1, scene.num_points());
+    for (std::size_t i = point - std::min(point, kAround); i < last; i += kStep) {
+        views.insert(views.end(), scene.tracks[i].begin(), scene.tracks[i].end());
+    }
+    sort_unique(views);
+    std::erase_if(views, [&](std::uint32_t view) {
+        return std::ranges::binary_search(scene.tracks[point], view) || !has_image(scene, view) ||
+               !is_before(scene, view, point);
+    });
+    return views;
+}
+
+} // namespace
+
+Tracks inferred_sights(const Scene& scene, const Progress& progress)
+{
+    std::vector<std::vector<std::uint32_t>> rows(scene.num_points());
+    parallel_for(rows.size(), progress.part(0.0, 0.4),
+                 [&](std::size_t point) { rows[point] = views_around(scene, point); });
+    const Tracks likely =
+        make_tracks(rows.size(), [&](std::size_t i) { return std::span(rows[i]); });
+    const PointsOfViews asked(likely, scene.views.size());
+    const PointsOfViews seen(scene.tracks, scene.views.size());
+    const std::vector<double> focals_px = mean_focals_px(scene.cameras);
+    std::vector<std::uint8_t> is_kept(likely.views.size());
+    const auto ask = [&](std::size_t number) {
+        if (asked.of(number).empty()) return;
+        const View& view = scene.views[number];
+        const SeenPlaces places(scene, view, focals_px[view.camera], seen.of(number));
+        for (const std::uint32_t point : asked.of(number)) {
+            const auto row = likely[point];
+            const auto place = std::ranges::lower_bound(row, number) - row.begin();
+            is_kept[likely.begins[point] + static_cast<std::uint64_t>(place)] =
+                places.shows(scene.positions[point]) ? 1 : 0;
+        }
+    };
+    parallel_for(scene.views.size(), progress.part(0.4, 1.0), ask, 1);
+    Tracks kept;
+    for (std::size_t point = 0; point < likely.size(); ++point) {
+        for (std::uint64_t i = likely.begins[point]; i < likely.begins[point + 1]; ++i) {
+            if (is_kept[i] != 0) kept.views.push_back(likely.views[i]);
+        }
+        kept.begins.push_back(kept.views.size());
+    }
+    return kept;
+}
+
+} // namespace vcarve
