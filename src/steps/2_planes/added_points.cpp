@@ -1,6 +1,7 @@
 #include "steps/2_planes/added_points.h"
 
 #include "model/mean_color.h"
+#include "model/measured_range.h"
 #include "steps/1_points/spatial_sort.h"
 #include "steps/2_planes/accept.h"
 #include "steps/2_planes/border_candidates.h"
@@ -51,7 +52,7 @@ void add_point(Scene& scene, const AcceptedPoint& point)
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress)
 {
     AddedPoints report;
-    if (!options.add_any()) return report;
+    if (!options.add_any() || has_scanners(scene)) return report;
     std::vector<AcceptedPoint> points;
     {
         const PlanarRegions planes = planar_regions(scene, progress.part(0.0, 0.4));

@@ -23,7 +23,8 @@ struct AddedPoints {
 /// nothing of what lies behind them (RayCaster).
 ///
 /// A new point has the mean colour of the points beside it and the error of the one next to it.
-/// Borders of dense clouds get none: points stand close enough there. The points follow each other
+/// Borders of dense clouds get none: points stand close enough there; nor do scans, which have
+/// points wherever something was to be measured. The points follow each other
 /// in space, as spatial_sort() puts them, before and after. The result does not depend on the
 /// number of threads nor, up to rounding, on where the scene lies and how large it is. Cost: that
 /// of the steps named and of a sort; 90 bytes a point, and what crossings take (border_candidates).

@@ -67,6 +67,13 @@ TEST(AddPoints, AddsThemToDenseClouds)
     EXPECT_EQ(num_added(scene), of_model);
 }
 
+TEST(AddPoints, AddsNoneToScans)
+{
+    Scene scene = together({wall(0.35), ground(0.35)});
+    scene.cameras.front().measures_range = true;
+    EXPECT_EQ(num_added(scene), 0);
+}
+
 TEST(AddPoints, AddsNoneWherePointsAre)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
