@@ -126,6 +126,7 @@ def reconstruct(
     distance_sigma: float = 0.5,
     sink_depth: float = 0.0,
     bundle_sights: int = 5,
+    inferred_sights: float = 1.0,
     quality: float = 1.0,
     hull_edge: float = 20.0,
     virtual_views: int = 0,
