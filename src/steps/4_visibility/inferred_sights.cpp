@@ -121,10 +121,10 @@ bool is_before(const Scene& scene, std::size_t view, std::size_t point)
                                                    scene.positions[point]) > 0.0;
 }
 
-bool has_image(const Scene& scene, std::uint32_t view)
+bool takes_pictures(const Scene& scene, std::uint32_t view)
 {
     const Camera& camera = scene.cameras[scene.views[view].camera];
-    return camera.width_px > 0 && camera.height_px > 0;
+    return !camera.measures_range && camera.width_px > 0 && camera.height_px > 0;
 }
 
 /// The views before a point that saw points around it, but not it, where few saw it.
@@ -141,8 +141,8 @@ std::vector<std::uint32_t> views_around(const Scene& scene, std::size_t point)
     }
     sort_unique(views);
     std::erase_if(views, [&](std::uint32_t view) {
-        return std::ranges::binary_search(scene.tracks[point], view) || !has_image(scene, view) ||
-               !is_before(scene, view, point);
+        return std::ranges::binary_search(scene.tracks[point], view) ||
+               !takes_pictures(scene, view) || !is_before(scene, view, point);
     });
     return views;
 }

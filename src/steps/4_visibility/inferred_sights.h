@@ -12,7 +12,8 @@ namespace vcarve {
 /// before its normal and that, beside it in the image, saw a point at a like distance and in its
 /// own square none that is clearly nearer. Squares are twice as wide as the points that a view saw
 /// stand apart in its image. So a wall without points still hides what lies behind it, of which its
-/// views saw nothing. Within a row views ascend, and none is of the point's track.
+/// views saw nothing. A scanner tells of all that it measured, and is asked for no more. Within a
+/// row views ascend, and none is of the point's track.
 ///
 /// Cost: O(sights log points) in parallel; 20 bytes a sight.
 Tracks inferred_sights(const Scene& scene, const Progress& progress = {});

@@ -125,6 +125,14 @@ TEST(InferredSights, AreNoneWhereTheViewSawThingsFartherOff)
     }
 }
 
+TEST(InferredSights, AreNoneOfScanners)
+{
+    Scene scene = views_below();
+    add_wall(scene, 0.0, 2.0, {0, 1}, {0});
+    scene.cameras[0].measures_range = true;
+    EXPECT_EQ(num_inferred(spatial_sort(scene)), 0U);
+}
+
 TEST(InferredSights, AreNoneOfCamerasWithoutAnImageAndOfNoPoints)
 {
     Scene scene = views_below();
