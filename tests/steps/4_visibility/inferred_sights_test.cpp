@@ -105,7 +105,7 @@ TEST(InferredSights, ArePastNothingThatTheViewSawNearer)
     std::size_t beside = 0;
     for (std::size_t i = 0; i < inferred.size(); ++i) {
         if (scene.positions[i].z() == 0.0 || inferred[i].empty() || inferred[i][0] != 0) continue;
-        EXPECT_GT(scene.positions[i].x(), -0.35) << "behind the wall";
+        EXPECT_GT(scene.positions[i].x(), -0.05) << "behind the wall";
         ++beside;
     }
     EXPECT_LT(beside, 200U);
