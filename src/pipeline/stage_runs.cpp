@@ -52,6 +52,15 @@ Counts cut_by(VisibilityEnergy energy, RunState& run, const Progress& progress)
             {"faces of the hull", made.on_hull}};
 }
 
+/// Adds what rays say to the energy.
+void cast(const RaySource& source, RunState& run, const Progress& progress)
+{
+    const Scene& scene = run.points.scene;
+    const Scales scales = measure_scales(run.cells, scene);
+    RayCaster(run.cells, scene, scales, run.options().labels.trace)
+        .cast(source, run.evidence.energy, progress);
+}
+
 /// Adds what the sights that a cloud's file leaves out say to the energy; how many they are.
 std::int64_t walk_inferred(RunState& run, double weight, const Progress& progress)
 {
@@ -61,9 +70,7 @@ std::int64_t walk_inferred(RunState& run, double weight, const Progress& progres
     source.rays = &inferred;
     source.weight = weight;
     source.is_measured = false;
-    const Scales scales = measure_scales(run.cells, scene);
-    RayCaster(run.cells, scene, scales, run.options().labels.trace)
-        .cast(source, run.evidence.energy, progress.part(0.5, 1.0));
+    cast(source, run, progress.part(0.5, 1.0));
     return size_of(inferred.views.size());
 }
 
@@ -190,9 +197,7 @@ Counts walk_virtual_sights(RunState& run, const Progress& progress)
     if (options.method == Method::strict) {
         CrossingCounter(run.cells).cast(source, run.evidence.crossings, progress);
     } else {
-        const Scales scales = measure_scales(run.cells, run.points.scene);
-        RayCaster(run.cells, run.points.scene, scales, options.trace)
-            .cast(source, run.evidence.energy, progress);
+        cast(source, run, progress);
     }
     return {{"sights", size_of(sights.tracks.views.size())}};
 }

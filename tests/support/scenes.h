@@ -17,6 +17,16 @@ struct MadePoint {
 /// apart.
 Scene make_scene(const std::vector<Eigen::Vector3d>& centers, const std::vector<MadePoint>& points);
 
+/// A pinhole camera of 1000 x 1000 pixels that shows 10 across from 8 away.
+inline Camera square_camera()
+{
+    return {.id = 1,
+            .model = 1, // PINHOLE
+            .width_px = 1000,
+            .height_px = 1000,
+            .params = {800, 800, 500, 500}};
+}
+
 /// A bumpy closed surface of about unit size seen from a ring of views: points on its surface with
 /// a little noise, each seen by the views in front of it, and a few points that lie anywhere.
 Scene bumpy_sphere(std::size_t num_points, std::uint32_t seed);

@@ -57,7 +57,7 @@ NearestGrid::NearestGrid(const View& view, const Scene& scene, const std::vector
     lay_squares(kSquareWidth, 1.0, shown);
     constexpr float kTaken = 0.0F;
     for (const Vector2d& place_px : sample) {
-        least_[square_of(place_px)] = kTaken;
+        least_[squares_.of(place_px)] = kTaken;
     }
     const auto taken = static_cast<double>(std::ranges::count(least_, kTaken));
     lay_squares(kSparseSquareWidth, taken / static_cast<double>(least_.size()), count);
@@ -68,7 +68,7 @@ void NearestGrid::add(const Vector3d& position)
 {
     const auto projected = project_into(view_, camera_, position);
     if (!projected) return;
-    float& nearest = least_[square_of(projected->place_px)];
+    float& nearest = least_[squares_.of(projected->place_px)];
     nearest = std::min(nearest, projected->distance);
 }
 
@@ -76,26 +76,20 @@ bool NearestGrid::sees(const Vector3d& position) const
 {
     const auto projected = project_into(view_, camera_, position);
     if (!projected) return false;
-    return least_[square_of(projected->place_px)] >= projected->distance * hides_from_;
+    return least_[squares_.of(projected->place_px)] >= projected->distance * hides_from_;
 }
 
-/// Empty ones, so many times as wide as so many points stand apart in a share of the image.
+/// Empty ones, see ImageSquares.
 void NearestGrid::lay_squares(double width, double share, double count)
 {
-    const auto width_px = static_cast<double>(camera_.width_px);
-    const auto height_px = static_cast<double>(camera_.height_px);
-    // At most as many squares along an edge as points, whatever size an image claims to have.
-    square_px_ = std::max(width * std::sqrt(share * width_px * height_px / count),
-                          std::max(width_px, height_px) / count);
-    columns_ = static_cast<std::size_t>(width_px / square_px_) + 1;
-    rows_ = static_cast<std::size_t>(height_px / square_px_) + 1;
-    least_.assign(columns_ * rows_, kNothing);
+    squares_ = {camera_, width, share, count};
+    least_.assign(squares_.count(), kNothing);
 }
 
 /// By how much nearer a point must be to hide another in its square.
 void NearestGrid::set_depth(double steepest)
 {
-    square_angle_ = square_px_ * radians_a_pixel();
+    square_angle_ = squares_.side_px() * radians_a_pixel();
     hides_from_ = static_cast<float>(1.0 - std::max(kLeastNearer, steepest * square_angle_));
 }
 
@@ -107,15 +101,6 @@ double NearestGrid::radians_a_pixel() const
     const auto ahead = ray(camera_, middle);
     const auto beside = ray(camera_, middle + Vector2d::UnitX());
     return ahead && beside ? (*ahead - *beside).norm() : 0.0;
-}
-
-std::size_t NearestGrid::square_of(const Vector2d& place_px) const
-{
-    const auto index = [&](double place, std::size_t count) {
-        const double last = static_cast<double>(count) - 1.0;
-        return static_cast<std::size_t>(std::clamp(place / square_px_, 0.0, last));
-    };
-    return index(place_px.y(), rows_) * columns_ + index(place_px.x(), columns_);
 }
 
 } // namespace vcarve

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/dense/image_squares.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
@@ -39,15 +40,12 @@ class NearestGrid {
     void lay_squares(double width, double share, double count);
     void set_depth(double steepest);
     double radians_a_pixel() const;
-    std::size_t square_of(const Eigen::Vector2d& place_px) const;
 
     const View& view_;
     const Camera& camera_;
-    double square_px_ = 1.0;
+    ImageSquares squares_;
     double square_angle_ = 0.0;
-    float hides_from_ = 1.0F; ///< of a point's distance: what is nearer hides it
-    std::size_t columns_ = 1;
-    std::size_t rows_ = 1;
+    float hides_from_ = 1.0F;  ///< of a point's distance: what is nearer hides it
     std::vector<float> least_; ///< of each square, row by row
 };
 

@@ -4,6 +4,7 @@
 #include "geometry/hilbert_order.h"
 #include "geometry/point_tree.h"
 #include "io/dense/nearest_grid.h"
+#include "model/places_of_views.h"
 #include "model/scene_points.h"
 #include "model/view_tree.h"
 
@@ -169,37 +170,6 @@ class Hiding {
     std::vector<std::optional<NearestGrid>> whole_; ///< a view's, of all points
 };
 
-/// Those of some points that views are asked about, view by view.
-class Questions {
-  public:
-    Questions(const std::vector<Asked>& asked, std::size_t num_views) : begins_(num_views + 1)
-    {
-        for (const Asked& row : asked) {
-            for (std::size_t i = 0; i < row.count; ++i) {
-                ++begins_[row.views[i] + 1];
-            }
-        }
-        std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
-        places_.resize(begins_.back());
-        std::vector<std::size_t> next = begins_;
-        for (std::size_t point = 0; point < asked.size(); ++point) {
-            for (std::size_t i = 0; i < asked[point].count; ++i) {
-                places_[next[asked[point].views[i]]++] = point * kMostAtOnce + i;
-            }
-        }
-    }
-
-    /// Of a view: kMostAtOnce times the number of a row, and which of its views it is.
-    std::span<const std::size_t> of(std::size_t view) const
-    {
-        return std::span(places_).subspan(begins_[view], begins_[view + 1] - begins_[view]);
-    }
-
-  private:
-    std::vector<std::size_t> begins_; ///< a view's are places_[begins_[view]] up to the next one's
-    std::vector<std::size_t> places_;
-};
-
 /// Finds the sights of points that follow each other in space, a run of them at a time.
 class NearestViews {
   public:
@@ -224,27 +194,33 @@ class NearestViews {
                     next_views(scene_, views_, places_[run.first + left[i]], most, passed[left[i]]);
             });
             const std::vector<std::uint8_t> sees =
-                ask(run.first, left, Questions(asked, scene_.views.size()), part.part(0.4, 1.0));
+                ask(run.first, left, questions_of(asked), part.part(0.4, 1.0));
             keep_seen(left, asked, sees, rows);
         }
         return rows;
     }
 
   private:
+    PlacesOfViews questions_of(const std::vector<Asked>& asked) const
+    {
+        return {asked.size(), scene_.views.size(),
+                [&](std::size_t i) { return std::span(asked[i].views).first(asked[i].count); }};
+    }
+
     /// Of each question whether the answer is yes; the points are so many after the first.
     std::vector<std::uint8_t> ask(std::size_t first, const std::vector<std::uint32_t>& left,
-                                  const Questions& questions, const Progress& progress) const
+                                  const PlacesOfViews& questions, const Progress& progress) const
     {
         std::vector<std::uint8_t> sees(left.size() * kMostAtOnce);
         const auto ask_view = [&](std::size_t view) {
-            const std::span<const std::size_t> of_view = questions.of(view);
+            const auto of_view = questions.of(view);
             if (of_view.empty()) return;
             std::vector<std::size_t> points(of_view.size());
-            std::ranges::transform(of_view, points.begin(), [&](std::size_t place) {
-                return first + left[place / kMostAtOnce];
+            std::ranges::transform(of_view, points.begin(),
+                                   [&](const auto& place) { return first + left[place.row]; });
+            hiding_.ask(view, points, [&](std::size_t i, bool is_seen) {
+                sees[of_view[i].row * kMostAtOnce + of_view[i].number] = is_seen ? 1 : 0;
             });
-            hiding_.ask(view, points,
-                        [&](std::size_t i, bool is_seen) { sees[of_view[i]] = is_seen ? 1 : 0; });
         };
         parallel_for(scene_.views.size(), progress, ask_view, 1);
         return sees;

@@ -4,13 +4,12 @@
 #include "base/sort_unique.h"
 #include "io/dense/nearest_grid.h"
 #include "model/camera.h"
+#include "model/places_of_views.h"
 #include "model/scene_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,54 +18,21 @@ namespace vcarve {
 
 namespace {
 
-/// The points of each view, ascending.
-class PointsOfViews {
-  public:
-    PointsOfViews(const Tracks& tracks, std::size_t num_views) : begins_(num_views + 1)
-    {
-        for (const std::uint32_t view : tracks.views) {
-            ++begins_[view + 1];
-        }
-        std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
-        points_.resize(tracks.views.size());
-        std::vector<std::size_t> next = begins_;
-        for (std::uint32_t point = 0; point < tracks.size(); ++point) {
-            for (const std::uint32_t view : tracks[point]) {
-                points_[next[view]++] = point;
-            }
-        }
-    }
-
-    std::span<const std::uint32_t> of(std::size_t view) const
-    {
-        return std::span(points_).subspan(begins_[view], begins_[view + 1] - begins_[view]);
-    }
-
-  private:
-    std::vector<std::size_t> begins_; ///< a view's are points_[begins_[view]] up to the next one's
-    std::vector<std::uint32_t> points_;
-};
-
 /// Where in its image a view saw points, and how far from it.
 class SeenPlaces {
   public:
     SeenPlaces(const Scene& scene, const View& view, double focal_px,
-               std::span<const std::uint32_t> points)
+               std::span<const PlacesOfViews::Place> points)
         : view_(view), camera_(scene.cameras[view.camera])
     {
         constexpr double kSquareWidth = 2.0; // over how far the points stand apart in the image
         constexpr double kSteepest = 2.0;    // a surface rises before a view, over its width
         constexpr double kLeast = 0.01;      // what distances are off by at any rate
-        const auto width_px = static_cast<double>(camera_.width_px);
-        const auto height_px = static_cast<double>(camera_.height_px);
-        const auto count = static_cast<double>(points.size());
-        square_px_ = std::max(kSquareWidth * std::sqrt(width_px * height_px / count),
-                              std::max(width_px, height_px) / count);
-        unlike_ = 1.0 + kLeast + kSteepest * square_px_ / focal_px;
-        columns_ = static_cast<std::size_t>(width_px / square_px_) + 3;
-        for (const std::uint32_t point : points) {
+        squares_ = {camera_, kSquareWidth, 1.0, static_cast<double>(points.size())};
+        unlike_ = 1.0 + kLeast + kSteepest * squares_.side_px() / focal_px;
+        for (const auto& [point, number] : points) {
             if (const auto place = project_into(view_, camera_, scene.positions[point]))
-                seen_.emplace_back(square_of(*place), place->distance);
+                seen_.emplace_back(squares_.of(place->place_px), place->distance);
         }
         std::ranges::sort(seen_);
     }
@@ -77,15 +43,12 @@ class SeenPlaces {
     {
         const auto place = project_into(view_, camera_, position);
         if (!place) return false;
-        const std::size_t own = square_of(*place);
+        const std::size_t own = squares_.of(place->place_px);
         const double near = place->distance / unlike_;
         if (has_between(own, 0.0, near)) return false;
-        for (const std::size_t middle : {own - columns_, own, own + columns_}) {
-            for (const std::size_t square : {middle - 1, middle, middle + 1}) {
-                if (has_between(square, near, place->distance * unlike_)) return true;
-            }
-        }
-        return false;
+        return squares_.any_around(own, [&](std::size_t square) {
+            return has_between(square, near, place->distance * unlike_);
+        });
     }
 
   private:
@@ -97,20 +60,10 @@ class SeenPlaces {
         return nearest != seen_.end() && *nearest < Seen(square, far);
     }
 
-    /// Row by row, with an empty square around the image.
-    std::size_t square_of(const Projected& place) const
-    {
-        const auto square = [&](double at_px) {
-            return static_cast<std::size_t>(std::max(at_px, 0.0) / square_px_) + 1;
-        };
-        return square(place.place_px.y()) * columns_ + square(place.place_px.x());
-    }
-
     const View& view_;
     const Camera& camera_;
-    double square_px_;
+    ImageSquares squares_;
     double unlike_; ///< by what factor distances on one surface differ at most, beside each other
-    std::size_t columns_;
     std::vector<Seen> seen_; ///< ascending
 };
 
@@ -156,19 +109,20 @@ Tracks inferred_sights(const Scene& scene, const Progress& progress)
                  [&](std::size_t point) { rows[point] = views_around(scene, point); });
     const Tracks likely =
         make_tracks(rows.size(), [&](std::size_t i) { return std::span(rows[i]); });
-    const PointsOfViews asked(likely, scene.views.size());
-    const PointsOfViews seen(scene.tracks, scene.views.size());
+    const auto places_in = [&](const Tracks& tracks) {
+        return PlacesOfViews(tracks.size(), scene.views.size(),
+                             [&](std::size_t i) { return tracks[i]; });
+    };
+    const PlacesOfViews asked = places_in(likely);
+    const PlacesOfViews seen = places_in(scene.tracks);
     const std::vector<double> focals_px = mean_focals_px(scene.cameras);
     std::vector<std::uint8_t> is_kept(likely.views.size());
     const auto ask = [&](std::size_t number) {
         if (asked.of(number).empty()) return;
         const View& view = scene.views[number];
         const SeenPlaces places(scene, view, focals_px[view.camera], seen.of(number));
-        for (const std::uint32_t point : asked.of(number)) {
-            const auto row = likely[point];
-            const auto place = std::ranges::lower_bound(row, number) - row.begin();
-            is_kept[likely.begins[point] + static_cast<std::uint64_t>(place)] =
-                places.shows(scene.positions[point]) ? 1 : 0;
+        for (const auto& [point, place] : asked.of(number)) {
+            is_kept[likely.begins[point] + place] = places.shows(scene.positions[point]) ? 1 : 0;
         }
     };
     parallel_for(scene.views.size(), progress.part(0.4, 1.0), ask, 1);

@@ -23,8 +23,8 @@ struct EnergyShare {
     std::vector<Index> cell_of_view; ///< of the origins of the source, where it is measured
 };
 
-/// After how many facets rays to points of a dense cloud become bundles, and after how
-/// many these become bundles of bundles.
+/// After how many facets rays to points of a dense cloud become bundles, and after how many these
+/// become bundles of bundles.
 inline constexpr std::array<int, 2> kBundledAfter = {16, 40};
 
 /// Adds the visibility terms of sources to an energy. `cells`, `scene` and `options` must outlive

@@ -35,11 +35,7 @@ Scene two_squares()
 {
     Scene scene;
     scene.is_dense = true;
-    scene.cameras.push_back({.id = 1,
-                             .model = 1, // PINHOLE
-                             .width_px = 1000,
-                             .height_px = 1000,
-                             .params = {800, 800, 500, 500}});
+    scene.cameras.push_back(square_camera());
     const Eigen::Quaterniond up = Eigen::Quaterniond::Identity();
     const Eigen::Quaterniond down(0, 1, 0, 0);
     scene.views.push_back(

@@ -1,5 +1,6 @@
 #include "steps/1_points/spatial_sort.h"
 #include "steps/4_visibility/inferred_sights.h"
+#include "support/scenes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -20,11 +21,7 @@ Scene views_below()
 {
     Scene scene;
     scene.is_dense = true;
-    scene.cameras.push_back({.id = 1,
-                             .model = 1, // PINHOLE
-                             .width_px = 1000,
-                             .height_px = 1000,
-                             .params = {800, 800, 500, 500}});
+    scene.cameras.push_back(square_camera());
     for (std::uint32_t i = 0; i < 6; ++i) {
         scene.views.push_back({.id = i + 1, .camera = 0, .name = "", .center = {0.1 * i, 0, -5}});
     }
