@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 namespace {
 
@@ -59,6 +60,14 @@ Function next(Function, const char* name)
     return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
 }
 
+/// Whether glibc notes the destructor of a thread's variable: it aborts where it cannot.
+bool notes_destructor(const void* caller)
+{
+    Dl_info info;
+    return ::dladdr(caller, &info) != 0 && info.dli_sname != nullptr &&
+           std::string_view(info.dli_sname) == "__cxa_thread_atexit_impl";
+}
+
 int watched_main(int argc, char** argv, char** environment)
 {
     read_wanted();
@@ -92,7 +101,8 @@ void* malloc(std::size_t bytes) noexcept
 }
 void* calloc(std::size_t number, std::size_t bytes) noexcept
 {
-    return fails("malloc", ENOMEM) ? nullptr : __libc_calloc(number, bytes);
+    const bool may_fail = !has_begun || !notes_destructor(__builtin_return_address(0));
+    return may_fail && fails("malloc", ENOMEM) ? nullptr : __libc_calloc(number, bytes);
 }
 void* realloc(void* memory, std::size_t bytes) noexcept
 {
