@@ -1,5 +1,6 @@
 #include "cli/child_process.h"
 
+#include "cli/process_usage.h"
 #include "vcarve/error.h"
 
 #include <fcntl.h>
@@ -21,11 +22,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kNotStarted = 127; ///< the exit code shells use, too
 constexpr std::chrono::milliseconds kPollInterval(2);
-
-double seconds_of(const timeval& time)
-{
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
 
 double seconds_since(Clock::time_point start)
 {

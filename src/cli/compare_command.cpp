@@ -73,14 +73,14 @@ OptionList truth_options(CompareArguments& arguments)
 
 OptionList baseline_options(CompareArguments& arguments)
 {
-    constexpr const char* kColmap = "COLMAP";
+    constexpr const char* kBaseline = "COLMAP";
     return {
-        {kColmap,
+        {kBaseline,
          {.name = "colmap",
           .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and adds "
                   "a column for each, with seconds and peak memory."},
          &arguments.colmap},
-        {kColmap,
+        {kBaseline,
          {.name = "colmap-timeout",
           .unit = "s",
           .help = "COLMAP's mesher is killed after that; some models never end it.",

@@ -8,14 +8,10 @@
 
 namespace vcarve::cli {
 
-namespace {
-
 double seconds_of(const timeval& time)
 {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
-
-} // namespace
 
 ProcessUsage process_usage()
 {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <sys/time.h>
+
 #include <cstdint>
 
 namespace vcarve::cli {
+
+double seconds_of(const timeval& time);
 
 /// What this process has used so far.
 struct ProcessUsage {

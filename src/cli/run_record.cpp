@@ -23,9 +23,9 @@ Json counts_json(const Counts& counts)
 /// One word as a shell takes it.
 std::string quoted(const std::string& word)
 {
-    constexpr const char* kPlain =
+    constexpr const char* kUnquoted =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_=./,:+@%";
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    if (!word.empty() && word.find_first_not_of(kUnquoted) == std::string::npos) return word;
     std::string text = "'";
     for (const char letter : word) {
         if (letter == '\'') {

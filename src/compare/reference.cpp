@@ -24,7 +24,6 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 
 constexpr std::size_t kLeastViews = 2; ///< of a point that counts
-constexpr double kTail = 0.05;         ///< of the coordinates, left out at either end of a box
 constexpr double kMaxScaleRatio = 50.0;
 
 /// The corners of the faces, once per face; none of faces with a corner that is not finite.
@@ -59,8 +58,8 @@ void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Ref
     for (const Eigen::Vector3d& corner : corners) {
         whole.extend(corner);
     }
-    const Box points = middle_box(reference.scene.positions, kTail);
-    const double mesh_size = middle_box(corners, kTail).diagonal().norm();
+    const Box points = middle_box(reference.scene.positions);
+    const double mesh_size = middle_box(corners).diagonal().norm();
     const double model_size = points.diagonal().norm();
     const bool same_scale =
         mesh_size <= kMaxScaleRatio * model_size && model_size <= kMaxScaleRatio * mesh_size;

@@ -17,7 +17,6 @@ namespace vcarve {
 namespace {
 
 constexpr std::size_t kSamples = 100000;
-constexpr double kTail = 0.05;       ///< of the points, left out at either end of a box
 constexpr double kCellShare = 0.02;  ///< of the diagonal
 constexpr double kApartShare = 0.08; ///< of the diagonal
 
@@ -129,7 +128,7 @@ double diagonal_of(const Reference& reference)
 {
     if (reference.truth) return reference.truth->diagonal;
     const std::vector<Eigen::Vector3d>& points = reference.scene.positions;
-    const double of_most = middle_box(points, kTail).diagonal().norm();
+    const double of_most = middle_box(points).diagonal().norm();
     if (of_most > 0.0) return of_most;
     const double of_all = middle_box(points, 0.0).diagonal().norm();
     return of_all > 0.0 ? of_all : 1.0;

@@ -12,18 +12,18 @@ namespace vcarve {
 
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point = Kernel::Point_3;
+using Cartesian = CGAL::Simple_cartesian<double>;
 
-Point to_point(const Eigen::Vector3d& position)
+Cartesian::Point_3 to_cartesian(const Eigen::Vector3d& position)
 {
     return {position.x(), position.y(), position.z()};
 }
 
-using Numbered = std::pair<Point, std::uint32_t>;
-using Traits = CGAL::Search_traits_adapter<Numbered, CGAL::First_of_pair_property_map<Numbered>,
-                                           CGAL::Search_traits_3<Kernel>>;
-using Nearest = CGAL::Orthogonal_k_neighbor_search<Traits>;
+using Numbered = std::pair<Cartesian::Point_3, std::uint32_t>;
+using NeighborTraits =
+    CGAL::Search_traits_adapter<Numbered, CGAL::First_of_pair_property_map<Numbered>,
+                                CGAL::Search_traits_3<Cartesian>>;
+using Nearest = CGAL::Orthogonal_k_neighbor_search<NeighborTraits>;
 
 #ifdef VCARVE_WATCHES_THREADS
 using BuildTag = CGAL::Sequential_tag; // it does not see how oneTBB's tasks hand work over
@@ -43,7 +43,7 @@ NearestNeighbors::NearestNeighbors(const std::vector<Eigen::Vector3d>& points)
     if (points.empty()) return; // CGAL's tree is not to be built then
     search_->tree.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-        search_->tree.insert({to_point(points[i]), i});
+        search_->tree.insert({to_cartesian(points[i]), i});
     }
     search_->tree.build<BuildTag>();
 }
@@ -57,7 +57,7 @@ void NearestNeighbors::find(const Eigen::Vector3d& place, std::size_t count,
     nearest.clear();
     if (search_->tree.empty()) return;
     for (const auto& [numbered, distance_sq] :
-         Nearest(search_->tree, to_point(place), static_cast<unsigned>(count))) {
+         Nearest(search_->tree, to_cartesian(place), static_cast<unsigned>(count))) {
         nearest.push_back({numbered.second, distance_sq});
     }
 }

@@ -1,20 +1,10 @@
 #include "geometry/predicates.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include "geometry/cgal_kernel.h"
+
 #include <CGAL/intersections.h>
 
 namespace vcarve {
-
-namespace {
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p)
-{
-    return {p.x(), p.y(), p.z()};
-}
-
-} // namespace
 
 int orientation(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
                 const Eigen::Vector3d& d)

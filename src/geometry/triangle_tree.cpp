@@ -20,11 +20,11 @@ namespace {
 
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
-using Kernel = CGAL::Simple_cartesian<double>;
-using Point = Kernel::Point_3;
-using Triangle = Kernel::Triangle_3;
+using Cartesian = CGAL::Simple_cartesian<double>;
+using Point = Cartesian::Point_3;
+using Triangle = Cartesian::Triangle_3;
 using Triangles = std::vector<Triangle>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using Primitive = CGAL::AABB_triangle_primitive<Cartesian, Triangles::const_iterator>;
 
 Point to_point(const Vector3d& position)
 {
@@ -130,7 +130,7 @@ class Ray {
 
 /// How CGAL's tree asks about segments: boxes, of which there are many more, with rounding on the
 /// safe side, and triangles exactly.
-class Traits : public CGAL::AABB_traits<Kernel, Primitive> {
+class Traits : public CGAL::AABB_traits<Cartesian, Primitive> {
   public:
     struct Meets {
         bool operator()(const Ray& segment, const CGAL::Bbox_3& box) const

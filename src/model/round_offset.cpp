@@ -8,7 +8,6 @@
 namespace vcarve {
 namespace {
 
-constexpr double kTail = 0.05; ///< of the coordinates, left out at either end of the box
 /// A float has seven digits, so it keeps 1e-6 of a scene's size in coordinates up to so many times
 /// that size.
 constexpr double kNear = 10.0;
@@ -31,7 +30,7 @@ Eigen::Vector3d round_offset(const Scene& model)
     positions.reserve(model.positions.size());
     std::ranges::copy_if(model.positions, std::back_inserter(positions),
                          [](const Eigen::Vector3d& position) { return position.allFinite(); });
-    const double size = positions.empty() ? 0.0 : middle_box(positions, kTail).diagonal().norm();
+    const double size = positions.empty() ? 0.0 : middle_box(positions).diagonal().norm();
     if (!(size > 0.0)) return offset;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> values(positions.size());

@@ -9,7 +9,7 @@ namespace vcarve::mpi {
 
 namespace {
 
-constexpr std::chrono::milliseconds kPause(10);
+constexpr std::chrono::milliseconds kAnswerPause(10);
 
 } // namespace
 
@@ -45,7 +45,7 @@ std::optional<RankError> Leader::gather(const std::atomic<bool>& stops)
         }
         const std::optional<Session::Replied> replied = session_.reply();
         if (!replied) {
-            std::this_thread::sleep_for(kPause);
+            std::this_thread::sleep_for(kAnswerPause);
             continue;
         }
         --left;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kOrders = 1;
 constexpr int kReplies = 2;
-constexpr std::chrono::milliseconds kPause(1);
+constexpr std::chrono::milliseconds kMessagePause(1);
 
 int rank_in(MPI_Comm communicator)
 {
@@ -41,7 +41,7 @@ void send(const Message& message, int rank, int tag)
         int is_sent = 0;
         MPI_Test(&request, &is_sent, MPI_STATUS_IGNORE);
         if (is_sent != 0) return;
-        std::this_thread::sleep_for(kPause);
+        std::this_thread::sleep_for(kMessagePause);
     }
 }
 

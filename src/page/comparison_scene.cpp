@@ -21,7 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kTail = 0.05;           ///< of the points, left out at either end of a box
 constexpr double kPartShare = 0.005;     ///< of the diagonal: how far apart distances are told
 constexpr std::int64_t kParts = 300'000; ///< small faces that distances may add up to, a surface
 constexpr double kScales[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
@@ -65,7 +64,7 @@ void move_scene(Json& scene, const Eigen::Vector3d& shift)
 Json middle_json(const Reference& reference)
 {
     const Eigen::AlignedBox3d box = reference.truth ? middle_box(reference.truth->samples, 0.0)
-                                                    : middle_box(reference.scene.positions, kTail);
+                                                    : middle_box(reference.scene.positions);
     return {{"center", vector_json(box.center())}, {"radius", 0.5 * diagonal_of(reference)}};
 }
 

@@ -1,12 +1,12 @@
 #include "region/mesh_region.h"
 
+#include "geometry/cgal_kernel.h"
 #include "geometry/lexicographic_sort.h"
 #include "geometry/predicates.h"
 #include "mesh/edge_table.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
@@ -18,14 +18,8 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangles = CGAL::Surface_mesh<Kernel::Point_3>;
 using Side = CGAL::Side_of_triangle_mesh<Triangles, Kernel>;
-
-Kernel::Point_3 to_cgal(const Vector3d& p)
-{
-    return {p.x(), p.y(), p.z()};
-}
 
 /// Faces that share no vertex: CGAL's mesh must be manifold and oriented, a region need not be.
 /// Those without an area are left out: they lie on the edges of others.

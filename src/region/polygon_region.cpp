@@ -1,10 +1,10 @@
 #include "region/polygon_region.h"
 
+#include "geometry/cgal_kernel.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
 #include "vcarve/error.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
 #include <CGAL/intersections.h>
 #include <fmt/format.h>
@@ -19,7 +19,6 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
 
 Point seen_from_above(const Vector3d& place)

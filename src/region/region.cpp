@@ -1,10 +1,10 @@
 #include "region/region.h"
 
 #include "base/lower_case_end.h"
+#include "geometry/cgal_kernel.h"
 #include "region/mesh_region.h"
 #include "region/polygon_region.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
 namespace vcarve {
@@ -12,12 +12,6 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-Kernel::Point_3 to_cgal(const Vector3d& p)
-{
-    return {p.x(), p.y(), p.z()};
-}
 
 class BoxRegion final : public Region {
   public:

@@ -39,7 +39,7 @@ Camera read_camera(ByteReader& reader, const std::string& name)
     return camera;
 }
 
-void read_cameras(const std::filesystem::path& path, SceneBuilder& builder)
+void read_binary_cameras(const std::filesystem::path& path, SceneBuilder& builder)
 {
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
@@ -69,7 +69,8 @@ ImageRecord read_image(ByteReader& reader)
 
 /// take(reader, image, count) reads the 2D points of an image, which are so many.
 template <typename Take>
-void read_each_image(const std::filesystem::path& path, const Progress& progress, const Take& take)
+void read_each_binary_image(const std::filesystem::path& path, const Progress& progress,
+                            const Take& take)
 {
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
@@ -84,17 +85,19 @@ void read_each_image(const std::filesystem::path& path, const Progress& progress
     reader.expect_end("the last image");
 }
 
-void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+void read_binary_images(const std::filesystem::path& path, SceneBuilder& builder,
+                        const Progress& progress)
 {
     const auto take = [&](ByteReader& reader, const ImageRecord& image, std::uint64_t count) {
         builder.add_image(image);
         reader.skip(count, kPoint2dBytes);
     };
-    read_each_image(path, progress, take);
+    read_each_binary_image(path, progress, take);
     builder.close_images();
 }
 
-void read_sights(const std::filesystem::path& path, const TakeSight& told, const Progress& progress)
+void read_binary_sights(const std::filesystem::path& path, const TakeSight& told,
+                        const Progress& progress)
 {
     const auto take = [&](ByteReader& reader, const ImageRecord& image, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) {
@@ -102,7 +105,7 @@ void read_sights(const std::filesystem::path& path, const TakeSight& told, const
             told(image.id, reader.read<std::uint64_t>("the point of a 2D point"));
         }
     };
-    read_each_image(path, progress, take);
+    read_each_binary_image(path, progress, take);
 }
 
 PointRecord read_point(ByteReader& reader)
@@ -117,7 +120,8 @@ PointRecord read_point(ByteReader& reader)
     return point;
 }
 
-void read_points(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+void read_binary_points(const std::filesystem::path& path, SceneBuilder& builder,
+                        const Progress& progress)
 {
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
@@ -142,6 +146,7 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 
 } // namespace
 
-const FormatReader kBinaryReader = {read_cameras, read_images, read_points, read_sights};
+const FormatReader kBinaryReader = {read_binary_cameras, read_binary_images, read_binary_points,
+                                    read_binary_sights};
 
 } // namespace vcarve

@@ -33,7 +33,7 @@ Camera read_camera(TextReader& reader)
     return camera;
 }
 
-void read_cameras(const std::filesystem::path& path, SceneBuilder& builder)
+void read_text_cameras(const std::filesystem::path& path, SceneBuilder& builder)
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
@@ -81,7 +81,8 @@ ImageRecord read_image(TextReader& reader)
 
 /// take(reader, image) reads the 2D points of an image, or leaves them.
 template <typename Take>
-void read_each_image(const std::filesystem::path& path, const Progress& progress, const Take& take)
+void read_each_text_image(const std::filesystem::path& path, const Progress& progress,
+                          const Take& take)
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
@@ -94,17 +95,19 @@ void read_each_image(const std::filesystem::path& path, const Progress& progress
     }
 }
 
-void read_images(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+void read_text_images(const std::filesystem::path& path, SceneBuilder& builder,
+                      const Progress& progress)
 {
-    read_each_image(path, progress, [&](TextReader& /*points2d*/, const ImageRecord& image) {
+    read_each_text_image(path, progress, [&](TextReader& /*points2d*/, const ImageRecord& image) {
         builder.add_image(image);
     });
     builder.close_images();
 }
 
-void read_sights(const std::filesystem::path& path, const TakeSight& told, const Progress& progress)
+void read_text_sights(const std::filesystem::path& path, const TakeSight& told,
+                      const Progress& progress)
 {
-    read_each_image(path, progress, [&](TextReader& reader, const ImageRecord& image) {
+    read_each_text_image(path, progress, [&](TextReader& reader, const ImageRecord& image) {
         while (!reader.at_line_end()) {
             reader.read_word("the place of a 2D point");
             reader.read_word("the place of a 2D point");
@@ -127,7 +130,8 @@ PointRecord read_point(TextReader& reader)
     return point;
 }
 
-void read_points(const std::filesystem::path& path, SceneBuilder& builder, const Progress& progress)
+void read_text_points(const std::filesystem::path& path, SceneBuilder& builder,
+                      const Progress& progress)
 {
     const MappedFile file(path);
     TextReader reader(file.bytes(), path.string());
@@ -148,6 +152,7 @@ void read_points(const std::filesystem::path& path, SceneBuilder& builder, const
 
 } // namespace
 
-const FormatReader kTextReader = {read_cameras, read_images, read_points, read_sights};
+const FormatReader kTextReader = {read_text_cameras, read_text_images, read_text_points,
+                                  read_text_sights};
 
 } // namespace vcarve

@@ -268,7 +268,7 @@ Matrix34 pose_of(const Place& frame)
     return pose;
 }
 
-void read_cameras(const fs::path& path, SceneBuilder& builder)
+void read_frame_cameras(const fs::path& path, SceneBuilder& builder)
 {
     const Json json = parse(path);
     std::uint32_t last = 0;
@@ -280,7 +280,7 @@ void read_cameras(const fs::path& path, SceneBuilder& builder)
     builder.close_cameras();
 }
 
-void read_images(const fs::path& path, SceneBuilder& builder, const Progress& /*progress*/)
+void read_frame_images(const fs::path& path, SceneBuilder& builder, const Progress& /*progress*/)
 {
     const Json json = parse(path);
     const Place frames = frames_of(json, path);
@@ -306,7 +306,7 @@ void read_images(const fs::path& path, SceneBuilder& builder, const Progress& /*
 
 } // namespace
 
-const FormatReader kTransformsReader = {read_cameras, read_images, nullptr, nullptr};
+const FormatReader kTransformsReader = {read_frame_cameras, read_frame_images, nullptr, nullptr};
 
 fs::path points_of_transforms(const fs::path& file)
 {

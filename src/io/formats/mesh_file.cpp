@@ -24,17 +24,17 @@ struct Kind {
     void (*write)(std::ostream&, const TriMesh&, const MeshFormat&); ///< null for PLY
 };
 
-constexpr std::array<Kind, 5> kKinds = {{{".ply", nullptr},
-                                         {".obj", write_obj},
-                                         {".off", write_off},
-                                         {".stl", write_stl},
-                                         {".glb", write_glb}}};
+constexpr std::array<Kind, 5> kFormats = {{{".ply", nullptr},
+                                           {".obj", write_obj},
+                                           {".off", write_off},
+                                           {".stl", write_stl},
+                                           {".glb", write_glb}}};
 
 /// Null where there is no such format.
 const Kind* find_kind(const fs::path& path)
 {
-    const auto* const kind = std::ranges::find(kKinds, lower_case_end(path), &Kind::end);
-    return kind == kKinds.end() ? nullptr : kind;
+    const auto* const kind = std::ranges::find(kFormats, lower_case_end(path), &Kind::end);
+    return kind == kFormats.end() ? nullptr : kind;
 }
 
 const Kind& kind_of(const fs::path& path)

@@ -2,12 +2,12 @@
 
 #include "base/parallel.h"
 #include "base/sort_unique.h"
+#include "geometry/cgal_kernel.h"
 #include "geometry/triangle_tree.h"
 #include "steps/2_planes/plane_frame.h"
 #include "steps/2_planes/sights_through.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <Eigen/Geometry>
 
@@ -27,7 +27,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangulation = CGAL::Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<
                 CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>>>;
@@ -39,7 +38,7 @@ struct Crossing {
 };
 
 /// A point of a region beside a crossing of its plane.
-struct Pair {
+struct BorderPair {
     double apart; ///< how far
     std::uint32_t point;
     std::uint32_t crossing;
@@ -48,15 +47,15 @@ struct Pair {
 /// The pairs of neighbours in the Delaunay triangulation of places in a plane, of which the first
 /// so many are points and the others crossings, that are no farther apart than `most`; the nearest
 /// first.
-std::vector<Pair> pairs_beside(const std::vector<Vector2d>& places, std::size_t num_points,
-                               double most)
+std::vector<BorderPair> pairs_beside(const std::vector<Vector2d>& places, std::size_t num_points,
+                                     double most)
 {
     std::vector<std::pair<Kernel::Point_2, std::uint32_t>> numbered(places.size());
     for (std::uint32_t i = 0; i < places.size(); ++i) {
         numbered[i] = {{places[i].x(), places[i].y()}, i};
     }
     const Triangulation triangulation(numbered.begin(), numbered.end());
-    std::vector<Pair> pairs;
+    std::vector<BorderPair> pairs;
     for (const auto& [face, slot] : triangulation.finite_edges()) {
         const auto [point, crossing] = std::minmax({face->vertex(Triangulation::ccw(slot))->info(),
                                                     face->vertex(Triangulation::cw(slot))->info()});
@@ -64,7 +63,7 @@ std::vector<Pair> pairs_beside(const std::vector<Vector2d>& places, std::size_t 
         const double apart = (places[crossing] - places[point]).norm();
         if (apart <= most) pairs.push_back({apart, point, crossing});
     }
-    std::ranges::sort(pairs, {}, [](const Pair& pair) {
+    std::ranges::sort(pairs, {}, [](const BorderPair& pair) {
         return std::tie(pair.apart, pair.point, pair.crossing);
     });
     return pairs;
@@ -173,7 +172,7 @@ class Borders {
             return frames_[region].in_plane(position);
         });
         std::ranges::transform(crossings, std::back_inserter(places), &Crossing::place);
-        for (const Pair& pair : pairs_beside(places, points.size(), near(region))) {
+        for (const BorderPair& pair : pairs_beside(places, points.size(), near(region))) {
             const Vector3d& point = points[pair.point];
             const Vector3d crossing = frames_[region].in_space(places[pair.crossing]);
             found.push_back({.position = point + kShare * (crossing - point),

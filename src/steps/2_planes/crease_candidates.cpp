@@ -26,10 +26,10 @@ Box grown(const Box& box, double by)
     return {box.low.array() - by, box.high.array() + by};
 }
 
-using Pair = std::array<std::uint32_t, 2>;
+using PlanePair = std::array<std::uint32_t, 2>;
 
 /// The pairs of regions that lie no farther apart than `reach` of their spacings, ascending.
-std::vector<Pair> near_pairs(const PlanarRegions& planes, double reach)
+std::vector<PlanePair> near_pairs(const PlanarRegions& planes, double reach)
 {
     using Boxed = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
     std::vector<Boxed> boxes;
@@ -39,7 +39,7 @@ std::vector<Pair> near_pairs(const PlanarRegions& planes, double reach)
                                         box.high.y(), box.high.z()),
                            i);
     }
-    std::vector<Pair> pairs;
+    std::vector<PlanePair> pairs;
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Boxed& a, const Boxed& b) {
         pairs.push_back({std::min(a.info(), b.info()), std::max(a.info(), b.info())});
     });
@@ -84,7 +84,7 @@ struct Support {
 /// Where two regions meet.
 class Crease {
   public:
-    Crease(const Scene& scene, const PlanarRegions& planes, const Pair& pair, double reach)
+    Crease(const Scene& scene, const PlanarRegions& planes, const PlanePair& pair, double reach)
         : scene_(scene),
           planes_(planes),
           pair_(pair),
@@ -210,7 +210,7 @@ class Crease {
 
     const Scene& scene_;
     const PlanarRegions& planes_;
-    Pair pair_;
+    PlanePair pair_;
     std::array<const PlanarRegion*, 2> regions_;
     Line line_;
     double spacing_; ///< the larger one
@@ -223,7 +223,7 @@ std::vector<Candidate> crease_candidates(const Scene& scene, const PlanarRegions
                                          double reach, const Progress& progress)
 {
     constexpr double kMostCosine = 0.866; // of 30 degrees
-    const std::vector<Pair> pairs = near_pairs(planes, reach);
+    const std::vector<PlanePair> pairs = near_pairs(planes, reach);
     const auto look = [&](std::size_t i, std::vector<Candidate>& found) {
         const Plane& a = planes.regions[pairs[i][0]].plane;
         const Plane& b = planes.regions[pairs[i][1]].plane;

@@ -1,9 +1,9 @@
 #include "steps/2_planes/textureless_candidates.h"
 
 #include "base/parallel.h"
+#include "geometry/cgal_kernel.h"
 #include "steps/2_planes/plane_frame.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
 
 #include <algorithm>
@@ -20,7 +20,6 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// A square of a grid, by its column and its row.
 using Square = std::pair<std::int64_t, std::int64_t>;

@@ -11,7 +11,7 @@ namespace vcarve {
 
 namespace {
 
-int slot_of(const Cell& cell, Index vertex)
+int exact_slot_of(const Cell& cell, Index vertex)
 {
     return static_cast<int>(std::find(cell.vertices.begin(), cell.vertices.end(), vertex) -
                             cell.vertices.begin());
@@ -19,7 +19,7 @@ int slot_of(const Cell& cell, Index vertex)
 
 bool has_vertex(const Cell& cell, Index vertex)
 {
-    return slot_of(cell, vertex) < 4;
+    return exact_slot_of(cell, vertex) < 4;
 }
 
 std::array<Index, 3> facet_corners(const Cell& cell, int slot)
@@ -230,7 +230,7 @@ ExactWalk::Place ExactWalk::leave_vertex(const Place& place)
         if (cell.is_infinite()) {
             continue;
         }
-        const auto corners = facet_corners(cell, slot_of(cell, vertex));
+        const auto corners = facet_corners(cell, exact_slot_of(cell, vertex));
         std::array<int, 3> turns{};
         for (int i = 0; i < 3; ++i) {
             turns[i] = side_of_line(corners[i], corners[(i + 1) % 3]);

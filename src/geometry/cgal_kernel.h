@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <Eigen/Core>
+
+namespace vcarve {
+
+/// Exact predicates, rounded constructions.
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+inline Kernel::Point_3 to_cgal(const Eigen::Vector3d& position)
+{
+    return {position.x(), position.y(), position.z()};
+}
+
+} // namespace vcarve
