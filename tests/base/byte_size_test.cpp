@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::byte_size_test {
 namespace {
 
 TEST(ParseByteSize, TakesPlainBytesAndSuffixes)
@@ -37,4 +37,4 @@ TEST(ByteSizeText, TakesTheLargestSuffixAndFourDigits)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::byte_size_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::control_free_test {
 namespace {
 
 TEST(ControlFree, LeavesNothingThatATerminalObeys)
@@ -24,4 +24,4 @@ TEST(ControlFree, LeavesTheRestAsItIs)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::control_free_test

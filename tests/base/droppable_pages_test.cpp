@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace vcarve {
+namespace vcarve::droppable_pages_test {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{4} << 20;
@@ -108,7 +108,7 @@ TEST(DroppablePages, AreLeftAloneWhenTheyAreForgotten)
 bool reads_touched_only(const Mapping& file)
 {
     const std::string flags = mapping_flags(file.letters().data());
-    EXPECT_THAT(flags, testing::HasSubstr(" rd ")) << "flags are known";
+    EXPECT_THAT(flags, ::testing::HasSubstr(" rd ")) << "flags are known";
     return flags.find(" rr ") != std::string::npos;
 }
 
@@ -134,4 +134,4 @@ TEST(ScatteredUse, HasTheSystemReadWhatIsTouchedUntilTheLastIsGone)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::droppable_pages_test

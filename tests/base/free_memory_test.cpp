@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::free_memory_test {
 namespace {
 
 /// A machine with 8 MB free, and no groups.
-class FreeMemory : public testing::Test {
+class FreeMemory : public ::testing::Test {
   protected:
     FreeMemory()
     {
@@ -90,4 +90,4 @@ TEST_F(FreeMemory, IsNoneWhereAGroupIsOverItsLimit)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::free_memory_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::index_limit_test {
 namespace {
 
 std::string refusal_of(std::uint64_t count, std::uint64_t most)
@@ -27,4 +27,4 @@ TEST(RequireIndexable, LeavesEveryFaceItsSixHalfEdges)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::index_limit_test

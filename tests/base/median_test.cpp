@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::median_test {
 namespace {
 
 TEST(Median, IsTheUpperMiddle)
@@ -13,4 +13,4 @@ TEST(Median, IsTheUpperMiddle)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::median_test

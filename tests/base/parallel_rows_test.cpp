@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
-namespace vcarve {
+namespace vcarve::parallel_rows_test {
 namespace {
 
 TEST(ParallelRows, HasTheItemsOfARowInTheOrderOfTheirSources)
@@ -44,4 +44,4 @@ TEST(ParallelRows, IsTheSameFromAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::parallel_rows_test

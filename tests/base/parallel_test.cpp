@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::parallel_test {
 namespace {
 
 TEST(ParallelCollect, KeepsTheOrder)
@@ -23,4 +23,4 @@ TEST(ParallelCollect, KeepsTheOrder)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::parallel_test

@@ -8,14 +8,14 @@
 
 #include <atomic>
 
-namespace vcarve {
+namespace vcarve::progress_test {
 
 namespace {
 
-using testing::DoubleEq;
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::Pair;
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pair;
 
 } // namespace
 
@@ -114,4 +114,4 @@ TEST(Progress, StopsAStageBeforeItBeginsAndBeforeItEnds)
     EXPECT_THAT(log.ended(), IsEmpty());
 }
 
-} // namespace vcarve
+} // namespace vcarve::progress_test

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace vcarve {
+namespace vcarve::random_number_test {
 namespace {
 
 TEST(RandomNumber, DependsOnSeedAndIndexAlone)
@@ -31,4 +31,4 @@ TEST(RandomNumber, FillsTheUnitIntervalEvenly)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::random_number_test

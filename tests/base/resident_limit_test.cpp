@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::resident_limit_test {
 namespace {
 
 constexpr std::int64_t kMiB = std::int64_t{1} << 20;
@@ -48,4 +48,4 @@ TEST(ResidentSize, GrowsWithWhatIsWrittenTo)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::resident_limit_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::round_half_up_test {
 namespace {
 
 TEST(RoundHalfUp, GivesWhatTheStandardLibraryGives)
@@ -16,4 +16,4 @@ TEST(RoundHalfUp, GivesWhatTheStandardLibraryGives)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::round_half_up_test

@@ -23,11 +23,11 @@
 #include <thread>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::scratch_memory_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::MatchesRegex;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 constexpr std::size_t kLeast = ScratchMemory::kLeastBytes;
 constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
@@ -245,7 +245,7 @@ TEST(ScratchMemory, LetsAFileStandInMemoryThatIsNotInTheFolder)
     void* const memory = allocate_scratch(kBytes, 16);
     ASSERT_NE(memory, nullptr);
     const auto numbers = numbers_at(memory, kBytes);
-    EXPECT_THAT(numbers, testing::Each(0U));
+    EXPECT_THAT(numbers, ::testing::Each(0U));
     std::ranges::fill(numbers, 5U);
     drop_next_pages(kAllPages, false);
     EXPECT_EQ(numbers.front(), 5U) << "there is no file to read it back from";
@@ -289,7 +289,7 @@ TEST(ScratchMemory, ServesManyThreadsWhilePagesAreDropped)
     for (std::thread& thread : threads) {
         thread.join();
     }
-    EXPECT_THAT(wrong, testing::Each(0U));
+    EXPECT_THAT(wrong, ::testing::Each(0U));
 }
 
 #ifndef VCARVE_SANITIZED // sanitizers need memory of their own
@@ -319,4 +319,4 @@ TEST(ScratchMemory, KeepsLittleOfALargeArrayInMemory)
 #endif
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::scratch_memory_test

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 
-namespace vcarve {
+namespace vcarve::threads_test {
 namespace {
 
 TEST(AvailableThreads, IsOneOnOneCore)
@@ -23,4 +23,4 @@ TEST(AvailableThreads, IsOneOnOneCore)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::threads_test

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
-namespace vcarve {
+namespace vcarve::union_find_test {
 namespace {
 
 TEST(UnionFind, NamesASetByItsLeastMember)
@@ -42,4 +42,4 @@ TEST(UnionFind, JoinsFromManyThreadsAsFromOne)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::union_find_test

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace vcarve {
+namespace vcarve::unset_array_test {
 namespace {
 
 TEST(UnsetArray, HoldsWhatItIsGiven)
@@ -29,4 +29,4 @@ TEST(UnsetArray, IsFilledToItsEnd)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::unset_array_test

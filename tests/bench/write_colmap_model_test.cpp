@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve::bench {
+namespace vcarve::bench::write_colmap_model_test {
 namespace {
 
 /// A scene in parts of at most so many points.
@@ -190,4 +190,4 @@ TEST(SampleParts, TakeNoMoreMemoryForMorePoints)
 #endif
 
 } // namespace
-} // namespace vcarve::bench
+} // namespace vcarve::bench::write_colmap_model_test

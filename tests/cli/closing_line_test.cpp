@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve::cli {
+namespace vcarve::cli::closing_line_test {
 namespace {
 
 /// A surface of which nothing is to be said.
@@ -182,4 +182,4 @@ TEST(RunOutcome, IsMadeOfWhatTheStagesCount)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::closing_line_test

@@ -11,17 +11,17 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::compare_command_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::MatchesRegex;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 /// A model of a ball and its surface as this program makes it.
-class CompareOnBall : public testing::Test {
+class CompareOnBall : public ::testing::Test {
   protected:
     CompareOnBall()
     {
@@ -240,7 +240,7 @@ TEST_F(CompareOnBall, KillsColmapWhenItsTimeIsUp)
     std::string name;
     std::string state = "gone";
     status >> number >> name >> state;
-    EXPECT_THAT(state, testing::AnyOf("gone", "Z", "X"));
+    EXPECT_THAT(state, ::testing::AnyOf("gone", "Z", "X"));
 }
 
 TEST_F(CompareOnBall, LeavesNothingBehind)
@@ -280,4 +280,4 @@ TEST(Compare, HasAHelpOfItsOwnAndAPlaceInTheManPage)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::compare_command_test

@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::compare_report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A model of a ball, its surface, and a coarser one.
-class CompareReportOfBall : public testing::Test {
+class CompareReportOfBall : public ::testing::Test {
   protected:
     CompareReportOfBall()
     {
@@ -191,4 +191,4 @@ TEST_F(CompareReportOfBall, IsNotLeftBehindByARunThatFails)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::compare_report_test

@@ -10,12 +10,12 @@
 #include <string>
 #include <thread>
 
-namespace vcarve::cli {
+namespace vcarve::cli::console_log_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::MatchesRegex;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
 
 /// A file that is gone with the test, in the place of a terminal.
 class Screen {
@@ -201,4 +201,4 @@ TEST(ConsoleLog, EndsWithASentenceInBoldWhereThatIsWanted)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::console_log_test

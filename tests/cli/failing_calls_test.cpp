@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace vcarve {
+namespace vcarve::failing_calls_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -26,7 +26,7 @@ struct Failing {
     int least = 3;               ///< so many of these calls a run makes at least
 };
 
-class ProgramWithFailing : public testing::TestWithParam<Failing> {
+class ProgramWithFailing : public ::testing::TestWithParam<Failing> {
   protected:
     ProgramWithFailing()
     {
@@ -61,10 +61,10 @@ class ProgramWithFailing : public testing::TestWithParam<Failing> {
 
 void expect_sentence(const Outcome& outcome)
 {
-    EXPECT_THAT(outcome.exit_code, testing::AnyOf(0, 1, 2, 3));
-    EXPECT_THAT(outcome.err, testing::Not(testing::HasSubstr("internal error")));
+    EXPECT_THAT(outcome.exit_code, ::testing::AnyOf(0, 1, 2, 3));
+    EXPECT_THAT(outcome.err, ::testing::Not(::testing::HasSubstr("internal error")));
     if (outcome.exit_code == 0) return;
-    EXPECT_THAT(outcome.err, testing::ContainsRegex("(^|\n)colmap-vcarve: [^\n]+\n$"));
+    EXPECT_THAT(outcome.err, ::testing::ContainsRegex("(^|\n)colmap-vcarve: [^\n]+\n$"));
 }
 
 } // namespace
@@ -86,7 +86,7 @@ TEST_P(ProgramWithFailing, EndsWithASentenceAndTheOldSurfaceOrTheNewOne)
         EXPECT_TRUE(bytes == whole || (bytes == "old" && outcome->exit_code != 0));
         for (const auto& file : fs::directory_iterator(made.path())) {
             EXPECT_THAT(file.path().filename(),
-                        testing::AnyOf("out.ply", "stats.json", "page.html"));
+                        ::testing::AnyOf("out.ply", "stats.json", "page.html"));
         }
         if (HasFailure()) break;
     }
@@ -95,11 +95,11 @@ TEST_P(ProgramWithFailing, EndsWithASentenceAndTheOldSurfaceOrTheNewOne)
 
 INSTANTIATE_TEST_SUITE_P(
     Calls, ProgramWithFailing,
-    testing::Values(Failing{"write", "", 2}, Failing{"write", "+", 3}, Failing{"rename", "", 1},
-                    Failing{"fsync", "", 1}, Failing{"mmap", "", 1}, Failing{"open", "", 3},
-                    Failing{"malloc", "", 199}, Failing{"fallocate", "", 1, 60'000, "2", 2}),
+    ::testing::Values(Failing{"write", "", 2}, Failing{"write", "+", 3}, Failing{"rename", "", 1},
+                      Failing{"fsync", "", 1}, Failing{"mmap", "", 1}, Failing{"open", "", 3},
+                      Failing{"malloc", "", 199}, Failing{"fallocate", "", 1, 60'000, "2", 2}),
     [](const auto& made) {
         return std::string(made.param.call) + (*made.param.goes_on == '\0' ? "" : "AndAllLater");
     });
 
-} // namespace vcarve
+} // namespace vcarve::failing_calls_test

@@ -6,10 +6,10 @@
 
 #include <memory>
 
-namespace vcarve::cli {
+namespace vcarve::cli::help_text_test {
 namespace {
 
-using testing::Not;
+using ::testing::Not;
 
 Manual sample_manual()
 {
@@ -60,8 +60,8 @@ TEST(HelpText, ListsWhatIsForTuningOnlyWhereItIsAskedFor)
 {
     const std::string entry = "\nThird:\n"
                               "  --factor usual|<number>     Of what is usual. [default 7]\n";
-    EXPECT_THAT(help_text(sample_manual(), true), testing::HasSubstr(entry));
-    EXPECT_THAT(help_text(sample_manual(), false), Not(testing::HasSubstr("--factor")));
+    EXPECT_THAT(help_text(sample_manual(), true), ::testing::HasSubstr(entry));
+    EXPECT_THAT(help_text(sample_manual(), false), Not(::testing::HasSubstr("--factor")));
 }
 
 TEST(HelpText, BreaksLongTextsBetweenWordsAndLongTermsAfterThem)
@@ -74,7 +74,7 @@ TEST(HelpText, BreaksLongTextsBetweenWordsAndLongTermsAfterThem)
         "that anybody wants to read.";
     EXPECT_THAT(
         help_text(manual, false),
-        testing::HasSubstr(
+        ::testing::HasSubstr(
             "  --a-name-that-leaves-no-room-beside <deg>\n"
             "                              Words that go on and on, further than the\n"
             "                              hundredth column of a line that anybody wants to\n"
@@ -114,4 +114,4 @@ TEST(MarkdownOptions, IsATableAStage)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::help_text_test

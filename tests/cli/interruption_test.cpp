@@ -14,7 +14,7 @@
 #include <csignal>
 #include <string>
 
-namespace vcarve::cli {
+namespace vcarve::cli::interruption_test {
 namespace {
 
 /// The exit code of a process that gets `signal` while it writes `part`; -1 where the signal killed
@@ -159,4 +159,4 @@ TEST(HoldStandardStreams, LeavesTheirNumbersToNoFile)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::interruption_test

@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace vcarve {
+namespace vcarve::mesh_command_crop_test {
 namespace {
 
-using testing::ContainsRegex;
+using ::testing::ContainsRegex;
 
-class CropOfScene : public testing::Test {
+class CropOfScene : public ::testing::Test {
   protected:
     Outcome run(const std::vector<std::string>& words) const
     {
@@ -108,7 +108,7 @@ TEST_F(CropOfScene, IsRefusedWhereNoPointLies)
     scene = folder / "ball";
     write_ball_model(scene, 400);
     EXPECT_THAT(sentence_of(3, "5,5,5,6,6,6.5"),
-                testing::MatchesRegex(
+                ::testing::MatchesRegex(
                     "colmap-vcarve: " + scene +
                     ": no point lies within the region of --crop \\(x 5 to 6, y 5 to 6, z 5 to "
                     "6\\.5\\); the points lie in x -0\\.9[0-9]+ to 0\\.9[0-9]+, y "
@@ -116,4 +116,4 @@ TEST_F(CropOfScene, IsRefusedWhereNoPointLies)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_command_crop_test

@@ -11,16 +11,16 @@
 
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::mesh_command_dense_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::MatchesRegex;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 /// A workspace of a ball: 300 sparse points, and 600 dense ones with normals.
-class ProgramOnDenseBall : public testing::Test {
+class ProgramOnDenseBall : public ::testing::Test {
   protected:
     ProgramOnDenseBall()
     {
@@ -124,7 +124,7 @@ TEST_F(ProgramOnDenseBall, RefusesBrokenInputWithASentenceAndLeavesNothing)
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("colmap-vcarve: " + fused + ".vis: tells of 0 points, but " +
                                        fused + " has 600; "));
-    EXPECT_THAT(outcome.err, testing::EndsWith("(--crop cuts a part out of the whole)\n"));
+    EXPECT_THAT(outcome.err, ::testing::EndsWith("(--crop cuts a part out of the whole)\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_EQ(run_program({fused, out, "--points", "sparse"}).exit_code, 2);
 }
@@ -178,4 +178,4 @@ TEST_F(ProgramOnDenseBall, IsNotComparedWithColmapWhereThatCannotBeToldOfThePoin
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_command_dense_test

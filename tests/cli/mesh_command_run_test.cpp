@@ -13,19 +13,19 @@
 #include <algorithm>
 #include <sstream>
 
-namespace vcarve {
+namespace vcarve::mesh_command_run_test {
 namespace {
 
-using testing::AllOf;
-using testing::ContainsRegex;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::MatchesRegex;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 /// A folder with a model of a ball in "ball", small enough to be meshed at once.
-class ProgramOnBall : public testing::Test {
+class ProgramOnBall : public ::testing::Test {
   protected:
     ProgramOnBall() { write_ball_model(ball, 400); }
 
@@ -365,4 +365,4 @@ TEST_F(ProgramOnBall, WritesTheFormatThatTheNameMeans)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_command_run_test

@@ -11,15 +11,15 @@
 #include <cmath>
 #include <numbers>
 
-namespace vcarve {
+namespace vcarve::mesh_command_scan_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 /// Points on the unit ball, which two scanners measured from 3 away on both sides; each is on the
 /// side of its scanner.
-class ProgramOnScannedBall : public testing::Test {
+class ProgramOnScannedBall : public ::testing::Test {
   protected:
     ProgramOnScannedBall()
     {
@@ -119,4 +119,4 @@ TEST_F(ProgramOnScannedBall, MeasuresMeshesByTheScan)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_command_scan_test

@@ -9,14 +9,14 @@
 
 #include <sstream>
 
-namespace vcarve {
+namespace vcarve::mesh_command_test {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::MatchesRegex;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::MatchesRegex;
+using ::testing::Not;
 
 const std::string kSeeHelp = " (see colmap-vcarve --help)\n";
 
@@ -267,4 +267,4 @@ TEST(Program, SaysThatMemoryIsShort)
 #endif
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_command_test

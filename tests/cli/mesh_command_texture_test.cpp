@@ -8,14 +8,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::mesh_command_texture_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A model with photographs beside it that are all of one colour.
-class TextureOfProgram : public testing::Test {
+class TextureOfProgram : public ::testing::Test {
   protected:
     TextureOfProgram()
     {
@@ -137,4 +137,4 @@ TEST_F(TextureOfProgram, ReplacesNoPhotograph)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_command_texture_test

@@ -12,15 +12,15 @@
 #include <string_view>
 #include <thread>
 
-namespace vcarve {
+namespace vcarve::mesh_command_work_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ContainsRegex;
-using testing::EndsWith;
-using testing::HasSubstr;
+using ::testing::ContainsRegex;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
 
-class WorkOfProgram : public testing::Test {
+class WorkOfProgram : public ::testing::Test {
   protected:
     std::vector<std::string> words(const std::vector<std::string>& more) const
     {
@@ -175,4 +175,4 @@ TEST_F(WorkOfProgram, IsLeftByNoRunThatNeverWorked)
     }
 }
 
-} // namespace vcarve
+} // namespace vcarve::mesh_command_work_test

@@ -9,14 +9,14 @@
 
 #include <filesystem>
 
-namespace vcarve {
+namespace vcarve::mesh_report_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
-class ReportOfBall : public testing::Test {
+class ReportOfBall : public ::testing::Test {
   protected:
     ReportOfBall() { write_ball_model(ball, 400); }
 
@@ -105,4 +105,4 @@ TEST_F(ReportOfBall, IsRefusedWhereTheRecordIsWritten)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_report_test

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve::cli {
+namespace vcarve::cli::option_parser_test {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// The sample's options, and a path.
 struct Values {
@@ -249,4 +249,4 @@ TEST(Nearest, CountsInsertedRemovedAndReplacedLetters)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::option_parser_test

@@ -7,14 +7,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve::cli {
+namespace vcarve::cli::outputs_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::EndsWith;
+using ::testing::EndsWith;
 
 /// A project with a dense workspace in "p/dense", and a photograph that its model tells of.
-class KeepInputs : public testing::Test {
+class KeepInputs : public ::testing::Test {
   protected:
     KeepInputs()
     {
@@ -115,8 +115,8 @@ TEST(RequireDistinct, KnowsAFileByAnotherPath)
     const TemporaryFolder folder;
     const std::vector<Output> outputs = {{"a", folder / "x.ply"}, {"b", folder.path() / "./x.ply"}};
     EXPECT_THAT(refusal<UsageError>([&] { require_distinct(outputs); }),
-                testing::StartsWith("b and a cannot both be written to "));
+                ::testing::StartsWith("b and a cannot both be written to "));
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::outputs_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve::cli {
+namespace vcarve::cli::placing_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -72,4 +72,4 @@ TEST(Transformed, TurnsNormalsWithoutScalingThem)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::placing_test

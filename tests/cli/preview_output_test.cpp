@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::preview_output_test {
 namespace {
 
-using testing::Contains;
-using testing::ContainsRegex;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::Contains;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // The images of the ball have 1000 x 1000 pixels.
 constexpr int kPanel = 1108;
@@ -27,7 +27,7 @@ constexpr int kCaption = 2 * 14 + 8;
 const Rgb kBackground = {236, 239, 243};
 const Rgb kBacks = {255, 0, 255};
 
-class PreviewOfBall : public testing::Test {
+class PreviewOfBall : public ::testing::Test {
   protected:
     PreviewOfBall() { write_ball_model(ball, 400); }
 
@@ -175,4 +175,4 @@ TEST_F(PreviewOfBall, RefusesAViewWithoutAPicture)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::preview_output_test

@@ -9,14 +9,14 @@
 
 #include <sstream>
 
-namespace vcarve::cli {
+namespace vcarve::cli::replay_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::MatchesRegex;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
-struct ProgramThatTells : testing::Test {
+struct ProgramThatTells : ::testing::Test {
     ProgramThatTells() { write_ball_model(ball, 200); }
 
     std::string replay(const std::string& surface) const
@@ -136,4 +136,4 @@ TEST_F(ProgramThatTells, QuotesWhatAForeignFileTells)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::replay_test

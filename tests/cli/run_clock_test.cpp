@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::cli {
+namespace vcarve::cli::run_clock_test {
 namespace {
 
 PredictedTimes times(std::vector<StageTime> stages, double points = 0.0)
@@ -191,4 +191,4 @@ TEST(RunClock, IsRightWithinAnEighthOfTheRunOnAMachineOfAnotherSpeedWhenAFifthIs
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::run_clock_test

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::cli {
+namespace vcarve::cli::run_memory_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::MatchesRegex;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::MatchesRegex;
 
 struct Notes : Log {
     void note(std::string_view sentence) override { heard.emplace_back(sentence); }
@@ -171,4 +171,4 @@ TEST(RunMemory, SharesWhatIsFreeAmongTheRanksOfAMachine)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::run_memory_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::cli {
+namespace vcarve::cli::run_record_test {
 namespace {
 
 Json recorded(SampleOptions options)
@@ -126,4 +126,4 @@ TEST(JsonText, ReplacesBytesThatAreNotUtf8)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::run_record_test

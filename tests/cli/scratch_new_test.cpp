@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::scratch_new_test {
 namespace {
 
-using testing::ContainsRegex;
-using testing::MatchesRegex;
+using ::testing::ContainsRegex;
+using ::testing::MatchesRegex;
 
 /// Large enough for arrays in files, and with lumps, since points of one sphere are not divided
 /// into blocks.
-struct ProgramInBlocks : testing::Test {
+struct ProgramInBlocks : ::testing::Test {
     ProgramInBlocks() { write_ball_model(ball, 60'000, Eigen::Vector3d::Zero(), 0.05); }
 
     Outcome run(std::vector<std::string> arguments) const
@@ -91,4 +91,4 @@ TEST_F(ProgramInBlocks, LeavesNoFilesWhenItIsEnded)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::scratch_new_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve::cli {
+namespace vcarve::cli::stage_lines_test {
 namespace {
 
 TEST(CountsText, SaysTheResultThenWhatItWasTakenFromThenTheRest)
@@ -72,4 +72,4 @@ TEST(StageLine, KeepsNamesAndSecondsInColumns)
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::stage_lines_test

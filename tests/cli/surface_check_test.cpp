@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve::cli {
+namespace vcarve::cli::surface_check_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TriMesh tetrahedron()
 {
@@ -82,11 +82,11 @@ TEST(Program, ChecksTheSurfaceWhereAsked)
     const Outcome outcome = run_program({folder / "ball", out, "--check", "-v"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err,
-                testing::ContainsRegex("\ncheck +[0-9,]+ of [0-9,]+ sights from behind [^\n]*\n"
-                                       "write "));
+                ::testing::ContainsRegex("\ncheck +[0-9,]+ of [0-9,]+ sights from behind [^\n]*\n"
+                                         "write "));
     EXPECT_THAT(run_program({folder / "ball", out, "--check"}).err,
-                testing::ContainsRegex("\ncheck +0 open edges[^\n]*\nwrote "));
+                ::testing::ContainsRegex("\ncheck +0 open edges[^\n]*\nwrote "));
 }
 
 } // namespace
-} // namespace vcarve::cli
+} // namespace vcarve::cli::surface_check_test

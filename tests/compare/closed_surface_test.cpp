@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace vcarve {
+namespace vcarve::closed_surface_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -105,4 +105,4 @@ TEST(ClosedSurface, IsNotMadeWhereNoViewHasARay)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::closed_surface_test

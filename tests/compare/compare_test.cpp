@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace vcarve {
+namespace vcarve::compare_test {
 namespace {
 
-using testing::cube;
-using testing::torus;
+using ::testing::cube;
+using ::testing::torus;
 
 Comparison comparison_of(const TriMesh& mesh)
 {
@@ -115,4 +115,4 @@ TEST(CompareCall, RefusesOptionsOutOfTheirRange)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::compare_test

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::comparison_table_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -220,4 +220,4 @@ TEST(ComparisonJson, HoldsTheTruth)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::comparison_table_test

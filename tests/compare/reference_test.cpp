@@ -6,13 +6,13 @@
 
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::reference_test {
 namespace {
 
-using testing::few_samples;
-using testing::high_centers;
-using testing::scene_above_square;
-using testing::square;
+using ::testing::few_samples;
+using ::testing::high_centers;
+using ::testing::scene_above_square;
+using ::testing::square;
 using ::testing::ThrowsMessage;
 
 Reference plain_reference()
@@ -127,4 +127,4 @@ TEST(PlaceMesh, AcceptsAFewStrayPointsAndFaces)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::reference_test

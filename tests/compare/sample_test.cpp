@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::sample_test {
 namespace {
 
-using testing::strip;
+using ::testing::strip;
 
 TEST(SampleSurface, GivesEachFaceItsShareOfTheArea)
 {
@@ -90,4 +90,4 @@ TEST(SampleSurface, IsEmptyWhereNothingHasArea)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sample_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::spacing_test {
 namespace {
 
 using ::testing::DoubleEq;
@@ -62,4 +62,4 @@ TEST(PointSpacings, AreZeroWhereAllPointsCoincide)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::spacing_test

@@ -10,14 +10,14 @@
 #include <numbers>
 #include <utility>
 
-namespace vcarve {
+namespace vcarve::truth_test {
 namespace {
 
-using testing::few_samples;
-using testing::high_centers;
-using testing::scene_above_square;
-using testing::square;
-using testing::strip;
+using ::testing::few_samples;
+using ::testing::high_centers;
+using ::testing::scene_above_square;
+using ::testing::square;
+using ::testing::strip;
 
 /// Of a share of 20,000 random samples, at most.
 constexpr double kFourDeviations = 0.0142;
@@ -347,4 +347,4 @@ TEST(Truth, FiguresAreTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::truth_test

@@ -8,12 +8,12 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::view_rays_test {
 namespace {
 
-using testing::cube;
-using testing::square;
-using testing::square_camera;
+using ::testing::cube;
+using ::testing::square;
+using ::testing::square_camera;
 
 CompareOptions with_samples(int samples)
 {
@@ -205,4 +205,4 @@ TEST(ViewRays, AreTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::view_rays_test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::worst_places_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -218,4 +218,4 @@ TEST(WorstPlaces, AreTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::worst_places_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::bilateral_filter_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -89,4 +89,4 @@ TEST(FilteredNormals, AreTheMeansOfThoseAlike)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::bilateral_filter_test

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace vcarve {
+namespace vcarve::hilbert_order_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -50,4 +50,4 @@ TEST(HilbertOrder, PutsNeighboursNextToEachOther)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::hilbert_order_test

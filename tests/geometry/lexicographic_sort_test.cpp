@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::lexicographic_sort_test {
 namespace {
 
 TEST(LexicographicSort, IsByCoordinatesAndThenByIndexWithoutWhatIsNotFinite)
@@ -25,4 +25,4 @@ TEST(LexicographicSort, IsByCoordinatesAndThenByIndexWithoutWhatIsNotFinite)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::lexicographic_sort_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::nearest_neighbors_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -68,4 +68,4 @@ TEST(NearestNeighbors, AreAllWhereThereAreFewer)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::nearest_neighbors_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::neighborhoods_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -70,4 +70,4 @@ TEST(Neighborhoods, AreEmptyUntilSet)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::neighborhoods_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::point_tree_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -128,4 +128,4 @@ TEST(PointTree, KnowsTheDistancesToTheNearestForeignPoint)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::point_tree_test

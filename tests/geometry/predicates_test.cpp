@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::predicates_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -48,4 +48,4 @@ TEST(MeetsTriangle, CountsTheBorder)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::predicates_test

@@ -13,11 +13,11 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::triangle_tree_test {
 namespace {
 
-using testing::distance_to_face;
-using testing::together;
+using ::testing::distance_to_face;
+using ::testing::together;
 
 Eigen::Vector3d random_point(std::uint64_t seed, std::uint64_t index)
 {
@@ -314,4 +314,4 @@ TEST(TriangleTree, LeavesOutTrianglesWithoutArea)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::triangle_tree_test

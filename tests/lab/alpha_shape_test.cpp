@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::alpha_shape_test {
 namespace {
 
 /// Whether every point is a corner of an inside cell and one flood fill reaches all inside cells.
@@ -97,4 +97,4 @@ TEST(SmallestWholeAlpha, GrowsWithTheScene)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::alpha_shape_test

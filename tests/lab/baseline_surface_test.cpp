@@ -9,7 +9,7 @@
 
 #include <filesystem>
 
-namespace vcarve {
+namespace vcarve::baseline_surface_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -86,4 +86,4 @@ TEST(BaselineSurface, IsAWatertightManifold)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::baseline_surface_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::circumsphere_test {
 namespace {
 
 TetMesh one_cell(const Eigen::Vector3d& fourth)
@@ -51,4 +51,4 @@ TEST(Circumsphere, PassesThroughTheCornersAndHoldsNoOtherPoint)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::circumsphere_test

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::paper_baselines_test {
 namespace {
 
 std::filesystem::path folder_of(const std::string& object)
@@ -143,4 +143,4 @@ TEST(PaperBaselines, SculptingDestroysTheSolid)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::paper_baselines_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace vcarve::paper {
+namespace vcarve::paper::paper_figures_test {
 namespace {
 
 PaperCase paper_case(const std::string& name)
@@ -100,4 +100,4 @@ TEST(TimedObject, HasThePointsAndViewpointsThatAreAskedFor)
 }
 
 } // namespace
-} // namespace vcarve::paper
+} // namespace vcarve::paper::paper_figures_test

@@ -6,11 +6,11 @@
 
 #include <filesystem>
 
-namespace vcarve::paper {
+namespace vcarve::paper::paper_test {
 
 namespace {
 
-class EveryPaperObject : public testing::TestWithParam<Object> {};
+class EveryPaperObject : public ::testing::TestWithParam<Object> {};
 
 } // namespace
 
@@ -28,7 +28,7 @@ TEST_P(EveryPaperObject, IsMadeAgainByteForByteAndCarvedExactly)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryPaperObject, testing::ValuesIn(objects()),
+INSTANTIATE_TEST_SUITE_P(All, EveryPaperObject, ::testing::ValuesIn(objects()),
                          [](const auto& object) { return object.param.name; });
 
 TEST(PaperObject, CarvingIsRefusedWhereTheTrueSolidIsAnother)
@@ -40,4 +40,4 @@ TEST(PaperObject, CarvingIsRefusedWhereTheTrueSolidIsAnother)
     EXPECT_THROW(check_carving(fixture), std::logic_error);
 }
 
-} // namespace vcarve::paper
+} // namespace vcarve::paper::paper_test

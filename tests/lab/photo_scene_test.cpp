@@ -9,11 +9,11 @@
 
 #include <algorithm>
 
-namespace vcarve::render {
+namespace vcarve::render::photo_scene_test {
 
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 bool are_equal(const Picture& a, const Picture& b)
 {
@@ -57,7 +57,7 @@ std::vector<PartSums> sums_of_parts(const Parts& parts)
     return sums;
 }
 
-class EveryPhotoScene : public testing::TestWithParam<std::string> {};
+class EveryPhotoScene : public ::testing::TestWithParam<std::string> {};
 
 } // namespace
 
@@ -87,7 +87,7 @@ TEST_P(EveryPhotoScene, IsTheSameEveryTime)
     EXPECT_TRUE(are_equal(small_picture(first), small_picture(second)));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryPhotoScene, testing::ValuesIn(photo_scene_names()),
+INSTANTIATE_TEST_SUITE_P(All, EveryPhotoScene, ::testing::ValuesIn(photo_scene_names()),
                          [](const auto& scene) { return scene.param; });
 
 TEST(PhotoScene, RefusesANameThatNoSceneHas)
@@ -150,4 +150,4 @@ TEST(RenderViews, ListsTheScenesAndRefusesOthers)
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-} // namespace vcarve::render
+} // namespace vcarve::render::photo_scene_test

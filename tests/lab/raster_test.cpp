@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::render {
+namespace vcarve::render::raster_test {
 
 namespace {
 
@@ -115,4 +115,4 @@ TEST(Raster, CutsFacesThatReachBehindTheCamera)
     }
 }
 
-} // namespace vcarve::render
+} // namespace vcarve::render::raster_test

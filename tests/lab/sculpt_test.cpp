@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::sculpt_test {
 namespace {
 
 using Edge = std::pair<Index, Index>;
@@ -149,4 +149,4 @@ TEST(Sculpt, OpensADent)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sculpt_test

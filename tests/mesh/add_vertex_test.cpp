@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::add_vertex_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -52,4 +52,4 @@ TEST(AddVertex, AddsNeitherColoursNorPointsWhereThereAreNone)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::add_vertex_test

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-namespace vcarve {
+namespace vcarve::check_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -219,4 +219,4 @@ TEST(CheckMesh, AgreesWithTheDefinitionsOnRandomSoups)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::check_test

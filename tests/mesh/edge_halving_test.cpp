@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::edge_halving_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -347,4 +347,4 @@ TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeWhenSomeIsTakenBack)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::edge_halving_test

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::edge_table_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -42,4 +42,4 @@ TEST(HalfEdges, GoRoundTheirFace)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::edge_table_test

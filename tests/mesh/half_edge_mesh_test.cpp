@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace vcarve {
+namespace vcarve::half_edge_mesh_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -15,7 +15,7 @@ using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
-using testing::half_edges;
+using ::testing::half_edges;
 
 /// A pyramid over a square without its base, and a vertex of no face; the top is vertex 0.
 TriMesh pyramid()
@@ -142,4 +142,4 @@ TEST(VertexNormal, IsZeroWhereNoFaceHasAnArea)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::half_edge_mesh_test

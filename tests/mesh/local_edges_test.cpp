@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::local_edges_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -104,4 +104,4 @@ TEST(LocalEdges, OfOneFaceTakeItsMiddleEdge)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::local_edges_test

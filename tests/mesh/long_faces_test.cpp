@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::long_faces_test {
 namespace {
 
 /// Three right triangles with legs of 1, and one with legs of `leg`.
@@ -32,4 +32,4 @@ TEST(LongArea, IsNoneOfNoArea)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::long_faces_test

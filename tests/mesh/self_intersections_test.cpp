@@ -7,7 +7,7 @@
 
 #include <random>
 
-namespace vcarve {
+namespace vcarve::self_intersections_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -108,4 +108,4 @@ TEST(CountSelfIntersections, CountsAsCgalDoesOfFacesWithoutCommonCorners)
     EXPECT_EQ(count_self_intersections(mesh), expected);
 }
 
-} // namespace vcarve
+} // namespace vcarve::self_intersections_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::surface_normals_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -77,4 +77,4 @@ TEST(SurfaceNormals, TellTheAnglesAtAFacesCornersInAscendingOrder)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::surface_normals_test

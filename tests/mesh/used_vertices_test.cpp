@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::used_vertices_test {
 namespace {
 
 TEST(UsedVertices, AreAscendingAndNumberFacesAnew)
@@ -22,4 +22,4 @@ TEST(UsedVertices, AreNoneWithoutFaces)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::used_vertices_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::vertex_faces_test {
 namespace {
 
 TEST(VertexFaces, AreAscendingAndOnlyThoseWithAFlag)
@@ -23,4 +23,4 @@ TEST(VertexFaces, AreAscendingAndOnlyThoseWithAFlag)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::vertex_faces_test

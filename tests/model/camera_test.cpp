@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::camera_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -350,4 +350,4 @@ TEST(ViewShows, WhatItsCameraShowsFromWhereItStands)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::camera_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::channels_test {
 namespace {
 
 TEST(RoundedColor, StaysWithinAByte)
@@ -13,4 +13,4 @@ TEST(RoundedColor, StaysWithinAByte)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::channels_test

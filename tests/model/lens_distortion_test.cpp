@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::lens_distortion_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -202,4 +202,4 @@ TEST(CameraReach, IsNoneForLensesThatAreNotKnownAndNumbersThatAreNone)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::lens_distortion_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::middle_box_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -50,4 +50,4 @@ TEST(MiddleBox, IsEmptyWithoutPositions)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::middle_box_test

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::pixel_covariance_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -49,4 +49,4 @@ TEST(PixelCovariance, DoesNotDependOnTheOrderOfViews)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::pixel_covariance_test

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::pixel_grid_test {
 namespace {
 
 TEST(PixelGrid, IsOfAboutSquareCells)
@@ -22,4 +22,4 @@ TEST(PixelGrid, IsOfAboutSquareCells)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::pixel_grid_test

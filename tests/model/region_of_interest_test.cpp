@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::region_of_interest_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -85,4 +85,4 @@ TEST(RegionOfInterest, HasNoRadiusWithoutSights)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::region_of_interest_test

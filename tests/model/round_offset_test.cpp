@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::round_offset_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -66,4 +66,4 @@ TEST(RoundOffset, IsNoneWhereThereIsNoSize)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::round_offset_test

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace vcarve {
+namespace vcarve::scene_check_test {
 
 namespace {
 
@@ -86,4 +86,4 @@ TEST(SceneCheck, RefusesTracksThatAreNoRowsOfAscendingViews)
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views = {1, 0, 2}; }), of_point(0));
 }
 
-} // namespace vcarve
+} // namespace vcarve::scene_check_test

@@ -5,11 +5,11 @@
 
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::seen_places_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// Two points at either end of a line, each seen by both views, which make a ball of radius 1
 /// around the origin.
@@ -65,4 +65,4 @@ TEST(SeenPlaces, OfPointsAtOnePlaceAreOne)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::seen_places_test

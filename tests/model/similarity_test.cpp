@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::similarity_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -66,4 +66,4 @@ TEST(Similarity, MovesPositionsByTheirOffsetOnce)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::similarity_test

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace vcarve {
+namespace vcarve::up_of_test {
 namespace {
 
 using Eigen::AngleAxisd;
@@ -50,4 +50,4 @@ TEST(UpOf, IsZOfALaserScan)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::up_of_test

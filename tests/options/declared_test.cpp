@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-namespace vcarve {
+namespace vcarve::declared_test {
 namespace {
 
 /// Turns into whatever a field is.
@@ -54,4 +54,4 @@ TEST(DeclaredOptions, HaveNamesAndPlacesOfTheirOwn)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::declared_test

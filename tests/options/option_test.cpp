@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::option_test {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 std::vector<std::string> texts(std::string (*text)(const Option&))
 {
@@ -103,4 +103,4 @@ TEST(CheckValues, RefusesWhatIsNotANumber)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::option_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::points_arguments_test {
 namespace {
 
 TEST(PointsArguments, NameEveryFieldOfThePointsOptions)
@@ -26,4 +26,4 @@ TEST(PointsArguments, HaveAScannerOnlyWherePlaceIsTyped)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::points_arguments_test

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::comparison_scene_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -138,4 +138,4 @@ TEST(ComparisonScene, StandsInTheFrameOfTheReference)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::comparison_scene_test

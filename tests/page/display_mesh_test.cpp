@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::display_mesh_test {
 namespace {
 
 TriMesh colored_torus(std::uint32_t n)
@@ -107,4 +107,4 @@ TEST(DisplayMesh, IsTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::display_mesh_test

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace vcarve {
+namespace vcarve::face_grid_test {
 namespace {
 
 using ::testing::Each;
@@ -63,4 +63,4 @@ TEST(GridPlaces, AreNoneOfFacesThatAreNotCut)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::face_grid_test

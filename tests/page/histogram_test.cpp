@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace vcarve {
+namespace vcarve::histogram_test {
 namespace {
 
 using Counts = std::vector<std::int64_t>;
@@ -58,4 +58,4 @@ TEST(HistogramOfLengths, TakesZerosAndNothing)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::histogram_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-namespace vcarve {
+namespace vcarve::pack_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -118,4 +118,4 @@ TEST(PackErrors, CountsThousandthsOfAPixelAndKnowsTheUnknown)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::pack_test

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::page_scene_test {
 namespace {
 
 Scene two_points()
@@ -80,4 +80,4 @@ TEST(PackedTexture, IsNullWithoutPages)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::page_scene_test

@@ -8,12 +8,12 @@
 
 #include <sstream>
 
-namespace vcarve {
+namespace vcarve::page_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kNasty = "a</script><script>x()</script><img src=x onerror=y()>&amp;{{three}}";
 
@@ -103,4 +103,4 @@ TEST(Page, AsksTheNetworkForNothing)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::page_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::run_figures_test {
 namespace {
 
 /// Nine right triangles with sides of 1, and one of 40 x 1, from points seen by two and three
@@ -67,4 +67,4 @@ TEST(SurfaceFigures, AreNoneOfNothing)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::run_figures_test

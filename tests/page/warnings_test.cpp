@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::warnings_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -131,4 +131,4 @@ TEST(Warnings, TellOfSightsFromBehind)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::warnings_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-namespace vcarve {
+namespace vcarve::caption_test {
 namespace {
 
 const Eigen::Array3f kPaper = Eigen::Array3f::Constant(255.0F);
@@ -75,4 +75,4 @@ TEST(Caption, DrawsNoMoreThanFourHundredLetters)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::caption_test

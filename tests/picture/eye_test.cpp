@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::eye_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -90,7 +90,7 @@ TEST(ChooseEye, RefusesANameThatNoImageHas)
               ": it has 4 (a.jpg, b.jpg, c.jpg, ...)");
     scene.views[0].name = "a\x1b[2J";
     EXPECT_THAT(refusal<UsageError>([&] { choose_eye(scene, "x"); }),
-                testing::HasSubstr("x: it has 4 (a?[2J, b.jpg, c.jpg, ...)"));
+                ::testing::HasSubstr("x: it has 4 (a?[2J, b.jpg, c.jpg, ...)"));
 }
 
 TEST(ChooseEye, LooksDownFromTheTopWithTheCamerasBelow)
@@ -175,4 +175,4 @@ TEST(PictureSize, HasTheProportionsOfTheImageAndAtMostSoManyPixels)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::eye_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::first_faces_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -165,4 +165,4 @@ TEST(FirstFaces, FindsFromAnotherPlaceWhatItFindsFromThere)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::first_faces_test

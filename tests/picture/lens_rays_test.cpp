@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::lens_rays_test {
 namespace {
 
 Camera camera_of(int model, std::vector<double> params)
@@ -55,4 +55,4 @@ TEST(LensRays, HaveNoneWhereTheLensHasNone)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::lens_rays_test

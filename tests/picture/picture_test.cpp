@@ -8,10 +8,10 @@
 
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::picture_test {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 Picture numbered(int width_px, int height_px)
 {
@@ -66,4 +66,4 @@ TEST(Picture, RefusesAPlaceItCannotWriteTo)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::picture_test

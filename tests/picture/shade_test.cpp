@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::shade_test {
 namespace {
 
 using Eigen::Array3f;
@@ -271,4 +271,4 @@ TEST(LookAt, TellsWhichPixelsShowFronts)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::shade_test

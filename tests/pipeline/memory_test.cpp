@@ -21,10 +21,10 @@
 #include <string>
 #include <string_view>
 
-namespace vcarve {
+namespace vcarve::memory_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr SceneSize kMillion = {.points = 1'000'000, .sights = 3'700'000, .views = 300};
 
@@ -269,12 +269,12 @@ TEST(PlanBlocks, RefusesWhatEvenBlocksDoNotFitInto)
     const RunSize run = size_of_run(kMillion);
     const std::int64_t least = least_memory(run, 1);
     EXPECT_THAT(refusal<InputError>([&] { plan_blocks(run, 1, {.most = least}, std::nullopt); }),
-                testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
-                                      "memory even in blocks, and --max-memory allows [0-9.]+M"));
+                ::testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
+                                        "memory even in blocks, and --max-memory allows [0-9.]+M"));
     EXPECT_NO_THROW(plan_blocks(run, 1, {.most = least + (1 << 20)}, std::nullopt));
     EXPECT_THAT(refusal<InputError>(
                     [&] { plan_blocks(run, 1, {.most = least, .blocks = 0}, std::nullopt); }),
-                testing::Not(HasSubstr("in blocks")));
+                ::testing::Not(HasSubstr("in blocks")));
 }
 
 TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
@@ -284,8 +284,8 @@ TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
     EXPECT_NO_THROW(require_memory(size_of_run(kMillion), 1, 0));
     EXPECT_THROW(require_memory(size_of_run(kMillion), 1, peak - 1), InputError);
     EXPECT_THAT(refusal<InputError>([] { require_memory(size_of_run(kMillion), 1, 4 << 20); }),
-                testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
-                                      "memory, and --max-memory allows 4M"));
+                ::testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
+                                        "memory, and --max-memory allows 4M"));
 }
 
 TEST(LimitOfCells, IsWhatTheMemoryHolds)
@@ -328,4 +328,4 @@ TEST(Reconstruct, RefusesAModelThatNeedsTooMuchMemoryBeforeAnyWork)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::memory_test

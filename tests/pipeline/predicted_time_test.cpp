@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::predicted_time_test {
 namespace {
 
 constexpr SceneSize kMillion = {.points = 1'000'000, .sights = 3'700'000, .views = 300};
@@ -114,4 +114,4 @@ TEST(ExpectedRun, EndsWithWhatIsWritten)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::predicted_time_test

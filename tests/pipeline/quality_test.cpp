@@ -20,7 +20,7 @@
 //   build/pipeline_tests --gtest_filter='*Quality*'
 // and put the lines that begin with a brace in place of those below.
 
-namespace vcarve {
+namespace vcarve::quality_test {
 namespace {
 
 /// The figures that are held to what was measured, by their places in the JSON text.
@@ -112,7 +112,7 @@ void PrintTo(const Measured& measured, std::ostream* out)
     *out << line_of(measured);
 }
 
-class Quality : public testing::TestWithParam<Measured> {};
+class Quality : public ::testing::TestWithParam<Measured> {};
 
 TEST_P(Quality, IsNoWorseThanMeasuredAtShippedDefaults)
 {
@@ -135,9 +135,10 @@ TEST_P(Quality, IsNoWorseThanMeasuredAtShippedDefaults)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Fixtures, Quality, testing::ValuesIn(kMeasured), [](const auto& measured) {
-    return std::filesystem::path(measured.param.fixture).filename().string();
-});
+INSTANTIATE_TEST_SUITE_P(
+    Fixtures, Quality, ::testing::ValuesIn(kMeasured), [](const auto& measured) {
+        return std::filesystem::path(measured.param.fixture).filename().string();
+    });
 
 TEST(QualityOfFixtures, IsMeasuredWhereverATruthIsCommitted)
 {
@@ -151,4 +152,4 @@ TEST(QualityOfFixtures, IsMeasuredWhereverATruthIsCommitted)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::quality_test

@@ -11,12 +11,12 @@
 
 #include <filesystem>
 
-namespace vcarve {
+namespace vcarve::rank_shares_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 const Job kJob = {{"points3D.bin", "12 bytes"}};
 
@@ -39,7 +39,7 @@ struct Made {
     std::vector<std::string> notes;
 };
 
-class RanksOfARun : public testing::Test {
+class RanksOfARun : public ::testing::Test {
   protected:
     using Meddle = std::function<void(const std::string& task)>;
 
@@ -140,8 +140,8 @@ TEST_F(RanksOfARun, MakeAShareAgainThatIsCutOffOrMissing)
     });
     EXPECT_EQ(mended.mesh.faces, whole.faces);
     EXPECT_EQ(mended.mesh.positions, whole.positions);
-    EXPECT_THAT(mended.notes, testing::Contains(HasSubstr("cells-1-of-4.stage: it has ")));
-    EXPECT_THAT(mended.notes, testing::Contains(HasSubstr("sights-2-of-3.stage: it has ")));
+    EXPECT_THAT(mended.notes, ::testing::Contains(HasSubstr("cells-1-of-4.stage: it has ")));
+    EXPECT_THAT(mended.notes, ::testing::Contains(HasSubstr("sights-2-of-3.stage: it has ")));
 }
 
 TEST_F(RanksOfARun, GoOnWithTheSharesOfARunThatEnded)
@@ -212,4 +212,4 @@ TEST(SharesOfSights, SkipRunsOfCellsOfWhichNothingIsSaid)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::rank_shares_test

@@ -13,12 +13,12 @@
 #include <limits>
 #include <thread>
 
-namespace vcarve {
+namespace vcarve::reconstruct_cancel_test {
 
 namespace {
 
-using testing::Contains;
-using testing::Not;
+using ::testing::Contains;
+using ::testing::Not;
 
 /// Every stage there is, with two rounds of labelling.
 Options all_stages()
@@ -63,7 +63,7 @@ TEST(Reconstruct, TellsSharesAboutWhereTheWorkIs)
     }
 }
 
-class StoppedIn : public testing::TestWithParam<std::string> {};
+class StoppedIn : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(StoppedIn, ThrowsCancelledAndGoesNoFurther)
 {
@@ -78,7 +78,7 @@ TEST_P(StoppedIn, ThrowsCancelledAndGoesNoFurther)
     EXPECT_LT(log.shares()[GetParam()].back(), 1.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryLongStage, StoppedIn, testing::ValuesIn(kLongStages),
+INSTANTIATE_TEST_SUITE_P(EveryLongStage, StoppedIn, ::testing::ValuesIn(kLongStages),
                          [](const auto& stage) { return stage.param; });
 
 TEST(Reconstruct, IsNotBegunWhereTheLogWantsItStopped)
@@ -134,4 +134,4 @@ TEST(Reconstruct, RefusesASceneThatDoesNotFitItself)
               "the scene's colors have 99 entries, not one for each of its 100 points");
 }
 
-} // namespace vcarve
+} // namespace vcarve::reconstruct_cancel_test

@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace vcarve {
+namespace vcarve::reconstruct_resume_test {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// What was told, a line each, but for what keeping itself tells; ends the run when it has kept so
 /// many stages.
@@ -120,7 +120,7 @@ std::vector<Case> cases()
     return {usual, looked_around, strict, strict_around, cropped, refined};
 }
 
-class Resumed : public testing::TestWithParam<Case> {
+class Resumed : public ::testing::TestWithParam<Case> {
   protected:
     /// A run in the folder that ends after so many stages.
     void end_after(std::size_t stages) const
@@ -142,7 +142,7 @@ class Resumed : public testing::TestWithParam<Case> {
     Job job = {{"a", "b"}};
 };
 
-std::string name_of(const testing::TestParamInfo<Case>& info)
+std::string name_of(const ::testing::TestParamInfo<Case>& info)
 {
     return info.param.name;
 }
@@ -171,7 +171,7 @@ TEST_P(Resumed, MakesTheSameAfterAnyStage)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Runs, Resumed, testing::ValuesIn(cases()), name_of);
+INSTANTIATE_TEST_SUITE_P(Runs, Resumed, ::testing::ValuesIn(cases()), name_of);
 
 TEST(ResumedRun, WithAReportWantedOnlyNowMakesTheSurfaceAgain)
 {
@@ -191,4 +191,4 @@ TEST(ResumedRun, WithAReportWantedOnlyNowMakesTheSurfaceAgain)
     EXPECT_FALSE(resumed.removed.reasons.empty());
 }
 
-} // namespace vcarve
+} // namespace vcarve::reconstruct_resume_test

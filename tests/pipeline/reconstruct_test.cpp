@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <set>
 
-namespace vcarve {
+namespace vcarve::reconstruct_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -314,4 +314,4 @@ TEST(Reconstruct, AddsPointsAlongCreasesUnlessThePapersOwnMethodIsWanted)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::reconstruct_test

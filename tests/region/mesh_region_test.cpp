@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::mesh_region_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -44,7 +44,7 @@ TriMesh cube()
     return mesh;
 }
 
-class MeshFile : public testing::Test {
+class MeshFile : public ::testing::Test {
   protected:
     std::unique_ptr<Region> read(const TriMesh& mesh, const Vector3d& offset = {0, 0, 0}) const
     {
@@ -141,4 +141,4 @@ TEST_F(MeshFile, IsRefusedWhereItIsMissing)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_region_test

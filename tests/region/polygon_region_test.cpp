@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::polygon_region_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 /// An L of the squares from (-3, -3) to (3, 0) and from (-3, -3) to (0, 3).
 constexpr const char* kL = "# an L\n-3 -3\n3 -3\n\n3\t0\r\n0 0\n0 3\n-3 3\n";
 
-class PolygonFile : public testing::Test {
+class PolygonFile : public ::testing::Test {
   protected:
     std::unique_ptr<Region> read(const std::string& text, const Vector3d& offset = {0, 0, 0}) const
     {
@@ -96,4 +96,4 @@ TEST_F(PolygonFile, IsRefusedWhereItIsMissing)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::polygon_region_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::region_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -98,4 +98,4 @@ TEST(BallRegion, IsMetByWhatPassesNearerThanItsRadius)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::region_test

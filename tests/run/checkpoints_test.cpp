@@ -11,12 +11,12 @@
 #include <atomic>
 #include <fstream>
 
-namespace vcarve {
+namespace vcarve::checkpoints_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 using Numbers = std::vector<std::uint32_t>;
 
@@ -38,7 +38,7 @@ class Lines final : public Log {
 };
 
 /// One run after the other in the same folder.
-class CheckpointsOfRuns : public testing::Test {
+class CheckpointsOfRuns : public ::testing::Test {
   protected:
     /// A run: what it told, and how often the stages were made, stand in the members after it.
     template <typename Run>
@@ -264,4 +264,4 @@ TEST_F(PiecesOfCheckpoints, ThatAreDamagedAreMadeAgainAndToldOfAtTheEnd)
     EXPECT_THAT(log.notes[0], HasSubstr("; it is made again"));
 }
 
-} // namespace vcarve
+} // namespace vcarve::checkpoints_test

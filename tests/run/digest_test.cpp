@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace vcarve {
+namespace vcarve::digest_test {
 namespace {
 
 /// Longer than two blocks.
@@ -65,4 +65,4 @@ TEST(Digest, OfAFileIsThatOfItsBytes)
               (folder / "c").string() + ": the file does not exist");
 }
 
-} // namespace vcarve
+} // namespace vcarve::digest_test

@@ -13,15 +13,15 @@
 #include <cmath>
 #include <utility>
 
-namespace vcarve {
+namespace vcarve::job_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Contains;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsSupersetOf;
-using testing::Not;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
 
 /// Sets an option to another value in its range.
 void change(const Option& option)
@@ -203,4 +203,4 @@ TEST(DigestOfScene, DoesNotDependOnTheOrderOfThePoints)
 
 } // namespace
 
-} // namespace vcarve
+} // namespace vcarve::job_test

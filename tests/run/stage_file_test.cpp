@@ -16,14 +16,14 @@
 #include <new>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::stage_file_test {
 namespace {
 
-using testing::AnyOf;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
-class StageFile : public testing::Test {
+class StageFile : public ::testing::Test {
   protected:
     template <typename T>
     void write(const T& value) const
@@ -100,7 +100,7 @@ TEST_F(StageFile, BeginsLargeArraysWithAPage)
          at = bytes.find("\x88\x77\x66", at + 1)) {
         places.push_back(at);
     }
-    EXPECT_THAT(places, testing::ElementsAre(4096, 4096 + (2 << 20) + 4096));
+    EXPECT_THAT(places, ::testing::ElementsAre(4096, 4096 + (2 << 20) + 4096));
 }
 
 TEST_F(StageFile, IsMappedWhereArraysAreInScratchMemory)
@@ -290,4 +290,4 @@ TEST_F(StageFile, IsAsLargeAsWasCounted)
     EXPECT_EQ(reader.bytes(), counter.bytes());
 }
 
-} // namespace vcarve
+} // namespace vcarve::stage_file_test

@@ -12,18 +12,18 @@
 #include <csignal>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::work_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const Job kJob = {{"points3D.bin", "12 bytes"}, {"--quality", "1"}};
 
 using Numbers = std::vector<std::uint32_t>;
 
-class Work : public testing::Test {
+class Work : public ::testing::Test {
   protected:
     /// A folder with what one stage made.
     void leave_a_stage() const
@@ -280,4 +280,4 @@ TEST_F(Work, KeepsPartsUnderNamesOfTheirOwn)
     EXPECT_TRUE(work.has("cellsites-0-of-2"));
 }
 
-} // namespace vcarve
+} // namespace vcarve::work_folder_test

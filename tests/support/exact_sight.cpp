@@ -15,11 +15,11 @@ namespace {
 using Eigen::Vector3d;
 using Number = CGAL::Epeck::FT;
 
-struct Triangle {
+struct ExactTriangle {
     Vector3d a, b, c;
 };
 
-Triangle triangle_of(const TetMesh& mesh, Index cell, int slot)
+ExactTriangle triangle_of(const TetMesh& mesh, Index cell, int slot)
 {
     const auto& vertices = mesh.cells[cell].vertices;
     const auto& corners = kFacetCorners[slot];
@@ -27,13 +27,13 @@ Triangle triangle_of(const TetMesh& mesh, Index cell, int slot)
             mesh.positions[vertices[corners[2]]]};
 }
 
-int side(const Triangle& t, const Vector3d& p)
+int side(const ExactTriangle& t, const Vector3d& p)
 {
     return orientation(t.a, t.b, t.c, p);
 }
 
 /// Whether the line through two points passes through the relative interior of a triangle.
-bool pierces(const Triangle& t, const Vector3d& from, const Vector3d& to)
+bool pierces(const ExactTriangle& t, const Vector3d& from, const Vector3d& to)
 {
     const int ab = orientation(from, to, t.a, t.b);
     return ab != 0 && orientation(from, to, t.b, t.c) == ab &&
@@ -41,7 +41,7 @@ bool pierces(const Triangle& t, const Vector3d& from, const Vector3d& to)
 }
 
 /// Six times the volume of the tetrahedron over a triangle, exact.
-Number volume_6(const Triangle& t, const Vector3d& tip)
+Number volume_6(const ExactTriangle& t, const Vector3d& tip)
 {
     std::array<std::array<Number, 3>, 3> m;
     const std::array<Vector3d, 3> corners = {t.a, t.b, t.c};
@@ -57,7 +57,7 @@ Number volume_6(const Triangle& t, const Vector3d& tip)
 
 /// Where on the way from one point to another, in shares of it, their line passes a triangle's
 /// plane.
-Number share_at(const Triangle& t, const Vector3d& from, const Vector3d& to)
+Number share_at(const ExactTriangle& t, const Vector3d& from, const Vector3d& to)
 {
     const Number before = volume_6(t, from);
     return before / (before - volume_6(t, to));
@@ -123,7 +123,7 @@ std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index v
     std::vector<std::pair<Number, CellFacet>> found;
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4 && !mesh.cells[cell].is_infinite(); ++slot) {
-            const Triangle triangle = triangle_of(mesh, cell, slot);
+            const ExactTriangle triangle = triangle_of(mesh, cell, slot);
             if (side(triangle, point) > 0 && side(triangle, target) < 0 &&
                 pierces(triangle, point, target)) {
                 found.push_back({share_at(triangle, point, target), {cell, slot}});
@@ -142,7 +142,7 @@ std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index v
 std::vector<CellFacet> crossings_by_brute_force(const TetMesh& mesh, const CellFacet& facet,
                                                 const Vector3d& place, const Vector3d& target)
 {
-    const Triangle start = triangle_of(mesh, facet.cell, facet.slot);
+    const ExactTriangle start = triangle_of(mesh, facet.cell, facet.slot);
     if (!pierces(start, place, target) || orientation(place, target, start.a, start.b) > 0) {
         return {};
     }
@@ -150,7 +150,7 @@ std::vector<CellFacet> crossings_by_brute_force(const TetMesh& mesh, const CellF
     std::vector<std::pair<Number, CellFacet>> found{{begin, facet}};
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4 && !mesh.cells[cell].is_infinite(); ++slot) {
-            const Triangle triangle = triangle_of(mesh, cell, slot);
+            const ExactTriangle triangle = triangle_of(mesh, cell, slot);
             if (side(triangle, target) < 0 && pierces(triangle, place, target)) {
                 const Number share = share_at(triangle, place, target);
                 const bool leads_out = orientation(place, target, triangle.a, triangle.b) < 0;

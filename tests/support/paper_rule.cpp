@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using Triangle = std::array<Vector3d, 3>;
+using SolidTriangle = std::array<Vector3d, 3>;
 
 constexpr double kTolerance = 0.01;
 
@@ -22,7 +22,7 @@ struct Projected {
     Vector2d hit;
 };
 
-Projected projected(const Triangle& triangle, const Vector3d& normal, const Vector3d& hit)
+Projected projected(const SolidTriangle& triangle, const Vector3d& normal, const Vector3d& hit)
 {
     int dropped = 0;
     normal.cwiseAbs().maxCoeff(&dropped);
@@ -58,7 +58,7 @@ Mark mark_by_angles(const Projected& seen)
     return std::abs(sum - 2.0 * std::numbers::pi) < kTolerance ? Mark::redundant : Mark::none;
 }
 
-Mark mark(const Triangle& triangle, const Vector3d& point, const Vector3d& center)
+Mark mark(const SolidTriangle& triangle, const Vector3d& point, const Vector3d& center)
 {
     const Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     const double share =
@@ -85,7 +85,7 @@ std::vector<std::array<Mark, 4>> marks_by_paper_rule(const TetMesh& mesh, const 
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4 && !mesh.cells[cell].is_infinite(); ++slot) {
             std::array<Index, 3> corners{};
-            Triangle triangle;
+            SolidTriangle triangle;
             for (int i = 0; i < 3; ++i) {
                 corners[i] = mesh.cells[cell].vertices[kFacetCorners[slot][i]];
                 triangle[i] = mesh.positions[corners[i]];

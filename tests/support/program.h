@@ -26,7 +26,7 @@ inline Outcome run_program(const std::vector<std::string>& arguments)
 inline std::string sentence_of_run(int exit_code, const Outcome& outcome)
 {
     EXPECT_EQ(outcome.exit_code, exit_code);
-    EXPECT_THAT(outcome.out, testing::IsEmpty());
+    EXPECT_THAT(outcome.out, ::testing::IsEmpty());
     return outcome.err;
 }
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::calibrated_photo_test {
 namespace {
 
 TEST(CalibratedPhoto, ShowsAPlaceAtThePixelOfItsCamera)
@@ -33,4 +33,4 @@ TEST(CalibratedPhoto, ShowsNothingBeyondItsEdgesAndBehindIt)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::calibrated_photo_test

@@ -6,7 +6,7 @@
 
 #include <map>
 
-namespace vcarve {
+namespace vcarve::charts_test {
 namespace {
 
 /// The wall before one photograph, covered in stripes by this one and by another from the same
@@ -104,4 +104,4 @@ TEST(Charts, ScaleWithTheTexelsAPixel)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::charts_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::choose_photos_test {
 namespace {
 
 /// Of each face two photographs with so many pixels each, the larger first.
@@ -132,4 +132,4 @@ TEST(ChoosePhotos, LeavesFacesThatNoneShows)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::choose_photos_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::face_colors_test {
 namespace {
 
 /// Faces that all photographs show, each as the even colour of the face times the photograph's
@@ -68,4 +68,4 @@ TEST(DropOutliers, LeavesTwoThatDiffer)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::face_colors_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::face_photos_test {
 namespace {
 
 /// A square before the wall that hides a part of it, looking to -z.
@@ -110,4 +110,4 @@ TEST(CornerPixels, AreNoneWhereThePhotographBendsAFace)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::face_photos_test

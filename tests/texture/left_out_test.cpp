@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::left_out_test {
 namespace {
 
 /// The wall in its true colours at so many vertices a side.
@@ -105,4 +105,4 @@ TEST(SplitPhotos, LeavesOutEveryFourth)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::left_out_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::paint_test {
 namespace {
 
 /// Two faces before one photograph, and a third that none shows.
@@ -99,4 +99,4 @@ TEST(PaintPages, LetsColoursGoOnAroundCharts)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::paint_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::photo_pyramid_test {
 namespace {
 
 /// Red grows to the right by 2 a pixel, green downwards by 3.
@@ -53,4 +53,4 @@ TEST(PhotoPyramid, OfOnePixelIsThatPixel)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::photo_pyramid_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::seam_blends_test {
 namespace {
 
 /// The wall of 16 squares a side, 12.5 texels each, halves covered with two photographs.
@@ -102,4 +102,4 @@ TEST(SeamBlends, AreNoneOfAPhotographThatDoesNotShowTheFace)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::seam_blends_test

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace vcarve {
+namespace vcarve::seam_levels_test {
 namespace {
 
 /// The wall, left of the middle covered with photograph 0, right of it with photograph 1, which
@@ -78,4 +78,4 @@ TEST(SeamLevels, TakeExposuresAsTheyAreAfterTheGains)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::seam_levels_test

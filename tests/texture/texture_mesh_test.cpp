@@ -9,7 +9,7 @@
 
 #include <map>
 
-namespace vcarve {
+namespace vcarve::texture_mesh_test {
 namespace {
 
 using Eigen::Array3d;
@@ -239,4 +239,4 @@ TEST(TextureMesh, NamesAPhotographThatCannotBeRead)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::texture_mesh_test

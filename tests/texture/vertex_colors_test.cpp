@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::vertex_colors_test {
 namespace {
 
 /// A strip of faces, of which the first so many are shown by three photographs.
@@ -70,4 +70,4 @@ TEST(ColorVertices, LeavesPiecesThatNoneShowsAsTheyAre)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::vertex_colors_test

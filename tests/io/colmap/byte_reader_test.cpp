@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-namespace vcarve {
+namespace vcarve::byte_reader_test {
 namespace {
 
 using namespace std::string_view_literals;
@@ -77,4 +77,4 @@ TEST(ByteReader, RefusesBytesAfterTheEnd)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::byte_reader_test

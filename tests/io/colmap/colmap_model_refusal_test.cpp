@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::colmap_model_refusal_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -232,4 +232,4 @@ TEST(ColmapModel, ReadsOrRefusesFlippedBytes)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::colmap_model_refusal_test

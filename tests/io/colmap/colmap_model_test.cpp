@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::colmap_model_test {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 const fs::path kFixtures = fixtures_folder();
 
@@ -225,4 +225,4 @@ TEST(ColmapModel, PutsTheViewExactlyOnThePointItCoincidesWith)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::colmap_model_test

@@ -8,12 +8,12 @@
 
 #include <string>
 
-namespace vcarve {
+namespace vcarve::find_model_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 const fs::path kFixtures = fixtures_folder();
 const fs::path kBinary = kFixtures / "formats/rich_bin";    // 3 points
@@ -125,7 +125,7 @@ TEST(FindModel, LooksAFewLevelsDownAndNamesWhatElseIsThere)
                                          (folder / "a/colmap/sparse/0").string() + " (3)"));
     folder.copy(kText, "b/1/2/3/4/5");
     EXPECT_THAT(refusal<InputError>([&] { find_model(folder / "b"); }),
-                testing::HasSubstr("no COLMAP model"));
+                ::testing::HasSubstr("no COLMAP model"));
 }
 
 TEST(FindModel, MentionsALargerPartOfTheModelBesideTheOneThatIsNamed)
@@ -171,10 +171,10 @@ TEST(FindModel, TakesNoOtherFilesAndNoneWithoutAWholeModelAround)
     const TemporaryFolder folder;
     folder.copy(kBinary, "m");
     EXPECT_THAT(refusal<InputError>([&] { find_model(folder.write("m/notes.txt", "a")); }),
-                testing::HasSubstr("is not a folder"));
+                ::testing::HasSubstr("is not a folder"));
     fs::remove(folder / "m/cameras.bin");
     EXPECT_THAT(refusal<InputError>([&] { find_model(folder / "m/images.bin"); }),
-                testing::HasSubstr("is not a folder"));
+                ::testing::HasSubstr("is not a folder"));
 }
 
 TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
@@ -247,4 +247,4 @@ TEST(FindModel, RefusesAPathThatIsNoFolder)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::find_model_test

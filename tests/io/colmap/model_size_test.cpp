@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::model_size_test {
 namespace {
 
 std::string count_bytes(char count)
@@ -11,7 +11,7 @@ std::string count_bytes(char count)
     return std::string(1, count) + std::string(7, '\0');
 }
 
-class SizeBeforeReading : public testing::Test {
+class SizeBeforeReading : public ::testing::Test {
   protected:
     /// A folder whose files begin with these counts; the rest is zeros.
     std::optional<SceneSize> size_of_files(char views, char points, std::size_t rest_bytes)
@@ -49,4 +49,4 @@ TEST_F(SizeBeforeReading, SaysNothingOfTextAndOfMissingFiles)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::model_size_test

@@ -6,13 +6,13 @@
 
 #include <string>
 
-namespace vcarve {
+namespace vcarve::sim3_text_test {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-class Sim3Text : public testing::Test {
+class Sim3Text : public ::testing::Test {
   protected:
     Similarity read(const std::string& text) const
     {
@@ -96,4 +96,4 @@ TEST_F(Sim3Text, IsRefusedInOneSentence)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sim3_text_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace vcarve {
+namespace vcarve::text_reader_test {
 namespace {
 
 TextReader reader_over(std::string_view text)
@@ -133,4 +133,4 @@ TEST(Printable, CutsBetweenCharactersAndReplacesControls)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::text_reader_test

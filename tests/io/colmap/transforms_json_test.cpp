@@ -12,14 +12,14 @@
 
 #include <string>
 
-namespace vcarve {
+namespace vcarve::transforms_json_test {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using Json = nlohmann::json;
-using testing::ElementsAre;
-using testing::EndsWith;
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
 
 const Json kPose = {{0, 0, 1, 5}, {1, 0, 0, 6}, {0, 1, 0, 7}, {0, 0, 0, 1}};
 
@@ -35,7 +35,7 @@ Json small_file()
             {"frames", {{{"file_path", "./images/a.jpg"}, {"transform_matrix", kPose}}}}};
 }
 
-class TransformsJson : public testing::Test {
+class TransformsJson : public ::testing::Test {
   protected:
     ColmapViews read(const std::string& text) const
     {
@@ -237,8 +237,8 @@ TEST_F(TransformsJson, NamesItsPointsOrHasThemBesideIt)
         points_of_transforms(folder.write("t.json", R"({"ply_file_path": "a", "frames": [1]})")),
         folder / "a");
     EXPECT_THAT(refusal<InputError>([&] { points_of_transforms(folder.write("c.json", "{}")); }),
-                testing::HasSubstr("c.json: frames: found nothing"));
+                ::testing::HasSubstr("c.json: frames: found nothing"));
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::transforms_json_test

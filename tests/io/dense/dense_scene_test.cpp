@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::dense_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 const fs::path kFixtures = fixtures_folder();
 
@@ -69,7 +69,7 @@ TEST(DenseScene, IsBlackAndWithoutNormalsWhereTheCloudIsBare)
     const Scene scene = read_dense_scene(files_of("dense_bare"));
     expect_well_formed(scene);
     EXPECT_TRUE(scene.normals.empty());
-    EXPECT_THAT(scene.colors, testing::Each(Color{0, 0, 0}));
+    EXPECT_THAT(scene.colors, ::testing::Each(Color{0, 0, 0}));
 }
 
 TEST(DenseScene, IsTheSameInEveryEncoding)
@@ -168,4 +168,4 @@ TEST(DenseScene, MayHaveSparsePoints)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::dense_scene_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::nearest_grid_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -59,4 +59,4 @@ TEST(ProjectInto, TellsWhereAViewShowsAPlaceAndHowFarItIs)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::nearest_grid_test

@@ -13,12 +13,12 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::nearest_sights_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 /// A grid of 41 x 41 points, 4 by 4 wide, at height z.
 void add_square(Scene& scene, double z)
@@ -211,4 +211,4 @@ TEST(NearestSights, AreNoneOfPointsThatAreNotFiniteAndOfCamerasWithoutSize)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::nearest_sights_test

@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::scan_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 const fs::path kFixtures = fixtures_folder();
 
@@ -45,7 +45,7 @@ TEST(ScanScene, HasItsScannersForViewsWhateverTheyAreCalledAndHoweverTheyAreWrit
         EXPECT_THAT(scene.positions, ElementsAre(Vector3d(2, 0.5, 1), Vector3d(2, -0.5, 1.25),
                                                  Vector3d(6, 0.5, 0.75), Vector3d(2, 0, 3)));
         EXPECT_THAT(scene.tracks.views, ElementsAre(0, 0, 1, 0));
-        EXPECT_THAT(scene.errors_px, testing::Each(-1.0));
+        EXPECT_THAT(scene.errors_px, ::testing::Each(-1.0));
         EXPECT_EQ(scene.views[1].name, "scanner 2");
         EXPECT_TRUE(scene.cameras[scene.views[1].camera].measures_range);
     }
@@ -136,4 +136,4 @@ TEST(ScanScene, HasASentenceForEveryBrokenFixture)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::scan_scene_test

@@ -9,11 +9,11 @@
 #include <numbers>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::scanner_views_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// `side` x `side` points a tenth apart in the plane z = 10.
 std::vector<Vector3d> wall(int side)
@@ -97,7 +97,7 @@ TEST(ScannerViews, AreStationsOfAFiftiethOfTheRangeWhereEveryPointHasItsOwnScann
     for (std::size_t i = 0; i < count; i += 97) {
         const Vector3d& station = scene.views[scene.tracks[i][0]].center;
         EXPECT_LE((station - scanners[i]).norm(), 0.2);
-        EXPECT_THAT(scanners, testing::Contains(station));
+        EXPECT_THAT(scanners, ::testing::Contains(station));
     }
 }
 
@@ -128,4 +128,4 @@ TEST(ScannerViews, AreNeverMoreThanSoManyHoweverFarTheScannerWent)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::scanner_views_test

@@ -11,12 +11,12 @@
 #include <cmath>
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::splats_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 /// Points on a line, one for each Gaussian.
 PointCloud cloud_of(std::vector<Splat> splats)
@@ -128,4 +128,4 @@ TEST(Splats, AreRefusedWhereNoneIsLeft)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::splats_test

@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::view_lists_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 using Rows = std::vector<std::vector<std::uint32_t>>;
 
 const fs::path kWorkspace = fixtures_folder() / "formats/dense_little";
@@ -34,7 +34,7 @@ std::string cloud_with_lists(const std::vector<std::string>& lists)
            lists[0] + "\n-0.125 3 5 " + lists[1] + "\n1.5 -2 6 " + lists[2] + "\n";
 }
 
-class ViewLists : public testing::Test {
+class ViewLists : public ::testing::Test {
   protected:
     Scene read(const std::vector<std::string>& lists)
     {
@@ -133,4 +133,4 @@ TEST_F(ViewLists, AreRefusedWhereTheyAreNoNumbersOfImages)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::view_lists_test

@@ -11,13 +11,13 @@
 #include <set>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::visibility_test {
 namespace {
 
 using Rows = std::vector<std::vector<std::uint32_t>>;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
-class Visibility : public testing::Test {
+class Visibility : public ::testing::Test {
   protected:
     Tracks read(const Rows& rows, const std::vector<std::uint32_t>& file_order) const
     {
@@ -117,4 +117,4 @@ TEST_F(Visibility, IsRefusedWhereverTheFileIsCut)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::visibility_test

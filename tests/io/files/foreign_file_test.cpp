@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace vcarve {
+namespace vcarve::foreign_file_test {
 namespace {
 
 std::string refusal_of(const std::string& content)
@@ -77,4 +77,4 @@ TEST(ForeignFile, IsKnownByTheEndOfItsName)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::foreign_file_test

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace vcarve {
+namespace vcarve::mapped_file_test {
 namespace {
 
 std::string_view text_of(const MappedFile& file)
@@ -73,4 +73,4 @@ TEST(MappedFile, IsReadAgainWhereItsPagesWereDropped)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mapped_file_test

@@ -10,7 +10,7 @@
 
 #include <csignal>
 
-namespace vcarve {
+namespace vcarve::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -217,4 +217,4 @@ TEST(RequireWritable, RefusesAFolderThatTakesNoNewFile)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::output_file_test

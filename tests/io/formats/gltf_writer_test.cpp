@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace vcarve {
+namespace vcarve::gltf_writer_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -266,4 +266,4 @@ TEST(WriteGlb, RefusesWhatItsLengthsCannotSay)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::gltf_writer_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::mesh_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -104,4 +104,4 @@ TEST(WriteMesh, WritesFacesThatAreNotManifold)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::mesh_file_test

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-namespace vcarve {
+namespace vcarve::stl_writer_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -71,4 +71,4 @@ TEST(WriteStl, CutsLongCommentsOff)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::stl_writer_test

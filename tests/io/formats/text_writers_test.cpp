@@ -10,12 +10,12 @@
 #include <cmath>
 #include <sstream>
 
-namespace vcarve {
+namespace vcarve::text_writers_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::EndsWith;
-using testing::StartsWith;
+using ::testing::EndsWith;
+using ::testing::StartsWith;
 
 TriMesh two_triangles()
 {
@@ -207,4 +207,4 @@ TEST(TextFormats, KeepEveryColourWhetherReadersRoundOrCutOff)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::text_writers_test

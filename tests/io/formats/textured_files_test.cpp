@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
-namespace vcarve {
+namespace vcarve::textured_files_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// A sheet on two even pages, red and green.
 struct Textured {
@@ -136,4 +136,4 @@ TEST(TexturedFiles, AppearAllOrNone)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::textured_files_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::unwrap_test {
 namespace {
 
 /// Two faces that share an edge: on two pages, or on one with the same places there or others.
@@ -61,4 +61,4 @@ TEST(Unwrap, PutsTheFacesOfAPageTogether)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::unwrap_test

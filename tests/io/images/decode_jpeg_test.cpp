@@ -8,13 +8,13 @@
 
 #include <cstdlib>
 
-namespace vcarve {
+namespace vcarve::decode_jpeg_test {
 namespace {
 
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::Le;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Le;
 
 /// How a JPEG is to be written that encode_jpeg() does not write.
 struct Look {
@@ -198,4 +198,4 @@ TEST(DecodeJpeg, RefusesAHugeSizeBeforeItTakesMemory)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::decode_jpeg_test

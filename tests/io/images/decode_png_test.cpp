@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-namespace vcarve {
+namespace vcarve::decode_png_test {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 /// How a PNG is to be written that encode_png() does not write.
 struct Look {
@@ -175,4 +175,4 @@ TEST(DecodePng, RefusesAHugeSizeBeforeItTakesMemory)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::decode_png_test

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 #include <tiffio.h>
 
-namespace vcarve {
+namespace vcarve::decode_tiff_test {
 namespace {
 
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// How a TIFF is to be written.
 struct Look {
@@ -206,4 +206,4 @@ TEST(DecodeTiff, RefusesAHugeSizeBeforeItTakesMemory)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::decode_tiff_test

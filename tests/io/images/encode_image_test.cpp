@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-namespace vcarve {
+namespace vcarve::encode_image_test {
 namespace {
 
 TEST(EncodeImage, GivesTheSameBytesAgain)
@@ -62,4 +62,4 @@ TEST(EncodeImage, SaysWhatLibjpegCannot)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::encode_image_test

@@ -6,12 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::find_photographs_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 Scene scene_of(const std::vector<std::string>& names)
 {
@@ -124,4 +124,4 @@ TEST(PhotographsBeside, LooksWhereCOLMAPAndItsUsersPutThem)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::find_photographs_test

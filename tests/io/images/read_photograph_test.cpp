@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 #include <tiffio.h>
 
-namespace vcarve {
+namespace vcarve::read_photograph_test {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(ReadPhotograph, GoesByWhatFilesAreNotByTheirNames)
 {
@@ -73,4 +73,4 @@ TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::read_photograph_test

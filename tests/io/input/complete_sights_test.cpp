@@ -8,16 +8,16 @@
 #include <algorithm>
 #include <sstream>
 
-namespace vcarve {
+namespace vcarve::complete_sights_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// A ball, of whose points the tracks are written as a test wants them.
-class CompleteSights : public testing::Test {
+class CompleteSights : public ::testing::Test {
   protected:
     CompleteSights()
     {
@@ -152,4 +152,4 @@ TEST_F(CompleteSights, TellsOfSightsThatWereDropped)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::complete_sights_test

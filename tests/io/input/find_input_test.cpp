@@ -10,17 +10,17 @@
 #include <string>
 #include <utility>
 
-namespace vcarve {
+namespace vcarve::find_input_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 const fs::path kWorkspace = fixtures_folder() / "formats/dense_little";
 
 /// A folder with a dense workspace in "dense".
-class FindInput : public testing::Test {
+class FindInput : public ::testing::Test {
   protected:
     FindInput() { folder.copy(kWorkspace, "dense"); }
 
@@ -133,7 +133,7 @@ TEST_F(FindInput, NeedsNoFileForTheNearestViewsAndSaysSo)
         EXPECT_TRUE(found.dense->visibility.empty());
         EXPECT_THAT(
             found.notes,
-            ElementsAre(testing::StartsWith(
+            ElementsAre(::testing::StartsWith(
                 "the points are those of " + fused.string() +
                 "; no file tells which views saw them, so the nearest views of " +
                 (dense / "sparse").string() + " are taken before which no other point stands")));
@@ -162,9 +162,9 @@ TEST_F(FindInput, SaysWhatLiesInTheCloudsPlace)
                   "with the views of " +
                   (dense / "sparse").string());
     EXPECT_THAT(refused(dense, {.points = fused, .visibility = pipe}),
-                testing::StartsWith(pipe + ": found something that is not a file, which tells"));
+                ::testing::StartsWith(pipe + ": found something that is not a file, which tells"));
     EXPECT_THAT(refused(dense, {.points = pipe, .scanner = {{0, 0, 0}}}),
-                testing::StartsWith(pipe + ": found something that is not a file, so there"));
+                ::testing::StartsWith(pipe + ": found something that is not a file, so there"));
 }
 
 TEST_F(FindInput, RefusesACloudOrViewsThatAreNotThere)
@@ -213,7 +213,7 @@ TEST_F(FindInput, NeedsNoPointsOfTheModelWhereOthersAreTaken)
     EXPECT_EQ(find_input(dense, {}).dense->cloud, fused);
     EXPECT_EQ(find_input(fused, {}).dense->cloud, fused);
     EXPECT_EQ(find_input(dense / "sparse", {.points = fused}).dense->cloud, fused);
-    EXPECT_THAT(refused(dense / "sparse", {}), testing::HasSubstr("without points3D.bin"));
+    EXPECT_THAT(refused(dense / "sparse", {}), ::testing::HasSubstr("without points3D.bin"));
 }
 
 TEST_F(FindInput, TakesPointsThatStandAsPlyBesideTheViews)
@@ -228,13 +228,13 @@ TEST_F(FindInput, TakesPointsThatStandAsPlyBesideTheViews)
         ASSERT_TRUE(found.dense);
         EXPECT_EQ(found.dense->cloud, sparse / "points3D.ply");
         EXPECT_TRUE(found.dense->visibility.empty());
-        EXPECT_THAT(found.notes, ElementsAre(testing::HasSubstr("the nearest views of")));
+        EXPECT_THAT(found.notes, ElementsAre(::testing::HasSubstr("the nearest views of")));
     }
     fs::copy(visibility, sparse / "points3D.ply.vis");
     EXPECT_EQ(find_input(sparse, {}).dense->visibility, sparse / "points3D.ply.vis");
     fs::remove(sparse / "points3D.ply.vis");
     EXPECT_THAT(refused(sparse, {.sights = SightsFrom::file}),
-                testing::HasSubstr("points3D.ply.vis"));
+                ::testing::HasSubstr("points3D.ply.vis"));
 }
 
 /// A scan in the workspace, with views beside it that saw its points.
@@ -356,9 +356,9 @@ TEST_F(FindInput, SaysThatTransformsNeedPoints)
                               "sparse_pc.ply nor points3D.ply beside it; --points FILE takes "
                               "those of a PLY file in the frame of its poses");
     EXPECT_THAT(refused(json, {.points = folder / "nothing.ply"}),
-                testing::HasSubstr("nothing.ply: the file does not exist"));
+                ::testing::HasSubstr("nothing.ply: the file does not exist"));
     EXPECT_THAT(refused(json, {.points = "dense"}),
-                testing::HasSubstr("ngp/fused.ply: the file does not exist"));
+                ::testing::HasSubstr("ngp/fused.ply: the file does not exist"));
 }
 
 TEST_F(FindInput, PrefersAModelWithTracksToTransforms)
@@ -393,4 +393,4 @@ TEST_F(FindInput, TakesTheListsOfACloudWhereNoFileTellsOfItsViews)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::find_input_test

@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::input_files_test {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::Not;
 
 TEST(InputFiles, AreThoseOfTheModelAndOfTheProjectAround)
 {
@@ -58,4 +58,4 @@ TEST(IsImageOfViews, GoesByTheEndOfThePath)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::input_files_test

@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::pose_check_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 /// A ball off the middle, whose views stand around it and are rolled, so that no pose is its own
 /// inverse.
@@ -58,8 +58,8 @@ TEST(WarningOfPoses, KnowsPosesAndPointsOfTwoFrames)
         position += Eigen::Vector3d(40, 30, 20);
     }
     EXPECT_THAT(warning_of_poses(scene, "images.bin"),
-                testing::AllOf(StartsWith("100 % of the sights are of points that do not show"),
-                               HasSubstr("do not seem to belong together")));
+                ::testing::AllOf(StartsWith("100 % of the sights are of points that do not show"),
+                                 HasSubstr("do not seem to belong together")));
 }
 
 TEST(WarningOfPoses, AsksAllImagesWhereThereAreNoSights)
@@ -101,4 +101,4 @@ TEST(WarningOfFrames, IsGivenWhereMostPointsShowInNoImage)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::pose_check_test

@@ -7,15 +7,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::read_model_test {
 namespace {
 
-using testing::Contains;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::Contains;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
-class ReadModelOfBall : public testing::Test {
+class ReadModelOfBall : public ::testing::Test {
   protected:
     ReadModelOfBall() { write_ball_model(folder / "m", 60); }
 
@@ -61,7 +61,7 @@ TEST_F(ReadModelOfBall, NotesWhatWasTakenForUnknown)
     const ReadModel read = read_found_model(model, {}, log);
     EXPECT_THAT(read.found.notes, Contains(HasSubstr("the error of every point is 0")));
     EXPECT_THAT(read.found.notes, Contains(HasSubstr("the points have no colours")));
-    EXPECT_THAT(read.scene.errors_px, testing::Each(-1.0));
+    EXPECT_THAT(read.scene.errors_px, ::testing::Each(-1.0));
 }
 
 TEST_F(ReadModelOfBall, WarnsOfPosesFromCameraToWorld)
@@ -82,4 +82,4 @@ TEST_F(ReadModelOfBall, WarnsOfPosesFromCameraToWorld)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::read_model_test

@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::unknown_values_test {
 namespace {
 
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 Scene three_points()
 {
@@ -50,4 +50,4 @@ TEST(ForgetUnknownValues, SaysNothingOfNoPoints)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::unknown_values_test

@@ -11,14 +11,14 @@
 #include <limits>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::ply_cloud_test {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 const fs::path kFormats = fixtures_folder() / "formats";
 
@@ -142,4 +142,4 @@ TEST(PlyCloud, IsRefusedWhereverTheFileIsCut)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::ply_cloud_test

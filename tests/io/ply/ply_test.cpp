@@ -12,7 +12,7 @@
 #include <random>
 #include <sstream>
 
-namespace vcarve {
+namespace vcarve::ply_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -563,4 +563,4 @@ TEST(ReadPly, SurvivesEveryCutAndManyDents)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::ply_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::center_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -28,4 +28,4 @@ TEST(CenterPoints, IgnoresCoordinatesThatAreNotFinite)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::center_test

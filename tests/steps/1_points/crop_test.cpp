@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::crop_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -219,4 +219,4 @@ TEST(Crop, RefusesARegionWithoutAFace)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::crop_test

@@ -7,21 +7,21 @@
 
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::denoise_test {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-using testing::add;
-using testing::flat;
-using testing::ground;
-using testing::kFocalPx;
-using testing::kHalfBaseline;
-using testing::kHeight;
-using testing::kUpOfAPixel;
-using testing::rms;
-using testing::two_views;
+using ::testing::add;
+using ::testing::flat;
+using ::testing::ground;
+using ::testing::kFocalPx;
+using ::testing::kHalfBaseline;
+using ::testing::kHeight;
+using ::testing::kUpOfAPixel;
+using ::testing::rms;
+using ::testing::two_views;
 
 TEST(DenoisePoints, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
 {
@@ -249,4 +249,4 @@ TEST(KeepApart, PutsBackWhatCameToOnePlace)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::denoise_test

@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace vcarve {
+namespace vcarve::filter_memory_test {
 namespace {
 
 #ifndef VCARVE_SANITIZED // sanitizers need memory of their own
@@ -80,4 +80,4 @@ TEST(PointsMemory, OfCroppingIsNotASecondScene)
 #endif
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::filter_memory_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace vcarve {
+namespace vcarve::filter_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -145,4 +145,4 @@ TEST(Filter, KeepsTheNormalsOfThePointsItKeeps)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::filter_test

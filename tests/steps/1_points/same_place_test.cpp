@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::same_place_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -121,4 +121,4 @@ TEST(FirstAtPlace, TellsPointsOfAPlaneAcrossAnAxisApart)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::same_place_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::spatial_sort_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -37,4 +37,4 @@ TEST(SpatialSortPoints, KeepsWhatBelongsToAPointTogether)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::spatial_sort_test

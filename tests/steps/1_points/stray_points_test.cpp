@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::stray_points_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -156,4 +156,4 @@ TEST(StrayPoints, AreTheSameInOtherUnits)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::stray_points_test

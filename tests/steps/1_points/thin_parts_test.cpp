@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::thin_parts_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -169,4 +169,4 @@ TEST(ThinParts, AreTheSameFromFilesAsFromMemory)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::thin_parts_test

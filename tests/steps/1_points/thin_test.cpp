@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::thin_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -198,4 +198,4 @@ TEST(ThinPoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::thin_test

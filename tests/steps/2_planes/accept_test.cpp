@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::accept_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -121,4 +121,4 @@ TEST(Accept, TakesTheFirstOfPlacesThatAreCloseToEachOther)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::accept_test

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::added_points_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -95,4 +95,4 @@ TEST(AddPoints, AddsTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::added_points_test

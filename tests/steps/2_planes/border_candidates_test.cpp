@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::border_candidates_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -290,4 +290,4 @@ TEST(BorderCandidates, AreAsManyInASceneThatIsTurned)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::border_candidates_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::crease_candidates_test {
 namespace {
 
 using Eigen::Quaterniond;
@@ -359,4 +359,4 @@ TEST(CreaseCandidates, AreLookedForNearPointsOnlyHoweverFarTheseAreApart)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::crease_candidates_test

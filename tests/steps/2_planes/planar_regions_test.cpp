@@ -15,7 +15,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::planar_regions_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -269,4 +269,4 @@ TEST(PlanarRegions, AreTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::planar_regions_test

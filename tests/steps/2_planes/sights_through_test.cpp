@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::sights_through_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -82,4 +82,4 @@ TEST(SightsThrough, AreNoneOfAPointInItsView)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sights_through_test

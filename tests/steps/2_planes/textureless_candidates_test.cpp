@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::textureless_candidates_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -232,4 +232,4 @@ TEST(TexturelessCandidates, AreTheSameInOtherUnitsAndElsewhere)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::textureless_candidates_test

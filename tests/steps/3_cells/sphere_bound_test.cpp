@@ -7,7 +7,7 @@
 #include <array>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::sphere_bound_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -104,4 +104,4 @@ TEST(SphereBound, KnowsTheSidesOfAPlane)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sphere_bound_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::triangulate_blocks_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -201,4 +201,4 @@ TEST(FirstPoints, SpanSpaceWhereverTheyAre)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::triangulate_blocks_test

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace vcarve {
+namespace vcarve::triangulate_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -380,4 +380,4 @@ TEST(Triangulate, TakesTwoPointsAtOnePlaceForAMistake)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::triangulate_test

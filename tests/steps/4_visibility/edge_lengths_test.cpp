@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace vcarve {
+namespace vcarve::edge_lengths_test {
 namespace {
 
 /// The lengths of all finite edges, ascending.
@@ -58,4 +58,4 @@ TEST(ShortEdgeLength, IsTheEdgeOfARegularTetrahedron)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::edge_lengths_test

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::exact_walk_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -196,4 +196,4 @@ TEST(ExactWalk, ConnectsAnyTwoPointsOfALattice)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::exact_walk_test

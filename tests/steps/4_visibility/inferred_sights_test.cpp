@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::inferred_sights_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -152,4 +152,4 @@ TEST(InferredSights, AreTheSameForAnyNumberOfThreads)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::inferred_sights_test

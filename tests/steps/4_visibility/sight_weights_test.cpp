@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::sight_weights_test {
 namespace {
 
 /// Points of two, three and four views; three is the median.
@@ -63,4 +63,4 @@ TEST(SightWeights, KnowNothingOfAnEmptyScene)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sight_weights_test

@@ -17,7 +17,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::trace_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -574,4 +574,4 @@ TEST(TraceSights, IsTheSameForViewsInAnyOrder)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::trace_test

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::view_walk_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -111,4 +111,4 @@ TEST(ViewWalk, DoesNotFollowALineThatEntersTheHullThroughAnEdge)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::view_walk_test

@@ -19,7 +19,7 @@
 #include <cmath>
 #include <set>
 
-namespace vcarve {
+namespace vcarve::virtual_views_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -342,4 +342,4 @@ TEST_F(VirtualViews, VoteForOutsideLikeRealOnesAtFullWeight)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::virtual_views_test

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::walk_facets_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -192,4 +192,4 @@ TEST(FacetWalk, EntersTheHullThroughAnInfiniteCell)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::walk_facets_test

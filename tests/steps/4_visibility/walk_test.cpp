@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace vcarve {
+namespace vcarve::walk_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -249,4 +249,4 @@ TEST(SightWalk, ReachesATargetNextToNothingAway)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::walk_test

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-namespace vcarve {
+namespace vcarve::boundary_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -54,4 +54,4 @@ TEST(CloseHull, CallsInfiniteCellsOutsideAndNoOthers)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::boundary_test

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::cut_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -105,4 +105,4 @@ TEST(Cut, NeverPutsAnInfiniteCellInside)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::cut_test

@@ -13,7 +13,7 @@
 #include <numbers>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::hull_faces_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -207,4 +207,4 @@ TEST(Reconstruct, FindsTheWallsOfARoomSeenFromWithinOnly)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::hull_faces_test

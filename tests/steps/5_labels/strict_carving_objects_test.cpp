@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::strict_carving_objects_test {
 namespace {
 
 using Corner = std::array<double, 3>;
@@ -74,4 +74,4 @@ INSTANTIATE_TEST_SUITE_P(Paper, PaperObject,
                          [](const auto& object) { return object.param.name; });
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::strict_carving_objects_test

@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vcarve {
+namespace vcarve::strict_carving_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -213,4 +213,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& instance) { return instance.param.name; });
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::strict_carving_test

@@ -8,16 +8,16 @@
 #include <cmath>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::cleanup_test {
 namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using testing::boundary_of;
-using testing::random_labels;
-using testing::tetra_grid;
-using testing::TetraGrid;
-using testing::volume;
+using vcarve::testing::boundary_of;
+using vcarve::testing::random_labels;
+using vcarve::testing::tetra_grid;
+using vcarve::testing::TetraGrid;
+using vcarve::testing::volume;
 
 constexpr CleanupOptions kKeepAll{.min_component_faces = 0, .max_hole_edges = 0};
 
@@ -287,4 +287,4 @@ TEST(CleanSurface, ScalesWithTheSurface)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::cleanup_test

@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::extract_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::volume;
+using ::testing::volume;
 
 TEST(ExtractSurface, OfOneCellIsItsFourFacetsSeenFromOutside)
 {
@@ -112,4 +112,4 @@ TEST(ViewAgreement, PassesOverCornersWithoutAPoint)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::extract_test

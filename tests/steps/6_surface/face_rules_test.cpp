@@ -12,12 +12,12 @@
 #include <numbers>
 #include <set>
 
-namespace vcarve {
+namespace vcarve::face_rules_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::LabelledScene;
-using testing::triangular_lattice;
+using ::testing::LabelledScene;
+using ::testing::triangular_lattice;
 
 constexpr double kSide = 6.0;
 constexpr double kHeight = 3.0;
@@ -508,4 +508,4 @@ TEST(WithFaces, LeavesTheVertices)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::face_rules_test

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <numbers>
 
-namespace vcarve {
+namespace vcarve::fill_holes_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::half_edges;
+using ::testing::half_edges;
 
 MeshCheck check_of(const HalfEdgeMesh& mesh)
 {
@@ -210,4 +210,4 @@ TEST(FillHoles, FillsNoHoleOfADeletedPieceAndNoRim)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::fill_holes_test

@@ -11,13 +11,13 @@
 #include <algorithm>
 #include <array>
 
-namespace vcarve {
+namespace vcarve::openness_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::aim;
-using testing::LabelledScene;
-using testing::solid;
+using ::testing::aim;
+using ::testing::LabelledScene;
+using ::testing::solid;
 
 /// Whether a ray meets one of the faces that are kept, or of all.
 bool meets(const LabelledScene& made, const FaceFlags& keep, bool only_kept, const Vector3d& eye,
@@ -157,4 +157,4 @@ TEST(Openness, EndsWhereAHoleIsFilled)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::openness_test

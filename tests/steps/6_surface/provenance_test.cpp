@@ -15,7 +15,7 @@
 #include <set>
 #include <sstream>
 
-namespace vcarve {
+namespace vcarve::provenance_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -160,7 +160,7 @@ std::vector<std::vector<double>> rows_of_run(const std::vector<std::string>& arg
     return read_rows(folder / "out.ply");
 }
 
-class WrittenAttributes : public testing::Test {
+class WrittenAttributes : public ::testing::Test {
   protected:
     static constexpr std::size_t kId = 9; // column, behind place, normal and colour
 
@@ -258,4 +258,4 @@ TEST_F(WrittenAttributes, ChangeNothingElse)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::provenance_test

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::removals_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -174,4 +174,4 @@ TEST(PackedRemoved, HoldsTheLargestFacesAndCountsAll)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::removals_test

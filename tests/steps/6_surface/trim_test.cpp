@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace vcarve {
+namespace vcarve::trim_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -306,4 +306,4 @@ TEST(TrimFaces, IsTheSameFromOneThreadAndTwo)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::trim_test

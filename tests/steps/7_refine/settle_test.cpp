@@ -14,15 +14,15 @@
 #include <numbers>
 #include <numeric>
 
-namespace vcarve {
+namespace vcarve::settle_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::flat;
-using testing::ground;
-using testing::half_edges;
-using testing::kUpOfAPixel;
-using testing::rms;
+using ::testing::flat;
+using ::testing::ground;
+using ::testing::half_edges;
+using ::testing::kUpOfAPixel;
+using ::testing::rms;
 
 constexpr double kSpacing = 0.02; ///< of the ground's points
 
@@ -299,4 +299,4 @@ TEST(SettleVertices, LeavesAMeshOfOneFaceAndOneOfNone)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::settle_test

@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
-namespace vcarve {
+namespace vcarve::sight_guard_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::flat_grid;
-using testing::half_edges;
-using testing::Triangle;
+using ::testing::flat_grid;
+using ::testing::half_edges;
+using ::testing::Triangle;
 
 /// A grid of 3 x 3 points at the vertices of flat_grid(3), half a unit apart; one view above all.
 Scene grid_seen_from_above()
@@ -98,4 +98,4 @@ TEST(VertexSpacings, AreMedianEdgeLengths)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sight_guard_test

@@ -9,12 +9,12 @@
 #include <set>
 #include <span>
 
-namespace vcarve {
+namespace vcarve::sight_tree_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::meets;
-using testing::Triangle;
+using ::testing::meets;
+using ::testing::Triangle;
 
 std::vector<std::size_t> met_by(const SightTree& tree, const Triangle& triangle)
 {
@@ -117,4 +117,4 @@ TEST(SightTree, FindsNothingOnALineOrAmongNoSights)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::sight_tree_test

@@ -10,15 +10,15 @@
 #include <numbers>
 #include <random>
 
-namespace vcarve {
+namespace vcarve::smooth_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::blocked_sights;
-using testing::empty_scene;
-using testing::flat_grid;
-using testing::half_edges;
-using testing::margins_in;
+using ::testing::blocked_sights;
+using ::testing::empty_scene;
+using ::testing::flat_grid;
+using ::testing::half_edges;
+using ::testing::margins_in;
 
 constexpr std::uint32_t kSide = 21;
 
@@ -188,4 +188,4 @@ TEST(SmoothSurface, ScalesWithTheSurface)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::smooth_test

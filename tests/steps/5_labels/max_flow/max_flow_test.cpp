@@ -14,7 +14,7 @@
 #include <random>
 #include <utility>
 
-namespace vcarve {
+namespace vcarve::max_flow_test {
 namespace {
 
 constexpr Label o = Label::outside;
@@ -489,4 +489,4 @@ TEST(MinimumCut, StaysWhenAllCapacitiesAreDoubled)
 }
 
 } // namespace
-} // namespace vcarve
+} // namespace vcarve::max_flow_test
