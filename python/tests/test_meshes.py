@@ -79,7 +79,7 @@ def test_several_meshes_have_names(mesh, model):
 
 
 def test_the_stub_is_what_is_declared():
-    subprocess.run([ROOT / "tools/python_stub", "--check"], check=True)
+    subprocess.run([ROOT / "tools/docs/python_stub", "--check"], check=True)
 
 
 def test_the_types_are_right(tmp_path):

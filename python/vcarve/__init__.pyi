@@ -1,4 +1,4 @@
-# Written by tools/python_stub from what the library declares.
+# Written by tools/docs/python_stub from what the library declares.
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal

@@ -1,4 +1,4 @@
-// Feeds whatever libFuzzer thinks of to one of the readers, or to a whole run; tools/fuzz says how.
+// The targets of tools/ci/fuzz: every reader, and a whole run.
 // An input is the files of a model, one after the other, with kNext in between. What is refused is
 // well; what crashes, hangs, takes too much memory or throws anything else is a finding.
 #include "io/colmap/sim3_text.h"

@@ -1,6 +1,6 @@
 // Computes what docs/paper.md pictures: the figures of Akgunduz, Zetu, Banerjee,
 // "Viewpoint-centered shape recovery from multiple views" (2000). Usage: make_paper_figures
-// FIXTURES, the folder fixtures/paper. Writes JSON to standard output, which tools/paper draws.
+// FIXTURES, the folder fixtures/paper. Writes JSON to standard output for tools/docs/paper.
 #include "figures/figures.h"
 
 #include <fmt/format.h>

@@ -6,8 +6,7 @@
 
 namespace vcarve::paper {
 
-// What each figure of docs/paper.md shows and says, as JSON for tools/paper. Panels are as panel()
-// gives them.
+// The figures of docs/paper.md as JSON for tools/docs/paper. Panels are those of panel().
 
 /// Figures 15, 16 and 18: the triangulation, and what `--method strict` makes of it.
 Json recovered(const PaperCase& paper_case);

@@ -1,10 +1,10 @@
-"""What the scripts that measure surfaces share: running the program, and reading its verdict."""
+"""Runs the program and reads the JSON of `compare`, for all scripts that measure meshes."""
 import json
 import pathlib
 import subprocess
 import time
 
-PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build/colmap-vcarve"
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/colmap-vcarve"
 
 
 def last_line(text):
@@ -13,7 +13,7 @@ def last_line(text):
 
 
 def run(words, timeout):
-    """Seconds, and why the run failed or None."""
+    """Returns seconds, and the reason if the run failed or None."""
     start = time.monotonic()
     try:
         done = subprocess.run([str(word) for word in words], capture_output=True, text=True,
@@ -25,7 +25,7 @@ def run(words, timeout):
 
 
 def figures_of(mesh):
-    """Name -> figure for one entry of compare's JSON; None where it is not known."""
+    """Name -> figure for one mesh of the JSON; None if there is no such figure."""
     size, views, truth = mesh["size"], mesh["views"], mesh.get("truth")
     at = truth["agreement"] if truth else [{"f": None, "precision": None, "recall": None}] * 4
     return {
@@ -45,7 +45,7 @@ def figures_of(mesh):
 
 
 def measure(model, mesh, truth, json_path, program=PROGRAM, timeout=600):
-    """The figures of a mesh, truth None where there is none, and why there are none or None."""
+    """Returns the figures of a mesh and None, or None and the reason. `truth` may be None."""
     command = [program, "compare", "--quiet", model, mesh, "--json", json_path]
     failure = run(command + (["--truth", truth] if truth else []), timeout)[1]
     if failure:

@@ -1,4 +1,4 @@
-"""Checks of the page that compare --report writes, a part of tools/check_report."""
+"""Checks of the page that compare --report writes, a part of tools/ci/check_report."""
 import json
 import pathlib
 import subprocess
@@ -10,7 +10,7 @@ from selenium.webdriver.support.ui import Select
 
 from page_checks import PIXELS, check_paper, check_quiet, expect, expect_that, texts, visit
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "build" / "colmap-vcarve"
 ROOM = ROOT / "fixtures" / "room"
 

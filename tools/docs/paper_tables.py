@@ -161,8 +161,8 @@ def require_claims(kept):
             for row in kept["fixtures"] + kept.get("scenes", []))}
     wrong = [claim for claim, holds in claims.items() if not holds]
     if wrong:
-        sys.exit(f"tools/paper: not so any more: {'; '.join(wrong)}. Mend tools/paper_text.md "
-                 "and tools/paper_tables.py.")
+        sys.exit(f"paper: no longer true: {'; '.join(wrong)}. Correct tools/docs/paper_text.md "
+                 "and paper_tables.py.")
 
 
 def tables_of(kept):

@@ -1,4 +1,4 @@
-"""Draws what tools/paper shows: facets of a triangulation, and laws on logarithmic axes, as SVG.
+"""Draws the figures of docs/paper.md as SVG: facets of a triangulation, and logarithmic plots.
 
 A Delaunay triangulation has no cycles in depth from any place: along a direction its cells are in
 the order of the centres of their spheres (Edelsbrunner, "An acyclicity theorem for cell complexes
