@@ -13,8 +13,8 @@
 namespace vcarve::compare_test {
 namespace {
 
-using ::testing::cube;
-using ::testing::torus;
+using testing::cube;
+using testing::torus;
 
 Comparison comparison_of(const TriMesh& mesh)
 {

@@ -9,12 +9,12 @@
 namespace vcarve::evidence_test {
 namespace {
 
-using ::testing::few_samples;
-using ::testing::high_centers;
-using ::testing::scene_above_square;
-using ::testing::square;
-using ::testing::strip;
-using ::testing::together;
+using testing::few_samples;
+using testing::high_centers;
+using testing::scene_above_square;
+using testing::square;
+using testing::strip;
+using testing::together;
 
 /// 11 x 11 points at a step of 0.1. The 6th nearest of an inner point lies a diagonal step away, so
 /// the median spacing is sqrt(2) / 10.

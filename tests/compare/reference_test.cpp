@@ -9,10 +9,10 @@
 namespace vcarve::reference_test {
 namespace {
 
-using ::testing::few_samples;
-using ::testing::high_centers;
-using ::testing::scene_above_square;
-using ::testing::square;
+using testing::few_samples;
+using testing::high_centers;
+using testing::scene_above_square;
+using testing::square;
 using ::testing::ThrowsMessage;
 
 Reference plain_reference()

@@ -11,7 +11,7 @@
 namespace vcarve::sample_test {
 namespace {
 
-using ::testing::strip;
+using testing::strip;
 
 TEST(SampleSurface, GivesEachFaceItsShareOfTheArea)
 {

@@ -13,11 +13,11 @@
 namespace vcarve::truth_test {
 namespace {
 
-using ::testing::few_samples;
-using ::testing::high_centers;
-using ::testing::scene_above_square;
-using ::testing::square;
-using ::testing::strip;
+using testing::few_samples;
+using testing::high_centers;
+using testing::scene_above_square;
+using testing::square;
+using testing::strip;
 
 /// Of a share of 20,000 random samples, at most.
 constexpr double kFourDeviations = 0.0142;

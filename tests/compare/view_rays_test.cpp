@@ -11,9 +11,9 @@
 namespace vcarve::view_rays_test {
 namespace {
 
-using ::testing::cube;
-using ::testing::square;
-using ::testing::square_camera;
+using testing::cube;
+using testing::square;
+using testing::square_camera;
 
 CompareOptions with_samples(int samples)
 {

@@ -16,8 +16,8 @@
 namespace vcarve::triangle_tree_test {
 namespace {
 
-using ::testing::distance_to_face;
-using ::testing::together;
+using testing::distance_to_face;
+using testing::together;
 
 Eigen::Vector3d random_point(std::uint64_t seed, std::uint64_t index)
 {

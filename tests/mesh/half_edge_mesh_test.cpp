@@ -15,7 +15,7 @@ using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
-using ::testing::half_edges;
+using testing::half_edges;
 
 /// A pyramid over a square without its base, and a vertex of no face; the top is vertex 0.
 TriMesh pyramid()

@@ -16,7 +16,7 @@ namespace vcarve::view_tree_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::aim;
+using testing::aim;
 
 /// Evenly in a cube, in steps of a thousandth of its half.
 Vector3d anywhere(std::mt19937_64& random, double half)

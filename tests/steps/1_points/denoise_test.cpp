@@ -13,15 +13,15 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-using ::testing::add;
-using ::testing::flat;
-using ::testing::ground;
-using ::testing::kFocalPx;
-using ::testing::kHalfBaseline;
-using ::testing::kHeight;
-using ::testing::kUpOfAPixel;
-using ::testing::rms;
-using ::testing::two_views;
+using testing::add;
+using testing::flat;
+using testing::ground;
+using testing::kFocalPx;
+using testing::kHalfBaseline;
+using testing::kHeight;
+using testing::kUpOfAPixel;
+using testing::rms;
+using testing::two_views;
 
 TEST(DenoisePoints, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
 {

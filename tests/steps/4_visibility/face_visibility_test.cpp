@@ -12,12 +12,12 @@ namespace vcarve::face_visibility_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::aim;
-using ::testing::cell_of;
-using ::testing::facet_across;
-using ::testing::LabelledScene;
-using ::testing::labels_where;
-using ::testing::middle;
+using testing::aim;
+using testing::cell_of;
+using testing::facet_across;
+using testing::LabelledScene;
+using testing::labels_where;
+using testing::middle;
 using Meets = FaceVisibility::Meets;
 
 /// Two tetrahedra in a wide box, the first before the second as seen from below: points 0 to 3 with

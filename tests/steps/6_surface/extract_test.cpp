@@ -15,7 +15,7 @@ namespace vcarve::extract_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::volume;
+using testing::volume;
 
 TEST(ExtractSurface, OfOneCellIsItsFourFacetsSeenFromOutside)
 {

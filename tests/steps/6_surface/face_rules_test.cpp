@@ -16,8 +16,8 @@ namespace vcarve::face_rules_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::LabelledScene;
-using ::testing::triangular_lattice;
+using testing::LabelledScene;
+using testing::triangular_lattice;
 
 constexpr double kSide = 6.0;
 constexpr double kHeight = 3.0;

@@ -12,7 +12,7 @@ namespace vcarve::fill_holes_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::half_edges;
+using testing::half_edges;
 
 MeshCheck check_of(const HalfEdgeMesh& mesh)
 {

@@ -15,9 +15,9 @@ namespace vcarve::openness_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::aim;
-using ::testing::LabelledScene;
-using ::testing::solid;
+using testing::aim;
+using testing::LabelledScene;
+using testing::solid;
 
 /// Whether a ray meets one of the faces that are kept, or of all.
 bool meets(const LabelledScene& made, const FaceFlags& keep, bool only_kept, const Vector3d& eye,

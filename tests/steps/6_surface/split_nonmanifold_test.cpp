@@ -10,11 +10,11 @@ namespace vcarve::split_nonmanifold_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::boundary_of;
-using ::testing::random_labels;
-using ::testing::tetra_grid;
-using ::testing::TetraGrid;
-using ::testing::volume;
+using testing::boundary_of;
+using testing::random_labels;
+using testing::tetra_grid;
+using testing::TetraGrid;
+using testing::volume;
 
 /// Colours and points that tell the vertices apart.
 void mark_vertices(TriMesh& mesh)

@@ -18,11 +18,11 @@ namespace vcarve::settle_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::flat;
-using ::testing::ground;
-using ::testing::half_edges;
-using ::testing::kUpOfAPixel;
-using ::testing::rms;
+using testing::flat;
+using testing::ground;
+using testing::half_edges;
+using testing::kUpOfAPixel;
+using testing::rms;
 
 constexpr double kSpacing = 0.02; ///< of the ground's points
 

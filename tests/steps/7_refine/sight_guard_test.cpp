@@ -9,9 +9,9 @@ namespace vcarve::sight_guard_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::flat_grid;
-using ::testing::half_edges;
-using ::testing::Triangle;
+using testing::flat_grid;
+using testing::half_edges;
+using testing::Triangle;
 
 /// A grid of 3 x 3 points at the vertices of flat_grid(3), half a unit apart; one view above all.
 Scene grid_seen_from_above()

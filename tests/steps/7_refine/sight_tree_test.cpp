@@ -13,8 +13,8 @@ namespace vcarve::sight_tree_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::meets;
-using ::testing::Triangle;
+using testing::meets;
+using testing::Triangle;
 
 std::vector<std::size_t> met_by(const SightTree& tree, const Triangle& triangle)
 {

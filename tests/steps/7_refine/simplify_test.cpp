@@ -16,11 +16,11 @@ namespace vcarve::simplify_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::blocked_sights;
-using ::testing::empty_scene;
-using ::testing::flat_grid;
-using ::testing::half_edges;
-using ::testing::margins_in;
+using testing::blocked_sights;
+using testing::empty_scene;
+using testing::flat_grid;
+using testing::half_edges;
+using testing::margins_in;
 
 TriMesh simplified(const TriMesh& mesh, const SightGuard& guard, const SimplifyOptions& options)
 {

@@ -14,11 +14,11 @@ namespace vcarve::smooth_test {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::blocked_sights;
-using ::testing::empty_scene;
-using ::testing::flat_grid;
-using ::testing::half_edges;
-using ::testing::margins_in;
+using testing::blocked_sights;
+using testing::empty_scene;
+using testing::flat_grid;
+using testing::half_edges;
+using testing::margins_in;
 
 constexpr std::uint32_t kSide = 21;
 
