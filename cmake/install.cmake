@@ -17,7 +17,7 @@ if(library_type STREQUAL "SHARED_LIBRARY")
 else()
   set(VCARVE_IS_SHARED FALSE)
   set(VCARVE_STATIC_LIBS
-    " -lOpenMeshTools -lOpenMeshCore -ltinygltf -ltbb -ltbbmalloc -lfmt -lgmp -lmpfr -ljpeg -lpng -ltiff")
+    " -lOpenMeshTools -lOpenMeshCore -ltbb -ltbbmalloc -lfmt -lgmp -lmpfr -ljpeg -lpng -ltiff")
 endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vcarveConfig.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfig.cmake INSTALL_DESTINATION ${package_folder})

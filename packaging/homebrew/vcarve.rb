@@ -18,7 +18,6 @@ class Vcarve < Formula
   depends_on :linux
   depends_on "open-mesh"
   depends_on "tbb"
-  depends_on "tinygltf"
 
   def install
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", *std_cmake_args,

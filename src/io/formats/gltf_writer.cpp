@@ -1,4 +1,4 @@
-// glTF 2.0: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+// glTF 2.0, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html; the numbers are its own.
 #include "io/files/block_writer.h"
 #include "io/files/comment_lines.h"
 #include "io/formats/mesh_file.h"
@@ -8,14 +8,14 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,24 +24,17 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
+using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t kMostBytes = 0xffffffffU - 0x10000U; ///< the rest is left to the JSON text
-
-/// What glTF calls an accessor: numbers of the file's buffer, and how they are to be read.
-struct Layout {
-    int component_type;
-    int type;
-    int target;
-    bool normalized = false;
-};
-constexpr Layout kVectors = {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                             TINYGLTF_TARGET_ARRAY_BUFFER};
-constexpr Layout kColors = {TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
-                            TINYGLTF_TARGET_ARRAY_BUFFER, true};
-constexpr Layout kPlaces = {TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2,
-                            TINYGLTF_TARGET_ARRAY_BUFFER};
-constexpr Layout kIndices = {TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                             TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER};
+constexpr std::uint64_t kMostBytes = 0xffffffffU - 0x10000U; ///< leaves room for the JSON text
+constexpr std::uint32_t kMagic = 0x46546c67;                 // "glTF"
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a;             // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004e4942;
+constexpr int kFloat = 5126;
+constexpr int kUnsignedShort = 5123;
+constexpr int kUnsignedInt = 5125;
+constexpr int kVertexData = 34962;
+constexpr int kIndexData = 34963;
 
 std::uint64_t buffer_bytes(const TriMesh& mesh)
 {
@@ -51,62 +44,55 @@ std::uint64_t buffer_bytes(const TriMesh& mesh)
     return mesh.positions.size() * vertex_bytes + mesh.faces.size() * sizeof(Face);
 }
 
-/// A model of one buffer, to which accessors are added one after the other. All their numbers fill
-/// multiples of four bytes, so each begins where glTF wants it to.
-class ModelBuilder {
-  public:
-    ModelBuilder() { model_.buffers.resize(1); }
-
-    /// An accessor to `count` elements that the caller adds next; returns its index.
-    int begin(const Layout& layout, std::size_t count)
-    {
-        tinygltf::Accessor accessor;
-        accessor.bufferView = static_cast<int>(model_.bufferViews.size());
-        accessor.componentType = layout.component_type;
-        accessor.type = layout.type;
-        accessor.normalized = layout.normalized;
-        accessor.count = count;
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = model_.buffers[0].data.size();
-        view.byteLength =
-            count * static_cast<std::size_t>(
-                        tinygltf::GetComponentSizeInBytes(
-                            static_cast<std::uint32_t>(layout.component_type)) *
-                        tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(layout.type)));
-        view.target = layout.target;
-        model_.buffers[0].data.reserve(view.byteOffset + view.byteLength);
-        model_.bufferViews.push_back(std::move(view));
-        model_.accessors.push_back(std::move(accessor));
-        return static_cast<int>(model_.accessors.size()) - 1;
-    }
+/// A document with one buffer. All its views have multiples of four bytes, so each is aligned.
+struct Document {
+    Json json;
+    std::string bytes;
 
     template <typename Number>
     void put(Number number)
     {
-        const auto bytes = little_endian(number);
-        auto& data = model_.buffers[0].data;
-        data.insert(data.end(), bytes.begin(), bytes.end());
+        const auto little = little_endian(number);
+        bytes.append(little.begin(), little.end());
     }
 
-    /// A file within the file; returns the index of its view of the buffer.
-    int add_bytes(const std::vector<std::uint8_t>& bytes)
+    /// Appends to an array of the document; returns the new element's index.
+    std::size_t add(const char* array, Json element)
     {
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        auto& data = model_.buffers[0].data;
-        view.byteOffset = data.size();
-        view.byteLength = bytes.size();
-        data.insert(data.end(), bytes.begin(), bytes.end());
-        data.resize((data.size() + 3) / 4 * 4);
-        model_.bufferViews.push_back(std::move(view));
-        return static_cast<int>(model_.bufferViews.size()) - 1;
+        json[array].push_back(std::move(element));
+        return json[array].size() - 1;
     }
 
-    tinygltf::Model& model() { return model_; }
+    /// Adds a view of the bytes from `begin` on.
+    std::size_t add_view(std::size_t begin, std::optional<int> target)
+    {
+        Json view = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}};
+        if (target) view["target"] = *target;
+        bytes.resize((bytes.size() + 3) / 4 * 4);
+        return add("bufferViews", std::move(view));
+    }
 
-  private:
-    tinygltf::Model model_;
+    /// Adds `count` elements, which `put_all` appends to the bytes.
+    std::size_t add_accessor(Json accessor, std::size_t count, int target, const auto& put_all)
+    {
+        const std::size_t begin = bytes.size();
+        put_all();
+        accessor["bufferView"] = add_view(begin, target);
+        accessor["count"] = count;
+        return add("accessors", std::move(accessor));
+    }
+
+    std::size_t add_floats(const char* type, const auto& elements)
+    {
+        const Json accessor = {{"componentType", kFloat}, {"type", type}};
+        return add_accessor(accessor, elements.size(), kVertexData, [&] {
+            for (const auto& element : elements) {
+                for (const float number : element) {
+                    put(number);
+                }
+            }
+        });
+    }
 };
 
 /// Colours of photographs are sRGB, those of vertices in glTF are linear. With 16 bits all 256
@@ -123,120 +109,127 @@ std::array<std::uint16_t, 256> linear_values()
     return values;
 }
 
-/// Positions relative to `center`, and their box, which glTF asks for.
-int add_positions(ModelBuilder& builder, const TriMesh& mesh, const Vector3d& center)
+/// float32, relative to `center`, with the bounding box that glTF requires.
+std::size_t add_positions(Document& document, const TriMesh& mesh, const Vector3d& center)
 {
-    const int accessor = builder.begin(kVectors, mesh.positions.size());
+    std::vector<Vector3f> rounded;
+    rounded.reserve(mesh.positions.size());
     Eigen::AlignedBox3f box;
     for (const Vector3d& position : mesh.positions) {
-        const Vector3f rounded = (position - center).cast<float>();
-        box.extend(rounded);
-        for (const float coordinate : rounded) {
-            builder.put(coordinate);
-        }
+        rounded.emplace_back((position - center).cast<float>());
+        box.extend(rounded.back());
     }
-    auto& added = builder.model().accessors.back();
-    added.minValues.assign(box.min().begin(), box.min().end());
-    added.maxValues.assign(box.max().begin(), box.max().end());
-    return accessor;
+    const std::size_t index = document.add_floats("VEC3", rounded);
+    Json& accessor = document.json["accessors"][index];
+    accessor["min"] = std::vector<float>(box.min().begin(), box.min().end());
+    accessor["max"] = std::vector<float>(box.max().begin(), box.max().end());
+    return index;
 }
 
-/// Normals must have length 1; a vertex that has none gets some.
-int add_normals(ModelBuilder& builder, const std::vector<Vector3f>& normals)
+/// Normals must have length 1, so a vertex without a normal gets (0, 0, 1).
+std::size_t add_normals(Document& document, std::vector<Vector3f> normals)
 {
-    const int accessor = builder.begin(kVectors, normals.size());
-    for (const Vector3f& normal : normals) {
-        for (const float coordinate : normal.isZero() ? Vector3f::UnitZ().eval() : normal) {
-            builder.put(coordinate);
-        }
+    for (Vector3f& normal : normals) {
+        if (normal.isZero()) normal = Vector3f::UnitZ();
     }
-    return accessor;
+    return document.add_floats("VEC3", normals);
 }
 
-int add_colors(ModelBuilder& builder, const std::vector<Color>& colors)
+std::size_t add_colors(Document& document, const std::vector<Color>& colors)
 {
-    const int accessor = builder.begin(kColors, colors.size());
-    const auto linear = linear_values();
-    for (const Color& color : colors) {
-        for (const std::uint8_t channel : color) {
-            builder.put(linear[channel]);
+    const Json accessor = {
+        {"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}};
+    return document.add_accessor(accessor, colors.size(), kVertexData, [&] {
+        const auto linear = linear_values();
+        for (const Color& color : colors) {
+            for (const std::uint8_t channel : color) {
+                document.put(linear[channel]);
+            }
+            document.put(std::uint16_t{0xffff}); // opaque
         }
-        builder.put(std::uint16_t{0xffff}); // opaque
-    }
-    return accessor;
+    });
 }
 
-int add_places(ModelBuilder& builder, const std::vector<Eigen::Vector2f>& places)
+std::size_t add_indices(Document& document, std::span<const Face> faces)
 {
-    const int accessor = builder.begin(kPlaces, places.size());
-    for (const Eigen::Vector2f& place : places) {
-        for (const float coordinate : place) {
-            builder.put(coordinate);
+    const Json accessor = {{"componentType", kUnsignedInt}, {"type", "SCALAR"}};
+    return document.add_accessor(accessor, 3 * faces.size(), kIndexData, [&] {
+        for (const Face& face : faces) {
+            for (const std::uint32_t vertex : face) {
+                document.put(vertex);
+            }
         }
-    }
-    return accessor;
+    });
 }
 
-int add_indices(ModelBuilder& builder, std::span<const Face> faces)
+/// Matt and double-sided; glTF's default is metal that shows its front only.
+Json matt()
 {
-    const int accessor = builder.begin(kIndices, 3 * faces.size());
-    for (const Face& face : faces) {
-        for (const std::uint32_t vertex : face) {
-            builder.put(vertex);
-        }
-    }
-    return accessor;
-}
-
-/// Matt, and to be seen from both sides: the default would be metal that shows its front only.
-tinygltf::Material matt()
-{
-    tinygltf::Material material;
-    material.pbrMetallicRoughness.metallicFactor = 0.0;
-    material.doubleSided = true;
+    Json material;
+    material["pbrMetallicRoughness"]["metallicFactor"] = 0.0;
+    material["doubleSided"] = true;
     return material;
 }
 
-/// What was subtracted, what now is y, and the comments, where there are any:
-/// {"offset": [x, y, z], "up": [x, y, z], "comments": []}.
-tinygltf::Value extras_json(const MeshFormat& format)
+/// {"offset": [x, y, z], "up": [x, y, z], "comments": []}, as far as the format has them.
+Json extras_json(const MeshFormat& format)
 {
-    tinygltf::Value::Object said;
-    const auto say = [&](const char* word, const auto& items) {
-        said[word] = tinygltf::Value(tinygltf::Value::Array(items.begin(), items.end()));
-    };
-    if (!format.offset.isZero(0.0)) say(kOffsetWord, format.offset);
-    if (!format.up.isZero(0.0)) say("up", format.up);
-    if (!format.comments.empty()) say("comments", format.comments);
-    return tinygltf::Value(std::move(said));
+    const auto numbers = [](const Vector3d& v) { return std::vector<double>(v.begin(), v.end()); };
+    Json extras;
+    if (!format.offset.isZero(0.0)) extras[std::string(kOffsetWord)] = numbers(format.offset);
+    if (!format.up.isZero(0.0)) extras["up"] = numbers(format.up);
+    if (!format.comments.empty()) extras["comments"] = format.comments;
+    return extras;
 }
 
-/// A material that is matt and shows an image, which becomes a part of the file.
-int add_page(ModelBuilder& builder, const Photograph& page)
+/// Adds a matt material with this image, which is stored in the file.
+std::size_t add_page(Document& document, const Photograph& page)
 {
-    tinygltf::Model& model = builder.model();
-    tinygltf::Image& image = model.images.emplace_back();
-    image.bufferView = builder.add_bytes(encode_jpeg(page, kTextureQuality));
-    image.mimeType = "image/jpeg";
-    if (model.samplers.empty()) {
-        tinygltf::Sampler& sampler = model.samplers.emplace_back();
-        sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
-        sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
-        sampler.wrapS = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    const std::size_t begin = document.bytes.size();
+    const auto encoded = encode_jpeg(page, kTextureQuality);
+    document.bytes.append(encoded.begin(), encoded.end());
+    const std::size_t view = document.add_view(begin, std::nullopt);
+    const std::size_t image =
+        document.add("images", {{"bufferView", view}, {"mimeType", "image/jpeg"}});
+    if (image == 0) {
+        document.add("samplers", {{"magFilter", 9729}, // linear
+                                  {"minFilter", 9987}, // linear, between levels, too
+                                  {"wrapS", 33071},    // clamp to edge
+                                  {"wrapT", 33071}});
     }
-    tinygltf::Texture& texture = model.textures.emplace_back();
-    texture.source = static_cast<int>(model.images.size()) - 1;
-    texture.sampler = 0;
-    model.materials.push_back(matt());
-    model.materials.back().pbrMetallicRoughness.baseColorTexture.index =
-        static_cast<int>(model.textures.size()) - 1;
-    return static_cast<int>(model.materials.size()) - 1;
+    const std::size_t texture = document.add("textures", {{"sampler", 0}, {"source", image}});
+    Json material = matt();
+    material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = texture;
+    return document.add("materials", std::move(material));
 }
 
-/// One mesh in one node, which moves the mesh back to where it belongs minus the offset, and turns
-/// it upright. The faces of each page are drawn by themselves.
-void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const MeshFormat& format,
+/// Adds a primitive for each texture page, or one if there is no texture.
+void add_primitives(Document& document, const TriMesh& mesh, Json attributes,
+                    const MeshFormat& format, const UnwrappedMesh* unwrapped)
+{
+    Json& primitives = document.json["meshes"][0]["primitives"];
+    const auto add = [&](std::span<const Face> faces, std::size_t material) {
+        const std::size_t indices = add_indices(document, faces);
+        primitives.push_back({{"attributes", attributes},
+                              {"indices", indices},
+                              {"material", material},
+                              {"mode", 4}}); // triangles
+    };
+    if (unwrapped == nullptr) {
+        add(mesh.faces, document.add("materials", matt()));
+        return;
+    }
+    attributes["TEXCOORD_0"] = document.add_floats("VEC2", unwrapped->places);
+    for (std::size_t page = 0; page < format.texture->pages.size(); ++page) {
+        const std::size_t first = unwrapped->begins[page];
+        add(std::span(mesh.faces).subspan(first, unwrapped->begins[page + 1] - first),
+            add_page(document, format.texture->pages[page]));
+    }
+}
+
+/// One mesh in one node, which moves the mesh back to its place minus the offset and turns it
+/// upright.
+void add_mesh(Document& document, const TriMesh& mesh, const MeshFormat& format,
               const UnwrappedMesh* unwrapped)
 {
     Eigen::AlignedBox3d box;
@@ -244,43 +237,36 @@ void add_mesh(ModelBuilder& builder, const TriMesh& mesh, const MeshFormat& form
         box.extend(position);
     }
     const Vector3d center = box.center();
-    tinygltf::Primitive triangles;
-    triangles.mode = TINYGLTF_MODE_TRIANGLES;
-    triangles.attributes["POSITION"] = add_positions(builder, mesh, center);
-    if (!mesh.normals.empty()) {
-        triangles.attributes["NORMAL"] = add_normals(builder, mesh.normals);
-    }
-    if (!mesh.colors.empty()) triangles.attributes["COLOR_0"] = add_colors(builder, mesh.colors);
-    tinygltf::Model& model = builder.model();
-    std::vector<tinygltf::Primitive> primitives;
-    if (unwrapped == nullptr) {
-        model.materials.push_back(matt());
-        triangles.material = 0;
-        triangles.indices = add_indices(builder, mesh.faces);
-        primitives.push_back(std::move(triangles));
-    } else {
-        triangles.attributes["TEXCOORD_0"] = add_places(builder, unwrapped->places);
-        for (std::size_t page = 0; page < format.texture->pages.size(); ++page) {
-            const auto [first, last] =
-                std::pair(unwrapped->begins[page], unwrapped->begins[page + 1]);
-            triangles.indices =
-                add_indices(builder, std::span(mesh.faces).subspan(first, last - first));
-            triangles.material = add_page(builder, format.texture->pages[page]);
-            primitives.push_back(triangles);
-        }
-    }
-    model.meshes.emplace_back().primitives = std::move(primitives);
-    tinygltf::Node& node = model.nodes.emplace_back();
+    Json attributes;
+    attributes["POSITION"] = add_positions(document, mesh, center);
+    if (!mesh.normals.empty()) attributes["NORMAL"] = add_normals(document, mesh.normals);
+    if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(document, mesh.colors);
+    add_primitives(document, mesh, std::move(attributes), format, unwrapped);
+    Json& node = document.json["nodes"][0];
+    node["mesh"] = 0;
     Vector3d translation = mesh.offset - format.offset + center;
     if (!format.up.isZero(0.0)) {
         const auto turn = Eigen::Quaterniond::FromTwoVectors(format.up, Vector3d::UnitY());
-        node.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+        node["rotation"] = std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()};
         translation = turn * translation;
     }
-    node.translation.assign(translation.begin(), translation.end());
-    node.mesh = 0;
-    model.scenes.emplace_back().nodes.push_back(0);
-    model.defaultScene = 0;
+    node["translation"] = std::vector<double>(translation.begin(), translation.end());
+    document.json["scenes"][0]["nodes"] = Json::array({0});
+    document.json["scene"] = 0;
+    document.json["buffers"][0]["byteLength"] = document.bytes.size();
+}
+
+void write_number(std::ostream& out, std::uint64_t number)
+{
+    const auto bytes = little_endian(static_cast<std::uint32_t>(number));
+    out.write(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+void write_chunk(std::ostream& out, std::uint32_t kind, const std::string& bytes)
+{
+    write_number(out, bytes.size());
+    write_number(out, kind);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 } // namespace
@@ -296,23 +282,26 @@ void require_glb_room(std::uint64_t bytes)
 void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
     require_glb_room(buffer_bytes(mesh));
-    ModelBuilder builder;
-    tinygltf::Model& model = builder.model();
-    model.asset.version = "2.0";
-    if (!format.comments.empty()) model.asset.generator = format.comments.front();
-    const tinygltf::Value said = extras_json(format);
-    if (said.Size() > 0) model.asset.extras = said;
-    if (mesh.faces.empty()) {
-        model.buffers.clear(); // glTF knows no empty buffers, meshes or scenes
-    } else {
+    Document document;
+    document.bytes.reserve(buffer_bytes(mesh));
+    Json& asset = document.json["asset"];
+    asset["version"] = "2.0";
+    if (!format.comments.empty()) asset["generator"] = format.comments.front();
+    if (Json extras = extras_json(format); !extras.empty()) asset["extras"] = std::move(extras);
+    if (!mesh.faces.empty()) { // glTF has no empty buffers, meshes or scenes
         std::optional<UnwrappedMesh> unwrapped;
         if (format.texture != nullptr) unwrapped = unwrap(mesh, *format.texture);
-        add_mesh(builder, unwrapped ? unwrapped->mesh : mesh, format,
+        add_mesh(document, unwrapped ? unwrapped->mesh : mesh, format,
                  unwrapped ? &*unwrapped : nullptr);
     }
-    constexpr bool kIndented = false;
-    constexpr bool kBinary = true;
-    tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, kIndented, kBinary);
+    std::string text = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    const std::size_t binary = document.bytes.empty() ? 0 : 8 + document.bytes.size();
+    write_number(out, kMagic);
+    write_number(out, 2);
+    write_number(out, 12 + 8 + text.size() + binary);
+    write_chunk(out, kJsonChunk, text);
+    if (binary > 0) write_chunk(out, kBinaryChunk, document.bytes);
 }
 
 } // namespace vcarve

@@ -1,4 +1,6 @@
+#include "io/formats/mesh_file.h"
 #include "io/formats/textured_files.h"
+#include "io/images/encode_image.h"
 #include "io/images/read_photograph.h"
 #include "model/texture.h"
 #include "support/read_back.h"
@@ -7,7 +9,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
+
+#include <cstring>
 
 namespace vcarve::textured_files_test {
 namespace {
@@ -95,33 +99,29 @@ TEST(TexturedGlb, HoldsItsPages)
 {
     const Textured made;
     write_mesh(made.folder / "sheet.glb", made.mesh, made.format);
-    tinygltf::TinyGLTF loader;
-    // Pages are looked at as bytes: the loader here decodes no images.
-    loader.SetImageLoader(
-        [](tinygltf::Image* image, int, std::string*, std::string*, int, int,
-           const unsigned char* bytes, int size, void*) {
-            image->image.assign(bytes, bytes + size);
-            return true;
-        },
-        nullptr);
-    tinygltf::Model model;
-    std::string error;
-    std::string warning;
-    ASSERT_TRUE(
-        loader.LoadBinaryFromFile(&model, &error, &warning, (made.folder / "sheet.glb").string()))
-        << error;
-    ASSERT_EQ(model.images.size(), 2U);
-    EXPECT_EQ(model.images[1].mimeType, "image/jpeg");
-    ASSERT_EQ(model.meshes[0].primitives.size(), 2U);
-    for (int page = 0; page < 2; ++page) {
-        const tinygltf::Primitive& faces = model.meshes[0].primitives[page];
-        EXPECT_EQ(faces.material, page);
-        EXPECT_EQ(model.materials[page].pbrMetallicRoughness.baseColorTexture.index, page);
-        EXPECT_EQ(faces.attributes.count("TEXCOORD_0"), 1U);
-        EXPECT_EQ(faces.attributes.count("COLOR_0"), 0U); // would darken the texture
+    const std::string bytes = bytes_of(made.folder / "sheet.glb");
+    std::uint32_t text_bytes = 0;
+    std::memcpy(&text_bytes, bytes.data() + 12, sizeof(text_bytes));
+    const auto json = nlohmann::json::parse(bytes.substr(20, text_bytes));
+    ASSERT_EQ(json["images"].size(), 2U);
+    EXPECT_EQ(json["images"][1]["mimeType"], "image/jpeg");
+    const auto jpeg = encode_jpeg(made.format.texture->pages[1], kTextureQuality);
+    const auto& view = json["bufferViews"][json["images"][1]["bufferView"].get<std::size_t>()];
+    EXPECT_EQ(bytes.substr(28 + text_bytes + view["byteOffset"].get<std::size_t>(),
+                           view["byteLength"].get<std::size_t>()),
+              std::string(jpeg.begin(), jpeg.end()));
+    const auto& primitives = json["meshes"][0]["primitives"];
+    ASSERT_EQ(primitives.size(), 2U);
+    std::size_t faces = 0;
+    for (std::size_t page = 0; page < 2; ++page) {
+        const auto& drawn = primitives[page];
+        EXPECT_EQ(drawn["material"], page);
+        EXPECT_EQ(json["materials"][page]["pbrMetallicRoughness"]["baseColorTexture"]["index"],
+                  page);
+        EXPECT_TRUE(drawn["attributes"].contains("TEXCOORD_0"));
+        EXPECT_FALSE(drawn["attributes"].contains("COLOR_0")); // would darken the texture
+        faces += json["accessors"][drawn["indices"].get<std::size_t>()]["count"].get<std::size_t>();
     }
-    const std::size_t faces = model.accessors[model.meshes[0].primitives[0].indices].count +
-                              model.accessors[model.meshes[0].primitives[1].indices].count;
     EXPECT_EQ(faces, 3 * made.mesh.faces.size());
     EXPECT_EQ(read_by_assimp(made.folder / "sheet.glb").faces.size(), made.mesh.faces.size());
 }
