@@ -1,7 +1,7 @@
 #include "block_bench.h"
 
+#include "io/colmap/colmap_model.h"
 #include "io/colmap/find_model.h"
-#include "io/colmap/model_size.h"
 #include "program_run.h"
 #include "run_report.h"
 

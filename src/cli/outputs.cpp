@@ -1,7 +1,7 @@
 #include "cli/outputs.h"
 
-#include "io/files/path_kind.h"
-#include "io/input/input_files.h"
+#include "io/colmap/model_files.h"
+#include "io/input/find_input.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "base/progress.h"
+#include "model/scene_size.h"
 #include "vcarve/scene.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -51,5 +53,11 @@ Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat fo
 /// The same without the points, whose file is not read.
 ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,
                               const Progress& progress = {});
+
+/// How large a model is, before it is read: from the counts its files begin with, and from the
+/// bytes they have. Nothing for a text model, whose size only shows when it is read, and for files
+/// that are missing or contradict themselves, which reading will tell of. Cost: none.
+std::optional<SceneSize> size_before_reading(const std::filesystem::path& folder,
+                                             ModelFormat format);
 
 } // namespace vcarve

@@ -5,7 +5,6 @@
 #include "io/colmap/text_reader.h"
 #include "io/files/foreign_file.h"
 #include "io/files/mapped_file.h"
-#include "io/files/path_kind.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

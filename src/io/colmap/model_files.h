@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace vcarve {
 
@@ -32,5 +33,18 @@ inline std::filesystem::path model_path(const std::filesystem::path& model, cons
 /// The fewest bytes a point takes in points3D.bin: id, position, colour, error, length of the
 /// track.
 inline constexpr std::size_t kPointBytes = 8 + 3 * 8 + 3 + 8 + 8;
+
+/// Whether there is a file, or a folder, that links lead to; what cannot be asked is none.
+inline bool is_file(const std::filesystem::path& path)
+{
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+}
+
+inline bool is_folder(const std::filesystem::path& path)
+{
+    std::error_code error;
+    return std::filesystem::is_directory(path, error);
+}
 
 } // namespace vcarve

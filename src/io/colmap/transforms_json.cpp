@@ -9,7 +9,6 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
-#include "io/files/path_kind.h"
 #include "model/lens_model.h"
 #include "model/similarity.h"
 #include "vcarve/error.h"

@@ -1,13 +1,17 @@
 #include "io/dense/cloud_points.h"
 
+#include "base/grouped_digits.h"
+#include "base/median.h"
 #include "base/parallel.h"
+#include "model/scene_points.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 namespace vcarve {
-
 namespace {
 
 /// Of unit length, or zero where it is no direction.
@@ -17,6 +21,25 @@ void make_unit(Eigen::Vector3f& normal)
     const double length = exact.norm();
     normal.setZero();
     if (length > 0.0 && std::isfinite(length)) normal = (exact / length).cast<float>();
+}
+
+/// The sigmoid of it is a half.
+constexpr float kLeastLogit = 0.0F;
+constexpr double kHuge = 10.0; ///< times the median
+
+bool is_solid(const Splat& splat)
+{
+    return splat.opacity_logit >= kLeastLogit;
+}
+
+/// The logarithm of the largest half-axis that is not huge.
+float largest_log_axis(const std::vector<Splat>& splats)
+{
+    std::vector<double> logs;
+    for (const Splat& splat : splats) {
+        if (is_solid(splat) && !std::isnan(splat.log_axis)) logs.push_back(splat.log_axis);
+    }
+    return logs.empty() ? 0.0F : static_cast<float>(median_in_place(logs) + std::log(kHuge));
 }
 
 } // namespace
@@ -32,6 +55,33 @@ void take_attributes(PointCloud cloud, std::uint64_t first, Scene& scene)
     scene.errors_px.assign(num_points, -1.0);
     scene.point_ids.resize(num_points);
     std::iota(scene.point_ids.begin(), scene.point_ids.end(), first);
+}
+
+KeptSplats keep_solid_splats(PointCloud& cloud)
+{
+    const float largest = largest_log_axis(cloud.splats);
+    KeptSplats kept;
+    std::int64_t faint = 0;
+    std::int64_t huge = 0;
+    for (std::uint64_t i = 0; i < cloud.splats.size(); ++i) {
+        if (!is_solid(cloud.splats[i])) {
+            ++faint;
+        } else if (!(cloud.splats[i].log_axis <= largest)) {
+            ++huge;
+        } else {
+            kept.places.push_back(i);
+        }
+    }
+    if (faint + huge == 0) return kept;
+    cloud.positions = values_at(kept.places, cloud.positions);
+    cloud.normals = values_at(kept.places, cloud.normals);
+    cloud.colors = values_at(kept.places, cloud.colors);
+    kept.note =
+        fmt::format("of {} Gaussians {} are left out for less than half the opacity, {} for "
+                    "being {} times as large as the median",
+                    grouped_digits(static_cast<std::int64_t>(cloud.splats.size())),
+                    grouped_digits(faint), grouped_digits(huge), kHuge);
+    return kept;
 }
 
 } // namespace vcarve

@@ -1,11 +1,10 @@
 #include "io/dense/dense_scene.h"
 
 #include "base/index_limit.h"
-#include "io/colmap/model_size.h"
+#include "io/colmap/colmap_model.h"
 #include "io/dense/cloud_points.h"
 #include "io/dense/nearest_sights.h"
-#include "io/dense/splats.h"
-#include "io/dense/view_lists.h"
+#include "io/dense/visibility.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -7,7 +7,6 @@
 #include <limits>
 
 namespace vcarve {
-
 namespace {
 
 using Eigen::Vector2d;

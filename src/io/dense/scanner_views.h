@@ -1,10 +1,14 @@
 #pragma once
 
+#include "base/progress.h"
+#include "model/scene_size.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace vcarve {
@@ -29,5 +33,23 @@ inline constexpr std::size_t kMostStations = 1024;
 /// scanner that stands before a thing meet nothing, and that of a profile scanner's place lie in a
 /// plane. Cost: O(points), in parallel but for a table of places.
 void add_scanner_views(const std::vector<Eigen::Vector3d>& scanners, Scene& scene);
+
+/// The points of a laser scan, and where its scanners stood.
+struct ScanFile {
+    std::filesystem::path cloud; ///< PLY
+    /// Where the scanner of all points stood, in the coordinates of the file; nothing where the
+    /// file tells.
+    std::optional<Eigen::Vector3d> scanner;
+};
+
+/// A scene of the points of a scan, all of them and in their order, and of its scanners, which are
+/// its views (see add_scanner_views); points have what dense ones have (see read_dense_scene). A
+/// point that is not finite has no sight. Throws InputError naming file and place, and Cancelled.
+/// Cost: as read_ply_cloud and add_scanner_views.
+Scene read_scan_scene(const ScanFile& file, const Progress& progress = {});
+
+/// How large the scene will be, by the cloud's header; nothing where that is too large or has no
+/// vertices, which reading will tell of. Throws InputError where the header is broken. Cost: none.
+std::optional<SceneSize> scan_size_before_reading(const ScanFile& file);
 
 } // namespace vcarve

@@ -1,8 +1,7 @@
 // glTF 2.0, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html; the numbers are its own.
 #include "io/files/block_writer.h"
-#include "io/files/comment_lines.h"
 #include "io/formats/mesh_file.h"
-#include "io/formats/unwrap.h"
+#include "io/formats/textured_files.h"
 #include "io/images/encode_image.h"
 #include "vcarve/error.h"
 

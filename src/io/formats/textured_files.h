@@ -1,11 +1,28 @@
 #pragma once
 
+#include "model/texture.h"
 #include "vcarve/io.h"
+#include "vcarve/tri_mesh.h"
 
+#include <Eigen/Core>
+
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
 namespace vcarve {
+
+/// A textured surface in which every vertex has one place in one page, as formats want it whose
+/// corners share vertices: where charts meet there are several vertices in one place. Vertices and
+/// faces go page by page, and else keep their order.
+struct UnwrappedMesh {
+    TriMesh mesh;                        ///< without colours, which would darken the texture
+    std::vector<Eigen::Vector2f> places; ///< of the vertices in their page, see Texture
+    std::vector<std::size_t> begins{0};  ///< page i has the faces begins[i] up to begins[i + 1]
+};
+
+/// Cost: O(faces log(faces)).
+UnwrappedMesh unwrap(const TriMesh& mesh, const Texture& texture);
 
 /// The file that a page of a texture is written to, beside the surface: OUT_0.jpg beside OUT.obj.
 std::filesystem::path page_path(const std::filesystem::path& surface, std::size_t page);

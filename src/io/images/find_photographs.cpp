@@ -1,7 +1,7 @@
 #include "io/images/find_photographs.h"
 
 #include "base/parallel.h"
-#include "io/files/path_kind.h"
+#include "io/colmap/model_files.h"
 #include "io/images/read_photograph.h"
 #include "vcarve/error.h"
 

@@ -5,6 +5,7 @@
 #include "io/input/find_input.h"
 #include "vcarve/scene.h"
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,24 @@ namespace vcarve {
 /// nearest_sights.
 std::vector<std::string> complete_sights(const FoundInput& found, const DroppedSights& dropped,
                                          Scene& scene, const Progress& progress = {});
+
+/// Takes for unknown what exporters write where they know nothing: errors that are zero at every
+/// point, which become -1, and colours that are all black (see has_colors). Returns what the user
+/// should know, in sentences. Cost: O(points).
+std::vector<std::string> forget_unknown_values(Scene& scene);
+
+/// A warning where the images do not show the points that they are said to have seen: that the
+/// poses look like camera-to-world, where these do if they are turned round, as programs of one's
+/// own often write them; else that points and poses do not belong together. Empty where a quarter
+/// of the sights at most is amiss, and where that cannot be told, as of lenses that are not known.
+/// Where there are no sights, each image is asked for each point. `images` is the file to look at.
+/// Cost: a look at every sight of a thousand points.
+std::string warning_of_poses(const Scene& scene, const std::filesystem::path& images);
+
+/// A warning where more than half of the points of a cloud show in no image, as where these were
+/// scaled or moved to the middle; empty else. The paths are for the words. Cost: a look at a
+/// thousand points through every view.
+std::string warning_of_frames(const Scene& scene, const std::filesystem::path& cloud,
+                              const std::filesystem::path& images);
 
 } // namespace vcarve

@@ -1,11 +1,9 @@
 #include "io/input/read_model.h"
 
 #include "base/log.h"
+#include "io/colmap/colmap_model.h"
 #include "io/colmap/model_files.h"
-#include "io/colmap/model_size.h"
 #include "io/input/complete_sights.h"
-#include "io/input/pose_check.h"
-#include "io/input/unknown_values.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

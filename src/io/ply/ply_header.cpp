@@ -1,6 +1,6 @@
 #include "io/ply/ply_header.h"
 
-#include "io/files/comment_lines.h"
+#include "io/files/block_writer.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

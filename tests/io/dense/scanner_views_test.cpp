@@ -1,19 +1,29 @@
 #include "io/dense/scanner_views.h"
+#include "io/input/read_model.h"
 #include "model/camera.h"
+#include "support/places.h"
+#include "support/scene_checks.h"
+#include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace vcarve::scanner_views_test {
 namespace {
 
+namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
+
+namespace {
 
 /// `side` x `side` points a tenth apart in the plane z = 10.
 std::vector<Vector3d> wall(int side)
@@ -126,6 +136,128 @@ TEST(ScannerViews, AreNeverMoreThanSoManyHoweverFarTheScannerWent)
     EXPECT_LE(scene.views.size(), kMostStations);
     EXPECT_GE(scene.views.size(), kMostStations / 3);
 }
+
+} // namespace
+
+namespace {
+
+const fs::path kFixtures = fixtures_folder();
+
+ScanFile scan_of(const char* format)
+{
+    return {kFixtures / "formats" / format / "scan.ply", std::nullopt};
+}
+
+std::vector<Vector3d> places_of(const Scene& scene)
+{
+    std::vector<Vector3d> places;
+    for (const View& view : scene.views) {
+        places.push_back(view.center);
+    }
+    return places;
+}
+
+TEST(ScanScene, HasItsScannersForViewsWhateverTheyAreCalledAndHoweverTheyAreWritten)
+{
+    for (const char* name : {"scan_origin", "scan_origin_big_lists", "scan_scanner_ascii"}) {
+        SCOPED_TRACE(name);
+        const Scene scene = read_scan_scene(scan_of(name));
+        expect_well_formed(scene);
+        EXPECT_THAT(places_of(scene), ElementsAre(Vector3d(0, 0, 1), Vector3d(8, 0, 1)));
+        EXPECT_THAT(scene.positions, ElementsAre(Vector3d(2, 0.5, 1), Vector3d(2, -0.5, 1.25),
+                                                 Vector3d(6, 0.5, 0.75), Vector3d(2, 0, 3)));
+        EXPECT_THAT(scene.tracks.views, ElementsAre(0, 0, 1, 0));
+        EXPECT_THAT(scene.errors_px, ::testing::Each(-1.0));
+        EXPECT_EQ(scene.views[1].name, "scanner 2");
+        EXPECT_TRUE(scene.cameras[scene.views[1].camera].measures_range);
+    }
+}
+
+TEST(ScanScene, HasTheOneScannerOfPclsCamera)
+{
+    for (const char* name : {"scan_camera", "scan_camera_ascii_first", "scan_camera_big"}) {
+        SCOPED_TRACE(name);
+        const Scene scene = read_scan_scene(scan_of(name));
+        EXPECT_THAT(places_of(scene), ElementsAre(Vector3d(0, 0, 1)));
+        EXPECT_THAT(scene.tracks.views, ElementsAre(0, 0, 0, 0));
+        EXPECT_EQ(scene.positions[3], Vector3d(2, 0, 3));
+    }
+}
+
+TEST(ScanScene, HasTheScannerThatIsGivenInPlaceOfPclsCamera)
+{
+    ScanFile file = scan_of("scan_camera");
+    file.scanner = Vector3d(5, 6, 7);
+    EXPECT_THAT(places_of(read_scan_scene(file)), ElementsAre(Vector3d(5, 6, 7)));
+}
+
+TEST(ScanScene, LiesWithItsScannersWhereTheFileSaysItIsOffset)
+{
+    const TemporaryFolder folder;
+    const std::string vertices = "element vertex 1\nproperty float x\nproperty float y\n"
+                                 "property float z\n";
+    const std::string begin = "ply\nformat ascii 1.0\ncomment offset 1000 0 0\n" + vertices;
+    ScanFile file{folder.write("given.ply", begin + "end_header\n1 2 3\n"), Vector3d(0, 0, 1)};
+    EXPECT_THAT(places_of(read_scan_scene(file)), ElementsAre(Vector3d(1000, 0, 1)));
+    file = {folder.write("each.ply", begin + "property float x_origin\nproperty float y_origin\n"
+                                             "property float z_origin\nend_header\n1 2 3 0 0 1\n"),
+            std::nullopt};
+    EXPECT_THAT(places_of(read_scan_scene(file)), ElementsAre(Vector3d(1000, 0, 1)));
+}
+
+TEST(ScanScene, ShowsItsSizeBeforeItIsRead)
+{
+    const auto size = scan_size_before_reading(scan_of("scan_origin"));
+    ASSERT_TRUE(size);
+    EXPECT_EQ(size->points, 4U);
+    EXPECT_EQ(size->sights, 4U);
+    EXPECT_TRUE(size->is_dense);
+}
+
+TEST(ScanScene, IsRefusedWhereNothingTellsOfAScanner)
+{
+    const ScanFile file{kFixtures / "formats/dense_bare/fused.ply", std::nullopt};
+    EXPECT_EQ(refusal<InputError>([&] { read_scan_scene(file); }),
+              file.cloud.string() +
+                  ": the file does not tell where the scanner of its points stood");
+}
+
+/// What is said of fixtures/broken_scans/NAME, after the path of its scan.ply.
+const std::vector<std::pair<const char*, const char*>> kRefusals = {
+    {"camera_ends", ": the header promises 1 entries \"camera\" of at least 20 bytes, but only 14 "
+                    "bytes follow"},
+    {"camera_infinite",
+     ": camera 0 of 1: its scanner stands at (0, inf, 1), expected finite numbers"},
+    {"camera_twice", ": has 2 entries \"camera\", expected the one where the scanner stood"},
+    {"camera_x_only", ": the camera has view_px only, expected view_px, view_py and view_pz to say "
+                      "where the scanner stood"},
+    {"origin_infinite",
+     ": vertex 2 of 4: its scanner stands at (8, 0, -inf), expected finite numbers"},
+    {"origin_nan", ": vertex 2 of 4: its scanner stands at (nan, 0, 1), expected finite numbers"},
+    {"origin_without_z", ": the vertices have x_origin and y_origin only, expected x_origin, "
+                         "y_origin and z_origin to say where the scanner stood"},
+    {"scanner_y_only", ": the vertices have scanner_y only, expected scanner_x, scanner_y and "
+                       "scanner_z to say where the scanner stood"},
+    {"vertices_end", ": the header promises 4 entries \"vertex\" of at least 24 bytes, but only 92 "
+                     "bytes follow"},
+};
+
+TEST(ScanScene, OfABrokenFileIsRefusedWithASentence)
+{
+    for (const auto& [name, sentence] : kRefusals) {
+        const fs::path path = kFixtures / "broken_scans" / name / "scan.ply";
+        Log silent;
+        EXPECT_EQ(refusal<InputError>([&] { read_model(path, silent); }), path.string() + sentence);
+    }
+}
+
+TEST(ScanScene, HasASentenceForEveryBrokenFixture)
+{
+    const auto folders = std::distance(fs::directory_iterator(kFixtures / "broken_scans"), {});
+    EXPECT_EQ(static_cast<std::size_t>(folders), kRefusals.size());
+}
+
+} // namespace
 
 } // namespace
 } // namespace vcarve::scanner_views_test

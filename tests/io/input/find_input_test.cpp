@@ -1,4 +1,5 @@
 #include "io/input/find_input.h"
+#include "support/ball_model.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
@@ -14,8 +15,13 @@ namespace vcarve::find_input_test {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Not;
+
+namespace {
 
 const fs::path kWorkspace = fixtures_folder() / "formats/dense_little";
 
@@ -391,6 +397,57 @@ TEST_F(FindInput, TakesTheListsOfACloudWhereNoFileTellsOfItsViews)
     folder.write("dense/scene_dense.ply.vis", "");
     EXPECT_FALSE(find_input(cloud, {}).dense->takes_lists);
 }
+
+} // namespace
+
+namespace {
+
+TEST(InputFiles, AreThoseOfTheModelAndOfTheProjectAround)
+{
+    const TemporaryFolder folder;
+    write_ball_model(folder / "sparse/0", 12);
+    folder.write("sparse/0/rigs.txt", "");
+    folder.write("sparse/0/mesh.ply", "");
+    folder.write("images/left/1.jpg", "");
+    const auto files = input_files(folder.path(), find_input(folder.path(), {}));
+    EXPECT_THAT(files, AllOf(Contains(folder / "sparse/0/cameras.txt"),
+                             Contains(folder / "sparse/0/rigs.txt"),
+                             Contains(folder / "images/left/1.jpg"),
+                             Not(Contains(folder / "sparse/0/mesh.ply"))));
+}
+
+TEST(InputFiles, AreTheCloudAndItsViews)
+{
+    const TemporaryFolder folder;
+    write_ball_model(folder / "sparse", 12);
+    const auto scan = folder.write("far/scan.ply", "");
+    const auto views = folder.write("far/scan.ply.vis", "");
+    const PointsOptions options = {.points = scan, .sights = SightsFrom::nearest};
+    EXPECT_THAT(input_files(folder / "sparse", find_input(folder / "sparse", options)),
+                AllOf(Contains(scan), Contains(views)));
+}
+
+TEST(InputFiles, AreTransformsAndTheirPoints)
+{
+    const TemporaryFolder folder;
+    const auto json = folder.write("t/poses.json", R"({"frames": [{}]})");
+    const auto points = folder.write("points.ply", "");
+    EXPECT_THAT(input_files(json, find_input(json, {.points = points})),
+                AllOf(Contains(json), Contains(points)));
+}
+
+TEST(IsImageOfViews, GoesByTheEndOfThePath)
+{
+    const TemporaryFolder folder;
+    write_ball_model(folder / "sparse", 12);
+    const FoundInput found = find_input(folder / "sparse", {});
+    EXPECT_TRUE(is_image_of_views(folder.write("shots/-y.jpg", ""), found));
+    EXPECT_FALSE(is_image_of_views(folder.write("shots/a-y.jpg", ""), found));
+    std::filesystem::create_symlink(folder / "shots/-y.jpg", folder / "link.jpg");
+    EXPECT_TRUE(is_image_of_views(folder / "link.jpg", found));
+}
+
+} // namespace
 
 } // namespace
 } // namespace vcarve::find_input_test

@@ -1,5 +1,5 @@
+#include "io/dense/cloud_points.h"
 #include "io/dense/dense_scene.h"
-#include "io/dense/splats.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
@@ -11,12 +11,14 @@
 #include <cmath>
 #include <limits>
 
-namespace vcarve::splats_test {
+namespace vcarve::cloud_points_test {
 namespace {
 
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+
+namespace {
 
 /// Points on a line, one for each Gaussian.
 PointCloud cloud_of(std::vector<Splat> splats)
@@ -128,4 +130,6 @@ TEST(Splats, AreRefusedWhereNoneIsLeft)
 }
 
 } // namespace
-} // namespace vcarve::splats_test
+
+} // namespace
+} // namespace vcarve::cloud_points_test
