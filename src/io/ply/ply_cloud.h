@@ -2,7 +2,7 @@
 
 #include "base/progress.h"
 #include "io/files/mapped_file.h"
-#include "io/ply/ply_data.h"
+#include "io/ply/ply_header.h"
 #include "io/ply/ply_vertex.h"
 #include "vcarve/scene.h"
 
