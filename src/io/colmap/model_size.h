@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/colmap/colmap_model.h"
-#include "model/scene_size.h"
+#include "model/scene_check.h"
 
 #include <filesystem>
 #include <optional>

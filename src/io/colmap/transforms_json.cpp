@@ -10,7 +10,7 @@
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
 #include "io/files/path_kind.h"
-#include "model/lens_model.h"
+#include "model/lens.h"
 #include "model/similarity.h"
 #include "vcarve/error.h"
 

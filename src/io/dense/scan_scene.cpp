@@ -1,6 +1,6 @@
 #include "io/dense/scan_scene.h"
 
-#include "base/index_limit.h"
+#include "base/numbers.h"
 #include "io/dense/cloud_points.h"
 #include "io/dense/scanner_views.h"
 #include "io/ply/ply_cloud.h"

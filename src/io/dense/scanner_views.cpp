@@ -1,7 +1,7 @@
 #include "io/dense/scanner_views.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "io/dense/splats.h"
 
-#include "base/grouped_digits.h"
-#include "base/median.h"
+#include "base/statistics.h"
+#include "base/text.h"
 #include "model/scene_points.h"
 
 #include <fmt/format.h>

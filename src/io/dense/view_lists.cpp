@@ -1,6 +1,6 @@
 #include "io/dense/view_lists.h"
 
-#include "base/sort_unique.h"
+#include "base/arrays.h"
 #include "model/camera.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #include "io/dense/visibility.h"
 
-#include "base/atomic_min.h"
 #include "base/parallel.h"
 #include "vcarve/error.h"
 

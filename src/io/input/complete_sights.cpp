@@ -1,6 +1,6 @@
 #include "io/input/complete_sights.h"
 
-#include "base/grouped_digits.h"
+#include "base/text.h"
 #include "io/colmap/model_files.h"
 #include "io/dense/nearest_sights.h"
 #include "vcarve/error.h"

@@ -1,6 +1,6 @@
 #include "io/input/unknown_values.h"
 
-#include "model/known_colors.h"
+#include "model/colors.h"
 
 #include <algorithm>
 
