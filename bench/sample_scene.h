@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/scene_parts.h"
+#include "model/scene_points.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>

@@ -2,12 +2,11 @@
 
 #include "io/colmap/colmap_model.h"
 #include "sample_scene.h"
-#include "steps/1_points/center.h"
+#include "steps/1_points/arrange.h"
 #include "steps/1_points/filter.h"
-#include "steps/1_points/spatial_sort.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/trace.h"
-#include "steps/5_labels/cut.h"
+#include "steps/5_labels/label_cells.h"
 #include "steps/5_labels/max_flow/max_flow.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "model/flow_network.h"
-#include "model/labels.h"
 #include "model/tet_mesh.h"
+#include "model/visibility_energy.h"
 #include "vcarve/scene.h"
 
 #include <benchmark/benchmark.h>

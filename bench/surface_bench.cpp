@@ -1,8 +1,8 @@
 #include "mesh/half_edge_mesh.h"
 #include "samples.h"
 #include "steps/5_labels/boundary.h"
+#include "steps/6_surface/carve_surface.h"
 #include "steps/6_surface/cleanup.h"
-#include "steps/6_surface/extract.h"
 #include "steps/6_surface/face_rules.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,7 @@
 #include "mesh_class.h"
 
 #include "arrays.h"
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"

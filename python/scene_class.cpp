@@ -1,11 +1,10 @@
 #include "scene_class.h"
 
 #include "arrays.h"
-#include "base/log.h"
 #include "base/progress.h"
 #include "io/dense/nearest_sights.h"
 #include "io/dense/scanner_views.h"
-#include "model/lens_model.h"
+#include "model/lens.h"
 #include "told_run.h"
 #include "vcarve/error.h"
 #include "vcarve/scene.h"

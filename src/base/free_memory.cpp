@@ -1,9 +1,15 @@
 #include "base/free_memory.h"
 
+#include <tbb/scalable_allocator.h>
+
 #include <algorithm>
 #include <fstream>
 #include <string>
 #include <string_view>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace vcarve {
 
@@ -108,6 +114,14 @@ std::optional<std::int64_t> free_memory(const fs::path& root)
         free = free ? std::min(*free, of_cgroup) : of_cgroup;
     }
     return free;
+}
+
+void return_freed_memory()
+{
+    scalable_allocation_command(TBBMALLOC_CLEAN_ALL_BUFFERS, nullptr);
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 } // namespace vcarve

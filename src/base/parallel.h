@@ -2,19 +2,23 @@
 
 #include "base/progress.h"
 
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
 #ifdef VCARVE_WATCHES_THREADS
 #include "base/watched_loops.h"
 #else
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/parallel_sort.h>
 #endif
-#include <tbb/task_arena.h>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
-#include <utility>
-#include <vector>
 
 namespace vcarve {
 
@@ -162,6 +166,57 @@ Sum parallel_sum(std::size_t count, const Sum& zero, const Value& value, const P
         sum = plus(sum, run);
     }
     return sum;
+}
+
+/// Of how many i in [0, count) is_so(i) holds, asked as parallel_for() does.
+template <typename Predicate>
+std::size_t parallel_count(std::size_t count, const Predicate& is_so, std::size_t grain = 1024)
+{
+    std::atomic<std::size_t> counted = 0;
+    const auto run = [&](std::size_t first, std::size_t last) {
+        std::size_t of_range = 0;
+        for (std::size_t i = first; i != last; ++i) {
+            of_range += is_so(i) ? 1 : 0;
+        }
+        counted += of_range;
+    };
+    parallel_for_ranges(count, run, grain);
+    return counted;
+}
+
+/// Calls both, side by side where the surrounding tbb arena has a thread to spare.
+template <typename First, typename Second>
+void parallel_invoke(const First& first, const Second& second)
+{
+#ifdef VCARVE_WATCHES_THREADS
+    watched::for_ranges(
+        2, [&](std::size_t i, std::size_t) { i == 0 ? first() : second(); }, 1);
+#else
+    tbb::parallel_invoke(first, second);
+#endif
+}
+
+/// Sorts a vector from as many threads as the surrounding tbb arena has. `less` must order any two
+/// elements that can be told apart, or the result depends on the threads.
+template <typename Items, typename Less = std::less<>>
+void parallel_sort(Items& items, const Less& less = {})
+{
+#ifdef VCARVE_WATCHES_THREADS
+    std::sort(items.begin(), items.end(), less); // see watched_loops.h
+#else
+    tbb::parallel_sort(items.begin(), items.end(), less);
+#endif
+}
+
+/// Lowers a number to another where that is smaller. Many threads may do so at a time: the smallest
+/// of all is left, whoever came first.
+template <typename Number>
+void atomic_min(Number& least, Number value)
+{
+    const std::atomic_ref<Number> shared(least);
+    Number seen = shared.load(std::memory_order_relaxed);
+    while (value < seen && !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+    }
 }
 
 } // namespace vcarve

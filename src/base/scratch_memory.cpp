@@ -1,7 +1,7 @@
 #include "base/scratch_memory.h"
 
-#include "base/byte_size.h"
 #include "base/droppable_pages.h"
+#include "base/text.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "cli/closing_line.h"
 
-#include "base/grouped_digits.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "cli/compare_command.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "cli/baseline_runs.h"
 #include "cli/compare_outputs.h"

@@ -1,6 +1,6 @@
 #include "cli/console_log.h"
 
-#include "base/control_free.h"
+#include "base/text.h"
 #include "cli/stage_lines.h"
 
 #include <fmt/format.h>

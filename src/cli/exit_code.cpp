@@ -1,6 +1,6 @@
 #include "cli/exit_code.h"
 
-#include "base/control_free.h"
+#include "base/text.h"
 #include "cli/interruption.h"
 #include "run/ranks.h"
 #include "vcarve/error.h"

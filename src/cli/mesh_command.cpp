@@ -17,7 +17,7 @@
 #include "io/colmap/sim3_text.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
-#include "mesh/long_faces.h"
+#include "mesh/check.h"
 #include "options/declared.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"

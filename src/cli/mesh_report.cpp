@@ -3,7 +3,7 @@
 #include "io/files/output_file.h"
 #include "page/page.h"
 #include "page/page_scene.h"
-#include "steps/4_visibility/seen_corners.h"
+#include "steps/4_visibility/face_visibility.h"
 
 namespace vcarve::cli {
 

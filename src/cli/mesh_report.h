@@ -1,10 +1,10 @@
 #pragma once
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "cli/run_record.h"
-#include "mesh/removed_faces.h"
-#include "model/texture.h"
+#include "model/photograph.h"
 #include "page/run_figures.h"
+#include "steps/6_surface/carve_surface.h"
 
 #include <filesystem>
 

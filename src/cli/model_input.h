@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "cli/run_log.h"
 #include "cli/run_record.h"
 #include "io/input/read_model.h"

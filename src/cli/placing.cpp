@@ -1,7 +1,7 @@
 #include "cli/placing.h"
 
 #include "io/colmap/sim3_text.h"
-#include "model/up_of.h"
+#include "model/views.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 

@@ -1,6 +1,6 @@
 #include "cli/preview_output.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "picture/eye.h"
 #include "vcarve/error.h"
 

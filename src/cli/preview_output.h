@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "cli/option_parser.h"
 #include "cli/run_record.h"
 #include "picture/preview.h"

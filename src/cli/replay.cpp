@@ -1,6 +1,6 @@
 #include "cli/replay.h"
 
-#include "base/control_free.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/run_record.h"
 #include "io/files/mapped_file.h"

@@ -1,7 +1,7 @@
 #include "cli/run_memory.h"
 
-#include "base/byte_size.h"
 #include "base/free_memory.h"
+#include "base/text.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "cli/surface_check.h"
 
-#include "mesh/self_intersections.h"
+#include "mesh/check.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "cli/texture_output.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "compare/reference.h"
 
 namespace vcarve {

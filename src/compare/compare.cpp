@@ -1,6 +1,6 @@
 #include "compare/compare.h"
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "compare/closed_surface.h"
 #include "compare/comparison_table.h"
 #include "options/declared.h"

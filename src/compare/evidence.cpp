@@ -1,14 +1,13 @@
 #include "compare/evidence.h"
 
-#include "base/median.h"
-#include "base/parallel_count.h"
-#include "base/random_number.h"
+#include "base/numbers.h"
+#include "base/parallel.h"
+#include "base/statistics.h"
 #include "compare/sample.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_table.h"
 #include "model/camera.h"
 #include "steps/4_visibility/face_visibility.h"
-#include "steps/4_visibility/seen_corners.h"
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
 #include "compare/figures.h"
 
-#include "model/measured_range.h"
+#include "model/views.h"
 
 #include <fmt/format.h>
 

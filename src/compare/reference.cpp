@@ -1,14 +1,14 @@
 #include "compare/reference.h"
 
-#include "base/median.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/unlimited.h"
+#include "base/statistics.h"
 #include "compare/spacing.h"
 #include "compare/truth.h"
 #include "compare/view_rays.h"
-#include "model/measured_range.h"
-#include "model/middle_box.h"
-#include "steps/1_points/center.h"
+#include "model/extent.h"
+#include "model/views.h"
+#include "steps/1_points/arrange.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>

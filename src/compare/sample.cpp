@@ -1,7 +1,7 @@
 #include "compare/sample.h"
 
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/random_number.h"
 #include "geometry/triangle.h"
 
 #include <Eigen/Geometry>

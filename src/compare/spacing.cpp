@@ -1,7 +1,7 @@
 #include "compare/spacing.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "geometry/nearest_neighbors.h"
 
 #include <algorithm>

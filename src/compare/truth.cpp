@@ -1,13 +1,12 @@
 #include "compare/truth.h"
 
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/parallel_count.h"
-#include "base/quantile.h"
-#include "base/random_number.h"
+#include "base/statistics.h"
 #include "compare/sample.h"
 #include "geometry/triangle.h"
 #include "model/camera.h"
-#include "model/measured_range.h"
+#include "model/views.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>

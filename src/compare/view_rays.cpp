@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "model/camera.h"
-#include "model/pixel_grid.h"
+#include "model/views.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include "compare/evidence.h"
 #include "compare/truth.h"
 #include "geometry/triangle.h"
-#include "model/middle_box.h"
+#include "model/extent.h"
 
 #include <Eigen/Geometry>
 

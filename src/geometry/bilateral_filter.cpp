@@ -1,6 +1,6 @@
 #include "geometry/bilateral_filter.h"
 
-#include "base/median_of_some.h"
+#include "base/statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/parallel.h"
-#include "geometry/neighborhoods.h"
+#include "geometry/nearest_neighbors.h"
 
 #include <Eigen/Core>
 

@@ -1,23 +1,19 @@
 #include "geometry/nearest_neighbors.h"
 
+#include "base/parallel.h"
+#include "geometry/cgal_kernel.h"
+
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Search_traits_adapter.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/property_map.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace vcarve {
 
 namespace {
-
-using Cartesian = CGAL::Simple_cartesian<double>;
-
-Cartesian::Point_3 to_cartesian(const Eigen::Vector3d& position)
-{
-    return {position.x(), position.y(), position.z()};
-}
 
 using Numbered = std::pair<Cartesian::Point_3, std::uint32_t>;
 using NeighborTraits =
@@ -62,11 +58,34 @@ void NearestNeighbors::find(const Eigen::Vector3d& place, std::size_t count,
     }
 }
 
-bool NearestNeighbors::has_nearer(const Eigen::Vector3d& place, double distance) const
+void Neighborhoods::set(std::size_t point, std::span<const std::uint32_t> around, double reach_sq)
 {
-    thread_local std::vector<Neighbor> nearest;
-    find(place, 1, nearest);
-    return !nearest.empty() && nearest.front().distance_sq < distance * distance;
+    std::ranges::copy(around, points_.begin() + static_cast<std::ptrdiff_t>(most_ * point));
+    counts_[point] = static_cast<std::uint32_t>(around.size());
+    reaches_sq_[point] = reach_sq;
+}
+
+Neighborhoods nearest_neighborhoods(const std::vector<Eigen::Vector3d>& positions,
+                                    std::size_t count, const Progress& progress)
+{
+    const std::size_t kept = std::min(count, positions.size() - 1);
+    const NearestNeighbors tree(positions);
+    progress.tell(0.4);
+    Neighborhoods neighborhoods(positions.size(), kept);
+    parallel_for_ranges(positions.size(), progress.part(0.4, 1.0),
+                        [&](std::size_t first, std::size_t last) {
+                            std::vector<NearestNeighbors::Neighbor> nearest;
+                            std::vector<std::uint32_t> around;
+                            for (std::size_t i = first; i < last; ++i) {
+                                tree.find(positions[i], kept + 1, nearest);
+                                around.clear();
+                                for (const auto& neighbor : nearest) {
+                                    if (neighbor.point != i) around.push_back(neighbor.point);
+                                }
+                                neighborhoods.set(i, around, nearest.back().distance_sq);
+                            }
+                        });
+    return neighborhoods;
 }
 
 } // namespace vcarve

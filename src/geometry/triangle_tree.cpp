@@ -1,12 +1,12 @@
 #include "geometry/triangle_tree.h"
 
+#include "geometry/cgal_kernel.h"
 #include "geometry/predicates.h"
 #include "geometry/triangle.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
 #include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
@@ -20,16 +20,10 @@ namespace {
 
 using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
-using Cartesian = CGAL::Simple_cartesian<double>;
 using Point = Cartesian::Point_3;
 using Triangle = Cartesian::Triangle_3;
 using Triangles = std::vector<Triangle>;
 using Primitive = CGAL::AABB_triangle_primitive<Cartesian, Triangles::const_iterator>;
-
-Point to_point(const Vector3d& position)
-{
-    return {position.x(), position.y(), position.z()};
-}
 
 Vector3d to_vector(const Point& point)
 {
@@ -196,7 +190,7 @@ struct TriangleTree::Tree {
             const Corners corners = corners_of(i);
             if (!has_area(corners)) continue;
             const auto& [a, b, c] = corners;
-            triangles.emplace_back(to_point(a), to_point(b), to_point(c));
+            triangles.emplace_back(to_cartesian(a), to_cartesian(b), to_cartesian(c));
             places.push_back(i);
         }
         aabb.rebuild(triangles.cbegin(), triangles.cend());
@@ -248,14 +242,14 @@ std::optional<FirstHit> TriangleTree::first_hit(const Vector3d& from, const Vect
 
 double TriangleTree::distance(const Vector3d& point) const
 {
-    return std::sqrt(tree_->aabb.squared_distance(to_point(point)));
+    return std::sqrt(tree_->aabb.squared_distance(to_cartesian(point)));
 }
 
 NearestFace TriangleTree::nearest(const Vector3d& point) const
 {
-    const auto [place, face] = tree_->aabb.closest_point_and_primitive(to_point(point));
+    const auto [place, face] = tree_->aabb.closest_point_and_primitive(to_cartesian(point));
     const auto [a, b, c] = corners_of(*face);
-    return {.distance = std::sqrt(CGAL::squared_distance(to_point(point), place)),
+    return {.distance = std::sqrt(CGAL::squared_distance(to_cartesian(point), place)),
             .normal = scaled_normal(a, b, c).normalized()};
 }
 

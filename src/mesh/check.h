@@ -28,4 +28,15 @@ struct MeshCheck {
 /// Cost: O(faces log faces) time, O(faces) memory.
 MeshCheck check_mesh(const TriMesh& mesh);
 
+/// The share of a surface's area in faces with an edge longer than so many times the median edge,
+/// which is taken of some thousand faces, evenly spread. 0 for a surface without area. Cost:
+/// O(faces), in parallel.
+double long_area(const TriMesh& mesh, double times);
+
+/// How many pairs of faces have more in common than corners and edges of both. Exact. Corners at
+/// one position are one, so copies of a vertex, made where a surface was not manifold, may touch.
+/// Faces whose corners are on a line are left out. Cost: O(faces log faces) and what their boxes
+/// meet, on many threads.
+std::int64_t count_self_intersections(const TriMesh& mesh);
+
 } // namespace vcarve

@@ -1,7 +1,6 @@
 #include "mesh/edge_halving.h"
 
-#include "mesh/add_vertex.h"
-#include "mesh/face_corners.h"
+#include "mesh/vertices.h"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/vertex_faces.h"
+#include "mesh/vertices.h"
 #include "vcarve/tri_mesh.h"
 
 #include <algorithm>

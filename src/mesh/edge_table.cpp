@@ -1,12 +1,13 @@
 #include "mesh/edge_table.h"
 
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/parallel_rows.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace vcarve {
+
 namespace {
 
 std::uint32_t higher_end(std::span<const Face> faces, HalfEdge half_edge)

@@ -1,7 +1,7 @@
 #include "mesh/half_edge_mesh.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 
 namespace vcarve {
 namespace {

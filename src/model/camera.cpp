@@ -1,6 +1,6 @@
 #include "model/camera.h"
 
-#include "model/lens_distortion.h"
+#include "model/lens.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/lens_model.h"
+#include "model/lens.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>

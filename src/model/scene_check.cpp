@@ -1,6 +1,5 @@
 #include "model/scene_check.h"
 
-#include "base/atomic_min.h"
 #include "base/parallel.h"
 #include "vcarve/error.h"
 

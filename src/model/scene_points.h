@@ -1,10 +1,13 @@
 #pragma once
 
+#include "base/arrays.h"
 #include "base/parallel.h"
+#include "base/progress.h"
 #include "vcarve/scene.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -79,5 +82,67 @@ Scene select_points(const Scene& scene, const Points& points, const TrackOf& tra
     result.tracks = make_tracks(points.size(), track_of);
     return result;
 }
+
+/// Row i has all views that saw a point of group i, ascending, each once. `groups[i]` are the
+/// numbers of its points. Cost: O(sights log sights a group), in parallel.
+template <typename Groups>
+Tracks united_tracks(const Tracks& tracks, const Groups& groups)
+{
+    std::vector<std::uint64_t> begins{0}; // of as many views as there are with those twice
+    begins.reserve(groups.size() + 1);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        std::uint64_t views = 0;
+        for (const std::uint32_t point : groups[i]) {
+            views += tracks[point].size();
+        }
+        begins.push_back(begins.back() + views);
+    }
+    UnsetArray<std::uint32_t> views(begins.back());
+    UnsetArray<std::uint32_t> lengths(groups.size());
+    parallel_for(groups.size(), [&](std::size_t i) {
+        const auto begin = views.begin() + static_cast<std::ptrdiff_t>(begins[i]);
+        auto end = begin;
+        for (const std::uint32_t point : groups[i]) {
+            end = std::ranges::copy(tracks[point], end).out;
+        }
+        if (groups[i].size() > 1) {
+            std::sort(begin, end);
+            end = std::unique(begin, end);
+        }
+        lengths[i] = static_cast<std::uint32_t>(end - begin);
+    });
+    return make_tracks(groups.size(), [&](std::size_t i) {
+        return std::span(views).subspan(begins[i], lengths[i]);
+    });
+}
+
+/// A scene whose points come part by part, in their order, so that not all of them need to be in
+/// memory at a time.
+class SceneParts {
+  public:
+    SceneParts() = default;
+    SceneParts(const SceneParts&) = delete;
+    SceneParts& operator=(const SceneParts&) = delete;
+    virtual ~SceneParts() = default;
+
+    /// How many points there are in all.
+    virtual std::size_t num_points() const = 0;
+    /// The next points, at most so many, with all cameras and views; none after the last. May throw
+    /// InputError, and Cancelled.
+    virtual Scene next(std::size_t most, const Progress& progress) = 0;
+};
+
+/// The parts of a scene that is in memory, and must stay there.
+class PartsOfScene final : public SceneParts {
+  public:
+    explicit PartsOfScene(const Scene& scene) : scene_(scene) {}
+
+    std::size_t num_points() const override { return scene_.num_points(); }
+    Scene next(std::size_t most, const Progress& progress) override;
+
+  private:
+    const Scene& scene_;
+    std::size_t first_ = 0; ///< point of the next part
+};
 
 } // namespace vcarve

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/unset_array.h"
+#include "base/arrays.h"
 
 #include <Eigen/Core>
 
@@ -67,5 +67,11 @@ struct TetMesh {
         return {cells[facet.cell].neighbors[facet.slot], mirror(facet.cell, facet.slot)};
     }
 };
+
+/// What a cell is taken for.
+enum class Label : std::uint8_t { outside = 0, inside = 1 };
+
+/// One label a cell of a TetMesh.
+using Labels = std::vector<Label>;
 
 } // namespace vcarve

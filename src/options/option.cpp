@@ -1,6 +1,6 @@
 #include "options/option.h"
 
-#include "base/byte_size.h"
+#include "base/text.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

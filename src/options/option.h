@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/unlimited.h"
+#include "base/numbers.h"
 #include "vcarve/region.h"
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 #include "page/comparison_scene.h"
 
-#include "base/quantile.h"
+#include "base/statistics.h"
 #include "compare/worst_places.h"
-#include "model/middle_box.h"
+#include "model/extent.h"
 #include "page/display_mesh.h"
 #include "page/face_grid.h"
 #include "page/pack.h"

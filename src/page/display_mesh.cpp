@@ -1,6 +1,6 @@
 #include "page/display_mesh.h"
 
-#include "mesh/used_vertices.h"
+#include "mesh/vertices.h"
 #include "model/scene_points.h"
 
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 #include "page/page.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "page/page_files.h"
 #include "vcarve/error.h"
 

@@ -1,17 +1,17 @@
 #include "page/page_scene.h"
 
-#include "base/median.h"
+#include "base/statistics.h"
 #include "geometry/triangle.h"
 #include "io/images/encode_image.h"
-#include "mesh/used_vertices.h"
+#include "mesh/vertices.h"
 #include "model/camera.h"
+#include "model/extent.h"
 #include "model/scene_points.h"
-#include "model/seen_places.h"
-#include "model/up_of.h"
+#include "model/views.h"
 #include "page/display_mesh.h"
 #include "page/pack.h"
 #include "picture/eye.h"
-#include "steps/4_visibility/seen_corners.h"
+#include "steps/4_visibility/face_visibility.h"
 #include "texture/photo_pyramid.h"
 
 #include <algorithm>

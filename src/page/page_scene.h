@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "mesh/removed_faces.h"
-#include "model/texture.h"
+#include "model/photograph.h"
+#include "steps/6_surface/carve_surface.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 

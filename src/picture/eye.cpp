@@ -2,9 +2,8 @@
 
 #include "io/colmap/text_reader.h"
 #include "model/camera.h"
-#include "model/region_of_interest.h"
-#include "model/seen_places.h"
-#include "model/up_of.h"
+#include "model/extent.h"
+#include "model/views.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

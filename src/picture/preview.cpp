@@ -1,6 +1,6 @@
 #include "picture/preview.h"
 
-#include "base/grouped_digits.h"
+#include "base/text.h"
 #include "picture/caption.h"
 #include "picture/shade.h"
 

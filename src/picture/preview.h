@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/texture.h"
+#include "model/photograph.h"
 #include "picture/eye.h"
 #include "picture/picture.h"
 #include "vcarve/tri_mesh.h"

@@ -2,8 +2,8 @@
 
 #include "base/parallel.h"
 #include "geometry/triangle.h"
-#include "model/between_pixels.h"
-#include "model/channels.h"
+#include "model/colors.h"
+#include "model/photograph.h"
 #include "picture/first_faces.h"
 #include "picture/lens_rays.h"
 

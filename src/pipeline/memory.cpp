@@ -1,6 +1,6 @@
 #include "pipeline/memory.h"
 
-#include "base/byte_size.h"
+#include "base/text.h"
 #include "pipeline/stages.h"
 #include "vcarve/error.h"
 

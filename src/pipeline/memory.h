@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/stage_memory.h"
-#include "steps/3_cells/cell_limit.h"
+#include "steps/3_cells/limits.h"
 #include "vcarve/options.h"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/scene_size.h"
+#include "model/scene_check.h"
 #include "vcarve/options.h"
 
 #include <string>

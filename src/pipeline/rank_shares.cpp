@@ -1,6 +1,6 @@
 #include "pipeline/rank_shares.h"
 
-#include "base/freed_memory.h"
+#include "base/free_memory.h"
 #include "steps/3_cells/triangulate_blocks.h"
 #include "steps/4_visibility/trace.h"
 

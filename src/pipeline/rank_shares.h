@@ -2,8 +2,8 @@
 
 #include "pipeline/run_state.h"
 #include "run/ranks.h"
-#include "steps/3_cells/cell_limit.h"
-#include "steps/4_visibility/each_vertex.h"
+#include "steps/3_cells/limits.h"
+#include "steps/4_visibility/trace.h"
 #include "vcarve/log.h"
 #include "vcarve/options.h"
 

@@ -1,14 +1,13 @@
 #include "vcarve/reconstruct.h"
 
-#include "base/freed_memory.h"
+#include "base/free_memory.h"
 #include "model/scene_check.h"
-#include "model/scene_size.h"
 #include "options/declared.h"
 #include "pipeline/memory.h"
 #include "pipeline/run_state.h"
 #include "pipeline/stages.h"
 #include "pipeline/thinned_scene.h"
-#include "steps/1_points/center.h"
+#include "steps/1_points/arrange.h"
 #include "steps/1_points/thin.h"
 
 #include <tbb/task_arena.h>

@@ -1,16 +1,13 @@
 #pragma once
 
 #include "mesh/half_edge_mesh.h"
-#include "mesh/removed_faces.h"
-#include "model/labels.h"
-#include "model/region_of_interest.h"
+#include "model/extent.h"
 #include "model/tet_mesh.h"
-#include "model/virtual_sights.h"
 #include "model/visibility_energy.h"
 #include "pipeline/stage_memory.h"
 #include "region/region.h"
 #include "run/checkpoints.h"
-#include "steps/6_surface/make_surface.h"
+#include "steps/6_surface/carve_surface.h"
 #include "steps/7_refine/sight_guard.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
@@ -34,12 +31,6 @@ struct CarvingPoints {
 struct SightEvidence {
     VisibilityEnergy energy; ///< empty with Method::strict
     Crossings crossings;     ///< empty with the others
-};
-
-/// The faces that views see.
-struct CarvedSurface {
-    SeenSurface seen;
-    RemovedFaces removed; ///< what was taken away, where somebody asked for it
 };
 
 /// What a run has, as its stages hand it on to each other (stages.h).
@@ -75,10 +66,8 @@ inline constexpr int kNumFields<ViewLine> = 2;
 template <>
 inline constexpr int kNumFields<Openness> = 2;
 template <>
-inline constexpr int kNumFields<SeenSurface> = 2;
-template <>
 inline constexpr int kNumFields<RemovedFaces> = 2;
 template <>
-inline constexpr int kNumFields<CarvedSurface> = 2;
+inline constexpr int kNumFields<CarvedSurface> = 4;
 
 } // namespace vcarve

@@ -199,7 +199,7 @@ double cleaning(const Needs& needs)
     return n.scene() + n.faces() * kFace;
 }
 
-/// The half-edges, and of each vertex what settle.h says.
+/// The half-edges, and of each vertex what refine.h says.
 double settling(const Needs& needs)
 {
     const Sizes& n = needs.left;

@@ -1,12 +1,12 @@
-#include "pipeline/stage_runs.h"
-
-#include "model/place.h"
+#include "model/scene_check.h"
 #include "pipeline/memory.h"
 #include "pipeline/rank_shares.h"
+#include "pipeline/run_state.h"
+#include "pipeline/stages.h"
+#include "steps/1_points/arrange.h"
 #include "steps/1_points/crop.h"
 #include "steps/1_points/denoise.h"
 #include "steps/1_points/filter.h"
-#include "steps/1_points/spatial_sort.h"
 #include "steps/1_points/stray_points.h"
 #include "steps/1_points/thin.h"
 #include "steps/2_planes/added_points.h"
@@ -16,13 +16,10 @@
 #include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/virtual_views.h"
 #include "steps/5_labels/label_cells.h"
-#include "steps/5_labels/strict_carving.h"
+#include "steps/6_surface/carve_surface.h"
 #include "steps/6_surface/cleanup.h"
-#include "steps/6_surface/orient.h"
-#include "steps/6_surface/removals.h"
-#include "steps/7_refine/settle.h"
-#include "steps/7_refine/simplify.h"
-#include "steps/7_refine/smooth.h"
+#include "steps/6_surface/provenance.h"
+#include "steps/7_refine/refine.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -72,11 +69,6 @@ std::int64_t walk_inferred(RunState& run, double weight, const Progress& progres
     source.is_measured = false;
     cast(source, run, progress.part(0.5, 1.0));
     return size_of(inferred.views.size());
-}
-
-RemovedFaces* wanted_removals(RunState& run)
-{
-    return run.wants_removed ? &run.carved.removed : nullptr;
 }
 
 } // namespace
@@ -227,28 +219,28 @@ Counts carve(RunState& run, const Progress& progress)
     return counts;
 }
 
-Counts make_surface(RunState& run, const Progress& progress)
+Counts surface(RunState& run, const Progress& progress)
 {
-    MadeSurface made =
-        vcarve::make_surface(std::move(run.labels),
-                             {run.cells, run.points.scene, run.region.get(), wanted_removals(run)},
-                             run.options().surface, progress);
-    run.carved.seen = std::move(made.seen);
-    Counts counts = {{"faces", size_of(run.carved.seen.faces.faces.size())},
-                     {"unseen", made.unseen},
-                     {"closing without support", made.closing},
-                     {"trimmed", made.trimmed}};
-    if (run.region) counts.emplace_back("outside the region", made.out_of_region);
+    run.carved = carve_surface(std::move(run.labels),
+                               {run.cells, run.points.scene, run.region.get(), run.wants_removed},
+                               run.options().surface, progress);
+    const CarvedCounts& left_out = run.carved.counts;
+    Counts counts = {{"faces", size_of(run.carved.faces.faces.size())},
+                     {"unseen", left_out.unseen},
+                     {"closing without support", left_out.closing},
+                     {"trimmed", left_out.trimmed}};
+    if (run.region) counts.emplace_back("outside the region", left_out.out_of_region);
     return counts;
 }
 
 Counts clean(RunState& run, const Progress& /*progress*/)
 {
     CleanSurface cleaned =
-        clean_surface(std::move(run.carved.seen.faces), run.options().surface.cleanup);
+        clean_surface(std::move(run.carved.faces), run.options().surface.cleanup);
     run.mesh = std::move(cleaned.mesh);
     run.first_filled = cleaned.first_filled;
-    Removals(wanted_removals(run)).add_deleted(*run.mesh, run.first_filled);
+    Removals(run.wants_removed ? &run.carved.removed : nullptr)
+        .add_deleted(*run.mesh, run.first_filled);
     const CleanupCounts& counts = cleaned.counts;
     return {{"vertices", counts.vertices},
             {"faces", counts.faces},
@@ -261,7 +253,7 @@ Counts clean(RunState& run, const Progress& /*progress*/)
 /// Holes that were filled are not open.
 Counts count_open(RunState& run, const Progress& /*progress*/)
 {
-    const auto& [rays, open] = run.carved.seen.openness.value();
+    const auto& [rays, open] = run.carved.openness.value();
     std::vector<std::array<Eigen::Vector3d, 3>> filled;
     for (std::size_t i = run.first_filled; i < run.mesh->n_faces(); ++i) {
         filled.push_back(run.mesh->triangle(handle_at<OpenMesh::FaceHandle>(i)));

@@ -1,7 +1,5 @@
 #include "pipeline/stages.h"
 
-#include "pipeline/stage_runs.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -205,7 +203,7 @@ constexpr RunStage kStages[] = {
     {"sights", sights, has_virtual_views, run::walk_virtual_sights, tracing, virtual_walk_seconds},
     {"cut", surface, is_cut, run::cut, cutting, of_points<2200, 94>},
     {"carve", surface, is_strict, run::carve, carving, of_points<70, 90>},
-    {"surface", surface, always, run::make_surface, extracting, surface_seconds},
+    {"surface", surface, always, run::surface, extracting, surface_seconds},
     {"clean", refinement, always, run::clean, cleaning, of_points<470, 60>},
     {"open", refinement, may_be_open, run::count_open, nullptr, open_seconds},
     {"settle", refinement, denoises_vertices, run::settle, settling, of_points<2800, 70>},

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "io/input/read_model.h"
-#include "mesh/removed_faces.h"
-#include "model/scene_size.h"
+#include "model/scene_check.h"
 #include "run/ranks.h"
 #include "run/work_folder.h"
+#include "steps/6_surface/carve_surface.h"
 #include "vcarve/options.h"
 #include "vcarve/reconstruct.h"
 

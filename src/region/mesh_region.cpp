@@ -1,7 +1,7 @@
 #include "region/mesh_region.h"
 
 #include "geometry/cgal_kernel.h"
-#include "geometry/lexicographic_sort.h"
+#include "geometry/point_order.h"
 #include "geometry/predicates.h"
 #include "mesh/edge_table.h"
 #include "vcarve/error.h"

@@ -1,6 +1,6 @@
 #include "region/region.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "geometry/cgal_kernel.h"
 #include "region/mesh_region.h"
 #include "region/polygon_region.h"

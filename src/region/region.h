@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/region_of_interest.h"
+#include "model/extent.h"
 #include "vcarve/region.h"
 #include "vcarve/scene.h"
 

@@ -2,9 +2,9 @@
 
 #include "base/version.h"
 #include "io/colmap/model_files.h"
-#include "model/place.h"
+#include "model/scene_check.h"
 #include "options/declared.h"
-#include "run/kept_fields.h"
+#include "run/stage_file.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<char, 16> kMagic = {'v', 'c', 'a', 'r', 'v',  'e',  ' ', 's',
                                          't', 'a', 'g', 'e', '\r', '\n', 0,   1};
-constexpr std::uint64_t kVersion = 3;
+constexpr std::uint64_t kVersion = 4;
 /// Written and read, and looked at for what it adds to a digest, at a time.
 constexpr std::size_t kPieceBytes = 16 << 20;
 

@@ -3,8 +3,8 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_table.h"
-#include "model/flow_network.h"
 #include "model/tet_mesh.h"
+#include "model/visibility_energy.h"
 #include "steps/5_labels/max_flow/max_flow.h"
 
 #include <algorithm>

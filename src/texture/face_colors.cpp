@@ -1,10 +1,10 @@
 #include "texture/face_colors.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "geometry/triangle.h"
 #include "io/images/read_photograph.h"
-#include "model/channels.h"
+#include "model/colors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "texture/face_photos.h"
 
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_halving.h"
 #include "picture/first_faces.h"

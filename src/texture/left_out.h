@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/texture.h"
+#include "model/photograph.h"
 #include "texture/calibrated_photo.h"
 #include "vcarve/log.h"
 #include "vcarve/tri_mesh.h"

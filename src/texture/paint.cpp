@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "geometry/triangle.h"
-#include "model/channels.h"
+#include "model/colors.h"
 
 #include <algorithm>
 #include <array>

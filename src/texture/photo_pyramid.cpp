@@ -1,6 +1,6 @@
 #include "texture/photo_pyramid.h"
 
-#include "model/between_pixels.h"
+#include "model/photograph.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,6 @@
 #include "texture/seam_blends.h"
 
-#include "mesh/face_corners.h"
-#include "mesh/vertex_faces.h"
+#include "mesh/vertices.h"
 
 #include <algorithm>
 #include <map>

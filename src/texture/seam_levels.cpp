@@ -1,8 +1,8 @@
 #include "texture/seam_levels.h"
 
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
-#include "model/channels.h"
+#include "model/colors.h"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

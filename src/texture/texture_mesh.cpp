@@ -1,6 +1,6 @@
 #include "texture/texture_mesh.h"
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "model/camera.h"
 #include "texture/charts.h"
 #include "texture/choose_photos.h"

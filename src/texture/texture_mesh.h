@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/images/find_photographs.h"
-#include "model/texture.h"
+#include "model/photograph.h"
 #include "texture/calibrated_photo.h"
 #include "vcarve/log.h"
 #include "vcarve/scene.h"

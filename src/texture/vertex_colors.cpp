@@ -1,11 +1,10 @@
 #include "texture/vertex_colors.h"
 
-#include "base/median.h"
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
-#include "mesh/face_corners.h"
-#include "mesh/vertex_faces.h"
-#include "model/channels.h"
+#include "base/statistics.h"
+#include "mesh/vertices.h"
+#include "model/colors.h"
 
 #include <algorithm>
 #include <cmath>

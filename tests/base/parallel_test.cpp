@@ -1,6 +1,8 @@
 #include "base/parallel.h"
+#include "base/threads.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <vector>
 
@@ -20,6 +22,22 @@ TEST(ParallelCollect, KeepsTheOrder)
         EXPECT_EQ(parallel_collect<std::size_t>(1000, twice_the_odd, grain), expected);
     }
     EXPECT_TRUE(parallel_collect<std::size_t>(0, twice_the_odd).empty());
+}
+
+TEST(AvailableThreads, IsOneOnOneCore)
+{
+    cpu_set_t before;
+    ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);
+    int core = 0;
+    while (!CPU_ISSET(core, &before)) {
+        ++core;
+    }
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(core, &one);
+    ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+    EXPECT_EQ(available_threads(), 1);
+    ASSERT_EQ(sched_setaffinity(0, sizeof(before), &before), 0);
 }
 
 } // namespace

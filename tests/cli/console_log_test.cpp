@@ -1,4 +1,4 @@
-#include "base/log.h"
+#include "base/progress.h"
 #include "cli/console_log.h"
 
 #include <gmock/gmock.h>

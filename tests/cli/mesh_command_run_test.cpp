@@ -228,7 +228,8 @@ TEST_F(ProgramOnBall, KeepsToItsMemoryWherePointsHaveManyCells)
         points += " 1 2 3 0.5 1 0 3 0 5 0\n";
     }
     folder.write("ball/points3D.txt", points);
-    [[maybe_unused]] constexpr double kMost = 80 << 20;
+    // Pages of libraries count, and how many are resident depends on the machine.
+    [[maybe_unused]] constexpr double kMost = 100 << 20;
     for (const char* const blocks : {"auto", "0", "3"}) {
         const Outcome outcome = run_program(
             {"--quiet", ball, out, "--max-memory", "80M", "--blocks", blocks, "--threads", "2"});

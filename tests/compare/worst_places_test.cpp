@@ -1,4 +1,4 @@
-#include "base/random_number.h"
+#include "base/numbers.h"
 #include "compare/truth.h"
 #include "compare/worst_places.h"
 #include "support/measured_scenes.h"

@@ -1,4 +1,4 @@
-#include "base/random_number.h"
+#include "base/numbers.h"
 #include "geometry/predicates.h"
 #include "geometry/triangle_tree.h"
 #include "support/grid_faces.h"

@@ -2,7 +2,7 @@
 #include "baselines/sculpt.h"
 #include "mesh/check.h"
 #include "steps/3_cells/triangulate.h"
-#include "steps/6_surface/extract.h"
+#include "steps/6_surface/carve_surface.h"
 #include "support/random_cells.h"
 
 #include <Eigen/Geometry>

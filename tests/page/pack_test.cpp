@@ -1,4 +1,4 @@
-#include "base/random_number.h"
+#include "base/numbers.h"
 #include "page/pack.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "pipeline/rank_shares.h"
 #include "pipeline/run_state.h"
 #include "pipeline/thinned_scene.h"
-#include "steps/4_visibility/sparse_sums.h"
+#include "steps/4_visibility/energy_sums.h"
 #include "support/ranks_in_turn.h"
 #include "support/scenes.h"
 

@@ -1,7 +1,7 @@
 #include "io/colmap/colmap_model.h"
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
-#include "steps/6_surface/orient.h"
+#include "steps/6_surface/provenance.h"
 #include "support/half_edges.h"
 #include "support/places.h"
 #include "support/scenes.h"

@@ -1,4 +1,4 @@
-#include "model/region_of_interest.h"
+#include "model/extent.h"
 #include "region/region.h"
 #include "support/scenes.h"
 

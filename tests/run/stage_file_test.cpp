@@ -183,28 +183,28 @@ TEST_F(StageFile, GivesBackAnEnergy)
 TEST_F(StageFile, GivesBackASurfaceAndWhatWasTakenAway)
 {
     CarvedSurface carved;
-    carved.seen.faces = sample_sheet();
-    carved.seen.faces.points = {3, 2, kNoPoint};
-    carved.seen.faces.offset = Eigen::Vector3d(1.0, 2.0, 3.0);
-    carved.seen.openness = Openness{12, {{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}}};
+    carved.faces = sample_sheet();
+    carved.faces.points = {3, 2, kNoPoint};
+    carved.faces.offset = Eigen::Vector3d(1.0, 2.0, 3.0);
+    carved.openness = Openness{12, {{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}}};
     carved.removed.mesh.positions = {Eigen::Vector3d(7, 8, 9)};
     carved.removed.reasons = {Removal::closing, Removal::unseen};
     const CarvedSurface same = through_file(carved);
-    EXPECT_EQ(same.seen.faces.positions, carved.seen.faces.positions);
-    EXPECT_EQ(same.seen.faces.faces, carved.seen.faces.faces);
-    EXPECT_EQ(same.seen.faces.colors, carved.seen.faces.colors);
-    EXPECT_EQ(same.seen.faces.normals, carved.seen.faces.normals);
-    EXPECT_EQ(same.seen.faces.points, carved.seen.faces.points);
-    EXPECT_EQ(same.seen.faces.offset, carved.seen.faces.offset);
-    ASSERT_TRUE(same.seen.openness.has_value());
-    EXPECT_EQ(same.seen.openness->rays, 12);
-    ASSERT_EQ(same.seen.openness->open.size(), 1U);
-    EXPECT_EQ(same.seen.openness->open[0].eye, Eigen::Vector3d(1, 2, 3));
-    EXPECT_EQ(same.seen.openness->open[0].end, Eigen::Vector3d(4, 5, 6));
+    EXPECT_EQ(same.faces.positions, carved.faces.positions);
+    EXPECT_EQ(same.faces.faces, carved.faces.faces);
+    EXPECT_EQ(same.faces.colors, carved.faces.colors);
+    EXPECT_EQ(same.faces.normals, carved.faces.normals);
+    EXPECT_EQ(same.faces.points, carved.faces.points);
+    EXPECT_EQ(same.faces.offset, carved.faces.offset);
+    ASSERT_TRUE(same.openness.has_value());
+    EXPECT_EQ(same.openness->rays, 12);
+    ASSERT_EQ(same.openness->open.size(), 1U);
+    EXPECT_EQ(same.openness->open[0].eye, Eigen::Vector3d(1, 2, 3));
+    EXPECT_EQ(same.openness->open[0].end, Eigen::Vector3d(4, 5, 6));
     EXPECT_EQ(same.removed.mesh.positions, carved.removed.mesh.positions);
     EXPECT_EQ(same.removed.reasons, carved.removed.reasons);
-    carved.seen.openness.reset();
-    EXPECT_FALSE(through_file(carved).seen.openness.has_value());
+    carved.openness.reset();
+    EXPECT_FALSE(through_file(carved).openness.has_value());
 }
 
 TEST_F(StageFile, IsRefusedWhereverAByteIsAnother)

@@ -1,6 +1,6 @@
 #include "support/blocked_sights.h"
 
-#include "base/median.h"
+#include "base/statistics.h"
 #include "geometry/predicates.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/ray_source.h"
+#include "model/visibility_energy.h"
 #include "steps/4_visibility/count_crossings.h"
 #include "steps/4_visibility/trace.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/arrange.h"
 #include "steps/2_planes/added_points.h"
 #include "support/scenes.h"
 

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "model/labels.h"
 #include "model/tet_mesh.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/face_visibility.h"
 #include "steps/5_labels/boundary.h"
-#include "steps/6_surface/extract.h"
+#include "steps/6_surface/carve_surface.h"
 #include "support/point_sets.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"

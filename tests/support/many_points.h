@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/freed_memory.h"
-#include "base/random_number.h"
+#include "base/free_memory.h"
+#include "base/numbers.h"
 #include "cli/process_usage.h"
 #include "vcarve/scene.h"
 

@@ -1,6 +1,6 @@
 #include "support/measured_scenes.h"
 
-#include "base/random_number.h"
+#include "base/numbers.h"
 
 #include <Eigen/LU>
 

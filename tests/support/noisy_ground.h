@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/random_number.h"
+#include "base/numbers.h"
 #include "vcarve/scene.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "support/random_cells.h"
 
-#include "base/random_number.h"
+#include "base/numbers.h"
 
 #include <vector>
 

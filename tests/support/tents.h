@@ -1,7 +1,7 @@
 #pragma once
 
 #include "geometry/triangle.h"
-#include "model/region_of_interest.h"
+#include "model/extent.h"
 #include "steps/6_surface/face_evidence.h"
 #include "steps/6_surface/face_rules.h"
 #include "steps/6_surface/trim.h"

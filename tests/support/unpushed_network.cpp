@@ -1,6 +1,6 @@
 #include "support/unpushed_network.h"
 
-#include "steps/4_visibility/edge_lengths.h"
+#include "steps/4_visibility/sight_weights.h"
 #include "steps/4_visibility/walk.h"
 #include "support/exact_sight.h"
 

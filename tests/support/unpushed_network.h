@@ -1,6 +1,5 @@
 #pragma once
 
-#include "model/labels.h"
 #include "model/tet_mesh.h"
 #include "steps/4_visibility/trace.h"
 #include "vcarve/scene.h"

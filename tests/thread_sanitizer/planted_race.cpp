@@ -1,8 +1,6 @@
 // Shows that ThreadSanitizer sees what our loops do: called with "race" it plants a race between
 // two bodies, which must be reported, called with "none" nothing must be.
 #include "base/parallel.h"
-#include "base/parallel_invoke.h"
-#include "base/parallel_sort.h"
 
 #include <tbb/task_arena.h>
 

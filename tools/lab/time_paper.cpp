@@ -5,13 +5,13 @@
 #include "figures/paper_case.h"
 #include "figures/timed_object.h"
 #include "mesh/half_edge_mesh.h"
-#include "model/ray_source.h"
+#include "model/visibility_energy.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/count_crossings.h"
-#include "steps/5_labels/strict_carving.h"
+#include "steps/5_labels/label_cells.h"
+#include "steps/6_surface/carve_surface.h"
 #include "steps/6_surface/cleanup.h"
-#include "steps/6_surface/extract.h"
-#include "steps/6_surface/orient.h"
+#include "steps/6_surface/provenance.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/model_files.h"
 #include "io/files/mapped_file.h"
-#include "model/lens_model.h"
+#include "model/lens.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/colmap/colmap_model.h"
 
-#include "base/sort_unique.h"
+#include "base/arrays.h"
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/scene_builder.h"

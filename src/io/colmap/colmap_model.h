@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/scene_size.h"
+#include "model/scene_check.h"
 #include "vcarve/scene.h"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
-#include "model/lens_model.h"
+#include "model/lens.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "io/colmap/scene_builder.h"
 
-#include "base/parallel_sort.h"
-#include "base/sort_unique.h"
+#include "base/arrays.h"
+#include "base/parallel.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
-#include "model/place.h"
+#include "model/scene_check.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>

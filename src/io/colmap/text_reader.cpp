@@ -1,6 +1,6 @@
 #include "io/colmap/text_reader.h"
 
-#include "base/control_free.h"
+#include "base/text.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

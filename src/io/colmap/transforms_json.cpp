@@ -9,7 +9,7 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
-#include "model/lens_model.h"
+#include "model/lens.h"
 #include "model/similarity.h"
 #include "vcarve/error.h"
 

@@ -1,8 +1,8 @@
 #include "io/dense/cloud_points.h"
 
-#include "base/grouped_digits.h"
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
+#include "base/text.h"
 #include "model/scene_points.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/dense/dense_scene.h"
 
-#include "base/index_limit.h"
+#include "base/numbers.h"
 #include "io/colmap/colmap_model.h"
 #include "io/dense/cloud_points.h"
 #include "io/dense/nearest_sights.h"

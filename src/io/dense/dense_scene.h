@@ -4,8 +4,8 @@
 #include "io/colmap/colmap_model.h"
 #include "io/dense/visibility.h"
 #include "io/ply/ply_cloud.h"
-#include "model/scene_parts.h"
-#include "model/scene_size.h"
+#include "model/scene_check.h"
+#include "model/scene_points.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>

@@ -1,12 +1,12 @@
 #include "io/dense/nearest_sights.h"
 
 #include "base/parallel.h"
-#include "geometry/hilbert_order.h"
+#include "geometry/point_order.h"
 #include "geometry/point_tree.h"
 #include "io/dense/nearest_grid.h"
-#include "model/places_of_views.h"
 #include "model/scene_points.h"
 #include "model/view_tree.h"
+#include "model/views.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "io/dense/scanner_views.h"
 
-#include "base/index_limit.h"
-#include "base/median.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "io/dense/cloud_points.h"
 #include "io/ply/ply_cloud.h"
 #include "vcarve/error.h"

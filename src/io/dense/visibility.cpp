@@ -1,8 +1,7 @@
 #include "io/dense/visibility.h"
 
-#include "base/atomic_min.h"
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
 #include "model/camera.h"
 #include "vcarve/error.h"
 

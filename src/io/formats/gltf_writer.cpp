@@ -23,7 +23,7 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 constexpr std::uint64_t kMostBytes = 0xffffffffU - 0x10000U; ///< leaves room for the JSON text
 constexpr std::uint32_t kMagic = 0x46546c67;                 // "glTF"

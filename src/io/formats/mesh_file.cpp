@@ -1,6 +1,6 @@
 #include "io/formats/mesh_file.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "io/files/output_file.h"
 #include "io/formats/textured_files.h"
 #include "vcarve/error.h"

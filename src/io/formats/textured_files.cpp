@@ -1,12 +1,12 @@
 #include "io/formats/textured_files.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "io/files/block_writer.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "io/images/encode_image.h"
 #include "io/ply/ply_writer.h"
-#include "model/texture.h"
+#include "model/photograph.h"
 
 #include <fmt/format.h>
 

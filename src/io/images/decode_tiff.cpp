@@ -37,7 +37,7 @@ OpenTiff open_tiff(const char* path, Message& message)
         TIFFOpenOptionsAlloc(), TIFFOpenOptionsFree);
     TIFFOpenOptionsSetErrorHandlerExtR(options.get(), on_error, &message);
     TIFFOpenOptionsSetWarningHandlerExtR(options.get(), drop_tiff_warning, &message);
-    return {TIFFOpenExt(path, "rm", options.get()), TIFFClose}; // m: not mapped
+    return {TIFFOpenExt(path, "r", options.get()), TIFFClose};
 }
 
 /// A TIFF whose header is read.

@@ -1,10 +1,10 @@
 #include "io/input/complete_sights.h"
 
-#include "base/grouped_digits.h"
+#include "base/text.h"
 #include "io/colmap/model_files.h"
 #include "io/dense/nearest_sights.h"
 #include "model/camera.h"
-#include "model/known_colors.h"
+#include "model/colors.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "io/input/find_input.h"
 
-#include "base/lower_case_end.h"
+#include "base/text.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/transforms_json.h"
 #include "io/files/foreign_file.h"

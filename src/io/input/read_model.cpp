@@ -1,6 +1,6 @@
 #include "io/input/read_model.h"
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "io/colmap/colmap_model.h"
 #include "io/colmap/model_files.h"
 #include "io/input/complete_sights.h"

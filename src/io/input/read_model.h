@@ -2,8 +2,8 @@
 
 #include "base/progress.h"
 #include "io/input/find_input.h"
-#include "model/scene_parts.h"
-#include "model/scene_size.h"
+#include "model/scene_check.h"
+#include "model/scene_points.h"
 #include "vcarve/io.h"
 
 #include <filesystem>

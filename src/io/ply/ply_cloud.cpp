@@ -1,7 +1,7 @@
 #include "io/ply/ply_cloud.h"
 
 #include "base/parallel.h"
-#include "model/place.h"
+#include "model/scene_check.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

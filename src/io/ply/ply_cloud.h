@@ -18,7 +18,7 @@ namespace vcarve {
 /// The points of a PLY file, in its order. The optional arrays are empty or have one entry a point.
 struct PointCloud {
     std::vector<Eigen::Vector3d>
-        positions; ///< offset added; what is no place (model/place.h) is not finite
+        positions; ///< offset added; what is no place (is_place()) is not finite
     std::vector<Eigen::Vector3f> normals; ///< optional: as they stand in the file
     std::vector<Color> colors;            ///< optional
     /// Where the scanners stood, offset added: one a point, or one for all of them. Finite, but of

@@ -2,7 +2,7 @@
 
 #include "io/files/block_writer.h"
 #include "io/files/output_file.h"
-#include "model/texture.h"
+#include "model/photograph.h"
 
 #include <fmt/format.h>
 

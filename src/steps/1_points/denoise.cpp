@@ -2,12 +2,10 @@
 
 #include "base/parallel.h"
 #include "geometry/bilateral_filter.h"
-#include "geometry/lexicographic_sort.h"
-#include "geometry/neighborhoods.h"
+#include "geometry/nearest_neighbors.h"
+#include "geometry/point_order.h"
 #include "model/camera.h"
-#include "model/measured_range.h"
-#include "model/pixel_covariance.h"
-#include "model/towards_views.h"
+#include "model/views.h"
 
 #include <Eigen/Eigenvalues>
 

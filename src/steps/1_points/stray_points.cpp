@@ -1,12 +1,11 @@
 #include "steps/1_points/stray_points.h"
 
-#include "base/index_limit.h"
-#include "base/median.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/unlimited.h"
+#include "base/statistics.h"
 #include "geometry/point_tree.h"
-#include "model/measured_range.h"
 #include "model/scene_points.h"
+#include "model/views.h"
 
 #include <algorithm>
 #include <array>

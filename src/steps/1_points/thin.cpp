@@ -1,12 +1,11 @@
 #include "steps/1_points/thin.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "model/camera.h"
 #include "model/scene_points.h"
-#include "steps/1_points/center.h"
+#include "steps/1_points/arrange.h"
 #include "steps/1_points/clusters.h"
-#include "steps/1_points/merge_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/scene_parts.h"
+#include "model/scene_points.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 

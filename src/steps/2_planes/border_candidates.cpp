@@ -1,11 +1,10 @@
-#include "steps/2_planes/border_candidates.h"
-
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
 #include "geometry/cgal_kernel.h"
 #include "geometry/triangle_tree.h"
-#include "steps/2_planes/plane_frame.h"
-#include "steps/2_planes/sights_through.h"
+#include "steps/2_planes/added_points.h"
+#include "steps/2_planes/candidates.h"
+#include "steps/2_planes/planar_regions.h"
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>

@@ -1,7 +1,6 @@
-#include "steps/2_planes/crease_candidates.h"
-
 #include "base/parallel.h"
-#include "geometry/box.h"
+#include "geometry/point_tree.h"
+#include "steps/2_planes/candidates.h"
 
 #include <CGAL/box_intersection_d.h>
 #include <Eigen/Geometry>

@@ -1,9 +1,9 @@
 #include "steps/2_planes/planar_regions.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "model/scene_points.h"
-#include "model/towards_views.h"
+#include "model/views.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>

@@ -1,8 +1,7 @@
-#include "steps/2_planes/textureless_candidates.h"
-
 #include "base/parallel.h"
 #include "geometry/cgal_kernel.h"
-#include "steps/2_planes/plane_frame.h"
+#include "steps/2_planes/candidates.h"
+#include "steps/2_planes/planar_regions.h"
 
 #include <CGAL/Polygon_2_algorithms.h>
 

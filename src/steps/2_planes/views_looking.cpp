@@ -1,7 +1,6 @@
-#include "steps/2_planes/views_looking.h"
-
 #include "base/parallel.h"
 #include "geometry/triangle_tree.h"
+#include "steps/2_planes/added_points.h"
 
 #include <Eigen/Geometry>
 

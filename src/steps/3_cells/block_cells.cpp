@@ -1,11 +1,9 @@
 #include "steps/3_cells/block_cells.h"
 
-#include "base/sort_unique.h"
+#include "base/arrays.h"
 #include "geometry/predicates.h"
-#include "steps/3_cells/canonical_cells.h"
 #include "steps/3_cells/delaunay.h"
-#include "steps/3_cells/insertion_order.h"
-#include "steps/3_cells/refusals.h"
+#include "steps/3_cells/limits.h"
 #include "steps/3_cells/sphere_bound.h"
 
 #include <algorithm>
@@ -53,7 +51,7 @@ class Block {
 
     void insert(Index point, VertexHandle near)
     {
-        last_ = triangulation_.insert(to_point(tree_.points()[point]), near);
+        last_ = triangulation_.insert(to_cgal(tree_.points()[point]), near);
         last_->info() = point;
         ++inserted_;
         if (triangulation_.number_of_vertices() != inserted_) throw two_at_one_place();
@@ -140,7 +138,7 @@ class Block {
         for (int i = 0; i < 4; ++i) {
             if (cell->vertex(i)->info() == point) return false;
         }
-        return triangulation_.side_of_sphere(cell, to_point(tree_.points()[point]), true) ==
+        return triangulation_.side_of_sphere(cell, to_cgal(tree_.points()[point]), true) ==
                CGAL::ON_BOUNDED_SIDE;
     }
 

@@ -3,7 +3,7 @@
 #include "base/progress.h"
 #include "geometry/point_tree.h"
 #include "model/tet_mesh.h"
-#include "steps/3_cells/cell_limit.h"
+#include "steps/3_cells/limits.h"
 
 #include <array>
 #include <cstddef>

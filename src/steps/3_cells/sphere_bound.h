@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry/box.h"
+#include "geometry/point_tree.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

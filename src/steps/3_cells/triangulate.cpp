@@ -1,12 +1,10 @@
 #include "steps/3_cells/triangulate.h"
 
-#include "base/freed_memory.h"
-#include "base/index_limit.h"
-#include "base/unset_array.h"
-#include "steps/3_cells/canonical_cells.h"
+#include "base/arrays.h"
+#include "base/free_memory.h"
+#include "base/numbers.h"
 #include "steps/3_cells/delaunay.h"
-#include "steps/3_cells/insertion_order.h"
-#include "steps/3_cells/refusals.h"
+#include "steps/3_cells/limits.h"
 #include "steps/3_cells/triangulate_blocks.h"
 
 #include <tbb/task_arena.h>
@@ -68,7 +66,7 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const 
         CellCount count(limit);
         std::size_t cells = 0;
         for (std::size_t i = 0; i < order.size(); ++i) {
-            hint = triangulation.insert(to_point(scene.positions[order[i]]), hint);
+            hint = triangulation.insert(to_cgal(scene.positions[order[i]]), hint);
             hint->info() = order[i];
             count.change(cells, triangulation.number_of_cells());
             cells = triangulation.number_of_cells();

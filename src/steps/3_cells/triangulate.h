@@ -2,7 +2,7 @@
 
 #include "base/progress.h"
 #include "model/tet_mesh.h"
-#include "steps/3_cells/cell_limit.h"
+#include "steps/3_cells/limits.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>

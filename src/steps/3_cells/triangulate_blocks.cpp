@@ -1,12 +1,11 @@
 #include "steps/3_cells/triangulate_blocks.h"
 
-#include "base/freed_memory.h"
-#include "base/index_limit.h"
+#include "base/free_memory.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/parallel_sort.h"
 #include "steps/3_cells/block_cells.h"
-#include "steps/3_cells/canonical_cells.h"
-#include "steps/3_cells/refusals.h"
+#include "steps/3_cells/delaunay.h"
+#include "steps/3_cells/limits.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 #include "steps/4_visibility/count_crossings.h"
 
 #include "base/parallel.h"
-#include "steps/4_visibility/each_vertex.h"
+#include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/walk.h"
 
 #include <atomic>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/ray_source.h"
 #include "model/tet_mesh.h"
 #include "model/visibility_energy.h"
 

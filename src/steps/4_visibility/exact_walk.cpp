@@ -106,7 +106,7 @@ int ExactWalk::side_of_line(Index a, Index b) const
 }
 
 /// Slot of the one vertex of the place's cell that its three corners leave out.
-int ExactWalk::off_plane_corner(const Place& place) const
+int ExactWalk::off_plane_corner(const Position& place) const
 {
     const Cell& cell = mesh_.cells[place.cell];
     int slot = 0;
@@ -118,7 +118,7 @@ int ExactWalk::off_plane_corner(const Place& place) const
 }
 
 /// Inside a cell: out through the facet, edge or vertex ahead, unless the target comes first.
-ExactWalk::Place ExactWalk::leave_cell(Index index)
+ExactWalk::Position ExactWalk::leave_cell(Index index)
 {
     const Cell& cell = mesh_.cells[index];
     for (int slot = 0; slot < 4; ++slot) {
@@ -154,7 +154,7 @@ ExactWalk::Place ExactWalk::leave_cell(Index index)
 }
 
 /// In a facet's plane, from its corner 0 towards the inside of the edge from corner 1 to corner 2.
-ExactWalk::Place ExactWalk::leave_facet_from_vertex(const Place& place)
+ExactWalk::Position ExactWalk::leave_facet_from_vertex(const Position& place)
 {
     const auto [from, a, b] = place.corners;
     const Index off = mesh_.cells[place.cell].vertices[off_plane_corner(place)];
@@ -167,7 +167,7 @@ ExactWalk::Place ExactWalk::leave_facet_from_vertex(const Place& place)
 }
 
 /// In a facet's plane, from the inside of the edge from corner 0 to corner 1 on.
-ExactWalk::Place ExactWalk::leave_facet_from_edge(const Place& place)
+ExactWalk::Position ExactWalk::leave_facet_from_edge(const Position& place)
 {
     const auto [a, b, tip] = place.corners;
     const Index off = mesh_.cells[place.cell].vertices[off_plane_corner(place)];
@@ -189,7 +189,7 @@ ExactWalk::Place ExactWalk::leave_facet_from_edge(const Place& place)
 }
 
 /// On the inside of an edge: into the cell or the facet around it that faces the target.
-ExactWalk::Place ExactWalk::leave_edge(const Place& place)
+ExactWalk::Position ExactWalk::leave_edge(const Position& place)
 {
     const Index a = place.corners[0];
     const Index b = place.corners[1];
@@ -219,7 +219,7 @@ ExactWalk::Place ExactWalk::leave_edge(const Place& place)
 }
 
 /// At a vertex: into the cell, the facet or the edge around it that leads to the target.
-ExactWalk::Place ExactWalk::leave_vertex(const Place& place)
+ExactWalk::Position ExactWalk::leave_vertex(const Position& place)
 {
     const Index vertex = place.corners[0];
     if (target_is_vertex(vertex)) {
@@ -250,15 +250,15 @@ ExactWalk::Place ExactWalk::leave_vertex(const Place& place)
             }
             if (zeros == 2 && turns[i] == 0 && turns[(i + 1) % 3] == 0) {
                 const bool passes = lies_between(position(vertex), position(to), target_);
-                return passes ? Place{Kind::vertex, index, {to, kInfinite, kInfinite}}
-                              : Place{Kind::end, index, {}};
+                return passes ? Position{Kind::vertex, index, {to, kInfinite, kInfinite}}
+                              : Position{Kind::end, index, {}};
             }
         }
     }
     return {}; // out of the hull
 }
 
-ExactWalk::Place ExactWalk::leave(const Place& place)
+ExactWalk::Position ExactWalk::leave(const Position& place)
 {
     switch (place.kind) {
     case Kind::cell:
@@ -277,7 +277,7 @@ ExactWalk::Place ExactWalk::leave(const Place& place)
     return place;
 }
 
-Index ExactWalk::follow(Place place)
+Index ExactWalk::follow(Position place)
 {
     while (place.kind != Kind::end) {
         place = leave(place);
@@ -292,8 +292,9 @@ Index ExactWalk::from_cell(Index cell)
 
 WalkEnds ExactWalk::from_vertex(Index vertex)
 {
-    const Place start{Kind::vertex, mesh_.cell_of_vertex[vertex], {vertex, kInfinite, kInfinite}};
-    const Place first = leave(start);
+    const Position start{
+        Kind::vertex, mesh_.cell_of_vertex[vertex], {vertex, kInfinite, kInfinite}};
+    const Position first = leave(start);
     return {first.kind == Kind::cell ? first.cell : kInfinite, follow(first)};
 }
 

@@ -45,24 +45,24 @@ class ExactWalk {
     /// none inside a cell, one at a vertex, two on an edge, three inside a facet (where `entered`
     /// says through which of its corners or edges: the vertex it does not touch is last).
     enum class Kind { end, cell, facet_from_vertex, facet_from_edge, edge, vertex };
-    struct Place {
+    struct Position {
         Kind kind = Kind::end;
         Index cell = kInfinite;
         std::array<Index, 3> corners{};
     };
 
-    Index follow(Place place);
-    Place leave(const Place& place);
-    Place leave_cell(Index cell);
-    Place leave_facet_from_vertex(const Place& place);
-    Place leave_facet_from_edge(const Place& place);
-    Place leave_edge(const Place& place);
-    Place leave_vertex(const Place& place);
+    Index follow(Position place);
+    Position leave(const Position& place);
+    Position leave_cell(Index cell);
+    Position leave_facet_from_vertex(const Position& place);
+    Position leave_facet_from_edge(const Position& place);
+    Position leave_edge(const Position& place);
+    Position leave_vertex(const Position& place);
 
     bool target_is_vertex(Index vertex) const { return position(vertex) == target_; }
     const Eigen::Vector3d& position(Index vertex) const { return mesh_.positions[vertex]; }
     int side_of_line(Index a, Index b) const;
-    int off_plane_corner(const Place& place) const;
+    int off_plane_corner(const Position& place) const;
 
     const TetMesh& mesh_;
     Eigen::Vector3d point_;

@@ -1,11 +1,11 @@
 #include "steps/4_visibility/inferred_sights.h"
 
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
 #include "io/dense/nearest_grid.h"
 #include "model/camera.h"
-#include "model/places_of_views.h"
 #include "model/scene_points.h"
+#include "model/views.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,7 +22,7 @@ namespace {
 class SeenPlaces {
   public:
     SeenPlaces(const Scene& scene, const View& view, double focal_px,
-               std::span<const PlacesOfViews::Place> points)
+               std::span<const PlacesOfViews::Entry> points)
         : view_(view), camera_(scene.cameras[view.camera])
     {
         constexpr double kSquareWidth = 2.0; // over how far the points stand apart in the image

@@ -1,13 +1,78 @@
 #include "steps/4_visibility/sight_weights.h"
 
-#include "model/measured_range.h"
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "model/views.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <vector>
 
 namespace vcarve {
 
 namespace {
+
+using Edge = std::uint64_t; ///< smaller vertex in the upper half, larger in the lower
+
+/// Spreads edges evenly, so that taking those below a bound takes a fair sample.
+std::uint64_t scattered(Edge edge)
+{
+    edge ^= edge >> 31U;
+    edge *= 0x9e3779b97f4a7c15ULL;
+    edge ^= edge >> 29U;
+    edge *= 0xbf58476d1ce4e5b9ULL;
+    return edge ^ (edge >> 32U);
+}
+
+constexpr std::array<std::array<int, 2>, 6> kCellEdges = {
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+void add_sampled_edges(const Cell& cell, std::uint64_t one_in, std::vector<Edge>& edges)
+{
+    for (const auto& [i, j] : kCellEdges) {
+        const auto [low, high] = std::minmax(cell.vertices[i], cell.vertices[j]);
+        const Edge edge = (static_cast<Edge>(low) << 32U) | high;
+        if (high != kInfinite && scattered(edge) % one_in == 0) {
+            edges.push_back(edge);
+        }
+    }
+}
+
+std::vector<Edge> sampled_edges(const TetMesh& mesh)
+{
+    // The quartile is then known to a few per mille.
+    constexpr std::size_t kCellsTakenWhole = 50'000;
+    const std::uint64_t one_in = 1 + mesh.cells.size() / kCellsTakenWhole;
+    auto edges = parallel_collect<Edge>(mesh.cells.size(), [&](std::size_t cell, auto& found) {
+        add_sampled_edges(mesh.cells[cell], one_in, found);
+    });
+    parallel_sort(edges);
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+double median_views(const Tracks& tracks)
+{
+    std::vector<double> lengths;
+    for (std::size_t point = 0; point < tracks.size(); ++point) {
+        if (!tracks[point].empty()) {
+            lengths.push_back(static_cast<double>(tracks[point].size()));
+        }
+    }
+    return lengths.empty() ? 1.0 : median(lengths);
+}
+
+std::vector<double> known_errors_px(const Scene& scene)
+{
+    std::vector<double> errors;
+    std::copy_if(scene.errors_px.begin(), scene.errors_px.end(), std::back_inserter(errors),
+                 [](double error) { return error >= 0.0; });
+    return errors;
+}
 
 double views_weight(double views, double views_sigma)
 {
@@ -19,6 +84,29 @@ double views_weight(double views, double views_sigma)
 }
 
 } // namespace
+
+double short_edge_length(const TetMesh& mesh)
+{
+    std::vector<double> lengths;
+    for (const Edge edge : sampled_edges(mesh)) {
+        const auto low = static_cast<Index>(edge >> 32U);
+        const auto high = static_cast<Index>(edge);
+        lengths.push_back((mesh.positions[low] - mesh.positions[high]).norm());
+    }
+    if (lengths.empty()) {
+        return 0.0;
+    }
+    const auto quarter = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 4);
+    std::nth_element(lengths.begin(), quarter, lengths.end());
+    return *quarter;
+}
+
+Scales measure_scales(const TetMesh& cells, const Scene& scene)
+{
+    return {.short_edge = short_edge_length(cells),
+            .median_error_px = median(known_errors_px(scene)),
+            .median_views = median_views(scene.tracks)};
+}
 
 // Full weight is what the median of the points that are seen gets, so that a model of two-view
 // points is not all doubt.

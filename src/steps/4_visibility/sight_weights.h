@@ -1,14 +1,29 @@
 #pragma once
 
 #include "model/tet_mesh.h"
-#include "steps/4_visibility/scales.h"
-#include "steps/4_visibility/trace.h"
+#include "vcarve/options.h"
 #include "vcarve/scene.h"
 
 #include <cstdint>
 #include <span>
 
 namespace vcarve {
+
+/// The 25th percentile of the lengths of finite edges: how far apart neighbouring points are, in
+/// the units of the scene. Of meshes beyond 50,000 cells a fixed choice of about as many edges
+/// stands for all. Cost: O(cells), in parallel.
+double short_edge_length(const TetMesh& mesh);
+
+/// What the weights of sights are relative to. Measured once over the whole model, so that every
+/// pass that is handed them is local.
+struct Scales {
+    double short_edge = 0.0;      ///< see short_edge_length(), in the units of the scene
+    double median_error_px = 0.0; ///< of the known reprojection errors; 0 where none is known
+    double median_views = 1.0;    ///< of the points that any view saw; 1 where none was
+};
+
+/// Cost: O(cells + points).
+Scales measure_scales(const TetMesh& cells, const Scene& scene);
 
 /// Says what a sight weighs by the point it leads to: more with more views, less with a larger
 /// reprojection error; to a point that a scanner measured, twice as much as to one of the median

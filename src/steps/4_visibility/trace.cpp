@@ -1,7 +1,7 @@
 #include "steps/4_visibility/trace.h"
 
-#include "base/atomic_min.h"
-#include "base/round_half_up.h"
+#include "base/numbers.h"
+#include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "steps/4_visibility/energy_sums.h"
 #include "steps/4_visibility/sight_weights.h"

@@ -1,10 +1,10 @@
 #include "steps/4_visibility/virtual_views.h"
 
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/unlimited.h"
 #include "geometry/point_tree.h"
-#include "steps/4_visibility/each_vertex.h"
-#include "steps/4_visibility/edge_lengths.h"
+#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/walk.h"
 
 #include <algorithm>
@@ -52,18 +52,18 @@ Evidence gather_evidence(const TetMesh& cells, const Scene& scene, const Progres
 // ---- where to stand -----------------------------------------------------------------------------
 
 /// A place in the middle of a cell.
-struct Place {
+struct Viewpoint {
     Vector3d center;
     double clearance; ///< how far the nearest of the cell's vertices is
 };
 
-Place middle_of(const TetMesh& mesh, const Cell& cell)
+Viewpoint middle_of(const TetMesh& mesh, const Cell& cell)
 {
     Vector3d center = Vector3d::Zero();
     for (const Index vertex : cell.vertices) {
         center += 0.25 * mesh.positions[vertex];
     }
-    Place place{.center = center, .clearance = kUnlimited};
+    Viewpoint place{.center = center, .clearance = kUnlimited};
     for (const Index vertex : cell.vertices) {
         place.clearance = std::min(place.clearance, (mesh.positions[vertex] - center).norm());
     }
@@ -72,18 +72,19 @@ Place middle_of(const TetMesh& mesh, const Cell& cell)
 
 /// Where a viewpoint may stand. Not at the surface, where it would see along it only, and not far
 /// off in empty space, where real views stand.
-std::vector<Place> free_places(const TetMesh& mesh, const Labels& labels, const Evidence& evidence)
+std::vector<Viewpoint> free_places(const TetMesh& mesh, const Labels& labels,
+                                   const Evidence& evidence)
 {
     constexpr double kLeastClearance = 0.5; // in short edges
     constexpr double kMostClearance = 8.0;
     const double short_edge = short_edge_length(mesh);
-    std::vector<Place> places;
+    std::vector<Viewpoint> places;
     for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
         const bool is_free = labels[i] == Label::outside && (evidence[i] & kCrossed) != 0;
         if (!is_free || mesh.cells[i].is_infinite()) {
             continue;
         }
-        const Place place = middle_of(mesh, mesh.cells[i]);
+        const Viewpoint place = middle_of(mesh, mesh.cells[i]);
         if (place.clearance >= kLeastClearance * short_edge &&
             place.clearance <= kMostClearance * short_edge) {
             places.push_back(place);
@@ -93,16 +94,17 @@ std::vector<Place> free_places(const TetMesh& mesh, const Labels& labels, const 
 }
 
 /// Some of the places, each the farthest from those before it; the first is the one with most room.
-std::vector<Place> spread(const std::vector<Place>& places, std::size_t count,
-                          const Progress& progress)
+std::vector<Viewpoint> spread(const std::vector<Viewpoint>& places, std::size_t count,
+                              const Progress& progress)
 {
-    std::vector<Place> chosen;
+    std::vector<Viewpoint> chosen;
     if (places.empty()) {
         return chosen;
     }
     const auto roomiest =
-        std::max_element(places.begin(), places.end(),
-                         [](const Place& a, const Place& b) { return a.clearance < b.clearance; });
+        std::max_element(places.begin(), places.end(), [](const Viewpoint& a, const Viewpoint& b) {
+            return a.clearance < b.clearance;
+        });
     auto next = static_cast<std::size_t>(roomiest - places.begin());
     std::vector<double> distances_sq(places.size(), kUnlimited);
     while (chosen.size() < count && distances_sq[next] > 0.0) {
@@ -176,7 +178,7 @@ bool is_hidden(const Known& known, Index vertex, const Vector3d& center)
     return hidden;
 }
 
-std::vector<Index> seen_points(const Known& known, const Scene& scene, const Place& place)
+std::vector<Index> seen_points(const Known& known, const Scene& scene, const Viewpoint& place)
 {
     constexpr std::size_t kPointsAround = 1000;
     std::vector<PointTree::Near> nearest;
@@ -223,12 +225,12 @@ VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, cons
                          .evidence = gather_evidence(cells, scene, progress.part(0.0, 0.5)),
                          .normals = outward_normals(cells, labels),
                          .points = PointTree(cells.positions)};
-    const std::vector<Place> places =
+    const std::vector<Viewpoint> places =
         spread(free_places(cells, labels, known.evidence), static_cast<std::size_t>(options.count),
                progress.part(0.5, 0.8));
     VirtualSights sights;
     sights.centers.reserve(places.size());
-    for (const Place& place : places) {
+    for (const Viewpoint& place : places) {
         sights.centers.push_back(place.center);
     }
     std::vector<std::vector<Index>> seen(places.size());

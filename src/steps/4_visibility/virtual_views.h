@@ -1,9 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/labels.h"
 #include "model/tet_mesh.h"
-#include "model/virtual_sights.h"
+#include "model/visibility_energy.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 

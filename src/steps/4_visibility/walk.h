@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/prefetch.h"
+#include "base/arrays.h"
 #include "model/tet_mesh.h"
 #include "steps/4_visibility/exact_walk.h"
 #include "steps/4_visibility/sight_frame.h"

@@ -1,7 +1,7 @@
 #include "steps/6_surface/cleanup.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "base/union_find.h"
 #include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"

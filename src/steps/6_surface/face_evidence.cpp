@@ -1,7 +1,7 @@
 #include "steps/6_surface/face_evidence.h"
 
-#include "base/median.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "steps/5_labels/boundary.h"
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "mesh/local_edges.h"
-#include "mesh/surface_normals.h"
-#include "mesh/vertex_faces.h"
+#include "mesh/local_shape.h"
+#include "mesh/vertices.h"
 #include "model/tet_mesh.h"
 #include "steps/4_visibility/face_visibility.h"
 #include "vcarve/tri_mesh.h"

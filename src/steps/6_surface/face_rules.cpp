@@ -1,9 +1,9 @@
 #include "steps/6_surface/face_rules.h"
 
+#include "base/arrays.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
-#include "model/region_of_interest.h"
-#include "steps/4_visibility/seen_corners.h"
+#include "model/extent.h"
+#include "steps/4_visibility/face_visibility.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "mesh/vertex_faces.h"
+#include "mesh/vertices.h"
 #include "region/region.h"
+#include "steps/6_surface/carve_surface.h"
 #include "steps/6_surface/face_evidence.h"
-#include "steps/6_surface/removals.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"

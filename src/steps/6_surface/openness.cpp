@@ -1,10 +1,9 @@
 #include "steps/6_surface/openness.h"
 
 #include "base/parallel.h"
-#include "base/parallel_count.h"
 #include "geometry/triangle_tree.h"
 #include "model/camera.h"
-#include "model/pixel_grid.h"
+#include "model/views.h"
 #include "steps/4_visibility/view_walk.h"
 #include "steps/5_labels/boundary.h"
 

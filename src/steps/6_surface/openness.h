@@ -1,7 +1,6 @@
 #pragma once
 
-#include "mesh/vertex_faces.h"
-#include "model/labels.h"
+#include "mesh/vertices.h"
 #include "model/tet_mesh.h"
 #include "vcarve/scene.h"
 

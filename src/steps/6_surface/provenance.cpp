@@ -1,9 +1,12 @@
 #include "steps/6_surface/provenance.h"
 
 #include "base/parallel.h"
-#include "steps/4_visibility/seen_corners.h"
+#include "geometry/triangle.h"
+#include "mesh/half_edge_mesh.h"
+#include "steps/4_visibility/face_visibility.h"
 #include "vcarve/error.h"
 
+#include <Eigen/Geometry>
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,6 +14,8 @@
 namespace vcarve {
 
 namespace {
+
+using Eigen::Vector3d;
 
 constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53; // doubles hold whole numbers up to it
 
@@ -28,6 +33,30 @@ void require_exact_ids(const TriMesh& mesh, const Scene& scene)
                                          scene.point_ids[point], kLargestId));
         }
     }
+}
+
+ViewAgreement agreement_of_face(const HalfEdgeMesh& mesh, const Scene& scene,
+                                OpenMesh::FaceHandle face)
+{
+    ViewAgreement agreement;
+    const auto [a, b, c] = mesh.triangle(face);
+    const Vector3d normal = scaled_normal(a, b, c);
+    for (const auto vertex : mesh.corners(face)) {
+        const std::uint32_t point = mesh.data(vertex).scene_point;
+        if (point == kNoPoint) {
+            continue;
+        }
+        for (const std::uint32_t view : scene.tracks[point]) {
+            ++agreement.sights;
+            agreement.facing += normal.dot(scene.views[view].center - mesh.point(vertex)) > 0.0;
+        }
+    }
+    return agreement;
+}
+
+ViewAgreement sum(const ViewAgreement& a, const ViewAgreement& b)
+{
+    return {.sights = a.sights + b.sights, .facing = a.facing + b.facing};
 }
 
 } // namespace
@@ -50,6 +79,17 @@ Provenance find_provenance(const TriMesh& mesh, const Scene& scene)
     });
     found.supports = face_supports(mesh, scene);
     return found;
+}
+
+ViewAgreement view_agreement(const HalfEdgeMesh& mesh, const Scene& scene)
+{
+    return parallel_sum(
+        mesh.n_faces(), ViewAgreement(),
+        [&](std::size_t i) {
+            const auto face = handle_at<OpenMesh::FaceHandle>(i);
+            return mesh.is_deleted(face) ? ViewAgreement() : agreement_of_face(mesh, scene, face);
+        },
+        sum);
 }
 
 } // namespace vcarve

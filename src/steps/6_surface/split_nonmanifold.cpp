@@ -2,8 +2,8 @@
 
 #include "base/parallel.h"
 #include "geometry/predicates.h"
-#include "mesh/add_vertex.h"
-#include "mesh/fans.h"
+#include "mesh/edge_table.h"
+#include "mesh/vertices.h"
 
 #include <Eigen/Geometry>
 

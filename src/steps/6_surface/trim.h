@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/vertex_faces.h"
+#include "mesh/vertices.h"
 #include "steps/4_visibility/face_visibility.h"
 #include "steps/6_surface/face_rules.h"
 #include "vcarve/options.h"

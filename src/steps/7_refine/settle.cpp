@@ -1,15 +1,13 @@
-#include "steps/7_refine/settle.h"
-
-#include "base/median_of_some.h"
+#include "base/arrays.h"
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/sort_unique.h"
-#include "base/unlimited.h"
+#include "base/statistics.h"
 #include "geometry/bilateral_filter.h"
 #include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/camera.h"
-#include "model/pixel_covariance.h"
-#include "steps/7_refine/face_turn.h"
+#include "model/views.h"
+#include "steps/7_refine/refine.h"
 
 #include <algorithm>
 #include <array>

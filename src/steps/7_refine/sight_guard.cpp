@@ -1,15 +1,53 @@
 #include "steps/7_refine/sight_guard.h"
 
 #include "base/parallel.h"
+#include "geometry/predicates.h"
+#include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace vcarve {
+
 namespace {
 
 using Eigen::Vector3d;
+
+using Triangle = std::array<Vector3d, 3>;
+
+constexpr std::size_t kLeafSights = 8;
+constexpr std::size_t kParallelSights = 1U << 14U;
+/// How much more an extent counts where sights begin, next to the surface: triangles are there.
+constexpr double kBeginWeight = 2.0;
+
+std::size_t middle_of(std::size_t first, std::size_t last)
+{
+    return first + (last - first) / 2;
+}
+
+std::size_t num_nodes(std::size_t sights)
+{
+    std::size_t nodes = 1;
+    for (; sights > kLeafSights; sights -= sights / 2) {
+        nodes = 2 * nodes + 1;
+    }
+    return nodes;
+}
+
+/// The stretch of t in [0, 1] where what goes evenly from `begin` to `end` is at most 0 is cut out
+/// of `from` .. `to`, which are left as they are where that is so at both ends.
+inline void clip(double begin, double end, double& from, double& to)
+{
+    if (begin <= 0.0) {
+        if (end > 0.0) to = std::min(to, begin / (begin - end));
+    } else {
+        from = end <= 0.0 ? std::max(from, begin / (begin - end)) : 2.0;
+    }
+}
 
 /// The share of the time that building the tree takes.
 constexpr double kTreeShare = 0.3;
@@ -32,6 +70,158 @@ std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& su
 }
 
 } // namespace
+
+/// Some triangles, and what rules most sights out at once. Tolerances only make it look at more.
+struct SightTree::Query {
+    std::vector<Triangle> triangles; ///< that have an area
+    const Visitor& visit;
+    Box box;
+    Vector3d normal = Vector3d::Zero();
+    double low = HUGE_VAL; ///< along `normal`
+    double high = -HUGE_VAL;
+
+    Query(std::span<const Triangle> all, const Visitor& visitor, double extent) : visit(visitor)
+    {
+        constexpr double kRounding = 1e-12;
+        std::ranges::copy_if(all, std::back_inserter(triangles),
+                             [](const Triangle& t) { return !collinear(t[0], t[1], t[2]); });
+        double longest_sq = 0.0;
+        for (const auto& [a, b, c] : triangles) {
+            box.extend(a).extend(b).extend(c);
+            normal += scaled_normal(a, b, c);
+            longest_sq = std::max({longest_sq, (b - a).squaredNorm(), (c - a).squaredNorm()});
+        }
+        const double reach = kRounding * std::max(extent, box.min().cwiseAbs().maxCoeff() +
+                                                              box.max().cwiseAbs().maxCoeff());
+        box.min().array() -= reach;
+        box.max().array() += reach;
+        for (const Triangle& triangle : triangles) {
+            for (const Vector3d& corner : triangle) {
+                low = std::min(low, normal.dot(corner));
+                high = std::max(high, normal.dot(corner));
+            }
+        }
+        // The cross products' own rounding, times the lever it acts on.
+        const double count = static_cast<double>(triangles.size());
+        const double tolerance = 4.0 * (normal.lpNorm<1>() + count * longest_sq) * reach;
+        low -= tolerance;
+        high += tolerance;
+    }
+
+    /// Whether, on the way from one box to the other, there is a place that touches the slab and
+    /// the box of the triangles.
+    bool may_meet(const Box& begins, const Box& ends) const
+    {
+        double from = 0.0;
+        double to = 1.0;
+        for (int axis = 0; axis < 3 && from <= to; ++axis) {
+            clip(begins.min()[axis] - box.max()[axis], ends.min()[axis] - box.max()[axis], from,
+                 to);
+            clip(box.min()[axis] - begins.max()[axis], box.min()[axis] - ends.max()[axis], from,
+                 to);
+        }
+        if (from > to) return false;
+        const auto [begin_low, begin_high] = heights_of(begins);
+        const auto [end_low, end_high] = heights_of(ends);
+        clip(begin_low - high, end_low - high, from, to);
+        clip(low - begin_high, low - end_high, from, to);
+        return from <= to;
+    }
+
+    /// The lowest and the highest place of a box along `normal`.
+    std::pair<double, double> heights_of(const Box& b) const
+    {
+        const double middle = normal.dot(b.center());
+        const double reach = normal.cwiseAbs().dot(b.sizes()) / 2;
+        return {middle - reach, middle + reach};
+    }
+
+    bool meets(const Vector3d& begin, const Vector3d& end) const
+    {
+        return may_meet(Box(begin), Box(end)) &&
+               std::ranges::any_of(triangles, [&](const Triangle& triangle) {
+                   return meets_triangle(begin, end, triangle);
+               });
+    }
+};
+
+SightTree::SightTree(const Scene& scene, const std::vector<double>& margins)
+{
+    for (const View& view : scene.views) {
+        ends_.push_back(view.center);
+    }
+    for (std::size_t point = 0; point < scene.num_points(); ++point) {
+        const Vector3d& position = scene.positions[point];
+        for (const std::uint32_t view : scene.tracks[point]) {
+            const Vector3d line = ends_[view] - position;
+            const double length = line.norm();
+            if (length <= margins[point]) continue;
+            sights_.push_back({position + line * (margins[point] / length), view});
+        }
+    }
+    if (sights_.empty()) return;
+    nodes_.resize(num_nodes(sights_.size()));
+    build(0, 0, sights_.size());
+}
+
+void SightTree::build(std::size_t node, std::size_t first, std::size_t last)
+{
+    Shaft& shaft = nodes_[node];
+    for (std::size_t i = first; i < last; ++i) {
+        shaft.begins.extend(sights_[i].begin);
+        shaft.ends.extend(ends_[sights_[i].view]);
+    }
+    if (last - first <= kLeafSights) return;
+
+    // Split the longer side of the two boxes at the median.
+    Eigen::Index begin_axis = 0;
+    Eigen::Index end_axis = 0;
+    const double begin_extent = kBeginWeight * shaft.begins.sizes().maxCoeff(&begin_axis);
+    const bool by_begin = begin_extent >= shaft.ends.sizes().maxCoeff(&end_axis);
+    const auto place = [&](const TrimmedSight& sight) {
+        return by_begin ? sight.begin[begin_axis] : ends_[sight.view][end_axis];
+    };
+    const auto at = [&](std::size_t i) { return sights_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const std::size_t middle = middle_of(first, last);
+    std::nth_element(
+        at(first), at(middle), at(last),
+        [&](const TrimmedSight& a, const TrimmedSight& b) { return place(a) < place(b); });
+    const auto build_first = [&] { build(2 * node + 1, first, middle); };
+    const auto build_rest = [&] { build(2 * node + 2, middle, last); };
+    if (last - first > kParallelSights) {
+        parallel_invoke(build_first, build_rest);
+    } else {
+        build_first();
+        build_rest();
+    }
+}
+
+void SightTree::visit_meeting(std::span<const Triangle> triangles, const Visitor& visit) const
+{
+    if (nodes_.empty()) return;
+    const Shaft& all = nodes_[0];
+    const auto reach = [](const Box& box) {
+        return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+    };
+    const Query query(triangles, visit, std::max(reach(all.begins), reach(all.ends)));
+    if (!query.triangles.empty()) descend(0, 0, sights_.size(), query);
+}
+
+bool SightTree::descend(std::size_t node, std::size_t first, std::size_t last,
+                        const Query& query) const
+{
+    if (!query.may_meet(nodes_[node].begins, nodes_[node].ends)) return true;
+    if (last - first > kLeafSights) {
+        const std::size_t middle = middle_of(first, last);
+        return descend(2 * node + 1, first, middle, query) &&
+               descend(2 * node + 2, middle, last, query);
+    }
+    for (std::size_t i = first; i < last; ++i) {
+        const bool meets = query.meets(sights_[i].begin, ends_[sights_[i].view]);
+        if (meets && !query.visit(i)) return false;
+    }
+    return true;
+}
 
 SightGuard::SightGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress)
     : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)

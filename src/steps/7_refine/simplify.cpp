@@ -1,8 +1,7 @@
-#include "steps/7_refine/simplify.h"
-
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
+#include "steps/7_refine/refine.h"
 
 #include <OpenMesh/Core/Geometry/QuadricT.hh>
 

@@ -1,9 +1,7 @@
-#include "steps/7_refine/smooth.h"
-
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/half_edge_mesh.h"
-#include "steps/7_refine/face_turn.h"
+#include "steps/7_refine/refine.h"
 
 #include <Eigen/Geometry>
 #include <OpenMesh/Tools/Smoother/SmootherT.hh>

@@ -2,7 +2,7 @@
 #include "io/formats/textured_files.h"
 #include "io/images/encode_image.h"
 #include "io/images/read_photograph.h"
-#include "model/texture.h"
+#include "model/photograph.h"
 #include "support/read_back.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"

@@ -1,6 +1,6 @@
-#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/arrange.h"
 #include "steps/2_planes/added_points.h"
-#include "steps/2_planes/crease_candidates.h"
+#include "steps/2_planes/candidates.h"
 #include "support/flat_scenes.h"
 
 #include <gtest/gtest.h>

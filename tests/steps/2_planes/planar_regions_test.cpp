@@ -1,4 +1,4 @@
-#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/arrange.h"
 #include "steps/2_planes/planar_regions.h"
 #include "support/noisy_ground.h"
 #include "support/scenes.h"

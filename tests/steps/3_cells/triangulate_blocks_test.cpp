@@ -1,4 +1,4 @@
-#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/arrange.h"
 #include "steps/3_cells/block_cells.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/3_cells/triangulate_blocks.h"

@@ -1,5 +1,5 @@
 #include "geometry/predicates.h"
-#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/arrange.h"
 #include "steps/3_cells/triangulate.h"
 #include "support/point_sets.h"
 #include "support/temporary_folder.h"

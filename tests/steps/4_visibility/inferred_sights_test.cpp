@@ -1,4 +1,4 @@
-#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/arrange.h"
 #include "steps/4_visibility/inferred_sights.h"
 #include "support/scenes.h"
 

@@ -1,6 +1,6 @@
 #include "geometry/triangle.h"
+#include "steps/6_surface/carve_surface.h"
 #include "steps/6_surface/face_rules.h"
-#include "steps/6_surface/make_surface.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"
 
@@ -332,12 +332,12 @@ TEST(ChooseFaces, KeepsAllWhereTheSurfaceIsToBeClosed)
     EXPECT_EQ(slab.chosen(options).keep, slab.all());
 }
 
-TEST(MakeSurface, EndsBehindTheBendWhereItTurnsOutOfSight)
+TEST(CarveSurface, EndsBehindTheBendWhereItTurnsOutOfSight)
 {
     const Slab slab;
-    const MadeSurface made =
-        make_surface(slab.made.labels, {slab.made.mesh, slab.made.scene}, {}, {});
-    EXPECT_EQ(std::ssize(made.seen.faces.faces), std::ranges::count(slab.chosen().keep, 1));
+    const CarvedSurface made =
+        carve_surface(slab.made.labels, {slab.made.mesh, slab.made.scene}, {}, {});
+    EXPECT_EQ(std::ssize(made.faces.faces), std::ranges::count(slab.chosen().keep, 1));
 }
 
 TEST(DropUnsupported, TakesWhatIsHardlySeenOffTheRimHoweverSmall)

@@ -1,6 +1,6 @@
 #include "geometry/predicates.h"
 #include "model/camera.h"
-#include "model/pixel_grid.h"
+#include "model/views.h"
 #include "steps/6_surface/openness.h"
 #include "support/made_cells.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
 #include "mesh/half_edge_mesh.h"
-#include "steps/7_refine/settle.h"
+#include "steps/7_refine/refine.h"
 #include "support/grid_faces.h"
 #include "support/half_edges.h"
 #include "support/made_cells.h"

@@ -1,5 +1,5 @@
 #include "mesh/check.h"
-#include "steps/7_refine/simplify.h"
+#include "steps/7_refine/refine.h"
 #include "support/blocked_sights.h"
 #include "support/half_edges.h"
 #include "support/measured_scenes.h"

@@ -1,4 +1,4 @@
-#include "steps/7_refine/smooth.h"
+#include "steps/7_refine/refine.h"
 #include "support/blocked_sights.h"
 #include "support/half_edges.h"
 #include "support/measured_scenes.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "model/labels.h"
 #include "model/tet_mesh.h"
 
 namespace vcarve {

@@ -3,12 +3,11 @@
 #include "baselines/alpha_shape.h"
 #include "baselines/sculpt.h"
 #include "mesh/half_edge_mesh.h"
-#include "steps/1_points/center.h"
+#include "steps/1_points/arrange.h"
 #include "steps/1_points/filter.h"
-#include "steps/1_points/spatial_sort.h"
 #include "steps/3_cells/triangulate.h"
+#include "steps/6_surface/carve_surface.h"
 #include "steps/6_surface/cleanup.h"
-#include "steps/6_surface/extract.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

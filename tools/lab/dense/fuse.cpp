@@ -1,6 +1,6 @@
 #include "dense/fuse.h"
 
-#include "base/median.h"
+#include "base/statistics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "dense/stereo.h"
 
+#include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/random_number.h"
 #include "render/photograph.h"
 
 #include <Eigen/Geometry>

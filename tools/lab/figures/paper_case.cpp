@@ -1,12 +1,12 @@
 #include "figures/paper_case.h"
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "geometry/triangle.h"
-#include "model/ray_source.h"
-#include "model/scene_parts.h"
+#include "model/scene_points.h"
+#include "model/visibility_energy.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/count_crossings.h"
-#include "steps/5_labels/strict_carving.h"
+#include "steps/5_labels/label_cells.h"
 #include "vcarve/io.h"
 
 #include <algorithm>

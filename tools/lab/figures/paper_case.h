@@ -1,6 +1,5 @@
 #pragma once
 
-#include "model/labels.h"
 #include "model/tet_mesh.h"
 #include "model/visibility_energy.h"
 #include "vcarve/scene.h"

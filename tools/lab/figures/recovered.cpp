@@ -1,6 +1,6 @@
 #include "figures/figures.h"
-#include "steps/5_labels/strict_carving.h"
-#include "steps/6_surface/extract.h"
+#include "steps/5_labels/label_cells.h"
+#include "steps/6_surface/carve_surface.h"
 #include "vcarve/reconstruct.h"
 
 #include <algorithm>

@@ -6,7 +6,6 @@
 #include "steps/4_visibility/walk.h"
 #include "steps/5_labels/boundary.h"
 #include "steps/5_labels/label_cells.h"
-#include "steps/5_labels/strict_carving.h"
 
 #include <algorithm>
 #include <optional>

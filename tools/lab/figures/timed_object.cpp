@@ -2,7 +2,7 @@
 
 #include "paper/box_solid.h"
 #include "paper/sample_surface.h"
-#include "steps/1_points/spatial_sort.h"
+#include "steps/1_points/arrange.h"
 
 #include <algorithm>
 #include <cmath>

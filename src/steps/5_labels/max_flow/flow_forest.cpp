@@ -1,6 +1,6 @@
 #include "steps/5_labels/max_flow/flow_forest.h"
 
-#include "base/prefetch.h"
+#include "base/arrays.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/flow_network.h"
 #include "model/tet_mesh.h"
+#include "model/visibility_energy.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/flow_network.h"
-#include "model/labels.h"
 #include "model/tet_mesh.h"
+#include "model/visibility_energy.h"
 
 #include <cstddef>
 

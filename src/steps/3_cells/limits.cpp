@@ -1,0 +1,34 @@
+#include "steps/3_cells/limits.h"
+
+#include <fmt/core.h>
+
+namespace vcarve {
+
+void require_four_points(std::size_t num_points)
+{
+    if (num_points >= 4) return;
+    throw InputError(fmt::format("{} point{} passed the filter; a surface needs at least four "
+                                 "that do not lie in one plane",
+                                 num_points, num_points == 1 ? "" : "s"));
+}
+
+InputError all_in_one_plane(std::size_t num_points)
+{
+    return InputError(fmt::format("the {} points that passed the filter all lie in one plane; a "
+                                  "surface needs at least four that do not",
+                                  num_points));
+}
+
+InputError too_many_cells(std::size_t most)
+{
+    return InputError(fmt::format("the points have more than {} cells between them, all that "
+                                  "--max-memory allows: many of them lie on few lines or curves",
+                                  most));
+}
+
+std::logic_error two_at_one_place()
+{
+    return std::logic_error("two points to triangulate lie at one place");
+}
+
+} // namespace vcarve
