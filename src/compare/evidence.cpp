@@ -3,7 +3,7 @@
 #include "base/median.h"
 #include "base/parallel_count.h"
 #include "base/random_number.h"
-#include "compare/sample.h"
+#include "compare/reference.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_table.h"
 #include "model/camera.h"

@@ -4,7 +4,7 @@
 #include "base/parallel_count.h"
 #include "base/quantile.h"
 #include "base/random_number.h"
-#include "compare/sample.h"
+#include "compare/reference.h"
 #include "geometry/triangle.h"
 #include "model/camera.h"
 #include "model/measured_range.h"

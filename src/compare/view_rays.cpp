@@ -3,10 +3,16 @@
 #include "base/parallel.h"
 #include "model/camera.h"
 #include "model/pixel_grid.h"
+#include "vcarve/error.h"
+#include "vcarve/reconstruct.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace vcarve {
+
 namespace {
 
 constexpr std::size_t kSamplesPerRay = 4;
@@ -75,6 +81,24 @@ std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Refe
     }
     figures.nothing_seen = static_cast<double>(missing) / all;
     return figures;
+}
+
+void add_closed_surface(Reference& reference, Scene model, Log& log)
+{
+    if (reference.rays.empty()) return;
+    Stage stage(log, "closed");
+    std::int64_t faces = 0;
+    try {
+        Options options;
+        options.surface.closed = true;
+        Log silent;
+        const TriMesh closed = reconstruct(std::move(model), options, silent).mesh;
+        use_closed_surface(reference, closed);
+        faces = static_cast<std::int64_t>(closed.faces.size());
+    } catch (const InputError& error) {
+        log.note(fmt::format("no closed surface to measure against: {}", error.what()));
+    }
+    stage.end({{"faces of the closed surface", faces}});
 }
 
 } // namespace vcarve

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/log.h"
 #include "compare/reference.h"
 
 #include <cstdint>
@@ -26,5 +27,11 @@ void use_closed_surface(Reference& reference, const TriMesh& closed);
 
 /// Nothing where no view has a ray. Cost: a ray each, parallel.
 std::optional<RayFigures> measure_view_rays(const MeasuredMesh& mesh, const Reference& reference);
+
+/// Makes the closed surface of the reference's model, as `colmap-vcarve --closed` does, and notes
+/// which of the reference's rays meet it, as the stage "closed". `model` is what the reference was
+/// made from. Where no surface can be made of it, a note says why and the reference stays as it is;
+/// so it does where there are no rays. Cost: that of reconstruct().
+void add_closed_surface(Reference& reference, Scene model, Log& log);
 
 } // namespace vcarve
