@@ -1,6 +1,4 @@
-#include "program_run.h"
-
-#include "io/files/mapped_file.h"
+#include "processes.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,9 +8,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <map>
 #include <stdexcept>
@@ -23,6 +23,39 @@ namespace vcarve::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string answer_of(const std::function<Json()>& work)
+{
+    try {
+        return Json{{"answer", work()}}.dump();
+    } catch (const std::exception& error) {
+        return Json{{"error", error.what()}}.dump();
+    }
+}
+
+[[noreturn]] void be_child(int out, const std::function<Json()>& work)
+{
+    const std::string text = answer_of(work);
+    std::size_t written = 0;
+    while (written < text.size()) {
+        const ssize_t count = ::write(out, text.data() + written, text.size() - written);
+        if (count <= 0) break;
+        written += static_cast<std::size_t>(count);
+    }
+    // Buffers of streams are the parent's to write
+    ::_exit(written == text.size() ? 0 : 1);
+}
+
+std::string read_all(int in)
+{
+    std::string text;
+    std::array<char, 4096> block{};
+    ssize_t count = 0;
+    while ((count = ::read(in, block.data(), block.size())) > 0) {
+        text.append(block.data(), static_cast<std::size_t>(count));
+    }
+    return text;
+}
 
 [[noreturn]] void become(std::vector<std::string> words)
 {
@@ -97,6 +130,30 @@ rusage wait_for(pid_t child, const std::vector<std::string>& words)
 
 } // namespace
 
+Json in_own_process(const std::function<Json()>& work)
+{
+    std::array<int, 2> pipe_ends{};
+    if (::pipe(pipe_ends.data()) != 0) throw std::runtime_error("no pipe");
+    std::fflush(nullptr);
+    const pid_t child = ::fork();
+    if (child < 0) throw std::runtime_error("no process");
+    if (child == 0) {
+        ::close(pipe_ends[0]);
+        be_child(pipe_ends[1], work);
+    }
+    ::close(pipe_ends[1]);
+    const std::string text = read_all(pipe_ends[0]);
+    ::close(pipe_ends[0]);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        throw std::runtime_error(fmt::format("a measurement ended with status {}", status));
+    }
+    Json result = Json::parse(text);
+    if (result.contains("error")) throw std::runtime_error(result["error"].get<std::string>());
+    return result["answer"];
+}
+
 Json measure_program(const std::vector<std::string>& words, const std::filesystem::path& scratch)
 {
     using Clock = std::chrono::steady_clock;
@@ -124,18 +181,6 @@ Json measure_program(const std::vector<std::string>& words, const std::filesyste
             {"scratch_bytes", scratch_bytes},
             {"written_bytes", moved("wchar:", "write_bytes:")},
             {"read_bytes", moved("rchar:", "read_bytes:")}};
-}
-
-std::string megabytes(const Json& figures, const char* name)
-{
-    return fmt::format("{:.0f}", 1e-6 * figures[name].get<double>());
-}
-
-bool have_same_bytes(const fs::path& a, const fs::path& b)
-{
-    const MappedFile first(a);
-    const MappedFile second(b);
-    return std::ranges::equal(first.bytes(), second.bytes());
 }
 
 } // namespace vcarve::bench

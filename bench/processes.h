@@ -1,12 +1,21 @@
 #pragma once
 
-#include "forked.h"
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace vcarve::bench {
+
+using Json = nlohmann::ordered_json;
+
+/// Does the work in a process of its own, which begins as a copy of this one and ends with the
+/// work: so memory that one measurement leaves behind, or threads, are not met by the next. Returns
+/// what the work returns. Throws std::runtime_error with the message of what it throws. This
+/// process must not have started threads.
+Json in_own_process(const std::function<Json()>& work);
 
 /// Runs a program, `words[0]`, to its end and returns what it took: {"seconds", "cpu_seconds",
 /// "peak_bytes", "scratch_bytes", "written_bytes", "read_bytes"}. Of a program that runs others and
@@ -17,11 +26,5 @@ namespace vcarve::bench {
 /// into memory show there only. Throws std::runtime_error where the program does not end with exit
 /// code 0.
 Json measure_program(const std::vector<std::string>& words, const std::filesystem::path& scratch);
-
-/// A figure of it that is in bytes, in megabytes.
-std::string megabytes(const Json& figures, const char* name);
-
-/// Whether two files are equal, as what two runs wrote should be.
-bool have_same_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
 
 } // namespace vcarve::bench

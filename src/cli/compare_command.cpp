@@ -10,7 +10,7 @@
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
 #include "compare/comparison_table.h"
-#include "compare/view_rays.h"
+#include "compare/evidence.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "io/ply/ply_cloud.h"

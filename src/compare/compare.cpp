@@ -2,7 +2,7 @@
 
 #include "base/log.h"
 #include "compare/comparison_table.h"
-#include "compare/view_rays.h"
+#include "compare/evidence.h"
 #include "options/declared.h"
 
 namespace vcarve {

@@ -1,11 +1,9 @@
-#include "base/random_number.h"
 #include "compare/reference.h"
 #include "support/measured_scenes.h"
 #include "vcarve/error.h"
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <limits>
@@ -143,24 +141,6 @@ TEST(PointSpacings, AreDistancesToTheSixthNearest)
     EXPECT_THAT(point_spacings(line), ElementsAre(6, 5, 4, 3, 3, 3, 3, 4, 5, 6));
 }
 
-TEST(PointSpacings, EqualThoseFoundBySorting)
-{
-    std::vector<Eigen::Vector3d> points;
-    for (std::uint64_t i = 0; i < 300; ++i) {
-        points.emplace_back(random_number(1, 3 * i), random_number(1, 3 * i + 1),
-                            0.1 * random_number(1, 3 * i + 2));
-    }
-    const std::vector<double> spacings = point_spacings(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        std::vector<double> distances;
-        for (const Eigen::Vector3d& other : points) {
-            distances.push_back((other - points[i]).norm());
-        }
-        std::ranges::sort(distances);
-        EXPECT_DOUBLE_EQ(spacings[i], distances[6]);
-    }
-}
-
 TEST(PointSpacings, TakeTheFarthestOfFewPoints)
 {
     const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {3, 4, 0}};
@@ -228,14 +208,6 @@ TEST(SampleSurface, SpreadsSamplesEvenlyOverAFace)
     for (const int count : squares) {
         EXPECT_NEAR(count, 2500, 4 * 50);
     }
-}
-
-TEST(SampleSurface, IsTheSameForAnyNumberOfThreads)
-{
-    const TriMesh mesh = testing::random_soup(50, 3);
-    const SurfaceSamples many = sample_surface(mesh, 20000, 1);
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(sample_surface(mesh, 20000, 1).positions, many.positions);
 }
 
 TEST(SampleSurface, ChangesWithTheSeed)
