@@ -1,6 +1,5 @@
 #include "measurements.h"
 
-#include "bare_triangulation.h"
 #include "cli/model_input.h"
 #include "cli/process_usage.h"
 #include "cli/run_record.h"
@@ -10,6 +9,11 @@
 #include "vcarve/io.h"
 #include "vcarve/reconstruct.h"
 
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Delaunay_triangulation_cell_base_3.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_data_structure_3.h>
+#include <CGAL/Triangulation_vertex_base_3.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -22,6 +26,24 @@ namespace vcarve::bench {
 namespace {
 
 using Eigen::Vector3d;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// CGAL's triangulation as its manual has it, with nothing of ours.
+template <typename Concurrency>
+using BareDelaunay = CGAL::Delaunay_triangulation_3<
+    Kernel, CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_3<Kernel>,
+                                                 CGAL::Delaunay_triangulation_cell_base_3<Kernel>,
+                                                 Concurrency>>;
+
+std::vector<Kernel::Point_3> cgal_points(const std::vector<Eigen::Vector3d>& points)
+{
+    std::vector<Kernel::Point_3> result;
+    result.reserve(points.size());
+    for (const Eigen::Vector3d& p : points) {
+        result.emplace_back(p.x(), p.y(), p.z());
+    }
+    return result;
+}
 
 /// Time, and memory above what there was, since it was made.
 class Meter {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "forked.h"
+#include "processes.h"
 #include "sample_scene.h"
 
 #include <cstddef>

@@ -2,10 +2,9 @@
 // seconds, CPU seconds and peaks of memory, stage by stage; or runs of the program in blocks
 // against those in memory, or on ranks against one process. See tools/bench.
 
-#include "block_bench.h"
 #include "measurements.h"
-#include "program_run.h"
-#include "rank_bench.h"
+#include "processes.h"
+#include "program_bench.h"
 #include "run_report.h"
 
 #include <CLI/App.hpp>
@@ -177,26 +176,39 @@ void write_json(const std::filesystem::path& path, const Json& record)
     if (!path.empty()) std::ofstream(path) << record.dump(2) << '\n';
 }
 
-/// False where a surface was another in blocks than in memory.
-bool run_in_blocks(const Arguments& arguments)
+Programs programs(const Arguments& arguments)
 {
-    const BlockRuns runs = {.program = arguments.program,
-                            .folder = arguments.folder,
-                            .blocks = arguments.blocks,
-                            .threads = arguments.threads,
-                            .rounds = arguments.rounds,
-                            .in_memory = !arguments.no_memory_run};
+    return {.program = arguments.program,
+            .rank_program = arguments.rank_program,
+            .folder = arguments.folder,
+            .rounds = arguments.rounds};
+}
+
+/// Prints each report when it is made. False where the bytes of surfaces differ.
+template <typename Reports>
+bool print_reports(const Arguments& arguments, const Reports& make)
+{
     Json record = Json::array();
     bool is_same = true;
-    for (const Sample& sample : samples(arguments)) {
-        const BlockResult result = measure_blocks(sample.model, runs);
-        fmt::print("{}\n", block_report(result));
+    make([&](const ProgramReport& report) {
+        fmt::print("{}\n", report.table);
         std::fflush(stdout);
-        record.push_back(json_of(result));
-        is_same = is_same && is_same_everywhere(result);
-    }
+        record.push_back(report.figures);
+        is_same = is_same && report.is_same;
+    });
     write_json(arguments.json, record);
     return is_same;
+}
+
+bool run_in_blocks(const Arguments& arguments)
+{
+    std::vector<std::string> blocks = arguments.blocks;
+    if (!arguments.no_memory_run) blocks.insert(blocks.begin(), "0");
+    return print_reports(arguments, [&](const auto& print) {
+        for (const Sample& sample : samples(arguments)) {
+            print(compare_blocks(sample.model, blocks, arguments.threads, programs(arguments)));
+        }
+    });
 }
 
 /// Models of as many points for every rank.
@@ -211,28 +223,17 @@ std::vector<RankModel> rank_models(const Arguments& arguments, const SampleKind&
     return models;
 }
 
-/// False where a surface was another on ranks than on one process.
 bool run_on_ranks(const Arguments& arguments)
 {
-    const RankRuns runs = {.program = arguments.program,
-                           .rank_program = arguments.rank_program,
-                           .folder = arguments.folder,
-                           .rounds = arguments.rounds};
-    Json record = Json::array();
-    bool is_same = true;
     fmt::print("{}\n\n", rank_line());
-    for (const SampleKind& kind : kinds(arguments)) {
-        for (const std::uint64_t points : sizes(arguments)) {
-            const auto results = measure_ranks(rank_models(arguments, kind, points), runs);
-            const std::string title = fmt::format("{}: {} points a rank", name_of(kind), points);
-            fmt::print("{}\n", rank_report(title, results));
-            std::fflush(stdout);
-            record.push_back({{"model", title}, {"runs", json_of(results)}});
-            is_same = is_same && is_same_everywhere(results);
+    return print_reports(arguments, [&](const auto& print) {
+        for (const SampleKind& kind : kinds(arguments)) {
+            for (const std::uint64_t points : sizes(arguments)) {
+                print(compare_ranks(fmt::format("{}: {} points a rank", name_of(kind), points),
+                                    rank_models(arguments, kind, points), programs(arguments)));
+            }
         }
-    }
-    write_json(arguments.json, record);
-    return is_same;
+    });
 }
 
 void run(const Arguments& arguments)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "forked.h"
+#include "processes.h"
 
 #include <map>
 #include <string>

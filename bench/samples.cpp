@@ -98,12 +98,6 @@ const FlowNetwork& sample_network(std::int64_t points)
     return made_once(points, make_network);
 }
 
-const Labels& sample_labels(std::int64_t points)
-{
-    return made_once(
-        points, [](std::int64_t n) { return minimum_cut(sample_cells(n), sample_network(n)); });
-}
-
 void sample_sizes(benchmark::internal::Benchmark* bench)
 {
     bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();

@@ -18,7 +18,6 @@ const std::filesystem::path& sample_folder(std::int64_t points); ///< the model 
 const Scene& sample_scene(std::int64_t points);                  ///< filtered
 const TetMesh& sample_cells(std::int64_t points);
 const FlowNetwork& sample_network(std::int64_t points);
-const Labels& sample_labels(std::int64_t points);
 
 /// The sizes that every benchmark is run with. CPU time is that of all threads: on a busy machine
 /// it compares better than the time on the wall. Rates count it, unless the benchmark says

@@ -2,7 +2,7 @@
 // cells with CGAL's exact predicates.
 
 #include "samples.h"
-#include "walk_all_sights.h"
+#include "steps/4_visibility/walk.h"
 
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Delaunay_triangulation_cell_base_3.h>
@@ -145,6 +145,34 @@ std::size_t crossings_of_cgal(const CgalCells& cells, const Scene& scene)
         }
     }
     return crossings;
+}
+
+/// How many facets all sights of a scene cross.
+std::size_t walk_all_sights(const TetMesh& cells, const Scene& scene)
+{
+    std::vector<Sight> sights;
+    for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
+        for (const std::uint32_t view : scene.tracks[vertex]) {
+            sights.push_back({vertex, scene.views[view].center});
+        }
+    }
+    std::size_t crossings = 0;
+    SightWalk(cells).along_each(
+        sights.size(), [&](std::size_t k) { return sights[k]; },
+        [&](std::size_t, Index, int) {
+            ++crossings;
+            return true;
+        },
+        [](std::size_t, const WalkEnds&) {});
+    return crossings;
+}
+
+void report_crossings(benchmark::State& state, std::size_t crossings)
+{
+    state.counters["crossings"] = static_cast<double>(crossings);
+    state.counters["CPU_s_a_crossing"] = benchmark::Counter(
+        static_cast<double>(crossings),
+        benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void bench_walk(benchmark::State& state)

@@ -9,14 +9,12 @@
 #include "cli/model_input.h"
 #include "cli/preview_output.h"
 #include "cli/run_record.h"
-#include "cli/texture_output.h"
-#include "compare/closed_surface.h"
 #include "compare/comparison_table.h"
+#include "compare/evidence.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "io/ply/ply_cloud.h"
 #include "options/declared.h"
-#include "texture/left_out.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -26,7 +24,6 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,8 +39,7 @@ constexpr const char* kSeeCompareHelp = " (see colmap-vcarve compare --help)";
 struct CompareArguments {
     ModelArguments model;
     std::vector<fs::path> meshes;
-    fs::path truth;  ///< empty: none
-    fs::path images; ///< ...
+    fs::path truth; ///< empty: none
     CompareOutputs outputs;
     std::string command; ///< as it was typed
     CompareOptions measure;
@@ -61,14 +57,7 @@ OptionList truth_options(CompareArguments& arguments)
              {.name = "truth",
               .help = "The true surface as PLY, in the model's frame: adds precision, recall, F "
                       "and blocked sights."},
-             &arguments.truth},
-            {"Measure",
-             {.name = "images",
-              .unit = "folder",
-              .help = "The photographs of the model: some are left out, the meshes are covered "
-                      "with the others, and it is measured how they look beside those that were "
-                      "left out."},
-             &arguments.images}};
+             &arguments.truth}};
 }
 
 OptionList baseline_options(CompareArguments& arguments)
@@ -194,41 +183,14 @@ struct Yardstick {
     const Reference& reference;
     PreviewOutput& preview;
     CompareReport& report;
-    const Photographs* photographs; ///< null for none
     Log& log;
 };
-
-/// How a mesh looks from the photographs that were left out.
-PhotoFigures photo_figures(const TriMesh& mesh, const SplitPhotos& photos, Log& log)
-{
-    // Its vertices have the photographs' colours, too.
-    const TexturedMesh covered = texture_mesh(mesh, photos.kept, {}, log);
-    Stage stage(log, "look");
-    const Progress all = stage;
-    const auto likeness = [&](const TriMesh& shown, const Texture& texture, double from) {
-        return compare_with_photos(shown, texture, photos.left_out, all.part(from, from + 0.33));
-    };
-    const PhotoLikeness own = likeness(mesh, {}, 0.0);
-    const PhotoLikeness in_colors = likeness(covered.mesh, {}, 0.33);
-    const PhotoLikeness textured = likeness(covered.mesh, covered.texture, 0.66);
-    stage.end({{"photographs", size_of(photos.left_out.size())}});
-    return {.own_colors_db = own.psnr_db,
-            .photo_colors_db = in_colors.psnr_db,
-            .texture_db = textured.psnr_db,
-            .structure = textured.structure,
-            .covered = textured.covered};
-}
 
 /// The column of that name; the mesh's own name is the one that errors tell.
 Comparison measure(const NamedMesh& mesh, const std::string& column, const Yardstick& by)
 {
     Comparison comparison = compare_mesh(mesh, by.reference, by.log);
     comparison.name = column;
-    if (by.photographs != nullptr) {
-        const auto photos =
-            calibrated_photos(by.reference.scene, *by.photographs, mesh.mesh.offset);
-        comparison.photos = photo_figures(mesh.mesh, split_photos(photos), by.log);
-    }
     by.preview.add(column, mesh.mesh, {}, by.log);
     by.report.add(column, mesh.mesh);
     return comparison;
@@ -316,13 +278,8 @@ void run_compare(const ParsedArguments& given)
     preview.stand_in(model.scene);
     CompareReport report(arguments.outputs.report);
     report.stand_in(model.scene);
-    std::optional<Photographs> photographs;
-    if (!arguments.images.empty()) {
-        photographs =
-            photographs_of({.images = arguments.images}, arguments.model.path, model.scene, *log);
-    }
     const Reference reference = reference_of(arguments, std::move(model.scene), *log);
-    const Yardstick by{reference, preview, report, photographs ? &*photographs : nullptr, *log};
+    const Yardstick by{reference, preview, report, *log};
     std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), by);
     std::ranges::move(measure_files(arguments, by), std::back_inserter(comparisons));
     preview.write();

@@ -53,7 +53,7 @@ void CompareReport::write(std::span<const Comparison> comparisons, const Referen
                          {"comparison", comparison_record(comparisons, reference)},
                          {"rows", rows_json(comparisons, reference)}};
     OutputFile file(out_);
-    write_comparison_page(file.stream(), record, scene);
+    write_page(file.stream(), record, scene);
     file.commit();
     stage.end({{"surfaces shown", std::ssize(scene["surfaces"])}});
 }

@@ -5,6 +5,8 @@
 #include "page/page_scene.h"
 #include "steps/4_visibility/face_visibility.h"
 
+#include <utility>
+
 namespace vcarve::cli {
 
 ReportParts make_report(const TriMesh& mesh, const Texture& texture, const RemovedFaces& removed,
@@ -14,13 +16,13 @@ ReportParts make_report(const TriMesh& mesh, const Texture& texture, const Remov
     ReportParts parts;
     parts.figures = surface_figures(mesh, face_supports(mesh, scene), scene);
     parts.scene = packed_scene(scene);
-    parts.scene["surface"] = packed_surface(mesh, scene, {}, stage);
+    Json surface = packed_surface(mesh, scene, {}, stage);
+    const auto shown = surface["faces"]["count"].get<std::int64_t>();
     // A surface that is simplified for the page has other corners than its texture.
-    const bool is_whole = parts.scene["surface"]["faces"]["count"] == mesh.faces.size();
-    parts.scene["surface"]["texture"] = is_whole ? packed_texture(texture) : Json(nullptr);
+    if (shown == parts.figures.faces) surface["texture"] = packed_texture(texture);
+    parts.scene["surfaces"] = {std::move(surface)};
     parts.scene["removed"] = packed_removed(removed);
-    stage.end({{"faces shown", parts.scene["surface"]["faces"]["count"].get<std::int64_t>()},
-               {"of", parts.figures.faces}});
+    stage.end({{"faces shown", shown}, {"of", parts.figures.faces}});
     return parts;
 }
 

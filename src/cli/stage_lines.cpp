@@ -57,7 +57,6 @@ constexpr Wording kWordings[] = {
     {"photos", "photos", "{seen} of {faces} faces shown by {photographs} photographs"},
     {"colors", "colours", "{vertices} vertices coloured|, {outliers} views of passers-by left out"},
     {"texture", "texture", "{charts} charts on {pages} pages"},
-    {"look", "look", "from {photographs} photographs that were left out"},
     {"check", "check",
      "{open edges} open edges|, {self-intersections} faces through others"
      "|, {sights from behind} rays from behind"},

@@ -1,8 +1,8 @@
 #include "compare/compare.h"
 
 #include "base/progress.h"
-#include "compare/closed_surface.h"
 #include "compare/comparison_table.h"
+#include "compare/evidence.h"
 #include "options/declared.h"
 
 namespace vcarve {

@@ -18,16 +18,6 @@ struct RunCost {
     std::int64_t peak_memory_bytes = 0;
 };
 
-/// How a mesh looks from photographs that played no part in its colours: as it is, in colours from
-/// the other photographs, and covered with these.
-struct PhotoFigures {
-    double own_colors_db = 0.0;   ///< peak signal-to-noise ratio of the mesh's own colours
-    double photo_colors_db = 0.0; ///< of vertex colours from photographs
-    double texture_db = 0.0;      ///< of the texture
-    double structure = 0.0;       ///< of the texture, mean structural similarity
-    double covered = 0.0;         ///< share of pixels that show the mesh's front
-};
-
 /// Everything measured of one mesh.
 struct Comparison {
     std::string name;
@@ -36,8 +26,7 @@ struct Comparison {
     MeshCheck size;
     std::optional<std::int64_t> genus; ///< of a closed, manifold, consistently oriented surface
     EvidenceFigures evidence;
-    std::optional<TruthFigures> truth;  ///< where the reference has one
-    std::optional<PhotoFigures> photos; ///< where photographs are given
+    std::optional<TruthFigures> truth; ///< where the reference has one
 };
 
 /// The number of handles, summed over the pieces; nothing where the surface is not closed, manifold

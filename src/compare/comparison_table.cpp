@@ -1,6 +1,7 @@
 #include "compare/comparison_table.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <iterator>

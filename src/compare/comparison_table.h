@@ -3,7 +3,7 @@
 #include "compare/compare.h"
 #include "compare/figures.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <span>
 #include <string>

@@ -213,36 +213,6 @@ std::vector<Figure> truth_figures(const Reference& reference)
     return all;
 }
 
-Figure photo_figure(const char* key, const char* title, double PhotoFigures::*member,
-                    const char* meaning = "")
-{
-    return {.place = fmt::format("/photos/{}", key),
-            .title = title,
-            .better = Better::higher,
-            .value = [member](const Comparison& c) { return known(c.photos, member); },
-            .format = "{:.2f}",
-            .meaning = meaning};
-}
-
-std::vector<Figure> photo_figures()
-{
-    std::vector<Figure> all = {
-        photo_figure("texture_db", "texture PSNR [dB]", &PhotoFigures::texture_db,
-                     "texture PSNR: every fourth photograph is left out and compared, at a million "
-                     "pixels at most, with the mesh covered with the others, where it shows the "
-                     "mesh's front; photo colours: the same of vertex colours from the others; own "
-                     "colours: of those the mesh has."),
-        photo_figure("photo_colors_db", "photo colours PSNR [dB]", &PhotoFigures::photo_colors_db),
-        photo_figure("own_colors_db", "own colours PSNR [dB]", &PhotoFigures::own_colors_db),
-        photo_figure("structure", "texture structure", &PhotoFigures::structure,
-                     "texture structure: mean structural similarity of squares of 8 x 8 pixels; "
-                     "covered: share of the pixels of these photographs that are compared."),
-        photo_figure("covered", "covered", &PhotoFigures::covered),
-    };
-    all[3].format = all[4].format = kShare;
-    return all;
-}
-
 std::vector<Figure> cost_figures()
 {
     return {
@@ -294,10 +264,6 @@ std::vector<Figure> figures(const Reference& reference, std::span<const Comparis
     };
     append(view_figures(reference));
     if (reference.truth) append(truth_figures(reference));
-    if (std::ranges::any_of(comparisons,
-                            [](const Comparison& c) { return c.photos.has_value(); })) {
-        append(photo_figures());
-    }
     if (has_costs(comparisons)) append(cost_figures());
     return all;
 }

@@ -37,7 +37,7 @@ struct Figure {
 
 /// All figures, from the top of the table to its bottom: of the surface itself, of how it fits the
 /// views, of how near it is to the truth where the reference has one, and where a column has them,
-/// of photographs and of the run that made it.
+/// of the run that made it.
 std::vector<Figure> figures(const Reference& reference, std::span<const Comparison> comparisons);
 
 /// Whether some column says what its mesh took to make.

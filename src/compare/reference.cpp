@@ -2,10 +2,10 @@
 
 #include "base/numbers.h"
 #include "base/parallel.h"
-#include "base/statistics.h"
-#include "compare/spacing.h"
+#include "compare/evidence.h"
 #include "compare/truth.h"
-#include "compare/view_rays.h"
+#include "geometry/nearest_neighbors.h"
+#include "geometry/triangle.h"
 #include "model/extent.h"
 #include "model/views.h"
 #include "steps/1_points/arrange.h"
@@ -16,9 +16,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace vcarve {
+
 namespace {
 
 using Box = Eigen::AlignedBox3d;
@@ -88,6 +90,31 @@ Scene countable_part(const Scene& model)
         scene.tracks.push_back(track);
     }
     return scene;
+}
+
+constexpr std::size_t kNeighbor = 6;
+constexpr double kLeastShareOfMedian = 0.01;
+
+/// ends[i] is the area of the faces up to and including i. A face that is not finite has none.
+std::vector<double> cumulated_areas(const TriMesh& mesh)
+{
+    std::vector<double> ends;
+    ends.reserve(mesh.faces.size());
+    double sum = 0.0;
+    for (const Face& face : mesh.faces) {
+        const double area = face_area(mesh.positions, face);
+        sum += std::isfinite(area) ? area : 0.0;
+        ends.push_back(sum);
+    }
+    return ends;
+}
+
+/// Uniform in the triangle (Osada et al. 2002).
+Eigen::Vector3d point_in_face(const TriMesh& mesh, const Face& face, double u, double v)
+{
+    const double root = std::sqrt(u);
+    return (1.0 - root) * mesh.positions[face[0]] + root * (1.0 - v) * mesh.positions[face[1]] +
+           root * v * mesh.positions[face[2]];
 }
 
 } // namespace
@@ -165,6 +192,47 @@ Reference make_reference(const Scene& model, const NamedMesh* truth, const Compa
         reference.truth = seen_truth(*truth, reference);
     }
     return reference;
+}
+
+std::vector<double> point_spacings(const std::vector<Eigen::Vector3d>& points)
+{
+    const NearestNeighbors tree(points);
+    std::vector<double> spacings(points.size());
+    parallel_for_ranges(points.size(), [&](std::size_t first, std::size_t last) {
+        std::vector<NearestNeighbors::Neighbor> nearest;
+        for (std::size_t i = first; i < last; ++i) {
+            tree.find(points[i], kNeighbor + 1, nearest); // the nearest of all is the point itself
+            spacings[i] = std::sqrt(nearest.back().distance_sq);
+        }
+    });
+    const double least = kLeastShareOfMedian * median(spacings);
+    for (double& spacing : spacings) {
+        spacing = std::max(spacing, least);
+    }
+    return spacings;
+}
+
+SurfaceSamples sample_surface(const TriMesh& mesh, std::size_t count, std::uint64_t seed)
+{
+    const std::vector<double> ends = cumulated_areas(mesh);
+    SurfaceSamples samples;
+    if (ends.empty() || ends.back() <= 0.0) return samples;
+    samples.positions.resize(count);
+    samples.faces.resize(count);
+    const double step = ends.back() / static_cast<double>(count);
+    parallel_for(count, [&](std::size_t i) {
+        // The face that holds this sample's part of the area.
+        const double area = (static_cast<double>(i) + random_number(seed, 3 * i)) * step;
+        auto end = std::upper_bound(ends.begin(), ends.end(), area);
+        if (end == ends.end()) end = std::lower_bound(ends.begin(), ends.end(), ends.back());
+        const auto face = static_cast<std::size_t>(end - ends.begin());
+        // A random place on it.
+        const double u = random_number(seed, 3 * i + 1);
+        const double v = random_number(seed, 3 * i + 2);
+        samples.positions[i] = point_in_face(mesh, mesh.faces[face], u, v);
+        samples.faces[i] = static_cast<std::uint32_t>(face);
+    });
+    return samples;
 }
 
 } // namespace vcarve

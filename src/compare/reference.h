@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <memory>
@@ -98,5 +99,22 @@ TriMesh in_frame(TriMesh mesh, const Eigen::Vector3d& origin);
 /// evidently lies in another frame than the model: where its box lies more than a diagonal beside
 /// the box of the middle nine tenths of the points, or the two differ more than 50 times in size.
 MeasuredMesh place_mesh(const NamedMesh& named, const Reference& reference);
+
+/// How far apart points lie around each point: the distance to its 6th nearest other point, or to
+/// the farthest where there are fewer. Points that coincide would have none, so no spacing is less
+/// than a hundredth of the median one. Precondition: at least two points, all finite. Cost: O(n log
+/// n), parallel.
+std::vector<double> point_spacings(const std::vector<Eigen::Vector3d>& points);
+
+/// Points spread over a surface, and the faces they lie on. The arrays run parallel.
+struct SurfaceSamples {
+    std::vector<Eigen::Vector3d> positions; ///< in the frame of the mesh's positions
+    std::vector<std::uint32_t> faces;       ///< ascending
+};
+
+/// `count` samples by area: the area is cut into `count` equal parts, one random sample in each, so
+/// a face of a share s of the area gets s x count samples, give or take one. Empty where no face
+/// has area. Cost: O(faces + count).
+SurfaceSamples sample_surface(const TriMesh& mesh, std::size_t count, std::uint64_t seed);
 
 } // namespace vcarve

@@ -3,7 +3,7 @@
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
-#include "compare/sample.h"
+#include "compare/reference.h"
 #include "geometry/triangle.h"
 #include "model/camera.h"
 #include "model/views.h"

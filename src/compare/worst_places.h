@@ -1,7 +1,6 @@
 #pragma once
 
 #include "compare/reference.h"
-#include "compare/sample.h"
 
 #include <Eigen/Core>
 

@@ -4,11 +4,11 @@
 #include "compare/worst_places.h"
 #include "model/extent.h"
 #include "page/display_mesh.h"
-#include "page/face_grid.h"
 #include "page/pack.h"
 #include "page/page_scene.h"
 
 #include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
@@ -70,16 +70,13 @@ Json middle_json(const Reference& reference)
 
 Json surface_json(const std::string& name, const TriMesh& shown, std::size_t of)
 {
-    return {{"name", name},
-            {"is_truth", false},
-            {"of", of},
-            {"positions", positions_json(shown.positions)},
-            {"faces", {{"count", shown.faces.size()}, {"data", pack_faces(shown.faces)}}},
-            {"colors", shown.colors.empty() ? Json(nullptr) : Json(pack_colors(shown.colors))},
-            {"measured_to", nullptr},
-            {"distances", nullptr},
-            {"wrong", nullptr},
-            {"missing", nullptr}};
+    Json json = packed_mesh(shown, of);
+    json["name"] = name;
+    json["is_truth"] = false;
+    for (const char* part : {"measured_to", "distances", "wrong", "missing"}) {
+        json[part] = nullptr;
+    }
+    return json;
 }
 
 /// Distances in percent of the diagonal, packed as errors are.

@@ -3,7 +3,7 @@
 #include "base/progress.h"
 #include "compare/reference.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <span>
@@ -28,8 +28,8 @@ struct ComparisonLimits {
 /// - "surfaces": the meshes, and after them the truth where the reference has one. Each has "name",
 ///   "is_truth", "of" (how many faces it has), positions, faces and colours as pack.h has them; of
 ///   a mesh that is measured against something "measured_to" is its name, "distances" are those of
-///   the vertices and of the places between them (see face_grid.h), and "wrong" and "missing" are
-///   its worst places; else they are null.
+///   the vertices and of the places between them (see display_mesh.h), and "wrong" and "missing"
+///   are its worst places; else they are null.
 /// A mesh is measured against the truth; where there is none against the first mesh, the first one
 /// against the second. The meshes' names are the columns'.
 /// Throws InputError as place_mesh does, and Cancelled.

@@ -1,5 +1,4 @@
-"use strict";
-// Colours that tell how far a surface lies from another: the other side of src/page/face_grid.cpp.
+// Colors by the distance of a surface to another, for the places of grid_places() in display_mesh.cpp.
 
 /// Into how many parts each edge is cut: as few as one of its faces wants, all being powers of two, so
 /// that small faces meet corner to corner and no background shines through between.

@@ -5,6 +5,7 @@
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <map>
 #include <string_view>
@@ -25,29 +26,6 @@ void fill(std::ostream& out, std::string_view text,
         out << parts.at(text.substr(begin + 2, end - begin - 2));
         text.remove_prefix(end + 2);
     }
-}
-
-/// What pages differ in, beside their HTML.
-struct PageParts {
-    std::string_view style;
-    std::string_view script;
-};
-
-void write(std::ostream& out, std::string_view html, const PageParts& parts,
-           const nlohmann::ordered_json& record, const nlohmann::ordered_json& scene)
-{
-    const std::string record_text = json_for_html(record);
-    const std::string scene_text = json_for_html(scene);
-    fill(out, html,
-         {{"style", parts.style},
-          {"three_licence", kThreeLicence},
-          {"record", record_text},
-          {"scene", scene_text},
-          {"three", kThreeJs},
-          {"view", kViewJs},
-          {"common", kCommonJs},
-          {"distance", kDistanceJs},
-          {"script", parts.script}});
 }
 
 } // namespace
@@ -79,14 +57,19 @@ std::string json_for_html(const nlohmann::ordered_json& json)
 void write_page(std::ostream& out, const nlohmann::ordered_json& record,
                 const nlohmann::ordered_json& scene)
 {
-    write(out, kReportHtml, {kReportCss, kReportJs}, record, scene);
-}
-
-void write_comparison_page(std::ostream& out, const nlohmann::ordered_json& record,
-                           const nlohmann::ordered_json& scene)
-{
-    const std::string style = std::string(kReportCss) + std::string(kComparisonCss);
-    write(out, kComparisonHtml, {style, kComparisonJs}, record, scene);
+    const std::string record_text = json_for_html(record);
+    const std::string scene_text = json_for_html(scene);
+    fill(out, kPageHtml,
+         {{"style", kPageCss},
+          {"three_licence", kThreeLicence},
+          {"record", record_text},
+          {"scene", scene_text},
+          {"three", kThreeJs},
+          {"view", kViewJs},
+          {"distance", kDistanceJs},
+          {"report", kReportJs},
+          {"comparison", kComparisonJs},
+          {"page", kPageJs}});
 }
 
 } // namespace vcarve

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <ostream>
@@ -16,16 +16,13 @@ void require_page_name(const std::filesystem::path& path);
 /// UTF-8 (in paths) are replaced.
 std::string json_for_html(const nlohmann::ordered_json& json);
 
-/// Writes a page that shows a run: one file of HTML with its style, its scripts and three.js in it,
-/// which asks the network for nothing. Its script reads everything it shows from `record` (what
-/// --stats writes) and `scene` (see page_scene.h).
+/// Writes a page that shows a run or a comparison: one HTML file with its style, its scripts and
+/// three.js, which requests nothing from the network. Everything it shows comes from `record` and
+/// `scene` (see page_scene.h). The record of a run is what --stats writes. The record of a
+/// comparison has "program" and "command"; "comparison", which is what --json writes; and "rows",
+/// those of the table, each with "title", "place", "better" ("lower", "higher" or null) and
+/// "cells".
 void write_page(std::ostream& out, const nlohmann::ordered_json& record,
                 const nlohmann::ordered_json& scene);
-
-/// Writes a page that shows a comparison, in the same way. `record` has "program" and "command";
-/// "comparison", which is what --json writes; and "rows", those of the table, each with "title",
-/// "place", "better" ("lower", "higher" or null) and "cells". `scene` is comparison_scene().
-void write_comparison_page(std::ostream& out, const nlohmann::ordered_json& record,
-                           const nlohmann::ordered_json& scene);
 
 } // namespace vcarve

@@ -5,15 +5,13 @@
 namespace vcarve {
 
 /// The files a page is made of, which CMake compiles in (cmake/embed_files.cmake).
-extern const std::string_view kReportHtml;
-extern const std::string_view kReportCss;
-extern const std::string_view kReportJs;
-extern const std::string_view kComparisonHtml;
-extern const std::string_view kComparisonCss;
-extern const std::string_view kComparisonJs;
-extern const std::string_view kDistanceJs;
-extern const std::string_view kCommonJs;
+extern const std::string_view kPageHtml;
+extern const std::string_view kPageCss;
+extern const std::string_view kPageJs;
 extern const std::string_view kViewJs;
+extern const std::string_view kDistanceJs;
+extern const std::string_view kReportJs;
+extern const std::string_view kComparisonJs;
 extern const std::string_view kThreeJs;
 extern const std::string_view kThreeLicence;
 

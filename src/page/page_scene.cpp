@@ -12,12 +12,15 @@
 #include "page/pack.h"
 #include "picture/eye.h"
 #include "steps/4_visibility/face_visibility.h"
-#include "texture/photo_pyramid.h"
+#include "texture/calibrated_photo.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace vcarve {
@@ -34,6 +37,16 @@ std::vector<std::size_t> evenly_chosen(std::size_t of, std::size_t count)
         chosen[i] = i * of / chosen.size();
     }
     return chosen;
+}
+
+/// "count" and what pack_positions() makes of them: "low", "quantum" and "data".
+Json positions_json(std::span<const Eigen::Vector3d> positions)
+{
+    const PackedPositions packed = pack_positions(positions);
+    return {{"count", positions.size()},
+            {"low", vector_json(packed.low)},
+            {"quantum", vector_json(packed.quantum)},
+            {"data", packed.data}};
 }
 
 Json points_json(const Scene& scene, std::size_t limit)
@@ -114,8 +127,7 @@ Json attributes_json(const TriMesh& mesh, const Scene& scene)
         num_views[vertex] = static_cast<std::int32_t>(scene.tracks[point].size());
         if (scene.kind_of(point) == PointKind::measured) errors_px[vertex] = scene.errors_px[point];
     }
-    return {{"colors", mesh.colors.empty() ? Json(nullptr) : Json(pack_colors(mesh.colors))},
-            {"num_views", pack_bytes(num_views)},
+    return {{"num_views", pack_bytes(num_views)},
             {"errors", pack_errors(errors_px)},
             {"supports", pack_bytes(face_supports(mesh, scene))}};
 }
@@ -145,13 +157,12 @@ Json vector_json(const Eigen::Vector3d& vector)
     return {vector.x(), vector.y(), vector.z()};
 }
 
-Json positions_json(std::span<const Eigen::Vector3d> positions)
+Json packed_mesh(const TriMesh& mesh, std::size_t of)
 {
-    const PackedPositions packed = pack_positions(positions);
-    return {{"count", positions.size()},
-            {"low", vector_json(packed.low)},
-            {"quantum", vector_json(packed.quantum)},
-            {"data", packed.data}};
+    return {{"of", of},
+            {"positions", positions_json(mesh.positions)},
+            {"faces", {{"count", mesh.faces.size()}, {"data", pack_faces(mesh.faces)}}},
+            {"colors", mesh.colors.empty() ? Json(nullptr) : Json(pack_colors(mesh.colors))}};
 }
 
 Json packed_removed(const RemovedFaces& removed, const PageLimits& limits)
@@ -181,9 +192,7 @@ Json packed_surface(const TriMesh& mesh, const Scene& scene, const PageLimits& l
                     const Progress& progress)
 {
     const TriMesh shown = display_mesh(mesh, limits.faces, progress);
-    Json json = {{"of", mesh.faces.size()},
-                 {"positions", positions_json(shown.positions)},
-                 {"faces", {{"count", shown.faces.size()}, {"data", pack_faces(shown.faces)}}}};
+    Json json = packed_mesh(shown, mesh.faces.size());
     json.update(attributes_json(shown, scene));
     return json;
 }

@@ -7,11 +7,10 @@
 #include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace vcarve {
 
@@ -27,12 +26,12 @@ struct PageLimits {
 /// [x, y, z].
 nlohmann::ordered_json vector_json(const Eigen::Vector3d& vector);
 
-/// "count" and what pack_positions() makes of them: "low", "quantum" and "data".
-nlohmann::ordered_json positions_json(std::span<const Eigen::Vector3d> positions);
+/// A mesh as the page's script reads it: "positions", "faces" and "colors" as pack.h has them, and
+/// "of", the number of faces before it was simplified.
+nlohmann::ordered_json packed_mesh(const TriMesh& mesh, std::size_t of);
 
-/// A surface as the page's script reads it: positions, faces and colours as pack.h has them, per
-/// vertex the number of views and the error, per face the support, and how many faces the surface
-/// itself has. `mesh` needs TriMesh::points, which count the points of `scene`.
+/// packed_mesh() of a surface, per vertex the number of views and the error, and per face the
+/// support. `mesh` needs TriMesh::points, which count the points of `scene`.
 nlohmann::ordered_json packed_surface(const TriMesh& mesh, const Scene& scene,
                                       const PageLimits& limits = {}, const Progress& progress = {});
 

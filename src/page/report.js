@@ -1,24 +1,24 @@
-"use strict";
-// Fills the page from the record of the run, which is what --stats writes, and drives the view.
+// Fills the page of a run from its record, which --stats writes, too.
 
 // ---- head and warnings
 
-function fillHead() {
+function fillReport() {
   const mesh = record.mesh, input = record.input, total = record.total;
-  const name = record.output.split("/").pop();
-  byId("title").textContent = name;
-  document.title = name + " · colmap-vcarve";
+  surfaces[0].name = record.output.split("/").pop();
   const state = mesh.is_closed ? "closed" : "open along " + plural(mesh.boundary_edges, "edge");
-  byId("lead").textContent = plural(mesh.faces, "face") + " made of " + plural(record.report.points, "point") +
+  fillHead(surfaces[0].name, plural(mesh.faces, "face") + " made of " + plural(record.report.points, "point") +
     " that " + plural(input.views, "view") + " saw, in " + seconds(total.seconds) + " s and " +
     mebibytes(total.peak_memory_bytes) + " MiB of memory. The surface is " + state + ", in " +
-    plural(mesh.components, "piece") + ".";
-  byId("maker").textContent = record.program.name + " " + record.program.version;
+    plural(mesh.components, "piece") + ".");
   const warnings = record.report.warnings;
   byId("warnings-section").classList.toggle("none", warnings.length === 0);
   for (const warning of warnings.length ? warnings : ["Nothing in the figures of this run asks for a warning."]) {
     byId("warnings").append(element("li", {}, warning));
   }
+  fillStages();
+  fillFilter();
+  fillMesh();
+  fillHistograms();
 }
 
 // ---- stages
@@ -159,114 +159,3 @@ function fillHistograms() {
   if (all.reprojection_error) place.append(histogram("Reprojection error", "points", all.reprojection_error));
   if (all.edge_length) place.append(histogram("Edge length", "edges of faces", all.edge_length));
 }
-
-// ---- how it was made
-
-const optionText = (value) => Array.isArray(value) ? value.join(", ") : typeof value === "boolean" ? (value ? "yes" : "no") : String(value);
-
-function fillRun() {
-  byId("command").textContent = record.command;
-  for (const note of record.notes) byId("notes").append(element("li", {}, note));
-  for (const [name, value] of Object.entries(record.options)) {
-    byId("options").tBodies[0].append(row("--" + name, optionText(value)));
-  }
-  for (const [name, value] of Object.entries(record.program)) {
-    byId("program").tBodies[0].append(row(name, String(value)));
-  }
-  const text = byId("record-text");
-  text.parentElement.addEventListener("toggle", () => { text.textContent = JSON.stringify(record, null, 2); }, { once: true });
-}
-
-// ---- the view
-
-/// What was taken away and why, as long as it is shown.
-function showRemoved(on) {
-  const place = byId("removed-legend");
-  place.replaceChildren();
-  place.hidden = !on;
-  if (!on) return;
-  place.append(element("div", {}, "Removed faces"));
-  for (const { reason, name, of } of sceneData.removed.reasons) {
-    const swatch = element("span", { class: "swatch" });
-    swatch.style.background = css(kRemoved[reason]);
-    place.append(element("div", { "data-removed": of }, swatch, name + ": " + whole(of)));
-  }
-}
-
-function shownText() {
-  const surface = sceneData.surface, points = sceneData.points;
-  const parts = [];
-  if (surface.faces.count < surface.of) {
-    parts.push("The surface shown is simplified for this page to " + whole(surface.faces.count) + " of its " +
-      whole(surface.of) + " faces; the file has them all.");
-  }
-  if (points.positions.count < points.of) {
-    parts.push("Of " + whole(points.of) + " points " + whole(points.positions.count) + " are shown.");
-  }
-  if (sceneData.removed.faces.count < sceneData.removed.of) {
-    parts.push("Of " + whole(sceneData.removed.of) + " removed faces the " + whole(sceneData.removed.faces.count) +
-      " largest are shown.");
-  }
-  if (sceneData.views.length < sceneData.views_of) {
-    parts.push("Of " + whole(sceneData.views_of) + " cameras " + whole(sceneData.views.length) + " are shown.");
-  }
-  return parts.join(" ");
-}
-function driveView() {
-  let view;
-  const select = byId("camera");
-  const follow = (state) => { select.value = state.view === null ? "" : String(state.view); };
-  try {
-    view = makeView(byId("canvas"), byId("image-frame"), sceneData.surface, sceneData, follow);
-  } catch (error) {
-    byId("no-webgl").hidden = false;
-    for (const control of document.querySelectorAll(".toolbar button, .toolbar select")) control.disabled = true;
-    return null;
-  }
-  byId("canvas").setAttribute("aria-label", "The surface, with " + whole(sceneData.surface.faces.count) + " faces");
-  for (const button of document.querySelectorAll("[data-layer]")) {
-    const name = button.dataset.layer;
-    if (name === "removed" && sceneData.removed.of === 0) {
-      button.disabled = true;
-      button.title = "Nothing was removed";
-    }
-    button.setAttribute("aria-pressed", String(view.shown[name]));
-    button.addEventListener("click", () => {
-      view.show(name, !view.shown[name]);
-      if (name === "removed") showRemoved(view.shown[name]);
-      button.setAttribute("aria-pressed", String(view.shown[name]));
-    });
-  }
-  sceneData.views.forEach((one, i) => select.append(element("option", { value: i }, one.name || "view " + (i + 1))));
-  const step = (by) => {
-    const count = sceneData.views.length;
-    if (count === 0) return;
-    const now = view.state.view === null ? (by > 0 ? -1 : count) : view.state.view;
-    view.through((now + by + count) % count);
-  };
-  select.addEventListener("change", () => { if (select.value !== "") view.through(Number(select.value)); });
-  const goes = { overview: view.overview, top: view.top, previous: () => step(-1), next: () => step(1) };
-  for (const button of document.querySelectorAll("[data-go]")) button.addEventListener("click", goes[button.dataset.go]);
-  byId("canvas").addEventListener("keydown", (event) => {
-    if (event.key === "[") step(-1);
-    if (event.key === "]") step(1);
-  });
-  const colour = byId("colour");
-  if (!view.hasTexture) { colour.querySelector("[value=texture]").remove(); colour.value = "rgb"; }
-  if (!view.hasColours) { colour.querySelector("[value=rgb]").remove(); if (!view.hasTexture) colour.value = "plain"; }
-  colour.addEventListener("change", () => showLegend(view.colourBy(colour.value)));
-  view.colourBy(colour.value);
-  view.start();
-  view.draw();
-  return view;
-}
-
-fillHead();
-fillStages();
-fillFilter();
-fillMesh();
-fillHistograms();
-fillRun();
-byId("shown").textContent = shownText();
-window.report = { record, view: driveView() };
-document.documentElement.dataset.ready = "yes";

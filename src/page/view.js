@@ -1,5 +1,5 @@
 "use strict";
-// The 3D view of a report: what packed_surface() and packed_scene() wrote, drawn by three.js.
+// The 3D view of a surface: what page_scene.cpp and comparison_scene.cpp wrote, drawn by three.js.
 
 // ---- unpacking, the other side of src/page/pack.cpp
 
@@ -586,9 +586,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   scheme.addEventListener("change", redraw);
 
   return {
-    state, shown, show, colourBy, overview, top, through, start, draw, views, flyTo, mark,
-    hasColours: surface.colours !== null,
-    hasTexture: Boolean(surfaceData.texture),
+    state, shown, show, colourBy, overview, top, through, start, draw, flyTo, mark,
     follow(other) {
       state.position.copy(other.position); state.target.copy(other.target); state.up.copy(other.up);
       state.fov = other.fov; state.view = other.view;

@@ -1,6 +1,7 @@
 #include "page/run_figures.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

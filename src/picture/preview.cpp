@@ -1,7 +1,7 @@
 #include "picture/preview.h"
 
 #include "base/text.h"
-#include "picture/caption.h"
+#include "picture/picture.h"
 #include "picture/shade.h"
 
 #include <fmt/format.h>

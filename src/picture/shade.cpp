@@ -4,8 +4,8 @@
 #include "geometry/triangle.h"
 #include "model/colors.h"
 #include "model/photograph.h"
+#include "picture/eye.h"
 #include "picture/first_faces.h"
-#include "picture/lens_rays.h"
 
 #include <array>
 #include <optional>
@@ -28,12 +28,11 @@ constexpr float kNormalStrength = 0.75F;
 struct Sample {
     Array3f shaded;
     Array3f normal;
-    bool is_front = false;
 };
 
 Sample even_sample(const Array3f& color)
 {
-    return {color, color, false};
+    return {color, color};
 }
 
 std::array<float, 3> shares_of(const FirstFace& hit)
@@ -93,7 +92,7 @@ class Looker {
         const Array3f shown = Vector3d(turned.x(), -turned.y(), -turned.z()).cast<float>().array();
         const Array3f color = texture_.is_empty() ? Array3f(light * own_color(mesh_, hit))
                                                   : texture_color(texture_, hit);
-        return {color, 127.5F * (1.0F + kNormalStrength * shown), true};
+        return {color, 127.5F * (1.0F + kNormalStrength * shown)};
     }
 
   private:
@@ -120,24 +119,19 @@ Looks look_at(const TriMesh& mesh, const Texture& texture, const Eye& eye, doubl
     const Eigen::Array2i size = picture_size(eye.camera, most_pixels);
     const int width_px = size.x();
     Looks looks{even_picture(width_px, size.y(), Array3f::Zero()),
-                even_picture(width_px, size.y(), Array3f::Zero()),
-                {}};
-    looks.is_front.resize(looks.shaded.pixels.size());
+                even_picture(width_px, size.y(), Array3f::Zero())};
     const LensRays rays(eye.camera, size);
     const Looker looker(mesh, texture, eye);
     const auto fill = [&](std::size_t pixel) {
         const auto x = static_cast<int>(pixel % width_px);
         const auto y = static_cast<int>(pixel / width_px);
-        bool is_front = true;
         for (int i = 0; i < kSamples; ++i) {
             const Eigen::Array2i column_and_row(i % kSamplesASide, i / kSamplesASide);
             const Eigen::Array2d within = (column_and_row.cast<double>() + 0.5) / kSamplesASide;
             const Sample sample = looker.along(rays.at(x, y, within));
             looks.shaded.pixels[pixel] += sample.shaded / kSamples;
             looks.normals.pixels[pixel] += sample.normal / kSamples;
-            is_front = is_front && sample.is_front;
         }
-        looks.is_front[pixel] = is_front ? 1 : 0;
     };
     parallel_for(looks.shaded.pixels.size(), fill, 2048);
     return looks;

@@ -5,9 +5,6 @@
 #include "picture/picture.h"
 #include "vcarve/tri_mesh.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace vcarve {
 
 /// What a place of a picture shows, 0 to 255.
@@ -20,7 +17,6 @@ inline const Eigen::Array3f kUncolored{200.0F, 200.0F, 205.0F}; ///< of meshes w
 struct Looks {
     Picture shaded;  ///< in its texture, or in its vertex colours, lit from the eye
     Picture normals; ///< of the faces: red grows to the right, green upwards, blue towards the eye
-    std::vector<std::uint8_t> is_front; ///< of the pixels: all its rays meet fronts of faces
 };
 
 /// Both pictures have picture_size(). Each pixel is the mean of four rays through the lens, as

@@ -1,6 +1,12 @@
 #include "texture/calibrated_photo.h"
 
 #include "model/camera.h"
+#include "model/photograph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace vcarve {
 
@@ -20,6 +26,43 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
     const bool is_inside = pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 &&
                            pixel->x() <= photo.size.width_px && pixel->y() <= photo.size.height_px;
     return is_inside ? pixel : std::nullopt;
+}
+
+Photograph halved(const Photograph& whole)
+{
+    Photograph half{std::max(1, whole.width_px / 2), std::max(1, whole.height_px / 2), {}};
+    half.rgb.resize(static_cast<std::size_t>(3) * half.width_px * half.height_px);
+    const auto row_bytes = static_cast<std::size_t>(3) * whole.width_px;
+    const std::size_t right = whole.width_px > 1 ? 3 : 0;
+    const std::size_t below = whole.height_px > 1 ? row_bytes : 0;
+    std::size_t to = 0;
+    for (int y = 0; y < half.height_px; ++y) {
+        const std::uint8_t* from = whole.rgb.data() + 2 * row_bytes * y;
+        for (int x = 0; x < half.width_px; ++x, from += 6) {
+            for (int channel = 0; channel < 3; ++channel, ++to) {
+                const std::uint8_t* at = from + channel;
+                half.rgb[to] = static_cast<std::uint8_t>(
+                    (at[0] + at[right] + at[below] + at[right + below] + 2) / 4);
+            }
+        }
+    }
+    return half;
+}
+
+PhotoPyramid::PhotoPyramid(Photograph photograph)
+{
+    levels_.push_back(std::move(photograph));
+    while (std::min(levels_.back().width_px, levels_.back().height_px) > 1) {
+        levels_.push_back(halved(levels_.back()));
+    }
+}
+
+Eigen::Array3f PhotoPyramid::at(const Eigen::Vector2d& pixel, double width_px) const
+{
+    const double finest = std::round(std::log2(std::max(width_px, 1.0)));
+    const auto level = std::min(static_cast<std::size_t>(finest), levels_.size() - 1);
+    const double scale = 1.0 / static_cast<double>(std::size_t{1} << level);
+    return between_pixels(levels_[level], scale * pixel);
 }
 
 } // namespace vcarve

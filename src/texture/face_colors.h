@@ -3,7 +3,6 @@
 #include "base/progress.h"
 #include "texture/calibrated_photo.h"
 #include "texture/face_photos.h"
-#include "texture/photo_pyramid.h"
 #include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>

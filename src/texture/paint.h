@@ -4,8 +4,7 @@
 #include "texture/calibrated_photo.h"
 #include "texture/charts.h"
 #include "texture/face_colors.h"
-#include "texture/seam_blends.h"
-#include "texture/seam_levels.h"
+#include "texture/seams.h"
 #include "vcarve/tri_mesh.h"
 
 #include <cstdint>

@@ -7,8 +7,7 @@
 #include "texture/face_colors.h"
 #include "texture/face_photos.h"
 #include "texture/paint.h"
-#include "texture/seam_blends.h"
-#include "texture/seam_levels.h"
+#include "texture/seams.h"
 #include "texture/vertex_colors.h"
 
 #include <fmt/format.h>

@@ -38,7 +38,7 @@ TEST_F(ReportOfBall, HoldsTheRecordThatStatsWrites)
     EXPECT_EQ(record["report"]["histograms"]["edge_length"]["values"],
               3 * record["mesh"]["faces"].get<int>());
     const Json scene = part_of(bytes_of(page), "scene");
-    EXPECT_EQ(scene["surface"]["faces"]["count"], record["mesh"]["faces"]);
+    EXPECT_EQ(scene["surfaces"][0]["faces"]["count"], record["mesh"]["faces"]);
     EXPECT_EQ(scene["views"].size(), 6U);
 }
 

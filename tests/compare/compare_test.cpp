@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
 
 namespace vcarve::compare_test {
 namespace {
@@ -104,6 +105,23 @@ TEST(CompareCall, GivesTheFiguresOfItsJsonAndATable)
     EXPECT_THAT(report.table, ::testing::HasSubstr("made.ply"));
     EXPECT_THAT(log.ended(), ::testing::Contains("reference"));
     EXPECT_THAT(log.ended(), ::testing::Contains("measure"));
+}
+
+TEST(CompareCall, GivesTheSameFiguresForAnyNumberOfThreads)
+{
+    Log silent;
+    const Scene scene = bumpy_sphere(1000, 1);
+    const NamedMesh truth = {"truth.ply", reconstruct(scene, {}, silent).mesh};
+    const NamedMesh soup = {"soup.ply", testing::random_soup(100, 5)};
+    const auto json_on = [&](std::size_t threads) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        return compare(scene, std::span(&soup, 1), &truth, {.samples = 20000}, silent).json;
+    };
+    const std::string alone = json_on(1);
+    EXPECT_EQ(alone, json_on(3));
+    const auto figures = nlohmann::json::parse(alone).at("meshes").at(0);
+    EXPECT_GT(figures.at("truth").at("torn"), 0.0);
+    EXPECT_GT(figures.at("views").at("back_faces_seen"), 0.0);
 }
 
 TEST(CompareCall, RefusesOptionsOutOfTheirRange)

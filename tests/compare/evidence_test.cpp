@@ -1,10 +1,16 @@
 #include "compare/evidence.h"
+#include "support/made_cells.h"
 #include "support/measured_scenes.h"
+#include "support/scenes.h"
+#include "vcarve/reconstruct.h"
 
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace vcarve::evidence_test {
 namespace {
@@ -152,18 +158,269 @@ TEST(Evidence, DoesNotDependOnUnitOrPlace)
     }
 }
 
-TEST(Evidence, IsTheSameForAnyNumberOfThreads)
+using testing::cube;
+using testing::square_camera;
+
+CompareOptions with_samples(int samples)
 {
-    const TriMesh mesh = testing::random_soup(100, 5);
-    const EvidenceFigures many = figures_of(mesh, grid_reference());
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const EvidenceFigures alone = figures_of(mesh, grid_reference());
-    EXPECT_EQ(alone.hidden_sights, many.hidden_sights);
-    EXPECT_EQ(alone.missed_points, many.missed_points);
-    EXPECT_EQ(alone.unsupported_area, many.unsupported_area);
-    EXPECT_EQ(alone.median_distance, many.median_distance);
-    EXPECT_EQ(alone.seen_boundary_edges, many.seen_boundary_edges);
-    EXPECT_GT(many.seen_boundary_edges, 0);
+    CompareOptions options;
+    options.samples = samples;
+    return options;
+}
+
+/// Two views at one place 2 above the top of the unit cube that look down at its middle: the top
+/// fills 50 of the 100 px of their images, each with 40 x 40 rays.
+Reference reference_above_cube()
+{
+    Scene scene = testing::scene_above_square(11, {{0.5, 0.5, 3.0}, {0.5, 0.5, 3.0}});
+    scene.cameras[0] = square_camera(100, 0.5);
+    return make_reference(scene, nullptr, with_samples(4 * 2 * 1600));
+}
+
+TriMesh without_top(TriMesh mesh)
+{
+    mesh.faces.erase(mesh.faces.begin() + 2, mesh.faces.begin() + 4);
+    return mesh;
+}
+
+TriMesh without_top_and_bottom(TriMesh mesh)
+{
+    mesh.faces.erase(mesh.faces.begin(), mesh.faces.begin() + 4);
+    return mesh;
+}
+
+std::optional<RayFigures> figures_of(const TriMesh& mesh, const Reference& reference)
+{
+    return measure_view_rays(place_mesh({"a.ply", mesh}, reference), reference);
+}
+
+TEST(ViewRays, AreTheMiddlesOfAGridInEveryImage)
+{
+    Scene scene = testing::scene_above_square(3, {{0.2, 0.3, 5.0}, {0.7, 0.1, 4.0}});
+    scene.cameras[0] = {
+        .id = 1, .model = 1, .width_px = 80, .height_px = 40, .params = {100, 50, 30, 25}};
+    // 36 cells an image at most: 8 columns and 4 rows of 10 px.
+    const std::vector<ViewRay> rays = view_rays(scene, with_samples(4 * 2 * 36));
+    ASSERT_EQ(rays.size(), 64U);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t cell = i % 32;
+        EXPECT_EQ(rays[i].view, i / 32);
+        const double x = (10.0 * static_cast<double>(cell % 8) + 5.0 - 30.0) / 100.0;
+        const double y = (10.0 * static_cast<double>(cell / 8) + 5.0 - 25.0) / 50.0;
+        // The cameras look down: half a turn about x.
+        const Eigen::Vector3d expected(x, -y, -1.0);
+        const Eigen::Vector3d line = rays[i].towards - scene.views[rays[i].view].center;
+        EXPECT_TRUE(line.normalized().isApprox(expected.normalized(), 1e-12)) << "ray " << i;
+    }
+}
+
+TEST(ViewRays, AreSharedByTheViewsButSomeAreLeftForEach)
+{
+    Scene scene = testing::scene_above_square(3, std::vector<Eigen::Vector3d>(10, {0.5, 0.5, 1}));
+    scene.cameras[0] = square_camera(1000, 1.0);
+    EXPECT_EQ(view_rays(scene, with_samples(400000)).size(), 100000U);
+    EXPECT_EQ(view_rays(scene, with_samples(4000)).size(), 1000U);
+    EXPECT_EQ(view_rays(scene, with_samples(1000)).size(), 360U);
+}
+
+TEST(ViewRays, AreNoneOfCamerasWithoutKnownLensOrSize)
+{
+    Scene scene = testing::scene_above_square(3, testing::high_centers());
+    const Camera known = square_camera(100, 1.0);
+    Camera unknown = known;
+    unknown.model = -1;
+    Camera without_size = known;
+    without_size.height_px = 0;
+    scene.cameras = {unknown, without_size, known};
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        scene.views[i].camera = std::min(i, 2U);
+    }
+    const std::vector<ViewRay> rays = view_rays(scene, with_samples(4 * 4 * 100));
+    ASSERT_EQ(rays.size(), 200U);
+    EXPECT_EQ(rays.front().view, 2U);
+    EXPECT_EQ(rays.back().view, 3U);
+
+    scene.views[2].camera = 0;
+    scene.views[3].camera = 1;
+    const Reference reference = make_reference(scene, nullptr, with_samples(1000));
+    EXPECT_TRUE(reference.rays.empty());
+    EXPECT_FALSE(figures_of(square(), reference).has_value());
+}
+
+TEST(ViewRays, SeeTheInsideThroughAMissingFace)
+{
+    const Reference reference = reference_above_cube();
+    EXPECT_EQ(figures_of(cube(), reference)->back_faces_seen, 0.0);
+    // The opening is 50 px of 100 wide: 20 rays of 40.
+    EXPECT_EQ(figures_of(without_top(cube()), reference)->back_faces_seen, 0.25);
+    EXPECT_EQ(figures_of(testing::flipped(cube()), reference)->back_faces_seen, 0.25);
+}
+
+TEST(ViewRays, SeeNothingWhereTheClosedSurfaceHasAFace)
+{
+    Reference reference = reference_above_cube();
+    EXPECT_FALSE(figures_of(cube(), reference)->nothing_seen.has_value());
+    TriMesh closed = testing::moved(cube(), {0.0, 0.0, -7.0});
+    closed.offset = {0.0, 0.0, 7.0};
+    use_closed_surface(reference, closed);
+    EXPECT_EQ(figures_of(cube(), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(figures_of(without_top(cube()), reference)->nothing_seen, 0.0);
+    // Through the bottom, 33.3 px wide, go 14 rays of 40; the rest meet the sides from inside.
+    const auto tube = figures_of(without_top_and_bottom(cube()), reference);
+    EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
+    EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
+    // Faces where the closed surface has none make up for nothing and are held against nobody.
+    const TriMesh beside = testing::moved(square(), {1.0, 0.0, 1.0});
+    EXPECT_EQ(figures_of(testing::together(cube(), beside), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(figures_of(beside, reference)->nothing_seen, 0.25);
+    EXPECT_EQ(figures_of(square(1.0), reference)->nothing_seen, 0.0);
+}
+
+TEST(ViewRays, FindWhatEveryFaceTriedFinds)
+{
+    // Two slanting views of a cube that lacks its top and a side.
+    Scene scene = testing::scene_above_square(11, {{2.5, 1.9, 2.7}, {-0.7, -1.3, 1.6}});
+    scene.cameras[0] = square_camera(200, 0.4);
+    for (View& view : scene.views) {
+        testing::aim(view, {0.45, 0.55, 0.4});
+    }
+    Reference reference = make_reference(scene, nullptr, with_samples(4 * 2 * 2500));
+    use_closed_surface(reference, cube());
+    TriMesh open = without_top(cube());
+    open.faces.erase(open.faces.end() - 2, open.faces.end());
+
+    int backs = 0;
+    int missing = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const View& view = scene.views[static_cast<std::size_t>(i / 2500)];
+        const double u = 0.4 * ((i % 50 + 0.5) / 25.0 - 1.0);
+        const double v = 0.4 * ((i % 2500 / 50 + 0.5) / 25.0 - 1.0);
+        const Eigen::Vector3d line = view.cam_from_world.conjugate() * Eigen::Vector3d(u, v, 1.0);
+        const Eigen::Vector3d towards = view.center + line;
+        const auto hit = testing::first_hit_of_all(open, view.center, towards);
+        const bool has_face = testing::first_hit_of_all(cube(), view.center, towards).has_value();
+        backs += hit && !hit->front ? 1 : 0;
+        missing += !hit && has_face ? 1 : 0;
+    }
+    EXPECT_GT(backs, 200);
+    EXPECT_GT(missing, 20);
+    const std::optional<RayFigures> figures = figures_of(open, reference);
+    EXPECT_DOUBLE_EQ(figures->back_faces_seen, backs / 5000.0);
+    EXPECT_DOUBLE_EQ(figures->nothing_seen.value(), missing / 5000.0);
+}
+
+TEST(ViewRays, DoNotDependOnUnitOrPlace)
+{
+    Scene scene = testing::scene_above_square(11, {{0.5, 0.5, 3.0}, {0.5, 0.5, 3.0}});
+    scene.cameras[0] = square_camera(100, 0.5);
+    for (const double factor : {1e-6, 1e6}) {
+        Scene other = scene;
+        const Eigen::Vector3d shift = factor * Eigen::Vector3d(500, -40, 100);
+        for (Eigen::Vector3d& position : other.positions) {
+            position = position * factor + shift;
+        }
+        for (View& view : other.views) {
+            view.center = view.center * factor + shift;
+        }
+        const auto there = [&](const TriMesh& mesh) {
+            return testing::moved(testing::scaled(mesh, factor), shift);
+        };
+        Reference reference = make_reference(other, nullptr, with_samples(4 * 2 * 1600));
+        use_closed_surface(reference, there(cube()));
+        const auto tube = figures_of(there(without_top_and_bottom(cube())), reference);
+        EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
+        EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
+    }
+}
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+/// Keeps what it is told.
+class KeptLog : public Log {
+  public:
+    void stage_ends(std::string_view name, const Counts& /*counts*/) override
+    {
+        stages.emplace_back(name);
+    }
+    void note(std::string_view sentence) override { notes.emplace_back(sentence); }
+
+    std::vector<std::string> stages;
+    std::vector<std::string> notes;
+};
+
+/// A bumpy ball and four views side by side that look at it: nobody sees its far side.
+Scene ball_seen_from_one_side()
+{
+    Scene scene = bumpy_sphere(1500, 3);
+    scene.views.resize(4);
+    for (View& view : scene.views) {
+        testing::aim(view, Eigen::Vector3d::Zero());
+    }
+    Tracks tracks;
+    for (std::size_t point = 0; point < scene.num_points(); ++point) {
+        std::vector<std::uint32_t> left;
+        std::ranges::copy_if(scene.tracks[point], std::back_inserter(left),
+                             [](std::uint32_t view) { return view < 4; });
+        tracks.push_back(left);
+    }
+    scene.tracks = tracks;
+    return scene;
+}
+
+double nothing_seen(const TriMesh& mesh, const Reference& reference)
+{
+    const MeasuredMesh measured = place_mesh({"a.ply", mesh}, reference);
+    return measure_view_rays(measured, reference).value().nothing_seen.value();
+}
+
+TEST(ClosedSurface, IsWhatTheProgramMakesWithClosed)
+{
+    const Scene scene = ball_seen_from_one_side();
+    Reference reference = make_reference(scene, nullptr, testing::few_samples());
+    KeptLog log;
+    add_closed_surface(reference, scene, log);
+    EXPECT_THAT(log.stages, ElementsAre("closed"));
+    EXPECT_THAT(log.notes, IsEmpty());
+    const auto met = std::ranges::count(*reference.closed_hits, 1);
+    EXPECT_GT(met, std::ssize(reference.rays) / 10);
+    EXPECT_LT(met, std::ssize(reference.rays));
+
+    Options options;
+    Log silent;
+    EXPECT_GT(nothing_seen(reconstruct(scene, options, silent).mesh, reference), 0.0);
+    options.surface.closed = true;
+    EXPECT_EQ(nothing_seen(reconstruct(scene, options, silent).mesh, reference), 0.0);
+}
+
+TEST(ClosedSurface, IsNoneWhereThePointsLeaveNone)
+{
+    // All points lie in a plane.
+    Scene scene = testing::scene_above_square(3, testing::high_centers());
+    scene.cameras[0] = testing::square_camera(100, 0.2);
+    scene.colors.resize(scene.num_points());
+    scene.errors_px.resize(scene.num_points());
+    scene.point_ids.resize(scene.num_points());
+    Reference reference = make_reference(scene, nullptr, testing::few_samples());
+    KeptLog log;
+    add_closed_surface(reference, scene, log);
+    EXPECT_FALSE(reference.closed_hits.has_value());
+    EXPECT_THAT(log.notes, ElementsAre(StartsWith("no closed surface to measure against: ")));
+    const MeasuredMesh mesh = place_mesh({"a.ply", testing::square()}, reference);
+    const RayFigures figures = measure_view_rays(mesh, reference).value();
+    EXPECT_EQ(figures.back_faces_seen, 0.0);
+    EXPECT_FALSE(figures.nothing_seen.has_value());
+}
+
+TEST(ClosedSurface, IsNotMadeWhereNoViewHasARay)
+{
+    const Scene scene = testing::scene_above_square(3, testing::high_centers());
+    Reference reference = make_reference(scene, nullptr, testing::few_samples());
+    KeptLog log;
+    add_closed_surface(reference, scene, log);
+    EXPECT_FALSE(reference.closed_hits.has_value());
+    EXPECT_THAT(log.stages, IsEmpty());
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "vcarve/error.h"
 
 #include <gmock/gmock.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -205,14 +204,6 @@ LineFigures lines_of(const TriMesh& mesh, const Reference& reference)
     return figures_of(mesh, reference).lines.value();
 }
 
-TEST(TruthLines, SeeTheTruthItselfRight)
-{
-    const LineFigures lines = lines_of(square(), reference_of(square(), high_centers()));
-    EXPECT_EQ(lines.seen_right, 1.0);
-    EXPECT_EQ(lines.torn, 0.0);
-    EXPECT_EQ(lines.open, 0.0);
-}
-
 TEST(TruthLines, AreOpenWhereTheMeshHasAHole)
 {
     const Reference reference = reference_of(square(), high_centers());
@@ -328,22 +319,6 @@ TEST(TruthLines, AreNoneWhereNoImageHoldsATruth)
     const Reference reference = narrow_reference(far, 0.25);
     EXPECT_EQ(reference.truth->image_samples(), 0);
     EXPECT_FALSE(figures_of(square(), reference).lines.has_value());
-}
-
-TEST(Truth, FiguresAreTheSameForAnyNumberOfThreads)
-{
-    const TriMesh mesh = testing::random_soup(100, 5);
-    const TruthFigures many = figures_of(mesh, reference_of(square(), high_centers()));
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const TruthFigures alone = figures_of(mesh, reference_of(square(), high_centers()));
-    EXPECT_EQ(alone.agreements[3].f_score, many.agreements[3].f_score);
-    EXPECT_EQ(alone.mean_accuracy, many.mean_accuracy);
-    EXPECT_EQ(alone.mean_completeness, many.mean_completeness);
-    EXPECT_EQ(alone.blocked, many.blocked);
-    EXPECT_EQ(alone.lines->seen_right, many.lines->seen_right);
-    EXPECT_EQ(alone.lines->torn, many.lines->torn);
-    EXPECT_EQ(alone.lines->open, many.lines->open);
-    EXPECT_GT(many.lines->torn, 0.0);
 }
 
 } // namespace

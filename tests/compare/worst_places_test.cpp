@@ -104,26 +104,6 @@ TEST(WorstSamples, AreSpreadApartAndLeaveNoOtherOut)
     EXPECT_EQ(left_out, 0U);
 }
 
-TEST(DistancesTo, AreThoseOfBruteForce)
-{
-    const TriMesh soup = testing::random_soup(60, 3);
-    const TriangleTree tree(soup);
-    std::vector<Eigen::Vector3d> places;
-    for (std::uint64_t i = 0; i < 300; ++i) {
-        places.emplace_back(2.0 * random_number(4, 3 * i), random_number(4, 3 * i + 1),
-                            random_number(4, 3 * i + 2) - 0.5);
-    }
-    const std::vector<double> found = distances_to(tree, places);
-    ASSERT_THAT(found, SizeIs(places.size()));
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        double least = std::numeric_limits<double>::infinity();
-        for (const Face& face : soup.faces) {
-            least = std::min(least, testing::distance_to_face(soup, face, places[i]));
-        }
-        EXPECT_NEAR(found[i], least, 1e-12);
-    }
-}
-
 /// Of a square at height 0, seen by four views above it.
 Reference square_reference(bool with_truth)
 {

@@ -1,7 +1,6 @@
 // The comparisons of the paper (Akgunduz, Zetu, Banerjee 2000, section 2) on its own objects:
 // strict carving gets the solid, no alpha shape does, and sculpting takes what it should keep.
 #include "baselines/alpha_shape.h"
-#include "baselines/circumsphere.h"
 #include "baselines/sculpt.h"
 #include "io/colmap/colmap_model.h"
 #include "steps/3_cells/triangulate.h"

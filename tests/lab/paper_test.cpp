@@ -1,4 +1,4 @@
-#include "paper/objects.h"
+#include "paper/write_fixture.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
 

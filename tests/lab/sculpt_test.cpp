@@ -1,4 +1,4 @@
-#include "baselines/circumsphere.h"
+#include "baselines/alpha_shape.h"
 #include "baselines/sculpt.h"
 #include "mesh/check.h"
 #include "steps/3_cells/triangulate.h"

@@ -1,11 +1,12 @@
 #include "compare/worst_places.h"
 #include "page/comparison_scene.h"
-#include "page/face_grid.h"
+#include "page/display_mesh.h"
 #include "page/pack.h"
 #include "page/page_scene.h"
 #include "support/measured_scenes.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

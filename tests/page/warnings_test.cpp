@@ -1,6 +1,7 @@
 #include "page/run_figures.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace vcarve::warnings_test {
 namespace {

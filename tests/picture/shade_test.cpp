@@ -262,13 +262,5 @@ TEST(LookAt, ShowsATextureInItsOwnLight)
         look_at(mesh, texture, eye_ahead(), 48).shaded.pixels[0].isApprox(Array3f(10, 20, 30)));
 }
 
-TEST(LookAt, TellsWhichPixelsShowFronts)
-{
-    const Looks looks = look_at(front_and_back(), {}, eye_ahead(), 48);
-    EXPECT_EQ(looks.is_front[0], 1);              // left
-    EXPECT_EQ(looks.is_front[kWidth - 1], 0);     // a back
-    EXPECT_EQ(looks.is_front[6 * kWidth - 1], 0); // nothing
-}
-
 } // namespace
 } // namespace vcarve::shade_test

@@ -7,9 +7,9 @@ from selenium.webdriver.chrome.service import Service
 # A hash of what a view shows, and how many colours that has. Drawn and read in one task, since WebGL
 # forgets a picture once it is shown. A comparison has several views, numbered from 0.
 PIXELS = """
-const pane = window.report.panes ? window.report.panes[arguments[0]] : window.report;
+const pane = window.report.panes[arguments[0] || 0];
 pane.view.draw();
-const from = pane.root ? pane.root.querySelector('canvas') : document.getElementById('canvas');
+const from = pane.root.querySelector('canvas');
 const to = document.createElement('canvas');
 to.width = from.width; to.height = from.height;
 to.getContext('2d').drawImage(from, 0, 0);

@@ -1,16 +1,13 @@
 // Makes fixtures/air and fixtures/room: models of scenes whose geometry is known, as COLMAP would
 // reconstruct them, without pictures; fixtures/dense_room, the room as dense stereo would see it;
 // and fixtures/scanned_room, as laser scanners would. Usage: make_observed_fixtures FOLDER
-#include "observed/dense.h"
 #include "observed/observe.h"
-#include "observed/observed_scene.h"
 #include "observed/scan.h"
 #include "observed/write_model.h"
-#include "observed/write_workspace.h"
+#include "run_program.h"
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <filesystem>
 #include <vector>
 
@@ -61,22 +58,14 @@ void make_scan(const std::filesystem::path& folder, const ObservedScene& observe
 
 int main(int argc, char** argv)
 {
-    if (argc != 2) {
-        fmt::print(stderr, "usage: make_observed_fixtures FOLDER\n");
-        return 2;
-    }
-    try {
-        for (const ObservedScene& observed :
-             {vcarve::observed::from_the_air(), vcarve::observed::inside_a_room()}) {
-            make(std::filesystem::path(argv[1]) / observed.name, observed);
-        }
-        make_dense(std::filesystem::path(argv[1]) / "dense_room",
-                   vcarve::observed::inside_a_room());
-        make_scan(std::filesystem::path(argv[1]) / "scanned_room",
-                  vcarve::observed::inside_a_room());
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "make_observed_fixtures: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return vcarve::run_program(std::span(argv, static_cast<std::size_t>(argc)),
+                               "make_observed_fixtures FOLDER", 1, 1, [](std::span<char*> words) {
+                                   const std::filesystem::path folder = words[0];
+                                   const ObservedScene air = vcarve::observed::from_the_air();
+                                   const ObservedScene room = vcarve::observed::inside_a_room();
+                                   make(folder / air.name, air);
+                                   make(folder / room.name, room);
+                                   make_dense(folder / "dense_room", room);
+                                   make_scan(folder / "scanned_room", room);
+                               });
 }

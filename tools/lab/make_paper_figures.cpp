@@ -2,10 +2,10 @@
 // "Viewpoint-centered shape recovery from multiple views" (2000). Usage: make_paper_figures
 // FIXTURES, the folder fixtures/paper. Writes JSON to standard output for tools/docs/paper.
 #include "figures/figures.h"
+#include "run_program.h"
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <filesystem>
 
 namespace vcarve::paper {
@@ -40,14 +40,9 @@ Json all_figures(const std::filesystem::path& fixtures)
 } // namespace vcarve::paper
 
 int main(int argc, char** argv)
-try {
-    if (argc != 2) {
-        fmt::print(stderr, "usage: make_paper_figures FIXTURES\n");
-        return 2;
-    }
-    fmt::print("{}\n", vcarve::paper::all_figures(argv[1]).dump());
-    return 0;
-} catch (const std::exception& error) {
-    fmt::print(stderr, "make_paper_figures: {}\n", error.what());
-    return 1;
+{
+    return vcarve::run_program(std::span(argv, static_cast<std::size_t>(argc)),
+                               "make_paper_figures FIXTURES", 1, 1, [](std::span<char*> words) {
+                                   fmt::print("{}\n", vcarve::paper::all_figures(words[0]).dump());
+                               });
 }

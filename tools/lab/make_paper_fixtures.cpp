@@ -1,12 +1,10 @@
 // Makes fixtures/paper: the objects of figures 15-18 of Akgunduz, Zetu, Banerjee,
 // "Viewpoint-centered shape recovery from multiple views" (2000), as exact models. Usage:
 // make_paper_fixtures FOLDER
-#include "paper/objects.h"
 #include "paper/write_fixture.h"
+#include "run_program.h"
 
 #include <fmt/format.h>
-
-#include <exception>
 
 namespace vcarve::paper {
 
@@ -49,15 +47,7 @@ void make_all(const std::filesystem::path& folder)
 
 int main(int argc, char** argv)
 {
-    if (argc != 2) {
-        fmt::print(stderr, "usage: make_paper_fixtures FOLDER\n");
-        return 2;
-    }
-    try {
-        vcarve::paper::make_all(argv[1]);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "make_paper_fixtures: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return vcarve::run_program(std::span(argv, static_cast<std::size_t>(argc)),
+                               "make_paper_fixtures FOLDER", 1, 1,
+                               [](std::span<char*> words) { vcarve::paper::make_all(words[0]); });
 }

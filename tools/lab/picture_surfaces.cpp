@@ -4,11 +4,11 @@
 #include "picture/eye.h"
 #include "picture/picture.h"
 #include "picture/shade.h"
+#include "run_program.h"
 #include "vcarve/io.h"
 
 #include <fmt/format.h>
 
-#include <exception>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -51,14 +51,8 @@ void draw(std::span<char*> words)
 } // namespace vcarve
 
 int main(int argc, char** argv)
-try {
-    if (argc < 6) {
-        fmt::print(stderr, "usage: picture_surfaces OUT.png WIDTH_PX MODEL VIEW MESH...\n");
-        return 2;
-    }
-    vcarve::draw(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
-    return 0;
-} catch (const std::exception& error) {
-    fmt::print(stderr, "picture_surfaces: {}\n", error.what());
-    return 1;
+{
+    return vcarve::run_program(std::span(argv, static_cast<std::size_t>(argc)),
+                               "picture_surfaces OUT.png WIDTH_PX MODEL VIEW MESH...", 5, 1000,
+                               [](std::span<char*> words) { vcarve::draw(words); });
 }

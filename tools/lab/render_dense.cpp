@@ -2,15 +2,15 @@
 // render_dense FOLDER SCENE [SIZE], where SIZE scales the sides of the images, by default 1;
 // render_views --list prints the scenes' names. Writes FOLDER/fused.ply, FOLDER/fused.ply.vis,
 // FOLDER/sparse and FOLDER/gt.ply, the truth.
-#include "dense/fuse.h"
-#include "observed/write_workspace.h"
+#include "dense/stereo.h"
+#include "observed/write_model.h"
+#include "run_program.h"
 #include "vcarve/io.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <string>
 
 namespace vcarve::dense {
@@ -96,15 +96,10 @@ void write_all(const std::filesystem::path& folder, const std::string& name, dou
 
 int main(int argc, char** argv)
 {
-    if (argc < 3 || argc > 4) {
-        fmt::print(stderr, "usage: render_dense FOLDER SCENE [SIZE]\n");
-        return 2;
-    }
-    try {
-        vcarve::dense::write_all(argv[1], argv[2], argc == 4 ? std::stod(argv[3]) : 1.0);
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "render_dense: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return vcarve::run_program(
+        std::span(argv, static_cast<std::size_t>(argc)), "render_dense FOLDER SCENE [SIZE]", 2, 3,
+        [](std::span<char*> words) {
+            vcarve::dense::write_all(words[0], words[1],
+                                     words.size() == 3 ? std::stod(words[2]) : 1.0);
+        });
 }

@@ -8,12 +8,12 @@
 #include "picture/picture.h"
 #include "render/photo_scene.h"
 #include "render/photograph.h"
+#include "run_program.h"
 #include "vcarve/io.h"
 
 #include <fmt/format.h>
 #include <fmt/os.h>
 
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -98,20 +98,14 @@ void write_all(const std::filesystem::path& folder, const std::string& name)
 
 int main(int argc, char** argv)
 {
-    if (argc < 2 || argc > 3) {
-        fmt::print(stderr, "usage: render_views FOLDER [SCENE] | render_views --list\n");
-        return 2;
-    }
-    try {
-        const std::vector<std::string> names = vcarve::render::photo_scene_names();
-        if (std::string_view(argv[1]) == "--list") {
-            fmt::print("{}\n", fmt::join(names, "\n"));
-        } else {
-            vcarve::render::write_all(argv[1], argc == 3 ? argv[2] : names.front());
-        }
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "render_views: {}\n", error.what());
-        return 1;
-    }
-    return 0;
+    return vcarve::run_program(
+        std::span(argv, static_cast<std::size_t>(argc)),
+        "render_views FOLDER [SCENE] | render_views --list", 1, 2, [](std::span<char*> words) {
+            const std::vector<std::string> names = vcarve::render::photo_scene_names();
+            if (std::string_view(words[0]) == "--list") {
+                fmt::print("{}\n", fmt::join(names, "\n"));
+            } else {
+                vcarve::render::write_all(words[0], words.size() == 2 ? words[1] : names.front());
+            }
+        });
 }

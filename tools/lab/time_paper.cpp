@@ -6,6 +6,7 @@
 #include "figures/timed_object.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/visibility_energy.h"
+#include "run_program.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/count_crossings.h"
 #include "steps/5_labels/label_cells.h"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -159,15 +159,11 @@ Json measure_all(std::size_t most_points)
 } // namespace vcarve::paper
 
 int main(int argc, char** argv)
-try {
-    if (argc != 2) {
-        fmt::print(stderr, "usage: time_paper MOST_POINTS\n");
-        return 2;
-    }
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    fmt::print("{}\n", vcarve::paper::measure_all(std::stoul(argv[1])).dump());
-    return 0;
-} catch (const std::exception& error) {
-    fmt::print(stderr, "time_paper: {}\n", error.what());
-    return 1;
+{
+    return vcarve::run_program(
+        std::span(argv, static_cast<std::size_t>(argc)), "time_paper MOST_POINTS", 1, 1,
+        [](std::span<char*> words) {
+            const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+            fmt::print("{}\n", vcarve::paper::measure_all(std::stoul(words[0])).dump());
+        });
 }

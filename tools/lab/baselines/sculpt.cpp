@@ -1,6 +1,6 @@
 #include "baselines/sculpt.h"
 
-#include "baselines/circumsphere.h"
+#include "baselines/alpha_shape.h"
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,4 @@
 #include "baselines/alpha_shape.h"
-#include "baselines/circumsphere.h"
 #include "baselines/sculpt.h"
 #include "figures/figures.h"
 

@@ -1,6 +1,6 @@
-#include "observed/observed_scene.h"
+#include "observed/observe.h"
+#include "render/raster.h"
 #include "render/shapes.h"
-#include "render/stands.h"
 
 #include <cmath>
 #include <numbers>

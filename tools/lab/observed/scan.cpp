@@ -85,25 +85,6 @@ std::vector<Beam> tripod_beams(const Vector3d& place, std::size_t count)
     return beams;
 }
 
-std::vector<Beam> carried_beams(const std::vector<Vector3d>& path, std::size_t count)
-{
-    constexpr double kBeamsARound = 1000.0;
-    const Vector3d ahead = (path[1] - path[0]).normalized();
-    const Vector3d up = Vector3d::UnitZ();
-    const Vector3d askew = (ahead + ahead.cross(up)).normalized();
-    std::vector<Beam> beams;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double along =
-            static_cast<double>(i * (path.size() - 1)) / static_cast<double>(count);
-        const auto stretch = static_cast<std::size_t>(along);
-        const double share = along - static_cast<double>(stretch);
-        const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / kBeamsARound;
-        beams.push_back({(1.0 - share) * path[stretch] + share * path[stretch + 1],
-                         std::cos(turn) * askew + std::sin(turn) * up});
-    }
-    return beams;
-}
-
 Scan scan(const TriMesh& surface, const std::vector<Beam>& beams)
 {
     Scanner scanner(surface);

@@ -20,10 +20,6 @@ struct Beam {
 /// up, the beams of a row as far apart as the rows.
 std::vector<Beam> tripod_beams(const Eigen::Vector3d& place, std::size_t count);
 
-/// `count` beams of a scanner that is carried along a path, once and evenly, turning a thousand
-/// beams a round in a plane that stands askew to the first stretch of the path.
-std::vector<Beam> carried_beams(const std::vector<Eigen::Vector3d>& path, std::size_t count);
-
 /// What a scanner measured: a point a beam that met something.
 struct Scan {
     std::vector<Eigen::Vector3d> positions;

@@ -4,6 +4,7 @@
 #include "paper/place_views.h"
 #include "paper/sample_surface.h"
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,5 +27,20 @@ void write_fixture(const std::filesystem::path& folder, const Fixture& fixture);
 /// Whether strict carving gives the true solid: looks at every facet for every sight, with CGAL's
 /// exact predicates on the doubles a reader gets (centre = -R^T t). Throws where it does not.
 void check_carving(const Fixture& fixture);
+
+/// An object that boxes make up.
+struct Object {
+    std::string name;
+    double max_radius;                        ///< of a triangle's circle, in scene units
+    std::vector<std::array<double, 6>> boxes; ///< x0 y0 z0 x1 y1 z1
+};
+
+/// The objects of figures 15-18 of Akgunduz, Zetu, Banerjee, "Viewpoint-centered shape recovery
+/// from multiple views" (2000).
+std::vector<Object> objects();
+
+/// Samples the object until its triangulation fits it, each time with other jitter. The same object
+/// always gives the same fixture. Throws where no sampling fits.
+Fixture make_fixture(const Object& object);
 
 } // namespace vcarve::paper

@@ -30,7 +30,6 @@ constexpr std::array kScenes{
     NamedScene{"city", city},
     NamedScene{"hall", hall},
     NamedScene{"cubicles", cubicles},
-    NamedScene{"bridge", bridge},
     NamedScene{"smooth", smooth},
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "render/parts.h"
 #include "render/raster.h"
+#include "render/shapes.h"
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,6 @@
+#include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
-#include "render/stands.h"
 
 #include <array>
 #include <cmath>
@@ -200,10 +200,7 @@ PhotoScene city()
     scene.parts = builder.take();
     add_flight(scene.views);
     scene.pair_reach = 3.0;
-    scene.frame = {
-        12.0,
-        Eigen::Quaterniond(Eigen::AngleAxisd(0.4, Eigen::Vector3d(0.1, -0.1, 1.0).normalized())),
-        {2400.0, -1300.0, 85.0}};
+    scene.frame = {12.0, turned(0.4, {0.1, -0.1, 1.0}), {2400.0, -1300.0, 85.0}};
     return scene;
 }
 

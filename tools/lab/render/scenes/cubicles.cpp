@@ -1,6 +1,6 @@
+#include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
-#include "render/stands.h"
 
 #include <array>
 #include <cmath>
@@ -192,10 +192,7 @@ PhotoScene cubicles()
     PhotoScene scene;
     scene.parts = builder.take();
     walk(scene.views);
-    scene.frame = {
-        0.1,
-        Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Eigen::Vector3d(-0.8, 0.2, 0.4).normalized())),
-        {1.0, 0.5, -0.3}};
+    scene.frame = {0.1, turned(0.7, {-0.8, 0.2, 0.4}), {1.0, 0.5, -0.3}};
     return scene;
 }
 

@@ -1,6 +1,6 @@
+#include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
-#include "render/stands.h"
 
 namespace vcarve::render {
 
@@ -81,10 +81,7 @@ PhotoScene facade()
         scene.views.push_back(looking_at(lens, low, {0.45 * x, 0.0, 1.25}));
         scene.views.push_back(looking_at(lens, high, {0.45 * x, 0.0, 1.15}));
     }
-    scene.frame = {
-        3.5,
-        Eigen::Quaterniond(Eigen::AngleAxisd(0.9, Eigen::Vector3d(0.1, 0.2, 1.0).normalized())),
-        {120.0, 45.0, 310.0}};
+    scene.frame = {3.5, turned(0.9, {0.1, 0.2, 1.0}), {120.0, 45.0, 310.0}};
     return scene;
 }
 

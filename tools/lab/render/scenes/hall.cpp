@@ -1,6 +1,6 @@
+#include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
-#include "render/stands.h"
 
 #include <cmath>
 #include <numbers>
@@ -145,10 +145,7 @@ PhotoScene hall()
     scene.parts = builder.take();
     walk(scene.views);
     scene.grain.noise = 6.0;
-    scene.frame = {
-        2.0,
-        Eigen::Quaterniond(Eigen::AngleAxisd(2.3, Eigen::Vector3d(0.5, 0.5, -0.6).normalized())),
-        {-30.0, 14.0, 9.0}};
+    scene.frame = {2.0, turned(2.3, {0.5, 0.5, -0.6}), {-30.0, 14.0, 9.0}};
     return scene;
 }
 

@@ -1,15 +1,184 @@
-#include "render/heap.h"
+#include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
-#include "render/stands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <random>
 
 namespace vcarve::render {
 
 namespace {
 
-Eigen::Quaterniond turned(double angle_rad, const Eigen::Vector3d& axis)
+/// A heap of boxes, columns and balls of many sizes, each turned at random and let down on what
+/// lies below until it touches. Stands on z = 0 around the origin.
+struct Heap {
+    int things = 40;
+    double spread = 0.4;   ///< standard deviation of their places along x and y
+    double smallest = 0.1; ///< sizes are spread evenly in their logarithm
+    double largest = 0.5;
+    std::uint32_t seed = 1;
+};
+
+/// Even numbers from 0 to 1, the same with every library.
+class Dice {
+  public:
+    explicit Dice(std::uint32_t seed) : random_(seed) {}
+
+    double share() { return static_cast<double>(random_()) / 4294967296.0; }
+    double between(double low, double high) { return low + (high - low) * share(); }
+    /// Nearly normal, of standard deviation 1, never beyond 3.
+    double bell() { return 2.0 * (share() + share() + share() - 1.5); }
+
+  private:
+    std::mt19937 random_;
+};
+
+/// How high the heap is, in square cells.
+class Heights {
+  public:
+    /// Lowest and highest z of a thing over each cell it covers.
+    using Cover = std::map<std::pair<int, int>, std::pair<double, double>>;
+
+    static Cover cover(const std::vector<Eigen::Vector3d>& corners)
+    {
+        Cover result;
+        for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+            cover_triangle(corners[i], corners[i + 1] - corners[i], corners[i + 2] - corners[i],
+                           result);
+        }
+        return result;
+    }
+
+    /// How far down the thing can go.
+    double room_below(const Cover& thing) const
+    {
+        double room = std::numeric_limits<double>::infinity();
+        for (const auto& [cell, span] : thing) {
+            const auto found = heights_.find(cell);
+            room = std::min(room, span.first - (found == heights_.end() ? 0.0 : found->second));
+        }
+        return room;
+    }
+
+    void put(const Cover& thing, double down)
+    {
+        for (const auto& [cell, span] : thing) {
+            double& height = heights_[cell];
+            height = std::max(height, span.second - down);
+        }
+    }
+
+  private:
+    static constexpr double kCell = 0.01;
+
+    static void cover_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& u,
+                               const Eigen::Vector3d& v, Cover& result)
+    {
+        const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
+        const int steps = static_cast<int>(std::ceil(2.0 * longest / kCell));
+        for (int i = 0; i <= steps; ++i) {
+            for (int k = 0; i + k <= steps; ++k) {
+                const Eigen::Vector3d place = a + (i * u + k * v) / steps;
+                const std::pair cell(static_cast<int>(std::floor(place.x() / kCell)),
+                                     static_cast<int>(std::floor(place.y() / kCell)));
+                auto& span = result.try_emplace(cell, place.z(), place.z()).first->second;
+                span = {std::min(span.first, place.z()), std::max(span.second, place.z())};
+            }
+        }
+    }
+
+    std::map<std::pair<int, int>, double> heights_;
+};
+
+/// A box, column, frustum or ball about the origin.
+void add_thing(PartBuilder& builder, Dice& dice, double size, const Paint& paint)
 {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis.normalized()));
+    const double kind = dice.share();
+    if (kind < 0.5) {
+        const Eigen::Vector3d sides(size, size * dice.between(0.3, 1.0),
+                                    size * dice.between(0.15, 0.9));
+        add_box(builder, {{0.0, 0.0, -0.5 * sides.z()}, sides}, paint);
+    } else if (kind < 0.75) {
+        const double radius = size * dice.between(0.15, 0.4);
+        const double top = dice.share() < 0.6 ? radius : radius * dice.between(0.3, 0.9);
+        add_column(builder, {{0.0, 0.0, -0.5 * size}, radius, top, size}, paint);
+    } else {
+        add_sphere(builder, Eigen::Vector3d::Zero(), 0.4 * size, paint);
+    }
+}
+
+Eigen::Quaterniond any_turn(Dice& dice)
+{
+    // Some things lie flat, others lean as they fell.
+    const double lean = dice.share() < 0.4 ? 0.0 : dice.between(0.0, std::numbers::pi);
+    const double way = dice.between(0.0, 2.0 * std::numbers::pi);
+    const Eigen::AngleAxisd leaning(lean, Eigen::Vector3d(std::cos(way), std::sin(way), 0.0));
+    return Eigen::AngleAxisd(dice.between(0.0, 2.0 * std::numbers::pi), Eigen::Vector3d::UnitZ()) *
+           leaning;
+}
+
+Paint any_paint(Dice& dice)
+{
+    const auto tint = [&] { return static_cast<float>(dice.between(0.4, 0.95)); };
+    Paint paint;
+    for (int k = 0; k < 3; ++k) {
+        paint.tint[k] = tint();
+    }
+    return paint;
+}
+
+/// Where a thing comes to lie.
+struct Rest {
+    double top = std::numeric_limits<double>::infinity();
+    Eigen::Isometry3d move; ///< from the origin
+    Heights::Cover cover;   ///< before it goes down
+    double down = 0.0;
+};
+
+/// Lets a thing down at random places, and has it stay where its top comes to lie lowest, as things
+/// do that roll off a heap.
+Rest settled(const std::vector<Eigen::Vector3d>& corners, const Heap& heap, const Heights& heights,
+             Dice& dice)
+{
+    constexpr int kTries = 8;
+    Rest lowest;
+    for (int i = 0; i < kTries; ++i) {
+        Rest rest;
+        const double x = heap.spread * dice.bell();
+        const double y = heap.spread * dice.bell();
+        rest.move = Eigen::Translation3d(x, y, 0.0) * any_turn(dice);
+        std::vector<Eigen::Vector3d> moved;
+        double top = -std::numeric_limits<double>::infinity();
+        for (const Eigen::Vector3d& corner : corners) {
+            moved.emplace_back(rest.move * corner);
+            top = std::max(top, moved.back().z());
+        }
+        rest.cover = Heights::cover(moved);
+        rest.down = heights.room_below(rest.cover);
+        rest.top = top - rest.down;
+        if (rest.top < lowest.top) lowest = rest;
+    }
+    return lowest;
+}
+
+void add_heap(PartBuilder& builder, const Heap& heap)
+{
+    Dice dice(heap.seed);
+    Heights heights;
+    for (int i = 0; i < heap.things; ++i) {
+        // The large ones first, so that the heap does not stand on its smallest.
+        const double share = (i + 0.5) / heap.things;
+        const double size = heap.largest * std::pow(heap.smallest / heap.largest, share);
+        const Paint paint = any_paint(dice);
+        add_thing(builder, dice, size, paint);
+        const Rest rest = settled(builder.part_corners(), heap, heights, dice);
+        heights.put(rest.cover, rest.down);
+        builder.move_part(Eigen::Translation3d(0.0, 0.0, -rest.down) * rest.move);
+    }
 }
 
 /// Two rings of views around a table that carries a heap.

@@ -1,6 +1,6 @@
+#include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
-#include "render/stands.h"
 
 #include <numbers>
 
@@ -71,10 +71,7 @@ PhotoScene panels()
     const Eigen::Vector3d target(0.0, 0.0, 0.3);
     add_arc(scene.views, {}, {target, 2.9, 1.0, 0.0, 20.0, 18});
     add_arc(scene.views, {}, {target, 2.5, 1.9, 10.0, 20.0, 18});
-    scene.frame = {
-        100.0,
-        Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.3, -0.8, 0.5).normalized())),
-        {250.0, -80.0, 33.0}};
+    scene.frame = {100.0, turned(1.1, {0.3, -0.8, 0.5}), {250.0, -80.0, 33.0}};
     return scene;
 }
 

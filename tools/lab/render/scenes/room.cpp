@@ -1,6 +1,6 @@
+#include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
-#include "render/stands.h"
 
 #include <cmath>
 #include <numbers>
@@ -113,10 +113,7 @@ PhotoScene room()
         scene.views.push_back(
             looking_at(wide, center, center + out + tilt * Eigen::Vector3d::UnitZ()));
     }
-    scene.frame = {
-        0.3,
-        Eigen::Quaterniond(Eigen::AngleAxisd(1.5, Eigen::Vector3d(0.9, -0.3, 0.2).normalized())),
-        {5.0, 6.0, -2.0}};
+    scene.frame = {0.3, turned(1.5, {0.9, -0.3, 0.2}), {5.0, 6.0, -2.0}};
     return scene;
 }
 

@@ -4,6 +4,11 @@
 
 namespace vcarve::render {
 
+inline Eigen::Quaterniond turned(double angle_rad, const Eigen::Vector3d& axis)
+{
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, axis.normalized()));
+}
+
 PhotoScene fixture_scene(); ///< fixtures/scene: the still life from two rows before it
 PhotoScene panels();        ///< thin boards that stand free, some with windows
 PhotoScene clutter();       ///< a heap on a table, seen all round
@@ -16,7 +21,6 @@ PhotoScene room();          ///< an interior, seen from within
 PhotoScene city();          ///< houses with plain walls, seen from the air
 PhotoScene hall();          ///< a high hall without a ceiling, in grainy pictures from within
 PhotoScene cubicles();      ///< thin partitions, in part plain, with desks and chairs
-PhotoScene bridge();        ///< thin bars before hills far behind them
 PhotoScene smooth();        ///< a round figure and a vase with little texture, seen all round
 
 } // namespace vcarve::render
