@@ -1,8 +1,7 @@
 #include "measurements.h"
 
 #include "bare_triangulation.h"
-#include "cli/model_input.h"
-#include "cli/process_usage.h"
+#include "cli/input_output.h"
 #include "cli/run_record.h"
 #include "io/files/mapped_file.h"
 #include "pipeline/memory.h"

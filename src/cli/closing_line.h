@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/run_log.h"
+#include "cli/console_log.h"
 #include "vcarve/options.h"
 
 #include <cstdint>

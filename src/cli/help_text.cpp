@@ -1,4 +1,4 @@
-#include "cli/manual.h"
+#include "cli/help_text.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@ namespace vcarve::cli {
 namespace {
 
 constexpr std::size_t kColumns = 80;
-constexpr std::size_t kIndent = 30; ///< where the right column begins
+constexpr std::size_t kIndent = 30; ///< of the right column
 
 std::string usage_of(const Option& option)
 {
@@ -20,51 +20,51 @@ std::string usage_of(const Option& option)
     return fmt::format("{}--{}{}{}", letter, name, value.empty() ? "" : " ", value);
 }
 
-/// "[default 12, 0 to 64]"
+std::string default_text(const Option& option)
+{
+    return is_flag(option) ? "" : value_text(option);
+}
+
+/// "[default: 12, max: 64]"
 std::string default_and_range(const Option& option)
 {
-    const std::string initial = default_text(option);
-    if (initial.empty()) return "";
+    std::string text = default_text(option);
+    if (!text.empty()) text = "default: " + text;
     const std::string range = range_text(option);
-    if (range.empty()) return fmt::format("[default {}]", initial);
-    return fmt::format("[default {}, {}]", initial, range);
+    if (!range.empty()) text += (text.empty() ? "" : ", ") + range;
+    return text.empty() ? "" : "[" + text + "]";
 }
 
-/// Sets a text into the right column, breaking it between words; `mark` is never broken.
-std::string right_column(const std::string& text, const std::string& mark)
+/// The first sentence without its full stop.
+std::string first_sentence(std::string text)
 {
-    std::istringstream stream(text);
-    std::vector<std::string> words;
-    for (std::string word; stream >> word;) {
-        words.push_back(word);
-    }
-    if (!mark.empty()) words.push_back(mark);
-
-    std::string block;
-    std::size_t column = kIndent;
-    for (const std::string& word : words) {
-        if (column > kIndent && column + 1 + word.size() > kColumns) {
-            block += "\n" + std::string(kIndent, ' ');
-            column = kIndent;
-        } else if (column > kIndent) {
-            block += ' ';
-            ++column;
-        }
-        block += word;
-        column += word.size();
-    }
-    return block;
+    text.resize(std::min(text.find(". "), text.size()));
+    if (text.ends_with('.')) text.pop_back();
+    return text;
 }
 
+/// A term and its text in two columns. Lines break between words, but not within `mark`.
 std::string entry(const std::string& term, const std::string& text, const std::string& mark = "")
 {
-    const std::string left = "  " + term;
-    const bool fits = left.size() + 2 <= kIndent;
-    return fmt::format("{:<{}}{}\n", fits ? left : left + "\n" + std::string(kIndent, ' '),
-                       fits ? kIndent : 0, right_column(text, mark));
+    const std::string indent(kIndent, ' ');
+    std::string block = "  " + term;
+    block += block.size() + 2 <= kIndent ? indent.substr(block.size()) : "\n" + indent;
+    std::size_t column = kIndent;
+    const auto add = [&](const std::string& word) {
+        const bool is_first = column == kIndent;
+        const bool fits = is_first || column + 1 + word.size() <= kColumns;
+        block += is_first ? word : fits ? " " + word : "\n" + indent + word;
+        column = (is_first ? kIndent : fits ? column + 1 : kIndent) + word.size();
+    };
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        add(word);
+    }
+    if (!mark.empty()) add(mark);
+    return block + "\n";
 }
 
-/// Escapes what Markdown would take for the end of a table's cell.
+/// Escapes the end of a Markdown table's cell.
 std::string cell(const std::string& text)
 {
     std::string escaped;
@@ -75,58 +75,24 @@ std::string cell(const std::string& text)
     return escaped;
 }
 
-std::string row_of(const Option& option)
-{
-    return fmt::format("| `{}` | {} | {} | {} |\n", cell(usage_of(option)), default_text(option),
-                       range_text(option), cell(option.info.help));
-}
-
-/// A table a stage, of those options that are for tuning or of the others.
-std::string tables(const Manual& manual, const std::string& heading, bool tuning)
-{
-    std::string text;
-    std::string_view stage;
-    for (const Option& option : manual.options) {
-        if (option.info.tuning != tuning) continue;
-        if (option.stage != stage) {
-            text += fmt::format("\n{} {}\n\n| option | default | range | meaning |\n"
-                                "|---|---|---|---|\n",
-                                heading, option.stage);
-        }
-        stage = option.stage;
-        text += row_of(option);
-    }
-    return text;
-}
-
 } // namespace
 
 OptionList options_of(HelpOptions& help)
 {
     constexpr const char* kStage = "Help";
     return {
-        {kStage,
-         {.name = "help",
-          .help = "Print this and exit; --help-all lists the options for tuning as well."},
-         &help.help},
-        {kStage,
-         {.name = "help-all", .help = "Print this and exit.", .tuning = true},
-         &help.help_all},
+        {kStage, {.name = "help", .help = "Print this help."}, &help.help},
+        {kStage, {.name = "help-all", .help = "Print all options."}, &help.help_all},
         {kStage,
          {.name = "version", .help = "Print versions of the program and its libraries."},
          &help.version},
     };
 }
 
-std::string default_text(const Option& option)
+std::string help_text(const Manual& manual, bool all)
 {
-    return is_flag(option) ? "" : value_text(option);
-}
-
-std::string help_text(const Manual& manual, bool with_tuning)
-{
-    std::string text = manual.summary + "\n\n";
-    text += fmt::format("Usage: {} {} [options]\n\nExamples:\n", manual.command, manual.operands);
+    std::string text = fmt::format("{}\n\nUsage: {} {} [options]\n\nExamples:\n", manual.summary,
+                                   manual.command, manual.operands);
     std::size_t widest = 0;
     for (const auto& [example, meaning] : manual.examples) {
         widest = std::max(widest, example.size());
@@ -134,20 +100,22 @@ std::string help_text(const Manual& manual, bool with_tuning)
     for (const auto& [example, meaning] : manual.examples) {
         text += fmt::format("  {:<{}}  {}\n", example, widest, meaning);
     }
-    text += "\n";
+    text += "\nArguments:\n";
     for (const auto& [operand, meaning] : manual.operand_meanings) {
-        text += entry(operand, meaning);
+        text += entry(operand, all ? meaning : first_sentence(meaning));
     }
     std::string_view stage;
     for (const Option& option : manual.options) {
-        if (option.info.tuning && !with_tuning) continue;
-        if (option.stage != stage) text += fmt::format("\n{}:\n", option.stage);
+        const OptionInfo& info = option.info;
+        if (info.level > (all ? OptionLevel::advanced : OptionLevel::common)) continue;
+        if (option.stage != stage) text += fmt::format("\n{} options:\n", option.stage);
         stage = option.stage;
-        text += entry(usage_of(option), option.info.help, default_and_range(option));
+        text += entry(usage_of(option), all ? info.help : first_sentence(info.help),
+                      default_and_range(option));
     }
     text += "\n";
-    for (const auto& [term, meaning] : manual.footnotes) {
-        text += entry(term, meaning);
+    for (const std::string& line : manual.ends) {
+        text += line + "\n";
     }
     return text;
 }
@@ -155,9 +123,26 @@ std::string help_text(const Manual& manual, bool with_tuning)
 std::string markdown_options(const Manual& manual)
 {
     std::string text = fmt::format("## {} {}\n", manual.command, manual.operands);
-    text += tables(manual, "###", false);
-    const std::string tuning = tables(manual, "####", true);
-    if (!tuning.empty()) text += "\n### For tuning, listed by `--help-all`\n" + tuning;
+    std::string tables[2]; // of the command line, of C++ and Python only
+    std::string_view stages[2];
+    for (const Option& option : manual.options) {
+        const bool library = option.info.level == OptionLevel::library;
+        if (option.stage != stages[library]) {
+            tables[library] += fmt::format("\n{} {} options\n\n| option | default | range | "
+                                           "meaning |\n|---|---|---|---|\n",
+                                           library ? "####" : "###", option.stage);
+        }
+        stages[library] = option.stage;
+        tables[library] += fmt::format(
+            "| `{}` | {} | {} | {} |\n", library ? option.info.name : cell(usage_of(option)),
+            default_text(option), range_text(option), cell(option.info.help));
+    }
+    text += tables[0];
+    if (!tables[1].empty()) {
+        text += "\n### C++ and Python only\n\nThese options are for studying the method. In Python "
+                "they are keywords, with `_` for `-`.\n" +
+                tables[1];
+    }
     return text;
 }
 

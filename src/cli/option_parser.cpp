@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <optional>
 
@@ -12,7 +13,7 @@ namespace vcarve::cli {
 
 namespace {
 
-/// Levenshtein's distance: letters inserted, removed or replaced to get from one word to the other.
+/// Levenshtein's distance: the number of letters inserted, removed or replaced.
 std::size_t edit_distance(std::string_view from, std::string_view to)
 {
     std::vector<std::size_t> row(to.size() + 1);
@@ -42,7 +43,7 @@ DashedWord split(const std::string& word)
     return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
-/// The value of the option at words[i]; where it is the next word, `i` goes on to that.
+/// The value of the option at words[i]; advances `i` if it is the next word.
 std::string take_value(const DashedWord& word, std::span<const std::string> words, std::size_t& i)
 {
     if (word.value) return *word.value;
@@ -53,14 +54,12 @@ std::string take_value(const DashedWord& word, std::span<const std::string> word
 [[noreturn]] void refuse_unknown(std::string_view name, const OptionList& options)
 {
     std::vector<std::string> names;
-    names.reserve(options.size());
     for (const Option& option : options) {
-        names.push_back("--" + option.info.name);
+        if (option.info.level != OptionLevel::library) names.push_back("--" + option.info.name);
     }
     const std::string near = nearest(name, names);
-    throw UsageError(near.empty() ? fmt::format("there is no option {}{}", name, kSeeHelp)
-                                  : fmt::format("there is no option {}; did you mean {}?{}", name,
-                                                near, kSeeHelp));
+    const std::string hint = near.empty() ? "" : fmt::format("; did you mean {}?", near);
+    throw UsageError(fmt::format("there is no option {}{}{}", name, hint, kSeeHelp));
 }
 
 const Option& find_option(std::string_view name, const OptionList& options)
@@ -69,16 +68,31 @@ const Option& find_option(std::string_view name, const OptionList& options)
     const auto is_it = [&](const Option& option) { return "--" + option.info.name == full; };
     const auto option = std::ranges::find_if(options, is_it);
     if (option == options.end()) refuse_unknown(name, options);
+    if (option->info.level == OptionLevel::library) {
+        throw UsageError(fmt::format("{} can be set from C++ and Python only, not on the command "
+                                     "line",
+                                     name));
+    }
     return *option;
 }
 
-/// Of a flag, nothing.
+/// Throws UsageError for a value given to a flag, also as the next word.
+void refuse_value(const Option& option, const DashedWord& word, std::string_view next)
+{
+    constexpr std::array kValues = {"yes", "no", "true", "false", "on", "off"};
+    const bool is_next = std::ranges::count(kValues, next) != 0;
+    if (!word.value && !is_next) return;
+    throw UsageError(fmt::format("--{} takes no value; remove \"{}\"", option.info.name,
+                                 word.value ? *word.value : next));
+}
+
+/// The value of an option; empty for a flag.
 std::string value_of(const Option& option, const DashedWord& word,
                      std::span<const std::string> words, std::size_t& i)
 {
     if (is_flag(option)) {
-        if (!word.value) return "";
-        throw UsageError(fmt::format("--{} takes no value", option.info.name));
+        refuse_value(option, word, i + 1 < words.size() ? words[i + 1] : "");
+        return "";
     }
     std::string value = take_value(word, words, i);
     if (!value.empty()) return value;
@@ -107,7 +121,6 @@ ParsedArguments parse_arguments(std::span<const std::string> words, const Option
 {
     ParsedArguments given;
     given.typed.assign(words.begin(), words.end());
-    std::vector<std::string> outputs; // named as such
     bool after_dashes = false;
     for (std::size_t i = 0; i < words.size(); ++i) {
         if (after_dashes || words[i].size() < 2 || words[i].front() != '-') {
@@ -120,7 +133,7 @@ ParsedArguments parse_arguments(std::span<const std::string> words, const Option
         if (word.name == "-i" || word.name == "--input_path") {
             given.operands.insert(given.operands.begin(), take_value(word, words, i));
         } else if (word.name == "-o" || word.name == "--output_path") {
-            outputs.push_back(take_value(word, words, i));
+            given.named_output = take_value(word, words, i);
         } else if (word.name == "--input_type") {
             given.options["points"] = value_of(find_option("--points", options), word, words, i);
         } else {
@@ -128,7 +141,7 @@ ParsedArguments parse_arguments(std::span<const std::string> words, const Option
             given.options[option.info.name] = value_of(option, word, words, i);
         }
     }
-    given.operands.insert(given.operands.end(), outputs.begin(), outputs.end());
+    if (!given.named_output.empty()) given.operands.push_back(given.named_output);
     return given;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "base/log.h"
-#include "cli/process_usage.h"
 #include "options/option.h"
 
 #include <nlohmann/json.hpp>
+#include <sys/time.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -13,6 +14,23 @@ namespace vcarve::cli {
 
 /// A record keeps its order, so that it can be read from top to bottom.
 using Json = nlohmann::ordered_json;
+
+double seconds_of(const timeval& time);
+
+/// What this process has used so far.
+struct ProcessUsage {
+    double seconds = 0.0;     ///< on a clock that only runs forward, from an arbitrary zero
+    double cpu_seconds = 0.0; ///< of all threads, user and system
+};
+ProcessUsage process_usage();
+
+/// Most memory the process held at once (VmHWM) since its start or the last reset_peak_memory(); 0
+/// where the system does not tell.
+std::int64_t peak_memory_bytes();
+
+/// Starts a new peak at what is held now. False where that is not permitted: the peak then goes on
+/// being that of the whole run.
+bool reset_peak_memory();
 
 /// Hands everything on to another log, and keeps seconds, CPU seconds, peak memory and counts of
 /// every stage. One stage runs at a time. For that the peak that the system keeps of the process

@@ -1,4 +1,4 @@
-#include "cli/manual.h"
+#include "cli/help_text.h"
 #include "support/sample_options.h"
 
 #include <gmock/gmock.h>
@@ -9,6 +9,7 @@
 namespace vcarve::cli::help_text_test {
 namespace {
 
+using ::testing::HasSubstr;
 using ::testing::Not;
 
 Manual sample_manual()
@@ -19,14 +20,14 @@ Manual sample_manual()
     manual.operands = "IN OUT";
     manual.summary = "Carves.";
     manual.examples = {{"carve a b", "the default"}, {"carve --closed a b", "closed"}};
-    manual.operand_meanings = {{"IN", "What is read."}};
-    manual.footnotes = {{"Exit code", "0 done."}};
+    manual.operand_meanings = {{"IN", "Input. Any."}};
+    manual.ends = {"Exit codes: 0."};
     manual.options = options_of(*options);
     manual.values = options;
     return manual;
 }
 
-TEST(HelpText, GroupsOptionsByStageWithUnitDefaultAndRange)
+TEST(HelpText, HasALinePerCommonOption)
 {
     EXPECT_EQ(help_text(sample_manual(), false), R"(Carves.
 
@@ -36,80 +37,89 @@ Examples:
   carve a b           the default
   carve --closed a b  closed
 
-  IN                          What is read.
+Arguments:
+  IN                          Input
 
-First:
-  --angle <deg>               Drop smaller angles; 0 keeps all.
-                              [default 10.5, 0 to 180]
-  --spacing <number>          A pure number. [default 2]
+First options:
+  --angle N                   Drop smaller angles; 0 keeps all
+                              [default: 10.5, max: 180]
+  --spacing N                 A pure number [default: 2]
 
-Second:
-  --min-views <views>         Drop points. [default 3, 2 or more]
-  --closed                    Keep a|b.
-  --shape round|flat          What it is like. [default round]
-  --memory <size>             Take no more. [default 3M]
-  --place here|there|x,y,z    Where it is. [default here, -10 to 10]
-  --part none|auto|box|<file>
-                              How much. [default none]
+Second options:
+  --min-views N               Drop points [default: 3, min: 2]
+  --closed                    Keep a|b
+  --shape round|flat          What it is like [default: round]
+  --memory SIZE               Take no more [default: 3M]
+  --place here|there|X,Y,Z    Where it is [default: here, min: -10, max: 10]
+  --part none|auto|BOX|FILE   How much [default: none]
 
-  Exit code                   0 done.
+Exit codes: 0.
 )");
 }
 
-TEST(HelpText, ListsWhatIsForTuningOnlyWhereItIsAskedFor)
+TEST(HelpText, HasWholeTextsOfMoreOptionsOnRequest)
 {
-    const std::string entry = "\nThird:\n"
-                              "  --factor usual|<number>     Of what is usual. [default 7]\n";
-    EXPECT_THAT(help_text(sample_manual(), true), ::testing::HasSubstr(entry));
-    EXPECT_THAT(help_text(sample_manual(), false), Not(::testing::HasSubstr("--factor")));
+    const std::string all = help_text(sample_manual(), true);
+    EXPECT_THAT(all, HasSubstr("\n  IN                          Input. Any.\n"));
+    EXPECT_THAT(all, HasSubstr("\nThird options:\n"
+                               "  --factor usual|N            Of what is usual. [default: 7]\n"));
+    EXPECT_THAT(all, Not(HasSubstr("--secret")));
+    EXPECT_THAT(help_text(sample_manual(), false), Not(HasSubstr("--factor")));
 }
 
 TEST(HelpText, BreaksLongTextsBetweenWordsAndLongTermsAfterThem)
 {
     Manual manual = sample_manual();
     manual.options.resize(1);
-    manual.options[0].info.name = "a-name-that-leaves-no-room-beside";
-    manual.options[0].info.help =
-        "Words that go on and on, further than the hundredth column of a line "
-        "that anybody wants to read.";
+    manual.options[0].info.name = "a-name-that-leaves-no-room";
+    manual.options[0].info.help = "Words that go on and on, further than the hundredth column of a "
+                                  "line that anybody wants to read.";
     EXPECT_THAT(
-        help_text(manual, false),
-        ::testing::HasSubstr(
-            "  --a-name-that-leaves-no-room-beside <deg>\n"
-            "                              Words that go on and on, further than the\n"
-            "                              hundredth column of a line that anybody wants to\n"
-            "                              read. [default 10.5, 0 to 180]\n"));
+        help_text(manual, true),
+        HasSubstr("  --a-name-that-leaves-no-room N\n"
+                  "                              Words that go on and on, further than the\n"
+                  "                              hundredth column of a line that anybody "
+                  "wants to\n"
+                  "                              read. [default: 10.5, max: 180]\n"));
 }
 
-TEST(MarkdownOptions, IsATableAStage)
+TEST(MarkdownOptions, IsATablePerHeading)
 {
     EXPECT_EQ(markdown_options(sample_manual()), R"(## carve IN OUT
 
-### First
+### First options
 
 | option | default | range | meaning |
 |---|---|---|---|
-| `--angle <deg>` | 10.5 | 0 to 180 | Drop smaller angles; 0 keeps all. |
-| `--spacing <number>` | 2 |  | A pure number. |
+| `--angle N` | 10.5 | max: 180 | Drop smaller angles; 0 keeps all. |
+| `--spacing N` | 2 |  | A pure number. |
 
-### Second
+### Second options
 
 | option | default | range | meaning |
 |---|---|---|---|
-| `--min-views <views>` | 3 | 2 or more | Drop points. |
+| `--min-views N` | 3 | min: 2 | Drop points. |
 | `--closed` |  |  | Keep a\|b. |
 | `--shape round\|flat` | round |  | What it is like. |
-| `--memory <size>` | 3M |  | Take no more. |
-| `--place here\|there\|x,y,z` | here | -10 to 10 | Where it is. |
-| `--part none\|auto\|box\|<file>` | none |  | How much. |
+| `--memory SIZE` | 3M |  | Take no more. |
+| `--place here\|there\|X,Y,Z` | here | min: -10, max: 10 | Where it is. |
+| `--part none\|auto\|BOX\|FILE` | none |  | How much. |
 
-### For tuning, listed by `--help-all`
-
-#### Third
+### Third options
 
 | option | default | range | meaning |
 |---|---|---|---|
-| `--factor usual\|<number>` | 7 |  | Of what is usual. |
+| `--factor usual\|N` | 7 |  | Of what is usual. |
+
+### C++ and Python only
+
+These options are for studying the method. In Python they are keywords, with `_` for `-`.
+
+#### Third options
+
+| option | default | range | meaning |
+|---|---|---|---|
+| `secret` | 1 |  | For C++. |
 )");
 }
 

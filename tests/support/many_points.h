@@ -2,7 +2,7 @@
 
 #include "base/freed_memory.h"
 #include "base/random_number.h"
-#include "cli/process_usage.h"
+#include "cli/run_record.h"
 #include "vcarve/scene.h"
 
 #ifdef __GLIBC__

@@ -1,4 +1,3 @@
-// The options --preview and --view, run as the user runs them.
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/read_png.h"
@@ -12,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::preview_output_test {
+namespace vcarve::picture_output_test {
 namespace {
 
 using ::testing::Contains;
@@ -171,8 +170,8 @@ TEST_F(PreviewOfBall, RefusesAViewThatTheModelLacksBeforeTheSurfaceIsMade)
 TEST_F(PreviewOfBall, RefusesAViewWithoutAPicture)
 {
     EXPECT_EQ(sentence_of(2, {ball, out, "--view", "top"}),
-              "colmap-vcarve: --view says from where --preview looks, but there is no --preview\n");
+              "colmap-vcarve: --view needs --preview OUT.png\n");
 }
 
 } // namespace
-} // namespace vcarve::preview_output_test
+} // namespace vcarve::picture_output_test

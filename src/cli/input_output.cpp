@@ -1,4 +1,4 @@
-#include "cli/outputs.h"
+#include "cli/input_output.h"
 
 #include "io/files/path_kind.h"
 #include "io/input/input_files.h"
@@ -7,16 +7,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace vcarve::cli {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-/// Also of files that are not there yet.
+namespace fs = std::filesystem;
+
+/// Files that do not exist yet are compared by path.
 bool is_same_file(const fs::path& a, const fs::path& b)
 {
     std::error_code error;
@@ -71,6 +73,30 @@ void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
         refuse_replacing(output, inputs);
         if (is_image_of_views(output.path, found)) refuse(output, {"the image", output.path});
     }
+}
+
+ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading)
+{
+    ReadModel read = read_found_model(model.path, model.all_points(), log, reading);
+    const FoundModel& found = read.found.model;
+    constexpr std::array kFormats = {"binary", "text", "transforms"};
+    ModelInput input;
+    input.record = {{"model", model.path.string()},
+                    {"folder", found.folder.string()},
+                    {"format", kFormats.at(static_cast<std::size_t>(found.format))},
+                    {"cloud", nullptr},
+                    {"points", read.read.points},
+                    {"views", read.read.views},
+                    {"sights", read.read.sights}};
+    if (read.found.scan) input.record["cloud"] = read.found.scan->cloud.string();
+    if (read.found.scan && found.folder.empty()) {
+        input.record["folder"] = nullptr;
+        input.record["format"] = nullptr;
+    }
+    if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
+    input.scene = std::move(read.scene);
+    input.read = read.read;
+    return input;
 }
 
 } // namespace vcarve::cli

@@ -1,4 +1,4 @@
-#include "cli/outputs.h"
+#include "cli/input_output.h"
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve::cli::outputs_test {
+namespace vcarve::cli::input_output_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -119,4 +119,4 @@ TEST(RequireDistinct, KnowsAFileByAnotherPath)
 }
 
 } // namespace
-} // namespace vcarve::cli::outputs_test
+} // namespace vcarve::cli::input_output_test
