@@ -15,7 +15,7 @@ struct BaselineRunOptions {
     int timeout_s = 300; ///< after which it is killed
 };
 
-/// A mesh that a program made, or why there is none, as a column of the table.
+/// A column of the table: the mesh of a program, or why there is none.
 struct BaselineMesh {
     std::string name;
     std::string failure; ///< "timed out after 300 s"; empty where `mesh` was made
@@ -48,12 +48,10 @@ struct BaselineRun {
     int threads = 0; ///< limits both programs; 0 leaves them free
 };
 
-/// Runs `colmap delaunay_mesher` and this program itself with its defaults, one after the other, on
-/// the points the model means, sparse or dense, and measures both alike. A program that fails gives
-/// no column but a note of one sentence; one that runs out of time gives a column without a mesh.
-/// Call it before anything large is in memory (see run_child). Throws InputError where there is no
-/// model, and UsageError where COLMAP could not be told of its points: it reads dense ones from
-/// fused.ply, fused.ply.vis and sparse in one folder.
+/// Runs `colmap delaunay_mesher` and this program with its defaults on the sparse or dense points
+/// of the model. A program that fails gives a note instead of a column; one that times out gives a
+/// column without a mesh. Call it before anything large is in memory (see run_child). Throws
+/// InputError without a model, and UsageError for points that COLMAP cannot read.
 std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
                                         Log& log);
 
@@ -65,10 +63,9 @@ struct ChildOutcome {
     std::string description; ///< how it ended, to be read after its name: "ended with exit code 1"
 };
 
-/// Runs a program, found along PATH where `words[0]` names no folder, in a process group of its
-/// own, with nothing on stdin and all it prints in the file `printed`. Past `timeout_s` seconds the
-/// group is killed. The program is told to end (SIGTERM) where this process ends first. Call it
-/// while this process is small: the system counts the memory of the caller at the start as the
+/// Runs a program, found along PATH, in its own process group, with its output in the file
+/// `printed`. The group is killed after `timeout_s` seconds, and ends with this process. Call it
+/// while this process is small: the system counts the caller's memory at the start as the
 /// program's.
 ChildOutcome run_child(std::vector<std::string> words, const std::filesystem::path& printed,
                        double timeout_s);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "cli/help_text.h"
-#include "cli/option_parser.h"
+#include "cli/command_line.h"
 
 #include <functional>
 #include <span>

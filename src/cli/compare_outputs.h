@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/log.h"
+#include "cli/command_line.h"
 #include "cli/input_output.h"
-#include "cli/option_parser.h"
 #include "cli/picture_output.h"
 #include "cli/run_record.h"
 #include "compare/compare.h"
@@ -15,7 +15,7 @@
 
 namespace vcarve::cli {
 
-/// What a comparison writes beside its table; an empty path is not written.
+/// The files of a comparison; an empty path is not written.
 struct CompareOutputs {
     std::filesystem::path json;
     PreviewArguments preview;
@@ -30,12 +30,11 @@ OptionList output_options(CompareOutputs& outputs);
 /// Throws UsageError where a name is wrong, or two would be written to one file.
 void check_names(const CompareOutputs& outputs, const ParsedArguments& given);
 
-/// Throws UsageError where a file that is read would be replaced (see keep_inputs), or one cannot
-/// be written.
+/// Throws UsageError if an input would be replaced (see keep_inputs), or a file cannot be written.
 void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
                    const std::vector<std::filesystem::path>& meshes);
 
-/// The page of a comparison, if one is asked for; otherwise it does nothing and keeps nothing.
+/// The page of a comparison, if requested; otherwise it does nothing.
 class CompareReport {
   public:
     explicit CompareReport(std::filesystem::path out) : out_(std::move(out)) {}

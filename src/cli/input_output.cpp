@@ -1,13 +1,18 @@
 #include "cli/input_output.h"
 
+#include "io/colmap/sim3_text.h"
 #include "io/files/path_kind.h"
 #include "io/input/input_files.h"
+#include "model/up_of.h"
 #include "vcarve/error.h"
+#include "vcarve/io.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -97,6 +102,53 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading
     input.scene = std::move(read.scene);
     input.read = read.read;
     return input;
+}
+
+std::optional<Similarity> transform_of(const std::string& text)
+{
+    if (text.empty()) return std::nullopt;
+    double scale = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, scale);
+    if (error == std::errc::invalid_argument || stop != end) return read_sim3(text);
+    if (error != std::errc() || !(scale > 0.0) || !std::isfinite(scale)) {
+        throw UsageError(
+            fmt::format("--transform takes a file or a scale above 0, not \"{}\"", text));
+    }
+    return Similarity{.scale = scale, .linear = scale * Eigen::Matrix3d::Identity()};
+}
+
+Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted,
+                           const std::optional<Similarity>& transform)
+{
+    if (wanted.word == WordOrVector::kNoWord) return wanted.vector;
+    const bool automatic = static_cast<OffsetWord>(wanted.word) == OffsetWord::automatic;
+    if (!automatic) return Eigen::Vector3d::Zero();
+    if (!transform) return round_offset(model);
+    Scene moved;
+    moved.positions = model.positions;
+    moved.offset = model.offset;
+    move_positions(*transform, moved.positions, moved.offset);
+    return round_offset(moved);
+}
+
+Eigen::Vector3d up_for(const Scene& model, UpWord wanted,
+                       const std::optional<Similarity>& transform)
+{
+    if (wanted == UpWord::none) return Eigen::Vector3d::Zero();
+    if (wanted == UpWord::z) return Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d up = up_of(model);
+    return transform ? (transform->linear * up).normalized() : up;
+}
+
+TriMesh transformed(TriMesh mesh, const Similarity& to)
+{
+    move_positions(to, mesh.positions, mesh.offset);
+    const Eigen::Matrix3d rotation = to.linear / to.scale;
+    for (Eigen::Vector3f& normal : mesh.normals) {
+        normal = (rotation * normal.cast<double>()).stableNormalized().cast<float>();
+    }
+    return mesh;
 }
 
 } // namespace vcarve::cli

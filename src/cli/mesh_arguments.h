@@ -1,10 +1,8 @@
 #pragma once
 
-#include "cli/help_text.h"
+#include "cli/command_line.h"
 #include "cli/input_output.h"
-#include "cli/option_parser.h"
 #include "cli/picture_output.h"
-#include "cli/placing.h"
 #include "run/digest.h"
 #include "vcarve/options.h"
 

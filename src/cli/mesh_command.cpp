@@ -1,5 +1,4 @@
 #include "base/threads.h"
-#include "cli/closing_line.h"
 #include "cli/commands.h"
 #include "cli/console_log.h"
 #include "cli/exit_code.h"
@@ -7,7 +6,6 @@
 #include "cli/mesh_arguments.h"
 #include "cli/mesh_report.h"
 #include "cli/picture_output.h"
-#include "cli/placing.h"
 #include "cli/run_memory.h"
 #include "cli/run_record.h"
 #include "io/colmap/sim3_text.h"

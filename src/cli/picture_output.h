@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/log.h"
-#include "cli/option_parser.h"
+#include "cli/command_line.h"
 #include "cli/run_record.h"
 #include "picture/preview.h"
 #include "texture/texture_mesh.h"

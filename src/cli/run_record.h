@@ -24,17 +24,15 @@ struct ProcessUsage {
 };
 ProcessUsage process_usage();
 
-/// Most memory the process held at once (VmHWM) since its start or the last reset_peak_memory(); 0
-/// where the system does not tell.
+/// Peak memory of the process (VmHWM) since its start or the last reset_peak_memory(); 0 if
+/// unknown.
 std::int64_t peak_memory_bytes();
 
-/// Starts a new peak at what is held now. False where that is not permitted: the peak then goes on
-/// being that of the whole run.
+/// Resets the peak; false if that is not permitted.
 bool reset_peak_memory();
 
-/// Hands everything on to another log, and keeps seconds, CPU seconds, peak memory and counts of
-/// every stage. One stage runs at a time. For that the peak that the system keeps of the process
-/// begins anew with every stage: what others read of it, such as time -v, is of the last one.
+/// Forwards to another log, and records seconds, CPU seconds, peak memory and counts of each stage.
+/// Resets the system's peak of the process at each stage, so `time -v` shows that of the last one.
 class StageRecorder final : public Log {
   public:
     explicit StageRecorder(Log& shown);
@@ -69,8 +67,7 @@ Json program_json();
 /// As text to be written to a file; bytes that are not UTF-8 (in paths) are replaced.
 std::string json_text(const Json& json);
 
-/// A command line as a shell takes it: words with letters that mean something to a shell are
-/// quoted.
+/// A command line, quoted for a shell.
 std::string command_text(std::string command, std::span<const std::string> words);
 
 } // namespace vcarve::cli

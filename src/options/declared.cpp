@@ -57,18 +57,15 @@ OptionList added_point_options(AddedPointOptions& added)
     return {
         for_library(kPoints,
                     {"crease-reach", "x spacing",
-                     "Add points along creases of two planar regions that both end within N "
-                     "spacings of the crease; 0 adds none."},
+                     "Add points at creases of regions that end within N spacings; 0: none."},
                     &added.crease_reach, 1000.0),
         for_library(kPoints,
                     {"border-gap", "x spacing",
-                     "Add points at borders of planar regions that rays pass within N spacings; 0 "
-                     "adds none."},
+                     "Add points at borders that rays pass within N spacings; 0: none."},
                     &added.border_gap, 100.0),
         for_library(kPoints,
                     {"textureless-step", "x spacing",
-                     "Add points N spacings apart in textureless parts of planar regions; 0 adds "
-                     "none."},
+                     "Add points N spacings apart in textureless regions; 0: none."},
                     &added.textureless_step, 100.0),
     };
 }
@@ -114,7 +111,7 @@ OptionList method_options(LabelOptions& options)
          value_of_enum(options.method)},
         for_library(kRays,
                     {"min-crossings", "rays",
-                     "With the strict method, carve the cells beside a facet if N rays cross it."},
+                     "Carve the cells beside a facet if N rays cross it (strict method)."},
                     &options.min_crossings),
     };
     list.back().info.min = 1;
@@ -126,33 +123,27 @@ OptionList trace_options(TraceOptions& trace)
     OptionList list = {
         for_library(kRays,
                     {"views-sigma", "views",
-                     "Set s of the ray weight 1 - exp(-n^2 / 2 s^2) for a point of n views, "
-                     "relative to the median point; 0 weighs all rays alike."},
+                     "Set s of the ray weight 1 - exp(-n^2 / 2 s^2), n views; 0: all alike."},
                     &trace.views_sigma, 100.0),
         for_library(kRays,
                     {"error-sigma", "x median error",
-                     "Set s of the factor exp(-(e^2 - 1) / 2 s^2) for a reprojection error of e > "
-                     "1 medians; 0 ignores errors."},
+                     "Set s of the factor exp(-(e^2 - 1) / 2 s^2) for errors e > 1; 0: none."},
                     &trace.error_sigma, 1000.0),
         for_library(kRays,
                     {"distance-sigma", "x short edge",
-                     "Set the uncertainty of a point along its rays, in units of the 25th "
-                     "percentile of edge lengths; 0 trusts points fully."},
+                     "Set the uncertainty of points along their rays; 0 trusts them fully."},
                     &trace.distance_sigma, 1000.0),
         for_library(kRays,
                     {"sink-depth", "x distance sigma",
-                     "Set how far behind a point its rays vote for inside; 0 means the cell that "
-                     "begins at the point."},
+                     "Set how far behind a point its rays vote for inside; 0: the next cell."},
                     &trace.sink_depth, 1000.0),
-        for_library(kRays,
-                    {"bundle-sights", "rays",
-                     "Merge N neighboring rays of a dense cloud far from their points; 1 merges "
-                     "none."},
-                    &trace.bundle_sights, 64),
+        for_library(
+            kRays,
+            {"bundle-sights", "rays", "Merge N neighboring rays of a dense cloud; 1 merges none."},
+            &trace.bundle_sights, 64),
         for_library(kRays,
                     {"inferred-sights", "weight",
-                     "Weigh rays of views that likely saw a dense point although fused.ply.vis "
-                     "omits them; 0 leaves them out."},
+                     "Weigh rays of views that likely saw a dense point; 0 ignores them."},
                     &trace.inferred_weight, 10.0),
     };
     list[4].info.min = 1;
@@ -173,8 +164,7 @@ OptionList cut_options(LabelOptions& options)
          &options.cut.quality},
         for_library(kRays,
                     {"hull-edge", "x local edge",
-                     "Continue the surface along the convex hull by faces with edges up to N "
-                     "times the local median; 0 ends it there."},
+                     "Continue the surface along the hull by edges up to this; 0 does not."},
                     &options.hull.hull_edge),
         {kRays,
          {.name = "virtual-views",
@@ -186,7 +176,7 @@ OptionList cut_options(LabelOptions& options)
          &views.count},
         for_library(kRays,
                     {"virtual-weight", "rays",
-                     "Weigh a ray of a virtual viewpoint, relative to a real one of that point."},
+                     "Weigh a ray of a virtual viewpoint, relative to a real one."},
                     &views.weight, 100.0),
     };
 }
@@ -209,12 +199,11 @@ OptionList surface_options(SurfaceOptions& surface)
          &rules.max_closing},
         for_library(kSurface,
                     {"closing-vast", "x closing edge",
-                     "Drop seen boundary faces that turn off the surface, too, if they are N times "
-                     "longer than max-closing."},
+                     "Drop seen boundary faces that turn off the surface beyond this."},
                     &rules.vast),
         for_library(kSurface,
                     {"closing-seen", "share",
-                     "Drop long faces that turn off the surface if views see a smaller share."},
+                     "Drop long faces that turn off the surface if seen less than this."},
                     &rules.half_seen, 1.0),
         {kSurface,
          {.name = "hardly-seen",
@@ -225,17 +214,15 @@ OptionList surface_options(SurfaceOptions& surface)
          &rules.hardly_seen},
         for_library(kSurface,
                     {"trim", "x closing edge",
-                     "Trim faces with a longer edge to what views see of them; 0 trims none."},
+                     "Trim faces with a longer edge to what views see of them; 0: none."},
                     &rules.trim),
         for_library(kSurface,
                     {"beside-edge", "x local edge",
-                     "Keep unseen faces beside seen ones if no edge is longer than N local "
-                     "medians; 0 keeps none."},
+                     "Keep unseen faces beside seen ones up to this edge; 0 keeps none."},
                     &rules.beside_edge),
         for_library(kSurface,
                     {"beside-length", "x median edge",
-                     "Keep such faces only if no edge is longer than N times the longest edge of "
-                     "the median face."},
+                     "Keep such faces only up to this multiple of the median longest edge."},
                     &rules.beside_length),
     };
 }

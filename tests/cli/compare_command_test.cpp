@@ -142,12 +142,6 @@ TEST_F(CompareOnBall, GivesTheSameFiguresForAnyNumberOfThreads)
     EXPECT_EQ(one.out, three.out);
 }
 
-TEST_F(CompareOnBall, SaysWhatItExpectedWhereOperandsAreMissing)
-{
-    EXPECT_EQ(refusal_of(2, {}), "colmap-vcarve: missing meshes after " + model +
-                                     " (see colmap-vcarve compare --help)\n");
-}
-
 TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
 {
     const std::string nowhere = folder / "nowhere";
@@ -158,6 +152,8 @@ TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
     EXPECT_EQ(refusal_of(2, {mesh, "--json", nowhere + "/a.json"}),
               "colmap-vcarve: cannot write " + nowhere + "/a.json: the folder " + nowhere +
                   " does not exist\n");
+    EXPECT_EQ(refusal_of(2, {mesh, "--report", mesh + ".html", "--json", mesh + ".html"}),
+              "colmap-vcarve: --report and --json cannot both be written to " + mesh + ".html\n");
     EXPECT_EQ(refusal_of(2, {mesh, "--json", mesh}),
               "colmap-vcarve: --json would replace the mesh " + mesh + "\n");
 }
@@ -270,40 +266,16 @@ TEST_F(CompareOnBall, LeavesNothingBehindWhenItIsInterrupted)
     EXPECT_EQ(temporary.num_entries(), 0U);
 }
 
-TEST(Compare, HasAHelpOfItsOwn)
-{
-    EXPECT_THAT(run_program({"compare", "--help"}).out,
-                HasSubstr("\nUsage: colmap-vcarve compare MODEL A.ply [B.ply ...] [options]\n"));
-}
-
-/// A model of a ball, its surface, and a coarser one.
-class CompareReportOfBall : public ::testing::Test {
+/// With a coarser mesh and a page.
+class CompareReportOfBall : public CompareOnBall {
   protected:
     CompareReportOfBall()
     {
-        write_ball_model(ball, 400);
-        EXPECT_EQ(run_program({"--quiet", ball, mesh}).exit_code, 0);
-        EXPECT_EQ(run_program({"--quiet", ball, coarse, "--simplify", "100"}).exit_code, 0);
+        EXPECT_EQ(run_program({"--quiet", model, coarse, "--simplify", "100"}).exit_code, 0);
     }
 
-    Outcome compare(std::vector<std::string> more) const
-    {
-        more.insert(more.begin(), {"compare", ball, "--samples", "2000"});
-        return run_program(more);
-    }
-
-    /// Expects the command to fail with this code and no table, and gives its sentence.
-    std::string refusal_of(int exit_code, const std::vector<std::string>& more) const
-    {
-        return sentence_of_run(exit_code, compare(more));
-    }
-
-    TemporaryFolder folder;
-    std::string ball = folder / "ball";
-    std::string mesh = folder / "mesh.ply";
     std::string coarse = folder / "coarse.ply";
     std::string page = folder / "out.html";
-    std::string json = folder / "out.json";
 };
 
 TEST_F(CompareReportOfBall, HoldsTheFiguresThatJsonWrites)
@@ -312,8 +284,8 @@ TEST_F(CompareReportOfBall, HoldsTheFiguresThatJsonWrites)
               0);
     const Json record = part_of(bytes_of(page), "record");
     EXPECT_EQ(record["comparison"], Json::parse(bytes_of(json)));
-    EXPECT_EQ(record["command"], "colmap-vcarve compare " + ball + " --samples 2000 " + mesh + " " +
-                                     coarse + " --truth " + mesh + " --report " + page +
+    EXPECT_EQ(record["command"], "colmap-vcarve compare " + model + " --samples 2000 " + mesh +
+                                     " " + coarse + " --truth " + mesh + " --report " + page +
                                      " --json " + json);
     EXPECT_EQ(record["program"]["name"], "colmap-vcarve");
 }
@@ -380,14 +352,6 @@ TEST_F(CompareReportOfBall, ShowsTheSameForAnyNumberOfThreads)
     EXPECT_EQ(scenes[0], scenes[2]);
 }
 
-TEST_F(CompareReportOfBall, ChangesNoFigure)
-{
-    const Outcome without = compare({"--quiet", mesh, coarse});
-    const Outcome with = compare({"--quiet", mesh, coarse, "--report", page});
-    EXPECT_EQ(with.exit_code, 0);
-    EXPECT_EQ(with.out, without.out);
-}
-
 TEST_F(CompareReportOfBall, LetsNoNameBreakOut)
 {
     const std::string nasty = folder / "<img src=x onerror=y()>.ply";
@@ -410,31 +374,6 @@ TEST_F(CompareReportOfBall, ShowsWhatIsLeftWhereAMeshCouldNotBeMade)
     EXPECT_EQ(record["comparison"]["meshes"].size(), 3U);
     EXPECT_EQ(scene["surfaces"].size(), 2U);
     EXPECT_EQ(record["rows"][0]["cells"][0], record["comparison"]["meshes"][0]["failure"]);
-}
-
-TEST_F(CompareReportOfBall, IsRefusedUnderAnotherName)
-{
-    EXPECT_EQ(refusal_of(2, {mesh, "--report", "out.txt"}),
-              "colmap-vcarve: cannot write out.txt: the name of a report must end with .html or "
-              ".htm\n");
-}
-
-TEST_F(CompareReportOfBall, IsRefusedWhereAnotherOutputOrAnInputIs)
-{
-    EXPECT_EQ(refusal_of(2, {mesh, "--report", page, "--json", page}),
-              "colmap-vcarve: --report and --json cannot both be written to " + page + "\n");
-    std::filesystem::copy(mesh, page);
-    EXPECT_EQ(refusal_of(2, {page, coarse, "--report", page}),
-              "colmap-vcarve: --report would replace the mesh " + page + "\n");
-    EXPECT_EQ(refusal_of(2, {mesh, "--truth", page, "--report", page}),
-              "colmap-vcarve: --report would replace the mesh " + page + "\n");
-    EXPECT_EQ(bytes_of(page), bytes_of(mesh));
-}
-
-TEST_F(CompareReportOfBall, IsRefusedBeforeTheWorkWhereItCannotBeWritten)
-{
-    EXPECT_THAT(refusal_of(2, {mesh, "--report", folder / "none/out.html"}),
-                HasSubstr("the folder " + (folder / "none").string() + " does not exist"));
 }
 
 TEST_F(CompareReportOfBall, IsNotLeftBehindByARunThatFails)

@@ -1,6 +1,5 @@
 #include "cli/exit_code.h"
 #include "io/files/mapped_file.h"
-#include "support/subprocess.h"
 #include "support/temporary_folder.h"
 #include "support/usual_signals.h"
 
@@ -10,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <csignal>
 #include <string>
 
@@ -51,39 +49,6 @@ TEST(EndCleanlyOnSignals, GoesOnWhereASignalWasIgnoredFromTheStart)
     for (const int signal : kEndingSignals) {
         EXPECT_EQ(exit_code_of(signal, part, signal), 0);
         EXPECT_EQ(folder.num_entries(), 1U);
-    }
-}
-
-/// While it lives, the tests ignore the signals, as shells start jobs in the background.
-class InTheBackground {
-  public:
-    InTheBackground()
-    {
-        std::ranges::transform(kEndingSignals, before_.begin(),
-                               [](int signal) { return std::signal(signal, SIG_IGN); });
-    }
-    ~InTheBackground()
-    {
-        for (std::size_t i = 0; i < kEndingSignals.size(); ++i) {
-            std::signal(kEndingSignals[i], before_[i]);
-        }
-    }
-    InTheBackground(const InTheBackground&) = delete;
-    InTheBackground& operator=(const InTheBackground&) = delete;
-
-  private:
-    std::array<void (*)(int), kEndingSignals.size()> before_{};
-};
-
-TEST(EndCleanlyOnSignals, IsTestedAlikeInTheBackground)
-{
-    const TemporaryFolder folder;
-    const InTheBackground background;
-    for (const int signal : kEndingSignals) {
-        const auto part = folder.write("out.ply.part", "half of it");
-        EXPECT_EQ(exit_code_of(signal, part), 128 + signal);
-        const std::string told = "kill -" + std::to_string(signal) + " $$; exit 0";
-        EXPECT_EQ(Subprocess({"/bin/sh", "-c", told}).wait().exit_code, -1) << "killed";
     }
 }
 

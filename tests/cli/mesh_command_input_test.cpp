@@ -479,14 +479,6 @@ TEST_F(TextureOfProgram, IsRefusedWithoutPhotographs)
     EXPECT_EQ(run({folder / "out.glb", "--images", folder / "none"}).exit_code, 3);
 }
 
-TEST_F(TextureOfProgram, IsRefusedInFormatsThatHoldNone)
-{
-    const Outcome outcome = run({folder / "out.stl", "--texture"});
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr(".glb, .obj or .ply"));
-    EXPECT_EQ(run({folder / "out.glb", "--texture-scale", "2"}).exit_code, 2);
-}
-
 TEST_F(TextureOfProgram, ReplacesNoPhotograph)
 {
     // Photographs that were converted, one of which is called as the first page of scan.obj would

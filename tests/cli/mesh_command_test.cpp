@@ -58,26 +58,31 @@ TEST(Program, NamesTheCulpritOfAWrongCommandLine)
     EXPECT_EQ(sentence({"a", "b.ply", "--keep-work"}), "--keep-work needs --work FOLDER\n");
     EXPECT_EQ(sentence({"out.ply", "sparse"}),
               "the model comes first and the output second: colmap-vcarve sparse out.ply\n");
+    const std::string wrong = "cannot write ";
+    for (const std::string out : {"a/out.gltf", "a/out", "out.ply.gz"}) {
+        EXPECT_EQ(sentence({"sparse", out}),
+                  wrong + out +
+                      ": the name of a surface must end with .ply, .obj, .off, .stl or "
+                      ".glb\n");
+    }
+    EXPECT_EQ(sentence({"a", "b.obj", "--ascii"}),
+              wrong + "b.obj with --ascii, which is for PLY files only\n");
+    EXPECT_EQ(sentence({"a", "b.GLB", "--attributes"}),
+              wrong + "b.GLB with --attributes, which is for PLY files only\n");
+    EXPECT_EQ(sentence({"a", "b.stl", "--texture"}),
+              wrong + "b.stl with --texture: the name of a textured surface must end with .glb, "
+                      ".obj or .ply\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--preview", "c.jpg"}),
+              wrong + "c.jpg: the name of a picture must end with .png\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--report", "c.txt"}),
+              wrong + "c.txt: the name of a report must end with .html or .htm\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--view", "top"}), "--view needs --preview OUT.png\n");
+    EXPECT_EQ(sentence({"a", "b.glb", "--texture-scale", "2"}),
+              "--texture-scale needs --texture\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--preview", "c.png", "--stats", "c.png"}),
+              "--stats and --preview cannot both be written to c.png\n");
     EXPECT_EQ(sentence({"compare"}),
               "missing MODEL and meshes (see colmap-vcarve compare --help)\n");
-}
-
-TEST(Program, NamesTheEndsOfTheFilesItWrites)
-{
-    const std::string ends = ": the name of a surface must end with .ply, .obj, .off, .stl or .glb";
-    for (const std::string out : {"a/out.gltf", "a/out", "a/obj", "out.ply.gz"}) {
-        EXPECT_EQ(sentence_of(2, {"sparse", out}),
-                  "colmap-vcarve: cannot write " + out + ends + "\n");
-    }
-}
-
-TEST(Program, RefusesWhatOnlyPlyHolds)
-{
-    EXPECT_EQ(sentence_of(2, {"sparse", "out.obj", "--ascii"}),
-              "colmap-vcarve: cannot write out.obj with --ascii, which is for PLY files only\n");
-    EXPECT_EQ(sentence_of(2, {"sparse", "out.GLB", "--attributes"}),
-              "colmap-vcarve: cannot write out.GLB with --attributes, which is for PLY files "
-              "only\n");
 }
 
 TEST(Program, SaysBeforeItReadsAnythingThatAnOutputCannotBeWritten)
