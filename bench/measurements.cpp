@@ -1,7 +1,6 @@
 #include "measurements.h"
 
-#include "cli/model_input.h"
-#include "cli/process_usage.h"
+#include "cli/input_output.h"
 #include "cli/run_record.h"
 #include "io/files/mapped_file.h"
 #include "pipeline/memory.h"

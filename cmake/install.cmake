@@ -43,6 +43,6 @@ if(VCARVE_PROGRAM)
   install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)
   install(FILES ${PROJECT_BINARY_DIR}/colmap-vcarve.1
     DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
-  install(FILES ${PROJECT_BINARY_DIR}/colmap-vcarve.bash RENAME colmap-vcarve
+  install(FILES ${PROJECT_SOURCE_DIR}/packaging/completion.bash RENAME colmap-vcarve
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions OPTIONAL)
 endif()

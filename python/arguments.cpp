@@ -88,7 +88,7 @@ py::list describe(const OptionList& options)
         said["range"] = range_text(option);
         said["help"] = option.info.help;
         said["default"] = value_text(option);
-        said["tuning"] = option.info.tuning;
+        said["tuning"] = option.info.level == OptionLevel::library;
         all.append(said);
     }
     return all;

@@ -5,7 +5,6 @@
 #include "base/version.h"
 #include "mesh_class.h"
 #include "options/declared.h"
-#include "options/points_arguments.h"
 #include "scene_class.h"
 #include "steps/6_surface/provenance.h"
 #include "told_run.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "cli/model_input.h"
+#include "cli/input_output.h"
 #include "compare/compare.h"
 
 #include <filesystem>
@@ -15,7 +15,7 @@ struct BaselineRunOptions {
     int timeout_s = 300; ///< after which it is killed
 };
 
-/// A mesh that a program made, or why there is none, as a column of the table.
+/// A column of the table: the mesh of a program, or why there is none.
 struct BaselineMesh {
     std::string name;
     std::string failure; ///< "timed out after 300 s"; empty where `mesh` was made
@@ -48,13 +48,26 @@ struct BaselineRun {
     int threads = 0; ///< limits both programs; 0 leaves them free
 };
 
-/// Runs `colmap delaunay_mesher` and this program itself with its defaults, one after the other, on
-/// the points the model means, sparse or dense, and measures both alike. A program that fails gives
-/// no column but a note of one sentence; one that runs out of time gives a column without a mesh.
-/// Call it before anything large is in memory (see run_child). Throws InputError where there is no
-/// model, and UsageError where COLMAP could not be told of its points: it reads dense ones from
-/// fused.ply, fused.ply.vis and sparse in one folder.
+/// Runs `colmap delaunay_mesher` and this program with its defaults on the sparse or dense points
+/// of the model. A program that fails gives a note instead of a column; one that times out gives a
+/// column without a mesh. Call it before anything large is in memory (see run_child). Throws
+/// InputError without a model, and UsageError for points that COLMAP cannot read.
 std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
                                         Log& log);
+
+/// How another program ended, and what it took.
+struct ChildOutcome {
+    RunCost cost;            ///< of the program and the ones it started and waited for
+    bool timed_out = false;  ///< it was killed, with the ones it started
+    bool succeeded = false;  ///< it ended by itself with exit code 0
+    std::string description; ///< how it ended, to be read after its name: "ended with exit code 1"
+};
+
+/// Runs a program, found along PATH, in its own process group, with its output in the file
+/// `printed`. The group is killed after `timeout_s` seconds, and ends with this process. Call it
+/// while this process is small: the system counts the caller's memory at the start as the
+/// program's.
+ChildOutcome run_child(std::vector<std::string> words, const std::filesystem::path& printed,
+                       double timeout_s);
 
 } // namespace vcarve::cli

@@ -1,22 +1,19 @@
 #include "cli/commands.h"
 
 #include "base/version.h"
-#include "cli/compare_command.h"
 #include "cli/mesh_arguments.h"
-#include "cli/mesh_command.h"
 #include "io/files/output_file.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 namespace vcarve::cli {
 
 namespace {
 
-/// Whether words are options only, so that what follows them may be a command.
+/// Whether the words are options only, so that a command may follow.
 bool are_options(std::span<const std::string> words, const OptionList& options)
 {
     try {
@@ -26,7 +23,7 @@ bool are_options(std::span<const std::string> words, const OptionList& options)
     }
 }
 
-/// The command that the first operand names, whose name is taken out of the words.
+/// The command that the first operand names; its name is removed from the words.
 const Command& command_in(std::vector<std::string>& words, std::span<const Command> commands)
 {
     for (const Command& command : commands) {
@@ -50,7 +47,7 @@ std::string version_text()
                        build.openmesh, build.eigen, build.tbb);
 }
 
-/// "help", "help compare" and "version" say what options would.
+/// Replaces "help", "help compare" and "version" by options.
 std::vector<std::string> words_meant(std::span<const std::string> arguments)
 {
     std::vector<std::string> words(arguments.begin(), arguments.end());
@@ -59,20 +56,6 @@ std::vector<std::string> words_meant(std::span<const std::string> arguments)
     words.erase(words.begin());
     words.emplace_back("--help");
     return words;
-}
-
-/// What the build and the documents are made with: the same declarations in other forms.
-std::string generated_text(std::string_view form, const Manual& manual,
-                           std::span<const Command> commands)
-{
-    std::vector<Manual> manuals;
-    for (const Command& command : commands) {
-        manuals.push_back(command.manual());
-    }
-    if (form == "--help-man") return man_page(manuals, versions().program);
-    if (form == "--help-bash") return bash_completion(manuals);
-    if (form == "--help-markdown") return markdown_options(manual);
-    return "";
 }
 
 } // namespace
@@ -90,9 +73,8 @@ void run_command_line(std::span<const std::string> arguments, std::span<const Co
     arguments = meant;
 
     const Manual manual = command.manual();
-    if (arguments.size() == 1) {
-        const std::string text = generated_text(arguments[0], manual, commands);
-        if (!text.empty()) return print(text);
+    if (arguments.size() == 1 && arguments[0] == "--help-markdown") { // for docs/options.md
+        return print(markdown_options(manual));
     }
     const ParsedArguments given = parse_arguments(arguments, manual.options);
     if (given.has("help") || given.has("help-all")) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "cli/manual.h"
-#include "cli/option_parser.h"
+#include "cli/command_line.h"
 
 #include <functional>
 #include <span>
@@ -10,19 +9,30 @@
 
 namespace vcarve::cli {
 
-/// What a program can be told to do.
+class RunRanks;
+
+/// A command of a program.
 struct Command {
     std::string name; ///< first word of the command line; empty for the bare form
     std::function<Manual()> manual;
     std::function<void(const ParsedArguments&)> run;
 };
 
-/// Those of colmap-vcarve, the bare form first.
+/// The commands of colmap-vcarve, the bare form first.
 std::vector<Command> commands();
 
-/// Runs a program that has these commands on the words that follow its name. Results go to files,
-/// what it does to stderr, and only what was asked for (--help, --version, tables of `compare`) to
-/// stdout. Throws UsageError and InputError.
+/// Runs a program that has these commands on the words after its name. Results go to files, the
+/// log to stderr, and only requested texts (--help, --version, tables of `compare`) to stdout.
+/// Throws UsageError and InputError.
 void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands);
+
+/// `colmap-vcarve MODEL OUT.ply`. Ranks, if any, share the work. Throws UsageError, also if a
+/// scratch file cannot be written, and InputError.
+void run_mesh(const ParsedArguments& given, RunRanks* ranks = nullptr);
+
+/// `colmap-vcarve compare MODEL A.ply ...`: prints a table of figures, a column per mesh, and
+/// writes the files of --json, --preview and --report. Throws UsageError and InputError.
+Manual compare_manual();
+void run_compare(const ParsedArguments& given);
 
 } // namespace vcarve::cli

@@ -1,13 +1,12 @@
-#include "cli/compare_command.h"
-
 #include "base/text.h"
 #include "base/threads.h"
 #include "cli/baseline_runs.h"
+#include "cli/commands.h"
 #include "cli/compare_outputs.h"
-#include "cli/compare_report.h"
-#include "cli/interruption.h"
-#include "cli/model_input.h"
-#include "cli/preview_output.h"
+#include "cli/console_log.h"
+#include "cli/exit_code.h"
+#include "cli/input_output.h"
+#include "cli/picture_output.h"
 #include "cli/run_record.h"
 #include "compare/comparison_table.h"
 #include "compare/evidence.h"
@@ -53,10 +52,10 @@ struct CompareArguments {
 
 OptionList truth_options(CompareArguments& arguments)
 {
-    return {{"Measure",
+    return {{"Measurement",
              {.name = "truth",
-              .help = "The true surface as PLY, in the model's frame: adds precision, recall, F "
-                      "and blocked sights."},
+              .help = "Add accuracy against the true surface. FILE is a PLY in the model's frame; "
+                      "the figures are precision, recall, F and blocked rays."},
              &arguments.truth}};
 }
 
@@ -66,13 +65,13 @@ OptionList baseline_options(CompareArguments& arguments)
     return {
         {kBaseline,
          {.name = "colmap",
-          .help = "COLMAP's program: runs its delaunay_mesher and this program on MODEL, and adds "
-                  "a column for each, with seconds and peak memory."},
+          .help = "Run COLMAP's mesher and this program, too. FILE is COLMAP's program. Each "
+                  "adds a column with seconds and peak memory."},
          &arguments.colmap},
         {kBaseline,
          {.name = "colmap-timeout",
           .unit = "s",
-          .help = "COLMAP's mesher is killed after that; some models never end it.",
+          .help = "Stop COLMAP after N s. Its mesher never ends on some models.",
           .min = 1},
          &arguments.colmap_run.timeout_s},
     };
@@ -82,15 +81,17 @@ OptionList run_options(CompareArguments& arguments)
 {
     return {
         {kRunStage,
-         {.name = "quiet", .help = "Print nothing but the table and errors."},
+         {.name = "quiet", .help = "Print only the table and errors."},
          &arguments.quiet},
         {kRunStage,
-         {.name = "verbose", .help = "Print every stage and all that it counted."},
+         {.name = "verbose",
+          .help = "Print every stage with all its counts.",
+          .level = OptionLevel::advanced},
          &arguments.verbose},
         {kRunStage,
          {.name = "threads",
           .unit = "threads",
-          .help = "How many to use; 0 uses all. The figures are the same for any.",
+          .help = "Use N threads. 0 uses all. Figures are the same for any thread count.",
           .max = 1024},
          &arguments.threads},
     };
@@ -110,9 +111,10 @@ CompareArguments read_arguments(const ParsedArguments& given)
     read_options(given, options_of(arguments));
     const bool makes_meshes = !arguments.colmap.empty();
     if (given.operands.size() < (makes_meshes ? 1U : 2U)) {
-        throw UsageError(fmt::format("expected a model and meshes, MODEL A.ply ..., but got {}{}",
-                                     given.operands.empty() ? "nothing" : given.operands[0],
-                                     kSeeCompareHelp));
+        throw UsageError(
+            given.operands.empty()
+                ? fmt::format("missing MODEL and meshes{}", kSeeCompareHelp)
+                : fmt::format("missing meshes after {}{}", given.operands[0], kSeeCompareHelp));
     }
     arguments.model.path = given.operands[0];
     arguments.meshes.assign(given.operands.begin() + 1, given.operands.end());
@@ -129,7 +131,7 @@ void check_files(const CompareArguments& arguments)
     check_outputs(arguments.outputs, arguments.model, inputs);
     for (const fs::path& input : inputs) {
         if (is_mesh_name(input) && lower_case_end(input) != ".ply") {
-            throw UsageError(fmt::format("{}: compare reads PLY only", input.string()));
+            throw UsageError(fmt::format("{}: compare reads PLY files only", input.string()));
         }
         read_ply_header(input);
     }
@@ -232,24 +234,19 @@ Manual compare_manual()
     Manual manual;
     manual.command = "colmap-vcarve compare";
     manual.operands = "MODEL A.ply [B.ply ...]";
-    manual.summary = "Measures surfaces against the model they were made from, and the truth.";
+    manual.summary = "Measure meshes against the model they were made from, and the truth.";
     manual.examples = {
-        {"colmap-vcarve compare sparse/0 mesh.ply other.ply", "which fits better"},
-        {"colmap-vcarve compare sparse/0 mesh.ply --truth gt.ply", "how true it is"},
-        {"colmap-vcarve compare sparse/0 --colmap colmap", "beside COLMAP's"},
-        {"colmap-vcarve compare sparse/0 a.ply b.ply --preview ab.png", "a picture of each"},
-        {"colmap-vcarve compare sparse/0 a.ply b.ply --report ab.html", "a page with both"},
+        {"colmap-vcarve compare sparse/0 a.ply b.ply", "which fits better"},
+        {"colmap-vcarve compare sparse/0 a.ply --truth gt.ply", "accuracy"},
+        {"colmap-vcarve compare sparse/0 --colmap colmap", "against COLMAP"},
+        {"colmap-vcarve compare sparse/0 a.ply --preview a.png", "a picture"},
+        {"colmap-vcarve compare sparse/0 a.ply --report a.html", "a web page"},
     };
     manual.operand_meanings = {
-        {"MODEL", "The COLMAP model, as for colmap-vcarve MODEL OUT.ply."},
-        {"A.ply ...",
-         "Surfaces in the model's frame, each a column of the table; may be left out with "
-         "--colmap."},
+        {"MODEL", "The input of the meshes, as for colmap-vcarve."},
+        {"A.ply ...", "Meshes in the model's frame, a column each. Optional with --colmap."},
     };
-    manual.footnotes = {
-        {"Figures", "What they mean is written under the table."},
-        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
-    };
+    manual.ends = {"The table explains its figures.", kExitCodes};
     const auto arguments = std::make_shared<CompareArguments>();
     manual.options = options_of(*arguments);
     manual.values = arguments;
@@ -265,25 +262,25 @@ void run_compare(const ParsedArguments& given)
     const int threads = wanted == 0 ? available_threads() : wanted;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<Log> log = shown_log(arguments.quiet, arguments.verbose);
+    ConsoleLog log(console_on_stderr(arguments.quiet, arguments.verbose));
 
-    std::vector<BaselineMesh> baselines = baselines_of(arguments, *log);
+    std::vector<BaselineMesh> baselines = baselines_of(arguments, log);
     remove_on_signals(arguments, nullptr);
     if (baselines.empty() && arguments.meshes.empty()) {
         throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
                                      arguments.model.path.string()));
     }
-    ModelInput model = read_model_input(arguments.model, *log);
+    ModelInput model = read_model_input(arguments.model, log);
     PreviewOutput preview(arguments.outputs.preview);
     preview.stand_in(model.scene);
     CompareReport report(arguments.outputs.report);
     report.stand_in(model.scene);
-    const Reference reference = reference_of(arguments, std::move(model.scene), *log);
-    const Yardstick by{reference, preview, report, *log};
+    const Reference reference = reference_of(arguments, std::move(model.scene), log);
+    const Yardstick by{reference, preview, report, log};
     std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), by);
     std::ranges::move(measure_files(arguments, by), std::back_inserter(comparisons));
     preview.write();
-    report.write(comparisons, reference, arguments.command, *log);
+    report.write(comparisons, reference, arguments.command, log);
     print(comparison_table(comparisons, reference));
     if (arguments.outputs.json.empty()) return;
     OutputFile file(arguments.outputs.json);

@@ -1,8 +1,11 @@
 #include "cli/compare_outputs.h"
 
-#include "cli/outputs.h"
+#include "cli/input_output.h"
+#include "compare/comparison_table.h"
 #include "io/files/output_file.h"
+#include "page/comparison_scene.h"
 #include "page/page.h"
+#include "page/page_scene.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -23,6 +26,24 @@ std::vector<Output> written(const CompareOutputs& outputs)
     return all;
 }
 
+Json better_json(Better better)
+{
+    if (better == Better::neither) return nullptr;
+    return better == Better::lower ? "lower" : "higher";
+}
+
+Json rows_json(std::span<const Comparison> comparisons, const Reference& reference)
+{
+    Json rows = Json::array();
+    for (const TableRow& row : table_rows(comparisons, reference)) {
+        rows.push_back({{"title", row.title},
+                        {"place", row.place},
+                        {"better", better_json(row.better)},
+                        {"cells", row.cells}});
+    }
+    return rows;
+}
+
 } // namespace
 
 std::vector<fs::path> CompareOutputs::paths() const
@@ -40,14 +61,14 @@ OptionList output_options(CompareOutputs& outputs)
     OptionList options = preview_options(outputs.preview);
     options.insert(options.begin(),
                    {kStage,
-                    {.name = "json", .help = "Also write all figures, unrounded, as JSON."},
+                    {.name = "json", .help = "Write all figures, unrounded, as JSON."},
                     &outputs.json});
     options.push_back(
         {kStage,
          {.name = "report",
-          .help = "Also write a page for browsers, OUT.html, that needs no network: the surfaces "
-                  "side by side under one camera, coloured by their distance to the truth or to "
-                  "each other, the table, and the worst places to go to."},
+          .help = "Write a web page with the meshes, OUT.html. It shows them side by side under "
+                  "one camera, colored by their distance to the truth or to each other, the "
+                  "table, and the worst places, and needs no network."},
          &outputs.report});
     return options;
 }
@@ -71,6 +92,34 @@ void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
     for (const Output& output : written(outputs)) {
         require_writable(output.path);
     }
+}
+
+void CompareReport::stand_in(const Scene& scene)
+{
+    if (out_.empty()) return;
+    scene_ = packed_scene(scene);
+    offset_ = scene.offset;
+}
+
+void CompareReport::add(const std::string& column, const TriMesh& mesh)
+{
+    if (!out_.empty()) meshes_.push_back({column, mesh});
+}
+
+void CompareReport::write(std::span<const Comparison> comparisons, const Reference& reference,
+                          const std::string& command, Log& log)
+{
+    if (out_.empty()) return;
+    Stage stage(log, "report");
+    const Json scene = comparison_scene(std::move(scene_), offset_, meshes_, reference, stage);
+    const Json record = {{"program", program_json()},
+                         {"command", command},
+                         {"comparison", comparison_record(comparisons, reference)},
+                         {"rows", rows_json(comparisons, reference)}};
+    OutputFile file(out_);
+    write_page(file.stream(), record, scene);
+    file.commit();
+    stage.end({{"surfaces shown", std::ssize(scene["surfaces"])}});
 }
 
 } // namespace vcarve::cli

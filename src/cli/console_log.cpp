@@ -1,7 +1,6 @@
 #include "cli/console_log.h"
 
 #include "base/text.h"
-#include "cli/stage_lines.h"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
@@ -10,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
+#include <optional>
 
 namespace vcarve::cli {
 
@@ -21,6 +20,78 @@ constexpr std::size_t kBarCells = 30;
 constexpr const char* kClearLine = "\r\x1b[K";
 constexpr const char* kBold = "\x1b[1m";
 constexpr const char* kPlain = "\x1b[0m";
+constexpr std::size_t kTextColumns = 55; ///< beside the name and the seconds, of 80
+
+/// The name and text of a stage: "{points} of {of} points", with names of counts in braces, and
+/// {name/1000} for thousandths. Parts after a bar are optional: they are shown if none of their
+/// counts is 0 and there is room. A stage without a text is not shown.
+struct Wording {
+    std::string_view stage;
+    std::string_view name;
+    std::string_view text;
+};
+
+constexpr Wording kWordings[] = {
+    {"read", "read", "{points} points, {views} views, {sights} rays"},
+    {"digest", "check", "{files} input files"},
+    {"memory", "memory", "{MiB expected} MiB expected"},
+    {"thin", "merge", "{of} points merged to {points}"},
+    {"denoise", "denoise",
+     "{points moved} points moved within their error| ({thousandths of a pixel of noise/1000} px)"},
+    {"filter", "filter",
+     "{points} of {of} points kept|, {duplicate} duplicate|, {few views} of few views"
+     "|, {high error} of large error|, {low angle} of small angle|, {stray} stray"
+     "|, {non-finite} not finite"},
+    {"crop", "crop",
+     "{points} of {of} points in the region|, {outside but seen through it} seen through it"},
+    {"fill", "fill", "{points added} points added on planes"},
+    {"triangulate", "triangulate", "{cells} cells"},
+    {"sights", "rays", "{sights} rays from points to cameras|, {inferred} more likely"},
+    {"virtual", "viewpoints", "{views} more viewpoints, {sights} rays"},
+    {"carve", "carve", "{inside} of {of} cells are solid"},
+    {"cut", "cut", "{inside} of {of} cells are solid"},
+    {"surface", "surface",
+     "{faces} faces seen by cameras|, {unseen} unseen dropped"
+     "|, {closing without support} unsupported dropped"},
+    {"clean", "clean",
+     "{faces} faces|, holes filled: {holes filled}|, small pieces dropped: {components dropped}"},
+    {"open", "open", ""},
+    {"settle", "denoise",
+     "{vertices moved} vertices moved within their error"
+     "| ({thousandths of a pixel of noise/1000} px)"},
+    {"guard", "guard", ""},
+    {"smooth", "smooth", "{vertices moved} of {of} vertices moved"},
+    {"simplify", "simplify", "{of} faces merged to {faces}"},
+    {"orient", "orient", ""},
+    {"photos", "photos", "{seen} of {faces} faces shown by {photographs} photographs"},
+    {"colors", "colours", "{vertices} vertices coloured|, {outliers} views of passers-by left out"},
+    {"texture", "texture", "{charts} charts on {pages} pages"},
+    {"check", "check",
+     "{open edges} open edges|, {self-intersections} faces through others"
+     "|, {sights from behind} rays from behind"},
+    {"write", "write", ""},
+};
+
+/// A part of a text with its counts filled in; nothing if one of them is missing, or 0 in an
+/// optional part.
+std::optional<std::string> filled_in(std::string_view part, const Counts& counts, bool is_optional)
+{
+    constexpr std::string_view kThousandths = "/1000";
+    std::string filled;
+    for (std::size_t open = 0; (open = part.find('{')) != part.npos;) {
+        filled += part.substr(0, open);
+        const std::size_t close = part.find('}');
+        std::string_view name = part.substr(open + 1, close - open - 1);
+        const bool thousandths = name.ends_with(kThousandths);
+        if (thousandths) name.remove_suffix(kThousandths.size());
+        const auto count = std::ranges::find(counts, name, &Counts::value_type::first);
+        if (count == counts.end() || (is_optional && count->second == 0)) return std::nullopt;
+        filled += thousandths ? fmt::format("{:.2f}", static_cast<double>(count->second) / 1000.0)
+                              : grouped_digits(count->second);
+        part.remove_prefix(close + 1);
+    }
+    return filled.append(part);
+}
 
 std::size_t columns_of(std::FILE* stream)
 {
@@ -39,14 +110,7 @@ std::string bar_of(double share, std::size_t cells)
     return "[" + bar + "]";
 }
 
-/// A line as wide as the terminal would scroll it.
-std::string narrower(std::string line, std::size_t columns)
-{
-    if (columns > 0 && line.size() >= columns) line.resize(columns - 1);
-    return line;
-}
-
-/// What is left of a run, no more exact than it is known.
+/// No more exact than it is known.
 std::string time_text(double seconds)
 {
     constexpr double kMinute = 60.0;
@@ -58,42 +122,69 @@ std::string time_text(double seconds)
 
 } // namespace
 
-ConsoleSettings console_on_stderr(bool verbose)
+StageWords stage_words(std::string_view stage, const Counts& counts)
+{
+    const auto* const wording = std::ranges::find(kWordings, stage, &Wording::stage);
+    if (wording == std::ranges::end(kWordings)) return {std::string(stage), counts_text(counts)};
+    StageWords words = {std::string(wording->name), "", !wording->text.empty()};
+    for (std::string_view text = wording->text; !text.empty();) {
+        const std::size_t bar = std::min(text.find('|'), text.size());
+        const bool is_optional = !words.text.empty();
+        const auto part = filled_in(text.substr(0, bar), counts, is_optional);
+        if (!part && !is_optional) {
+            words.text = counts_text(counts);
+            break;
+        }
+        if (part && words.text.size() + part->size() <= kTextColumns) words.text += *part;
+        text.remove_prefix(std::min(bar + 1, text.size()));
+    }
+    return words;
+}
+
+std::string counts_text(const Counts& counts)
+{
+    if (counts.empty()) return "";
+    const bool has_whole = counts.size() > 1 && counts[1].first == "of";
+    std::string text = grouped_digits(counts[0].second);
+    if (has_whole) text += " of " + grouped_digits(counts[1].second);
+    text += " " + counts[0].first;
+
+    std::string others;
+    for (std::size_t i = has_whole ? 2 : 1; i < counts.size(); ++i) {
+        if (counts[i].second == 0) continue;
+        others += others.empty() ? "" : ", ";
+        others += grouped_digits(counts[i].second) + " " + counts[i].first;
+    }
+    return others.empty() ? text : fmt::format("{} ({})", text, others);
+}
+
+ConsoleSettings console_on_stderr(bool quiet, bool verbose)
 {
     const char* terminal = std::getenv("TERM");
     const char* no_color = std::getenv("NO_COLOR");
     const bool can_redraw = terminal != nullptr && std::string_view(terminal) != "dumb";
-    const bool live = can_redraw && ::isatty(STDERR_FILENO) != 0;
+    const bool live = !quiet && can_redraw && ::isatty(STDERR_FILENO) != 0;
     return {.stream = stderr,
             .live = live,
+            .quiet = quiet,
             .verbose = verbose,
             .emphasis = live && (no_color == nullptr || *no_color == '\0')};
 }
 
 std::string bar_line(std::string_view name, double share, double seconds, std::size_t columns)
 {
+    constexpr double kTelling = 0.02; // what is left is not known earlier
     std::string line = fmt::format("{:<12} ", name);
     if (share > 0.0) {
         line +=
             fmt::format("{} {:>3.0f} %  ", bar_of(share, kBarCells), 100.0 * std::min(share, 1.0));
     }
-    line += fmt::format("{:.0f} s", seconds);
-    return narrower(std::move(line), columns);
-}
-
-std::string run_line(std::string_view stage, const RunEstimate& run, std::size_t columns)
-{
-    constexpr std::size_t kLeastCells = 5;
-    const std::string name = fmt::format("{:<12} ", stage);
-    // A run is over when it is: until then it is not shown as full.
-    const double percent = std::min(std::floor(100.0 * run.share), 99.0);
-    const std::string figures =
-        fmt::format("{:>3.0f} %  {} left", percent, time_text(run.left_seconds));
-    const std::size_t beside = name.size() + figures.size() + 4; // brackets, a blank, the cursor
-    const std::size_t cells =
-        columns == 0 ? kBarCells : std::min(kBarCells, columns - std::min(columns, beside));
-    const std::string bar = cells < kLeastCells ? "" : bar_of(run.share, cells) + " ";
-    return narrower(name + bar + figures, columns);
+    line += share < kTelling ? fmt::format("{:.0f} s", seconds)
+                             : fmt::format("about {} left",
+                                           time_text(seconds * (1.0 / std::min(share, 1.0) - 1.0)));
+    // A line as wide as the terminal would scroll it.
+    if (columns > 0 && line.size() >= columns) line.resize(columns - 1);
+    return line;
 }
 
 ConsoleLog::ConsoleLog(const ConsoleSettings& settings) : settings_(settings)
@@ -125,29 +216,11 @@ void ConsoleLog::remove_bar()
     bar_is_drawn_ = false;
 }
 
-double ConsoleLog::run_seconds() const
-{
-    return std::chrono::duration<double>(Clock::now() - run_began_).count();
-}
-
-/// What is to be shown now; empty for nothing.
-std::string ConsoleLog::bar()
-{
-    const std::size_t columns = columns_of(settings_.stream);
-    const double seconds = run_seconds();
-    const auto run = clock_.estimate(share_.load(), seconds);
-    if (!run) {
-        if (stage_seconds() < settings_.bar_after_s) return "";
-        return bar_line(stage_, share_.load(), stage_seconds(), columns);
-    }
-    run_is_long_ = run_is_long_ || seconds + run->left_seconds > settings_.run_bar_after_s;
-    return run_is_long_ ? run_line(stage_, *run, columns) : "";
-}
-
 void ConsoleLog::draw_bar()
 {
-    const std::string line = bar();
-    if (line.empty()) return;
+    if (stage_seconds() < settings_.bar_after_s) return;
+    const std::string line =
+        bar_line(stage_, share_.load(), stage_seconds(), columns_of(settings_.stream));
     std::fputs((kClearLine + line).c_str(), settings_.stream);
     std::fflush(settings_.stream);
     bar_is_drawn_ = true;
@@ -155,8 +228,9 @@ void ConsoleLog::draw_bar()
 
 void ConsoleLog::print_line(std::string_view text)
 {
+    if (settings_.quiet) return;
     remove_bar();
-    // What cannot be written is dropped: nobody reads it, but somebody waits for the mesh.
+    // Lines that cannot be written are dropped: a run does not fail because of its log.
     std::fputs(fmt::format("{}\n", text).c_str(), settings_.stream);
     std::fflush(settings_.stream);
 }
@@ -186,7 +260,6 @@ void ConsoleLog::stage_begins(std::string_view name)
         stage_ = settings_.verbose ? name : stage_words(name, {}).name;
         stage_began_ = Clock::now();
         share_ = 0.0;
-        clock_.stage_begins(name, run_seconds());
     }
     woken_.notify_all();
 }
@@ -199,10 +272,13 @@ void ConsoleLog::stage_progresses(double share)
 void ConsoleLog::stage_ends(std::string_view name, const Counts& counts)
 {
     const std::lock_guard lock(mutex_);
+    counts_[std::string(name)] = counts;
     const StageWords words = settings_.verbose ? StageWords{std::string(name), counts_text(counts)}
                                                : stage_words(name, counts);
-    if (words.is_shown) print_line(control_free(stage_line(words, stage_seconds())));
-    clock_.stage_ends(counts, run_seconds());
+    if (words.is_shown) {
+        print_line(control_free(fmt::format("{:<12} {:<{}} {:>8.2f} s", words.name, words.text,
+                                            kTextColumns, stage_seconds())));
+    }
     stage_.clear();
 }
 
@@ -210,21 +286,6 @@ void ConsoleLog::note(std::string_view sentence)
 {
     const std::lock_guard lock(mutex_);
     print_line(fmt::format("{} {}", emphasised("note:"), control_free(sentence)));
-}
-
-void ConsoleLog::expect(const PredictedTimes& times)
-{
-    const std::lock_guard lock(mutex_);
-    clock_.expect(times);
-    constexpr double kLong = 120.0;
-    double seconds = 0.0;
-    for (const StageTime& stage : times.stages) {
-        seconds += stage.seconds;
-    }
-    if (seconds < kLong || std::exchange(is_said_long_, true)) return;
-    const auto& longest = *std::ranges::max_element(times.stages, {}, &StageTime::seconds);
-    print_line(fmt::format("{} this may take {}, of which {} takes {}", emphasised("note:"),
-                           time_text(seconds), longest.stage, time_text(longest.seconds)));
 }
 
 void ConsoleLog::conclude(std::string_view sentence)

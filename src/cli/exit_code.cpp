@@ -1,17 +1,20 @@
 #include "cli/exit_code.h"
 
 #include "base/text.h"
-#include "cli/interruption.h"
 #include "run/ranks.h"
 #include "vcarve/error.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
+#include <string_view>
 
 namespace vcarve::cli {
 
@@ -26,13 +29,68 @@ std::atomic<bool> memory_is_short = false;
     throw std::bad_alloc();
 }
 
-/// Memory may also be short where no exception may pass, as in the standard library's own.
+/// Memory may run out where no exception may pass, as within the standard library.
 [[noreturn]] void end_without_exception()
 {
     if (!memory_is_short) std::abort();
     remove_unfinished();
     std::fputs("colmap-vcarve: out of memory\n", stderr);
     ::_exit(1);
+}
+
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+
+/// Global, because a signal handler has no other arguments. Written only while signals are blocked.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
+std::vector<std::string> files_to_remove;
+
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
+std::atomic_flag is_reporting;
+
+/// Safe in a signal handler, as all functions below.
+void say(std::string_view text)
+{
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+extern "C" void remove_and_exit(int signal, siginfo_t*, void*)
+{
+    remove_unfinished();
+    // A progress bar may stand on the terminal's line.
+    if (::isatty(STDERR_FILENO) != 0) say("\n");
+    ::_exit(128 + signal);
+}
+
+extern "C" void remove_and_report(int signal, siginfo_t* info, void*)
+{
+    // Another thread reports.
+    while (is_reporting.test_and_set()) {
+        ::pause();
+    }
+    remove_unfinished();
+    if (signal == SIGBUS && info->si_code == BUS_ADRERR) {
+        say("colmap-vcarve: an input file was shortened while it was read, or a disk fails\n");
+        ::_exit(3);
+    }
+    const char number[] = {static_cast<char>('0' + signal / 10),
+                           static_cast<char>('0' + signal % 10), '\0'};
+    say("colmap-vcarve: internal error: stopped by signal ");
+    say(number);
+    say(", please report\n");
+    ::_exit(1);
+}
+
+/// Keeps other handlers, as those of sanitizers, and ignored signals, as SIGHUP under nohup.
+void handle(int signal, void (*handler)(int, siginfo_t*, void*))
+{
+    struct sigaction action = {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_DFL) return;
+    action.sa_sigaction = handler;
+    action.sa_flags = SA_SIGINFO;
+    sigfillset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
 }
 
 } // namespace
@@ -67,6 +125,44 @@ int report(const Ending& ending)
                stderr);
     std::fputs("\n", stderr);
     return ending.exit_code;
+}
+
+void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished)
+{
+    sigset_t signals;
+    sigset_t before;
+    sigemptyset(&signals);
+    for (const int signal : kSignals) {
+        sigaddset(&signals, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &signals, &before);
+    files_to_remove.assign(unfinished.begin(), unfinished.end());
+    for (const int signal : kSignals) {
+        handle(signal, remove_and_exit);
+    }
+    for (const int signal : kCrashes) {
+        handle(signal, remove_and_report);
+    }
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+void remove_unfinished()
+{
+    for (const std::string& file : files_to_remove) {
+        if (::unlink(file.c_str()) != 0) ::rmdir(file.c_str());
+    }
+}
+
+void hold_standard_streams()
+{
+    // The lowest number that is free is given; writing to it fails, as it did.
+    int descriptor = 0;
+    do {
+        descriptor = ::open("/dev/null", O_RDONLY);
+    } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+    if (descriptor > STDERR_FILENO) ::close(descriptor);
 }
 
 } // namespace vcarve::cli

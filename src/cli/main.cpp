@@ -1,6 +1,5 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
-#include "cli/interruption.h"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 #include "cli/mesh_arguments.h"
 
+#include "base/version.h"
 #include "cli/run_record.h"
 #include "io/formats/mesh_file.h"
 #include "io/formats/textured_files.h"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <system_error>
 
@@ -18,22 +20,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_operands(const std::vector<std::string>& operands)
+/// Finds the word that is one too many.
+void refuse_stray(const ParsedArguments& given)
 {
-    if (operands.size() != 2) {
-        std::string got = operands.empty() ? "nothing" : operands[0];
-        for (std::size_t i = 1; i < operands.size(); ++i) {
-            got += " " + operands[i];
-        }
-        throw UsageError(fmt::format("expected a model and an output, MODEL OUT.ply, but got {}{}",
-                                     got, kSeeHelp));
+    const std::vector<std::string>& operands = given.operands;
+    const auto out =
+        std::ranges::find_if(operands.begin() + 1, operands.end(),
+                             [](const std::string& word) { return is_mesh_name(word); });
+    if (operands.size() == 3 && !given.named_output.empty() && out != operands.end() - 1) {
+        throw UsageError(fmt::format("the output is given twice, {} and -o {}; remove one", *out,
+                                     given.named_output));
     }
-    const fs::path model = operands[0];
-    const fs::path out = operands[1];
-    if (is_mesh_name(model) && !is_mesh_name(out)) {
+    const std::string& stray = operands[out == operands.begin() + 1 ? 2 : 1];
+    throw UsageError(fmt::format("unexpected argument \"{}\"; quote paths that contain blanks{}",
+                                 stray, kSeeHelp));
+}
+
+void check_operands(const ParsedArguments& given)
+{
+    const std::vector<std::string>& operands = given.operands;
+    if (operands.empty()) throw UsageError(fmt::format("missing MODEL and OUT.ply{}", kSeeHelp));
+    if (operands.size() == 1) {
+        const bool is_output = !given.named_output.empty();
+        throw UsageError(fmt::format("missing {} {}{}",
+                                     is_output ? "MODEL before" : "OUT.ply after", operands[0],
+                                     kSeeHelp));
+    }
+    if (operands.size() > 2) refuse_stray(given);
+    if (is_mesh_name(operands[0]) && !is_mesh_name(operands[1])) {
         throw UsageError(fmt::format("the model comes first and the output second: colmap-vcarve "
                                      "{} {}",
-                                     out.string(), model.string()));
+                                     operands[1], operands[0]));
     }
 }
 
@@ -43,15 +60,15 @@ OptionList work_options(MeshArguments& arguments)
         {kRunStage,
          {.name = "work",
           .unit = "folder",
-          .help = "Where to keep what every stage made, and what does not fit into memory, until "
-                  "the surface is written: the same command, given again after it was killed or "
-                  "found the disk full, goes on after the last stage that was finished."},
+          .help =
+              "Keep checkpoints in FOLDER to resume a run. The same command, run again after it "
+              "was killed or the disk was full, resumes after the last finished stage. The "
+              "folder also holds arrays that exceed --max-memory."},
          &arguments.work},
         {kRunStage,
          {.name = "keep-work",
-          .help = "Leave the folder of --work as it is at the end, instead of removing what the "
-                  "run put there.",
-          .tuning = true},
+          .help = "Keep the checkpoints of --work at the end.",
+          .level = OptionLevel::advanced},
          &arguments.keeps_work},
     };
 }
@@ -63,29 +80,22 @@ OptionList record_options(MeshArguments& arguments)
         {kStage,
          {.name = "stats",
           .help = "Write options, counts, seconds and peak memory of every stage, and a check of "
-                  "the mesh, as JSON."},
+                  "the mesh, as JSON.",
+          .level = OptionLevel::advanced},
          &arguments.stats},
         {kStage,
          {.name = "report",
-          .help = "Write a page for browsers, OUT.html, that needs no network: the surface in 3D "
-                  "with cameras, points and the faces that were taken away, what every stage "
-                  "took, what the filter dropped and why, and what to be wary of."},
+          .help = "Write a web page with the mesh, OUT.html. It shows the mesh in 3D with cameras, "
+                  "points and removed faces, costs of stages, dropped points and warnings, and "
+                  "needs no network."},
          &arguments.report},
         {kStage,
          {.name = "check",
-          .help =
-              "Check the surface before it is written, as --stats and --report do, too: that it "
-              "is manifold and oriented and has no degenerate face. Edges where it ends, faces "
-              "that go through others and rays that meet it from behind are counted.",
-          .tuning = true},
+          .help = "Check that the mesh is manifold and oriented and has no degenerate face, as "
+                  "--stats and --report do. Boundary edges, self-intersections and rays from "
+                  "behind are counted.",
+          .level = OptionLevel::advanced},
          &arguments.checks},
-        {kStage,
-         {.name = "replay",
-          .unit = "file",
-          .help = "Print the command that made this surface, as its file tells (.ply, .obj, .off "
-                  "or .glb), and do nothing else.",
-          .tuning = true},
-         &arguments.replay},
     };
 }
 
@@ -99,48 +109,76 @@ void check_output(const fs::path& out, const OutputOptions& options)
     if (options.attributes) require_ply(out, "--attributes");
 }
 
+/// The options that affect the output of a given scene.
+OptionList counting_options(MeshArguments& arguments)
+{
+    OptionList options = joined({options_of(arguments.options), options_of(arguments.output),
+                                 texture_options(arguments.texture)});
+    std::erase_if(options, [](const Option& option) {
+        const std::string& name = option.info.name;
+        return option.stage == kRunStage || name == "quiet" || name == "verbose";
+    });
+    return options;
+}
+
+/// "max-hole=7"; "crop=FILE" for any file.
+std::string recorded(const Option& option)
+{
+    if (is_flag(option)) return option.info.name;
+    const std::string value = value_text(option);
+    const bool may_be_path = std::holds_alternative<std::filesystem::path*>(option.value) ||
+                             std::holds_alternative<RegionChoice*>(option.value) ||
+                             std::holds_alternative<std::string*>(option.value);
+    const bool is_path = may_be_path && std::ranges::count(option.info.words, value) == 0 &&
+                         value.find_first_not_of("0123456789.,+-e") != std::string::npos;
+    return option.info.name + "=" + (is_path ? "FILE" : value);
+}
+
 } // namespace
 
 OptionList options_of(OutputOptions& output)
 {
     constexpr const char* kStage = "Output";
+    using enum OptionLevel;
     return {
         {kStage,
          {.name = "ascii",
-          .help = "Write numbers as text instead of binary; PLY only.",
-          .tuning = true},
+          .help = "Write text instead of binary numbers; PLY only.",
+          .level = advanced},
          &output.ascii},
         {kStage,
          {.name = "attributes",
-          .help = "Write what vertices and faces come from: point3d_id, num_views and error_px of "
-                  "each vertex, support of each face; PLY only."},
+          .help = "Write point3d_id, num_views and error_px of each vertex and support of each "
+                  "face; PLY only.",
+          .level = advanced},
          &output.attributes},
         {kStage,
          {.name = "offset",
-          .help = "What is subtracted from the coordinates that are written, and said in the "
-                  "file; auto: round numbers for a model far from the origin, as in UTM, so that "
-                  "programs that compute with floats lose nothing.",
+          .help = "Subtract this from coordinates. The file header records it. auto: round numbers "
+                  "for a model far from the origin, as in UTM, so that float32 is exact enough.",
           .min = -kUnlimited,
           .words = {"none", "auto"}},
          &output.offset},
         {kStage,
          {.name = "transform",
           .unit = "file or scale",
-          .help = "What is done to the coordinates that are written, before --offset, and said in "
-                  "the file: a number scales them; a file moves them to another frame, as COLMAP's "
+          .help = "Transform coordinates before --offset, and record it in the file header. A "
+                  "number scales them. A file moves them to another frame, as COLMAP's "
                   "model_aligner writes it (scale, quaternion, translation) or as a matrix of 3 or "
-                  "4 rows."},
+                  "4 rows.",
+          .level = advanced},
          &output.transform},
         {kStage,
          {.name = "up",
-          .help = "What points up in .glb, whose y is up: auto, what is above for most cameras; z, "
-                  "of what is written; none, y as it is. It is said in the file.",
+          .help =
+              "Choose the up direction of .glb, whose y is up, and record it in the file. auto: "
+              "up in most cameras. z: z of the coordinates. none: y as it is.",
           .words = {"auto", "z", "none"},
-          .tuning = true},
+          .level = advanced},
          value_of_enum(output.up)},
-        {kStage, {.name = "quiet", .help = "Print nothing but errors."}, &output.quiet},
+        {kStage, {.name = "quiet", .help = "Print only errors."}, &output.quiet},
         {kStage,
-         {.name = "verbose", .help = "Print every stage and all that it counted."},
+         {.name = "verbose", .help = "Print every stage with all its counts.", .level = advanced},
          &output.verbose},
     };
 }
@@ -172,7 +210,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
 {
     MeshArguments arguments;
     read_options(given, options_of(arguments));
-    check_operands(given.operands);
+    check_operands(given);
     arguments.model.path = given.operands[0];
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
@@ -180,13 +218,26 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     check_preview(arguments.preview, given);
     if (!arguments.report.empty()) require_page_name(arguments.report);
     if (arguments.keeps_work && arguments.work.empty()) {
-        throw UsageError(fmt::format("--keep-work keeps the folder of --work, which was not "
-                                     "given{}",
-                                     kSeeHelp));
+        throw UsageError("--keep-work needs --work FOLDER");
     }
     arguments.command = command_text("colmap-vcarve", given.typed);
     require_distinct(outputs_of(arguments));
     return arguments;
+}
+
+std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene)
+{
+    std::vector<std::string> comments = {"made by colmap-vcarve " + versions().program,
+                                         "input " + digest_text(scene)};
+    MeshArguments usual;
+    MeshArguments given = arguments;
+    const OptionList defaults = counting_options(usual);
+    const OptionList options = counting_options(given);
+    for (std::size_t i = 0; i < options.size(); ++i) {
+        if (value_text(options[i]) == value_text(defaults[i])) continue;
+        comments.push_back("option " + recorded(options[i]));
+    }
+    return comments;
 }
 
 Manual mesh_manual()
@@ -194,40 +245,27 @@ Manual mesh_manual()
     Manual manual;
     manual.command = "colmap-vcarve";
     manual.operands = "MODEL OUT.ply";
-    manual.summary = "Turns a COLMAP model into a surface.";
+    manual.summary = "Turn a COLMAP model, dense cloud or laser scan into a triangle mesh.";
     manual.examples = {
-        {"colmap-vcarve sparse/0 mesh.ply", "any sparse model"},
-        {"colmap-vcarve dense mesh.ply", "stereo_fusion's points"},
+        {"colmap-vcarve sparse/0 mesh.ply", "a sparse model"},
+        {"colmap-vcarve dense mesh.ply", "a dense workspace"},
         {"colmap-vcarve scan.ply mesh.ply", "a laser scan"},
-        {"colmap-vcarve sparse/0 mesh.ply --report run.html", "and a page to look at it"},
-        {"colmap-vcarve sparse/0 mesh.ply --preview mesh.png", "and a picture of it"},
-        {"colmap-vcarve sparse/0 mesh.glb", "for browsers and engines"},
-        {"colmap-vcarve sparse/0 mesh.glb --texture", "with the photographs"},
-        {"colmap-vcarve --closed sparse/0 mesh.ply", "watertight"},
-        {"colmap-vcarve --crop auto sparse/0 mesh.ply", "what was looked at only"},
+        {"colmap-vcarve sparse/0 mesh.glb --texture", "with photographs"},
+        {"colmap-vcarve sparse/0 mesh.ply --report mesh.html", "and a web page"},
     };
     manual.operand_meanings = {
         {"MODEL",
-         "A folder with cameras, images and points3D (.bin or .txt), a folder of such "
-         "models, or a workspace that holds sparse/0 or sparse; with fused.ply and "
-         "fused.ply.vis, as stereo_fusion leaves them, the dense points are taken. Or a PLY file: "
-         "of a dense workspace, or of a laser scan with the places of its scanners. Or a "
-         "transforms.json of nerfstudio, with its points."},
+         "A COLMAP model, workspace, PLY or transforms.json. A model is a folder with cameras, "
+         "images and points3D (.bin or .txt). A workspace holds sparse/0 or sparse; its dense "
+         "points are used if fused.ply and fused.ply.vis exist. A PLY file is one of a dense "
+         "workspace, or a laser scan with scanner positions. transforms.json is nerfstudio's, with "
+         "its points."},
         {"OUT.ply",
-         "The surface: triangles with colours and normals, in the model's frame. The end "
-         "of the name says the format: .ply, .obj, .off (no normals), .stl (neither "
-         "colours nor normals of vertices) or .glb (binary glTF)."},
+         "The mesh: .ply, .obj, .off, .stl or .glb. The file extension selects the format. It has "
+         "vertex colors and normals (.off no normals, .stl neither), in the model's frame."},
     };
-    manual.footnotes = {
-        {"colmap-vcarve compare",
-         "Measures surfaces against a model, the truth or COLMAP's own; see colmap-vcarve compare "
-         "--help."},
-        {"What it prints",
-         "One line a stage on stderr, and at the end how much of what cameras see is open (lines "
-         "of sight through all images that meet no face where the closed surface has one) and "
-         "what to try. On terminals a bar of the whole run, if that takes over 5 seconds."},
-        {"Exit code", "0 done, 1 internal error, 2 wrong usage or output, 3 wrong input."},
-    };
+    manual.ends = {"Measure meshes: see colmap-vcarve compare --help. All options: --help-all.",
+                   kExitCodes};
     const auto arguments = std::make_shared<MeshArguments>();
     manual.options = options_of(*arguments);
     manual.values = arguments;

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "cli/manual.h"
-#include "cli/model_input.h"
-#include "cli/option_parser.h"
-#include "cli/outputs.h"
-#include "cli/placing.h"
-#include "cli/preview_output.h"
-#include "cli/texture_output.h"
+#include "cli/command_line.h"
+#include "cli/input_output.h"
+#include "cli/picture_output.h"
+#include "run/digest.h"
 #include "vcarve/options.h"
 
 #include <filesystem>
@@ -36,9 +33,8 @@ struct MeshArguments {
     std::filesystem::path stats;  ///< empty: not written
     std::filesystem::path report; ///< ...
     std::filesystem::path work;   ///< empty where nothing is kept between stages
-    bool keeps_work = false;      ///< also at the end
-    bool checks = false;          ///< the surface, also where no record is written
-    std::filesystem::path replay; ///< the surface whose command is asked for
+    bool keeps_work = false;      ///< at the end
+    bool checks = false;          ///< the mesh, also without a record
     std::string command;          ///< as it was typed
     OutputOptions output;
     std::optional<Similarity> transform; ///< what --transform says, once it is read
@@ -50,15 +46,18 @@ struct MeshArguments {
 OptionList options_of(MeshArguments& arguments);
 OptionList options_of(OutputOptions& output);
 
-/// Throws UsageError where operands are missing or too many, the output has a name of no format, or
-/// two outputs would be one file.
+/// Throws UsageError for missing or stray operands, an unknown file extension, or two outputs in
+/// one file.
 MeshArguments read_mesh_arguments(const ParsedArguments& given);
 
-/// What a user can read about the bare form, `colmap-vcarve MODEL OUT.ply`.
+/// The comments of the mesh file: the program, the digest of the scene, and options that affect the
+/// mesh and differ from the defaults. No paths, no threads: equal runs write equal files.
+std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene);
+
+/// The help of `colmap-vcarve MODEL OUT.ply`.
 Manual mesh_manual();
 
-/// All that a run may write. How many pages a texture has shows late, so here it has many: fewer
-/// hold all the texels there may be (TextureOptions).
+/// All files that a run may write. The number of texture pages is an upper bound.
 std::vector<Output> outputs_of(const MeshArguments& arguments);
 
 } // namespace vcarve::cli

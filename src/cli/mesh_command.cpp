@@ -1,19 +1,13 @@
-#include "cli/mesh_command.h"
-
 #include "base/threads.h"
-#include "cli/closing_line.h"
-#include "cli/expected_run.h"
-#include "cli/interruption.h"
+#include "cli/commands.h"
+#include "cli/console_log.h"
+#include "cli/exit_code.h"
+#include "cli/input_output.h"
 #include "cli/mesh_arguments.h"
 #include "cli/mesh_report.h"
-#include "cli/model_input.h"
-#include "cli/placing.h"
-#include "cli/preview_output.h"
-#include "cli/replay.h"
+#include "cli/picture_output.h"
 #include "cli/run_memory.h"
 #include "cli/run_record.h"
-#include "cli/surface_check.h"
-#include "cli/texture_output.h"
 #include "io/colmap/sim3_text.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
@@ -43,7 +37,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What cannot be written is said before the work starts, and nothing half written stays behind.
+/// Reports errors of outputs before the work starts. A failed run leaves no partial file.
 void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scratch)
 {
     std::vector<fs::path> parts;
@@ -58,17 +52,17 @@ void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scra
     }
 }
 
-/// What is written, and what is said of it in its file.
+/// The output of a run.
 struct Surface {
     TriMesh mesh;
     std::vector<std::string> comments;
-    Texture texture; ///< without pages where there is none
+    Texture texture; ///< may have no pages
     std::optional<Provenance> provenance;
-    Scene scene;          ///< the points it was made from; empty where no report tells of them
-    RemovedFaces removed; ///< in the same case: what was taken away
+    Scene scene;          ///< the points it was made from; empty without a report
+    RemovedFaces removed; ///< empty without a report
 };
 
-/// Where it is to lie in the file.
+/// The frame of the mesh file.
 struct Place {
     Eigen::Vector3d offset; ///< subtracted
     Eigen::Vector3d up;
@@ -122,36 +116,27 @@ int threads_of(const Options& options)
     return options.threads == 0 ? available_threads() : options.threads;
 }
 
-/// The logs of a run: what is shown, what is told of it, which goes there, too, and what was
-/// counted.
-struct RunLogs {
-    RunLog& shown;
-    Log& told;
-    const CountsOfStages& counts;
-};
-
-/// A run: what it is to do, whom it tells, where its arrays are, and where its stages are kept.
+/// The parts of a run.
 struct Run {
     const MeshArguments& arguments;
-    RunLogs logs;
+    ConsoleLog& shown;
+    Log& log; ///< passes everything on to `shown`
     RunMemory& memory;
-    WorkFolder* work; ///< null for nowhere
+    WorkFolder* work; ///< null for none
     RunRanks* ranks;  ///< null for this process alone
 };
 
-/// What a model needs is said of it. Where its size only shows when it is read, or when the points
-/// of a cloud are merged, it is looked at again then.
+/// Called again when more is known of the size. Errors name the model.
 void fit_memory(const Run& run, const RunSize& size)
 {
     try {
-        run.memory.fit(size, run.logs.told);
+        run.memory.fit(size, run.log);
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", run.arguments.model.path.string(), error.what()));
     }
 }
 
-/// All that the stages of a run depend on. What does not change before the surface is written, as
-/// --offset does, is left out.
+/// Everything that the stages of a run depend on; options such as --offset act later.
 Job job_of(const MeshArguments& arguments, Log& log)
 {
     Stage stage(log, "digest");
@@ -174,39 +159,22 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
     return folder;
 }
 
-/// How long it will take is said again when more is known.
-void expect_run(const Run& run, const SceneSize& size, const Photographs* photographs = nullptr)
-{
-    const MeshArguments& arguments = run.arguments;
-    ExpectedOutputs outputs = {.preview = !arguments.preview.out.empty(),
-                               .report = !arguments.report.empty(),
-                               .texture = arguments.texture.texture};
-    if (photographs != nullptr) {
-        for (const PhotographSize& photo : photographs->sizes) {
-            outputs.photo_pixels += static_cast<double>(photo.width_px) * photo.height_px;
-        }
-    }
-    run.logs.shown.expect(
-        expected_run(size, arguments.options, outputs, threads_of(arguments.options)));
-}
-
-/// What is wrong with the photographs is said before the work starts.
+/// Errors of the photographs are reported before the work starts.
 std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
                                                  const ModelInput& input, const Run& run)
 {
     if (!arguments.texture.reads_images()) return std::nullopt;
     Photographs photographs =
-        photographs_of(arguments.texture, arguments.model.path, input.scene, run.logs.told);
+        photographs_of(arguments.texture, arguments.model.path, input.scene, run.log);
     std::vector<Output> files;
     for (const fs::path& file : photographs.of_view) {
         if (!file.empty()) files.push_back({"the photograph", file});
     }
     keep_inputs(outputs_of(arguments), arguments.model, files);
-    expect_run(run, input.read, &photographs);
     return photographs;
 }
 
-/// The surface of a scene. What the scene lacks is said of the model it was read from.
+/// The surface of a scene. Errors name the model.
 Surface surface_of(ModelInput input, const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
@@ -219,14 +187,14 @@ Surface surface_of(ModelInput input, const Run& run)
         }
         const std::optional<Photographs> photographs = photographs_if_wanted(arguments, input, run);
         Reconstruction made =
-            reconstruct_thinned(std::move(input.scene), input.read, options, run.logs.told,
+            reconstruct_thinned(std::move(input.scene), input.read, options, run.log,
                                 {.removed = arguments.report.empty() ? nullptr : &surface.removed,
                                  .work = run.work,
                                  .ranks = run.ranks});
         if (photographs) {
             const std::int64_t most = std::max<std::int64_t>(arguments.options.memory.most, 0);
             TexturedMesh covered = textured(std::move(made.mesh), made.scene, *photographs,
-                                            {arguments.texture, most}, run.logs.told);
+                                            {arguments.texture, most}, run.log);
             made.mesh = std::move(covered.mesh);
             surface.texture = std::move(covered.texture);
         }
@@ -241,51 +209,45 @@ Surface surface_of(ModelInput input, const Run& run)
     }
 }
 
-/// What is kept of a run when the surface is written.
+/// The results of a run beside the surface.
 struct Made {
-    std::optional<ReportParts> report; ///< where one is wanted
-    double long_area = 0.0;            ///< of the surface, see RunOutcome
-    bool is_dense = false;             ///< the points were a cloud's
+    std::optional<ReportParts> report;
+    double long_area = 0.0; ///< see RunOutcome
+    bool is_dense = false;  ///< the points were a cloud's
 };
 
 ModelInput read_input(const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
-    const auto expect = [&](const SceneSize& size) { expect_run(run, size); };
-    bool is_expected = false;
     const auto check = [&](const SceneSize& size) {
         fit_memory(run, size_before_thinning(size, arguments.options));
-        expect(size);
-        is_expected = true;
     };
     ModelInput input =
-        read_model_input(arguments.model, run.logs.told,
+        read_model_input(arguments.model, run.log,
                          {.check = check, .gather = thin_while_reading(arguments.options.thin)});
-    if (!is_expected) expect(input.read);
     RunSize size = size_before_thinning(input.read, arguments.options);
     size.thinned = size_of(input.scene);
     fit_memory(run, size);
     return input;
 }
 
-/// Tells the record what the surface is, before it is written.
+/// Adds the check of the surface to the record, before it is written.
 void check_surface(const Run& run, const TriMesh& mesh, Json& record)
 {
     const MeshArguments& arguments = run.arguments;
     if (!arguments.checks && arguments.stats.empty() && arguments.report.empty()) return;
     Json& surface = record["mesh"];
-    surface = checked(mesh, run.logs.counts, run.logs.told);
+    surface = checked(mesh, run.shown.counts(), run.log);
     require_promised(surface, arguments.command, arguments.model.path.string());
     if (!arguments.transform) return;
     const double scale = arguments.transform->scale;
     surface["area"] = surface["area"].get<double>() * scale * scale;
 }
 
-/// From the model to the file; tells the record what went in and came out.
+/// From the model to the file; completes the record.
 Made make_surface(const Run& run, Json& record)
 {
     const MeshArguments& arguments = run.arguments;
-    const RunLogs& logs = run.logs;
     ModelInput input = read_input(run);
     const Digest digest = digest_of(input.scene);
     record["input"] = input.record;
@@ -304,13 +266,13 @@ Made make_surface(const Run& run, Json& record)
     if (place.offset.isZero(0.0)) told.output.offset = {}; // makes no difference
     surface.comments = record_comments(told, digest);
     check_surface(run, surface.mesh, record);
-    write_surface(arguments, surface, place, logs.told);
-    preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, logs.told);
+    write_surface(arguments, surface, place, run.log);
+    preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, run.log);
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
     if (!arguments.report.empty()) {
         made.report =
-            make_report(surface.mesh, surface.texture, surface.removed, surface.scene, logs.told);
+            make_report(surface.mesh, surface.texture, surface.removed, surface.scene, run.log);
     }
     return made;
 }
@@ -326,7 +288,6 @@ std::string closing_line(const MeshArguments& arguments, const Made& made,
     return closing_line(outcome, arguments.options);
 }
 
-/// The files that tell of the run: both say the same.
 void write_records(const MeshArguments& arguments, const std::optional<ReportParts>& report,
                    Json record)
 {
@@ -335,8 +296,7 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
     if (report.has_value()) write_report(arguments.report, record, *report);
 }
 
-/// From the model to the file; a run that is refused takes away what it kept, but nothing of
-/// earlier runs.
+/// Removes the checkpoints of a run that failed by its input, but not those of earlier runs.
 Made make_or_clear(const Run& run, Json& record)
 {
     try {
@@ -347,7 +307,6 @@ Made make_or_clear(const Run& run, Json& record)
     }
 }
 
-/// Ranks have nothing in common but a folder.
 void require_work_folder(const MeshArguments& arguments, const Processes& processes)
 {
     if (processes.all == 1 || !arguments.work.empty()) return;
@@ -356,7 +315,7 @@ void require_work_folder(const MeshArguments& arguments, const Processes& proces
                                  processes.all, kSeeHelp));
 }
 
-/// What is known before the run; the rest is in its place.
+/// The record before the run.
 Json begun_record(MeshArguments& arguments, int threads, const Processes& processes)
 {
     return {{"program", program_json()},
@@ -382,44 +341,38 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     keep_inputs(outputs_of(arguments), arguments.model, others);
     const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
-    // What is wrong with the file of a region or a transformation is said before the work starts.
+    // Errors in these files are reported before the work starts.
     arguments.transform = transform_of(arguments.output.transform);
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
         make_region(arguments.options.crop.region, Scene());
     }
 
-    // The passes ask for as many threads as they are told; no more than this limit ever run.
     const int threads = threads_of(arguments.options);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
-    const std::unique_ptr<RunLog> shown =
-        shown_log(arguments.output.quiet, arguments.output.verbose);
-    CountsKeeper keeper(*shown);
-    // It resets the peak of memory that the system keeps, so it is there only where it is asked
-    // for.
+    ConsoleLog shown(console_on_stderr(arguments.output.quiet, arguments.output.verbose));
+    // It resets the system's peak of memory, so it is made only if needed.
     std::optional<StageRecorder> recorder;
-    if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(keeper);
-    const RunLogs logs = {*shown, recorder ? static_cast<Log&>(*recorder) : keeper,
-                          keeper.counts()};
+    if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(shown);
+    Log& log = recorder ? static_cast<Log&>(*recorder) : shown;
     Json record = begun_record(arguments, threads, processes);
 
-    const std::unique_ptr<WorkFolder> work = work_folder(arguments, logs.told);
+    const std::unique_ptr<WorkFolder> work = work_folder(arguments, log);
     RunMemory memory(arguments.options.memory, threads, scratch, processes);
-    const Made made = make_or_clear({arguments, logs, memory, work.get(), ranks}, record);
+    const Made made = make_or_clear({arguments, shown, log, memory, work.get(), ranks}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());
         write_records(arguments, made.report, std::move(record));
     }
     if (work && !arguments.keeps_work) work->clear();
-    shown->conclude(closing_line(arguments, made, keeper.counts()));
+    shown.conclude(closing_line(arguments, made, shown.counts()));
 }
 
 } // namespace
 
 void run_mesh(const ParsedArguments& given, RunRanks* ranks)
 {
-    if (given.has("replay")) return print(replay_text(given.options.at("replay")));
     try {
         run(given, ranks);
     } catch (const ScratchError& error) {

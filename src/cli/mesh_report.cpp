@@ -1,13 +1,114 @@
 #include "cli/mesh_report.h"
 
+#include "base/text.h"
 #include "io/files/output_file.h"
+#include "mesh/check.h"
 #include "page/page.h"
 #include "page/page_scene.h"
 #include "steps/4_visibility/face_visibility.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace vcarve::cli {
+
+namespace {
+
+Json check_json(const MeshCheck& check)
+{
+    return {{"vertices", check.vertices},
+            {"faces", check.faces},
+            {"degenerate_faces", check.degenerate_faces},
+            {"components", check.components},
+            {"boundary_edges", check.boundary_edges},
+            {"nonmanifold_edges", check.nonmanifold_edges},
+            {"nonmanifold_vertices", check.nonmanifold_vertices},
+            {"orientation_faults", check.orientation_faults},
+            {"unreferenced_vertices", check.unreferenced_vertices},
+            {"euler_characteristic", check.euler_characteristic},
+            {"area", check.area},
+            {"is_closed", check.is_closed()},
+            {"is_manifold", check.is_manifold()}};
+}
+
+/// What a stage counted under a name; 0 where it counted no such thing.
+std::int64_t count_of(const CountsOfStages& stages, const char* stage, std::string_view name)
+{
+    const auto counts = stages.find(stage);
+    if (counts == stages.end()) return 0;
+    const auto at = std::ranges::find(counts->second, name, &Counts::value_type::first);
+    return at == counts->second.end() ? 0 : at->second;
+}
+
+std::string percent(double share)
+{
+    return fmt::format("{} %", std::llround(100.0 * share));
+}
+
+/// Whether it shows, rounded.
+bool is_open(const RunOutcome& outcome)
+{
+    constexpr double kShown = 0.005;
+    return outcome.open.value_or(0.0) >= kShown;
+}
+
+std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& options)
+{
+    if (outcome.boundary_edges == 0) return "closed";
+    if (!outcome.open) return fmt::format("{} open edges", grouped_digits(outcome.boundary_edges));
+    if (*outcome.open == 0.0) return "no visible holes";
+    if (!is_open(outcome)) return "less than 1 % of what cameras see is open";
+    return fmt::format("{} of what cameras see is open (to close: {})", percent(*outcome.open),
+                       options.rules.max_closing > 0.0 ? "--max-closing 0" : "--closed");
+}
+
+void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
+                        std::vector<std::string>& proposals)
+{
+    constexpr double kMany = 0.2;
+    constexpr std::int64_t kFew = 500;
+    std::vector<std::pair<std::int64_t, const char*>> losses = {
+        {outcome.few_views, options.min_views > 2   ? "a smaller --min-views"
+                            : options.min_views > 1 ? "--min-views 1 or --sights nearest"
+                                                    : "--sights nearest"},
+        {outcome.high_error, "a larger --max-error"},
+        {outcome.low_angle, "a smaller --min-angle"},
+        {outcome.stray, "a larger --stray-spacing"}};
+    std::ranges::stable_sort(losses, std::greater(), [](const auto& loss) { return loss.first; });
+    for (const auto& [dropped, remedy] : losses) {
+        const double share = static_cast<double>(dropped) /
+                             static_cast<double>(std::max<std::int64_t>(outcome.points_before, 1));
+        if (share < kMany) break;
+        proposals.push_back(fmt::format("if parts are missing, try {}: {} of the points fell to it",
+                                        remedy, percent(share)));
+    }
+    if (proposals.empty() && outcome.points < kFew && !outcome.is_dense) {
+        proposals.push_back(
+            fmt::format("{} points are few, more images or dense points (stereo_fusion) show more",
+                        grouped_digits(outcome.points)));
+    }
+}
+
+void propose_for_surface(const RunOutcome& outcome, const Options& options,
+                         std::vector<std::string>& proposals)
+{
+    constexpr double kMuchLong = 0.6;
+    if (outcome.long_area < kMuchLong) return;
+    if (options.surface.closed) {
+        proposals.emplace_back("if its large faces are in the way, leave out --closed");
+    } else if (options.crop.region.kind == RegionChoice::Kind::everything) {
+        proposals.emplace_back("if its large faces are in the way, try --crop auto");
+    }
+}
+
+} // namespace
 
 ReportParts make_report(const TriMesh& mesh, const Texture& texture, const RemovedFaces& removed,
                         const Scene& scene, Log& log)
@@ -38,6 +139,73 @@ void write_report(const std::filesystem::path& path, const Json& record, const R
     OutputFile file(path);
     write_page(file.stream(), record, parts.scene);
     file.commit();
+}
+
+Json checked(const TriMesh& mesh, const CountsOfStages& counts, Log& log)
+{
+    Stage stage(log, "check");
+    Json json = check_json(check_mesh(mesh));
+    json["self_intersections"] = count_self_intersections(mesh);
+    Counts told;
+    const auto oriented = counts.find("orient");
+    if (oriented != counts.end() && oriented->second.size() > 1) {
+        const std::int64_t sights = oriented->second[1].second;
+        told = {{"sights from behind", sights - oriented->second[0].second}, {"of", sights}};
+    }
+    told.emplace_back("open edges", json["boundary_edges"]);
+    told.emplace_back("self-intersections", json["self_intersections"]);
+    stage.end(told);
+    return json;
+}
+
+void require_promised(const Json& surface, const std::string& command, const std::string& model)
+{
+    for (const char* const fault :
+         {"nonmanifold_edges", "nonmanifold_vertices", "orientation_faults", "degenerate_faces"}) {
+        if (surface[fault] == 0) continue;
+        throw std::logic_error(fmt::format("the surface has {} {} and was not written; {} "
+                                           "reproduces it with {}",
+                                           surface[fault].dump(), fault, command, model));
+    }
+}
+
+RunOutcome outcome_of(const CountsOfStages& counts)
+{
+    RunOutcome outcome;
+    outcome.faces = count_of(counts, "write", "faces");
+    outcome.boundary_edges = count_of(counts, "orient", "boundary edges");
+    const auto rays = static_cast<double>(count_of(counts, "open", "of"));
+    if (rays > 0.0) {
+        outcome.open = static_cast<double>(count_of(counts, "open", "rays of the views")) / rays;
+    }
+    outcome.points = count_of(counts, "filter", "points");
+    outcome.points_before = count_of(counts, "filter", "of");
+    outcome.few_views = count_of(counts, "filter", "few views");
+    outcome.high_error = count_of(counts, "filter", "high error");
+    outcome.low_angle = count_of(counts, "filter", "low angle");
+    outcome.stray = count_of(counts, "filter", "stray");
+    return outcome;
+}
+
+std::string closing_line(const RunOutcome& outcome, const Options& options)
+{
+    constexpr std::size_t kMost = 2;
+    constexpr std::size_t kColumns = 80;
+    std::vector<std::string> proposals;
+    propose_for_points(outcome, options.points, proposals);
+    propose_for_surface(outcome, options, proposals);
+    std::string line =
+        fmt::format("wrote {}: {} faces, {}", outcome.out, grouped_digits(outcome.faces),
+                    openness_text(outcome, options.surface));
+    if (proposals.empty() && !outcome.has_report) {
+        const auto page = std::filesystem::path(outcome.out).replace_extension(".html");
+        const std::string see = fmt::format("See it: --report {}", page.string());
+        line += (line.size() + 2 + see.size() <= kColumns ? ". " : "\n") + see;
+    }
+    for (std::size_t i = 0; i < std::min(proposals.size(), kMost); ++i) {
+        line += "\n" + proposals[i];
+    }
+    return line;
 }
 
 } // namespace vcarve::cli

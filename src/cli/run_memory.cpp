@@ -1,7 +1,7 @@
 #include "cli/run_memory.h"
 
 #include "base/free_memory.h"
-#include "base/text.h"
+#include "run/job.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -151,6 +151,13 @@ Json RunMemory::record() const
             {"allowed_bytes", plan_.most},
             {"expected_scratch_bytes", plan_.scratch},
             {"scratch_bytes", ScratchMemory::peak_bytes()}};
+}
+
+Digest digest_of_options(const Options& options)
+{
+    Job facts = option_facts(options);
+    facts.push_back(program_fact());
+    return digest_of(facts);
 }
 
 } // namespace vcarve::cli

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "base/progress.h"
-#include "cli/process_usage.h"
 #include "options/option.h"
 
 #include <nlohmann/json.hpp>
+#include <sys/time.h>
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -14,9 +15,24 @@ namespace vcarve::cli {
 /// A record keeps its order, so that it can be read from top to bottom.
 using Json = nlohmann::ordered_json;
 
-/// Hands everything on to another log, and keeps seconds, CPU seconds, peak memory and counts of
-/// every stage. One stage runs at a time. For that the peak that the system keeps of the process
-/// begins anew with every stage: what others read of it, such as time -v, is of the last one.
+double seconds_of(const timeval& time);
+
+/// What this process has used so far.
+struct ProcessUsage {
+    double seconds = 0.0;     ///< on a clock that only runs forward, from an arbitrary zero
+    double cpu_seconds = 0.0; ///< of all threads, user and system
+};
+ProcessUsage process_usage();
+
+/// Peak memory of the process (VmHWM) since its start or the last reset_peak_memory(); 0 if
+/// unknown.
+std::int64_t peak_memory_bytes();
+
+/// Resets the peak; false if that is not permitted.
+bool reset_peak_memory();
+
+/// Forwards to another log, and records seconds, CPU seconds, peak memory and counts of each stage.
+/// Resets the system's peak of the process at each stage, so `time -v` shows that of the last one.
 class StageRecorder final : public Log {
   public:
     explicit StageRecorder(Log& shown);
@@ -51,8 +67,7 @@ Json program_json();
 /// As text to be written to a file; bytes that are not UTF-8 (in paths) are replaced.
 std::string json_text(const Json& json);
 
-/// A command line as a shell takes it: words with letters that mean something to a shell are
-/// quoted.
+/// A command line, quoted for a shell.
 std::string command_text(std::string command, std::span<const std::string> words);
 
 } // namespace vcarve::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/run_ranks.h"
+#include "cli/run_memory.h"
 #include "mpi/session.h"
 
 #include <atomic>

@@ -3,7 +3,6 @@
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/mesh_arguments.h"
-#include "cli/mesh_command.h"
 #include "mpi/follower.h"
 #include "mpi/leader.h"
 #include "mpi/session.h"
@@ -20,17 +19,14 @@ cli::Manual manual()
 {
     cli::Manual manual = cli::mesh_manual();
     manual.command = "colmap-vcarve-mpi";
-    manual.summary = "Turns a COLMAP model into a surface, on many machines.";
+    manual.summary = "Turn a COLMAP model into a triangle mesh, on many machines.";
     manual.examples = {
         {"mpirun -n 4 colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "on four processes"},
         {"srun --mpi=pmix colmap-vcarve-mpi sparse/0 mesh.ply --work DIR", "with Slurm"},
     };
-    manual.footnotes.front() = {
-        "Ranks",
-        "Every rank gets the same command line. Rank 0 takes the steps, prints and writes; the "
-        "others triangulate blocks and walk lines of sight. The folder of --work has to be the "
-        "same for all. When a rank dies mpirun ends the others; the same command, given again, "
-        "goes on. The surface is that of colmap-vcarve, byte for byte."};
+    manual.ends.insert(manual.ends.begin(),
+                       {"Start every rank with the same command, and --work in a folder that all",
+                        "ranks share. If a rank dies, the same command resumes the run."});
     return manual;
 }
 

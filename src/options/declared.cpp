@@ -1,41 +1,53 @@
 #include "options/declared.h"
 
+#include <utility>
+
 namespace vcarve {
 
 namespace {
 
-constexpr const char* kPoints = "Points";
-constexpr const char* kSights = "Lines of sight";
+using enum OptionLevel;
+
+constexpr const char* kInput = "Input";
+constexpr const char* kPoints = "Point";
+constexpr const char* kRays = "Ray";
 constexpr const char* kSurface = "Surface";
+constexpr const char* kCleanup = "Cleanup";
+
+/// An option of C++ and Python only. The info has name, unit and help.
+Option for_library(const char* stage, OptionInfo info, OptionValue value, double max = kUnlimited)
+{
+    info.max = max;
+    info.level = library;
+    return {stage, std::move(info), std::move(value)};
+}
 
 OptionList filter_options(FilterOptions& points)
 {
     return {
         {kPoints,
-         {.name = "min-views",
-          .unit = "views",
-          .help = "Drop points seen by fewer views.",
-          .min = 1},
+         {.name = "min-views", .unit = "views", .help = "Drop points with fewer views.", .min = 1},
          &points.min_views},
         {kPoints,
          {.name = "max-error",
           .unit = "px",
-          .help = "Drop points whose mean reprojection error is larger; 0 keeps all."},
+          .help = "Drop points with a larger error in px. The mean reprojection error counts; 0 "
+                  "keeps all."},
          &points.max_error_px},
         {kPoints,
          {.name = "min-angle",
           .unit = "deg",
-          .help = "Drop points whose rays all meet at a smaller angle; 0 keeps all.",
+          .help = "Drop points whose rays all meet at a smaller angle in degrees; 0 keeps all.",
           .max = 180.0,
-          .tuning = true},
+          .level = advanced},
          &points.min_angle_deg},
         {kPoints,
          {.name = "stray-spacing",
           .unit = "times",
-          .help = "Drop points of two views that stand this many times the usual spacing away "
-                  "from others, as seen from their views, or two thirds of that where their "
-                  "error is large and 1.75 times where it is small; 0 keeps all.",
-          .tuning = true},
+          .help = "Drop two-view points isolated by more than N median spacings, as seen from "
+                  "their views. The limit is 2/3 N for points of large error, 1.75 N for points "
+                  "of small error; 0 keeps all.",
+          .level = advanced},
          &points.stray_spacing},
     };
 }
@@ -43,33 +55,18 @@ OptionList filter_options(FilterOptions& points)
 OptionList added_point_options(AddedPointOptions& added)
 {
     return {
-        {kPoints,
-         {.name = "crease-reach",
-          .unit = "x spacing",
-          .help = "Add points where two planar regions of the surface meet and both have points "
-                  "no farther than so many times their spacing from there, as at the foot of a "
-                  "wall, where images show no features; 0 adds none.",
-          .max = 1000.0,
-          .tuning = true},
-         &added.crease_reach},
-        {kPoints,
-         {.name = "border-gap",
-          .unit = "x spacing",
-          .help = "Add points where a planar region of the surface ends and rays pass by no "
-                  "farther than so many times the spacing of its points, as at the eaves of a "
-                  "roof; 0 adds none.",
-          .max = 100.0,
-          .tuning = true},
-         &added.border_gap},
-        {kPoints,
-         {.name = "textureless-step",
-          .unit = "x spacing",
-          .help = "Add points so many times their spacing apart amid a planar region of the "
-                  "surface where views look at it but images show no features, as on a plain "
-                  "floor; 0 adds none.",
-          .max = 100.0,
-          .tuning = true},
-         &added.textureless_step},
+        for_library(kPoints,
+                    {"crease-reach", "x spacing",
+                     "Add points at creases of regions that end within N spacings; 0: none."},
+                    &added.crease_reach, 1000.0),
+        for_library(kPoints,
+                    {"border-gap", "x spacing",
+                     "Add points at borders that rays pass within N spacings; 0: none."},
+                    &added.border_gap, 100.0),
+        for_library(kPoints,
+                    {"textureless-step", "x spacing",
+                     "Add points N spacings apart in textureless regions; 0: none."},
+                    &added.textureless_step, 100.0),
     };
 }
 
@@ -79,23 +76,24 @@ OptionList cloud_options(Options& options)
         {kPoints,
          {.name = "merge-px",
           .unit = "px",
-          .help = "Merge points of a dense cloud that lie within so many pixels of the images "
-                  "that show them largest; 0 merges none.",
-          .max = 1000.0},
+          .help = "Merge points of a dense cloud within N px, measured in the view that images "
+                  "the point at the largest scale; 0 merges none.",
+          .max = 1000.0,
+          .level = advanced},
          &options.thin.merge_px},
         {kPoints,
          {.name = "crop",
-          .help = "Make the surface of a region only: auto, the ball in which 94 % of the rays "
-                  "end; a box x0,y0,z0,x1,y1,z1; a PLY file with a closed surface; or a text file "
-                  "with the x and y of a corner of a polygon a line, for all z.",
+          .help = "Reconstruct only this region. auto: the ball in which 94 % of the rays end. A "
+                  "box: x0,y0,z0,x1,y1,z1. A file: PLY with a closed surface, or text with the x "
+                  "and y of a polygon's corner per line, for all z.",
           .words = {"none", "auto"}},
          &options.crop.region},
         {kPoints,
          {.name = "denoise",
           .unit = "sigma",
-          .help = "Smooth what lies within so many standard deviations of the points' own error: "
-                  "the points of a dense cloud, the vertices of a sparse model's surface; 0 "
-                  "moves none.",
+          .help = "Denoise by at most N sigma. Points of a dense cloud, or vertices of a sparse "
+                  "model's mesh, move by at most N standard deviations of their error; 0 moves "
+                  "none.",
           .max = 100.0},
          &options.denoise.denoise},
     };
@@ -103,216 +101,159 @@ OptionList cloud_options(Options& options)
 
 OptionList method_options(LabelOptions& options)
 {
-    return {
-        {kSights,
+    OptionList list = {
+        {kRays,
          {.name = "method",
-          .help = "cut: the labelling that contradicts the rays least. strict: every cell that a "
-                  "ray crosses is outside (for points without noise).",
+          .help = "Choose how cells are labeled. cut: a minimum cut that contradicts the rays "
+                  "least. strict: every cell that a ray crosses is outside, for noise-free points.",
           .words = {"cut", "strict"},
-          .tuning = true},
+          .level = advanced},
          value_of_enum(options.method)},
-        {kSights,
-         {.name = "min-crossings",
-          .unit = "rays",
-          .help = "With --method strict: how many rays must cross a facet to carve the cells "
-                  "beside it.",
-          .min = 1,
-          .tuning = true},
-         &options.min_crossings},
+        for_library(kRays,
+                    {"min-crossings", "rays",
+                     "Carve the cells beside a facet if N rays cross it (strict method)."},
+                    &options.min_crossings),
     };
+    list.back().info.min = 1;
+    return list;
 }
 
-OptionList weight_options(TraceOptions& trace)
+OptionList trace_options(TraceOptions& trace)
 {
-    return {
-        {kSights,
-         {.name = "views-sigma",
-          .unit = "views",
-          .help = "A ray weighs 1 - exp(-n^2 / 2 s^2) for a point of n views, relative to the "
-                  "median point; 0 gives every ray the same weight.",
-          .max = 100.0,
-          .tuning = true},
-         &trace.views_sigma},
-        {kSights,
-         {.name = "error-sigma",
-          .unit = "x median error",
-          .help = "A ray weighs exp(-(e^2 - 1) / 2 s^2) of that for a point whose reprojection "
-                  "error is e > 1 medians; 0 takes no account of errors.",
-          .max = 1000.0,
-          .tuning = true},
-         &trace.error_sigma},
+    OptionList list = {
+        for_library(kRays,
+                    {"views-sigma", "views",
+                     "Set s of the ray weight 1 - exp(-n^2 / 2 s^2), n views; 0: all alike."},
+                    &trace.views_sigma, 100.0),
+        for_library(kRays,
+                    {"error-sigma", "x median error",
+                     "Set s of the factor exp(-(e^2 - 1) / 2 s^2) for errors e > 1; 0: none."},
+                    &trace.error_sigma, 1000.0),
+        for_library(kRays,
+                    {"distance-sigma", "x short edge",
+                     "Set the uncertainty of points along their rays; 0 trusts them fully."},
+                    &trace.distance_sigma, 1000.0),
+        for_library(kRays,
+                    {"sink-depth", "x distance sigma",
+                     "Set how far behind a point its rays vote for inside; 0: the next cell."},
+                    &trace.sink_depth, 1000.0),
+        for_library(
+            kRays,
+            {"bundle-sights", "rays", "Merge N neighboring rays of a dense cloud; 1 merges none."},
+            &trace.bundle_sights, 64),
+        for_library(kRays,
+                    {"inferred-sights", "weight",
+                     "Weigh rays of views that likely saw a dense point; 0 ignores them."},
+                    &trace.inferred_weight, 10.0),
     };
-}
-
-OptionList depth_options(TraceOptions& trace)
-{
-    return {
-        {kSights,
-         {.name = "distance-sigma",
-          .unit = "x short edge",
-          .help = "Uncertainty of a point along its rays, as a multiple of the 25th percentile of "
-                  "edge lengths; 0 trusts every point fully.",
-          .max = 1000.0,
-          .tuning = true},
-         &trace.distance_sigma},
-        {kSights,
-         {.name = "sink-depth",
-          .unit = "x distance sigma",
-          .help = "How far behind a point its rays call the space inside; 0 means the cell that "
-                  "begins at the point.",
-          .max = 1000.0,
-          .tuning = true},
-         &trace.sink_depth},
-        {kSights,
-         {.name = "bundle-sights",
-          .unit = "rays",
-          .help = "How many near rays of a dense cloud's points go on as one where they are far "
-                  "from their points; 1 walks each to its view.",
-          .min = 1,
-          .max = 64,
-          .tuning = true},
-         &trace.bundle_sights},
-        {kSights,
-         {.name = "inferred-sights",
-          .unit = "weight",
-          .help = "Of a dense cloud: how much a ray counts of a camera that likely saw a point, "
-                  "though fused.ply.vis does not say so; 0 leaves them out.",
-          .min = 0.0,
-          .max = 10.0,
-          .tuning = true},
-         &trace.inferred_weight},
-    };
+    list[4].info.min = 1;
+    return list;
 }
 
 OptionList cut_options(LabelOptions& options)
 {
+    VirtualViewOptions& views = options.virtual_views;
     return {
-        {kSights,
+        {kRays,
          {.name = "quality",
           .unit = "rays",
-          .help = "What a badly shaped facet costs in the cut, in rays of full weight; 0 lets "
-                  "only the rays decide.",
+          .help = "Set the cost of a badly shaped facet in the cut, in rays of full weight; 0 uses "
+                  "rays only.",
           .max = 100'000.0,
-          .tuning = true},
+          .level = advanced},
          &options.cut.quality},
-        {kSights,
-         {.name = "hull-edge",
-          .unit = "x local edge",
-          .help = "Let the surface go on along the hull of the points, where they are seen from "
-                  "within only, by faces of edges up to this many times the median around; 0 lets "
-                  "it end.",
-          .tuning = true},
-         &options.hull.hull_edge},
-    };
-}
-
-OptionList virtual_view_options(VirtualViewOptions& views)
-{
-    return {
-        {kSights,
+        for_library(kRays,
+                    {"hull-edge", "x local edge",
+                     "Continue the surface along the hull by edges up to this; 0 does not."},
+                    &options.hull.hull_edge),
+        {kRays,
          {.name = "virtual-views",
           .unit = "views",
-          .help = "How many viewpoints to place in space that rays have shown to be free, to look "
-                  "from there at the points around and label the cells again; 100 suit some "
-                  "thousand points, 0 places none.",
+          .help = "Place N virtual viewpoints in space known to be free, and label the cells "
+                  "again; 100 suit some thousand points, 0 places none.",
           .max = 10'000,
-          .tuning = true},
+          .level = advanced},
          &views.count},
-        {kSights,
-         {.name = "virtual-weight",
-          .unit = "rays",
-          .help = "What a ray of such a viewpoint counts, relative to a real one of the same "
-                  "point.",
-          .max = 100.0,
-          .tuning = true},
-         &views.weight},
+        for_library(kRays,
+                    {"virtual-weight", "rays",
+                     "Weigh a ray of a virtual viewpoint, relative to a real one."},
+                    &views.weight, 100.0),
     };
 }
 
 OptionList surface_options(SurfaceOptions& surface)
 {
+    FaceRules& rules = surface.rules;
     return {
         {kSurface,
-         {.name = "closed", .help = "Make it watertight: also keep faces that no view sees."},
+         {.name = "closed",
+          .help = "Make a watertight mesh. Faces that no view sees are kept, too."},
          &surface.closed},
         {kSurface,
          {.name = "max-closing",
           .unit = "x extent",
-          .help = "Drop faces that close what was looked at without support: that views hardly "
-                  "see, or that turn off the surface, with an edge longer than this share of what "
-                  "the views look at; 0 drops none and closes most gaps with large faces.",
+          .help = "Drop long, unseen faces. A face is dropped if it has an edge longer than N "
+                  "times the extent of what the views look at, and few views see it or it turns "
+                  "off the surface; 0 drops none and closes most gaps with large faces.",
           .max = 1.0},
-         &surface.rules.max_closing},
-        {kSurface,
-         {.name = "closing-vast",
-          .unit = "x closing edge",
-          .help = "Drop such faces though views see them where they are this many times longer, "
-                  "turn off the surface, and the surface ends at them.",
-          .tuning = true},
-         &surface.rules.vast},
-        {kSurface,
-         {.name = "closing-seen",
-          .unit = "share",
-          .help = "Drop such faces that turn off the surface if views see less of them.",
-          .max = 1.0,
-          .tuning = true},
-         &surface.rules.half_seen},
+         &rules.max_closing},
+        for_library(kSurface,
+                    {"closing-vast", "x closing edge",
+                     "Drop seen boundary faces that turn off the surface beyond this."},
+                    &rules.vast),
+        for_library(kSurface,
+                    {"closing-seen", "share",
+                     "Drop long faces that turn off the surface if seen less than this."},
+                    &rules.half_seen, 1.0),
         {kSurface,
          {.name = "hardly-seen",
           .unit = "share",
-          .help = "Drop such faces, and others where the surface ends, if views see less of them.",
+          .help = "Drop long faces and boundary faces if views see a smaller share of them.",
           .max = 1.0,
-          .tuning = true},
-         &surface.rules.hardly_seen},
-        {kSurface,
-         {.name = "trim",
-          .unit = "x closing edge",
-          .help = "Trim faces with a longer edge than that to what views see of them; 0 trims "
-                  "none.",
-          .tuning = true},
-         &surface.rules.trim},
-        {kSurface,
-         {.name = "beside-edge",
-          .unit = "x local edge",
-          .help = "Keep faces that no view sees beside seen ones if no edge is this many times "
-                  "longer than the median around; 0 keeps none.",
-          .tuning = true},
-         &surface.rules.beside_edge},
-        {kSurface,
-         {.name = "beside-length",
-          .unit = "x median edge",
-          .help = "And no edge is this many times longer than the longest one of the median face.",
-          .tuning = true},
-         &surface.rules.beside_length},
+          .level = advanced},
+         &rules.hardly_seen},
+        for_library(kSurface,
+                    {"trim", "x closing edge",
+                     "Trim faces with a longer edge to what views see of them; 0: none."},
+                    &rules.trim),
+        for_library(kSurface,
+                    {"beside-edge", "x local edge",
+                     "Keep unseen faces beside seen ones up to this edge; 0 keeps none."},
+                    &rules.beside_edge),
+        for_library(kSurface,
+                    {"beside-length", "x median edge",
+                     "Keep such faces only up to this multiple of the median longest edge."},
+                    &rules.beside_length),
     };
 }
 
-OptionList mending_options(Options& options)
+OptionList cleanup_options(Options& options)
 {
+    CleanupOptions& cleanup = options.surface.cleanup;
     return {
-        {kSurface,
+        {kCleanup,
          {.name = "min-component",
           .unit = "faces",
-          .help = "Remove pieces of the surface with fewer faces, or of half as many if they are "
-                  "closed and have no long faces; 0 keeps all."},
-         &options.surface.cleanup.min_component_faces},
-        {kSurface,
+          .help = "Remove components with fewer faces, or with half as many if they are closed "
+                  "and have no long faces; 0 keeps all.",
+          .level = advanced},
+         &cleanup.min_component_faces},
+        {kCleanup,
          {.name = "max-hole",
           .unit = "edges",
-          .help = "Fill holes with at most this many boundary edges; 0 fills none."},
-         &options.surface.cleanup.max_hole_edges},
-        {kSurface,
+          .help = "Fill holes with at most N edges. 0 fills none."},
+         &cleanup.max_hole_edges},
+        {kCleanup,
          {.name = "smooth",
           .unit = "iterations",
-          .help = "Smooth the surface so often, never so that a face hides a point from a view "
-                  "that it did not hide; 0 leaves it as it is.",
+          .help = "Smooth N times. A move that would occlude an observed point is rejected.",
           .max = 1000},
          &options.refine.smooth.iterations},
-        {kSurface,
+        {kCleanup,
          {.name = "simplify",
           .unit = "faces",
-          .help = "Merge vertices until so many faces are left, never so that a face hides a "
-                  "point from a view that it did not hide; 0 keeps all."},
+          .help = "Simplify to about N faces. A merge that would occlude an observed point is "
+                  "rejected; 0 keeps all faces."},
          &options.refine.simplify.faces},
     };
 }
@@ -323,59 +264,107 @@ OptionList run_options(Options& options)
         {kRunStage,
          {.name = "threads",
           .unit = "threads",
-          .help = "How many to use; 0 uses all. The surface is the same for any.",
+          .help = "Use N threads. 0 uses all. Output is byte-identical for any thread count.",
           .max = 1024},
          &options.threads},
         {kRunStage,
          {.name = "max-memory",
-          .help = "How much memory a run may take: bytes, or with K, M or G. A larger model is "
-                  "meshed in blocks, with files in --work; the surface is the same. auto: 80 % of "
-                  "what the machine or its control group has free; 0 has no limit.",
+          .help = "Limit the memory, such as 8G. A larger model is meshed in blocks, with files "
+                  "in --work; the mesh is the same. auto: 80 % of the free memory of the machine "
+                  "or its control group; 0 has no limit.",
           .words = {"auto"},
           .word_value = static_cast<double>(MemoryOptions::kAutoMemory)},
          &options.memory.most},
         {kRunStage,
          {.name = "blocks",
           .unit = "blocks",
-          .help = "How many to cut the model into, with what does not fit into memory in files of "
-                  "--work. auto: as many as --max-memory makes necessary; 0 works in memory, and "
-                  "refuses a model that needs more.",
+          .help = "Cut the model into N blocks, with arrays in files of --work. auto: as many as "
+                  "--max-memory makes necessary. 0: work in memory, and refuse a model that needs "
+                  "more.",
           .max = 65536.0,
           .words = {"auto"},
           .word_value = static_cast<double>(MemoryOptions::kAutoBlocks),
-          .tuning = true},
+          .level = advanced},
          &options.memory.blocks},
     };
 }
 
 } // namespace
 
+PointsOptions PointsArguments::all_points() const
+{
+    PointsOptions all = points;
+    if (scanner.word == WordOrVector::kNoWord) all.scanner = scanner.vector;
+    return all;
+}
+
+OptionList options_of(PointsArguments& arguments)
+{
+    return {
+        {kInput,
+         {.name = "points",
+          .unit = "file",
+          .help = "Choose the input points. sparse: those of the model. dense: fused.ply of a "
+                  "dense workspace. A PLY file: points in the model's frame. The default is dense "
+                  "if fused.ply and fused.ply.vis exist.",
+          .words = {"sparse", "dense"}},
+         &arguments.points.points},
+        {kInput,
+         {.name = "visibility",
+          .help = "Read which views saw the points of a PLY file, as COLMAP's stereo_fusion "
+                  "writes it; by default from the file of the same name with .vis appended.",
+          .level = advanced},
+         &arguments.points.visibility},
+        {kInput,
+         {.name = "sights",
+          .help = "Choose which views saw a point. file: those in the model's tracks or in the "
+                  "file of --visibility. nearest: the nearest views with an unobstructed line to "
+                  "the point. auto: file, or nearest if most points of a model have fewer than "
+                  "two views.",
+          .words = {"auto", "file", "nearest"},
+          .level = advanced},
+         value_of_enum(arguments.points.sights)},
+        {kInput,
+         {.name = "scanner",
+          .help = "Set the scanner position. It applies to all points of a PLY file, in its "
+                  "coordinates, and no model is needed. file: read it from the PLY file, per "
+                  "point (x_origin, y_origin, z_origin, or scanner_x ...) or once (PCL's element "
+                  "camera).",
+          .min = -kUnlimited,
+          .words = {"file"}},
+         &arguments.scanner},
+    };
+}
+
 OptionList options_of(Options& options)
 {
     LabelOptions& labels = options.labels;
     return joined({filter_options(options.points), added_point_options(options.added_points),
-                   cloud_options(options), method_options(labels), weight_options(labels.trace),
-                   depth_options(labels.trace), cut_options(labels),
-                   virtual_view_options(labels.virtual_views), surface_options(options.surface),
-                   mending_options(options), run_options(options)});
+                   cloud_options(options), method_options(labels), trace_options(labels.trace),
+                   cut_options(labels), surface_options(options.surface), cleanup_options(options),
+                   run_options(options)});
 }
 
 OptionList options_of(CompareOptions& options)
 {
-    constexpr const char* kStage = "Measure";
+    constexpr const char* kStage = "Measurement";
     return {
         {kStage,
          {.name = "samples",
-          .help = "Points sampled on each mesh and on the seen part of the truth.",
+          .help = "Sample N points on each mesh and on the visible part of the truth.",
           .min = 1000,
-          .max = 100000000},
+          .max = 100000000,
+          .level = advanced},
          &options.samples},
-        {kStage, {.name = "seed", .help = "Where the sampling starts; any number."}, &options.seed},
+        {kStage,
+         {.name = "seed", .help = "Seed the sampling with any number.", .level = advanced},
+         &options.seed},
         {kStage,
          {.name = "spacings",
           .unit = "x spacing",
-          .help = "How far from a point, in spacings of the points around it, a mesh may pass and "
-                  "still count as passing through it."},
+          .help = "Count a mesh as passing through a point within N spacings of the points around "
+                  "it.",
+          .level = advanced},
          &options.spacings},
     };
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <concepts>
@@ -244,16 +245,20 @@ bool is_flag(const Option& option)
 std::string placeholder(const Option& option)
 {
     if (is_flag(option)) return "";
-    const std::string unit = option.info.unit.empty() ? "" : fmt::format("<{}>", option.info.unit);
-    const std::string number = unit.empty() ? "<number>" : unit;
+    std::string unit; // "file or scale" is shown as FILE|SCALE
+    for (const char letter : option.info.unit) {
+        unit += static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    }
+    const std::size_t either = std::min(unit.find(" OR "), unit.size());
+    if (either < unit.size()) unit = unit.substr(0, either) + "|" + unit.substr(either + 4);
     const std::string other =
-        std::visit(Overloaded{[&](const std::int64_t*) -> std::string { return "<size>"; },
+        std::visit(Overloaded{[](const std::int64_t*) -> std::string { return "SIZE"; },
                               [](const EnumValue&) -> std::string { return ""; },
-                              [](const WordOrVector*) -> std::string { return "x,y,z"; },
-                              [](const RegionChoice*) -> std::string { return "box|<file>"; },
-                              [&](const fs::path*) { return unit.empty() ? "<file>" : unit; },
-                              [&](const std::string*) { return unit.empty() ? "<name>" : unit; },
-                              [&](const auto*) { return number; }},
+                              [](const WordOrVector*) -> std::string { return "X,Y,Z"; },
+                              [](const RegionChoice*) -> std::string { return "BOX|FILE"; },
+                              [&](const fs::path*) { return unit.empty() ? "FILE" : unit; },
+                              [&](const std::string*) { return unit.empty() ? "NAME" : unit; },
+                              [](const auto*) -> std::string { return "N"; }},
                    option.value);
     std::vector<std::string> all = option.info.words;
     if (!other.empty()) all.push_back(other);
@@ -286,9 +291,10 @@ std::string accepted(const Option& option)
 std::string range_text(const Option& option)
 {
     const OptionInfo& info = option.info;
-    if (info.max < kUnlimited) return fmt::format("{} to {}", info.min, info.max);
-    if (info.min > 0.0) return fmt::format("{} or more", info.min);
-    return "";
+    std::vector<std::string> ends;
+    if (info.min > -kUnlimited && info.min != 0.0) ends.push_back(fmt::format("min: {}", info.min));
+    if (info.max < kUnlimited) ends.push_back(fmt::format("max: {}", info.max));
+    return fmt::format("{}", fmt::join(ends, ", "));
 }
 
 std::string value_text(const Option& option)

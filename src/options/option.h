@@ -16,17 +16,24 @@
 
 namespace vcarve {
 
-/// What is said of an option, beside where its value is.
+/// Who sets an option.
+enum class OptionLevel {
+    common,   ///< most users: --help lists it
+    advanced, ///< some users: --help-all lists it
+    library   ///< those who study the method: C++ and Python only, not the command line
+};
+
+/// The description of an option.
 struct OptionInfo {
     std::string name;                    ///< kebab-case, without dashes
     std::string unit = {};               ///< "px", "deg", "views"; empty for a pure number
-    std::string help = {};               ///< what it means and how to switch it off
-    double min = 0.0;                    ///< of numbers, the smallest
-    double max = kUnlimited;             ///< ... the largest
-    std::vector<std::string> words = {}; ///< that may be typed instead of numbers or names, in the
-                                         ///< order of an enum's values
-    double word_value = 0.0;             ///< the number that the only word stands for
-    bool tuning = false;                 ///< for those who study the method; --help leaves it out
+    std::string help = {};               ///< the first sentence is the line of --help
+    double min = 0.0;                    ///< smallest number
+    double max = kUnlimited;             ///< largest number
+    std::vector<std::string> words = {}; ///< accepted instead of numbers or names, in the order of
+                                         ///< an enum's values
+    double word_value = 0.0;             ///< the number that the only word means
+    OptionLevel level = OptionLevel::common;
 };
 
 /// One of an option's words, or three numbers instead.
@@ -54,9 +61,8 @@ EnumValue value_of_enum(Enum& value)
 using OptionValue = std::variant<double*, int*, std::int64_t*, bool*, EnumValue, WordOrVector*,
                                  RegionChoice*, std::filesystem::path*, std::string*>;
 
-/// A field of an options struct as a user sets it: the heading it stands under, what is said of
-/// it, and where its value is. The command line, --help, the check of ranges, the record of a run
-/// and the documents are all made from lists of these.
+/// A field of an options struct: heading, description and address of the value. The command line,
+/// --help, range checks, the record of a run, the documents and Python use lists of these.
 struct Option {
     std::string_view stage;
     OptionInfo info;
@@ -67,19 +73,19 @@ using OptionList = std::vector<Option>;
 /// Several lists as one.
 OptionList joined(std::initializer_list<OptionList> lists);
 
-/// Whether it is given without a value.
+/// Whether the option has no value on the command line.
 bool is_flag(const Option& option);
-/// What stands for the value in texts: "<px>", "cut|strict", "auto|<size>"; empty for a flag.
+/// The value in help texts: "N", "cut|strict", "auto|SIZE"; empty for a flag.
 std::string placeholder(const Option& option);
-/// What is accepted, to be read after "takes": "a whole number, 2 or more (views)".
+/// The accepted values, to be read after "takes": "a whole number, 2 or more (views)".
 std::string accepted(const Option& option);
-/// "1 to 64", "2 or more"; empty where only the sign is restricted.
+/// "min: 1, max: 64", "min: 2"; empty if only the sign is restricted.
 std::string range_text(const Option& option);
-/// The present value as one would type it; of a flag "yes" or "no".
+/// The current value as a user types it; "yes" or "no" for a flag.
 std::string value_text(const Option& option);
 
-/// Sets the value to what was typed; a flag's to yes. Throws UsageError where it is of the wrong
-/// kind or out of its range.
+/// Parses a value; sets a flag to yes. Throws UsageError for a value of the wrong kind or out of
+/// range.
 void set_value(const Option& option, const std::string& text);
 
 /// Throws UsageError naming the first option whose value is out of its range, or no number.

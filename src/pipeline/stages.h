@@ -20,12 +20,10 @@ struct RunStage {
     bool (*applies)(const Needs&); ///< whether a run has it
     /// Does it and counts what the log is told; null where who calls the pipeline does.
     Counts (*run)(RunState&, const Progress&);
-    double (*bytes)(const Needs&) = nullptr;   ///< that arrays hold; null where little is held
-    double (*seconds)(const Needs&) = nullptr; ///< null where it takes none to speak of
+    double (*bytes)(const Needs&) = nullptr; ///< size of its arrays; null if small
 };
 
-/// The stages of every run, in order: what runs, what is resumed, and what memory and time are
-/// foretold by.
+/// The stages of every run, in order. They also determine what is resumed and predict memory.
 std::span<const RunStage> all_stages();
 
 /// What the stages do with a run: each calls a step of the method, and counts.

@@ -1,5 +1,5 @@
-// The command `compare`, run as the user runs it.
 #include "support/ball_model.h"
+#include "support/page_parts.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 using ::testing::StartsWith;
+using Json = nlohmann::ordered_json;
 
 /// A model of a ball and its surface as this program makes it.
 class CompareOnBall : public ::testing::Test {
@@ -140,23 +142,18 @@ TEST_F(CompareOnBall, GivesTheSameFiguresForAnyNumberOfThreads)
     EXPECT_EQ(one.out, three.out);
 }
 
-TEST_F(CompareOnBall, SaysWhatItExpectedWhereOperandsAreMissing)
-{
-    EXPECT_EQ(refusal_of(2, {}), "colmap-vcarve: expected a model and meshes, MODEL A.ply ..., "
-                                 "but got " +
-                                     model + " (see colmap-vcarve compare --help)\n");
-}
-
 TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
 {
     const std::string nowhere = folder / "nowhere";
     EXPECT_EQ(refusal_of(3, {mesh, nowhere}),
               "colmap-vcarve: " + nowhere + ": the file does not exist\n");
     EXPECT_EQ(refusal_of(2, {mesh, "other.glb"}),
-              "colmap-vcarve: other.glb: compare reads PLY only\n");
+              "colmap-vcarve: other.glb: compare reads PLY files only\n");
     EXPECT_EQ(refusal_of(2, {mesh, "--json", nowhere + "/a.json"}),
               "colmap-vcarve: cannot write " + nowhere + "/a.json: the folder " + nowhere +
                   " does not exist\n");
+    EXPECT_EQ(refusal_of(2, {mesh, "--report", mesh + ".html", "--json", mesh + ".html"}),
+              "colmap-vcarve: --report and --json cannot both be written to " + mesh + ".html\n");
     EXPECT_EQ(refusal_of(2, {mesh, "--json", mesh}),
               "colmap-vcarve: --json would replace the mesh " + mesh + "\n");
 }
@@ -269,14 +266,125 @@ TEST_F(CompareOnBall, LeavesNothingBehindWhenItIsInterrupted)
     EXPECT_EQ(temporary.num_entries(), 0U);
 }
 
-TEST(Compare, HasAHelpOfItsOwnAndAPlaceInTheManPage)
+/// With a coarser mesh and a page.
+class CompareReportOfBall : public CompareOnBall {
+  protected:
+    CompareReportOfBall()
+    {
+        EXPECT_EQ(run_program({"--quiet", model, coarse, "--simplify", "100"}).exit_code, 0);
+    }
+
+    std::string coarse = folder / "coarse.ply";
+    std::string page = folder / "out.html";
+};
+
+TEST_F(CompareReportOfBall, HoldsTheFiguresThatJsonWrites)
 {
-    EXPECT_THAT(run_program({"compare", "--help"}).out,
-                HasSubstr("\nUsage: colmap-vcarve compare MODEL A.ply [B.ply ...] [options]\n"));
-    const std::string man = run_program({"--help-man"}).out;
-    const std::string completion = run_program({"--help-bash"}).out;
-    EXPECT_THAT(man, HasSubstr("\\-\\-colmap\\-timeout"));
-    EXPECT_THAT(completion, HasSubstr("--colmap-timeout"));
+    ASSERT_EQ(compare({mesh, coarse, "--truth", mesh, "--report", page, "--json", json}).exit_code,
+              0);
+    const Json record = part_of(bytes_of(page), "record");
+    EXPECT_EQ(record["comparison"], Json::parse(bytes_of(json)));
+    EXPECT_EQ(record["command"], "colmap-vcarve compare " + model + " --samples 2000 " + mesh +
+                                     " " + coarse + " --truth " + mesh + " --report " + page +
+                                     " --json " + json);
+    EXPECT_EQ(record["program"]["name"], "colmap-vcarve");
+}
+
+TEST_F(CompareReportOfBall, HasTheRowsOfTheTable)
+{
+    const Outcome outcome = compare({mesh, coarse, "--truth", mesh, "--report", page});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("surfaces shown"));
+    std::string words;
+    const auto add = [&](const std::string& text) {
+        for (const char letter : text) {
+            if (letter != ' ') words += letter;
+        }
+        words += '|';
+    };
+    const Json record = part_of(bytes_of(page), "record");
+    for (const Json& row : record["rows"]) {
+        words += '|';
+        add(row["title"]);
+        for (const Json& cell : row["cells"]) {
+            add(cell);
+        }
+        words += '\n';
+    }
+    std::string table;
+    for (const char letter : outcome.out) {
+        if (letter != ' ') table += letter;
+    }
+    EXPECT_THAT(table, HasSubstr(":|\n" + words + "\n"));
+    EXPECT_EQ(record["rows"][1]["place"], "/size/faces");
+    EXPECT_EQ(record["rows"][1]["better"], nullptr);
+    EXPECT_EQ(record["rows"][5]["better"], "lower");
+}
+
+TEST_F(CompareReportOfBall, DrawsEverySurface)
+{
+    ASSERT_EQ(compare({mesh, coarse, "--truth", mesh, "--report", page}).exit_code, 0);
+    const std::string written = bytes_of(page);
+    const Json record = part_of(written, "record");
+    const Json scene = part_of(written, "scene");
+    ASSERT_EQ(scene["surfaces"].size(), 3U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(scene["surfaces"][i]["name"], record["comparison"]["meshes"][i]["name"]);
+        EXPECT_EQ(scene["surfaces"][i]["faces"]["count"],
+                  record["comparison"]["meshes"][i]["size"]["faces"]);
+        EXPECT_NE(scene["surfaces"][i]["colors"], nullptr);
+    }
+    EXPECT_EQ(scene["diagonal"], record["comparison"]["truth"]["diagonal"]);
+    EXPECT_EQ(scene["views"].size(), 6U);
+    EXPECT_EQ(scene["surfaces"][0]["wrong"].size(), 0U);
+    EXPECT_GE(scene["surfaces"][1]["wrong"].size(), 3U);
+    EXPECT_GE(scene["surfaces"][1]["missing"].size(), 3U);
+}
+
+TEST_F(CompareReportOfBall, ShowsTheSameForAnyNumberOfThreads)
+{
+    std::vector<Json> scenes;
+    for (const char* threads : {"1", "2", "3"}) {
+        ASSERT_EQ(compare({mesh, coarse, "--report", page, "--threads", threads}).exit_code, 0);
+        scenes.push_back(part_of(bytes_of(page), "scene"));
+    }
+    EXPECT_EQ(scenes[0], scenes[1]);
+    EXPECT_EQ(scenes[0], scenes[2]);
+}
+
+TEST_F(CompareReportOfBall, LetsNoNameBreakOut)
+{
+    const std::string nasty = folder / "<img src=x onerror=y()>.ply";
+    std::filesystem::copy(mesh, nasty);
+    ASSERT_EQ(compare({nasty, coarse, "--report", page}).exit_code, 0);
+    EXPECT_THAT(bytes_of(page), Not(HasSubstr("<img src")));
+    EXPECT_EQ(part_of(bytes_of(page), "scene")["surfaces"][0]["name"],
+              "<img src=x onerror=y()>.ply");
+}
+
+TEST_F(CompareReportOfBall, ShowsWhatIsLeftWhereAMeshCouldNotBeMade)
+{
+    const std::filesystem::path mesher = folder.write("mesher", "#!/bin/sh\nsleep 60\n");
+    std::filesystem::permissions(mesher, std::filesystem::perms::owner_all);
+    const Outcome outcome =
+        compare({mesh, "--colmap", mesher.string(), "--colmap-timeout", "1", "--report", page});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json record = part_of(bytes_of(page), "record");
+    const Json scene = part_of(bytes_of(page), "scene");
+    EXPECT_EQ(record["comparison"]["meshes"].size(), 3U);
+    EXPECT_EQ(scene["surfaces"].size(), 2U);
+    EXPECT_EQ(record["rows"][0]["cells"][0], record["comparison"]["meshes"][0]["failure"]);
+}
+
+TEST_F(CompareReportOfBall, IsNotLeftBehindByARunThatFails)
+{
+    folder.write("empty.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty double x\n"
+                              "property double y\nproperty double z\nelement face 0\n"
+                              "property list uchar int vertex_indices\nend_header\n");
+    const std::size_t before = folder.num_entries();
+    EXPECT_THAT(refusal_of(3, {mesh, folder / "empty.ply", "--report", page, "--json", json}),
+                HasSubstr("no faces"));
+    EXPECT_EQ(folder.num_entries(), before);
 }
 
 } // namespace

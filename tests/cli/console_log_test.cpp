@@ -34,17 +34,21 @@ class Screen {
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{std::tmpfile(), std::fclose};
 };
 
-TEST(BarLine, FillsWithTheShareDone)
+TEST(BarLine, ShowsTheShareAndTheTimeLeft)
 {
     EXPECT_EQ(bar_line("cut", 0.5, 12.3, 80),
-              "cut          [===============>              ]  50 %  12 s");
-    EXPECT_EQ(bar_line("cut", 1.0, 0.0, 80),
-              "cut          [==============================] 100 %  0 s");
+              "cut          [===============>              ]  50 %  about 12 s left");
+    EXPECT_EQ(bar_line("cut", 0.1, 20.0, 80),
+              "cut          [===>                          ]  10 %  about 3 min left");
+    EXPECT_EQ(bar_line("cut", 1.0, 5.0, 80),
+              "cut          [==============================] 100 %  about 1 s left");
 }
 
-TEST(BarLine, ShowsOnlySecondsWhileNothingIsKnownOfTheShare)
+TEST(BarLine, ShowsSecondsWhileTheTimeLeftIsUnknown)
 {
     EXPECT_EQ(bar_line("triangulate", 0.0, 3.0, 80), "triangulate  3 s");
+    EXPECT_EQ(bar_line("cut", 0.01, 3.0, 80),
+              "cut          [>                             ]   1 %  3 s");
 }
 
 TEST(BarLine, IsNarrowerThanTheTerminal)
@@ -83,24 +87,12 @@ TEST(ConsoleLog, DropsWhatCannotBeWritten)
 {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> full(std::fopen("/dev/full", "w"),
                                                                std::fclose);
-    ConsoleLog log({.stream = full.get(), .live = true, .bar_after_s = 0, .run_bar_after_s = 0});
+    ConsoleLog log({.stream = full.get(), .live = true, .bar_after_s = 0});
     Stage stage(log, "read");
     std::this_thread::sleep_for(std::chrono::milliseconds(150)); // a bar is drawn
     log.note("nobody reads this");
     stage.end({{"points", 7}});
     log.conclude("nor this");
-}
-
-TEST(ConsoleLog, ShowsNoBarWhereTheStreamIsNoTerminal)
-{
-    const Screen screen;
-    {
-        ConsoleLog log({.stream = screen.stream(), .live = false, .bar_after_s = 0});
-        Stage stage(log, "cut");
-        stage.progress(0.5);
-        stage.end({{"cells", 1}});
-    }
-    EXPECT_THAT(screen.text(), Not(HasSubstr("\r")));
 }
 
 TEST(ConsoleLog, MovesABarWhileAStageRunsAndRemovesItForTheLine)
@@ -114,80 +106,18 @@ TEST(ConsoleLog, MovesABarWhileAStageRunsAndRemovesItForTheLine)
     }
     stage.end({{"cells", 1}});
     EXPECT_THAT(screen.text(),
-                MatchesRegex("(.|\n)* 50 %  0 s\r\x1b\\[Kcut +1 cells +[0-9.]+ s\n"));
+                MatchesRegex("(.|\n)* 50 %  about 1 s left\r\x1b\\[Kcut +1 cells +[0-9.]+ s\n"));
 }
 
-TEST(RunLine, ShowsTheStageAndWhatIsLeftOfTheRun)
-{
-    EXPECT_EQ(run_line("cut", {.share = 0.5, .left_seconds = 12.3}, 80),
-              "cut          [===============>              ]  50 %  12 s left");
-    EXPECT_EQ(run_line("cut", {.share = 0.999, .left_seconds = 0.2}, 80),
-              "cut          [=============================>]  99 %  1 s left");
-    EXPECT_EQ(run_line("smooth", {.share = 0.0, .left_seconds = 100}, 80),
-              "smooth       [>                             ]   0 %  2 min left");
-    EXPECT_EQ(run_line("smooth", {.share = 0.0, .left_seconds = 7300}, 80),
-              "smooth       [>                             ]   0 %  2 h left");
-}
-
-TEST(RunLine, IsNarrowerThanTheTerminal)
-{
-    for (std::size_t columns = 1; columns < 80; ++columns) {
-        EXPECT_LT(run_line("triangulate", {.share = 0.5, .left_seconds = 12}, columns).size(),
-                  columns);
-    }
-    EXPECT_EQ(run_line("cut", {.share = 0.5, .left_seconds = 12}, 40),
-              "cut          [===>   ]  50 %  12 s left");
-    EXPECT_EQ(run_line("cut", {.share = 0.5, .left_seconds = 12}, 36),
-              "cut           50 %  12 s left");
-}
-
-TEST(ConsoleLog, MovesABarOfTheRunWhereItIsExpectedToBeLong)
+TEST(ConsoleLog, KeepsCountsAndPrintsNothingWhenQuiet)
 {
     const Screen screen;
-    ConsoleLog log({.stream = screen.stream(), .live = true});
-    log.expect({.stages = {{"read", 50}, {"cut", 50}}, .points = 0});
-    Stage stage(log, "read");
-    while (screen.text().find("   0 %  2 min left") == std::string::npos) {
-        std::this_thread::yield();
-    }
-    stage.end({{"points", 1}});
-    EXPECT_THAT(screen.text(), MatchesRegex("(.|\n)*left\r\x1b\\[Kread +1 points +[0-9.]+ s\n"));
-}
-
-TEST(ConsoleLog, ForetellsARunOfMinutesOnce)
-{
-    const Screen screen;
-    ConsoleLog log({.stream = screen.stream()});
-    log.expect({.stages = {{"read", 50}, {"cut", 60}}, .points = 0});
+    ConsoleLog log({.stream = screen.stream(), .quiet = true});
+    Stage(log, "read").end({{"points", 12}});
+    log.note("a note");
+    log.conclude("done");
     EXPECT_EQ(screen.text(), "");
-    for (int i = 0; i < 2; ++i) {
-        log.expect({.stages = {{"read", 50}, {"smooth", 670}, {"cut", 60}}, .points = 0});
-        EXPECT_EQ(screen.text(), "note: this may take 13 min, of which smooth takes 11 min\n");
-    }
-}
-
-TEST(ConsoleLog, ShowsNoBarOfAShortRun)
-{
-    const Screen screen;
-    {
-        ConsoleLog log({.stream = screen.stream(), .live = true, .bar_after_s = 0});
-        log.expect({.stages = {{"read", 1}, {"cut", 3}}, .points = 0});
-        Stage stage(log, "read");
-        std::this_thread::sleep_for(std::chrono::milliseconds(250));
-        stage.end({{"points", 1}});
-    }
-    EXPECT_THAT(screen.text(), Not(HasSubstr("\r")));
-}
-
-TEST(ConsoleLog, ShowsABarOfTheRunWhereItHasBecomeLong)
-{
-    const Screen screen;
-    ConsoleLog log({.stream = screen.stream(), .live = true, .run_bar_after_s = 0.2});
-    log.expect({.stages = {{"read", 0.01}, {"cut", 0.01}}, .points = 0});
-    const Stage stage(log, "read");
-    while (screen.text().find(" s left") == std::string::npos) {
-        std::this_thread::yield();
-    }
+    EXPECT_EQ(log.counts().at("read"), (Counts{{"points", 12}}));
 }
 
 TEST(ConsoleLog, EndsWithASentenceInBoldWhereThatIsWanted)
@@ -198,6 +128,59 @@ TEST(ConsoleLog, EndsWithASentenceInBoldWhereThatIsWanted)
         log.conclude("done");
         EXPECT_EQ(screen.text(), emphasis ? "\x1b[1mdone\x1b[0m\n" : "done\n");
     }
+}
+
+TEST(CountsText, SaysTheResultThenWhatItWasTakenFromThenTheRest)
+{
+    EXPECT_EQ(
+        counts_text({{"points", 24310}, {"of", 25784}, {"few views", 1102}, {"high error", 372}}),
+        "24,310 of 25,784 points (1,102 few views, 372 high error)");
+    EXPECT_EQ(counts_text({{"cells", 1000000}, {"vertices", 999}}),
+              "1,000,000 cells (999 vertices)");
+    EXPECT_EQ(counts_text({{"faces", 0}}), "0 faces");
+    EXPECT_EQ(counts_text({}), "");
+}
+
+TEST(CountsText, GroupsDigitsOfNegativeNumbers)
+{
+    EXPECT_EQ(counts_text({{"a", -123}, {"b", -1234}, {"c", -123456}}),
+              "-123 a (-1,234 b, -123,456 c)");
+}
+
+TEST(StageWords, SayTheCountsInTheWordsOfTheField)
+{
+    const StageWords cut = stage_words("cut", {{"inside", 11283}, {"of", 22611}, {"needles", 2}});
+    EXPECT_EQ(cut.name, "cut");
+    EXPECT_EQ(cut.text, "11,283 of 22,611 cells are solid");
+    EXPECT_TRUE(cut.is_shown);
+    const StageWords settle =
+        stage_words("settle", {{"vertices moved", 2920}, {"thousandths of a pixel of noise", 272}});
+    EXPECT_EQ(settle.name, "denoise");
+    EXPECT_EQ(settle.text, "2,920 vertices moved within their error (0.27 px)");
+}
+
+TEST(StageWords, LeaveOutWhatDidNotHappenAndWhatHasNoRoom)
+{
+    Counts counts = {{"points", 3133}, {"of", 3243}, {"duplicate", 110}, {"few views", 0}};
+    EXPECT_EQ(stage_words("filter", counts).text, "3,133 of 3,243 points kept, 110 duplicate");
+    counts = {{"points", 1234567},    {"of", 2345678},       {"duplicate", 100000},
+              {"few views", 1000000}, {"high error", 10000}, {"low angle", 5}};
+    EXPECT_EQ(stage_words("filter", counts).text,
+              "1,234,567 of 2,345,678 points kept, 100,000 duplicate");
+}
+
+TEST(StageWords, AreThereOnlyInDetailWhereTheyTellAUserNothing)
+{
+    const StageWords open = stage_words("open", {{"rays of the views", 1}, {"of", 3960}});
+    EXPECT_FALSE(open.is_shown);
+}
+
+TEST(StageWords, ShowAllCountsOfAStageThatIsNotKnown)
+{
+    const StageWords words = stage_words("measure", {{"faces of a.ply", 12}, {"of", 13}});
+    EXPECT_EQ(words.name, "measure");
+    EXPECT_EQ(words.text, "12 of 13 faces of a.ply");
+    EXPECT_EQ(stage_words("cut", {{"insides", 3}}).text, "3 insides");
 }
 
 } // namespace

@@ -108,13 +108,6 @@ TEST_F(ProgramOnBall, CountsTheEdgesAtWhichItsSurfaceIsOpen)
     EXPECT_EQ((*orient)["counts"]["boundary edges"], record["mesh"]["boundary_edges"]);
 }
 
-TEST_F(ProgramOnBall, IsSilentOnRequest)
-{
-    const Outcome outcome = run_program({"--quiet", ball, out});
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.out + outcome.err, IsEmpty());
-}
-
 TEST_F(ProgramOnBall, GoesOnWhereNobodyTakesWhatItPrints)
 {
     ASSERT_EQ(run_program({ball, out}).exit_code, 0);
@@ -202,11 +195,6 @@ TEST_F(ProgramOnBall, RecordsTheRun)
     }
 }
 
-TEST_F(ProgramOnBall, TakesAModelThatNeedsNoMoreMemoryThanAllowed)
-{
-    EXPECT_EQ(run_program({ball, out, "--quiet", "--max-memory", "1G"}).exit_code, 0);
-}
-
 TEST_F(ProgramOnBall, RefusesAModelThatNeedsTooMuchMemory)
 {
     EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M", "--blocks", "0"}),
@@ -256,16 +244,6 @@ TEST_F(ProgramOnBall, RefusesABinaryModelForItsMemoryBeforeReadingIt)
                 HasSubstr("1 points with 0 sights need about"));
 }
 
-TEST_F(ProgramOnBall, RecordsEveryOption)
-{
-    ASSERT_EQ(run_program({ball, out, "--stats", stats}).exit_code, 0);
-    const auto record = nlohmann::json::parse(bytes_of(stats));
-    Options options;
-    for (const Option& option : options_of(options)) {
-        EXPECT_TRUE(record["options"].contains(option.info.name)) << option.info.name;
-    }
-}
-
 TEST_F(ProgramOnBall, ReplacesAnEarlierSurfaceOnlyWhenItSucceeds)
 {
     folder.write("out.ply", "earlier");
@@ -274,19 +252,6 @@ TEST_F(ProgramOnBall, ReplacesAnEarlierSurfaceOnlyWhenItSucceeds)
     EXPECT_EQ(bytes_of(out), "earlier");
     EXPECT_EQ(run_program({ball, out}).exit_code, 0);
     EXPECT_THAT(bytes_of(out), HasSubstr("element face"));
-}
-
-TEST_F(ProgramOnBall, LeavesModelsNearTheOriginWhereTheyAre)
-{
-    EXPECT_EQ(run_program({ball, out}).exit_code, 0);
-    const std::string before = bytes_of(out);
-    const Outcome outcome = run_program({ball, out, "--offset", "auto", "--stats", stats});
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_EQ(bytes_of(out), before);
-    EXPECT_THAT(outcome.err, Not(HasSubstr("minus")));
-    const auto record = nlohmann::json::parse(bytes_of(stats));
-    EXPECT_EQ(record["offset"], nlohmann::json::parse("[0.0, 0.0, 0.0]"));
-    EXPECT_EQ(record["options"]["offset"], "auto");
 }
 
 TEST_F(ProgramOnBall, SaysWhichOffsetItSubtracts)
@@ -352,17 +317,6 @@ TEST_F(ProgramOnBall, WarnsOfFloatsFarFromTheOrigin)
                               "to [0-9.]+e-02 of the surface's size; "
                               "--offset auto avoids that\n"));
     EXPECT_THAT(run_program({ball, stl, "--offset", "auto"}).err, Not(HasSubstr("floats")));
-}
-
-TEST_F(ProgramOnBall, WritesTheFormatThatTheNameMeans)
-{
-    const std::string obj = folder / "out.obj";
-    const std::string glb = folder / "out.glb";
-    EXPECT_EQ(run_program({ball, obj}).exit_code, 0);
-    EXPECT_EQ(run_program({ball, glb}).exit_code, 0);
-    EXPECT_THAT(bytes_of(obj), StartsWith("# made by colmap-vcarve "));
-    EXPECT_THAT(bytes_of(glb), StartsWith("glTF"));
-    EXPECT_EQ(folder.num_entries(), 3U);
 }
 
 } // namespace

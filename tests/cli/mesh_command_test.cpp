@@ -1,3 +1,4 @@
+#include "cli/mesh_arguments.h"
 #include "options/declared.h"
 #include "support/ball_model.h"
 #include "support/program.h"
@@ -7,12 +8,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace vcarve::mesh_command_test {
 namespace {
 
+using cli::MeshArguments;
+using cli::record_comments;
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::MatchesRegex;
@@ -20,53 +25,64 @@ using ::testing::Not;
 
 const std::string kSeeHelp = " (see colmap-vcarve --help)\n";
 
-TEST(Program, SaysWhatItExpectedWhereOperandsAreMissingOrTooMany)
+TEST(Program, NamesTheCulpritOfAWrongCommandLine)
 {
-    const std::string expected =
-        "colmap-vcarve: expected a model and an output, MODEL OUT.ply, but got ";
-    EXPECT_EQ(sentence_of(2, {}), expected + "nothing" + kSeeHelp);
-    EXPECT_EQ(sentence_of(2, {"sparse/0"}), expected + "sparse/0" + kSeeHelp);
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "c"}), expected + "a b.ply c" + kSeeHelp);
-}
-
-TEST(Program, RecognisesASwappedInputAndOutput)
-{
-    EXPECT_EQ(sentence_of(2, {"out.ply", "sparse"}),
-              "colmap-vcarve: the model comes first and the output second: colmap-vcarve sparse "
-              "out.ply\n");
-}
-
-TEST(Program, NamesTheEndsOfTheFilesItWrites)
-{
-    const std::string ends = ": the name of a surface must end with .ply, .obj, .off, .stl or .glb";
-    for (const std::string out : {"a/out.gltf", "a/out", "a/obj", "out.ply.gz"}) {
-        EXPECT_EQ(sentence_of(2, {"sparse", out}),
-                  "colmap-vcarve: cannot write " + out + ends + "\n");
+    const auto sentence = [](const std::vector<std::string>& words) {
+        const std::string text = sentence_of(2, words);
+        EXPECT_EQ(text.rfind("colmap-vcarve: ", 0), 0U);
+        return text.substr(std::min<std::size_t>(15, text.size()));
+    };
+    EXPECT_EQ(sentence({}), "missing MODEL and OUT.ply" + kSeeHelp);
+    EXPECT_EQ(sentence({"sparse/0"}), "missing OUT.ply after sparse/0" + kSeeHelp);
+    EXPECT_EQ(sentence({"-o", "x.ply"}), "missing MODEL before x.ply" + kSeeHelp);
+    EXPECT_EQ(sentence({"a", "b.ply", "-o", "x.ply"}),
+              "the output is given twice, b.ply and -o x.ply; remove one\n");
+    const std::string quote = "; quote paths that contain blanks" + kSeeHelp;
+    EXPECT_EQ(sentence({"a", "b.ply", "c"}), "unexpected argument \"c\"" + quote);
+    EXPECT_EQ(sentence({"my", "model", "b.ply"}), "unexpected argument \"model\"" + quote);
+    EXPECT_EQ(sentence({"--closed", "yes", "a", "b.ply"}),
+              "--closed takes no value; remove \"yes\"\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--quiet=no"}), "--quiet takes no value; remove \"no\"\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--textur"}),
+              "there is no option --textur; did you mean --texture?" + kSeeHelp);
+    EXPECT_EQ(sentence({"a", "b.ply", "--min-vews", "3"}),
+              "there is no option --min-vews; did you mean --min-views?" + kSeeHelp);
+    EXPECT_EQ(sentence({"a", "b.ply", "--trim", "0"}),
+              "--trim can be set from C++ and Python only, not on the command line\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--threads"}),
+              "--threads needs a value: a whole number from 0 to 1024 (threads)\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--threads", "many"}),
+              "--threads takes a whole number from 0 to 1024 (threads), not \"many\"\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--method=ctu"}),
+              "--method takes cut or strict, not \"ctu\"\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--keep-work"}), "--keep-work needs --work FOLDER\n");
+    EXPECT_EQ(sentence({"out.ply", "sparse"}),
+              "the model comes first and the output second: colmap-vcarve sparse out.ply\n");
+    const std::string wrong = "cannot write ";
+    for (const std::string out : {"a/out.gltf", "a/out", "out.ply.gz"}) {
+        EXPECT_EQ(sentence({"sparse", out}),
+                  wrong + out +
+                      ": the name of a surface must end with .ply, .obj, .off, .stl or "
+                      ".glb\n");
     }
-}
-
-TEST(Program, RefusesWhatOnlyPlyHolds)
-{
-    EXPECT_EQ(sentence_of(2, {"sparse", "out.obj", "--ascii"}),
-              "colmap-vcarve: cannot write out.obj with --ascii, which is for PLY files only\n");
-    EXPECT_EQ(sentence_of(2, {"sparse", "out.GLB", "--attributes"}),
-              "colmap-vcarve: cannot write out.GLB with --attributes, which is for PLY files "
-              "only\n");
-}
-
-TEST(Program, RefusesWrongOptionsInOneSentence)
-{
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--min-vews", "3"}),
-              "colmap-vcarve: there is no option --min-vews; did you mean --min-views?" + kSeeHelp);
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads"}),
-              "colmap-vcarve: --threads needs a value: a whole number from 0 to 1024 (threads)\n");
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--threads", "many"}),
-              "colmap-vcarve: --threads takes a whole number from 0 to 1024 (threads), not "
-              "\"many\"\n");
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--method=ctu"}),
-              "colmap-vcarve: --method takes cut or strict, not \"ctu\"\n");
-    EXPECT_EQ(sentence_of(2, {"a", "b.ply", "--quiet=no"}),
-              "colmap-vcarve: --quiet takes no value\n");
+    EXPECT_EQ(sentence({"a", "b.obj", "--ascii"}),
+              wrong + "b.obj with --ascii, which is for PLY files only\n");
+    EXPECT_EQ(sentence({"a", "b.GLB", "--attributes"}),
+              wrong + "b.GLB with --attributes, which is for PLY files only\n");
+    EXPECT_EQ(sentence({"a", "b.stl", "--texture"}),
+              wrong + "b.stl with --texture: the name of a textured surface must end with .glb, "
+                      ".obj or .ply\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--preview", "c.jpg"}),
+              wrong + "c.jpg: the name of a picture must end with .png\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--report", "c.txt"}),
+              wrong + "c.txt: the name of a report must end with .html or .htm\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--view", "top"}), "--view needs --preview OUT.png\n");
+    EXPECT_EQ(sentence({"a", "b.glb", "--texture-scale", "2"}),
+              "--texture-scale needs --texture\n");
+    EXPECT_EQ(sentence({"a", "b.ply", "--preview", "c.png", "--stats", "c.png"}),
+              "--stats and --preview cannot both be written to c.png\n");
+    EXPECT_EQ(sentence({"compare"}),
+              "missing MODEL and meshes (see colmap-vcarve compare --help)\n");
 }
 
 TEST(Program, SaysBeforeItReadsAnythingThatAnOutputCannotBeWritten)
@@ -106,8 +122,8 @@ TEST(Program, SaysBeforeItReadsAnythingThatAnOutputCannotBeWritten)
 
 TEST(Program, SaysThatNobodyTookWhatItWasToPrint)
 {
-    for (const std::string words : {"--help", "--help-all", "--version", "--help-man",
-                                    "help compare", "compare --help-all"}) {
+    for (const std::string words :
+         {"--help", "--help-all", "--version", "help compare", "compare --help-all"}) {
         const std::string script = built_program() + " " + words + " >/dev/full";
         EXPECT_EQ(sentence_of_run(2, Subprocess({"/bin/sh", "-c", script}).wait()),
                   "colmap-vcarve: cannot write to the standard output\n")
@@ -124,41 +140,43 @@ TEST(Program, ExitsWithThreeWhereTheInputIsWrong)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(Program, ListsEveryOptionWithItsDefaultInItsHelp)
+TEST(Program, FitsItsHelpOnAScreen)
 {
-    const Outcome help = run_program({"--help-all"});
-    EXPECT_EQ(help.exit_code, 0);
-    EXPECT_THAT(help.err, IsEmpty());
-    Options options;
-    for (const Option& option : options_of(options)) {
-        EXPECT_THAT(help.out, HasSubstr("\n" + std::string(option.stage) + ":\n"));
-        const std::string left = "\n  --" + option.info.name + (is_flag(option) ? "" : " ");
-        ASSERT_THAT(help.out, HasSubstr(left));
-        const std::string rest = help.out.substr(help.out.find(left) + 1);
-        const std::string entry = rest.substr(0, rest.find("\n  -"));
-        if (!is_flag(option)) {
-            EXPECT_THAT(entry, HasSubstr("[default " + value_text(option)));
+    for (const std::string command : {"", "compare"}) {
+        const Outcome help = run_program({command.empty() ? "--quiet" : command, "--help"});
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_THAT(help.err, IsEmpty());
+        EXPECT_LE(std::ranges::count(help.out, '\n'), 60) << help.out;
+        EXPECT_THAT(help.out, Not(HasSubstr("\n" + std::string(30, ' ')))) << "one line each";
+        const Outcome all = run_program({command.empty() ? "--quiet" : command, "--help-all"});
+        std::istringstream lines(help.out + all.out);
+        for (std::string line; std::getline(lines, line);) {
+            EXPECT_LE(line.size(), 80U) << line;
         }
-    }
-    for (const char* name : {"--ascii", "--threads", "--quiet", "--stats", "--help", "--version"}) {
-        EXPECT_THAT(help.out, HasSubstr(name));
     }
 }
 
-TEST(Program, LeavesWhatIsForTuningOutOfItsHelp)
+TEST(Program, ListsEachOptionAtItsLevel)
 {
     const std::string help = run_program({"--help"}).out;
+    const std::string all = run_program({"--help-all"}).out;
+    const std::string markdown = run_program({"--help-markdown"}).out;
     Options options;
     for (const Option& option : options_of(options)) {
-        const bool is_listed = help.find("\n  --" + option.info.name) != std::string::npos;
-        EXPECT_EQ(is_listed, !option.info.tuning) << option.info.name;
+        const std::string& name = option.info.name;
+        const std::string usage = "\n  --" + name;
+        EXPECT_EQ(help.find(usage) != help.npos, option.info.level == OptionLevel::common) << name;
+        EXPECT_EQ(all.find(usage) != all.npos, option.info.level != OptionLevel::library) << name;
+        EXPECT_THAT(markdown, HasSubstr(name));
     }
-    std::size_t listed = 0;
-    for (std::size_t at = help.find("\n  -"); at != std::string::npos;
-         at = help.find("\n  -", at + 1)) {
-        ++listed;
+    EXPECT_THAT(help, HasSubstr("\nCleanup options:\n"
+                                "  --max-hole N                "
+                                "Fill holes with at most N edges [default: 12]\n"));
+    EXPECT_THAT(help, HasSubstr("  --min-views N               "
+                                "Drop points with fewer views [default: 2, min: 1]\n"));
+    for (const char* name : {"--ascii", "--stats", "--verbose", "--view"}) {
+        EXPECT_THAT(all, HasSubstr(name));
     }
-    EXPECT_LE(listed, 30U);
 }
 
 TEST(Program, UnderstandsHelpAndVersionAsWords)
@@ -171,24 +189,13 @@ TEST(Program, UnderstandsHelpAndVersionAsWords)
 TEST(Program, TakesOptionsBeforeACommand)
 {
     const std::string said = run_program({"compare", "--threads", "3", "--quiet", "m"}).err;
-    EXPECT_THAT(said, HasSubstr("expected a model and meshes"));
+    EXPECT_THAT(said, HasSubstr("missing meshes after m"));
     EXPECT_EQ(run_program({"--threads", "3", "compare", "--quiet", "m"}).err, said);
     EXPECT_EQ(run_program({"--quiet", "--threads=3", "compare", "m"}).err, said);
     EXPECT_EQ(run_program({"--help", "compare"}).out, run_program({"compare", "--help"}).out);
     // Behind an operand it is one, and no option of compare makes it one.
     EXPECT_THAT(run_program({"a", "compare"}).err, HasSubstr("compare: "));
-    EXPECT_THAT(run_program({"--closed", "compare"}).err, HasSubstr("MODEL OUT.ply"));
-}
-
-TEST(Program, KeepsItsHelpWithinEightyColumns)
-{
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"--help-all"}, {"compare", "--help-all"}}) {
-        std::istringstream help(run_program(words).out);
-        for (std::string line; std::getline(help, line);) {
-            EXPECT_LE(line.size(), 80U) << line;
-        }
-    }
+    EXPECT_THAT(run_program({"--closed", "compare"}).err, HasSubstr("OUT.ply after compare"));
 }
 
 TEST(Program, TellsItsVersionAndThoseOfItsLibraries)
@@ -199,38 +206,6 @@ TEST(Program, TellsItsVersionAndThoseOfItsLibraries)
                                           "[A-Za-z]+ build, [A-Za-z]+ [0-9.]+\n"
                                           "CGAL [0-9.]+, OpenMesh [0-9.]+, Eigen [0-9.]+, oneTBB "
                                           "[0-9.]+\nLicence: GPL-3.0-or-later\n"));
-}
-
-TEST(Program, MakesItsManPageTablesAndCompletionFromTheSameOptions)
-{
-    Options options;
-    const std::string man = run_program({"--help-man"}).out;
-    const std::string markdown = run_program({"--help-markdown"}).out;
-    const std::string completion = run_program({"--help-bash"}).out;
-    for (const Option& option : options_of(options)) {
-        EXPECT_THAT(markdown, HasSubstr("| `--" + option.info.name));
-        if (option.info.tuning) continue;
-        std::string in_roff = "\\-\\-";
-        for (const char letter : option.info.name) {
-            in_roff += letter == '-' ? "\\-" : std::string(1, letter);
-        }
-        EXPECT_THAT(man, HasSubstr(in_roff));
-        EXPECT_THAT(completion, HasSubstr("--" + option.info.name));
-    }
-}
-
-TEST(Program, CompletesOptionsAndChoicesInBash)
-{
-    const TemporaryFolder folder;
-    folder.write("complete.bash", run_program({"--help-bash"}).out);
-    const std::string script = "source '" + (folder / "complete.bash").string() +
-                               "'; COMP_WORDS=(colmap-vcarve a --sigh); COMP_CWORD=2; "
-                               "_colmap_vcarve; echo \"${COMPREPLY[@]}\"; "
-                               "COMP_WORDS=(colmap-vcarve --sights ne); COMP_CWORD=2; "
-                               "_colmap_vcarve; echo \"${COMPREPLY[@]}\"";
-    const Outcome completed = Subprocess({"/bin/bash", "-c", script}).wait();
-    EXPECT_EQ(completed.out, "--sights\nnearest\n");
-    EXPECT_THAT(completed.err, IsEmpty());
 }
 
 TEST(Program, LeavesNothingBehindWhenItIsInterrupted)
@@ -265,6 +240,47 @@ TEST(Program, SaysThatMemoryIsShort)
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 #endif
+
+TEST(RecordComments, TellOptionsThatCountAndDifferFromTheDefaults)
+{
+    MeshArguments arguments;
+    EXPECT_THAT(record_comments(arguments, {1, 2}),
+                ElementsAre(MatchesRegex("made by colmap-vcarve [0-9.]+.*"),
+                            "input 01020000000000000000000000000000"));
+    arguments.options.surface.closed = true;
+    arguments.options.refine.smooth.iterations = 2;
+    arguments.options.threads = 3;
+    arguments.options.memory.most = 1 << 30;
+    arguments.output.quiet = true;
+    arguments.output.transform = "2.5";
+    arguments.texture.texture = true;
+    const auto told = record_comments(arguments, {});
+    EXPECT_THAT(
+        std::vector(told.begin() + 2, told.end()),
+        ElementsAre("option closed", "option smooth=2", "option transform=2.5", "option texture"));
+}
+
+TEST(RecordComments, TellNoPaths)
+{
+    MeshArguments arguments;
+    arguments.options.crop.region = {.kind = RegionChoice::Kind::file, .file = "my house.ply"};
+    arguments.output.transform = "2 to here.txt";
+    arguments.texture.images = "photos";
+    const auto told = record_comments(arguments, {});
+    EXPECT_THAT(std::vector(told.begin() + 2, told.end()),
+                ElementsAre("option crop=FILE", "option transform=FILE", "option images=FILE"));
+}
+
+TEST(RecordComments, AreTheSameForTextAndBinaryModels)
+{
+    const TemporaryFolder folder;
+    const auto scene = fixtures_folder() / "scene";
+    const std::string binary = folder / "a.ply";
+    const std::string text = folder / "b.ply";
+    ASSERT_EQ(run_program({scene / "sparse/0", binary}).exit_code, 0);
+    ASSERT_EQ(run_program({scene / "sparse_txt", text}).exit_code, 0);
+    EXPECT_TRUE(bytes_of(binary) == bytes_of(text));
+}
 
 } // namespace
 } // namespace vcarve::mesh_command_test

@@ -154,8 +154,7 @@ TEST_F(WorkOfProgram, IsToBeAFolderOfItsOwn)
 {
     Outcome outcome = run_program({scene, out, "--keep-work"});
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("--keep-work keeps the folder of --work, which was not "
-                                       "given"));
+    EXPECT_THAT(outcome.err, HasSubstr("--keep-work needs --work FOLDER\n"));
     outcome = run_program({scene, out, "--work="});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("--work"));

@@ -1,3 +1,4 @@
+#include "cli/mesh_report.h"
 #include "support/ball_model.h"
 #include "support/page_parts.h"
 #include "support/program.h"
@@ -9,12 +10,12 @@
 
 #include <filesystem>
 
-namespace vcarve::mesh_report_test {
+namespace vcarve::cli::mesh_report_test {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using Json = nlohmann::ordered_json;
 
 class ReportOfBall : public ::testing::Test {
   protected:
@@ -78,31 +79,246 @@ TEST_F(ReportOfBall, QuotesTheCommandAsAShellNeedsIt)
               fmt::format("colmap-vcarve {} {} --stats {}", ball, quoted, stats));
 }
 
-TEST_F(ReportOfBall, IsRefusedUnderAnotherName)
+TriMesh tetrahedron()
 {
-    const Outcome outcome = run_program({ball, out, "--report", "out.txt"});
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err,
-              "colmap-vcarve: cannot write out.txt: the name of a report must end with "
-              ".html or .htm\n");
-    EXPECT_FALSE(std::filesystem::exists(out));
+    TriMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    return mesh;
 }
 
-TEST_F(ReportOfBall, IsRefusedBeforeTheWorkWhereItCannotBeWritten)
+/// What is said of a surface where a promise is broken; empty where none is.
+std::string broken_promise(const TriMesh& mesh)
 {
-    const Outcome outcome = run_program({ball, out, "--report", folder / "none/out.html"});
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("none"));
-    EXPECT_FALSE(std::filesystem::exists(out));
+    try {
+        Log silent;
+        require_promised(checked(mesh, {}, silent), "colmap-vcarve a/model b.ply", "a/model");
+        return "";
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
 }
 
-TEST_F(ReportOfBall, IsRefusedWhereTheRecordIsWritten)
+TEST(Checked, CountsWhatASurfaceIs)
 {
-    const Outcome outcome = run_program({ball, out, "--report", page, "--stats", page});
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err,
-              "colmap-vcarve: --report and --stats cannot both be written to " + page + "\n");
+    Log silent;
+    const Json json = checked(tetrahedron(), {}, silent);
+    EXPECT_EQ(json["faces"], 4);
+    EXPECT_EQ(json["self_intersections"], 0);
+    EXPECT_TRUE(json["is_closed"]);
+    TriMesh crossed = tetrahedron();
+    crossed.positions.insert(crossed.positions.end(), {{0.1, 0.1, -1}, {0.1, 0.1, 9}, {9, 9, 9}});
+    crossed.faces.push_back({4, 5, 6});
+    EXPECT_EQ(checked(crossed, {}, silent)["self_intersections"], 2);
+}
+
+TEST(RequirePromised, TakesSurfacesWithHolesAndThroughThemselves)
+{
+    EXPECT_EQ(broken_promise(tetrahedron()), "");
+    TriMesh open = tetrahedron();
+    open.faces.pop_back();
+    open.positions.insert(open.positions.end(), {{0.1, 0.1, -1}, {0.1, 0.1, 9}, {9, 9, 9}});
+    open.faces.push_back({4, 5, 6});
+    EXPECT_EQ(broken_promise(open), "");
+}
+
+TEST(RequirePromised, NamesWhatIsBrokenAndWhatRepeatsIt)
+{
+    TriMesh turned = tetrahedron();
+    turned.faces[0] = {0, 1, 2};
+    EXPECT_EQ(broken_promise(turned), "the surface has 3 orientation_faults and was not written; "
+                                      "colmap-vcarve a/model b.ply reproduces it with a/model");
+    TriMesh thrice = tetrahedron();
+    thrice.positions.emplace_back(5, 5, 5);
+    thrice.faces.push_back({0, 1, 4});
+    EXPECT_THAT(broken_promise(thrice), HasSubstr("1 nonmanifold_edges"));
+    TriMesh degenerate = tetrahedron();
+    degenerate.faces.push_back({0, 1, 1});
+    EXPECT_THAT(broken_promise(degenerate), HasSubstr("1 degenerate_faces"));
+    TriMesh touching = tetrahedron();
+    touching.positions.insert(touching.positions.end(), {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}});
+    touching.faces.insert(touching.faces.end(), {{0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}});
+    EXPECT_THAT(broken_promise(touching), HasSubstr("1 nonmanifold_vertices"));
+}
+
+TEST(Program, ChecksTheSurfaceWhereAsked)
+{
+    const TemporaryFolder folder;
+    write_ball_model(folder / "ball", 200);
+    const std::string out = folder / "out.ply";
+    const Outcome outcome = run_program({folder / "ball", out, "--check", "-v"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err,
+                ::testing::ContainsRegex("\ncheck +[0-9,]+ of [0-9,]+ sights from behind [^\n]*\n"
+                                         "write "));
+    EXPECT_THAT(run_program({folder / "ball", out, "--check"}).err,
+                ::testing::ContainsRegex("\ncheck +0 open edges[^\n]*\nwrote "));
+}
+
+/// A surface of which nothing is to be said.
+RunOutcome usual()
+{
+    return {.out = "out.ply",
+            .faces = 22268,
+            .boundary_edges = 990,
+            .open = 0.001,
+            .long_area = 0.1,
+            .points = 20000,
+            .points_before = 22000};
+}
+
+RunOutcome closed()
+{
+    RunOutcome outcome = usual();
+    outcome.boundary_edges = 0;
+    return outcome;
+}
+
+std::string line(const RunOutcome& outcome, const Options& options = {})
+{
+    return closing_line(outcome, options);
+}
+
+TEST(ClosingLine, ShowsTheReportWhereNothingStandsOut)
+{
+    EXPECT_EQ(line(usual()),
+              "wrote out.ply: 22,268 faces, less than 1 % of what cameras see is open"
+              "\nSee it: --report out.html");
+    RunOutcome outcome = usual();
+    outcome.open = 0.0;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes. See it: --report "
+                             "out.html");
+    outcome.has_report = true;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes");
+    outcome.open.reset();
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 990 open edges");
+    outcome.boundary_edges = 0;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed");
+}
+
+TEST(ClosingLine, SaysWhatClosesWhatIsOpen)
+{
+    RunOutcome outcome = usual();
+    outcome.has_report = true;
+    outcome.open = 0.035;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 4 % of what cameras see is open (to "
+                             "close: --max-closing 0)");
+    Options options;
+    options.surface.rules.max_closing = 0.0;
+    EXPECT_EQ(line(outcome, options), "wrote out.ply: 22,268 faces, 4 % of what cameras see is "
+                                      "open (to close: --closed)");
+}
+
+TEST(ClosingLine, ProposesToCropLargeFacesUnlessThatIsDone)
+{
+    RunOutcome outcome = closed();
+    outcome.long_area = 0.7;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\n"
+                             "if its large faces are in the way, try --crop auto");
+    Options options;
+    options.surface.closed = true;
+    EXPECT_EQ(line(outcome, options), "wrote out.ply: 22,268 faces, closed\n"
+                                      "if its large faces are in the way, leave out --closed");
+    options = {};
+    options.crop.region.kind = RegionChoice::Kind::looked_at;
+    EXPECT_EQ(line(outcome, options),
+              "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
+}
+
+TEST(ClosingLine, NamesTheLimitThatManyPointsFellTo)
+{
+    const std::string begin = "wrote out.ply: 22,268 faces, closed\nif parts are missing, try a ";
+    RunOutcome outcome = closed();
+    outcome.low_angle = 11000;
+    EXPECT_EQ(line(outcome), begin + "smaller --min-angle: 50 % of the points fell to it");
+    outcome.high_error = 4400;
+    outcome.low_angle = 0;
+    EXPECT_EQ(line(outcome), begin + "larger --max-error: 20 % of the points fell to it");
+    outcome.high_error = 0;
+    outcome.stray = 6600;
+    EXPECT_EQ(line(outcome), begin + "larger --stray-spacing: 30 % of the points fell to it");
+}
+
+TEST(ClosingLine, SaysAtTheDefaultsHowToKeepPointsOfOneView)
+{
+    RunOutcome outcome = closed();
+    outcome.few_views = 11000;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\nif parts are missing, try "
+                             "--min-views 1 or --sights nearest: 50 % of the points fell to it");
+    outcome.few_views = 4000; // 18 %
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
+    Options options;
+    options.points.min_views = 3;
+    outcome.few_views = 11000;
+    EXPECT_EQ(line(outcome, options),
+              "wrote out.ply: 22,268 faces, closed\nif parts are missing, try a smaller "
+              "--min-views: 50 % of the points fell to it");
+}
+
+TEST(ClosingLine, NamesFirstWhereMostPointsWereLost)
+{
+    const std::string begin = "\nif parts are missing, try ";
+    const std::string angle = "a smaller --min-angle: 23 % of the points fell to it";
+    const std::string stray = "a larger --stray-spacing: 25 % of the points fell to it";
+    RunOutcome outcome = closed();
+    outcome.high_error = 4500;
+    outcome.low_angle = 5000;
+    outcome.stray = 5500;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed" + begin + stray + begin + angle);
+}
+
+TEST(ClosingLine, ProposesAtMostTwoThings)
+{
+    RunOutcome outcome = closed();
+    outcome.high_error = outcome.low_angle = 8000;
+    outcome.long_area = 1.0;
+    EXPECT_EQ(line(outcome).find("--crop"), std::string::npos);
+    EXPECT_NE(line(outcome).find("--min-angle"), std::string::npos);
+}
+
+TEST(ClosingLine, SaysThatSparsePointsAreFew)
+{
+    RunOutcome outcome = closed();
+    outcome.points = outcome.points_before = 114;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\n"
+                             "114 points are few, more images or dense points (stereo_fusion) "
+                             "show more");
+    outcome.is_dense = true;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
+}
+
+TEST(ClosingLine, NamesThePageBesideTheSurface)
+{
+    RunOutcome outcome = closed();
+    outcome.out = "a b/mesh.v2.glb";
+    EXPECT_EQ(line(outcome),
+              "wrote a b/mesh.v2.glb: 22,268 faces, closed. See it: --report a b/mesh.v2.html");
+}
+
+TEST(RunOutcome, IsMadeOfWhatTheStagesCount)
+{
+    const RunOutcome outcome =
+        outcome_of({{"filter",
+                     {{"points", 70},
+                      {"of", 100},
+                      {"few views", 10},
+                      {"high error", 15},
+                      {"low angle", 5},
+                      {"stray", 3}}},
+                    {"open", {{"rays of the views", 40}, {"of", 4000}}},
+                    {"orient", {{"sights on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
+                    {"write", {{"faces", 99}, {"vertices", 50}}}});
+    EXPECT_EQ(outcome.points, 70);
+    EXPECT_EQ(outcome.points_before, 100);
+    EXPECT_EQ(outcome.few_views, 10);
+    EXPECT_EQ(outcome.high_error, 15);
+    EXPECT_EQ(outcome.low_angle, 5);
+    EXPECT_EQ(outcome.stray, 3);
+    EXPECT_EQ(outcome.open, 0.01);
+    EXPECT_EQ(outcome.boundary_edges, 12);
+    EXPECT_EQ(outcome.faces, 99);
+    EXPECT_FALSE(outcome_of({}).open);
 }
 
 } // namespace
-} // namespace vcarve::mesh_report_test
+} // namespace vcarve::cli::mesh_report_test

@@ -21,7 +21,8 @@ TEST(OptionsJson, RecordsEveryOptionUnderItsNameOnTheCommandLine)
 {
     EXPECT_EQ(recorded({.spacing = kUnlimited}).dump(),
               R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,)"
-              R"("shape":"round","memory":3145728,"place":"here","part":"none","factor":7.0})");
+              R"("shape":"round","memory":3145728,"place":"here","part":"none",)"
+              R"("factor":7.0,"secret":1})");
     SampleOptions options;
     options.place = {.word = WordOrVector::kNoWord, .vector = {1.5, -2.0, 0.1}};
     EXPECT_EQ(recorded(options)["place"].dump(), "[1.5,-2.0,0.1]");

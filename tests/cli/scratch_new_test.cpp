@@ -61,24 +61,6 @@ TEST_F(ProgramInBlocks, TakesBlocksWhereMemoryDoesNotDoAndSaysSo)
     EXPECT_EQ(folder.num_entries(), 2U) << "the ball and the surface";
 }
 
-TEST_F(ProgramInBlocks, RefusesInsteadWhereNoBlocksAreWanted)
-{
-    const Outcome outcome = run({"--max-memory", "30M", "--blocks", "0"});
-    EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err,
-                MatchesRegex("(.|\n)*colmap-vcarve: .*ball: 60000 points with [0-9]+ sights need "
-                             "about [0-9.]+M of memory, and --max-memory allows 30M\n"));
-}
-
-TEST_F(ProgramInBlocks, NamesAScratchFolderThatDoesNotDo)
-{
-    const Outcome outcome = run({"--blocks", "2", "--work", folder / "no/where"});
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err, "colmap-vcarve: cannot make the work folder " +
-                               (folder / "no/where").string() + ": No such file or directory\n");
-    EXPECT_FALSE(std::filesystem::exists(out));
-}
-
 TEST_F(ProgramInBlocks, LeavesNoFilesWhenItIsEnded)
 {
     Subprocess program(program_with({ball, out, "--blocks", "2"}));

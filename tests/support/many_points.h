@@ -2,7 +2,7 @@
 
 #include "base/free_memory.h"
 #include "base/numbers.h"
-#include "cli/process_usage.h"
+#include "cli/run_record.h"
 #include "vcarve/scene.h"
 
 #ifdef __GLIBC__

@@ -19,6 +19,7 @@ struct SampleOptions {
     WordOrVector place = {};
     RegionChoice part = {};
     double factor = 7.0;
+    int secret = 1;
 };
 
 inline OptionList options_of(SampleOptions& options)
@@ -52,8 +53,11 @@ inline OptionList options_of(SampleOptions& options)
           .help = "Of what is usual.",
           .words = {"usual"},
           .word_value = 1.0,
-          .tuning = true},
+          .level = OptionLevel::advanced},
          &options.factor},
+        {"Third",
+         {.name = "secret", .help = "For C++.", .level = OptionLevel::library},
+         &options.secret},
     };
 }
 

@@ -1,4 +1,3 @@
-// The options --preview and --view, run as the user runs them.
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/read_png.h"
@@ -12,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace vcarve::preview_output_test {
+namespace vcarve::picture_output_test {
 namespace {
 
 using ::testing::Contains;
@@ -58,21 +57,6 @@ TEST_F(PreviewOfBall, ShowsTheSurfaceBesideItsNormals)
     EXPECT_EQ(shown.at(kWidth - 5, middle_y), kBackground);
     EXPECT_THAT(shown.colors(0, kCaption, kWidth, shown.height), Not(Contains(kBacks)));
     EXPECT_GT(shown.colors(0, kCaption, kPanel, shown.height).size(), 50U);
-}
-
-TEST_F(PreviewOfBall, NamesTheSurfaceAndTheImageAboveIt)
-{
-    ASSERT_EQ(run_program({"--quiet", ball, out, "--preview", png}).exit_code, 0);
-    const ReadPng shown = read_png(png);
-    ASSERT_EQ(shown.width, kWidth);
-    EXPECT_THAT(shown.colors(0, 0, 200, kCaption), Contains(Rgb{34, 38, 46}));
-    EXPECT_THAT(shown.colors(kPanel + 8, 0, kWidth, kCaption), Contains(kBacks));
-    ASSERT_EQ(run_program({"--quiet", ball, folder / "other.ply", "--preview", png}).exit_code, 0);
-    const ReadPng other = read_png(png);
-    EXPECT_TRUE(shown.bytes != other.bytes);
-    const auto below = static_cast<std::ptrdiff_t>(3) * kWidth * kCaption;
-    EXPECT_TRUE(
-        std::equal(shown.bytes.begin() + below, shown.bytes.end(), other.bytes.begin() + below));
 }
 
 TEST_F(PreviewOfBall, IsTheSameForAnyNumberOfThreads)
@@ -128,38 +112,6 @@ TEST_F(PreviewOfBall, HasARowAMeshInACompare)
     EXPECT_EQ(shown.at(kPanel / 2, 2 * kCaption + kPanel + kPanel / 2), kBacks);
 }
 
-TEST_F(PreviewOfBall, RefusesNamesThatDoNotEndInPng)
-{
-    const std::string jpg = folder / "out.jpg";
-    const std::string expected =
-        "cannot write " + jpg + ": the name of a picture must end with .png\n";
-    EXPECT_EQ(sentence_of(2, {ball, out, "--preview", jpg}), "colmap-vcarve: " + expected);
-    EXPECT_THAT(sentence_of(2, {"compare", ball, out, "--preview", jpg}), HasSubstr(expected));
-    EXPECT_EQ(sentence_of(2, {ball, out, "--preview", out}),
-              "colmap-vcarve: cannot write " + out +
-                  ": the name of a picture must end with .png\n");
-}
-
-TEST_F(PreviewOfBall, RefusesAPlaceThatAnotherOutputTakes)
-{
-    EXPECT_EQ(sentence_of(2, {ball, out, "--preview", png, "--stats", png}),
-              "colmap-vcarve: --stats and --preview cannot both be written to " + png + "\n");
-    EXPECT_THAT(sentence_of(2, {"compare", ball, out, "--preview", png, "--json", png}),
-                HasSubstr("--preview and --json cannot both be written to " + png + "\n"));
-    EXPECT_THAT(sentence_of(2, {"compare", ball, png, "--preview", png}),
-                HasSubstr("--preview would replace the mesh " + png + "\n"));
-}
-
-TEST_F(PreviewOfBall, RefusesAPlaceThatCannotBeWrittenBeforeTheModelIsRead)
-{
-    const std::string nowhere = folder / "nowhere/out.png";
-    const std::string expected = "cannot write " + nowhere + ": the folder " +
-                                 (folder / "nowhere").string() + " does not exist\n";
-    EXPECT_EQ(sentence_of(2, {folder / "no_model", out, "--preview", nowhere}),
-              "colmap-vcarve: " + expected);
-    EXPECT_EQ(folder.num_entries(), 1U);
-}
-
 TEST_F(PreviewOfBall, RefusesAViewThatTheModelLacksBeforeTheSurfaceIsMade)
 {
     EXPECT_EQ(sentence_of(2, {"--quiet", ball, out, "--preview", png, "--view", "x.jpg"}),
@@ -168,11 +120,5 @@ TEST_F(PreviewOfBall, RefusesAViewThatTheModelLacksBeforeTheSurfaceIsMade)
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST_F(PreviewOfBall, RefusesAViewWithoutAPicture)
-{
-    EXPECT_EQ(sentence_of(2, {ball, out, "--view", "top"}),
-              "colmap-vcarve: --view says from where --preview looks, but there is no --preview\n");
-}
-
 } // namespace
-} // namespace vcarve::preview_output_test
+} // namespace vcarve::picture_output_test

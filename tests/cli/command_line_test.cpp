@@ -1,14 +1,18 @@
-#include "cli/option_parser.h"
+#include "cli/command_line.h"
 #include "support/sample_options.h"
 #include "vcarve/error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace vcarve::cli::option_parser_test {
+#include <memory>
+
+namespace vcarve::cli::command_line_test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The sample's options, and a path.
 struct Values {
@@ -65,16 +69,10 @@ TEST(OptionParser, TakesEverythingAfterTwoDashesForOperands)
     EXPECT_EQ(given.options, (std::map<std::string, std::string>{{"closed", ""}}));
 }
 
-TEST(OptionParser, KeepsOperandsAsTheyAre)
-{
-    EXPECT_THAT(parsed({"{}", "", "a b,c", "[1,2]"}).operands,
-                ElementsAre("{}", "", "a b,c", "[1,2]"));
-}
-
 TEST(ReadOptions, WritesWhatWasGivenAndLeavesTheRest)
 {
-    const SampleOptions options =
-        options_of({"--angle=12.25", "--min-views", "5", "--closed", "--shape", "flat"});
+    const SampleOptions options = options_of(
+        {"--angle=12.25", "--min-views=7", "--min-views", "5", "--closed", "--shape", "flat"});
     EXPECT_EQ(options.angle_deg, 12.25);
     EXPECT_EQ(options.spacing, 2.0);
     EXPECT_EQ(options.views, 5);
@@ -89,18 +87,6 @@ TEST(ReadOptions, TakesSizesOfMemoryWithTheirSuffix)
     EXPECT_EQ(options_of({"--memory", "0"}).memory, 0);
     EXPECT_EQ(refusal_of({"--memory", "8 apples"}),
               "--memory takes a size in bytes, or with K, M or G as in 8G, not \"8 apples\"");
-}
-
-TEST(ReadOptions, LetsTheLastOfTwoValuesCount)
-{
-    EXPECT_EQ(options_of({"--min-views", "5", "--min-views=7"}).views, 7);
-}
-
-TEST(ReadOptions, TakesInfinityWhereARangeIsOpen)
-{
-    EXPECT_EQ(options_of({"--spacing", "inf"}).spacing, kUnlimited);
-    EXPECT_EQ(refusal_of({"--angle", "inf"}),
-              "--angle takes a number from 0 to 180 (deg), not inf");
 }
 
 TEST(ReadOptions, TakesAWordWhereTheOptionHasOne)
@@ -179,25 +165,13 @@ TEST(ReadOptions, RefusesValuesOfTheWrongKind)
     EXPECT_EQ(refusal_of({"--angle="}), "--angle needs a value: a number from 0 to 180 (deg)");
 }
 
-TEST(ReadOptions, RefusesValuesOutsideTheRange)
-{
-    EXPECT_EQ(refusal_of({"--angle", "-3"}), "--angle takes a number from 0 to 180 (deg), not -3");
-    EXPECT_EQ(refusal_of({"--min-views=1"}),
-              "--min-views takes a whole number, 2 or more (views), not 1");
-}
-
 TEST(OptionParser, RefusesAnOptionWithoutItsValue)
 {
     EXPECT_EQ(refusal_of({"--min-views"}),
               "--min-views needs a value: a whole number, 2 or more (views)");
     EXPECT_EQ(refusal_of({"--shape"}), "--shape needs a value: round or flat");
-    EXPECT_EQ(refusal_of({"--stats"}), "--stats needs a value: a path");
-}
-
-TEST(OptionParser, TakesNoOptionForAValue)
-{
-    EXPECT_EQ(refusal_of({"--shape", "--closed"}), "--shape needs a value: round or flat");
     EXPECT_EQ(refusal_of({"--stats", ""}), "--stats needs a value: a path");
+    EXPECT_EQ(refusal_of({"--shape", "--closed"}), "--shape needs a value: round or flat");
 }
 
 TEST(OptionParser, TakesOperandsByColmapsNames)
@@ -216,20 +190,13 @@ TEST(OptionParser, TakesColmapsTypeOfInputForTheChoiceOfPoints)
     EXPECT_EQ(parse_arguments(words, options).options.at("points"), "dense");
 }
 
-TEST(OptionParser, KnowsTheLetterOfHelp)
+TEST(OptionParser, NamesTheWordThatIsWrong)
 {
-    EXPECT_TRUE(parsed({"-h"}).has("help"));
-}
-
-TEST(OptionParser, RefusesAValueGivenToAFlag)
-{
-    EXPECT_EQ(refusal_of({"--closed=yes"}), "--closed takes no value");
-}
-
-TEST(OptionParser, NamesTheNearestOptionToOneItDoesNotKnow)
-{
-    EXPECT_EQ(refusal_of({"--min-vews=3"}), "there is no option --min-vews; did you mean "
-                                            "--min-views? (see colmap-vcarve --help)");
+    EXPECT_EQ(refusal_of({"--closed=yes"}), "--closed takes no value; remove \"yes\"");
+    EXPECT_EQ(refusal_of({"--closed", "no", "in"}), "--closed takes no value; remove \"no\"");
+    EXPECT_EQ(refusal_of({"--closed", "in"}), "accepted");
+    EXPECT_EQ(refusal_of({"--secret", "2"}),
+              "--secret can be set from C++ and Python only, not on the command line");
     EXPECT_EQ(refusal_of({"in", "--frobnicate", "out"}),
               "there is no option --frobnicate (see colmap-vcarve --help)");
     EXPECT_EQ(refusal_of({"-x"}), "there is no option -x (see colmap-vcarve --help)");
@@ -248,5 +215,100 @@ TEST(Nearest, CountsInsertedRemovedAndReplacedLetters)
     EXPECT_EQ(nearest("--ascii", {"--quiet", "--help"}), "");
 }
 
+Manual sample_manual()
+{
+    const auto options = std::make_shared<SampleOptions>();
+    Manual manual;
+    manual.command = "carve";
+    manual.operands = "IN OUT";
+    manual.summary = "Carves.";
+    manual.examples = {{"carve a b", "the default"}, {"carve --closed a b", "closed"}};
+    manual.operand_meanings = {{"IN", "Input. Any."}};
+    manual.ends = {"Exit codes: 0."};
+    manual.options = options_of(*options);
+    manual.values = options;
+    return manual;
+}
+
+TEST(HelpText, HasALinePerCommonOption)
+{
+    EXPECT_EQ(help_text(sample_manual(), false), R"(Carves.
+
+Usage: carve IN OUT [options]
+
+Examples:
+  carve a b           the default
+  carve --closed a b  closed
+
+Arguments:
+  IN                          Input
+
+First options:
+  --angle N                   Drop smaller angles; 0 keeps all
+                              [default: 10.5, max: 180]
+  --spacing N                 A pure number [default: 2]
+
+Second options:
+  --min-views N               Drop points [default: 3, min: 2]
+  --closed                    Keep a|b
+  --shape round|flat          What it is like [default: round]
+  --memory SIZE               Take no more [default: 3M]
+  --place here|there|X,Y,Z    Where it is [default: here, min: -10, max: 10]
+  --part none|auto|BOX|FILE   How much [default: none]
+
+Exit codes: 0.
+)");
+}
+
+TEST(HelpText, HasWholeTextsOfMoreOptionsOnRequest)
+{
+    const std::string all = help_text(sample_manual(), true);
+    EXPECT_THAT(all, HasSubstr("\n  IN                          Input. Any.\n"));
+    EXPECT_THAT(all, HasSubstr("\nThird options:\n"
+                               "  --factor usual|N            Of what is usual. [default: 7]\n"));
+    EXPECT_THAT(all, Not(HasSubstr("--secret")));
+    EXPECT_THAT(help_text(sample_manual(), false), Not(HasSubstr("--factor")));
+}
+
+TEST(MarkdownOptions, IsATablePerHeading)
+{
+    EXPECT_EQ(markdown_options(sample_manual()), R"(## carve IN OUT
+
+### First options
+
+| option | default | range | meaning |
+|---|---|---|---|
+| `--angle N` | 10.5 | max: 180 | Drop smaller angles; 0 keeps all. |
+| `--spacing N` | 2 |  | A pure number. |
+
+### Second options
+
+| option | default | range | meaning |
+|---|---|---|---|
+| `--min-views N` | 3 | min: 2 | Drop points. |
+| `--closed` |  |  | Keep a\|b. |
+| `--shape round\|flat` | round |  | What it is like. |
+| `--memory SIZE` | 3M |  | Take no more. |
+| `--place here\|there\|X,Y,Z` | here | min: -10, max: 10 | Where it is. |
+| `--part none\|auto\|BOX\|FILE` | none |  | How much. |
+
+### Third options
+
+| option | default | range | meaning |
+|---|---|---|---|
+| `--factor usual\|N` | 7 |  | Of what is usual. |
+
+### C++ and Python only
+
+These options are for studying the method. In Python they are keywords, with `_` for `-`.
+
+#### Third options
+
+| option | default | range | meaning |
+|---|---|---|---|
+| `secret` | 1 |  | For C++. |
+)");
+}
+
 } // namespace
-} // namespace vcarve::cli::option_parser_test
+} // namespace vcarve::cli::command_line_test

@@ -1,0 +1,154 @@
+#include "cli/input_output.h"
+
+#include "io/colmap/model_files.h"
+#include "io/colmap/sim3_text.h"
+#include "io/input/find_input.h"
+#include "model/views.h"
+#include "vcarve/error.h"
+#include "vcarve/io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files that do not exist yet are compared by path.
+bool is_same_file(const fs::path& a, const fs::path& b)
+{
+    std::error_code error;
+    if (fs::equivalent(a, b, error)) return true;
+    const fs::path real = fs::weakly_canonical(a, error);
+    return !error && real == fs::weakly_canonical(b, error);
+}
+
+[[noreturn]] void refuse(const Output& output, const Output& replaced)
+{
+    throw UsageError(
+        fmt::format("{} would replace {} {}", output.name, replaced.name, replaced.path.string()));
+}
+
+void refuse_replacing(const Output& output, std::span<const Output> files)
+{
+    for (const Output& file : files) {
+        std::error_code error;
+        if (output.path == file.path || fs::equivalent(output.path, file.path, error)) {
+            refuse(output, file);
+        }
+    }
+}
+
+} // namespace
+
+void require_distinct(std::span<const Output> outputs)
+{
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (!is_same_file(outputs[i].path, outputs[k].path)) continue;
+            throw UsageError(fmt::format("{} and {} cannot both be written to {}", outputs[i].name,
+                                         outputs[k].name, outputs[i].path.string()));
+        }
+    }
+}
+
+void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
+                 std::span<const Output> others)
+{
+    for (const Output& output : outputs) {
+        refuse_replacing(output, others);
+    }
+    if (std::ranges::none_of(outputs, is_file, &Output::path)) return;
+    const FoundInput found = find_input(model.path, model.all_points());
+    std::vector<Output> inputs;
+    for (const fs::path& file : input_files(model.path, found)) {
+        inputs.push_back({"the input", file});
+    }
+    for (const Output& output : outputs) {
+        if (!is_file(output.path)) continue;
+        refuse_replacing(output, inputs);
+        if (is_image_of_views(output.path, found)) refuse(output, {"the image", output.path});
+    }
+}
+
+ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading)
+{
+    ReadModel read = read_found_model(model.path, model.all_points(), log, reading);
+    const FoundModel& found = read.found.model;
+    constexpr std::array kFormats = {"binary", "text", "transforms"};
+    ModelInput input;
+    input.record = {{"model", model.path.string()},
+                    {"folder", found.folder.string()},
+                    {"format", kFormats.at(static_cast<std::size_t>(found.format))},
+                    {"cloud", nullptr},
+                    {"points", read.read.points},
+                    {"views", read.read.views},
+                    {"sights", read.read.sights}};
+    if (read.found.scan) input.record["cloud"] = read.found.scan->cloud.string();
+    if (read.found.scan && found.folder.empty()) {
+        input.record["folder"] = nullptr;
+        input.record["format"] = nullptr;
+    }
+    if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
+    input.scene = std::move(read.scene);
+    input.read = read.read;
+    return input;
+}
+
+std::optional<Similarity> transform_of(const std::string& text)
+{
+    if (text.empty()) return std::nullopt;
+    double scale = 0.0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, scale);
+    if (error == std::errc::invalid_argument || stop != end) return read_sim3(text);
+    if (error != std::errc() || !(scale > 0.0) || !std::isfinite(scale)) {
+        throw UsageError(
+            fmt::format("--transform takes a file or a scale above 0, not \"{}\"", text));
+    }
+    return Similarity{.scale = scale, .linear = scale * Eigen::Matrix3d::Identity()};
+}
+
+Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted,
+                           const std::optional<Similarity>& transform)
+{
+    if (wanted.word == WordOrVector::kNoWord) return wanted.vector;
+    const bool automatic = static_cast<OffsetWord>(wanted.word) == OffsetWord::automatic;
+    if (!automatic) return Eigen::Vector3d::Zero();
+    if (!transform) return round_offset(model);
+    Scene moved;
+    moved.positions = model.positions;
+    moved.offset = model.offset;
+    move_positions(*transform, moved.positions, moved.offset);
+    return round_offset(moved);
+}
+
+Eigen::Vector3d up_for(const Scene& model, UpWord wanted,
+                       const std::optional<Similarity>& transform)
+{
+    if (wanted == UpWord::none) return Eigen::Vector3d::Zero();
+    if (wanted == UpWord::z) return Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d up = up_of(model);
+    return transform ? (transform->linear * up).normalized() : up;
+}
+
+TriMesh transformed(TriMesh mesh, const Similarity& to)
+{
+    move_positions(to, mesh.positions, mesh.offset);
+    const Eigen::Matrix3d rotation = to.linear / to.scale;
+    for (Eigen::Vector3f& normal : mesh.normals) {
+        normal = (rotation * normal.cast<double>()).stableNormalized().cast<float>();
+    }
+    return mesh;
+}
+
+} // namespace vcarve::cli

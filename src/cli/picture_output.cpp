@@ -1,0 +1,159 @@
+#include "cli/picture_output.h"
+
+#include "base/text.h"
+#include "picture/eye.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+} // namespace
+
+OptionList texture_options(TextureArguments& texture)
+{
+    constexpr const char* kStage = "Output";
+    return {
+        {kStage,
+         {.name = "images",
+          .unit = "folder",
+          .help = "Take vertex colors from photographs. FOLDER has the photographs of the model; "
+                  "vertices get the colors that they agree on, instead of those of single pixels."},
+         &texture.images},
+        {kStage,
+         {.name = "texture",
+          .help = "Write a texture made of the photographs. They are those of --images, or of the "
+                  "folder `images` beside the model. The texture is in OUT.glb, or in JPEG files "
+                  "beside OUT.obj or OUT.ply."},
+         &texture.texture},
+        {kStage,
+         {.name = "texture-scale",
+          .help = "Scale the texture to N texels per pixel of the photographs, along a side.",
+          .min = 0.01,
+          .max = 4.0,
+          .level = OptionLevel::advanced},
+         &texture.scale},
+    };
+}
+
+void check_texture(const TextureArguments& texture, const fs::path& out,
+                   const ParsedArguments& given)
+{
+    if (given.has("texture-scale") && !texture.texture) {
+        throw UsageError("--texture-scale needs --texture");
+    }
+    const std::string end = lower_case_end(out);
+    if (texture.texture && end != ".glb" && end != ".obj" && end != ".ply") {
+        throw UsageError(fmt::format("cannot write {} with --texture: the name of a textured "
+                                     "surface must end with .glb, .obj or .ply",
+                                     out.string()));
+    }
+}
+
+Photographs photographs_of(const TextureArguments& arguments, const fs::path& model,
+                           const Scene& scene, Log& log)
+{
+    fs::path folder = arguments.images;
+    if (folder.empty()) {
+        const std::optional<fs::path> beside = photographs_beside(model);
+        if (!beside) {
+            throw UsageError(fmt::format("--texture found no folder `images` beside {}; name the "
+                                         "folder of the photographs with --images",
+                                         model.string()));
+        }
+        folder = *beside;
+        log.note(fmt::format("the photographs are taken from {}", folder.string()));
+    }
+    Photographs photographs = find_photographs(scene, folder);
+    if (photographs.missing > 0) {
+        log.note(fmt::format("{} of {} views have no photograph in {}", photographs.missing,
+                             scene.views.size(), folder.string()));
+    }
+    for (const std::string& sentence : photographs.unreadable) {
+        log.note(sentence);
+    }
+    return photographs;
+}
+
+TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photographs,
+                      const TextureTask& task, Log& log)
+{
+    // Half of what is allowed: the surface, colours of faces and four photographs are there, too.
+    constexpr std::int64_t kBytesOfTexel = 7;
+    TextureOptions options = {.scale = task.arguments.scale,
+                              .only_colors = !task.arguments.texture};
+    if (task.most_memory > 0) {
+        options.most_texels = std::min(
+            options.most_texels, static_cast<std::size_t>(task.most_memory / 2 / kBytesOfTexel));
+    }
+    const std::vector<CalibratedPhoto> photos = calibrated_photos(scene, photographs, mesh.offset);
+    return texture_mesh(std::move(mesh), photos, options, log);
+}
+
+OptionList preview_options(PreviewArguments& preview)
+{
+    constexpr const char* kStage = "Output";
+    return {
+        {kStage,
+         {.name = "preview",
+          .help = "Draw a picture of the mesh, OUT.png. It shows the colors, with backs of faces "
+                  "in magenta, beside the normals as colors."},
+         &preview.out},
+        {kStage,
+         {.name = "view",
+          .help = "Choose the viewpoint of --preview. auto: the camera that sees most. top, "
+                  "orbit: from outside, from above or obliquely, through the backs of walls. "
+                  "Otherwise the name of an image.",
+          .words = {"auto", "top", "orbit"},
+          .level = OptionLevel::advanced},
+         &preview.view},
+    };
+}
+
+void check_preview(const PreviewArguments& preview, const ParsedArguments& given)
+{
+    if (given.has("view") && preview.out.empty()) {
+        throw UsageError("--view needs --preview OUT.png");
+    }
+    if (!preview.out.empty() && lower_case_end(preview.out) != ".png") {
+        throw UsageError(fmt::format("cannot write {}: the name of a picture must end with .png",
+                                     preview.out.string()));
+    }
+}
+
+void PreviewOutput::stand_in(const Scene& scene)
+{
+    if (!arguments_.out.empty()) preview_.emplace(choose_eye(scene, arguments_.view));
+}
+
+void PreviewOutput::add(const std::string& name, const TriMesh& mesh, const Texture& texture,
+                        Log& log)
+{
+    if (!preview_) return;
+    Stage stage(log, "preview");
+    const std::int64_t pixels = preview_->add(name, mesh, texture);
+    is_empty_ = false;
+    stage.end({{"pixels of " + name, pixels}});
+}
+
+void PreviewOutput::write()
+{
+    if (!preview_) return;
+    if (is_empty_) preview_->add("no surface", {});
+    write_png(arguments_.out, preview_->picture());
+}
+
+Json PreviewOutput::record() const
+{
+    if (!preview_) return nullptr;
+    return {{"file", arguments_.out.string()}, {"view", preview_->eye().name}};
+}
+
+} // namespace vcarve::cli
