@@ -12,7 +12,7 @@
 #include "compare/evidence.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
-#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_file.h"
 #include "options/declared.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"

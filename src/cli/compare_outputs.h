@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "cli/command_line.h"
 #include "cli/input_output.h"
 #include "cli/picture_output.h"

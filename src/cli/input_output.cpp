@@ -3,7 +3,7 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/sim3_text.h"
 #include "io/input/find_input.h"
-#include "model/up_of.h"
+#include "model/views.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 

@@ -1,6 +1,6 @@
 #include "cli/mesh_report.h"
 
-#include "base/grouped_digits.h"
+#include "base/text.h"
 #include "io/files/output_file.h"
 #include "mesh/check.h"
 #include "page/page.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/log.h"
+#include "base/progress.h"
 #include "cli/command_line.h"
 #include "cli/run_record.h"
 #include "picture/preview.h"

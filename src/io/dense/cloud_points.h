@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_file.h"
 #include "vcarve/scene.h"
 
 #include <cstdint>

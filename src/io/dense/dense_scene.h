@@ -3,7 +3,7 @@
 #include "base/progress.h"
 #include "io/colmap/colmap_model.h"
 #include "io/dense/visibility.h"
-#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_file.h"
 #include "model/scene_check.h"
 #include "model/scene_points.h"
 #include "vcarve/scene.h"
@@ -51,7 +51,7 @@ class DenseSceneReader final : public SceneParts {
     DenseSceneReader(const DenseFiles& files, ColmapViews model);
 
     Scene views_; ///< without points
-    PlyCloudReader cloud_;
+    PlyReader cloud_;
     VisibilityReader visibility_;
     std::uint64_t done_ = 0; ///< points
 };

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "io/dense/cloud_points.h"
-#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_file.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -208,8 +208,9 @@ void add_scanner_views(const std::vector<Vector3d>& scanners, Scene& scene)
 
 Scene read_scan_scene(const ScanFile& file, const Progress& progress)
 {
-    PointCloud cloud = read_ply_cloud(file.cloud, progress.part(0.0, 0.8),
-                                      file.scanner ? ReadScanners::no : ReadScanners::yes);
+    PointCloud cloud =
+        read_ply_cloud(file.cloud, progress.part(0.0, 0.8),
+                       file.scanner ? PlyContent::points : PlyContent::points_and_scanners);
     if (file.scanner) cloud.scanners = {*file.scanner + read_ply_header(file.cloud).offset};
     if (cloud.scanners.empty() && !cloud.positions.empty()) {
         throw InputError(fmt::format("{}: the file does not tell where the scanner of its points "

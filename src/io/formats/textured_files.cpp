@@ -5,7 +5,7 @@
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "io/images/encode_image.h"
-#include "io/ply/ply_writer.h"
+#include "io/ply/ply_file.h"
 #include "model/photograph.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "io/colmap/transforms_json.h"
 #include "io/files/foreign_file.h"
 #include "io/files/mapped_file.h"
-#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_file.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/ply/ply_header.h"
+#include "io/ply/ply_data.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>

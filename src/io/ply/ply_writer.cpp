@@ -1,7 +1,6 @@
-#include "io/ply/ply_writer.h"
-
 #include "io/files/block_writer.h"
 #include "io/files/output_file.h"
+#include "io/ply/ply_file.h"
 #include "model/photograph.h"
 
 #include <fmt/format.h>

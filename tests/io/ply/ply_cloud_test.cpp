@@ -1,4 +1,4 @@
-#include "io/ply/ply_cloud.h"
+#include "io/ply/ply_file.h"
 #include "support/dense_workspace.h"
 #include "support/places.h"
 #include "support/temporary_folder.h"
@@ -45,7 +45,7 @@ TEST(PlyCloud, ComesInParts)
 {
     for (const char* name : {"dense_little", "dense_ascii", "dense_big_lists"}) {
         SCOPED_TRACE(name);
-        PlyCloudReader reader(kFormats / name / "fused.ply");
+        PlyReader reader(kFormats / name / "fused.ply");
         EXPECT_EQ(reader.num_points(), 3U);
         const PointCloud first = reader.next(2);
         EXPECT_THAT(first.positions, ElementsAre(Vector3d(0.5, 0.25, 4.0), Vector3d(-0.125, 3, 5)));
@@ -59,7 +59,7 @@ TEST(PlyCloud, ComesInParts)
 TEST(PlyCloud, NamesTheVertexOfTheFileWhateverThePart)
 {
     const fs::path path = fixtures_folder() / "broken_dense/ply_ascii_ends/fused.ply";
-    PlyCloudReader reader(path);
+    PlyReader reader(path);
     reader.next(1);
     reader.next(1);
     EXPECT_EQ(refusal<InputError>([&] { reader.next(1); }),

@@ -1,9 +1,7 @@
-#include "io/ply/ply_header.h"
+#include "io/ply/ply_data.h"
 
 #include "io/files/block_writer.h"
 #include "vcarve/error.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -13,29 +11,44 @@
 #include <cstring>
 #include <iterator>
 #include <sstream>
-#include <utility>
 
 namespace vcarve {
+
 namespace {
 
-constexpr std::array<std::pair<std::string_view, PlyType>, 16> kTypeNames{{
-    {"char", PlyType::int8},
-    {"int8", PlyType::int8},
-    {"uchar", PlyType::uint8},
-    {"uint8", PlyType::uint8},
-    {"short", PlyType::int16},
-    {"int16", PlyType::int16},
-    {"ushort", PlyType::uint16},
-    {"uint16", PlyType::uint16},
-    {"int", PlyType::int32},
-    {"int32", PlyType::int32},
-    {"uint", PlyType::uint32},
-    {"uint32", PlyType::uint32},
-    {"float", PlyType::float32},
-    {"float32", PlyType::float32},
-    {"double", PlyType::float64},
-    {"float64", PlyType::float64},
+/// A number in memory, in the byte order of this machine or the reverse.
+template <typename Number>
+double read_number(const char* bytes, bool is_reversed)
+{
+    std::array<char, sizeof(Number)> raw;
+    std::memcpy(raw.data(), bytes, raw.size());
+    if (is_reversed) std::ranges::reverse(raw);
+    return static_cast<double>(std::bit_cast<Number>(raw));
+}
+
+struct TypeFacts {
+    std::string_view name;
+    std::string_view sized_name;
+    std::size_t bytes;
+    double (*read)(const char*, bool);
+};
+
+/// In the order of PlyType.
+constexpr std::array<TypeFacts, 8> kTypes{{
+    {"char", "int8", 1, read_number<std::int8_t>},
+    {"uchar", "uint8", 1, read_number<std::uint8_t>},
+    {"short", "int16", 2, read_number<std::int16_t>},
+    {"ushort", "uint16", 2, read_number<std::uint16_t>},
+    {"int", "int32", 4, read_number<std::int32_t>},
+    {"uint", "uint32", 4, read_number<std::uint32_t>},
+    {"float", "float32", 4, read_number<float>},
+    {"double", "float64", 8, read_number<double>},
 }};
+
+const TypeFacts& facts_of(PlyType type)
+{
+    return kTypes[static_cast<std::size_t>(type)];
+}
 
 /// The lines of a header one by one, each as its words, and where we are for the messages.
 class HeaderLines {
@@ -99,10 +112,11 @@ PlyElement parse_element(const std::vector<std::string>& words, const HeaderLine
 PlyType parse_type(const std::string& name, const std::vector<std::string>& words,
                    const HeaderLines& lines)
 {
-    const auto* const found = std::ranges::find(kTypeNames, std::string_view(name),
-                                                [](const auto& entry) { return entry.first; });
-    if (found == kTypeNames.end()) lines.refuse(words, "a number type of PLY");
-    return found->second;
+    const auto* const found = std::ranges::find_if(kTypes, [&](const TypeFacts& facts) {
+        return name == facts.name || name == facts.sized_name;
+    });
+    if (found == kTypes.end()) lines.refuse(words, "a number type of PLY");
+    return static_cast<PlyType>(found - kTypes.begin());
 }
 
 PlyProperty parse_property(const std::vector<std::string>& words, const HeaderLines& lines)
@@ -155,12 +169,6 @@ bool take_line(const std::vector<std::string>& words, const HeaderLines& lines, 
 
 } // namespace
 
-std::size_t size_of(PlyType type)
-{
-    constexpr std::array<std::size_t, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
-    return kSizes[static_cast<std::size_t>(type)];
-}
-
 const PlyElement* PlyHeader::find(std::string_view name) const
 {
     const auto found = std::ranges::find(elements, name, &PlyElement::name);
@@ -191,7 +199,7 @@ void PlyData::refuse(std::string_view what) const
 /// As text a number takes a digit and a blank at least.
 std::size_t PlyData::least_bytes(PlyType type) const
 {
-    return is_text() ? 2 : size_of(type);
+    return is_text() ? 2 : facts_of(type).bytes;
 }
 
 void PlyData::require_room(const PlyElement& element) const
@@ -214,7 +222,7 @@ std::optional<std::size_t> PlyData::bytes_of_entry(const PlyElement& element) co
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties) {
         if (property.length_type) return std::nullopt;
-        bytes += size_of(property.type);
+        bytes += facts_of(property.type).bytes;
     }
     return bytes;
 }
@@ -246,40 +254,16 @@ double PlyData::number_of_text()
     return value;
 }
 
-template <typename Number>
-Number PlyData::take()
-{
-    if (bytes_.size() < sizeof(Number)) throw BadPlyEntry{"the file ends there"};
-    std::array<char, sizeof(Number)> raw;
-    std::memcpy(raw.data(), bytes_.data(), raw.size());
-    const bool is_big = encoding_ == PlyEncoding::big_endian;
-    if (is_big != (std::endian::native == std::endian::big)) std::ranges::reverse(raw);
-    bytes_.remove_prefix(raw.size());
-    return std::bit_cast<Number>(raw);
-}
-
 double PlyData::number(PlyType type)
 {
     if (is_text()) return number_of_text();
-    switch (type) {
-    case PlyType::int8:
-        return take<std::int8_t>();
-    case PlyType::uint8:
-        return take<std::uint8_t>();
-    case PlyType::int16:
-        return take<std::int16_t>();
-    case PlyType::uint16:
-        return take<std::uint16_t>();
-    case PlyType::int32:
-        return take<std::int32_t>();
-    case PlyType::uint32:
-        return take<std::uint32_t>();
-    case PlyType::float32:
-        return take<float>();
-    case PlyType::float64:
-        break;
-    }
-    return take<double>();
+    const TypeFacts& facts = facts_of(type);
+    if (bytes_.size() < facts.bytes) throw BadPlyEntry{"the file ends there"};
+    const bool is_big = encoding_ == PlyEncoding::big_endian;
+    const double value =
+        facts.read(bytes_.data(), is_big != (std::endian::native == std::endian::big));
+    bytes_.remove_prefix(facts.bytes);
+    return value;
 }
 
 std::size_t PlyData::list_length(const PlyProperty& property)

@@ -18,7 +18,6 @@ enum class PlyEncoding { ascii, little_endian, big_endian };
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-std::size_t size_of(PlyType type);
 inline bool is_integer(PlyType type)
 {
     return type < PlyType::float32;
@@ -106,8 +105,6 @@ class PlyData {
     bool is_text() const { return encoding_ == PlyEncoding::ascii; }
     std::size_t least_bytes(PlyType type) const;
     double number_of_text();
-    template <typename Number>
-    Number take();
 
     std::string_view bytes_;
     PlyEncoding encoding_;
