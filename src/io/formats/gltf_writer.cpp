@@ -1,4 +1,4 @@
-// glTF 2.0, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html; the numbers are its own.
+// glTF 2.0: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 #include "io/files/block_writer.h"
 #include "io/formats/mesh_file.h"
 #include "io/formats/textured_files.h"
@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,78 +24,107 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-using Json = nlohmann::json;
+using nlohmann::json;
 
-constexpr std::uint64_t kMostBytes = 0xffffffffU - 0x10000U; ///< leaves room for the JSON text
-constexpr std::uint32_t kMagic = 0x46546c67;                 // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a;             // "JSON"
-constexpr std::uint32_t kBinaryChunk = 0x004e4942;
-constexpr int kFloat = 5126;
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedInt = 5125;
-constexpr int kVertexData = 34962;
-constexpr int kIndexData = 34963;
+constexpr std::uint64_t kMostGlbBytes = 0xffffffffU - 0x10000U; ///< the rest is left to the JSON
 
-std::uint64_t buffer_bytes(const TriMesh& mesh)
+/// The type of an accessor's elements, and what they are for.
+struct ElementType {
+    const char* type;
+    int component_type; ///< as in OpenGL: 5123 uint16, 5125 uint32, 5126 float
+    std::size_t bytes;
+    int target; ///< 34962: vertices, 34963: indices
+};
+constexpr ElementType kVector3f = {"VEC3", 5126, 12, 34962};
+constexpr ElementType kVector2f = {"VEC2", 5126, 8, 34962};
+constexpr ElementType kColor16 = {"VEC4", 5123, 8, 34962};
+constexpr ElementType kIndex = {"SCALAR", 5125, 4, 34963};
+
+/// Numbers of any range, as JSON holds them.
+template <typename Range>
+json list_of(const Range& numbers)
 {
-    std::uint64_t vertex_bytes = 3 * sizeof(float);
-    if (!mesh.normals.empty()) vertex_bytes += 3 * sizeof(float);
-    if (!mesh.colors.empty()) vertex_bytes += 4 * sizeof(std::uint16_t);
-    return mesh.positions.size() * vertex_bytes + mesh.faces.size() * sizeof(Face);
+    return std::vector(numbers.begin(), numbers.end());
 }
 
-/// A document with one buffer. All its views have multiples of four bytes, so each is aligned.
-struct Document {
-    Json json;
-    std::string bytes;
+/// The JSON chunk, and the binary chunk that accessors and images are appended to. All elements
+/// fill multiples of four bytes, so each accessor is aligned.
+class GlbBuilder {
+  public:
+    explicit GlbBuilder(std::size_t expected_bytes) { bytes_.reserve(expected_bytes); }
 
-    template <typename Number>
-    void put(Number number)
+    json text = {{"asset", {{"version", "2.0"}}}};
+
+    /// Appends an item to a list of the JSON and returns its index.
+    std::size_t add(const char* list, json item)
     {
-        const auto little = little_endian(number);
-        bytes.append(little.begin(), little.end());
+        text[list].push_back(std::move(item));
+        return text[list].size() - 1;
     }
 
-    /// Appends to an array of the document; returns the new element's index.
-    std::size_t add(const char* array, Json element)
+    /// Appends the numbers that numbers_of(item) gives of each item; returns the accessor's index.
+    template <typename Items, typename NumbersOf = std::identity>
+    std::size_t add_accessor(const ElementType& element, const Items& items,
+                             const NumbersOf& numbers_of = {})
     {
-        json[array].push_back(std::move(element));
-        return json[array].size() - 1;
-    }
-
-    /// Adds a view of the bytes from `begin` on.
-    std::size_t add_view(std::size_t begin, std::optional<int> target)
-    {
-        Json view = {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}};
-        if (target) view["target"] = *target;
-        bytes.resize((bytes.size() + 3) / 4 * 4);
-        return add("bufferViews", std::move(view));
-    }
-
-    /// Adds `count` elements, which `put_all` appends to the bytes.
-    std::size_t add_accessor(Json accessor, std::size_t count, int target, const auto& put_all)
-    {
-        const std::size_t begin = bytes.size();
-        put_all();
-        accessor["bufferView"] = add_view(begin, target);
-        accessor["count"] = count;
-        return add("accessors", std::move(accessor));
-    }
-
-    std::size_t add_floats(const char* type, const auto& elements)
-    {
-        const Json accessor = {{"componentType", kFloat}, {"type", type}};
-        return add_accessor(accessor, elements.size(), kVertexData, [&] {
-            for (const auto& element : elements) {
-                for (const float number : element) {
-                    put(number);
-                }
+        const std::size_t begin = bytes_.size();
+        for (const auto& item : items) {
+            for (const auto number : numbers_of(item)) {
+                const auto raw = little_endian(number);
+                bytes_.insert(bytes_.end(), raw.begin(), raw.end());
             }
-        });
+        }
+        const std::size_t view = add_view(begin);
+        text["bufferViews"][view]["target"] = element.target;
+        return add("accessors", {{"bufferView", view},
+                                 {"componentType", element.component_type},
+                                 {"count", (bytes_.size() - begin) / element.bytes},
+                                 {"type", element.type}});
     }
+
+    /// Embeds a file; returns the index of its view of the binary chunk.
+    std::size_t add_file(const std::vector<std::uint8_t>& file)
+    {
+        const std::size_t begin = bytes_.size();
+        bytes_.insert(bytes_.end(), file.begin(), file.end());
+        const std::size_t view = add_view(begin);
+        bytes_.resize((bytes_.size() + 3) / 4 * 4);
+        return view;
+    }
+
+    void write(std::ostream& out)
+    {
+        require_glb_room(bytes_.size());
+        if (!bytes_.empty()) add("buffers", {{"byteLength", bytes_.size()}});
+        // Comments may hold any bytes, JSON only UTF-8.
+        std::string chunk = text.dump(-1, ' ', false, json::error_handler_t::replace);
+        chunk.resize((chunk.size() + 3) / 4 * 4, ' ');
+        const auto put_words = [&](std::initializer_list<std::size_t> words) {
+            for (const std::size_t word : words) {
+                const auto raw = little_endian(static_cast<std::uint32_t>(word));
+                out.write(raw.data(), raw.size());
+            }
+        };
+        const std::size_t binary = bytes_.empty() ? 0 : 8 + bytes_.size();
+        put_words({0x46546C67, 2, 20 + chunk.size() + binary, chunk.size(), 0x4E4F534A});
+        out.write(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+        if (bytes_.empty()) return;
+        put_words({bytes_.size(), 0x004E4942});
+        out.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    }
+
+  private:
+    /// Of all bytes from `begin`.
+    std::size_t add_view(std::size_t begin)
+    {
+        return add("bufferViews",
+                   {{"buffer", 0}, {"byteLength", bytes_.size() - begin}, {"byteOffset", begin}});
+    }
+
+    std::vector<char> bytes_;
 };
 
-/// Colours of photographs are sRGB, those of vertices in glTF are linear. With 16 bits all 256
+/// Colors of photographs are sRGB, those of vertices in glTF are linear. With 16 bits all 256
 /// values of a channel stay apart.
 std::array<std::uint16_t, 256> linear_values()
 {
@@ -108,127 +138,56 @@ std::array<std::uint16_t, 256> linear_values()
     return values;
 }
 
-/// float32, relative to `center`, with the bounding box that glTF requires.
-std::size_t add_positions(Document& document, const TriMesh& mesh, const Vector3d& center)
+/// The attributes of all vertices, with positions relative to `center`.
+json add_attributes(GlbBuilder& glb, const TriMesh& mesh, const Vector3d& center)
 {
-    std::vector<Vector3f> rounded;
-    rounded.reserve(mesh.positions.size());
-    Eigen::AlignedBox3f box;
-    for (const Vector3d& position : mesh.positions) {
-        rounded.emplace_back((position - center).cast<float>());
-        box.extend(rounded.back());
-    }
-    const std::size_t index = document.add_floats("VEC3", rounded);
-    Json& accessor = document.json["accessors"][index];
-    accessor["min"] = std::vector<float>(box.min().begin(), box.min().end());
-    accessor["max"] = std::vector<float>(box.max().begin(), box.max().end());
-    return index;
-}
-
-/// Normals must have length 1, so a vertex without a normal gets (0, 0, 1).
-std::size_t add_normals(Document& document, std::vector<Vector3f> normals)
-{
-    for (Vector3f& normal : normals) {
-        if (normal.isZero()) normal = Vector3f::UnitZ();
-    }
-    return document.add_floats("VEC3", normals);
-}
-
-std::size_t add_colors(Document& document, const std::vector<Color>& colors)
-{
-    const Json accessor = {
-        {"componentType", kUnsignedShort}, {"type", "VEC4"}, {"normalized", true}};
-    return document.add_accessor(accessor, colors.size(), kVertexData, [&] {
-        const auto linear = linear_values();
-        for (const Color& color : colors) {
-            for (const std::uint8_t channel : color) {
-                document.put(linear[channel]);
-            }
-            document.put(std::uint16_t{0xffff}); // opaque
-        }
-    });
-}
-
-std::size_t add_indices(Document& document, std::span<const Face> faces)
-{
-    const Json accessor = {{"componentType", kUnsignedInt}, {"type", "SCALAR"}};
-    return document.add_accessor(accessor, 3 * faces.size(), kIndexData, [&] {
-        for (const Face& face : faces) {
-            for (const std::uint32_t vertex : face) {
-                document.put(vertex);
-            }
-        }
-    });
-}
-
-/// Matt and double-sided; glTF's default is metal that shows its front only.
-Json matt()
-{
-    Json material;
-    material["pbrMetallicRoughness"]["metallicFactor"] = 0.0;
-    material["doubleSided"] = true;
-    return material;
-}
-
-/// {"offset": [x, y, z], "up": [x, y, z], "comments": []}, as far as the format has them.
-Json extras_json(const MeshFormat& format)
-{
-    const auto numbers = [](const Vector3d& v) { return std::vector<double>(v.begin(), v.end()); };
-    Json extras;
-    if (!format.offset.isZero(0.0)) extras[std::string(kOffsetWord)] = numbers(format.offset);
-    if (!format.up.isZero(0.0)) extras["up"] = numbers(format.up);
-    if (!format.comments.empty()) extras["comments"] = format.comments;
-    return extras;
-}
-
-/// Adds a matt material with this image, which is stored in the file.
-std::size_t add_page(Document& document, const Photograph& page)
-{
-    const std::size_t begin = document.bytes.size();
-    const auto encoded = encode_jpeg(page, kTextureQuality);
-    document.bytes.append(encoded.begin(), encoded.end());
-    const std::size_t view = document.add_view(begin, std::nullopt);
-    const std::size_t image =
-        document.add("images", {{"bufferView", view}, {"mimeType", "image/jpeg"}});
-    if (image == 0) {
-        document.add("samplers", {{"magFilter", 9729}, // linear
-                                  {"minFilter", 9987}, // linear, between levels, too
-                                  {"wrapS", 33071},    // clamp to edge
-                                  {"wrapT", 33071}});
-    }
-    const std::size_t texture = document.add("textures", {{"sampler", 0}, {"source", image}});
-    Json material = matt();
-    material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = texture;
-    return document.add("materials", std::move(material));
-}
-
-/// Adds a primitive for each texture page, or one if there is no texture.
-void add_primitives(Document& document, const TriMesh& mesh, Json attributes,
-                    const MeshFormat& format, const UnwrappedMesh* unwrapped)
-{
-    Json& primitives = document.json["meshes"][0]["primitives"];
-    const auto add = [&](std::span<const Face> faces, std::size_t material) {
-        const std::size_t indices = add_indices(document, faces);
-        primitives.push_back({{"attributes", attributes},
-                              {"indices", indices},
-                              {"material", material},
-                              {"mode", 4}}); // triangles
+    Eigen::AlignedBox3f box; // which glTF requires
+    const auto rounded = [&](const Vector3d& position) {
+        const Vector3f result = (position - center).cast<float>();
+        box.extend(result);
+        return result;
     };
-    if (unwrapped == nullptr) {
-        add(mesh.faces, document.add("materials", matt()));
-        return;
+    json attributes = {{"POSITION", glb.add_accessor(kVector3f, mesh.positions, rounded)}};
+    glb.text["accessors"].back()["min"] = list_of(box.min());
+    glb.text["accessors"].back()["max"] = list_of(box.max());
+    const auto unit = [](const Vector3f& normal) { // the length that glTF requires
+        return normal.isZero() ? Vector3f::UnitZ().eval() : normal;
+    };
+    if (!mesh.normals.empty()) {
+        attributes["NORMAL"] = glb.add_accessor(kVector3f, mesh.normals, unit);
     }
-    attributes["TEXCOORD_0"] = document.add_floats("VEC2", unwrapped->places);
-    for (std::size_t page = 0; page < format.texture->pages.size(); ++page) {
-        const std::size_t first = unwrapped->begins[page];
-        add(std::span(mesh.faces).subspan(first, unwrapped->begins[page + 1] - first),
-            add_page(document, format.texture->pages[page]));
-    }
+    if (mesh.colors.empty()) return attributes;
+    const auto opaque = [linear = linear_values()](const Color& color) {
+        return std::array<std::uint16_t, 4>{linear[color[0]], linear[color[1]], linear[color[2]],
+                                            0xffff};
+    };
+    attributes["COLOR_0"] = glb.add_accessor(kColor16, mesh.colors, opaque);
+    glb.text["accessors"].back()["normalized"] = true;
+    return attributes;
 }
 
-/// One mesh in one node, which moves the mesh back to its place minus the offset and turns it
-/// upright.
-void add_mesh(Document& document, const TriMesh& mesh, const MeshFormat& format,
+/// Adds a matt material that is visible from both sides (the default is metal, front only), and
+/// the page that it shows, if any.
+std::size_t add_material(GlbBuilder& glb, const Photograph* page)
+{
+    json surface = {{"metallicFactor", 0.0}};
+    if (page != nullptr) {
+        const std::size_t view = glb.add_file(encode_jpeg(*page, kTextureQuality));
+        const std::size_t image =
+            glb.add("images", {{"bufferView", view}, {"mimeType", "image/jpeg"}});
+        glb.text["samplers"] = {json{{"magFilter", 9729}, // linear, with mipmaps
+                                     {"minFilter", 9987},
+                                     {"wrapS", 33071}, // clamp to edge
+                                     {"wrapT", 33071}}};
+        surface["baseColorTexture"]["index"] =
+            glb.add("textures", {{"sampler", 0}, {"source", image}});
+    }
+    return glb.add("materials", {{"doubleSided", true}, {"pbrMetallicRoughness", surface}});
+}
+
+/// One mesh with a primitive per page, and one node, which moves the mesh back to where it was,
+/// minus the offset, and turns it upright.
+void add_mesh(GlbBuilder& glb, const TriMesh& mesh, const MeshFormat& format,
               const UnwrappedMesh* unwrapped)
 {
     Eigen::AlignedBox3d box;
@@ -236,71 +195,64 @@ void add_mesh(Document& document, const TriMesh& mesh, const MeshFormat& format,
         box.extend(position);
     }
     const Vector3d center = box.center();
-    Json attributes;
-    attributes["POSITION"] = add_positions(document, mesh, center);
-    if (!mesh.normals.empty()) attributes["NORMAL"] = add_normals(document, mesh.normals);
-    if (!mesh.colors.empty()) attributes["COLOR_0"] = add_colors(document, mesh.colors);
-    add_primitives(document, mesh, std::move(attributes), format, unwrapped);
-    Json& node = document.json["nodes"][0];
-    node["mesh"] = 0;
+    json primitive = {{"attributes", add_attributes(glb, mesh, center)}, {"mode", 4}}; // triangles
+    std::vector<std::size_t> begins = {0, mesh.faces.size()};
+    if (unwrapped != nullptr) {
+        primitive["attributes"]["TEXCOORD_0"] = glb.add_accessor(kVector2f, unwrapped->places);
+        begins = unwrapped->begins;
+    }
+    json primitives = json::array();
+    for (std::size_t page = 0; page + 1 < begins.size(); ++page) {
+        primitive["indices"] = glb.add_accessor(
+            kIndex, std::span(mesh.faces).subspan(begins[page], begins[page + 1] - begins[page]));
+        primitive["material"] =
+            add_material(glb, unwrapped != nullptr ? &format.texture->pages[page] : nullptr);
+        primitives.push_back(primitive);
+    }
+    glb.add("meshes", {{"primitives", primitives}});
+    json node = {{"mesh", 0}};
     Vector3d translation = mesh.offset - format.offset + center;
     if (!format.up.isZero(0.0)) {
         const auto turn = Eigen::Quaterniond::FromTwoVectors(format.up, Vector3d::UnitY());
-        node["rotation"] = std::vector<double>{turn.x(), turn.y(), turn.z(), turn.w()};
+        node["rotation"] = {turn.x(), turn.y(), turn.z(), turn.w()};
         translation = turn * translation;
     }
-    node["translation"] = std::vector<double>(translation.begin(), translation.end());
-    document.json["scenes"][0]["nodes"] = Json::array({0});
-    document.json["scene"] = 0;
-    document.json["buffers"][0]["byteLength"] = document.bytes.size();
-}
-
-void write_number(std::ostream& out, std::uint64_t number)
-{
-    const auto bytes = little_endian(static_cast<std::uint32_t>(number));
-    out.write(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-}
-
-void write_chunk(std::ostream& out, std::uint32_t kind, const std::string& bytes)
-{
-    write_number(out, bytes.size());
-    write_number(out, kind);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    node["translation"] = list_of(translation);
+    glb.add("nodes", node);
+    glb.add("scenes", {{"nodes", json::array({0})}});
+    glb.text["scene"] = 0;
 }
 
 } // namespace
 
 void require_glb_room(std::uint64_t bytes)
 {
-    if (bytes <= kMostBytes) return;
+    if (bytes <= kMostGlbBytes) return;
     throw UsageError(fmt::format("the surface takes {} bytes, and binary glTF holds at most {}; "
                                  "PLY holds more",
-                                 bytes, kMostBytes));
+                                 bytes, kMostGlbBytes));
 }
 
 void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
 {
-    require_glb_room(buffer_bytes(mesh));
-    Document document;
-    document.bytes.reserve(buffer_bytes(mesh));
-    Json& asset = document.json["asset"];
-    asset["version"] = "2.0";
+    const std::size_t vertex_bytes =
+        12 + (mesh.normals.empty() ? 0 : 12) + (mesh.colors.empty() ? 0 : 8);
+    const std::size_t number_bytes =
+        mesh.positions.size() * vertex_bytes + mesh.faces.size() * sizeof(Face);
+    require_glb_room(number_bytes);
+    GlbBuilder glb(number_bytes);
+    json& asset = glb.text["asset"];
     if (!format.comments.empty()) asset["generator"] = format.comments.front();
-    if (Json extras = extras_json(format); !extras.empty()) asset["extras"] = std::move(extras);
-    if (!mesh.faces.empty()) { // glTF has no empty buffers, meshes or scenes
-        std::optional<UnwrappedMesh> unwrapped;
-        if (format.texture != nullptr) unwrapped = unwrap(mesh, *format.texture);
-        add_mesh(document, unwrapped ? unwrapped->mesh : mesh, format,
+    if (!format.comments.empty()) asset["extras"]["comments"] = format.comments;
+    if (!format.offset.isZero(0.0)) asset["extras"]["offset"] = list_of(format.offset);
+    if (!format.up.isZero(0.0)) asset["extras"]["up"] = list_of(format.up);
+    std::optional<UnwrappedMesh> unwrapped;
+    if (format.texture != nullptr) unwrapped = unwrap(mesh, *format.texture);
+    if (!mesh.faces.empty()) { // glTF has no empty meshes
+        add_mesh(glb, unwrapped ? unwrapped->mesh : mesh, format,
                  unwrapped ? &*unwrapped : nullptr);
     }
-    std::string text = document.json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    const std::size_t binary = document.bytes.empty() ? 0 : 8 + document.bytes.size();
-    write_number(out, kMagic);
-    write_number(out, 2);
-    write_number(out, 12 + 8 + text.size() + binary);
-    write_chunk(out, kJsonChunk, text);
-    if (binary > 0) write_chunk(out, kBinaryChunk, document.bytes);
+    glb.write(out);
 }
 
 } // namespace vcarve
