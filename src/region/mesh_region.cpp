@@ -1,16 +1,17 @@
-#include "region/mesh_region.h"
-
-#include "geometry/cgal_kernel.h"
-#include "geometry/point_order.h"
+#include "geometry/lexicographic_sort.h"
 #include "geometry/predicates.h"
+#include "geometry/triangle_tree.h"
 #include "mesh/edge_table.h"
+#include "model/place.h"
+#include "region/region.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
-#include <CGAL/Side_of_triangle_mesh.h>
-#include <CGAL/Surface_mesh.h>
 #include <fmt/format.h>
 
+#include <array>
+#include <random>
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -18,53 +19,72 @@ namespace vcarve {
 namespace {
 
 using Eigen::Vector3d;
-using Triangles = CGAL::Surface_mesh<Kernel::Point_3>;
-using Side = CGAL::Side_of_triangle_mesh<Triangles, Kernel>;
-
-/// Faces that share no vertex: CGAL's mesh must be manifold and oriented, a region need not be.
-/// Those without an area are left out: they lie on the edges of others.
-Triangles loose_triangles(const TriMesh& surface)
-{
-    Triangles triangles;
-    for (const Face& face : surface.faces) {
-        const Vector3d& a = surface.positions[face[0]];
-        const Vector3d& b = surface.positions[face[1]];
-        const Vector3d& c = surface.positions[face[2]];
-        if (collinear(a, b, c)) continue;
-        triangles.add_face(triangles.add_vertex(to_cgal(a)), triangles.add_vertex(to_cgal(b)),
-                           triangles.add_vertex(to_cgal(c)));
-    }
-    return triangles;
-}
 
 class MeshRegion final : public Region {
   public:
-    explicit MeshRegion(const TriMesh& surface)
-        : triangles_(loose_triangles(surface)),
-          tree_(triangles_.faces_begin(), triangles_.faces_end(), triangles_),
-          side_(tree_)
+    explicit MeshRegion(TriMesh surface) : surface_(std::move(surface)), tree_(surface_)
     {
-        for (const Vector3d& position : surface.positions) {
+        for (const Vector3d& position : surface_.positions) {
             bounds_.extend(position);
         }
-        tree_.build(); // now, not with the first question
     }
 
+    /// Exact: the parity of the faces that a segment to a place outside of the box crosses. One
+    /// that meets an edge or vertex is replaced by another.
     bool contains(const Vector3d& place) const override
     {
-        return bounds_.contains(place) && side_(to_cgal(place)) != CGAL::ON_UNBOUNDED_SIDE;
+        if (tree_.is_empty() || !bounds_.contains(place)) return false;
+        // Far enough for directions to differ, however small the surface is
+        const double reach = 2.0 * (bounds_.min().norm() + bounds_.max().norm());
+        std::mt19937 random(1); // its sequence is the same everywhere
+        while (true) {
+            Vector3d way;
+            for (double& coordinate : way) {
+                coordinate = static_cast<double>(random()) - 2147483647.5;
+            }
+            const Vector3d outside = place + reach * way.normalized();
+            Crossings crossings;
+            tree_.visit_met(place, outside, [&](std::size_t face) {
+                add_crossing(surface_.faces[face], place, outside, crossings);
+            });
+            if (crossings.begins_on_face) return true;
+            if (!crossings.is_ambiguous) return crossings.count % 2 == 1;
+        }
     }
     bool meets(const Vector3d& from, const Vector3d& to) const override
     {
-        return contains(from) ||
-               (from != to && tree_.do_intersect(Kernel::Segment_3(to_cgal(from), to_cgal(to))));
+        return contains(from) || (from != to && tree_.is_met(from, to));
     }
     Eigen::AlignedBox3d bounds() const override { return bounds_; }
 
   private:
-    Triangles triangles_;
-    Side::AABB_tree tree_;
-    Side side_;
+    /// The faces that a segment crosses.
+    struct Crossings {
+        std::size_t count = 0;
+        bool begins_on_face = false;
+        bool is_ambiguous = false; ///< it meets an edge or a vertex, or runs along a face
+    };
+
+    /// `to` is outside of the surface, and the segment meets the face.
+    void add_crossing(const Face& face, const Vector3d& from, const Vector3d& to,
+                      Crossings& crossings) const
+    {
+        const std::array<Vector3d, 3> corners = {
+            surface_.positions[face[0]], surface_.positions[face[1]], surface_.positions[face[2]]};
+        const bool ends_in_plane = orientation(corners[0], corners[1], corners[2], to) == 0;
+        if (!ends_in_plane && orientation(corners[0], corners[1], corners[2], from) == 0) {
+            crossings.begins_on_face = true;
+        }
+        bool meets_edge = ends_in_plane;
+        for (std::size_t i = 0; i < 3; ++i) {
+            meets_edge = meets_edge || orientation(from, to, corners[i], corners[(i + 1) % 3]) == 0;
+        }
+        crossings.is_ambiguous = crossings.is_ambiguous || meets_edge;
+        ++crossings.count;
+    }
+
+    TriMesh surface_;
+    TriangleTree tree_;
     Eigen::AlignedBox3d bounds_;
 };
 
@@ -112,8 +132,12 @@ std::unique_ptr<Region> read_mesh_region(const std::filesystem::path& path, cons
     require_closed(surface, path);
     for (Vector3d& position : surface.positions) {
         position += surface.offset - offset;
+        if (is_place(position)) continue;
+        throw InputError(fmt::format("{}: found a vertex farther than {} from the origin, expected "
+                                     "a surface in the frame of the model",
+                                     path.string(), kFarthest));
     }
-    return std::make_unique<MeshRegion>(surface);
+    return std::make_unique<MeshRegion>(std::move(surface));
 }
 
 } // namespace vcarve

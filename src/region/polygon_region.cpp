@@ -1,8 +1,7 @@
-#include "region/polygon_region.h"
-
 #include "geometry/cgal_kernel.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
+#include "region/region.h"
 #include "vcarve/error.h"
 
 #include <CGAL/Polygon_2_algorithms.h>

@@ -2,8 +2,6 @@
 
 #include "base/text.h"
 #include "geometry/cgal_kernel.h"
-#include "region/mesh_region.h"
-#include "region/polygon_region.h"
 
 #include <CGAL/intersections.h>
 

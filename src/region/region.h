@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <filesystem>
 #include <memory>
 
 namespace vcarve {
@@ -37,5 +38,19 @@ std::unique_ptr<Region> make_region(const RegionChoice& choice, const Scene& sce
 /// something else was chosen.
 std::unique_ptr<Region> make_region(const RegionChoice& choice, const Eigen::Vector3d& offset,
                                     const Ball& of_interest);
+
+/// The inside of a closed surface, read from a PLY file in the coordinates of a model's file;
+/// `offset` is subtracted. Vertices at one place count as one, and the orientation of faces does
+/// not matter. A place within an even number of pieces of the surface is outside. Throws InputError
+/// if the file is missing or broken, has no face, or has an edge of an odd number of faces.
+std::unique_ptr<Region> read_mesh_region(const std::filesystem::path& path,
+                                         const Eigen::Vector3d& offset);
+
+/// Everything above and below a polygon, read from a text file: the x and y of one corner per line,
+/// at least three, in order, in the coordinates of a model's file; # begins a comment line. The
+/// first corner may be repeated at the end. `offset` is subtracted. Throws InputError if the file
+/// is missing or broken, or the polygon touches itself.
+std::unique_ptr<Region> read_polygon_region(const std::filesystem::path& path,
+                                            const Eigen::Vector3d& offset);
 
 } // namespace vcarve

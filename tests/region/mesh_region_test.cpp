@@ -1,4 +1,4 @@
-#include "region/mesh_region.h"
+#include "region/region.h"
 #include "support/region_checks.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
@@ -132,12 +132,24 @@ TEST_F(MeshFile, IsRefusedWhereItIsNotClosed)
     EXPECT_EQ(refused(open), ": found no face, expected a closed surface");
 }
 
-TEST_F(MeshFile, IsRefusedWhereItIsMissing)
+TEST_F(MeshFile, MayBeTinyAndFarAway)
 {
-    EXPECT_EQ(refusal<InputError>([&] {
-                  read_mesh_region(path, {0, 0, 0});
-              }),
-              path + ": the file does not exist");
+    TriMesh tiny;
+    const double step = 1e-9; // some units in the last place
+    add_box(tiny, Vector3d(1e6, 1e6, 1e6),
+            Vector3d(1e6 + 4 * step, 1e6 + 4 * step, 1e6 + 4 * step));
+    const auto region = read(tiny);
+    EXPECT_TRUE(region->contains(Vector3d::Constant(1e6 + 2 * step)));
+    EXPECT_TRUE(region->contains({1e6, 1e6 + 2 * step, 1e6 + 2 * step}));
+    EXPECT_FALSE(region->contains({1e6 - step, 1e6 + 2 * step, 1e6 + 2 * step}));
+}
+
+TEST_F(MeshFile, IsRefusedWhereItIsTooFarAway)
+{
+    TriMesh far = cube();
+    far.positions[0].x() = -1e101;
+    EXPECT_EQ(refused(far), ": found a vertex farther than 1e+100 from the origin, expected a "
+                            "surface in the frame of the model");
 }
 
 } // namespace

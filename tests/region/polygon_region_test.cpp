@@ -1,4 +1,4 @@
-#include "region/polygon_region.h"
+#include "region/region.h"
 #include "support/region_checks.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
@@ -84,15 +84,6 @@ TEST_F(PolygonFile, IsRefusedWhereItIsBroken)
         EXPECT_EQ(refused(crossed), ": found a polygon that touches or crosses itself, expected "
                                     "one that does not");
     }
-}
-
-TEST_F(PolygonFile, IsRefusedWhereItIsMissing)
-{
-    const std::string path = (folder / "gone.txt").string();
-    EXPECT_EQ(refusal<InputError>([&] {
-                  read_polygon_region(path, {0, 0, 0});
-              }),
-              path + ": the file does not exist");
 }
 
 } // namespace

@@ -3,35 +3,16 @@
 #include "io/files/foreign_file.h"
 #include "vcarve/error.h"
 
-#include <boost/interprocess/exceptions.hpp>
-#include <boost/interprocess/file_mapping.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <system_error>
 
 namespace vcarve {
-
-namespace bip = boost::interprocess;
-
-namespace {
-
-bip::mapped_region map_file(const std::filesystem::path& path)
-{
-    const std::string reason = why_no_file(path);
-    if (!reason.empty()) throw InputError(fmt::format("{}: {}", path.string(), reason));
-    try {
-        const bip::file_mapping file(path.c_str(), bip::read_only);
-        // No system maps zero bytes
-        if (std::filesystem::file_size(path) == 0) return {};
-        return {file, bip::read_only};
-    } catch (const bip::interprocess_exception& failure) {
-        throw InputError(
-            fmt::format("{}: the file cannot be read ({})", path.string(), failure.what()));
-    }
-}
-
-} // namespace
 
 std::string why_no_file(const std::filesystem::path& path)
 {
@@ -43,23 +24,47 @@ std::string why_no_file(const std::filesystem::path& path)
     return fmt::format("the file cannot be read ({})", error.message());
 }
 
+void MappedFile::Unmap::operator()(char* begin) const
+{
+    munmap(begin, size);
+}
+
+MappedFile::Mapping MappedFile::map(const std::filesystem::path& path)
+{
+    const std::string reason = why_no_file(path);
+    if (!reason.empty()) throw InputError(fmt::format("{}: {}", path.string(), reason));
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat status = {};
+    void* begin = MAP_FAILED;
+    int error = 0;
+    if (file < 0 || fstat(file, &status) != 0) {
+        error = errno;
+    } else if (status.st_size > 0) { // no system maps zero bytes
+        begin =
+            mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_SHARED, file, 0);
+        if (begin == MAP_FAILED) error = errno;
+    }
+    if (file >= 0) close(file);
+    if (error != 0) {
+        throw InputError(fmt::format("{}: the file cannot be read ({})", path.string(),
+                                     std::generic_category().message(error)));
+    }
+    if (begin == MAP_FAILED) return Mapping(nullptr, {});
+    return Mapping(static_cast<char*>(begin), {static_cast<std::size_t>(status.st_size)});
+}
+
 MappedFile::MappedFile(const std::filesystem::path& path)
-    : region_(map_file(path)), pages_(region_.get_address(), region_.get_size())
+    : mapping_(map(path)), pages_(mapping_.get(), bytes().size())
 {
     refuse_foreign_file(path, bytes());
 }
 
-std::span<const char> MappedFile::bytes() const
-{
-    return {static_cast<const char*>(region_.get_address()), region_.get_size()};
-}
-
 void MappedFile::release(std::size_t count) const
 {
-    const std::size_t page = bip::mapped_region::get_page_size();
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
     const std::size_t whole = count / page * page;
     // It only costs memory where the system will not.
-    if (whole > 0) static_cast<void>(madvise(region_.get_address(), whole, MADV_DONTNEED));
+    if (whole > 0) static_cast<void>(madvise(mapping_.get(), whole, MADV_DONTNEED));
 }
 
 } // namespace vcarve

@@ -2,10 +2,9 @@
 
 #include "base/droppable_pages.h"
 
-#include <boost/interprocess/mapped_region.hpp>
-
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -24,14 +23,21 @@ class MappedFile {
     MappedFile& operator=(MappedFile&&) = delete; // pages are forgotten before they are unmapped
     ~MappedFile() = default;
 
-    std::span<const char> bytes() const;
+    std::span<const char> bytes() const { return {mapping_.get(), mapping_.get_deleter().size}; }
 
     /// Gives back the memory of the first so many bytes, about, which are read from the file again
     /// where they are asked for again.
     void release(std::size_t count) const;
 
   private:
-    boost::interprocess::mapped_region region_;
+    struct Unmap {
+        std::size_t size = 0;
+        void operator()(char* begin) const;
+    };
+    using Mapping = std::unique_ptr<char, Unmap>; ///< null for an empty file
+    static Mapping map(const std::filesystem::path& path);
+
+    Mapping mapping_;
     DroppablePages pages_;
 };
 
