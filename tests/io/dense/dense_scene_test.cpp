@@ -72,13 +72,6 @@ TEST(DenseScene, IsBlackAndWithoutNormalsWhereTheCloudIsBare)
     EXPECT_THAT(scene.colors, ::testing::Each(Color{0, 0, 0}));
 }
 
-TEST(DenseScene, IsTheSameInEveryEncoding)
-{
-    const Scene scene = read_dense_scene(files_of("dense_little"));
-    expect_equal_scenes(read_dense_scene(files_of("dense_ascii")), scene);
-    expect_equal_scenes(read_dense_scene(files_of("dense_big_lists")), scene);
-}
-
 TEST(DenseScene, ShowsItsSizeBeforeItIsRead)
 {
     const auto size = dense_size_before_reading(files_of("dense_little"));

@@ -2,8 +2,6 @@
 #include "support/temporary_folder.h"
 #include "vcarve/io.h"
 
-#include <OpenMesh/Core/IO/MeshIO.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -153,44 +151,6 @@ TEST(TextFormats, AreReadByAssimp)
     }
 }
 
-struct ColoredTraits : OpenMesh::DefaultTraits {
-    using Color = OpenMesh::Vec3uc;
-    VertexAttributes(OpenMesh::Attributes::Normal | OpenMesh::Attributes::Color);
-};
-
-TEST(TextFormats, AreReadByOpenMesh)
-{
-    const TemporaryFolder folder;
-    const TriMesh mesh = sample_sheet();
-    using OpenMesh::IO::Options;
-    for (const std::string name : {"a.obj", "a.off"}) {
-        write_mesh(folder / name, mesh, {.comments = {"made here"}});
-        OpenMesh::TriMesh_ArrayKernelT<ColoredTraits> back;
-        Options found(Options::VertexColor | Options::VertexNormal);
-        ASSERT_TRUE(OpenMesh::IO::read_mesh(back, (folder / name).string(), found));
-        EXPECT_TRUE(found.vertex_has_color());
-        EXPECT_EQ(found.vertex_has_normal(), name == "a.obj");
-        ASSERT_EQ(back.n_vertices(), mesh.positions.size());
-        ASSERT_EQ(back.n_faces(), mesh.faces.size());
-        for (const auto vertex : back.vertices()) {
-            const auto v = static_cast<std::size_t>(vertex.idx());
-            for (int i = 0; i < 3; ++i) {
-                ASSERT_EQ(back.point(vertex)[static_cast<std::size_t>(i)],
-                          static_cast<float>(mesh.positions[v][i]));
-            }
-            ASSERT_EQ(back.color(vertex), OpenMesh::Vec3uc(mesh.colors[v].data()));
-        }
-        for (const auto face : back.faces()) {
-            std::vector<std::uint32_t> corners;
-            for (const auto vertex : face.vertices()) {
-                corners.push_back(static_cast<std::uint32_t>(vertex.idx()));
-            }
-            const Face& expected = mesh.faces[static_cast<std::size_t>(face.idx())];
-            ASSERT_EQ(corners, std::vector<std::uint32_t>(expected.begin(), expected.end()));
-        }
-    }
-}
-
 TEST(TextFormats, KeepEveryColourWhetherReadersRoundOrCutOff)
 {
     TriMesh mesh;
@@ -235,20 +195,6 @@ TEST(WriteStl, WritesExactlyTheseBytes)
                   std::string(2, '\0') +
                   bytes_of_numbers<float>({-0.0F, 0, 0, 12, 20, 30, 12, 20, 30, 10, 20, 27}) +
                   std::string(2, '\0'));
-}
-
-TEST(WriteStl, IsReadByAssimp)
-{
-    const TemporaryFolder folder;
-    TriMesh mesh = sample_sheet();
-    mesh.offset = {2.5, -1.0, 8.0};
-    write_mesh(folder / "a.stl", mesh, {});
-    const std::vector<Corner> expected = corners_of(mesh);
-    const std::vector<Corner> back = corners_of(read_by_assimp(folder / "a.stl"));
-    ASSERT_EQ(back.size(), expected.size());
-    for (std::size_t i = 0; i < back.size(); ++i) {
-        ASSERT_LT((back[i].position - expected[i].position).norm(), 2e-6);
-    }
 }
 
 TEST(WriteStl, SaysTheOffsetThatWasSubtracted)

@@ -42,15 +42,6 @@ TEST(ReadPhotograph, KnowsEachKindOfTiff)
     }
 }
 
-TEST(ReadPhotograph, TakesASinglePixel)
-{
-    const TemporaryFolder folder;
-    const auto png = folder.write("1.png", text_of(encode_png({1, 1, {1, 2, 3}})));
-    EXPECT_THAT(read_photograph(png).rgb, ElementsAre(1, 2, 3));
-    const auto jpeg = folder.write("1.jpg", text_of(encode_jpeg({1, 1, {128, 128, 128}}, 90)));
-    EXPECT_THAT(read_photograph(jpeg).rgb, ElementsAre(128, 128, 128));
-}
-
 TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
 {
     const TemporaryFolder folder;

@@ -8,9 +8,7 @@
 
 #include <array>
 #include <cstring>
-#include <map>
 #include <random>
-#include <sstream>
 
 namespace vcarve::ply_test {
 namespace {
@@ -46,95 +44,6 @@ TriMesh random_mesh(int num_vertices, int num_faces)
         mesh.faces.push_back({vertex(), vertex(), vertex()});
     }
     return mesh;
-}
-
-/// A PLY reader of the test's own, written from the format's description: every scalar property of
-/// a vertex by name, and the one list of a face. Little endian or ascii.
-struct PlainPly {
-    std::vector<std::string> comments;
-    std::vector<std::pair<std::string, std::string>> properties; ///< type and name, in order
-    std::map<std::string, std::vector<double>> vertices;
-    std::vector<std::vector<int>> faces;
-};
-
-PlainPly read_plainly(const std::string& bytes)
-{
-    PlainPly ply;
-    std::istringstream in(bytes);
-    std::string line;
-    bool binary = false;
-    std::size_t num_vertices = 0;
-    std::size_t num_faces = 0;
-    while (std::getline(in, line) && line != "end_header") {
-        std::istringstream words(line);
-        std::string first, second, third;
-        words >> first >> second >> third;
-        if (first == "comment") ply.comments.push_back(line.substr(8));
-        if (first == "format") binary = second == "binary_little_endian";
-        if (first == "element" && second == "vertex") num_vertices = std::stoul(third);
-        if (first == "element" && second == "face") num_faces = std::stoul(third);
-        if (first == "property" && second != "list") ply.properties.emplace_back(second, third);
-        if (second == "list") {
-            EXPECT_EQ(line, "property list uchar int vertex_indices");
-        }
-    }
-    const auto number = [&](const std::string& type) {
-        double value = 0.0;
-        if (!binary) {
-            in >> value;
-        } else if (type == "double") {
-            in.read(reinterpret_cast<char*>(&value), 8);
-        } else if (type == "float") {
-            float single = 0.0F;
-            in.read(reinterpret_cast<char*>(&single), 4);
-            value = single;
-        } else if (type == "int") {
-            std::int32_t whole = 0;
-            in.read(reinterpret_cast<char*>(&whole), 4);
-            value = whole;
-        } else {
-            value = in.get();
-        }
-        return value;
-    };
-    for (std::size_t v = 0; v < num_vertices; ++v) {
-        for (const auto& [type, name] : ply.properties) {
-            ply.vertices[name].push_back(number(type));
-        }
-    }
-    for (std::size_t f = 0; f < num_faces; ++f) {
-        std::vector<int> face(static_cast<std::size_t>(number("uchar")));
-        for (int& corner : face) {
-            corner = static_cast<int>(number("int"));
-        }
-        ply.faces.push_back(face);
-    }
-    EXPECT_TRUE(in.good());
-    EXPECT_EQ(static_cast<std::size_t>(in.tellg()) + (binary ? 0 : 1), bytes.size());
-    return ply;
-}
-
-void expect_same(const PlainPly& ply, const TriMesh& mesh)
-{
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        const Vector3d position = mesh.positions[v] + mesh.offset;
-        ASSERT_EQ(
-            Vector3d(ply.vertices.at("x")[v], ply.vertices.at("y")[v], ply.vertices.at("z")[v]),
-            position);
-        ASSERT_EQ(
-            Vector3d(ply.vertices.at("nx")[v], ply.vertices.at("ny")[v], ply.vertices.at("nz")[v])
-                .cast<float>(),
-            mesh.normals[v]);
-        const Color color{static_cast<std::uint8_t>(ply.vertices.at("red")[v]),
-                          static_cast<std::uint8_t>(ply.vertices.at("green")[v]),
-                          static_cast<std::uint8_t>(ply.vertices.at("blue")[v])};
-        ASSERT_EQ(color, mesh.colors[v]);
-    }
-    ASSERT_EQ(ply.faces.size(), mesh.faces.size());
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        ASSERT_EQ(std::vector<std::uint32_t>(ply.faces[f].begin(), ply.faces[f].end()),
-                  std::vector<std::uint32_t>(mesh.faces[f].begin(), mesh.faces[f].end()));
-    }
 }
 
 TEST(WritePly, WritesExactlyThisText)
@@ -225,19 +134,6 @@ TEST(WritePly, WritesAProvenanceBehindTheRest)
                                             "0\n");
 }
 
-TEST(WritePly, AgreesWithAnIndependentReader)
-{
-    const TemporaryFolder folder;
-    TriMesh mesh = random_mesh(50000, 90000); // several blocks of output, non-manifold everywhere
-    mesh.offset = {5e5, 4.6e6, -30.0};
-    for (const bool ascii : {false, true}) {
-        write_ply(folder / "out.ply", mesh, {.ascii = ascii, .comments = {"made by a test"}});
-        const PlainPly ply = read_plainly(bytes_of(folder / "out.ply"));
-        EXPECT_EQ(ply.comments, std::vector<std::string>{"made by a test"});
-        expect_same(ply, mesh);
-    }
-}
-
 TEST(WritePly, IsReadByOpenMesh)
 {
     const TemporaryFolder folder;
@@ -259,27 +155,6 @@ TEST(WritePly, IsReadByOpenMesh)
         EXPECT_EQ(back.point(OpenMesh::VertexHandle(3)), OpenMesh::Vec3f(-2.5F, 1e-7F, 12.0F));
         EXPECT_EQ(back.color(OpenMesh::VertexHandle(1)), OpenMesh::Vec3uc(255, 254, 253));
     }
-}
-
-TEST(WritePly, LeavesOutWhatTheMeshDoesNotHave)
-{
-    const TemporaryFolder folder;
-    write_ply(folder / "out.ply", two_triangles(), {});
-    const PlainPly ply = read_plainly(bytes_of(folder / "out.ply"));
-    const std::vector<std::pair<std::string, std::string>> expected{
-        {"double", "x"}, {"double", "y"}, {"double", "z"}};
-    EXPECT_EQ(ply.properties, expected);
-}
-
-TEST(WritePly, LeavesNothingWhereItFails)
-{
-    EXPECT_EQ(refusal<UsageError>([] { write_ply("/dev/full", two_triangles(), {}); }),
-              "cannot write /dev/full: No space left on device");
-    const TemporaryFolder folder;
-    EXPECT_EQ(refusal<UsageError>([&] { write_ply(folder / "no/out.ply", two_triangles(), {}); }),
-              "cannot write " + (folder / "no/out.ply").string() + ": the folder " +
-                  (folder / "no").string() + " does not exist");
-    EXPECT_EQ(folder.num_entries(), 0U);
 }
 
 TEST(ReadPly, ReadsBackWhatWasWritten)
@@ -313,8 +188,8 @@ TEST(ReadPly, AddsBackTheOffsetThatWasSubtracted)
     mesh.offset = {500000.5, 4.6e6, 100.1};
     for (const bool ascii : {false, true}) {
         write_ply(folder / "out.ply", mesh, {.ascii = ascii, .offset = {5e5, 4.6e6, 0.1}});
-        EXPECT_EQ(read_plainly(bytes_of(folder / "out.ply")).comments,
-                  std::vector<std::string>{"offset 500000 4600000 0.1"});
+        EXPECT_NE(bytes_of(folder / "out.ply").find("\ncomment offset 500000 4600000 0.1\n"),
+                  std::string::npos);
         const TriMesh back = read_ply(folder / "out.ply");
         EXPECT_EQ(back.offset, Vector3d(5e5, 4.6e6, 0.1));
         for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -432,17 +307,6 @@ std::string refusal_of(const TemporaryFolder& folder, const std::string& bytes)
     const std::string message = refusal<InputError>([&] { read_ply(path); });
     return message.starts_with(path.string()) ? message.substr(folder.path().string().size() + 1)
                                               : message;
-}
-
-TEST(ReadPly, RefusesWhatIsNoFile)
-{
-    const TemporaryFolder folder;
-    EXPECT_EQ(refusal<InputError>([&] { read_ply(folder / "no.ply"); }),
-              (folder / "no.ply").string() + ": the file does not exist");
-    EXPECT_EQ(refusal<InputError>([&] { read_ply(folder.path()); }),
-              folder.path().string() + ": found something that is not a file");
-    EXPECT_EQ(refusal<InputError>([&] { read_ply("/dev/zero"); }),
-              "/dev/zero: found something that is not a file");
 }
 
 TEST(ReadPly, RefusesABrokenHeader)
