@@ -189,7 +189,7 @@ TriMesh without_top_and_bottom(TriMesh mesh)
     return mesh;
 }
 
-std::optional<RayFigures> figures_of(const TriMesh& mesh, const Reference& reference)
+std::optional<RayFigures> ray_figures_of(const TriMesh& mesh, const Reference& reference)
 {
     return measure_view_rays(place_mesh({"a.ply", mesh}, reference), reference);
 }
@@ -244,36 +244,36 @@ TEST(ViewRays, AreNoneOfCamerasWithoutKnownLensOrSize)
     scene.views[3].camera = 1;
     const Reference reference = make_reference(scene, nullptr, with_samples(1000));
     EXPECT_TRUE(reference.rays.empty());
-    EXPECT_FALSE(figures_of(square(), reference).has_value());
+    EXPECT_FALSE(ray_figures_of(square(), reference).has_value());
 }
 
 TEST(ViewRays, SeeTheInsideThroughAMissingFace)
 {
     const Reference reference = reference_above_cube();
-    EXPECT_EQ(figures_of(cube(), reference)->back_faces_seen, 0.0);
+    EXPECT_EQ(ray_figures_of(cube(), reference)->back_faces_seen, 0.0);
     // The opening is 50 px of 100 wide: 20 rays of 40.
-    EXPECT_EQ(figures_of(without_top(cube()), reference)->back_faces_seen, 0.25);
-    EXPECT_EQ(figures_of(testing::flipped(cube()), reference)->back_faces_seen, 0.25);
+    EXPECT_EQ(ray_figures_of(without_top(cube()), reference)->back_faces_seen, 0.25);
+    EXPECT_EQ(ray_figures_of(testing::flipped(cube()), reference)->back_faces_seen, 0.25);
 }
 
 TEST(ViewRays, SeeNothingWhereTheClosedSurfaceHasAFace)
 {
     Reference reference = reference_above_cube();
-    EXPECT_FALSE(figures_of(cube(), reference)->nothing_seen.has_value());
+    EXPECT_FALSE(ray_figures_of(cube(), reference)->nothing_seen.has_value());
     TriMesh closed = testing::moved(cube(), {0.0, 0.0, -7.0});
     closed.offset = {0.0, 0.0, 7.0};
     use_closed_surface(reference, closed);
-    EXPECT_EQ(figures_of(cube(), reference)->nothing_seen, 0.0);
-    EXPECT_EQ(figures_of(without_top(cube()), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(ray_figures_of(cube(), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(ray_figures_of(without_top(cube()), reference)->nothing_seen, 0.0);
     // Through the bottom, 33.3 px wide, go 14 rays of 40; the rest meet the sides from inside.
-    const auto tube = figures_of(without_top_and_bottom(cube()), reference);
+    const auto tube = ray_figures_of(without_top_and_bottom(cube()), reference);
     EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
     EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
     // Faces where the closed surface has none make up for nothing and are held against nobody.
     const TriMesh beside = testing::moved(square(), {1.0, 0.0, 1.0});
-    EXPECT_EQ(figures_of(testing::together(cube(), beside), reference)->nothing_seen, 0.0);
-    EXPECT_EQ(figures_of(beside, reference)->nothing_seen, 0.25);
-    EXPECT_EQ(figures_of(square(1.0), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(ray_figures_of(testing::together(cube(), beside), reference)->nothing_seen, 0.0);
+    EXPECT_EQ(ray_figures_of(beside, reference)->nothing_seen, 0.25);
+    EXPECT_EQ(ray_figures_of(square(1.0), reference)->nothing_seen, 0.0);
 }
 
 TEST(ViewRays, FindWhatEveryFaceTriedFinds)
@@ -304,7 +304,7 @@ TEST(ViewRays, FindWhatEveryFaceTriedFinds)
     }
     EXPECT_GT(backs, 200);
     EXPECT_GT(missing, 20);
-    const std::optional<RayFigures> figures = figures_of(open, reference);
+    const std::optional<RayFigures> figures = ray_figures_of(open, reference);
     EXPECT_DOUBLE_EQ(figures->back_faces_seen, backs / 5000.0);
     EXPECT_DOUBLE_EQ(figures->nothing_seen.value(), missing / 5000.0);
 }
@@ -327,7 +327,7 @@ TEST(ViewRays, DoNotDependOnUnitOrPlace)
         };
         Reference reference = make_reference(other, nullptr, with_samples(4 * 2 * 1600));
         use_closed_surface(reference, there(cube()));
-        const auto tube = figures_of(there(without_top_and_bottom(cube())), reference);
+        const auto tube = ray_figures_of(there(without_top_and_bottom(cube())), reference);
         EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
         EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
     }

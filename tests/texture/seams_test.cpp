@@ -105,13 +105,13 @@ TEST(SeamBlends, AreNoneOfAPhotographThatDoesNotShowTheFace)
 
 /// The wall, left of the middle covered with photograph 0, right of it with photograph 1, which
 /// shows everything brighter by so many levels.
-struct HalfAndHalf {
+struct BrighterHalf {
     TriMesh mesh = wall_mesh(8);
     std::vector<PhotosOfFace> photos;
     FaceColors colors;
     std::vector<std::uint32_t> photo_of_face;
 
-    explicit HalfAndHalf(std::uint8_t brighter)
+    explicit BrighterHalf(std::uint8_t brighter)
         : photos(mesh.faces.size()), colors(mesh.faces.size())
     {
         for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
@@ -131,7 +131,7 @@ struct HalfAndHalf {
 
 TEST(SeamLevels, LeaveNoStepAtASeam)
 {
-    const HalfAndHalf wall(30);
+    const BrighterHalf wall(30);
     const CornerLevels levels = level_seams(wall.mesh, wall.photos, wall.colors,
                                             Gains(2, Eigen::Array3f::Ones()), wall.photo_of_face);
     std::map<std::uint32_t, std::array<double, 2>> at_vertex; // of each photograph, 0 for none
@@ -153,7 +153,7 @@ TEST(SeamLevels, LeaveNoStepAtASeam)
 
 TEST(SeamLevels, AreNothingWherePhotographsAgree)
 {
-    const HalfAndHalf wall(0);
+    const BrighterHalf wall(0);
     const CornerLevels levels = level_seams(wall.mesh, wall.photos, wall.colors,
                                             Gains(2, Eigen::Array3f::Ones()), wall.photo_of_face);
     for (const auto& corners : levels) {
@@ -163,7 +163,7 @@ TEST(SeamLevels, AreNothingWherePhotographsAgree)
 
 TEST(SeamLevels, TakeExposuresAsTheyAreAfterTheGains)
 {
-    const HalfAndHalf wall(25);
+    const BrighterHalf wall(25);
     const Gains gains = {Eigen::Array3f::Constant(1.25F), Eigen::Array3f::Ones()};
     const CornerLevels levels =
         level_seams(wall.mesh, wall.photos, wall.colors, gains, wall.photo_of_face);
