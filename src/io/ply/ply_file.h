@@ -70,7 +70,6 @@ class PlyReader {
     PlyData data_;
     const PlyElement& vertices_;
     PlyVertexLayout layout_;
-    PlyContent content_;
     bool with_scanners_ = false;         ///< of each vertex
     const PlyElement* camera_ = nullptr; ///< that stands for all vertices; null where none does
     const PlyElement* faces_ = nullptr;  ///< of a mesh
