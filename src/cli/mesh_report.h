@@ -6,6 +6,7 @@
 #include "mesh/check.h"
 #include "model/photograph.h"
 #include "page/run_figures.h"
+#include "steps/6_surface/carve_surface.h"
 #include "vcarve/options.h"
 
 #include <cstdint>

@@ -34,16 +34,16 @@ Vector3d any_quarter_point(const TetMesh& mesh, std::mt19937_64& random)
 
 } // namespace
 
-double evenly_random(std::mt19937_64& random, double low, double high)
+double even(std::mt19937_64& random, double low, double high)
 {
     return low + (high - low) * (static_cast<double>(random() >> 11U) * 0x1p-53);
 }
 
 Vector3d even_in_cube(std::mt19937_64& random, double low, double high)
 {
-    const double x = evenly_random(random, low, high);
-    const double y = evenly_random(random, low, high);
-    const double z = evenly_random(random, low, high);
+    const double x = even(random, low, high);
+    const double y = even(random, low, high);
+    const double z = even(random, low, high);
     return {x, y, z};
 }
 
@@ -113,7 +113,7 @@ Positions nearly_on_a_sphere(std::size_t count, double noise)
     while (points.size() < count) {
         const Vector3d p = even_in_cube(random, -1.0, 1.0);
         if (p.norm() > 1.0 || p.norm() < 0.1) continue;
-        points.push_back((1.0 + evenly_random(random, -noise, noise)) * p.normalized());
+        points.push_back((1.0 + even(random, -noise, noise)) * p.normalized());
     }
     return points;
 }
@@ -143,7 +143,7 @@ Scene scene_seen_from(const Positions& centers, const Positions& points, double 
     for (const Vector3d& point : points) {
         made.push_back({point, {}});
         for (std::uint32_t view = 0; view < centers.size(); ++view) {
-            if (evenly_random(random, 0.0, 1.0) < share) {
+            if (even(random, 0.0, 1.0) < share) {
                 made.back().views.push_back(view);
             }
         }

@@ -239,10 +239,10 @@ void PlyData::skip_all(const PlyElement& element)
 
 double PlyData::number_of_text()
 {
-    constexpr std::string_view kBlanks = " \t\r\n\v\f";
-    bytes_.remove_prefix(std::min(bytes_.find_first_not_of(kBlanks), bytes_.size()));
+    constexpr std::string_view kSpaces = " \t\r\n\v\f";
+    bytes_.remove_prefix(std::min(bytes_.find_first_not_of(kSpaces), bytes_.size()));
     if (bytes_.empty()) throw BadPlyEntry{"the file ends there"};
-    const std::string_view word = bytes_.substr(0, bytes_.find_first_of(kBlanks));
+    const std::string_view word = bytes_.substr(0, bytes_.find_first_of(kSpaces));
     const std::size_t sign = word.starts_with('+') ? 1 : 0;
     double value = 0.0;
     const char* const end = word.data() + word.size();

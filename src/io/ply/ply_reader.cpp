@@ -38,8 +38,7 @@ PlyReader::PlyReader(const std::filesystem::path& path, PlyContent content)
       header_(parse_ply_header(text_of(file_), path_)),
       data_(text_of(file_), header_, path_),
       vertices_(find_vertices()),
-      layout_(vertices_),
-      content_(content)
+      layout_(vertices_)
 {
     if (content == PlyContent::mesh) {
         faces_ = header_.find("face");

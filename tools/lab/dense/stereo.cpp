@@ -1,5 +1,6 @@
 #include "dense/stereo.h"
 
+#include "base/numbers.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "render/photograph.h"

@@ -234,11 +234,11 @@ class Fusion {
     {
         constexpr double kDisparityPx = 0.5;
         constexpr double kBaseline = 0.2; // of the depth
-        constexpr double kFalse = 1.0 / 200.0;
+        constexpr double kFalseShare = 1.0 / 200.0;
         constexpr double kMostFalse = 0.1;
         const double noise = random.normal();
         const double false_by = random.uniform(-kMostFalse, kMostFalse);
-        if (random.uniform() < kFalse) return false_by;
+        if (random.uniform() < kFalseShare) return false_by;
         const double focal_px = onlookers_.camera().params[0];
         const double along = onlookers_.in_camera(reference, spot.position).z() /
                              (spot.position - scene_.views[reference].center).norm();
