@@ -190,7 +190,7 @@ RunOutcome outcome_of(const CountsOfStages& counts)
 std::string closing_line(const RunOutcome& outcome, const Options& options)
 {
     constexpr std::size_t kMost = 2;
-    constexpr std::size_t kColumns = 80;
+    constexpr std::size_t kLineColumns = 80;
     std::vector<std::string> proposals;
     propose_for_points(outcome, options.points, proposals);
     propose_for_surface(outcome, options, proposals);
@@ -200,7 +200,7 @@ std::string closing_line(const RunOutcome& outcome, const Options& options)
     if (proposals.empty() && !outcome.has_report) {
         const auto page = std::filesystem::path(outcome.out).replace_extension(".html");
         const std::string see = fmt::format("See it: --report {}", page.string());
-        line += (line.size() + 2 + see.size() <= kColumns ? ". " : "\n") + see;
+        line += (line.size() + 2 + see.size() <= kLineColumns ? ". " : "\n") + see;
     }
     for (std::size_t i = 0; i < std::min(proposals.size(), kMost); ++i) {
         line += "\n" + proposals[i];

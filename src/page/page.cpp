@@ -41,9 +41,9 @@ void require_page_name(const std::filesystem::path& path)
 
 std::string json_for_html(const nlohmann::ordered_json& json)
 {
-    using Json = nlohmann::ordered_json;
     std::string escaped;
-    for (const char letter : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    for (const char letter :
+         json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
         // These stand in strings only, where JSON lets any letter be written by its number.
         if (letter == '<' || letter == '>' || letter == '&') {
             escaped += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));

@@ -25,9 +25,9 @@
 
 namespace vcarve {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// The numbers i * of / count, which are `count` of those below `of`, or all of them.
 std::vector<std::size_t> evenly_chosen(std::size_t of, std::size_t count)
