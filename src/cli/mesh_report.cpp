@@ -121,7 +121,7 @@ ReportParts make_report(const TriMesh& mesh, const Texture& texture, const Remov
     const auto shown = surface["faces"]["count"].get<std::int64_t>();
     // A surface that is simplified for the page has other corners than its texture.
     if (shown == parts.figures.faces) surface["texture"] = packed_texture(texture);
-    parts.scene["surfaces"] = {std::move(surface)};
+    parts.scene["surfaces"][0] = std::move(surface);
     parts.scene["removed"] = packed_removed(removed);
     stage.end({{"faces shown", shown}, {"of", parts.figures.faces}});
     return parts;

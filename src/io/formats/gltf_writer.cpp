@@ -175,10 +175,10 @@ std::size_t add_material(GlbBuilder& glb, const Photograph* page)
         const std::size_t view = glb.add_file(encode_jpeg(*page, kTextureQuality));
         const std::size_t image =
             glb.add("images", {{"bufferView", view}, {"mimeType", "image/jpeg"}});
-        glb.text["samplers"] = {json{{"magFilter", 9729}, // linear, with mipmaps
-                                     {"minFilter", 9987},
-                                     {"wrapS", 33071}, // clamp to edge
-                                     {"wrapT", 33071}}};
+        glb.text["samplers"][0] = {{"magFilter", 9729}, // linear, with mipmaps
+                                   {"minFilter", 9987},
+                                   {"wrapS", 33071}, // clamp to edge
+                                   {"wrapT", 33071}};
         surface["baseColorTexture"]["index"] =
             glb.add("textures", {{"sampler", 0}, {"source", image}});
     }
