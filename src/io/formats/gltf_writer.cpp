@@ -143,7 +143,7 @@ json add_attributes(GlbBuilder& glb, const TriMesh& mesh, const Vector3d& center
 {
     Eigen::AlignedBox3f box; // which glTF requires
     const auto rounded = [&](const Vector3d& position) {
-        const Vector3f result = (position - center).cast<float>();
+        Vector3f result = (position - center).cast<float>();
         box.extend(result);
         return result;
     };
