@@ -156,7 +156,8 @@ ProgramReport compare_ranks(const std::string& title, const std::vector<RankMode
         "|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|\n",
         title);
     const auto cpu_s_a_point = [&](std::size_t i) {
-        return figure(runs[i], "cpu_seconds") / static_cast<double>(models[i / 2].points);
+        const std::size_t model = i / 2; // each has two runs
+        return figure(runs[i], "cpu_seconds") / static_cast<double>(models[model].points);
     };
     const auto seconds_a_share = [&](std::size_t i) {
         const RankModel& model = models[i / 2];

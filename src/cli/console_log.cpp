@@ -78,7 +78,7 @@ std::optional<std::string> filled_in(std::string_view part, const Counts& counts
 {
     constexpr std::string_view kThousandths = "/1000";
     std::string filled;
-    for (std::size_t open = 0; (open = part.find('{')) != part.npos;) {
+    for (std::size_t open = 0; (open = part.find('{')) != std::string_view::npos;) {
         filled += part.substr(0, open);
         const std::size_t close = part.find('}');
         std::string_view name = part.substr(open + 1, close - open - 1);

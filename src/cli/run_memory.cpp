@@ -1,6 +1,7 @@
 #include "cli/run_memory.h"
 
 #include "base/free_memory.h"
+#include "base/text.h"
 #include "run/job.h"
 #include "vcarve/error.h"
 

@@ -2,6 +2,7 @@
 
 #include "base/numbers.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "compare/evidence.h"
 #include "compare/truth.h"
 #include "geometry/nearest_neighbors.h"

@@ -72,6 +72,7 @@ class PointTree {
         double distance;
         std::size_t point;
 
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a 0 in the default
         auto operator<=>(const Near&) const = default;
     };
 
