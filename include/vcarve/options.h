@@ -130,7 +130,10 @@ struct SmoothOptions {
 
 /// How far vertices are merged.
 struct SimplifyOptions {
-    int faces = 0; ///< how many are left; no face hides what it did not hide; 0: all
+    static constexpr int kAutoFaces = -1; ///< of a dense surface as many as its noise allows
+
+    int faces = kAutoFaces; ///< number of faces that are left; 0 keeps all. With a number, a merge
+                            ///< that would occlude an observed point is rejected.
 };
 
 /// How vertices are moved and merged; by default neither is done.

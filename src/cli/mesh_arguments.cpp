@@ -112,8 +112,9 @@ void check_output(const fs::path& out, const OutputOptions& options)
 /// The options that affect the output of a given scene.
 OptionList counting_options(MeshArguments& arguments)
 {
-    OptionList options = joined({options_of(arguments.options), options_of(arguments.output),
-                                 texture_options(arguments.texture)});
+    OptionList options =
+        joined({options_of(arguments.options), options_of(arguments.output),
+                dense_options(arguments.dense), texture_options(arguments.texture)});
     std::erase_if(options, [](const Option& option) {
         const std::string& name = option.info.name;
         return option.stage == kRunStage || name == "quiet" || name == "verbose";
@@ -185,10 +186,11 @@ OptionList options_of(OutputOptions& output)
 
 OptionList options_of(MeshArguments& arguments)
 {
-    return joined({options_of(arguments.model), options_of(arguments.options),
-                   work_options(arguments), options_of(arguments.output),
-                   texture_options(arguments.texture), preview_options(arguments.preview),
-                   record_options(arguments), options_of(arguments.help)});
+    return joined({options_of(arguments.model), dense_options(arguments.dense),
+                   options_of(arguments.options), work_options(arguments),
+                   options_of(arguments.output), texture_options(arguments.texture),
+                   preview_options(arguments.preview), record_options(arguments),
+                   options_of(arguments.help)});
 }
 
 std::vector<Output> outputs_of(const MeshArguments& arguments)
@@ -199,6 +201,10 @@ std::vector<Output> outputs_of(const MeshArguments& arguments)
         for (const fs::path& file : files_beside(arguments.out, kManyPages)) {
             outputs.push_back({"the texture", file});
         }
+    }
+    if (!arguments.dense.keep_points.empty()) {
+        outputs.push_back({"--keep-points", arguments.dense.keep_points});
+        outputs.push_back({"--keep-points", visibility_beside(arguments.dense.keep_points)});
     }
     if (!arguments.preview.out.empty()) outputs.push_back({"--preview", arguments.preview.out});
     if (!arguments.stats.empty()) outputs.push_back({"--stats", arguments.stats});
@@ -214,6 +220,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.model.path = given.operands[0];
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
+    check_dense(arguments.dense, given);
     check_texture(arguments.texture, arguments.out, given);
     check_preview(arguments.preview, given);
     if (!arguments.report.empty()) require_page_name(arguments.report);

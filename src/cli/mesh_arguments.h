@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/command_line.h"
+#include "cli/dense_run.h"
 #include "cli/input_output.h"
 #include "cli/picture_output.h"
 #include "run/digest.h"
@@ -28,6 +29,7 @@ struct OutputOptions {
 struct MeshArguments {
     ModelArguments model;
     std::filesystem::path out;
+    DenseArguments dense;
     TextureArguments texture;
     PreviewArguments preview;
     std::filesystem::path stats;  ///< empty: not written

@@ -17,6 +17,7 @@
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
 #include "run/work_folder.h"
+#include "steps/1_points/thin.h"
 #include "steps/6_surface/provenance.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
@@ -163,7 +164,7 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
 std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
                                                  const ModelInput& input, const Run& run)
 {
-    if (!arguments.texture.reads_images()) return std::nullopt;
+    if (!arguments.dense.dense && !arguments.texture.reads_images()) return std::nullopt;
     Photographs photographs =
         photographs_of(arguments.texture, arguments.model.path, input.scene, run.log);
     std::vector<Output> files;
@@ -172,6 +173,23 @@ std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
     }
     keep_inputs(outputs_of(arguments), arguments.model, files);
     return photographs;
+}
+
+/// Replaces the sparse points by dense ones that are measured in the photographs.
+ModelInput dense_input(ModelInput input, const Photographs& photographs, const Run& run)
+{
+    const MeshArguments& arguments = run.arguments;
+    Options options = arguments.options;
+    options.memory = run.memory.options();
+    options.refine = {};
+    const Reconstruction sparse =
+        reconstruct_thinned(std::move(input.scene), input.read, options, run.log);
+    const Scene dense = measure_dense_points(arguments.dense, sparse, photographs, run.log);
+    input.read = size_of(dense);
+    Stage stage(run.log, "thin");
+    input.scene = thin_points(dense, options.thin, stage);
+    stage.end({{"points", size_of(input.scene.num_points())}, {"of", size_of(dense.num_points())}});
+    return input;
 }
 
 /// The surface of a scene. Errors name the model.
@@ -186,11 +204,12 @@ Surface surface_of(ModelInput input, const Run& run)
             run.ranks->begin({run.work->job(), digest_of_options(options), run.memory.in_files()});
         }
         const std::optional<Photographs> photographs = photographs_if_wanted(arguments, input, run);
+        const RunExtras extras = {.removed = arguments.report.empty() ? nullptr : &surface.removed,
+                                  .work = run.work,
+                                  .ranks = run.ranks};
+        if (arguments.dense.dense) input = dense_input(std::move(input), *photographs, run);
         Reconstruction made =
-            reconstruct_thinned(std::move(input.scene), input.read, options, run.log,
-                                {.removed = arguments.report.empty() ? nullptr : &surface.removed,
-                                 .work = run.work,
-                                 .ranks = run.ranks});
+            reconstruct_thinned(std::move(input.scene), input.read, options, run.log, extras);
         if (photographs) {
             const std::int64_t most = std::max<std::int64_t>(arguments.options.memory.most, 0);
             TexturedMesh covered = textured(std::move(made.mesh), made.scene, *photographs,

@@ -1,34 +1,15 @@
 #include "page/display_mesh.h"
 
 #include "geometry/triangle.h"
-#include "mesh/vertices.h"
-#include "model/scene_points.h"
-
-#include <Eigen/Geometry>
-#include <meshoptimizer.h>
+#include "mesh/collapse_edges.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
 namespace vcarve {
 
 namespace {
-
-/// The vertices that the faces use, in their order, and what belongs to them.
-TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces)
-{
-    const std::vector<std::uint32_t> vertices = used_vertices(faces, mesh.positions.size());
-    renumber(faces, vertices, mesh.positions.size());
-    TriMesh used;
-    used.offset = mesh.offset;
-    used.positions = values_at(vertices, mesh.positions);
-    used.colors = values_at(vertices, mesh.colors);
-    used.points = values_at(vertices, mesh.points);
-    used.faces = std::move(faces);
-    return used;
-}
 
 /// At most so many of the faces, evenly chosen.
 std::vector<Face> some_faces(const std::vector<Face>& faces, std::size_t max_faces)
@@ -38,26 +19,6 @@ std::vector<Face> some_faces(const std::vector<Face>& faces, std::size_t max_fac
         chosen[i] = faces[i * faces.size() / chosen.size()];
     }
     return chosen;
-}
-
-/// Rims stay: without them small pieces would vanish, here all and there none.
-std::vector<Face> collapse_edges(const TriMesh& mesh, std::size_t max_faces)
-{
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& position : mesh.positions) {
-        box.extend(position);
-    }
-    std::vector<Eigen::Vector3f> positions(mesh.positions.size());
-    std::ranges::transform(mesh.positions, positions.begin(), [&](const Eigen::Vector3d& position) {
-        return Eigen::Vector3f((position - box.center()).cast<float>());
-    });
-    std::vector<Face> faces(mesh.faces.size());
-    const std::size_t num_corners = meshopt_simplify(
-        faces[0].data(), mesh.faces[0].data(), 3 * mesh.faces.size(), positions[0].data(),
-        positions.size(), sizeof(Eigen::Vector3f), 3 * max_faces, std::numeric_limits<float>::max(),
-        meshopt_SimplifyLockBorder, nullptr);
-    faces.resize(num_corners / 3);
-    return faces;
 }
 
 constexpr std::int32_t kMostParts = 64;
@@ -92,10 +53,11 @@ TriMesh display_mesh(const TriMesh& mesh, std::int64_t max_faces, const Progress
 {
     const auto wanted = static_cast<std::size_t>(std::max<std::int64_t>(max_faces, 1));
     if (mesh.faces.size() <= wanted) return mesh;
-    std::vector<Face> faces = collapse_edges(mesh, wanted);
+    // Without their boundaries small components would vanish.
+    TriMesh shown = collapse_edges(mesh, {.min_faces = wanted, .locks_boundary = true});
     progress.tell(1.0);
-    if (faces.size() > wanted) faces = some_faces(faces, wanted);
-    return with_used_vertices(mesh, std::move(faces));
+    if (shown.faces.size() > wanted) shown.faces = some_faces(shown.faces, wanted);
+    return shown;
 }
 
 std::vector<std::int32_t> edge_parts(const TriMesh& mesh, double length, std::int64_t most)

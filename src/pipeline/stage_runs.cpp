@@ -1,3 +1,5 @@
+#include "base/statistics.h"
+#include "mesh/collapse_edges.h"
 #include "model/scene_check.h"
 #include "pipeline/memory.h"
 #include "pipeline/rank_shares.h"
@@ -269,6 +271,27 @@ Counts settle(RunState& run, const Progress& progress)
             {"of", counts.vertices},
             {"held back", counts.held},
             {"thousandths of a pixel of noise", thousandths(counts.noise_px)}};
+}
+
+/// Non-manifold places that collapses leave are split again, as by clean().
+Counts decimate(RunState& run, const Progress& /*progress*/)
+{
+    constexpr double kMostMoved = 0.25; // of the spacing of the vertices
+    constexpr double kSmall = 12.5;     // squared spacings per face of min_component_faces
+    std::vector<double> spacings = vertex_spacings(*run.mesh);
+    std::erase(spacings, 0.0);
+    const double spacing = median_in_place(spacings);
+    const double small =
+        kSmall * spacing * spacing * run.options().surface.cleanup.min_component_faces;
+    TriMesh mesh = tri_mesh(*run.mesh);
+    const std::int64_t before = size_of(mesh.faces.size());
+    std::int64_t dropped = drop_small_components(mesh, small);
+    mesh = collapse_edges(mesh, {.max_distance = kMostMoved * spacing});
+    dropped += drop_small_components(mesh, small);
+    CleanSurface cleaned =
+        clean_surface(std::move(mesh), {.min_component_faces = 0, .max_hole_edges = 0});
+    run.mesh = std::move(cleaned.mesh);
+    return {{"faces", cleaned.counts.faces}, {"of", before}, {"components dropped", dropped}};
 }
 
 Counts guard_sights(RunState& run, const Progress& progress)

@@ -89,6 +89,12 @@ bool simplifies(const Needs& n)
     return n.options.refine.simplify.faces > 0;
 }
 
+/// By default, surfaces of dense points, which have many more vertices than they need.
+bool decimates(const Needs& n)
+{
+    return n.is_dense && n.options.refine.simplify.faces == SimplifyOptions::kAutoFaces;
+}
+
 bool changes_mesh(const Needs& n)
 {
     return smooths(n) || simplifies(n);
@@ -119,6 +125,7 @@ constexpr RunStage kStages[] = {
     {"clean", refinement, always, run::clean, cleaning},
     {"open", refinement, may_be_open, run::count_open},
     {"settle", refinement, denoises_vertices, run::settle, settling},
+    {"decimate", refinement, decimates, run::decimate},
     {"guard", refinement, changes_mesh, run::guard_sights},
     {"smooth", refinement, smooths, run::smooth},
     {"simplify", refinement, simplifies, run::simplify},

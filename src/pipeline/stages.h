@@ -47,6 +47,7 @@ Counts surface(RunState& run, const Progress& progress);
 Counts clean(RunState& run, const Progress& progress);
 Counts count_open(RunState& run, const Progress& progress);
 Counts settle(RunState& run, const Progress& progress);
+Counts decimate(RunState& run, const Progress& progress);
 Counts guard_sights(RunState& run, const Progress& progress);
 Counts smooth(RunState& run, const Progress& progress);
 Counts simplify(RunState& run, const Progress& progress);

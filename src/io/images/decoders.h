@@ -17,10 +17,12 @@ struct ImageFile {
 
 PhotographSize jpeg_size(const ImageFile& file);
 PhotographSize png_size(const ImageFile& file);
+PhotographSize pnm_size(const ImageFile& file);
 PhotographSize tiff_size(const ImageFile& file);
 
 Photograph decode_jpeg(const ImageFile& file);
 Photograph decode_png(const ImageFile& file);
+Photograph decode_pnm(const ImageFile& file); ///< binary PPM and PGM
 Photograph decode_tiff(const ImageFile& file);
 
 /// Throws InputError with the library's reason.

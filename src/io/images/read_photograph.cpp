@@ -21,6 +21,7 @@ struct Decoder {
 
 constexpr Decoder kJpeg{jpeg_size, decode_jpeg};
 constexpr Decoder kPng{png_size, decode_png};
+constexpr Decoder kPnm{pnm_size, decode_pnm};
 constexpr Decoder kTiff{tiff_size, decode_tiff};
 
 /// What a file begins with; TIFF has two orders of bytes, and two sizes of offsets.
@@ -28,9 +29,14 @@ constexpr struct {
     std::string_view begin;
     Decoder decoder;
 } kKinds[] = {
-    {"\xff\xd8\xff"sv, kJpeg}, {"\x89PNG\r\n\x1a\n"sv, kPng},
-    {"II*\0"sv, kTiff},        {"MM\0*"sv, kTiff},
-    {"II+\0"sv, kTiff},        {"MM\0+"sv, kTiff},
+    {"\xff\xd8\xff"sv, kJpeg},
+    {"\x89PNG\r\n\x1a\n"sv, kPng},
+    {"P6"sv, kPnm},
+    {"P5"sv, kPnm},
+    {"II*\0"sv, kTiff},
+    {"MM\0*"sv, kTiff},
+    {"II+\0"sv, kTiff},
+    {"MM\0+"sv, kTiff},
 };
 
 const Decoder& decoder_of(const std::filesystem::path& path, std::span<const char> bytes)
@@ -44,9 +50,10 @@ const Decoder& decoder_of(const std::filesystem::path& path, std::span<const cha
     for (const auto& kind : kKinds) {
         if (text.starts_with(kind.begin)) return kind.decoder;
     }
-    throw InputError(fmt::format("{}: found neither JPEG nor PNG nor TIFF by the first bytes, but "
-                                 "photographs are read as these only; convert it to one of them",
-                                 path.string()));
+    throw InputError(
+        fmt::format("{}: found neither JPEG, PNG, TIFF nor PPM by the first bytes, but "
+                    "photographs are read as these only; convert it to one of them",
+                    path.string()));
 }
 
 ImageFile image_file(const std::filesystem::path& path, std::span<const char> bytes)

@@ -6,8 +6,9 @@
 
 namespace vcarve {
 
-/// How large a JPEG, PNG or TIFF is, whatever it is called: its header is read, no pixel decoded.
-/// Throws InputError, one sentence, where it is none, is broken, or has more than 2^29 pixels.
+/// How large a JPEG, PNG, TIFF, PPM or PGM is, whatever it is called: its header is read, no pixel
+/// decoded. Throws InputError, one sentence, where it is none, is broken, or has more than 2^29
+/// pixels.
 PhotographSize photograph_size(const std::filesystem::path& path);
 
 /// Reads one as COLMAP does: as its pixels are stored, whatever EXIF says of turning them, without

@@ -64,7 +64,7 @@ class Thinning {
         if (num_parts_++ == 0) {
             part = center_points(std::move(part));
         } else {
-            move_origin(part, kept_.scene.offset);
+            move_origin(part, kept_.scene.offset - part.offset);
         }
         const Dots dots = dots_of(part, merge_px_);
         if (!(unit_ > 0.0)) unit_ = median_of_finite(dots.footprints);

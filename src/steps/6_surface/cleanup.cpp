@@ -89,6 +89,25 @@ std::int64_t delete_small_pieces(HalfEdgeMesh& mesh, int min_faces)
 
 } // namespace
 
+std::int64_t drop_small_components(TriMesh& mesh, double min_area)
+{
+    UnionFind components(mesh.positions.size());
+    for (const Face& face : mesh.faces) {
+        components.join(face[0], face[1]);
+        components.join(face[0], face[2]);
+    }
+    std::vector<double> areas(mesh.positions.size());
+    for (const Face& face : mesh.faces) {
+        areas[components.root(face[0])] += face_area(mesh.positions, face);
+    }
+    const double least = std::min(min_area, areas.empty() ? 0.0 : std::ranges::max(areas));
+    const auto dropped =
+        std::ranges::count_if(areas, [&](double each) { return each > 0.0 && each < least; });
+    std::erase_if(mesh.faces,
+                  [&](const Face& face) { return areas[components.root(face[0])] < least; });
+    return dropped;
+}
+
 CleanSurface clean_surface(TriMesh soup, const CleanupOptions& options)
 {
     // OpenMesh cannot hold what is not manifold, and CGAL would cut it open along every such edge.

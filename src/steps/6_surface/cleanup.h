@@ -39,4 +39,8 @@ struct CleanSurface {
 /// pieces, or remove self-intersections. Cost: O(faces), mostly in parallel.
 CleanSurface clean_surface(TriMesh soup, const CleanupOptions& options);
 
+/// Removes the faces of connected components with less than `min_area`, in scene units squared, but
+/// never the largest. Vertices stay. Returns the number of components removed. Cost: O(faces).
+std::int64_t drop_small_components(TriMesh& mesh, double min_area);
+
 } // namespace vcarve

@@ -1,0 +1,214 @@
+#include "stereo/patch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vcarve {
+
+// Compiled twice, and chosen when the program starts. Without contraction both give the same bits.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) &&                             \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define VCARVE_VECTORIZED __attribute__((target_clones("avx2", "default")))
+#else
+#define VCARVE_VECTORIZED
+#endif
+
+namespace {
+
+constexpr int kLanes = Patch::kLanes;
+constexpr int kWidth = 8; ///< partial sums, so that their order does not depend on the processor
+
+using Lanes = std::array<float, kLanes>;
+
+/// Offsets of the samples from the patch's center, in pixels of the reference.
+struct Offsets {
+    alignas(32) Lanes x{};
+    alignas(32) Lanes y{};
+};
+
+constexpr Offsets make_offsets()
+{
+    Offsets offsets;
+    for (int k = 0; k < Patch::kSide * Patch::kSide; ++k) {
+        offsets.x[k] = static_cast<float>(k % Patch::kSide - Patch::kRadius) * Patch::kStepPx;
+        offsets.y[k] = static_cast<float>(k / Patch::kSide - Patch::kRadius) * Patch::kStepPx;
+    }
+    return offsets;
+}
+
+constexpr Offsets kOffsets = make_offsets();
+
+/// Where the center of a patch lies in a source image, and how its pixels are stretched there.
+struct Footprint {
+    float x, y;   ///< pixel
+    float xx, xy; ///< change of x for a pixel to the right, and down
+    float yx, yy;
+};
+
+/// Weighted sums over the samples of a footprint.
+struct Sums {
+    float value = 0.0F;
+    float square = 0.0F;
+    float product = 0.0F; ///< with the differences
+};
+
+VCARVE_VECTORIZED
+Sums sums_over(const GrayImage& image, const Footprint& at, const Lanes& weights,
+               const Lanes& differences)
+{
+    const float* const pixels = image.pixels.data();
+    const int width = image.width_px;
+    alignas(32) float values[kLanes];
+    for (int k = 0; k < kLanes; ++k) {
+        const float x = at.x + at.xx * kOffsets.x[k] + at.xy * kOffsets.y[k];
+        const float y = at.y + at.yx * kOffsets.x[k] + at.yy * kOffsets.y[k];
+        const int column = static_cast<int>(x);
+        const int row = static_cast<int>(y);
+        const float right = x - static_cast<float>(column);
+        const float down = y - static_cast<float>(row);
+        const int index = row * width + column;
+        const float upper = pixels[index] + right * (pixels[index + 1] - pixels[index]);
+        const float lower =
+            pixels[index + width] + right * (pixels[index + width + 1] - pixels[index + width]);
+        values[k] = upper + down * (lower - upper);
+    }
+    alignas(32) float value[kWidth] = {};
+    alignas(32) float square[kWidth] = {};
+    alignas(32) float product[kWidth] = {};
+    for (int k = 0; k < kLanes; k += kWidth) {
+        for (int lane = 0; lane < kWidth; ++lane) {
+            const float weighted = weights[k + lane] * values[k + lane];
+            value[lane] += weighted;
+            square[lane] += weighted * values[k + lane];
+            product[lane] += differences[k + lane] * values[k + lane];
+        }
+    }
+    Sums sums;
+    for (int lane = 0; lane < kWidth; ++lane) {
+        sums.value += value[lane];
+        sums.square += square[lane];
+        sums.product += product[lane];
+    }
+    return sums;
+}
+
+/// Whether all samples and their right and lower neighbors lie in the image.
+bool is_inside(const GrayImage& image, const Footprint& at)
+{
+    constexpr float kReach = Patch::kRadius * Patch::kStepPx;
+    const float reach_x = kReach * (std::abs(at.xx) + std::abs(at.xy));
+    const float reach_y = kReach * (std::abs(at.yx) + std::abs(at.yy));
+    return at.x - reach_x >= 0.0F && at.y - reach_y >= 0.0F &&
+           at.x + reach_x < static_cast<float>(image.width_px - 1) &&
+           at.y + reach_y < static_cast<float>(image.height_px - 1);
+}
+
+/// Variance of the 3 x 3 samples in the middle.
+float inner_variance(const Lanes& values)
+{
+    float sum = 0.0F;
+    float square = 0.0F;
+    const float center = values[Patch::kSide * Patch::kRadius + Patch::kRadius];
+    for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+            const int k = (Patch::kRadius + y) * Patch::kSide + Patch::kRadius + x;
+            sum += values[k] - center;
+            square += (values[k] - center) * (values[k] - center);
+        }
+    }
+    return square / 9.0F - (sum / 9.0F) * (sum / 9.0F);
+}
+
+float bilinear(const GrayImage& image, float x, float y)
+{
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
+    const float right = x - static_cast<float>(column);
+    const float down = y - static_cast<float>(row);
+    const float upper =
+        image.at(column, row) + right * (image.at(column + 1, row) - image.at(column, row));
+    const float lower = image.at(column, row + 1) +
+                        right * (image.at(column + 1, row + 1) - image.at(column, row + 1));
+    return upper + down * (lower - upper);
+}
+
+} // namespace
+
+bool Patch::set(const GrayImage& image, int x, int y)
+{
+    constexpr float kSigmaGray = 25.0F;
+    constexpr float kSigmaPx = 6.0F;
+    // Beside a strong edge, plain pixels match wherever the edge does, at its depth.
+    constexpr float kLeastInnerShare = 0.05F;
+    const Footprint at = {static_cast<float>(x), static_cast<float>(y), 1.0F, 0.0F, 0.0F, 1.0F};
+    if (!is_inside(image, at)) return false;
+    weights_.fill(0.0F);
+    differences_.fill(0.0F);
+    const float center = image.at(x, y);
+    Lanes values{};
+    float sum = 0.0F;
+    float mean = 0.0F;
+    for (int k = 0; k < kSide * kSide; ++k) {
+        values[k] = bilinear(image, at.x + kOffsets.x[k], at.y + kOffsets.y[k]);
+        if (values[k] < 0.0F) return false;
+        const float gray = (values[k] - center) / kSigmaGray;
+        const float far_sq =
+            (kOffsets.x[k] * kOffsets.x[k] + kOffsets.y[k] * kOffsets.y[k]) / (kSigmaPx * kSigmaPx);
+        weights_[k] = std::exp(-0.5F * (gray * gray + far_sq));
+        sum += weights_[k];
+        mean += weights_[k] * values[k];
+    }
+    mean /= sum;
+    float variance = 0.0F;
+    for (int k = 0; k < kSide * kSide; ++k) {
+        weights_[k] /= sum;
+        differences_[k] = weights_[k] * (values[k] - mean);
+        variance += differences_[k] * (values[k] - mean);
+    }
+    deviation_ = std::sqrt(variance);
+    if (inner_variance(values) < kLeastInnerShare * variance) deviation_ = 0.0F;
+    return true;
+}
+
+MatchedView::MatchedView(const StereoView& reference, const StereoView& source,
+                         const GrayImage& image, const Pinhole& camera)
+    : image_(image)
+{
+    Eigen::Matrix3d pixel_from_cam = Eigen::Matrix3d::Identity();
+    pixel_from_cam(0, 0) = pixel_from_cam(1, 1) = camera.focal_px;
+    pixel_from_cam.topRightCorner<2, 1>() = camera.principal_px.cast<double>();
+    pixel_from_ref_ =
+        (pixel_from_cam * source.cam_from_world * reference.cam_from_world.transpose())
+            .cast<float>();
+    pixel_of_center_ =
+        (pixel_from_cam * source.cam_from_world * (reference.center - source.center)).cast<float>();
+}
+
+float MatchedView::cost(const Patch& patch, const Eigen::Vector3f& ray, float reference_focal_px,
+                        const PixelPlane& plane) const
+{
+    constexpr float kLeastVariance = 1.0F; // gray levels squared
+    // On the plane z = distance / (normal . ray): a homography of rays.
+    const float distance = plane.depth * plane.normal.dot(ray);
+    const Eigen::Vector3f scaled = plane.normal / distance;
+    const Eigen::Matrix3f homography = pixel_from_ref_ + pixel_of_center_ * scaled.transpose();
+    const Eigen::Vector3f center = homography * ray;
+    if (!(center.z() > 0.0F)) return -1.0F;
+    const float inverse = 1.0F / center.z();
+    const Eigen::Vector2f pixel = inverse * center.head<2>();
+    const float scale = inverse / reference_focal_px;
+    const auto change = [&](int axis) -> Eigen::Vector2f {
+        return scale * (homography.col(axis).head<2>() - homography(2, axis) * pixel);
+    };
+    const Eigen::Vector2f right = change(0);
+    const Eigen::Vector2f down = change(1);
+    const Footprint at = {pixel.x(), pixel.y(), right.x(), down.x(), right.y(), down.y()};
+    if (!is_inside(image_, at)) return -1.0F;
+    const Sums sums = sums_over(image_, at, patch.weights(), patch.differences());
+    const float variance = sums.square - sums.value * sums.value;
+    if (variance < kLeastVariance) return 1.0F;
+    const float correlation = sums.product / (std::sqrt(variance) * patch.deviation());
+    return 1.0F - std::clamp(correlation, -1.0F, 1.0F);
+}
+
+} // namespace vcarve

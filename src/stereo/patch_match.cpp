@@ -1,0 +1,272 @@
+#include "stereo/patch_match.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace vcarve {
+
+namespace {
+
+constexpr int kLevels = 3;
+constexpr float kLeastDeviation = 1.5F; ///< gray levels
+constexpr float kLeastCosine = 0.1F;    ///< between a plane's normal and the ray
+
+/// xorshift64*.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15U + 0x1234567U) {}
+
+    /// From -1 to 1.
+    float symmetric()
+    {
+        state_ ^= state_ >> 12U;
+        state_ ^= state_ << 25U;
+        state_ ^= state_ >> 27U;
+        const std::uint64_t bits = (state_ * 0x2545f4914f6cdd1dU) >> 40U;
+        return static_cast<float>(bits) * (2.0F / 16777216.0F) - 1.0F;
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+float cosine(const Eigen::Vector3f& normal, const Eigen::Vector3f& ray)
+{
+    return -normal.dot(ray) / ray.norm();
+}
+
+/// One level of the pyramid.
+struct Level {
+    GrayImage image;
+    Pinhole camera;
+};
+
+std::vector<Level> pyramid_of(const StereoView& view)
+{
+    std::vector<Level> levels = {{view.image, view.camera}};
+    for (int i = 1; i < kLevels; ++i) {
+        levels.push_back({halved(levels.back().image), halved(levels.back().camera)});
+    }
+    return levels;
+}
+
+class Matcher {
+  public:
+    Matcher(const StereoView& view, const Level& level, std::vector<MatchedView> sources,
+            int number)
+        : image_(level.image),
+          camera_(level.camera),
+          sources_(std::move(sources)),
+          random_(view.view * std::uint64_t{16} + number)
+    {
+        map_.width_px = (image_.width_px + kDepthStep - 1) / kDepthStep;
+        map_.height_px = (image_.height_px + kDepthStep - 1) / kDepthStep;
+        const auto size = static_cast<std::size_t>(map_.width_px) * map_.height_px;
+        map_.planes.resize(size);
+        map_.costs.assign(size, DepthMap::kNoCost);
+    }
+
+    const DepthMap& map() const { return map_; }
+    Eigen::Vector3f ray(int x, int y) const
+    {
+        return camera_.ray(static_cast<float>(x * kDepthStep), static_cast<float>(y * kDepthStep));
+    }
+
+    /// Evaluates the given planes, or a random one where there is none. `coarse` may be null.
+    void start(const DepthPrior& prior, const DepthMap* coarse);
+    void sweep(int round, const DepthPrior& prior);
+    DepthMap take() { return std::move(map_); }
+
+  private:
+    bool set_patch(int x, int y)
+    {
+        return patch_.set(image_, x * kDepthStep, y * kDepthStep) &&
+               patch_.deviation() >= kLeastDeviation;
+    }
+    float cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const;
+    void attempt(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane);
+    void spread_from(int x, int y, std::size_t pixel, const Eigen::Vector3f& ray);
+    void change(std::size_t pixel, const Eigen::Vector3f& ray, float range);
+    PixelPlane random_plane(const Eigen::Vector3f& ray, const DepthPrior& prior);
+    Eigen::Vector3f random_normal(const Eigen::Vector3f& ray);
+
+    const GrayImage& image_;
+    const Pinhole& camera_;
+    std::vector<MatchedView> sources_;
+    Random random_;
+    DepthMap map_;
+    Patch patch_;
+};
+
+float Matcher::cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const
+{
+    float best = DepthMap::kNoCost;
+    float second = DepthMap::kNoCost;
+    for (const MatchedView& source : sources_) {
+        const float cost = source.cost(patch_, ray, camera_.focal_px, plane);
+        if (cost < 0.0F) continue;
+        if (cost < best) {
+            second = best;
+            best = cost;
+        } else if (cost < second) {
+            second = cost;
+        }
+    }
+    return 0.5F * (best + second);
+}
+
+void Matcher::attempt(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane)
+{
+    if (!(plane.depth > 0.0F) || cosine(plane.normal, ray) < kLeastCosine) return;
+    const float found = cost(ray, plane);
+    if (found >= map_.costs[pixel]) return;
+    map_.costs[pixel] = found;
+    map_.planes[pixel] = plane;
+}
+
+Eigen::Vector3f Matcher::random_normal(const Eigen::Vector3f& ray)
+{
+    for (;;) {
+        Eigen::Vector3f normal(random_.symmetric(), random_.symmetric(), random_.symmetric());
+        const float length = normal.norm();
+        if (length < 0.1F || length > 1.0F) continue;
+        normal /= length;
+        const float facing = cosine(normal, ray);
+        if (std::abs(facing) < 0.2F) continue;
+        return facing > 0.0F ? normal : Eigen::Vector3f(-normal);
+    }
+}
+
+PixelPlane Matcher::random_plane(const Eigen::Vector3f& ray, const DepthPrior& prior)
+{
+    const float share = 0.5F + 0.5F * random_.symmetric();
+    return {prior.nearest * std::pow(prior.farthest / prior.nearest, share), random_normal(ray)};
+}
+
+void Matcher::start(const DepthPrior& prior, const DepthMap* coarse)
+{
+    for (int y = 0; y < map_.height_px; ++y) {
+        for (int x = 0; x < map_.width_px; ++x) {
+            if (!set_patch(x, y)) continue;
+            const std::size_t pixel = map_.index(x, y);
+            const Eigen::Vector3f towards = ray(x, y);
+            if (!prior.surface.empty()) attempt(pixel, towards, prior.surface[pixel]);
+            if (coarse != nullptr) {
+                const int cx = std::min(x / 2, coarse->width_px - 1);
+                const int cy = std::min(y / 2, coarse->height_px - 1);
+                attempt(pixel, towards, coarse->planes[coarse->index(cx, cy)]);
+            }
+            if (map_.costs[pixel] >= DepthMap::kNoCost) {
+                attempt(pixel, towards, random_plane(towards, prior));
+            }
+        }
+    }
+}
+
+/// Tries the planes of pixels before this one, in the order of the sweep.
+void Matcher::spread_from(int x, int y, std::size_t pixel, const Eigen::Vector3f& towards)
+{
+    if (!map_.has(x, y)) return;
+    const std::size_t from = map_.index(x, y);
+    if (map_.costs[from] >= DepthMap::kNoCost) return;
+    const PixelPlane& plane = map_.planes[from];
+    const float distance = plane.depth * plane.normal.dot(ray(x, y));
+    attempt(pixel, towards, {distance / plane.normal.dot(towards), plane.normal});
+}
+
+void Matcher::change(std::size_t pixel, const Eigen::Vector3f& towards, float range)
+{
+    constexpr float kDepthRange = 0.03F;
+    constexpr float kNormalRange = 0.6F;
+    const PixelPlane before = map_.planes[pixel];
+    const auto depth = [&] {
+        return before.depth * (1.0F + kDepthRange * range * random_.symmetric());
+    };
+    attempt(pixel, towards, {depth(), before.normal});
+    const Eigen::Vector3f turned =
+        (before.normal +
+         kNormalRange * range *
+             Eigen::Vector3f(random_.symmetric(), random_.symmetric(), random_.symmetric()))
+            .normalized();
+    attempt(pixel, towards, {map_.planes[pixel].depth, turned});
+    attempt(pixel, towards, {depth(), turned});
+}
+
+void Matcher::sweep(int round, const DepthPrior& prior)
+{
+    constexpr float kBadCost = 0.3F;
+    const bool forward = round % 2 == 0;
+    const int behind = forward ? -1 : 1;
+    const float range = 1.0F / static_cast<float>(1 << round);
+    const int pixels = map_.width_px * map_.height_px;
+    for (int i = 0; i < pixels; ++i) {
+        const int at = forward ? i : pixels - 1 - i;
+        const int x = at % map_.width_px;
+        const int y = at / map_.width_px;
+        const std::size_t pixel = map_.index(x, y);
+        if (!set_patch(x, y)) continue;
+        const Eigen::Vector3f towards = ray(x, y);
+        for (const int step : {behind, 3 * behind}) {
+            spread_from(x + step, y, pixel, towards);
+            spread_from(x, y + step, pixel, towards);
+        }
+        if (map_.costs[pixel] < DepthMap::kNoCost) change(pixel, towards, range);
+        if (map_.costs[pixel] > kBadCost) {
+            PixelPlane plane = random_plane(towards, prior);
+            if (!prior.surface.empty() && prior.surface[pixel].depth > 0.0F) {
+                plane.depth = prior.surface[pixel].depth * (1.0F + 0.2F * random_.symmetric());
+            }
+            attempt(pixel, towards, plane);
+        }
+    }
+}
+
+/// The prior at a coarser level.
+DepthPrior shrunk(const DepthPrior& prior, int width_px, int height_px, int factor,
+                  int prior_width_px)
+{
+    DepthPrior result = {prior.nearest, prior.farthest, {}};
+    if (prior.surface.empty()) return result;
+    for (int y = 0; y < height_px; ++y) {
+        for (int x = 0; x < width_px; ++x) {
+            result.surface.push_back(
+                prior.surface[static_cast<std::size_t>(y * factor) * prior_width_px + x * factor]);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+DepthMap match_view(const StereoView& view, std::span<const StereoView* const> sources,
+                    const DepthPrior& prior)
+{
+    constexpr int kSweeps = 4;
+    const std::vector<Level> own = pyramid_of(view);
+    std::vector<std::vector<Level>> others;
+    others.reserve(sources.size());
+    for (const StereoView* source : sources) {
+        others.push_back(pyramid_of(*source));
+    }
+    DepthMap coarse;
+    const int prior_width = (view.image.width_px + kDepthStep - 1) / kDepthStep;
+    for (int level = kLevels - 1; level >= 0; --level) {
+        std::vector<MatchedView> matched;
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            matched.emplace_back(view, *sources[i], others[i][level].image,
+                                 others[i][level].camera);
+        }
+        Matcher matcher(view, own[level], std::move(matched), level);
+        const DepthMap& map = matcher.map();
+        const DepthPrior here = shrunk(prior, map.width_px, map.height_px, 1 << level, prior_width);
+        matcher.start(here, coarse.planes.empty() ? nullptr : &coarse);
+        for (int round = 0; round < kSweeps; ++round) {
+            matcher.sweep(round, here);
+        }
+        coarse = matcher.take();
+    }
+    return coarse;
+}
+
+} // namespace vcarve

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "texture/calibrated_photo.h"
+#include "vcarve/scene.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vcarve {
+
+/// A gray image, 0 to 255, row by row from the top. Pixel centers have integer coordinates.
+struct GrayImage {
+    int width_px = 0;
+    int height_px = 0;
+    std::vector<float> pixels;
+
+    float at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width_px + x]; }
+};
+
+/// The mean of each 2 x 2 pixels; an odd last row or column is dropped.
+GrayImage halved(const GrayImage& image);
+
+/// A pinhole camera: u = focal x / z + principal.
+struct Pinhole {
+    float focal_px = 0.0F;
+    Eigen::Vector2f principal_px = Eigen::Vector2f::Zero();
+
+    /// The ray through a pixel, with z = 1, in the camera's frame.
+    Eigen::Vector3f ray(float x, float y) const
+    {
+        return {(x - principal_px.x()) / focal_px, (y - principal_px.y()) / focal_px, 1.0F};
+    }
+};
+
+/// The camera of the halved image.
+Pinhole halved(const Pinhole& camera);
+
+/// A photograph as stereo uses it: gray, at the working size, without lens distortion.
+struct StereoView {
+    std::uint32_t view = 0;                                       ///< index into Scene::views
+    Eigen::Matrix3d cam_from_world = Eigen::Matrix3d::Identity(); ///< rotation
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    Pinhole camera;
+    GrayImage image;           ///< -1 where the photograph shows nothing
+    std::vector<Color> colors; ///< per pixel of the depth map
+};
+
+/// A depth map has a pixel for every second pixel of the image, in both directions.
+inline constexpr int kDepthStep = 2;
+
+/// Undistorts a photograph to a pinhole image, as COLMAP's image_undistorter does, with its longest
+/// side at most `size_px` and never larger than the photograph. Each pixel is the mean of four
+/// samples half a pixel apart. Throws InputError if the photograph cannot be read. Cost: decoding,
+/// and four samples a pixel.
+StereoView stereo_view(const CalibratedPhoto& photo, int size_px);
+
+} // namespace vcarve
