@@ -287,9 +287,10 @@ Counts decimate(RunState& run, const Progress& /*progress*/)
     const std::int64_t before = size_of(mesh.faces.size());
     std::int64_t dropped = drop_small_components(mesh, small);
     mesh = collapse_edges(mesh, {.max_distance = kMostMoved * spacing});
+    constexpr CleanupOptions kOnlySplit = {.min_component_faces = 0, .max_hole_edges = 0};
+    mesh = tri_mesh(*clean_surface(std::move(mesh), kOnlySplit).mesh);
     dropped += drop_small_components(mesh, small);
-    CleanSurface cleaned =
-        clean_surface(std::move(mesh), {.min_component_faces = 0, .max_hole_edges = 0});
+    CleanSurface cleaned = clean_surface(std::move(mesh), kOnlySplit);
     run.mesh = std::move(cleaned.mesh);
     return {{"faces", cleaned.counts.faces}, {"of", before}, {"components dropped", dropped}};
 }

@@ -139,7 +139,7 @@ bool Patch::set(const GrayImage& image, int x, int y)
     constexpr float kSigmaGray = 25.0F;
     constexpr float kSigmaPx = 6.0F;
     // Beside a strong edge, plain pixels match wherever the edge does, at its depth.
-    constexpr float kLeastInnerShare = 0.05F;
+    constexpr float kLeastInnerShare = 0.1F;
     const Footprint at = {static_cast<float>(x), static_cast<float>(y), 1.0F, 0.0F, 0.0F, 1.0F};
     if (!is_inside(image, at)) return false;
     weights_.fill(0.0F);
