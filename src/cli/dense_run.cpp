@@ -1,23 +1,36 @@
 #include "cli/dense_run.h"
 
+#include "base/parallel.h"
 #include "base/text.h"
+#include "io/colmap/colmap_model.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
-#include "stereo/dense_points.h"
+#include "run/stage_file.h"
 #include "texture/texture_mesh.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
-namespace vcarve::cli {
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+namespace vcarve {
+
+/// The arrays are written as they are in memory.
+template <>
+inline constexpr bool kIsPlain<PixelPlane> = true;
+template <>
+inline constexpr int kNumFields<DepthMap> = 4;
+
+namespace cli {
 
 namespace fs = std::filesystem;
 
 namespace {
 
-/// Writes the points as stereo_fusion does: the views of a point are counted in the order of the
-/// model's images.
-void write_points(const fs::path& path, const Scene& scene)
+/// Writes the points as stereo_fusion does: a view is numbered by its place in the model's file.
+void write_points(const fs::path& path, const Scene& scene, const FoundModel& model)
 {
     TriMesh points;
     points.positions = scene.positions;
@@ -25,6 +38,12 @@ void write_points(const fs::path& path, const Scene& scene)
     points.normals = scene.normals;
     points.offset = scene.offset;
     write_mesh(path, points, {});
+    const std::vector<std::uint32_t> order =
+        read_colmap_views(model.folder, model.format).file_order;
+    std::vector<std::uint32_t> number_of_view(scene.views.size());
+    for (std::uint32_t number = 0; number < order.size(); ++number) {
+        number_of_view[order[number]] = number;
+    }
     OutputFile file(visibility_beside(path));
     const auto put = [&](const auto value) {
         file.stream().write(reinterpret_cast<const char*>(&value), sizeof value);
@@ -34,10 +53,21 @@ void write_points(const fs::path& path, const Scene& scene)
         const auto track = scene.tracks[point];
         put(static_cast<std::uint32_t>(track.size()));
         for (const std::uint32_t view : track) {
-            put(view);
+            put(number_of_view[view]);
         }
     }
     file.commit();
+}
+
+void require_stereo_memory(const DenseRun& run, const std::vector<CalibratedPhoto>& photos)
+{
+    const std::int64_t needed =
+        predicted_stereo_memory(photos, {run.arguments.size_px}, num_threads());
+    if (!run.most || needed <= *run.most) return;
+    throw InputError(fmt::format("--dense needs about {} for {} photographs, but {} may be used; "
+                                 "use a smaller --dense-size, fewer --threads, or a larger "
+                                 "--max-memory",
+                                 byte_size_text(needed), photos.size(), byte_size_text(*run.most)));
 }
 
 } // namespace
@@ -88,14 +118,43 @@ fs::path visibility_beside(const fs::path& cloud)
     return cloud.string() + ".vis";
 }
 
-Scene measure_dense_points(const DenseArguments& arguments, const Reconstruction& sparse,
-                           const Photographs& photographs, Log& log)
+Job photograph_facts(const fs::path& folder, const Progress& progress)
+{
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    Job facts;
+    for (const fs::path& file : files) {
+        facts.push_back(file_fact("photograph " + file.lexically_relative(folder).string(), file));
+        progress.tell(static_cast<double>(facts.size()), static_cast<double>(files.size()));
+    }
+    return facts;
+}
+
+Scene measure_dense_points(const DenseRun& run, const Reconstruction& sparse)
 {
     const std::vector<CalibratedPhoto> photos =
-        calibrated_photos(sparse.scene, photographs, sparse.scene.offset);
-    Scene dense = dense_points(sparse.scene, sparse.mesh, photos, {arguments.size_px}, log);
-    if (!arguments.keep_points.empty()) write_points(arguments.keep_points, dense);
+        calibrated_photos(sparse.scene, run.photographs, sparse.scene.offset);
+    if (photos.size() < 3) {
+        throw InputError(fmt::format("{}: --dense found {} photographs of views with a known, "
+                                     "non-spherical lens, but at least 3 are needed; name their "
+                                     "folder with --images",
+                                     run.photographs.folder.string(), photos.size()));
+    }
+    require_stereo_memory(run, photos);
+    const auto keep = [&](std::size_t photo, const std::function<DepthMap()>& make) {
+        return run.checkpoints.piece({"depth", photo, photos.size()}, make);
+    };
+    Scene dense =
+        dense_points(sparse, photos, {run.arguments.size_px}, keep, run.checkpoints.log());
+    if (!run.arguments.keep_points.empty()) {
+        write_points(run.arguments.keep_points, dense, run.model.model);
+    }
     return dense;
 }
 
-} // namespace vcarve::cli
+} // namespace cli
+
+} // namespace vcarve

@@ -1,21 +1,27 @@
 #pragma once
 
+#include "base/progress.h"
 #include "cli/command_line.h"
 #include "io/images/find_photographs.h"
+#include "io/input/find_input.h"
 #include "options/option.h"
-#include "vcarve/log.h"
+#include "run/checkpoints.h"
+#include "run/job.h"
+#include "stereo/dense_points.h"
 #include "vcarve/reconstruct.h"
 #include "vcarve/scene.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace vcarve::cli {
 
 /// The options of dense stereo.
 struct DenseArguments {
     bool dense = false;
-    int size_px = 640;                 ///< longest side of the working images
-    std::filesystem::path keep_points; ///< empty: the fused points are not written
+    int size_px = StereoOptions().size_px; ///< longest side of the working images
+    std::filesystem::path keep_points;     ///< empty: the fused points are not written
 };
 
 /// --dense, --dense-size and --keep-points, under the heading "Input".
@@ -27,9 +33,21 @@ void check_dense(const DenseArguments& dense, const ParsedArguments& given);
 /// The file of visibility beside the PLY file of --keep-points, as COLMAP's stereo_fusion names it.
 std::filesystem::path visibility_beside(const std::filesystem::path& cloud);
 
+/// The photographs as facts of a job: the content of every file in the folder. Cost: reads them.
+Job photograph_facts(const std::filesystem::path& folder, const Progress& progress);
+
+/// A run that measures dense points.
+struct DenseRun {
+    const DenseArguments& arguments;
+    const Photographs& photographs;
+    const FoundInput& model;          ///< its files' order of images is that of --keep-points
+    std::optional<std::int64_t> most; ///< bytes that may be used; nothing for no limit
+    Checkpoints& checkpoints;         ///< depth maps are kept as pieces of "depth"
+};
+
 /// Measures dense points from the photographs, starting from the sparse surface, and writes them if
-/// --keep-points says so. Throws as dense_points() does; UsageError if no photograph can be used.
-Scene measure_dense_points(const DenseArguments& arguments, const Reconstruction& sparse,
-                           const Photographs& photographs, Log& log);
+/// --keep-points says so. Throws as dense_points() does; InputError if no photograph can be used,
+/// or the memory does not suffice.
+Scene measure_dense_points(const DenseRun& run, const Reconstruction& sparse);
 
 } // namespace vcarve::cli

@@ -16,6 +16,7 @@
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
+#include "run/checkpoints.h"
 #include "run/work_folder.h"
 #include "steps/1_points/thin.h"
 #include "steps/6_surface/provenance.h"
@@ -32,7 +33,22 @@
 #include <memory>
 #include <optional>
 
-namespace vcarve::cli {
+namespace vcarve {
+
+namespace {
+
+/// The dense points of a run, as a checkpoint.
+struct DenseScene {
+    Scene scene;
+    SceneSize read; ///< before points were merged
+};
+
+} // namespace
+
+template <>
+inline constexpr int kNumFields<DenseScene> = 2;
+
+namespace cli {
 
 namespace {
 
@@ -137,6 +153,13 @@ void fit_memory(const Run& run, const RunSize& size)
     }
 }
 
+/// The folder of the photographs.
+fs::path photograph_folder(const MeshArguments& arguments)
+{
+    if (!arguments.texture.images.empty()) return arguments.texture.images;
+    return photographs_beside(arguments.model.path).value_or("");
+}
+
 /// Everything that the stages of a run depend on; options such as --offset act later.
 Job job_of(const MeshArguments& arguments, Log& log)
 {
@@ -148,6 +171,11 @@ Job job_of(const MeshArguments& arguments, Log& log)
     stage.end({{"files", size_of(input.size())}});
     const Job options = option_facts(arguments.options);
     job.insert(job.end(), options.begin(), options.end());
+    if (arguments.dense.dense) {
+        job.push_back({"--dense-size", std::to_string(arguments.dense.size_px)});
+        const Job photographs = photograph_facts(photograph_folder(arguments), stage);
+        job.insert(job.end(), photographs.begin(), photographs.end());
+    }
     return job;
 }
 
@@ -176,20 +204,33 @@ std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
 }
 
 /// Replaces the sparse points by dense ones that are measured in the photographs.
-ModelInput dense_input(ModelInput input, const Photographs& photographs, const Run& run)
+void make_dense(ModelInput& input, const Photographs& photographs, const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
     Options options = arguments.options;
     options.memory = run.memory.options();
     options.refine = {};
-    const Reconstruction sparse =
-        reconstruct_thinned(std::move(input.scene), input.read, options, run.log);
-    const Scene dense = measure_dense_points(arguments.dense, sparse, photographs, run.log);
-    input.read = size_of(dense);
-    Stage stage(run.log, "thin");
-    input.scene = thin_points(dense, options.thin, stage);
-    stage.end({{"points", size_of(input.scene.num_points())}, {"of", size_of(dense.num_points())}});
-    return input;
+    Checkpoints checkpoints(run.work, run.log);
+    DenseScene dense;
+    checkpoints.keep("depth", dense, [&] {
+        const Reconstruction sparse =
+            reconstruct_thinned(std::move(input.scene), input.read, options, checkpoints.log());
+        const Scene measured =
+            measure_dense_points({arguments.dense, photographs,
+                                  find_input(arguments.model.path, arguments.model.all_points()),
+                                  allowed_memory(arguments.options.memory, 1), checkpoints},
+                                 sparse);
+        dense.read = size_of(measured);
+        Stage stage(checkpoints.log(), "thin");
+        dense.scene = thin_points(measured, options.thin, stage);
+        stage.end({{"points", size_of(dense.scene.num_points())},
+                   {"of", size_of(measured.num_points())}});
+    });
+    input.scene = std::move(dense.scene);
+    input.read = dense.read;
+    RunSize size = size_before_thinning(input.read, arguments.options);
+    size.thinned = size_of(input.scene);
+    fit_memory(run, size);
 }
 
 /// The surface of a scene. Errors name the model.
@@ -198,16 +239,16 @@ Surface surface_of(ModelInput input, const Run& run)
     const MeshArguments& arguments = run.arguments;
     try {
         Surface surface;
+        const std::optional<Photographs> photographs = photographs_if_wanted(arguments, input, run);
+        if (arguments.dense.dense) make_dense(input, *photographs, run);
         Options options = arguments.options;
         options.memory = run.memory.options();
         if (run.ranks != nullptr && run.work != nullptr) {
             run.ranks->begin({run.work->job(), digest_of_options(options), run.memory.in_files()});
         }
-        const std::optional<Photographs> photographs = photographs_if_wanted(arguments, input, run);
         const RunExtras extras = {.removed = arguments.report.empty() ? nullptr : &surface.removed,
                                   .work = run.work,
                                   .ranks = run.ranks};
-        if (arguments.dense.dense) input = dense_input(std::move(input), *photographs, run);
         Reconstruction made =
             reconstruct_thinned(std::move(input.scene), input.read, options, run.log, extras);
         if (photographs) {
@@ -399,4 +440,6 @@ void run_mesh(const ParsedArguments& given, RunRanks* ranks)
     }
 }
 
-} // namespace vcarve::cli
+} // namespace cli
+
+} // namespace vcarve

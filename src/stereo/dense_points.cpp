@@ -20,8 +20,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kNeighbors = 10; ///< that fusion compares with
-constexpr std::size_t kSources = 5;    ///< of these that are matched
-constexpr int kSmallestRegion = 40;    ///< pixels of a depth map
+constexpr std::size_t kFewestSources = 2;
+constexpr std::size_t kSources = 5; ///< of these that are matched
+constexpr int kSmallestRegion = 40; ///< pixels of a depth map
 
 /// Looks up the sparse surface along rays.
 class SurfaceDepth {
@@ -79,21 +80,86 @@ std::vector<std::vector<float>> depths_of_points(const Scene& scene)
     return depths;
 }
 
-DepthPrior prior_of(const StereoView& view, std::vector<float> depths, const SurfaceDepth* surface)
+DepthPrior prior_of(const StereoView& view, std::vector<float> depths, const SurfaceDepth& surface)
 {
     DepthPrior prior;
     std::ranges::sort(depths);
     const std::size_t tail = depths.size() / 50;
     prior.nearest = 0.8F * depths[tail];
     prior.farthest = 1.3F * depths[depths.size() - 1 - tail];
-    const int width = (view.image.width_px + kDepthStep - 1) / kDepthStep;
-    const int height = (view.image.height_px + kDepthStep - 1) / kDepthStep;
-    for (int y = 0; surface != nullptr && y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            prior.surface.push_back(surface->plane(view, x, y));
+    for (int y = 0; y < depth_pixels(view.image.height_px); ++y) {
+        for (int x = 0; x < depth_pixels(view.image.width_px); ++x) {
+            prior.surface.push_back(surface.plane(view, x, y));
         }
     }
     return prior;
+}
+
+/// An empty map of the size of a view.
+DepthMap empty_map(const StereoView& view)
+{
+    DepthMap map;
+    map.width_px = depth_pixels(view.image.width_px);
+    map.height_px = depth_pixels(view.image.height_px);
+    map.planes.resize(static_cast<std::size_t>(map.width_px) * map.height_px);
+    map.costs.assign(map.planes.size(), DepthMap::kNoCost);
+    return map;
+}
+
+/// Matches views with their neighbors.
+class ViewMatcher {
+  public:
+    ViewMatcher(const Reconstruction& sparse, const std::vector<StereoView>& views)
+        : views_(views),
+          neighbors_(choose_sources(sparse.scene, views, kNeighbors)),
+          depths_(depths_of_points(sparse.scene)),
+          surface_(sparse.mesh)
+    {
+    }
+
+    const std::vector<std::vector<std::uint32_t>>& neighbors() const { return neighbors_; }
+
+    DepthMap match(std::size_t number) const
+    {
+        const StereoView& view = views_[number];
+        const auto& neighbors = neighbors_[number];
+        const std::vector<float>& depths = depths_[view.view];
+        if (neighbors.size() < kFewestSources || depths.empty()) return empty_map(view);
+        std::vector<const StereoView*> sources;
+        for (std::size_t i = 0; i < std::min(neighbors.size(), kSources); ++i) {
+            sources.push_back(&views_[neighbors[i]]);
+        }
+        const DepthPrior prior = prior_of(view, depths, surface_);
+        DepthMap map = match_view(view, sources, prior);
+        drop_speckles(map, kSmallestRegion);
+        fill_plain_regions(map, view.camera, prior.surface);
+        return map;
+    }
+
+  private:
+    const std::vector<StereoView>& views_;
+    std::vector<std::vector<std::uint32_t>> neighbors_;
+    std::vector<std::vector<float>> depths_; ///< of the points that each view sees
+    SurfaceDepth surface_;
+};
+
+std::int64_t num_measured(const std::vector<DepthMap>& maps)
+{
+    std::int64_t count = 0;
+    for (const DepthMap& map : maps) {
+        count +=
+            std::ranges::count_if(map.costs, [](float cost) { return cost < DepthMap::kNoCost; });
+    }
+    return count;
+}
+
+std::int64_t num_pixels(const std::vector<DepthMap>& maps)
+{
+    std::int64_t count = 0;
+    for (const DepthMap& map : maps) {
+        count += size_of(map.planes.size());
+    }
+    return count;
 }
 
 void add_measured(const Scene& sparse, Scene& dense)
@@ -111,9 +177,28 @@ void add_measured(const Scene& sparse, Scene& dense)
 
 } // namespace
 
-Scene dense_points(const Scene& sparse, const TriMesh& surface,
-                   const std::vector<CalibratedPhoto>& photos, const StereoOptions& options,
-                   Log& log)
+std::int64_t predicted_stereo_memory(const std::vector<CalibratedPhoto>& photos,
+                                     const StereoOptions& options, std::size_t threads)
+{
+    constexpr double kViewBytes = sizeof(float) + (sizeof(PixelPlane) + sizeof(float) + 4) / 4.0;
+    constexpr double kMatchBytes = 6 * sizeof(float) * 4.0 / 3.0; // of pyramids
+    constexpr double kPhotographBytes = 2 * 3 * 4.0 / 3.0;        // while it is decoded
+    double views = 0.0;
+    double largest = 0.0;
+    double largest_photo = 0.0;
+    for (const CalibratedPhoto& photo : photos) {
+        const double pixels = static_cast<double>(photo.size.width_px) * photo.size.height_px;
+        const double scale = working_scale(photo.size, options.size_px);
+        views += kViewBytes * scale * scale * pixels;
+        largest = std::max(largest, scale * scale * pixels);
+        largest_photo = std::max(largest_photo, pixels);
+    }
+    const double thread = std::max(kMatchBytes * largest, kPhotographBytes * largest_photo);
+    return static_cast<std::int64_t>(views + static_cast<double>(threads) * thread);
+}
+
+Scene dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
+                   const StereoOptions& options, const KeepDepthMap& keep, Log& log)
 {
     std::vector<StereoView> views(photos.size());
     {
@@ -124,36 +209,19 @@ Scene dense_points(const Scene& sparse, const TriMesh& surface,
         stage.end({{"photographs", size_of(photos.size())}});
     }
     std::vector<DepthMap> maps(views.size());
-    std::vector<std::vector<std::uint32_t>> neighbors;
-    {
-        Stage stage(log, "depth");
-        neighbors = choose_sources(sparse, views, kNeighbors);
-        const std::vector<std::vector<float>> depths = depths_of_points(sparse);
-        const SurfaceDepth faces(surface);
-        const auto match = [&](std::size_t i) {
-            DepthMap& map = maps[i];
-            map.width_px = (views[i].image.width_px + kDepthStep - 1) / kDepthStep;
-            map.height_px = (views[i].image.height_px + kDepthStep - 1) / kDepthStep;
-            map.planes.resize(static_cast<std::size_t>(map.width_px) * map.height_px);
-            map.costs.assign(map.planes.size(), DepthMap::kNoCost);
-            if (neighbors[i].size() < 2 || depths[views[i].view].empty()) return;
-            std::vector<const StereoView*> sources;
-            for (const std::uint32_t neighbor : neighbors[i]) {
-                if (sources.size() < kSources) sources.push_back(&views[neighbor]);
-            }
-            map = match_view(views[i], sources, prior_of(views[i], depths[views[i].view], &faces));
-            for (float& cost : map.costs) {
-                if (cost > 0.35F) cost = DepthMap::kNoCost;
-            }
-            drop_speckles(map, kSmallestRegion);
-        };
-        parallel_for(views.size(), stage, match, 1);
-        stage.end({{"depth maps", size_of(maps.size())}});
-    }
+    Stage depth(log, "depth");
+    const ViewMatcher matcher(sparse, views);
+    parallel_for(
+        views.size(), depth,
+        [&](std::size_t i) { maps[i] = keep(i, [&] { return matcher.match(i); }); }, 1);
+    depth.end({{"depth maps", size_of(maps.size())},
+               {"pixels measured", num_measured(maps)},
+               {"of", num_pixels(maps)}});
     Stage stage(log, "fuse");
-    Scene dense = fuse(sparse, {views, maps, neighbors}, stage);
-    stage.end({{"points", size_of(dense.num_points())}});
-    add_measured(sparse, dense);
+    Scene dense = fuse(sparse.scene, {views, maps, matcher.neighbors()}, stage);
+    stage.end(
+        {{"points", size_of(dense.num_points())}, {"pixels fused", size_of(dense.num_sights())}});
+    add_measured(sparse.scene, dense);
     return dense;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kLevels = 3;
 constexpr float kLeastDeviation = 1.5F; ///< gray levels
+constexpr float kMostCost = 0.35F;      ///< of a pixel that counts as measured
 constexpr float kLeastCosine = 0.1F;    ///< between a plane's normal and the ray
 
 /// xorshift64*.
@@ -60,8 +61,8 @@ class Matcher {
           sources_(std::move(sources)),
           random_(view.view * std::uint64_t{16} + number)
     {
-        map_.width_px = (image_.width_px + kDepthStep - 1) / kDepthStep;
-        map_.height_px = (image_.height_px + kDepthStep - 1) / kDepthStep;
+        map_.width_px = depth_pixels(image_.width_px);
+        map_.height_px = depth_pixels(image_.height_px);
         const auto size = static_cast<std::size_t>(map_.width_px) * map_.height_px;
         map_.planes.resize(size);
         map_.costs.assign(size, DepthMap::kNoCost);
@@ -81,8 +82,9 @@ class Matcher {
   private:
     bool set_patch(int x, int y)
     {
-        return patch_.set(image_, x * kDepthStep, y * kDepthStep) &&
-               patch_.deviation() >= kLeastDeviation;
+        const bool is_inside = patch_.set(image_, x * kDepthStep, y * kDepthStep);
+        is_plain_ = is_inside && patch_.deviation() < kLeastDeviation;
+        return is_inside && !is_plain_;
     }
     float cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const;
     void attempt(std::size_t pixel, const Eigen::Vector3f& ray, const PixelPlane& plane);
@@ -97,6 +99,7 @@ class Matcher {
     Random random_;
     DepthMap map_;
     Patch patch_;
+    bool is_plain_ = false; ///< the last patch that was set
 };
 
 float Matcher::cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const
@@ -148,8 +151,11 @@ void Matcher::start(const DepthPrior& prior, const DepthMap* coarse)
 {
     for (int y = 0; y < map_.height_px; ++y) {
         for (int x = 0; x < map_.width_px; ++x) {
-            if (!set_patch(x, y)) continue;
             const std::size_t pixel = map_.index(x, y);
+            if (!set_patch(x, y)) {
+                if (is_plain_) map_.costs[pixel] = DepthMap::kPlain;
+                continue;
+            }
             const Eigen::Vector3f towards = ray(x, y);
             if (!prior.surface.empty()) attempt(pixel, towards, prior.surface[pixel]);
             if (coarse != nullptr) {
@@ -250,7 +256,7 @@ DepthMap match_view(const StereoView& view, std::span<const StereoView* const> s
         others.push_back(pyramid_of(*source));
     }
     DepthMap coarse;
-    const int prior_width = (view.image.width_px + kDepthStep - 1) / kDepthStep;
+    const int prior_width = depth_pixels(view.image.width_px);
     for (int level = kLevels - 1; level >= 0; --level) {
         std::vector<MatchedView> matched;
         for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -265,6 +271,9 @@ DepthMap match_view(const StereoView& view, std::span<const StereoView* const> s
             matcher.sweep(round, here);
         }
         coarse = matcher.take();
+    }
+    for (float& cost : coarse.costs) {
+        if (cost > kMostCost && cost < DepthMap::kPlain) cost = DepthMap::kNoCost;
     }
     return coarse;
 }

@@ -13,12 +13,14 @@ namespace vcarve {
 
 /// Depth and normal per pixel of a view, kDepthStep pixels of its image apart.
 struct DepthMap {
-    static constexpr float kNoCost = 2.0F;
+    static constexpr float kNoCost = 2.0F; ///< and above: nothing was measured
+    static constexpr float kPlain = 3.0F;  ///< nothing to match: the photograph shows no texture
+    static constexpr float kFilled = 0.3F; ///< a plain pixel that was given a plane
 
     int width_px = 0;
     int height_px = 0;
     std::vector<PixelPlane> planes;
-    std::vector<float> costs; ///< kNoCost where nothing was measured
+    std::vector<float> costs; ///< below kNoCost where there is a plane
 
     std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_px + x; }
     bool has(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }

@@ -88,10 +88,15 @@ Pinhole halved(const Pinhole& camera)
     return {0.5F * camera.focal_px, 0.5F * camera.principal_px - Eigen::Vector2f::Constant(0.25F)};
 }
 
+double working_scale(const PhotographSize& photograph, int size_px)
+{
+    const int longest = std::max(photograph.width_px, photograph.height_px);
+    return std::min(1.0, static_cast<double>(size_px) / longest);
+}
+
 StereoView stereo_view(const CalibratedPhoto& photo, int size_px)
 {
-    const int longest = std::max(photo.size.width_px, photo.size.height_px);
-    const double scale = std::min(1.0, static_cast<double>(size_px) / longest);
+    const double scale = working_scale(photo.size, size_px);
     StereoView result;
     result.view = photo.view;
     result.cam_from_world = photo.pose.cam_from_world.toRotationMatrix();

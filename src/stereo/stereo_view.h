@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/photograph.h"
 #include "texture/calibrated_photo.h"
 #include "vcarve/scene.h"
 
@@ -50,6 +51,15 @@ struct StereoView {
 
 /// A depth map has a pixel for every second pixel of the image, in both directions.
 inline constexpr int kDepthStep = 2;
+
+/// The size of a depth map along a side of an image.
+constexpr int depth_pixels(int image_px)
+{
+    return (image_px + kDepthStep - 1) / kDepthStep;
+}
+
+/// Pixels of the working image per pixel of the photograph, along a side: at most 1.
+double working_scale(const PhotographSize& photograph, int size_px);
 
 /// Undistorts a photograph to a pinhole image, as COLMAP's image_undistorter does, with its longest
 /// side at most `size_px` and never larger than the photograph. Each pixel is the mean of four
