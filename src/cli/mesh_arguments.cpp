@@ -221,6 +221,9 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
     check_dense(arguments.dense, given);
+    if (arguments.dense.dense && !given.has("max-closing")) {
+        arguments.options.surface.rules.max_closing = kDenseClosing;
+    }
     check_texture(arguments.texture, arguments.out, given);
     check_preview(arguments.preview, given);
     if (!arguments.report.empty()) require_page_name(arguments.report);
