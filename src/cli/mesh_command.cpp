@@ -210,6 +210,7 @@ void make_dense(ModelInput& input, const Photographs& photographs, const Run& ru
     Options options = arguments.options;
     options.memory = run.memory.options();
     options.refine = {};
+    options.surface = {}; // depth maps start from what is seen, whatever is wanted in the end
     Checkpoints checkpoints(run.work, run.log);
     DenseScene dense;
     checkpoints.keep("depth", dense, [&] {

@@ -28,7 +28,7 @@ double exact_cost(const StereoView& reference, const StereoView& source, const P
                   const Eigen::Vector2d& center, const PixelPlane& plane)
 {
     const Vector3d normal = plane.normal.cast<double>();
-    const auto ray = [&](double x, double y) {
+    const auto ray = [&](double x, double y) -> Vector3d {
         return reference.camera.ray(static_cast<float>(x), static_cast<float>(y)).cast<double>();
     };
     const double distance = plane.depth * normal.dot(ray(center.x(), center.y()));
