@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <system_error>
 #include <vector>
 
 namespace vcarve {
@@ -28,36 +29,6 @@ namespace cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Writes the points as stereo_fusion does: a view is numbered by its place in the model's file.
-void write_points(const fs::path& path, const Scene& scene, const FoundModel& model)
-{
-    TriMesh points;
-    points.positions = scene.positions;
-    points.colors = scene.colors;
-    points.normals = scene.normals;
-    points.offset = scene.offset;
-    write_mesh(path, points, {});
-    const std::vector<std::uint32_t> order =
-        read_colmap_views(model.folder, model.format).file_order;
-    std::vector<std::uint32_t> number_of_view(scene.views.size());
-    for (std::uint32_t number = 0; number < order.size(); ++number) {
-        number_of_view[order[number]] = number;
-    }
-    OutputFile file(visibility_beside(path));
-    const auto put = [&](const auto value) {
-        file.stream().write(reinterpret_cast<const char*>(&value), sizeof value);
-    };
-    put(static_cast<std::uint64_t>(scene.num_points()));
-    for (std::size_t point = 0; point < scene.num_points(); ++point) {
-        const auto track = scene.tracks[point];
-        put(static_cast<std::uint32_t>(track.size()));
-        for (const std::uint32_t view : track) {
-            put(number_of_view[view]);
-        }
-    }
-    file.commit();
-}
 
 void require_stereo_memory(const DenseRun& run, const std::vector<CalibratedPhoto>& photos)
 {
@@ -107,6 +78,9 @@ void check_dense(const DenseArguments& dense, const ParsedArguments& given)
             throw UsageError(fmt::format("--{} needs --dense", name));
         }
     }
+    if (dense.dense && given.has("points")) {
+        throw UsageError("--dense measures points of its own; remove --points");
+    }
     if (!dense.keep_points.empty() && lower_case_end(dense.keep_points) != ".ply") {
         throw UsageError(
             fmt::format("cannot write {}: --keep-points writes .ply", dense.keep_points.string()));
@@ -118,10 +92,40 @@ fs::path visibility_beside(const fs::path& cloud)
     return cloud.string() + ".vis";
 }
 
+void write_points(const fs::path& path, const Scene& scene, const FoundModel& model)
+{
+    TriMesh points;
+    points.positions = scene.positions;
+    points.colors = scene.colors;
+    points.normals = scene.normals;
+    points.offset = scene.offset;
+    write_mesh(path, points, {});
+    const std::vector<std::uint32_t> order =
+        read_colmap_views(model.folder, model.format).file_order;
+    std::vector<std::uint32_t> number_of_view(scene.views.size());
+    for (std::uint32_t number = 0; number < order.size(); ++number) {
+        number_of_view[order[number]] = number;
+    }
+    OutputFile file(visibility_beside(path));
+    const auto put = [&](const auto value) {
+        file.stream().write(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    put(static_cast<std::uint64_t>(scene.num_points()));
+    for (std::size_t point = 0; point < scene.num_points(); ++point) {
+        const auto track = scene.tracks[point];
+        put(static_cast<std::uint32_t>(track.size()));
+        for (const std::uint32_t view : track) {
+            put(number_of_view[view]);
+        }
+    }
+    file.commit();
+}
+
 Job photograph_facts(const fs::path& folder, const Progress& progress)
 {
     std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+    std::error_code error; // a missing folder is refused later
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
         if (entry.is_regular_file()) files.push_back(entry.path());
     }
     std::ranges::sort(files);
@@ -147,12 +151,7 @@ Scene measure_dense_points(const DenseRun& run, const Reconstruction& sparse)
     const auto keep = [&](std::size_t photo, const std::function<DepthMap()>& make) {
         return run.checkpoints.piece({"depth", photo, photos.size()}, make);
     };
-    Scene dense =
-        dense_points(sparse, photos, {run.arguments.size_px}, keep, run.checkpoints.log());
-    if (!run.arguments.keep_points.empty()) {
-        write_points(run.arguments.keep_points, dense, run.model.model);
-    }
-    return dense;
+    return dense_points(sparse, photos, {run.arguments.size_px}, keep, run.checkpoints.log());
 }
 
 } // namespace cli

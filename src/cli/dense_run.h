@@ -24,8 +24,8 @@ struct DenseArguments {
     std::filesystem::path keep_points;     ///< empty: the fused points are not written
 };
 
-/// Default of --max-closing with --dense. Depth maps cover what they see so densely that a long face
-/// is no surface: at 0.115 faces span streets from roof to roof.
+/// Default of --max-closing with --dense. Depth maps cover what they see so densely that a long
+/// face is no surface: at 0.115 faces span streets from roof to roof.
 inline constexpr double kDenseClosing = 0.02;
 
 /// --dense, --dense-size and --keep-points, under the heading "Input".
@@ -37,6 +37,10 @@ void check_dense(const DenseArguments& dense, const ParsedArguments& given);
 /// The file of visibility beside the PLY file of --keep-points, as COLMAP's stereo_fusion names it.
 std::filesystem::path visibility_beside(const std::filesystem::path& cloud);
 
+/// Writes points and their visibility as COLMAP's stereo_fusion does: a view is numbered by its
+/// place in the model's file. Throws UsageError if a file cannot be written.
+void write_points(const std::filesystem::path& path, const Scene& scene, const FoundModel& model);
+
 /// The photographs as facts of a job: the content of every file in the folder. Cost: reads them.
 Job photograph_facts(const std::filesystem::path& folder, const Progress& progress);
 
@@ -44,14 +48,13 @@ Job photograph_facts(const std::filesystem::path& folder, const Progress& progre
 struct DenseRun {
     const DenseArguments& arguments;
     const Photographs& photographs;
-    const FoundInput& model;          ///< its files' order of images is that of --keep-points
     std::optional<std::int64_t> most; ///< bytes that may be used; nothing for no limit
     Checkpoints& checkpoints;         ///< depth maps are kept as pieces of "depth"
 };
 
-/// Measures dense points from the photographs, starting from the sparse surface, and writes them if
-/// --keep-points says so. Throws as dense_points() does; InputError if no photograph can be used,
-/// or the memory does not suffice.
+/// Measures dense points from the photographs, starting from the sparse surface. Throws as
+/// dense_points() does; InputError if too few photographs can be used, or the memory does not
+/// suffice.
 Scene measure_dense_points(const DenseRun& run, const Reconstruction& sparse);
 
 } // namespace vcarve::cli

@@ -221,6 +221,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
     check_dense(arguments.dense, given);
+    if (arguments.dense.dense) arguments.model.points.points = "sparse";
     if (arguments.dense.dense && !given.has("max-closing")) {
         arguments.options.surface.rules.max_closing = kDenseClosing;
     }

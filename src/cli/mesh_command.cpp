@@ -33,22 +33,7 @@
 #include <memory>
 #include <optional>
 
-namespace vcarve {
-
-namespace {
-
-/// The dense points of a run, as a checkpoint.
-struct DenseScene {
-    Scene scene;
-    SceneSize read; ///< before points were merged
-};
-
-} // namespace
-
-template <>
-inline constexpr int kNumFields<DenseScene> = 2;
-
-namespace cli {
+namespace vcarve::cli {
 
 namespace {
 
@@ -212,23 +197,22 @@ void make_dense(ModelInput& input, const Photographs& photographs, const Run& ru
     options.refine = {};
     options.surface = {}; // depth maps start from what is seen, whatever is wanted in the end
     Checkpoints checkpoints(run.work, run.log);
-    DenseScene dense;
+    Scene dense;
     checkpoints.keep("depth", dense, [&] {
         const Reconstruction sparse =
             reconstruct_thinned(std::move(input.scene), input.read, options, checkpoints.log());
-        const Scene measured =
-            measure_dense_points({arguments.dense, photographs,
-                                  find_input(arguments.model.path, arguments.model.all_points()),
-                                  allowed_memory(arguments.options.memory, 1), checkpoints},
-                                 sparse);
-        dense.read = size_of(measured);
-        Stage stage(checkpoints.log(), "thin");
-        dense.scene = thin_points(measured, options.thin, stage);
-        stage.end({{"points", size_of(dense.scene.num_points())},
-                   {"of", size_of(measured.num_points())}});
+        dense = measure_dense_points({arguments.dense, photographs,
+                                      allowed_memory(arguments.options.memory, 1), checkpoints},
+                                     sparse);
     });
-    input.scene = std::move(dense.scene);
-    input.read = dense.read;
+    if (!arguments.dense.keep_points.empty()) {
+        const FoundInput found = find_input(arguments.model.path, arguments.model.all_points());
+        write_points(arguments.dense.keep_points, dense, found.model);
+    }
+    Stage stage(run.log, "thin");
+    input.read = size_of(dense);
+    input.scene = thin_points(dense, options.thin, stage);
+    stage.end({{"points", size_of(input.scene.num_points())}, {"of", size_of(dense.num_points())}});
     RunSize size = size_before_thinning(input.read, arguments.options);
     size.thinned = size_of(input.scene);
     fit_memory(run, size);
@@ -441,6 +425,4 @@ void run_mesh(const ParsedArguments& given, RunRanks* ranks)
     }
 }
 
-} // namespace cli
-
-} // namespace vcarve
+} // namespace vcarve::cli

@@ -64,9 +64,10 @@ Photographs photographs_of(const TextureArguments& arguments, const fs::path& mo
     if (folder.empty()) {
         const std::optional<fs::path> beside = photographs_beside(model);
         if (!beside) {
-            throw UsageError(fmt::format("--texture found no folder `images` beside {}; name the "
-                                         "folder of the photographs with --images",
-                                         model.string()));
+            throw UsageError(
+                fmt::format("found no folder `images` beside {}; name the folder of the "
+                            "photographs with --images",
+                            model.string()));
         }
         folder = *beside;
         log.note(fmt::format("the photographs are taken from {}", folder.string()));

@@ -253,8 +253,8 @@ OptionList cleanup_options(Options& options)
          {.name = "simplify",
           .unit = "faces",
           .help = "Simplify to about N faces. A merge that would occlude an observed point is "
-                  "rejected; 0 keeps all faces. auto: simplify dense surfaces within the noise of "
-                  "their points.",
+                  "rejected; 0 keeps all faces. auto: simplify surfaces of dense points within a "
+                  "quarter of their spacing.",
           .words = {"auto"},
           .word_value = SimplifyOptions::kAutoFaces},
          &options.refine.simplify.faces},

@@ -59,8 +59,8 @@ struct PhotographedRoom {
             scene.colors.emplace_back();
             scene.tracks.push_back(all);
         }
-        sparse.mesh.positions = {{-3.0, -3.0, 2.02}, {3.0, -3.0, 2.02}, {3.0, 3.0, 2.02},
-                                 {-3.0, 3.0, 2.02}};
+        sparse.mesh.positions = {
+            {-3.0, -3.0, 2.02}, {3.0, -3.0, 2.02}, {3.0, 3.0, 2.02}, {-3.0, 3.0, 2.02}};
         sparse.mesh.faces = {{0, 2, 1}, {0, 3, 2}};
     }
 

@@ -35,7 +35,8 @@ Quality quality(const DepthMap& map, const StereoView& view, const SurfaceAlong&
     for (int y = kBorder; y < map.height_px - kBorder; ++y) {
         for (int x = kBorder; x < map.width_px - kBorder; ++x) {
             const Vector3d ray =
-                view.camera.ray(static_cast<float>(2 * x), static_cast<float>(2 * y)).cast<double>();
+                view.camera.ray(static_cast<float>(2 * x), static_cast<float>(2 * y))
+                    .cast<double>();
             const double depth = surface(view.center, ray);
             if (depth == 0.0) continue;
             ++pixels;

@@ -17,10 +17,9 @@ float bilinear(const GrayImage& image, double x, double y)
     const int row = static_cast<int>(y);
     const double right = x - column;
     const double down = y - row;
-    return static_cast<float>((1 - down) * ((1 - right) * image.at(column, row) +
-                                            right * image.at(column + 1, row)) +
-                              down * ((1 - right) * image.at(column, row + 1) +
-                                      right * image.at(column + 1, row + 1)));
+    return static_cast<float>(
+        (1 - down) * ((1 - right) * image.at(column, row) + right * image.at(column + 1, row)) +
+        down * ((1 - right) * image.at(column, row + 1) + right * image.at(column + 1, row + 1)));
 }
 
 /// The definition: every sample is carried to the plane and to the source by itself.
@@ -41,10 +40,10 @@ double exact_cost(const StereoView& reference, const StereoView& source, const P
                 center.y() + Patch::kStepPx * (k / Patch::kSide - Patch::kRadius));
         const Vector3d place =
             reference.center + distance / normal.dot(towards) * towards - source.center;
-        const double value =
-            bilinear(source.image,
-                     source.camera.focal_px * place.x() / place.z() + source.camera.principal_px.x(),
-                     source.camera.focal_px * place.y() / place.z() + source.camera.principal_px.y());
+        const double value = bilinear(
+            source.image,
+            source.camera.focal_px * place.x() / place.z() + source.camera.principal_px.x(),
+            source.camera.focal_px * place.y() / place.z() + source.camera.principal_px.y());
         sum += patch.weights()[k] * value;
         square += patch.weights()[k] * value * value;
         product += patch.differences()[k] * value;

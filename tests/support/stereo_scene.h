@@ -14,7 +14,8 @@
 namespace vcarve {
 
 /// The depth of a surface along a ray from a viewpoint, in lengths of the direction; 0 for none.
-using SurfaceAlong = std::function<double(const Eigen::Vector3d& from, const Eigen::Vector3d& along)>;
+using SurfaceAlong =
+    std::function<double(const Eigen::Vector3d& from, const Eigen::Vector3d& along)>;
 
 /// A random gray level per corner of a grid of cubes.
 inline double level_at(std::int64_t x, std::int64_t y, std::int64_t z)
@@ -36,8 +37,7 @@ inline double texture_at(const Eigen::Vector3d& place)
         const int dx = i & 1;
         const int dy = (i >> 1) & 1;
         const int dz = i >> 2;
-        level += (dx != 0 ? share.x() : 1.0 - share.x()) *
-                 (dy != 0 ? share.y() : 1.0 - share.y()) *
+        level += (dx != 0 ? share.x() : 1.0 - share.x()) * (dy != 0 ? share.y() : 1.0 - share.y()) *
                  (dz != 0 ? share.z() : 1.0 - share.z()) *
                  level_at(corner.x() + dx, corner.y() + dy, corner.z() + dz);
     }

@@ -42,6 +42,22 @@ TEST(ReadPhotograph, KnowsEachKindOfTiff)
     }
 }
 
+TEST(ReadPhotograph, ReadsPpmAndPgm)
+{
+    const TemporaryFolder folder;
+    const auto color = folder.write("color.ppm", "P6\n# a comment\n2 1\n255\nabcdef");
+    EXPECT_THAT(read_photograph(color).rgb, ElementsAre('a', 'b', 'c', 'd', 'e', 'f'));
+    EXPECT_EQ(photograph_size(color).width_px, 2);
+    const auto gray = folder.write("gray.pgm", "P5 1 2 255\nxy");
+    EXPECT_THAT(read_photograph(gray).rgb, ElementsAre('x', 'x', 'x', 'y', 'y', 'y'));
+    const auto cut = folder.write("cut.ppm", "P6 2 2 255\nabc");
+    EXPECT_THAT(refusal<InputError>([&] { read_photograph(cut); }),
+                testing::HasSubstr("found a PPM or PGM that cannot be read"));
+    const auto huge = folder.write("huge.ppm", "P6 100000 100000 255\nabc");
+    EXPECT_THAT(refusal<InputError>([&] { photograph_size(huge); }),
+                testing::HasSubstr("huge.ppm"));
+}
+
 TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
 {
     const TemporaryFolder folder;
@@ -52,7 +68,7 @@ TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
     };
     const auto text = folder.write("text.jpg", "to be replaced by a photograph\n");
     EXPECT_EQ(refused(text), text.string() +
-                                 ": found neither JPEG nor PNG nor TIFF by the first bytes, but "
+                                 ": found neither JPEG, PNG, TIFF nor PPM by the first bytes, but "
                                  "photographs are read as these only; convert it to one of them");
     const auto empty = folder.write("empty.jpg", "");
     EXPECT_EQ(refused(empty), empty.string() + ": the file is empty, but a photograph is "

@@ -179,6 +179,23 @@ TEST(ThinPoints, LeavesAPointWithAllItsViewsNearEveryPoint)
     }
 }
 
+TEST(ThinPoints, MergesPartsOfASceneThatHasAnOffset)
+{
+    Scene scene = wavy_sheet(3000);
+    scene.offset = Vector3d(5.0, -7.0, 100.0);
+    const Scene whole = thin_points(scene, {.merge_px = 1.0});
+    PartsOfScene parts(scene);
+    const Scene thin = thin_points(parts, {.merge_px = 1.0}, {}, 1000);
+    // Each merged point lies among those of the whole sheet.
+    for (std::size_t i = 0; i < thin.num_points(); ++i) {
+        double nearest = 1e9;
+        for (std::size_t k = 0; k < whole.num_points(); ++k) {
+            nearest = std::min(nearest, (place(thin, i) - place(whole, k)).norm());
+        }
+        EXPECT_LT(nearest, 0.5) << i;
+    }
+}
+
 TEST(ThinPoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
 {
     const Scene scene = wavy_sheet(3000);

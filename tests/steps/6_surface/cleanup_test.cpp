@@ -286,5 +286,22 @@ TEST(CleanSurface, ScalesWithTheSurface)
     EXPECT_EQ(clean.mesh.positions[5], expected.mesh.positions[5] * std::pow(2.0, 20));
 }
 
+TEST(DropSmallComponents, DropsThoseOfLessAreaButNeverTheLargest)
+{
+    TriMesh mesh;
+    for (const double size : {1.0, 2.0, 3.0}) { // areas 0.5, 2 and 4.5
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.emplace_back(0.0, 0.0, 10.0 * size);
+        mesh.positions.emplace_back(size, 0.0, 10.0 * size);
+        mesh.positions.emplace_back(0.0, size, 10.0 * size);
+        mesh.faces.push_back({first, first + 1, first + 2});
+    }
+    TriMesh kept = mesh;
+    EXPECT_EQ(drop_small_components(kept, 2.0), 1);
+    EXPECT_EQ(kept.faces, (std::vector<Face>{{3, 4, 5}, {6, 7, 8}}));
+    EXPECT_EQ(drop_small_components(mesh, 1e6), 2);
+    EXPECT_EQ(mesh.faces, (std::vector<Face>{{6, 7, 8}}));
+}
+
 } // namespace
 } // namespace vcarve::cleanup_test

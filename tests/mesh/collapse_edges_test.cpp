@@ -1,0 +1,70 @@
+#include "mesh/collapse_edges.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace vcarve::collapse_edges_test {
+namespace {
+
+/// A flat square of 20 x 20 unit squares, of two faces each, whose vertices have points.
+TriMesh flat()
+{
+    TriMesh mesh;
+    constexpr std::uint32_t kSide = 21;
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            mesh.positions.emplace_back(x, y, 0.0);
+            mesh.points.push_back(1000 + kSide * y + x);
+        }
+    }
+    for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
+        for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
+            const std::uint32_t a = kSide * y + x;
+            mesh.faces.push_back({a, a + 1, a + kSide});
+            mesh.faces.push_back({a + 1, a + kSide + 1, a + kSide});
+        }
+    }
+    return mesh;
+}
+
+TEST(CollapseEdges, LeavesFewFacesOfAFlatMeshAndKeepsItsPoints)
+{
+    const TriMesh mesh = flat();
+    const TriMesh coarse = collapse_edges(mesh, {.max_distance = 0.01});
+    EXPECT_LE(coarse.faces.size(), 40U);
+    ASSERT_EQ(coarse.points.size(), coarse.positions.size());
+    for (std::size_t i = 0; i < coarse.points.size(); ++i) {
+        EXPECT_EQ(coarse.positions[i], mesh.positions[coarse.points[i] - 1000]);
+    }
+}
+
+TEST(CollapseEdges, KeepsBumpsThatAreHigherThanTheTolerance)
+{
+    TriMesh mesh = flat();
+    mesh.positions[220].z() = 2.0; // in the middle
+    const auto top = [](const TriMesh& each) {
+        double height = 0.0;
+        for (const Eigen::Vector3d& position : each.positions) {
+            height = std::max(height, position.z());
+        }
+        return height;
+    };
+    EXPECT_EQ(top(collapse_edges(mesh, {.max_distance = 0.1})), 2.0);
+    EXPECT_EQ(top(collapse_edges(mesh, {.max_distance = 100.0})), 0.0);
+}
+
+TEST(CollapseEdges, StopsAtANumberOfFaces)
+{
+    const TriMesh coarse = collapse_edges(flat(), {.min_faces = 400});
+    EXPECT_LE(coarse.faces.size(), 400U);
+    EXPECT_GT(coarse.faces.size(), 350U);
+}
+
+TEST(CollapseEdges, KeepsAMeshWithoutFaces)
+{
+    EXPECT_TRUE(collapse_edges({}, {.max_distance = 1.0}).faces.empty());
+}
+
+} // namespace
+} // namespace vcarve::collapse_edges_test
