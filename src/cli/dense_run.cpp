@@ -49,7 +49,7 @@ OptionList dense_options(DenseArguments& dense)
     return {
         {kStage,
          {.name = "dense",
-          .help = "Measure dense points from the photographs first, on the CPU. They are those of "
+          .help = "Measure dense points from photographs. They are those of "
                   "--images, or of the folder `images` beside the model."},
          &dense.dense},
         {kStage,

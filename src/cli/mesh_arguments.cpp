@@ -117,7 +117,8 @@ OptionList counting_options(MeshArguments& arguments)
                 dense_options(arguments.dense), texture_options(arguments.texture)});
     std::erase_if(options, [](const Option& option) {
         const std::string& name = option.info.name;
-        return option.stage == kRunStage || name == "quiet" || name == "verbose";
+        return option.stage == kRunStage || name == "quiet" || name == "verbose" ||
+               name == "keep-points";
     });
     return options;
 }

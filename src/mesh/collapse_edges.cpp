@@ -1,7 +1,6 @@
 #include "mesh/collapse_edges.h"
 
 #include "mesh/vertices.h"
-#include "model/scene_points.h"
 
 #include <Eigen/Geometry>
 #include <meshoptimizer.h>
@@ -11,23 +10,6 @@
 #include <vector>
 
 namespace vcarve {
-
-namespace {
-
-TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces)
-{
-    const std::vector<std::uint32_t> vertices = used_vertices(faces, mesh.positions.size());
-    renumber(faces, vertices, mesh.positions.size());
-    TriMesh used;
-    used.offset = mesh.offset;
-    used.positions = values_at(vertices, mesh.positions);
-    used.colors = values_at(vertices, mesh.colors);
-    used.points = values_at(vertices, mesh.points);
-    used.faces = std::move(faces);
-    return used;
-}
-
-} // namespace
 
 TriMesh collapse_edges(const TriMesh& mesh, const CollapseLimits& limits)
 {

@@ -1,6 +1,7 @@
 #include "mesh/vertices.h"
 
 #include "base/parallel.h"
+#include "model/scene_points.h"
 
 #include <Eigen/Core>
 
@@ -64,6 +65,19 @@ std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b)
     }
     if (!mesh.points.empty()) mesh.points[middle] = kNoPoint;
     return middle;
+}
+
+TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces)
+{
+    const std::vector<std::uint32_t> vertices = used_vertices(faces, mesh.positions.size());
+    renumber(faces, vertices, mesh.positions.size());
+    TriMesh used;
+    used.offset = mesh.offset;
+    used.positions = values_at(vertices, mesh.positions);
+    used.colors = values_at(vertices, mesh.colors);
+    used.points = values_at(vertices, mesh.points);
+    used.faces = std::move(faces);
+    return used;
 }
 
 } // namespace vcarve

@@ -76,4 +76,8 @@ std::uint32_t add_copy(TriMesh& mesh, std::uint32_t original);
 /// its number.
 std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b);
 
+/// A mesh with other faces and only the vertices they use, without normals. Cost: O(faces +
+/// vertices).
+TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces);
+
 } // namespace vcarve

@@ -2,6 +2,7 @@
 
 #include "geometry/triangle.h"
 #include "mesh/collapse_edges.h"
+#include "mesh/vertices.h"
 
 #include <algorithm>
 #include <utility>
@@ -56,8 +57,8 @@ TriMesh display_mesh(const TriMesh& mesh, std::int64_t max_faces, const Progress
     // Without their boundaries small components would vanish.
     TriMesh shown = collapse_edges(mesh, {.min_faces = wanted, .locks_boundary = true});
     progress.tell(1.0);
-    if (shown.faces.size() > wanted) shown.faces = some_faces(shown.faces, wanted);
-    return shown;
+    if (shown.faces.size() <= wanted) return shown;
+    return with_used_vertices(shown, some_faces(shown.faces, wanted));
 }
 
 std::vector<std::int32_t> edge_parts(const TriMesh& mesh, double length, std::int64_t most)

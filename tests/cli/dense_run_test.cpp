@@ -68,7 +68,7 @@ TEST(DenseProgram, RefusesAModelWithoutPhotographs)
 TEST(DenseProgram, RefusesMoreMemoryThanIsAllowed)
 {
     const TemporaryFolder folder;
-    EXPECT_THAT(sentence_of(3, {kModel, folder / "out.ply", "--dense", "--max-memory", "1M"}),
+    EXPECT_THAT(sentence_of(3, {kModel, folder / "out.ply", "--dense", "--max-memory", "20M"}),
                 HasSubstr("may be used"));
     EXPECT_EQ(folder.num_entries(), 0U);
 }

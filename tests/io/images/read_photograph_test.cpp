@@ -50,6 +50,12 @@ TEST(ReadPhotograph, ReadsPpmAndPgm)
     EXPECT_EQ(photograph_size(color).width_px, 2);
     const auto gray = folder.write("gray.pgm", "P5 1 2 255\nxy");
     EXPECT_THAT(read_photograph(gray).rgb, ElementsAre('x', 'x', 'x', 'y', 'y', 'y'));
+    const auto deep =
+        folder.write("deep.ppm", std::string_view("P6 1 1 1023 \x03\xff\x00\x00\x02\x00", 18));
+    EXPECT_THAT(read_photograph(deep).rgb, ElementsAre(255, 0, 128));
+    const auto none = folder.write("none.ppm", "P6 1 x");
+    EXPECT_THAT(refusal<InputError>([&] { photograph_size(none); }),
+                testing::HasSubstr("no width, height or range"));
     const auto cut = folder.write("cut.ppm", "P6 2 2 255\nabc");
     EXPECT_THAT(refusal<InputError>([&] { read_photograph(cut); }),
                 testing::HasSubstr("found a PPM or PGM that cannot be read"));
