@@ -30,8 +30,10 @@ constexpr Offsets make_offsets()
 {
     Offsets offsets;
     for (int k = 0; k < Patch::kSide * Patch::kSide; ++k) {
-        offsets.x[k] = static_cast<float>(k % Patch::kSide - Patch::kRadius) * Patch::kStepPx;
-        offsets.y[k] = static_cast<float>(k / Patch::kSide - Patch::kRadius) * Patch::kStepPx;
+        const int column = k % Patch::kSide;
+        const int row = k / Patch::kSide;
+        offsets.x[k] = static_cast<float>(column - Patch::kRadius) * Patch::kStepPx;
+        offsets.y[k] = static_cast<float>(row - Patch::kRadius) * Patch::kStepPx;
     }
     return offsets;
 }

@@ -237,7 +237,8 @@ DepthPrior shrunk(const DepthPrior& prior, int width_px, int height_px, int fact
     for (int y = 0; y < height_px; ++y) {
         for (int x = 0; x < width_px; ++x) {
             result.surface.push_back(
-                prior.surface[static_cast<std::size_t>(y * factor) * prior_width_px + x * factor]);
+                prior.surface[static_cast<std::size_t>(y) * factor * prior_width_px +
+                              static_cast<std::size_t>(x) * factor]);
         }
     }
     return result;

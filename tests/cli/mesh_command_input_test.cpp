@@ -231,7 +231,8 @@ class ProgramOnScannedBall : public ::testing::Test {
 TEST_F(ProgramOnScannedBall, MeshesAScanWithoutAModelAndDropsNoPointForItsOneView)
 {
     const std::string stats = folder / "stats.json";
-    const Outcome outcome = run_program({scan, out, "--merge-px", "0", "--stats", stats});
+    const Outcome outcome =
+        run_program({scan, out, "--merge-px", "0", "--simplify", "0", "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + scan +
                                         ", measured by the scanners of which it tells at every "
