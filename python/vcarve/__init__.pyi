@@ -142,7 +142,7 @@ def reconstruct(
     min_component: int = 6,
     max_hole: int = 12,
     smooth: int = 0,
-    simplify: int = 0,
+    simplify: int | Literal["auto"] = "auto",
     threads: int = 0,
     max_memory: int | str | Literal["auto"] = "auto",
     blocks: int | Literal["auto"] = "auto",
