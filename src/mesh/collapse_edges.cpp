@@ -2,7 +2,7 @@
 
 #include "mesh/vertices.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <meshoptimizer.h>
 
 #include <algorithm>
@@ -14,13 +14,10 @@ namespace vcarve {
 TriMesh collapse_edges(const TriMesh& mesh, const CollapseLimits& limits)
 {
     if (mesh.faces.empty()) return mesh;
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& position : mesh.positions) {
-        box.extend(position);
-    }
+    const Eigen::Vector3d center = box_center(mesh);
     std::vector<Eigen::Vector3f> positions(mesh.positions.size());
     std::ranges::transform(mesh.positions, positions.begin(), [&](const Eigen::Vector3d& position) {
-        return Eigen::Vector3f((position - box.center()).cast<float>());
+        return Eigen::Vector3f((position - center).cast<float>());
     });
     const float* const coordinates = positions[0].data();
     const float extent =

@@ -4,6 +4,7 @@
 #include "model/scene_points.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <atomic>
 
@@ -65,6 +66,16 @@ std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b)
     }
     if (!mesh.points.empty()) mesh.points[middle] = kNoPoint;
     return middle;
+}
+
+Eigen::Vector3d box_center(const TriMesh& mesh)
+{
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& position : mesh.positions) {
+        box.extend(position);
+    }
+    if (mesh.positions.empty()) return Eigen::Vector3d::Zero();
+    return box.center();
 }
 
 TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces)

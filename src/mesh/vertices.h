@@ -76,6 +76,9 @@ std::uint32_t add_copy(TriMesh& mesh, std::uint32_t original);
 /// its number.
 std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b);
 
+/// The center of the bounding box of the vertices; zero if there are none. Cost: O(vertices).
+Eigen::Vector3d box_center(const TriMesh& mesh);
+
 /// A mesh with other faces and only the vertices they use, without normals. Cost: O(faces +
 /// vertices).
 TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces);

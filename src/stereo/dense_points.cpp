@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "mesh/vertices.h"
 #include "picture/first_faces.h"
 #include "stereo/choose_sources.h"
 #include "stereo/filter_depth.h"
@@ -27,13 +28,12 @@ constexpr int kSmallestRegion = 40; ///< pixels of a depth map
 /// Looks up the sparse surface along rays.
 class SurfaceDepth {
   public:
-    explicit SurfaceDepth(const TriMesh& mesh) : mesh_(mesh), faces_(mesh, center_of(mesh)) {}
+    explicit SurfaceDepth(const TriMesh& mesh) : mesh_(mesh), faces_(mesh, box_center(mesh)) {}
 
     PixelPlane plane(const StereoView& view, int x, int y) const
     {
         constexpr float kLeastFacing = 0.1F;
-        const Eigen::Vector3f ray =
-            view.camera.ray(static_cast<float>(x * kDepthStep), static_cast<float>(y * kDepthStep));
+        const Eigen::Vector3f ray = depth_ray(view.camera, x, y);
         const Vector3d direction =
             (view.cam_from_world.transpose() * ray.cast<double>()).normalized();
         const FirstFace hit = faces_.from(view.center, direction);
@@ -53,15 +53,6 @@ class SurfaceDepth {
     }
 
   private:
-    static Vector3d center_of(const TriMesh& mesh)
-    {
-        Eigen::AlignedBox3d box;
-        for (const Vector3d& position : mesh.positions) {
-            box.extend(position);
-        }
-        return mesh.positions.empty() ? Vector3d(Vector3d::Zero()) : Vector3d(box.center());
-    }
-
     const TriMesh& mesh_;
     FirstFaces faces_;
 };
@@ -95,17 +86,6 @@ DepthPrior prior_of(const StereoView& view, std::vector<float> depths, const Sur
     return prior;
 }
 
-/// An empty map of the size of a view.
-DepthMap empty_map(const StereoView& view)
-{
-    DepthMap map;
-    map.width_px = depth_pixels(view.image.width_px);
-    map.height_px = depth_pixels(view.image.height_px);
-    map.planes.resize(static_cast<std::size_t>(map.width_px) * map.height_px);
-    map.costs.assign(map.planes.size(), DepthMap::kNoCost);
-    return map;
-}
-
 /// Matches views with their neighbors.
 class ViewMatcher {
   public:
@@ -124,7 +104,7 @@ class ViewMatcher {
         const StereoView& view = views_[number];
         const auto& neighbors = neighbors_[number];
         const std::vector<float>& depths = depths_[view.view];
-        if (neighbors.size() < kFewestSources || depths.empty()) return empty_map(view);
+        if (neighbors.size() < kFewestSources || depths.empty()) return empty_depth_map(view.image);
         std::vector<const StereoView*> sources;
         for (std::size_t i = 0; i < std::min(neighbors.size(), kSources); ++i) {
             sources.push_back(&views_[neighbors[i]]);

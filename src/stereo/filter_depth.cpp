@@ -165,11 +165,7 @@ class PlainRegions {
         std::uint32_t index;
     };
 
-    Eigen::Vector3d ray(int x, int y) const
-    {
-        return camera_.ray(static_cast<float>(x * kDepthStep), static_cast<float>(y * kDepthStep))
-            .cast<double>();
-    }
+    Eigen::Vector3d ray(int x, int y) const { return depth_ray(camera_, x, y).cast<double>(); }
 
     /// Adds the first measured pixel beyond the border of a region, if it is near.
     void look(int x, int y, int right, int down, InverseDepths& around) const

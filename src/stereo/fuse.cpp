@@ -53,9 +53,7 @@ class Fusion {
         const std::size_t pixel = depths_.maps[map].index(x, y);
         const PixelPlane& plane = depths_.maps[map].planes[pixel];
         const Eigen::Matrix3d world_from_cam = view.cam_from_world.transpose();
-        const Vector3d ray =
-            view.camera.ray(static_cast<float>(x * kDepthStep), static_cast<float>(y * kDepthStep))
-                .cast<double>();
+        const Vector3d ray = depth_ray(view.camera, x, y).cast<double>();
         return {map, pixel, view.center + plane.depth * (world_from_cam * ray),
                 world_from_cam * plane.normal.cast<double>()};
     }

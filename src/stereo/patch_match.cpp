@@ -1,7 +1,6 @@
 #include "stereo/patch_match.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace vcarve {
@@ -59,20 +58,13 @@ class Matcher {
         : image_(level.image),
           camera_(level.camera),
           sources_(std::move(sources)),
-          random_(view.view * std::uint64_t{16} + number)
+          random_(view.view * std::uint64_t{16} + number),
+          map_(empty_depth_map(level.image))
     {
-        map_.width_px = depth_pixels(image_.width_px);
-        map_.height_px = depth_pixels(image_.height_px);
-        const auto size = static_cast<std::size_t>(map_.width_px) * map_.height_px;
-        map_.planes.resize(size);
-        map_.costs.assign(size, DepthMap::kNoCost);
     }
 
     const DepthMap& map() const { return map_; }
-    Eigen::Vector3f ray(int x, int y) const
-    {
-        return camera_.ray(static_cast<float>(x * kDepthStep), static_cast<float>(y * kDepthStep));
-    }
+    Eigen::Vector3f ray(int x, int y) const { return depth_ray(camera_, x, y); }
 
     /// Evaluates the given planes, or a random one where there is none. `coarse` may be null.
     void start(const DepthPrior& prior, const DepthMap* coarse);
@@ -245,6 +237,16 @@ DepthPrior shrunk(const DepthPrior& prior, int width_px, int height_px, int fact
 }
 
 } // namespace
+
+DepthMap empty_depth_map(const GrayImage& image)
+{
+    DepthMap map;
+    map.width_px = depth_pixels(image.width_px);
+    map.height_px = depth_pixels(image.height_px);
+    map.planes.resize(static_cast<std::size_t>(map.width_px) * map.height_px);
+    map.costs.assign(map.planes.size(), DepthMap::kNoCost);
+    return map;
+}
 
 DepthMap match_view(const StereoView& view, std::span<const StereoView* const> sources,
                     const DepthPrior& prior)

@@ -26,6 +26,9 @@ struct DepthMap {
     bool has(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
 };
 
+/// A depth map of the size of an image, without planes.
+DepthMap empty_depth_map(const GrayImage& image);
+
 /// What is known of a view before it is matched.
 struct DepthPrior {
     float nearest = 0.0F; ///< range of depths

@@ -58,6 +58,12 @@ constexpr int depth_pixels(int image_px)
     return (image_px + kDepthStep - 1) / kDepthStep;
 }
 
+/// The ray through a pixel of a depth map.
+inline Eigen::Vector3f depth_ray(const Pinhole& camera, int x, int y)
+{
+    return camera.ray(static_cast<float>(x * kDepthStep), static_cast<float>(y * kDepthStep));
+}
+
 /// Pixels of the working image per pixel of the photograph, along a side: at most 1.
 double working_scale(const PhotographSize& photograph, int size_px);
 

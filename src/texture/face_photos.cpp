@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_halving.h"
+#include "mesh/vertices.h"
 #include "picture/first_faces.h"
 
 #include <Eigen/Geometry>
@@ -54,7 +55,7 @@ double longest_px(const std::array<Vector2d, 3>& pixels)
 /// What hides what: the mesh as it was before any face was halved.
 class Occlusion {
   public:
-    explicit Occlusion(const TriMesh& mesh) : mesh_(mesh), faces_(mesh_, middle_of(mesh)) {}
+    explicit Occlusion(const TriMesh& mesh) : mesh_(mesh), faces_(mesh_, box_center(mesh)) {}
 
     /// How many of a face's places a photograph sees, of seven. `whole` is the face that this one
     /// was a part of at first.
@@ -68,16 +69,6 @@ class Occlusion {
     }
 
   private:
-    static Vector3d middle_of(const TriMesh& mesh)
-    {
-        Eigen::AlignedBox3d box;
-        for (const Vector3d& position : mesh.positions) {
-            box.extend(position);
-        }
-        if (mesh.positions.empty()) return Vector3d::Zero();
-        return box.center();
-    }
-
     bool sees(const Vector3d& center, const Vector3d& place, std::uint32_t whole) const
     {
         constexpr double kNear = 1e-3; // of the way
