@@ -5,7 +5,6 @@
 #include "io/colmap/colmap_model.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
-#include "run/stage_file.h"
 #include "texture/texture_mesh.h"
 #include "vcarve/error.h"
 
@@ -16,15 +15,7 @@
 #include <system_error>
 #include <vector>
 
-namespace vcarve {
-
-/// The arrays are written as they are in memory.
-template <>
-inline constexpr bool kIsPlain<PixelPlane> = true;
-template <>
-inline constexpr int kNumFields<DepthMap> = 4;
-
-namespace cli {
+namespace vcarve::cli {
 
 namespace fs = std::filesystem;
 
@@ -79,7 +70,7 @@ void check_dense(const DenseArguments& dense, const ParsedArguments& given)
         }
     }
     if (dense.dense && given.has("points")) {
-        throw UsageError("--dense measures points of its own; remove --points");
+        throw UsageError("--dense and --points both supply dense points; remove one of them");
     }
     if (!dense.keep_points.empty() && lower_case_end(dense.keep_points) != ".ply") {
         throw UsageError(
@@ -137,7 +128,7 @@ Job photograph_facts(const fs::path& folder, const Progress& progress)
     return facts;
 }
 
-Scene measure_dense_points(const DenseRun& run, const Reconstruction& sparse)
+DensePoints measure_dense_points(const DenseRun& run, const Reconstruction& sparse)
 {
     const std::vector<CalibratedPhoto> photos =
         calibrated_photos(sparse.scene, run.photographs, sparse.scene.offset);
@@ -154,6 +145,4 @@ Scene measure_dense_points(const DenseRun& run, const Reconstruction& sparse)
     return dense_points(sparse, photos, {run.arguments.size_px}, keep, run.checkpoints.log());
 }
 
-} // namespace cli
-
-} // namespace vcarve
+} // namespace vcarve::cli

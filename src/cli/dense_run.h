@@ -7,6 +7,7 @@
 #include "options/option.h"
 #include "run/checkpoints.h"
 #include "run/job.h"
+#include "run/stage_file.h"
 #include "stereo/dense_points.h"
 #include "vcarve/reconstruct.h"
 #include "vcarve/scene.h"
@@ -14,6 +15,22 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+
+namespace vcarve {
+
+// For checkpoints. Planes are written as they are in memory.
+template <>
+inline constexpr bool kIsPlain<PixelPlane> = true;
+template <>
+inline constexpr int kNumFields<DepthMap> = 4;
+template <>
+inline constexpr int kNumFields<Photograph> = 3;
+template <>
+inline constexpr int kNumFields<DepthPicture> = 3;
+template <>
+inline constexpr int kNumFields<DensePoints> = 2;
+
+} // namespace vcarve
 
 namespace vcarve::cli {
 
@@ -24,8 +41,8 @@ struct DenseArguments {
     std::filesystem::path keep_points;     ///< empty: the fused points are not written
 };
 
-/// Default of --max-closing with --dense. Depth maps cover what they see so densely that a long
-/// face is no surface: at 0.115 faces span streets from roof to roof.
+/// Default of --max-closing with --dense. Dense points lie close together, so long faces are
+/// spurious: with 0.115 faces span streets from roof to roof.
 inline constexpr double kDenseClosing = 0.02;
 
 /// --dense, --dense-size and --keep-points, under the heading "Input".
@@ -55,6 +72,6 @@ struct DenseRun {
 /// Measures dense points from the photographs, starting from the sparse surface. Throws as
 /// dense_points() does; InputError if too few photographs can be used, or the memory does not
 /// suffice.
-Scene measure_dense_points(const DenseRun& run, const Reconstruction& sparse);
+DensePoints measure_dense_points(const DenseRun& run, const Reconstruction& sparse);
 
 } // namespace vcarve::cli

@@ -61,6 +61,7 @@ struct Surface {
     Texture texture; ///< may have no pages
     std::optional<Provenance> provenance;
     Scene scene;          ///< the points it was made from; empty without a report
+    DepthPicture depth;   ///< empty without --dense
     RemovedFaces removed; ///< empty without a report
 };
 
@@ -188,8 +189,9 @@ std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
     return photographs;
 }
 
-/// Replaces the sparse points by dense ones that are measured in the photographs.
-void make_dense(ModelInput& input, const Photographs& photographs, const Run& run)
+/// Replaces the sparse points by dense ones that are measured in the photographs. Returns the
+/// picture of a depth map.
+DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
     Options options = arguments.options;
@@ -197,7 +199,7 @@ void make_dense(ModelInput& input, const Photographs& photographs, const Run& ru
     options.refine = {};
     options.surface = {}; // depth maps start from what is seen, whatever is wanted in the end
     Checkpoints checkpoints(run.work, run.log);
-    Scene dense;
+    DensePoints dense;
     checkpoints.keep("depth", dense, [&] {
         const Reconstruction sparse =
             reconstruct_thinned(std::move(input.scene), input.read, options, checkpoints.log());
@@ -207,15 +209,17 @@ void make_dense(ModelInput& input, const Photographs& photographs, const Run& ru
     });
     if (!arguments.dense.keep_points.empty()) {
         const FoundInput found = find_input(arguments.model.path, arguments.model.all_points());
-        write_points(arguments.dense.keep_points, dense, found.model);
+        write_points(arguments.dense.keep_points, dense.scene, found.model);
     }
     Stage stage(run.log, "thin");
-    input.read = size_of(dense);
-    input.scene = thin_points(dense, options.thin, stage);
-    stage.end({{"points", size_of(input.scene.num_points())}, {"of", size_of(dense.num_points())}});
+    input.read = size_of(dense.scene);
+    input.scene = thin_points(dense.scene, options.thin, stage);
+    stage.end(
+        {{"points", size_of(input.scene.num_points())}, {"of", size_of(dense.scene.num_points())}});
     RunSize size = size_before_thinning(input.read, arguments.options);
     size.thinned = size_of(input.scene);
     fit_memory(run, size);
+    return std::move(dense.picture);
 }
 
 /// The surface of a scene. Errors name the model.
@@ -225,7 +229,7 @@ Surface surface_of(ModelInput input, const Run& run)
     try {
         Surface surface;
         const std::optional<Photographs> photographs = photographs_if_wanted(arguments, input, run);
-        if (arguments.dense.dense) make_dense(input, *photographs, run);
+        if (arguments.dense.dense) surface.depth = make_dense(input, *photographs, run);
         Options options = arguments.options;
         options.memory = run.memory.options();
         if (run.ranks != nullptr && run.work != nullptr) {
@@ -316,8 +320,9 @@ Made make_surface(const Run& run, Json& record)
     preview.write();
     if (!arguments.output.quiet) made.long_area = long_area(surface.mesh, RunOutcome::kLong);
     if (!arguments.report.empty()) {
-        made.report =
-            make_report(surface.mesh, surface.texture, surface.removed, surface.scene, run.log);
+        made.report = make_report(
+            {surface.mesh, surface.texture, surface.removed, surface.scene, surface.depth},
+            run.log);
     }
     return made;
 }

@@ -110,20 +110,21 @@ void propose_for_surface(const RunOutcome& outcome, const Options& options,
 
 } // namespace
 
-ReportParts make_report(const TriMesh& mesh, const Texture& texture, const RemovedFaces& removed,
-                        const Scene& scene, Log& log)
+ReportParts make_report(const ReportSubject& shown, Log& log)
 {
+    const auto& [mesh, texture, removed, scene, depth] = shown;
     Stage stage(log, "report");
     ReportParts parts;
     parts.figures = surface_figures(mesh, face_supports(mesh, scene), scene);
     parts.scene = packed_scene(scene);
     Json surface = packed_surface(mesh, scene, {}, stage);
-    const auto shown = surface["faces"]["count"].get<std::int64_t>();
+    const auto faces = surface["faces"]["count"].get<std::int64_t>();
     // A surface that is simplified for the page has other corners than its texture.
-    if (shown == parts.figures.faces) surface["texture"] = packed_texture(texture);
+    if (faces == parts.figures.faces) surface["texture"] = packed_texture(texture);
     parts.scene["surfaces"][0] = std::move(surface);
     parts.scene["removed"] = packed_removed(removed);
-    stage.end({{"faces shown", shown}, {"of", parts.figures.faces}});
+    parts.scene["depth"] = packed_depth(depth, scene);
+    stage.end({{"faces shown", faces}, {"of", parts.figures.faces}});
     return parts;
 }
 

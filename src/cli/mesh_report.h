@@ -7,6 +7,7 @@
 #include "model/photograph.h"
 #include "page/run_figures.h"
 #include "steps/6_surface/carve_surface.h"
+#include "stereo/depth_picture.h"
 #include "vcarve/options.h"
 
 #include <cstdint>
@@ -22,10 +23,17 @@ struct ReportParts {
     Json scene; ///< what the page draws
 };
 
-/// Measures and packs a surface, its texture, its removed faces and its scene, as the stage
-/// "report".
-ReportParts make_report(const TriMesh& mesh, const Texture& texture, const RemovedFaces& removed,
-                        const Scene& scene, Log& log);
+/// What a report shows.
+struct ReportSubject {
+    const TriMesh& mesh;
+    const Texture& texture; ///< may be empty
+    const RemovedFaces& removed;
+    const Scene& scene;
+    const DepthPicture& depth; ///< may be empty
+};
+
+/// Measures and packs what a report shows, as the stage "report".
+ReportParts make_report(const ReportSubject& shown, Log& log);
 
 /// The record of a report: figures, and warnings.
 Json report_json(const ReportParts& parts, const Json& record);

@@ -197,6 +197,15 @@ Json packed_surface(const TriMesh& mesh, const Scene& scene, const PageLimits& l
     return json;
 }
 
+Json packed_depth(const DepthPicture& picture, const Scene& scene)
+{
+    if (picture.depth.rgb.empty()) return nullptr;
+    constexpr int kQuality = 90;
+    return {{"name", scene.views[picture.view].name},
+            {"photograph", base64(encode_jpeg(picture.photograph, kQuality))},
+            {"depth", base64(encode_jpeg(picture.depth, kQuality))}};
+}
+
 Json packed_texture(const Texture& texture, const PageLimits& limits)
 {
     if (texture.is_empty()) return nullptr;

@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "model/photograph.h"
 #include "steps/6_surface/carve_surface.h"
+#include "stereo/depth_picture.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
 
@@ -39,6 +40,10 @@ nlohmann::ordered_json packed_surface(const TriMesh& mesh, const Scene& scene,
 /// of each face two numbers of two bytes, the lower first, 65535 for the right or lower edge of its
 /// page; and "page", of each face the number of its page. Null where there is no texture.
 nlohmann::ordered_json packed_texture(const Texture& texture, const PageLimits& limits = {});
+
+/// A depth map beside its photograph as the page's script reads it: "photograph" and "depth", JPEG
+/// files in base64, and "name", that of the view. Null if there is none.
+nlohmann::ordered_json packed_depth(const DepthPicture& picture, const Scene& scene);
 
 /// The points of a scene, its views as frusta, the direction that is up (up_of) and the view to
 /// start from: the one that saw most of what was looked at (seen_places), with the median depth of

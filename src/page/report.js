@@ -18,6 +18,7 @@ function fillReport() {
   fillStages();
   fillFilter();
   fillMesh();
+  fillDepth();
   fillHistograms();
 }
 
@@ -101,6 +102,23 @@ function fillMesh() {
     row("Area, in square model units", short(mesh.area), true),
     row("Share of the area that no view saw whole from its front", percent(report.unsupported_area), true),
     row("Share of the area in faces with an edge over 10 median edges", percent(report.long_area), true));
+}
+
+// ---- dense stereo
+
+function fillDepth() {
+  const depth = sceneData.depth;
+  byId("depth-section").hidden = !depth;
+  if (!depth) return;
+  for (const [name, what] of [["photograph", "Photograph "], ["depth", "Depth map of "]]) {
+    byId("depth").append(element("img", { src: "data:image/jpeg;base64," + depth[name], alt: what + depth.name }));
+  }
+  const counts = (stage) => record.stages.find((one) => one.name === stage).counts;
+  const measured = counts("depth"), fused = counts("fuse");
+  byId("depth-note").textContent = depth.name + ": light is near, dark is far, blue was not measured. Of " +
+    whole(measured["of pixels measured"]) + " pixels in " + plural(measured["depth maps"], "depth map") + ", " +
+    whole(measured["pixels measured"]) + " were measured and " + whole(fused["pixels fused"]) + " fused to " +
+    plural(fused.points, "point") + ".";
 }
 
 // ---- histograms

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kNoView = 0xffffffffU;
 constexpr double kLeastScore = 5.0;
-constexpr std::size_t kMostOfTrack = 64; ///< views of a track that are paired with each of its own
+constexpr std::size_t kMostOfTrack = 64; ///< evenly chosen views of a longer track, as partners
 
 /// How much a point says for a pair of views that see it at this angle.
 double score_of(double angle_deg)

@@ -123,23 +123,15 @@ class ViewMatcher {
     SurfaceDepth surface_;
 };
 
-std::int64_t num_measured(const std::vector<DepthMap>& maps)
+Counts counts_of(const std::vector<DepthMap>& maps)
 {
-    std::int64_t count = 0;
+    std::int64_t measured = 0;
+    std::int64_t pixels = 0;
     for (const DepthMap& map : maps) {
-        count +=
-            std::ranges::count_if(map.costs, [](float cost) { return cost < DepthMap::kNoCost; });
+        measured += num_measured(map);
+        pixels += size_of(map.planes.size());
     }
-    return count;
-}
-
-std::int64_t num_pixels(const std::vector<DepthMap>& maps)
-{
-    std::int64_t count = 0;
-    for (const DepthMap& map : maps) {
-        count += size_of(map.planes.size());
-    }
-    return count;
+    return {{"depth maps", size_of(maps.size())}, {"pixels measured", measured}, {"of", pixels}};
 }
 
 void add_measured(const Scene& sparse, Scene& dense)
@@ -177,8 +169,8 @@ std::int64_t predicted_stereo_memory(const std::vector<CalibratedPhoto>& photos,
     return static_cast<std::int64_t>(views + static_cast<double>(threads) * thread);
 }
 
-Scene dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
-                   const StereoOptions& options, const KeepDepthMap& keep, Log& log)
+DensePoints dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
+                         const StereoOptions& options, const KeepDepthMap& keep, Log& log)
 {
     std::vector<StereoView> views(photos.size());
     {
@@ -194,14 +186,15 @@ Scene dense_points(const Reconstruction& sparse, const std::vector<CalibratedPho
     parallel_for(
         views.size(), depth,
         [&](std::size_t i) { maps[i] = keep(i, [&] { return matcher.match(i); }); }, 1);
-    depth.end({{"depth maps", size_of(maps.size())},
-               {"pixels measured", num_measured(maps)},
-               {"of", num_pixels(maps)}});
+    depth.end(counts_of(maps));
     Stage stage(log, "fuse");
-    Scene dense = fuse(sparse.scene, {views, maps, matcher.neighbors()}, stage);
-    stage.end(
-        {{"points", size_of(dense.num_points())}, {"pixels fused", size_of(dense.num_sights())}});
-    add_measured(sparse.scene, dense);
+    DensePoints dense;
+    dense.scene = fuse(sparse.scene, {views, maps, matcher.neighbors()}, stage);
+    stage.end({{"points", size_of(dense.scene.num_points())},
+               {"pixels fused", size_of(dense.scene.num_sights())}});
+    add_measured(sparse.scene, dense.scene);
+    const std::size_t shown = fullest(maps);
+    dense.picture = depth_picture(views[shown], maps[shown]);
     return dense;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "stereo/depth_picture.h"
 #include "stereo/patch_match.h"
 #include "texture/calibrated_photo.h"
 #include "vcarve/log.h"
@@ -27,12 +28,18 @@ using KeepDepthMap =
 std::int64_t predicted_stereo_memory(const std::vector<CalibratedPhoto>& photos,
                                      const StereoOptions& options, std::size_t threads);
 
+/// What dense stereo measured.
+struct DensePoints {
+    Scene scene;
+    DepthPicture picture; ///< of the depth map with the most measured pixels
+};
+
 /// A dense scene measured from photographs: depth maps by PatchMatch that starts from the surface
 /// of the sparse points, fused to points that at least three views agree on. The measured points of
 /// `sparse` are added. `photos` and `surface` are in the frame of `sparse`. Stages "photographs",
 /// "depth" and "fuse". The result is the same for any thread count. Throws InputError if a
 /// photograph cannot be read, and Cancelled. Cost: about 2 CPU seconds a view of 640 pixels.
-Scene dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
-                   const StereoOptions& options, const KeepDepthMap& keep, Log& log);
+DensePoints dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
+                         const StereoOptions& options, const KeepDepthMap& keep, Log& log);
 
 } // namespace vcarve

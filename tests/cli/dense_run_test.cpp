@@ -22,8 +22,9 @@ TEST(DenseProgram, WritesTheSameForAnyThreadCountAndKeepsItsPoints)
     const std::string one = folder / "one.ply";
     const std::string two = folder / "two.ply";
     const std::string points = folder / "points.ply";
-    const Outcome outcome = run_program(
-        {kModel, one, "--dense", "--dense-size", "160", "--threads", "1", "--keep-points", points});
+    const std::string page = folder / "page.html";
+    const Outcome outcome = run_program({kModel, one, "--dense", "--dense-size", "160", "--threads",
+                                         "1", "--keep-points", points, "--report", page});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("12 depth maps"));
     ASSERT_EQ(
@@ -31,6 +32,7 @@ TEST(DenseProgram, WritesTheSameForAnyThreadCountAndKeepsItsPoints)
             .exit_code,
         0);
     EXPECT_EQ(bytes_of(one), bytes_of(two));
+    EXPECT_THAT(bytes_of(page), HasSubstr(R"("depth":{"name":"view_)"));
 
     const std::string visibility = bytes_of(points + ".vis");
     std::uint64_t rows = 0;
@@ -51,7 +53,7 @@ TEST(DenseProgram, RefusesOptionsThatNeedDense)
     EXPECT_EQ(sentence_of(2, {kModel, out, "--keep-points", folder / "p.ply"}),
               "colmap-vcarve: --keep-points needs --dense\n");
     EXPECT_EQ(sentence_of(2, {kModel, out, "--dense", "--points", "dense"}),
-              "colmap-vcarve: --dense measures points of its own; remove --points\n");
+              "colmap-vcarve: --dense and --points both supply dense points; remove one of them\n");
     const std::string obj = folder / "p.obj";
     EXPECT_EQ(sentence_of(2, {kModel, out, "--dense", "--keep-points", obj}),
               "colmap-vcarve: cannot write " + obj + ": --keep-points writes .ply\n");

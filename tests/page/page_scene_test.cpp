@@ -1,3 +1,4 @@
+#include "io/images/encode_image.h"
 #include "page/pack.h"
 #include "page/page_scene.h"
 #include "support/scenes.h"
@@ -58,6 +59,20 @@ TEST(PackedScene, HoldsNothingOfNothing)
     const auto json = packed_scene({});
     EXPECT_TRUE(json["start"].is_null());
     EXPECT_EQ(json["views"].size(), 0U);
+}
+
+TEST(PackedDepth, HasBothPicturesAndTheNameOfTheView)
+{
+    Scene scene;
+    scene.views.resize(2);
+    scene.views[1].name = "b.jpg";
+    const Photograph gray = {8, 8, std::vector<std::uint8_t>(3 * 64, 100)};
+    const Photograph white = {8, 8, std::vector<std::uint8_t>(3 * 64, 255)};
+    const auto json = packed_depth({1, gray, white}, scene);
+    EXPECT_EQ(json["name"], "b.jpg");
+    EXPECT_EQ(json["photograph"], base64(encode_jpeg(gray, 90)));
+    EXPECT_EQ(json["depth"], base64(encode_jpeg(white, 90)));
+    EXPECT_TRUE(packed_depth({}, scene).is_null());
 }
 
 TEST(PackedTexture, IsSmallerThanItsLimit)

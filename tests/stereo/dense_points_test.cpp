@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Photographs of a textured wall at z = 2 from seven places, and a sparse surface of it that is
-/// 1 % too far away.
+/// Photographs of a textured wall, z = 2 - 0.3 x, from seven places, and a sparse surface of it
+/// that is 1 % too far away. Each photograph has the wall at other depths.
 struct PhotographedRoom {
     TemporaryFolder folder;
     Reconstruction sparse;
@@ -25,7 +25,7 @@ struct PhotographedRoom {
 
     PhotographedRoom()
     {
-        const SurfaceAlong wall = plane_along(Vector3d::UnitZ(), 2.0);
+        const SurfaceAlong wall = plane_along({0.3, 0.0, 1.0}, 2.0);
         Scene& scene = sparse.scene;
         scene.cameras = {{.id = 1,
                           .model = 1,
@@ -55,16 +55,17 @@ struct PhotographedRoom {
             all.push_back(i);
         }
         for (int i = 0; i < 40; ++i) {
-            scene.positions.emplace_back(0.03 * (i % 8) - 0.12, 0.03 * (i / 8) - 0.05, 2.0);
+            const double x = 0.03 * (i % 8) - 0.12;
+            scene.positions.emplace_back(x, 0.03 * (i / 8) - 0.05, 2.0 - 0.3 * x);
             scene.colors.emplace_back();
             scene.tracks.push_back(all);
         }
         sparse.mesh.positions = {
-            {-3.0, -3.0, 2.02}, {3.0, -3.0, 2.02}, {3.0, 3.0, 2.02}, {-3.0, 3.0, 2.02}};
+            {-3.0, -3.0, 2.92}, {3.0, -3.0, 1.12}, {3.0, 3.0, 1.12}, {-3.0, 3.0, 2.92}};
         sparse.mesh.faces = {{0, 2, 1}, {0, 3, 2}};
     }
 
-    Scene dense(int size_px = 160) const
+    DensePoints measured(int size_px = 160) const
     {
         const auto make_anew = [](std::size_t, const std::function<DepthMap()>& make) {
             return make();
@@ -72,6 +73,7 @@ struct PhotographedRoom {
         ToldLog log;
         return dense_points(sparse, photos, {size_px}, make_anew, log);
     }
+    Scene dense() const { return measured().scene; }
 };
 
 TEST(DensePoints, LieOnTheSurface)
@@ -80,7 +82,7 @@ TEST(DensePoints, LieOnTheSurface)
     ASSERT_GT(dense.num_points(), 3000U);
     std::size_t near = 0;
     for (const Vector3d& position : dense.positions) {
-        near += std::abs(position.z() - 2.0) < 0.01 ? 1 : 0;
+        near += std::abs(position.z() + 0.3 * position.x() - 2.0) < 0.01 ? 1 : 0;
     }
     EXPECT_GT(static_cast<double>(near), 0.98 * static_cast<double>(dense.num_points()));
 }
@@ -112,12 +114,22 @@ TEST(DensePoints, AreThoseOfKeptDepthMaps)
     const PhotographedRoom room;
     std::vector<DepthMap> kept(room.photos.size());
     ToldLog log;
-    const Scene first = dense_points(
+    const DensePoints first = dense_points(
         room.sparse, room.photos, {160},
         [&](std::size_t i, const auto& make) { return kept[i] = make(); }, log);
-    const Scene second = dense_points(
+    const DensePoints second = dense_points(
         room.sparse, room.photos, {160}, [&](std::size_t i, const auto&) { return kept[i]; }, log);
-    EXPECT_EQ(first.positions, second.positions);
+    EXPECT_EQ(first.scene.positions, second.scene.positions);
+    EXPECT_EQ(first.picture.depth.rgb, second.picture.depth.rgb);
+}
+
+TEST(DensePoints, ComeWithThePictureOfADepthMap)
+{
+    const DepthPicture picture = PhotographedRoom().measured().picture;
+    EXPECT_EQ(picture.photograph.width_px, 80);
+    EXPECT_EQ(picture.depth.height_px, 60);
+    EXPECT_EQ(picture.depth.rgb.size(), 3U * 80 * 60);
+    EXPECT_EQ(picture.photograph.rgb.size(), picture.depth.rgb.size());
 }
 
 TEST(DensePoints, AreOnlyTheSparseOnesIfNoViewsHaveNeighbors)
