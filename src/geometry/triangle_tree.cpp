@@ -4,9 +4,14 @@
 #include "geometry/predicates.h"
 #include "geometry/triangle.h"
 
-#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
+#if __has_include(<CGAL/AABB_traits_3.h>) // CGAL 6
+#include <CGAL/AABB_traits_3.h>
+#include <CGAL/AABB_triangle_primitive_3.h>
+#else
+#include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_triangle_primitive.h>
+#endif
 #include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
@@ -23,7 +28,13 @@ using Corners = std::array<Vector3d, 3>;
 using Point = Cartesian::Point_3;
 using Triangle = Cartesian::Triangle_3;
 using Triangles = std::vector<Triangle>;
+#if __has_include(<CGAL/AABB_traits_3.h>)
+using Primitive = CGAL::AABB_triangle_primitive_3<Cartesian, Triangles::const_iterator>;
+using BoxTraits = CGAL::AABB_traits_3<Cartesian, Primitive>;
+#else
 using Primitive = CGAL::AABB_triangle_primitive<Cartesian, Triangles::const_iterator>;
+using BoxTraits = CGAL::AABB_traits<Cartesian, Primitive>;
+#endif
 
 Vector3d to_vector(const Point& point)
 {
@@ -43,9 +54,9 @@ bool has_area(const Corners& corners)
 }
 
 /// A ray, or a segment, made ready to be held against many boxes and triangles.
-class Ray {
+class RayQuery {
   public:
-    Ray(const Vector3d& from, const Vector3d& towards)
+    RayQuery(const Vector3d& from, const Vector3d& towards)
         : from_(from), towards_(towards), line_(towards - from), inverse_(line_.cwiseInverse())
     {
     }
@@ -124,14 +135,14 @@ class Ray {
 
 /// How CGAL's tree asks about segments: boxes, of which there are many more, with rounding on the
 /// safe side, and triangles exactly.
-class Traits : public CGAL::AABB_traits<Cartesian, Primitive> {
+class Traits : public BoxTraits {
   public:
     struct Meets {
-        bool operator()(const Ray& segment, const CGAL::Bbox_3& box) const
+        bool operator()(const RayQuery& segment, const CGAL::Bbox_3& box) const
         {
-            return segment.entry(box) <= Ray::kBeyondRounding;
+            return segment.entry(box) <= RayQuery::kBeyondRounding;
         }
-        bool operator()(const Ray& segment, const Primitive& triangle) const
+        bool operator()(const RayQuery& segment, const Primitive& triangle) const
         {
             return segment.segment_meets(*triangle.id());
         }
@@ -148,19 +159,20 @@ class FirstHitTraits {
     using Node = CGAL::AABB_node<Traits>;
     using Priority = double;
 
-    bool do_intersect(const Ray& ray, const Node& node) const
+    bool do_intersect(const RayQuery& ray, const Node& node) const
     {
         return do_intersect_with_priority(ray, node).first;
     }
 
-    std::pair<bool, Priority> do_intersect_with_priority(const Ray& ray, const Node& node) const
+    std::pair<bool, Priority> do_intersect_with_priority(const RayQuery& ray,
+                                                         const Node& node) const
     {
         const double entry = ray.entry(node.bbox());
-        const double limit = hit_ ? hit_->along * Ray::kBeyondRounding : Ray::kMissed;
-        return {entry < Ray::kMissed && entry <= limit, -entry};
+        const double limit = hit_ ? hit_->along * RayQuery::kBeyondRounding : RayQuery::kMissed;
+        return {entry < RayQuery::kMissed && entry <= limit, -entry};
     }
 
-    void intersection(const Ray& ray, const Primitive& primitive)
+    void intersection(const RayQuery& ray, const Primitive& primitive)
     {
         const std::optional<FirstHit> hit = ray.meets(*primitive.id());
         if (!hit) return;
@@ -221,14 +233,14 @@ bool TriangleTree::is_empty() const
 
 bool TriangleTree::is_met(const Vector3d& from, const Vector3d& to) const
 {
-    return tree_->aabb.do_intersect(Ray(from, to));
+    return tree_->aabb.do_intersect(RayQuery(from, to));
 }
 
 void TriangleTree::visit_met(const Vector3d& from, const Vector3d& to, const Visitor& visit) const
 {
     const auto begin = tree_->triangles.cbegin();
     tree_->aabb.all_intersected_primitives(
-        Ray(from, to), boost::make_function_output_iterator([&](const Primitive::Id& met) {
+        RayQuery(from, to), boost::make_function_output_iterator([&](const Primitive::Id& met) {
             visit(tree_->places[static_cast<std::size_t>(met - begin)]);
         }));
 }
@@ -236,7 +248,7 @@ void TriangleTree::visit_met(const Vector3d& from, const Vector3d& to, const Vis
 std::optional<FirstHit> TriangleTree::first_hit(const Vector3d& from, const Vector3d& towards) const
 {
     FirstHitTraits traits;
-    tree_->aabb.traversal_with_priority(Ray(from, towards), traits);
+    tree_->aabb.traversal_with_priority(RayQuery(from, towards), traits);
     return traits.hit();
 }
 

@@ -2,7 +2,11 @@
 
 #include "base/parallel.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
@@ -74,6 +78,34 @@ void pass_backs(const RTCFilterFunctionNArguments* found)
     if (!(along < 0.0F)) found->valid[0] = 0;
 }
 
+#if RTC_VERSION_MAJOR >= 4
+constexpr auto kFilterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+
+void intersect(RTCScene scene, RTCRayHit& query, RTCFilterFunctionN filter)
+{
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    if (filter != nullptr) {
+        arguments.filter = filter;
+        arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_COHERENT |
+                                                        RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    }
+    rtcIntersect1(scene, &query, &arguments);
+}
+#else
+constexpr auto kFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
+void intersect(RTCScene scene, RTCRayHit& query, RTCFilterFunctionN filter)
+{
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.filter = filter;
+    rtcIntersect1(scene, &context, &query);
+}
+#endif
+
 } // namespace
 
 struct FirstFaces::Tree {
@@ -90,7 +122,7 @@ FirstFaces::FirstFaces(const TriMesh& mesh, const Eigen::Vector3d& eye)
     require_success(device);
     tree_->scene.reset(rtcNewScene(device));
     RTCScene scene = tree_->scene.get();
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | kFilterFlag);
 
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* corners = new_buffer<Corner>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
@@ -127,11 +159,7 @@ FirstFace FirstFaces::first(const Eigen::Vector3f& start, const Eigen::Vector3d&
     query.ray.tfar = std::numeric_limits<float>::infinity();
     query.ray.mask = std::numeric_limits<unsigned>::max();
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    if (only_fronts) context.filter = pass_backs;
-    rtcIntersect1(tree_->scene.get(), &context, &query);
+    intersect(tree_->scene.get(), query, only_fronts ? pass_backs : nullptr);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return {query.hit.primID, query.hit.u, query.hit.v};
 }
