@@ -47,13 +47,18 @@ inline std::string grouped_digits(std::int64_t number)
     return text;
 }
 
-/// What a file's name ends with, from its last dot on, in small letters: ".ply" of "a/B.PLY".
+/// ASCII letters in lower case.
+inline std::string lower_case(std::string text)
+{
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char letter) { return std::tolower(letter); });
+    return text;
+}
+
+/// The extension of a file in lower case: ".ply" of "a/B.PLY".
 inline std::string lower_case_end(const std::filesystem::path& path)
 {
-    std::string end = path.extension().string();
-    std::ranges::transform(end, end.begin(),
-                           [](unsigned char letter) { return std::tolower(letter); });
-    return end;
+    return lower_case(path.extension().string());
 }
 
 } // namespace vcarve

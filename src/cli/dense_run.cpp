@@ -5,6 +5,7 @@
 #include "io/colmap/colmap_model.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
+#include "model/camera.h"
 #include "texture/texture_mesh.h"
 #include "vcarve/error.h"
 
@@ -130,8 +131,9 @@ Job photograph_facts(const fs::path& folder, const Progress& progress)
 
 DensePoints measure_dense_points(const DenseRun& run, const Reconstruction& sparse)
 {
-    const std::vector<CalibratedPhoto> photos =
+    std::vector<CalibratedPhoto> photos =
         calibrated_photos(sparse.scene, run.photographs, sparse.scene.offset);
+    std::erase_if(photos, [](const CalibratedPhoto& photo) { return !intrinsics(photo.camera); });
     if (photos.size() < 3) {
         throw InputError(fmt::format("{}: --dense found {} photographs of views with a known, "
                                      "non-spherical lens, but at least 3 are needed; name their "

@@ -24,7 +24,7 @@ inline constexpr bool kIsPlain<PixelPlane> = true;
 template <>
 inline constexpr int kNumFields<DepthMap> = 4;
 template <>
-inline constexpr int kNumFields<Photograph> = 3;
+inline constexpr int kNumFields<Photograph> = 4;
 template <>
 inline constexpr int kNumFields<DepthPicture> = 3;
 template <>

@@ -11,11 +11,7 @@
 
 namespace vcarve::cli {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-} // namespace
 
 OptionList texture_options(TextureArguments& texture)
 {
@@ -77,9 +73,7 @@ Photographs photographs_of(const TextureArguments& arguments, const fs::path& mo
         log.note(fmt::format("{} of {} views have no photograph in {}", photographs.missing,
                              scene.views.size(), folder.string()));
     }
-    for (const std::string& sentence : photographs.unreadable) {
-        log.note(sentence);
-    }
+    note_unusable(photographs.unusable, log);
     return photographs;
 }
 
@@ -95,6 +89,18 @@ TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photo
             options.most_texels, static_cast<std::size_t>(task.most_memory / 2 / kBytesOfTexel));
     }
     const std::vector<CalibratedPhoto> photos = calibrated_photos(scene, photographs, mesh.offset);
+    if (photos.empty()) {
+        throw InputError(fmt::format("{}: the photographs there belong to views with an unknown "
+                                     "lens or without image size, so none can be used; expected "
+                                     "one of COLMAP's camera models",
+                                     photographs.folder.string()));
+    }
+    const auto found = std::ranges::count_if(photographs.of_view,
+                                             [](const fs::path& file) { return !file.empty(); });
+    if (const auto left_out = size_of(found) - size_of(photos.size()); left_out > 0) {
+        log.note(fmt::format("{} photographs belong to views with an unknown lens and are not used",
+                             left_out));
+    }
     return texture_mesh(std::move(mesh), photos, options, log);
 }
 

@@ -6,10 +6,34 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 namespace vcarve {
+
+void remove_folds(std::vector<Face>& faces)
+{
+    const auto corners = [&](std::size_t face) {
+        Face sorted = faces[face];
+        std::ranges::sort(sorted);
+        return sorted;
+    };
+    std::vector<std::size_t> order(faces.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, corners);
+    std::vector<bool> removed(faces.size());
+    for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+        if (corners(order[i]) != corners(order[i + 1])) continue;
+        removed[order[i]] = removed[order[i + 1]] = true;
+        ++i;
+    }
+    std::vector<Face> kept;
+    for (std::size_t face = 0; face < faces.size(); ++face) {
+        if (!removed[face]) kept.push_back(faces[face]);
+    }
+    if (!kept.empty()) faces = std::move(kept);
+}
 
 TriMesh collapse_edges(const TriMesh& mesh, const CollapseLimits& limits)
 {
@@ -30,6 +54,7 @@ TriMesh collapse_edges(const TriMesh& mesh, const CollapseLimits& limits)
         sizeof(Eigen::Vector3f), 3 * limits.min_faces, max_error,
         limits.locks_boundary ? static_cast<unsigned>(meshopt_SimplifyLockBorder) : 0U, nullptr);
     faces.resize(num_corners / 3);
+    remove_folds(faces);
     return with_used_vertices(mesh, std::move(faces));
 }
 

@@ -220,6 +220,7 @@ const LensModel* lens_model(int number)
 
 const LensModel* lens_model(std::string_view name)
 {
+    if (name == "SPHERICAL") name = "EQUIRECTANGULAR"; // OpenSfM's name
     const auto found = std::ranges::find(kLenses, name, &LensModel::name);
     return found == kLenses.end() ? nullptr : &*found;
 }

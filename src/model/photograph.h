@@ -21,6 +21,7 @@ struct Photograph {
     int width_px = 0;
     int height_px = 0;
     std::vector<std::uint8_t> rgb;
+    std::vector<std::uint8_t> alpha = {}; ///< per pixel, 0 where nothing is shown; empty: no 0
 };
 
 /// The colour at a place of an image, each channel from 0 to 255, bilinear between the middles of

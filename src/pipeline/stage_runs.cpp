@@ -277,7 +277,7 @@ Counts settle(RunState& run, const Progress& progress)
 Counts decimate(RunState& run, const Progress& /*progress*/)
 {
     constexpr double kMostMoved = 0.25; // of the spacing of the vertices
-    constexpr double kSmall = 4.0;      // squared spacings per face of min_component_faces
+    constexpr double kSmall = 8.0;      // squared spacings per face of min_component_faces
     std::vector<double> spacings = vertex_spacings(*run.mesh);
     std::erase(spacings, 0.0);
     const double spacing = median_in_place(spacings);

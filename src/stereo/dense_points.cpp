@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "io/images/find_photographs.h"
 #include "mesh/vertices.h"
 #include "picture/first_faces.h"
 #include "stereo/choose_sources.h"
@@ -13,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <string>
 
 namespace vcarve {
 
@@ -178,7 +180,12 @@ DensePoints dense_points(const Reconstruction& sparse, const std::vector<Calibra
         parallel_for(
             photos.size(), stage,
             [&](std::size_t i) { views[i] = stereo_view(photos[i], options.size_px); }, 1);
-        stage.end({{"photographs", size_of(photos.size())}});
+        std::vector<std::string> unreadable;
+        for (const StereoView& view : views) {
+            if (!view.problem.empty()) unreadable.push_back(view.problem);
+        }
+        note_unusable(unreadable, log);
+        stage.end({{"photographs", size_of(photos.size() - unreadable.size())}});
     }
     std::vector<DepthMap> maps(views.size());
     Stage depth(log, "depth");

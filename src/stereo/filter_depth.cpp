@@ -3,6 +3,7 @@
 #include "base/union_find.h"
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -86,8 +87,7 @@ InverseDepths largest_plane(const InverseDepths& pixels)
     return best;
 }
 
-/// The region of the image that lies between some pixels: within sqrt(3) standard deviations. No
-/// pixel lies between those of a line, which do not span a plane.
+/// The region of the image that lies between some pixels: within sqrt(3) standard deviations.
 class Between {
   public:
     explicit Between(const InverseDepths& pixels)
@@ -101,8 +101,12 @@ class Between {
             spread += from_mean * from_mean.transpose() / static_cast<double>(pixels.size());
         }
         inverse_ = spread.inverse();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(spread);
+        is_wide_ = axes.eigenvalues()[0] > 0.01 * axes.eigenvalues()[1];
     }
 
+    /// Along a narrow band, such as the edge of a roof, pixels say little of the plane.
+    bool is_wide() const { return is_wide_; }
     bool contains(const Eigen::Vector3d& ray) const
     {
         const Eigen::Vector2d from_mean = ray.head<2>() - mean_;
@@ -112,6 +116,7 @@ class Between {
   private:
     Eigen::Vector2d mean_ = Eigen::Vector2d::Zero();
     Eigen::Matrix2d inverse_;
+    bool is_wide_ = false;
 };
 
 class PlainRegions {
@@ -149,7 +154,8 @@ class PlainRegions {
             if (around.size() < kFewest) continue;
             const InverseDepths agreeing = largest_plane(around);
             if (agreeing.size() < kFewest || 5 * agreeing.size() < 2 * around.size()) continue;
-            fill(region, fitted_plane(agreeing), Between(agreeing));
+            const Between between(agreeing);
+            if (between.is_wide()) fill(region, fitted_plane(agreeing), between);
         }
     }
 

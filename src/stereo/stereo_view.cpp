@@ -1,6 +1,5 @@
 #include "stereo/stereo_view.h"
 
-#include "io/images/read_photograph.h"
 #include "model/camera.h"
 
 #include <algorithm>
@@ -14,8 +13,12 @@ namespace {
 /// Samples a photograph through its lens at places of the pinhole image.
 class Undistorter {
   public:
-    Undistorter(const CalibratedPhoto& photo, const Pinhole& camera, double width_px)
-        : photo_(photo), camera_(camera), width_px_(width_px), pyramid_(read_photograph(photo.file))
+    Undistorter(const CalibratedPhoto& photo, const Pinhole& camera, double width_px,
+                std::string& problem)
+        : photo_(photo),
+          camera_(camera),
+          width_px_(width_px),
+          pyramid_(photograph_of(photo, problem))
     {
     }
 
@@ -28,6 +31,7 @@ class Undistorter {
         const Eigen::Array2d pixel = shown->array() * photo_.scale;
         const Eigen::Array2d size(photo_.size.width_px, photo_.size.height_px);
         if ((pixel < 0.0).any() || (pixel > size).any()) return std::nullopt;
+        if (!pyramid_.shows(pixel.matrix(), width_px_)) return std::nullopt;
         return pyramid_.at(pixel.matrix(), width_px_);
     }
 
@@ -108,7 +112,7 @@ StereoView stereo_view(const CalibratedPhoto& photo, int size_px)
     image.width_px = std::max(1, static_cast<int>(std::lround(photo.size.width_px * scale)));
     image.height_px = std::max(1, static_cast<int>(std::lround(photo.size.height_px * scale)));
     image.pixels.reserve(static_cast<std::size_t>(image.width_px) * image.height_px);
-    const Undistorter photograph(photo, result.camera, 0.5 / scale);
+    const Undistorter photograph(photo, result.camera, 0.5 / scale, result.problem);
     for (int y = 0; y < image.height_px; ++y) {
         for (int x = 0; x < image.width_px; ++x) {
             const auto color = photograph.mean_at(x, y);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace vcarve {
@@ -47,6 +48,7 @@ struct StereoView {
     Pinhole camera;
     GrayImage image;           ///< -1 where the photograph shows nothing
     std::vector<Color> colors; ///< per pixel of the depth map
+    std::string problem;       ///< why the photograph cannot be read; empty if it can
 };
 
 /// A depth map has a pixel for every second pixel of the image, in both directions.
@@ -69,8 +71,8 @@ double working_scale(const PhotographSize& photograph, int size_px);
 
 /// Undistorts a photograph to a pinhole image, as COLMAP's image_undistorter does, with its longest
 /// side at most `size_px` and never larger than the photograph. Each pixel is the mean of four
-/// samples half a pixel apart. Throws InputError if the photograph cannot be read. Cost: decoding,
-/// and four samples a pixel.
+/// samples half a pixel apart. A photograph that cannot be read shows nothing. Cost: decoding, and
+/// four samples a pixel.
 StereoView stereo_view(const CalibratedPhoto& photo, int size_px);
 
 } // namespace vcarve

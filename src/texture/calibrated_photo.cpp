@@ -1,7 +1,9 @@
 #include "texture/calibrated_photo.h"
 
+#include "io/images/read_photograph.h"
 #include "model/camera.h"
 #include "model/photograph.h"
+#include "vcarve/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +30,23 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
     return is_inside ? pixel : std::nullopt;
 }
 
+Photograph transparent_photograph(const PhotographSize& size)
+{
+    const auto pixels = static_cast<std::size_t>(size.width_px) * size.height_px;
+    return {size.width_px, size.height_px, std::vector<std::uint8_t>(3 * pixels),
+            std::vector<std::uint8_t>(pixels)};
+}
+
+Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem)
+{
+    try {
+        return read_photograph(photo.file);
+    } catch (const InputError& error) {
+        problem = error.what();
+        return transparent_photograph(photo.size);
+    }
+}
+
 Photograph halved(const Photograph& whole)
 {
     Photograph half{std::max(1, whole.width_px / 2), std::max(1, whole.height_px / 2), {}};
@@ -46,6 +65,15 @@ Photograph halved(const Photograph& whole)
             }
         }
     }
+    if (whole.alpha.empty()) return half;
+    for (int y = 0; y < half.height_px; ++y) {
+        for (int x = 0; x < half.width_px; ++x) {
+            const std::size_t at = 2 * (static_cast<std::size_t>(y) * whole.width_px + x);
+            half.alpha.push_back(
+                std::min({whole.alpha[at], whole.alpha[at + right / 3], whole.alpha[at + below / 3],
+                          whole.alpha[at + (right + below) / 3]}));
+        }
+    }
     return half;
 }
 
@@ -57,12 +85,31 @@ PhotoPyramid::PhotoPyramid(Photograph photograph)
     }
 }
 
-Eigen::Array3f PhotoPyramid::at(const Eigen::Vector2d& pixel, double width_px) const
+std::pair<const Photograph*, double> PhotoPyramid::level_of(double width_px) const
 {
     const double finest = std::round(std::log2(std::max(width_px, 1.0)));
     const auto level = std::min(static_cast<std::size_t>(finest), levels_.size() - 1);
-    const double scale = 1.0 / static_cast<double>(std::size_t{1} << level);
-    return between_pixels(levels_[level], scale * pixel);
+    return {&levels_[level], 1.0 / static_cast<double>(std::size_t{1} << level)};
+}
+
+Eigen::Array3f PhotoPyramid::at(const Eigen::Vector2d& pixel, double width_px) const
+{
+    const auto [level, scale] = level_of(width_px);
+    return between_pixels(*level, scale * pixel);
+}
+
+bool PhotoPyramid::shows(const Eigen::Vector2d& pixel, double width_px) const
+{
+    if (levels_[0].alpha.empty()) return true;
+    const auto [level, scale] = level_of(width_px);
+    const int left = static_cast<int>(std::floor(scale * pixel.x() - 0.5));
+    const int top = static_cast<int>(std::floor(scale * pixel.y() - 0.5));
+    for (const auto& [right, below] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+        const int x = std::clamp(left + right, 0, level->width_px - 1);
+        const int y = std::clamp(top + below, 0, level->height_px - 1);
+        if (level->alpha[static_cast<std::size_t>(y) * level->width_px + x] == 0) return false;
+    }
+    return true;
 }
 
 } // namespace vcarve

@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -32,7 +34,14 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
 std::optional<Eigen::Vector2d> pixel_beyond(const CalibratedPhoto& photo,
                                             const Eigen::Vector3d& position);
 
-/// Every square of 2 x 2 pixels made one; an odd row or column at the end is left out.
+/// A photograph that shows nothing.
+Photograph transparent_photograph(const PhotographSize& size);
+
+/// Reads a photograph. One that cannot be read shows nothing, and `problem` says why.
+Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem);
+
+/// Every square of 2 x 2 pixels made one, which shows nothing if one of them does not; an odd row
+/// or column at the end is left out.
 Photograph halved(const Photograph& photograph);
 
 /// A photograph with its halves, quarters and so on, to be asked for the mean colour around a
@@ -46,7 +55,13 @@ class PhotoPyramid {
     /// the photograph goes on with the colours there.
     Eigen::Array3f at(const Eigen::Vector2d& pixel, double width_px = 1.0) const;
 
+    /// Whether all pixels that at() blends show something.
+    bool shows(const Eigen::Vector2d& pixel, double width_px = 1.0) const;
+
   private:
+    /// The level for a width, and its pixels per pixel of the photograph.
+    std::pair<const Photograph*, double> level_of(double width_px) const;
+
     std::vector<Photograph> levels_;
 };
 

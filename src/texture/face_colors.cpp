@@ -3,12 +3,13 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "geometry/triangle.h"
-#include "io/images/read_photograph.h"
 #include "model/colors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 namespace vcarve {
 
@@ -18,21 +19,43 @@ using Eigen::Array3f;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-ColorsOfFace colors_in(const PhotoPyramid& pyramid, const CalibratedPhoto& photo,
-                       const std::array<Vector3d, 3>& corners, double area_px2)
+/// Nothing if the photograph is transparent at one of the places.
+std::optional<ColorsOfFace> colors_in(const PhotoPyramid& pyramid, const CalibratedPhoto& photo,
+                                      const std::array<Vector3d, 3>& corners, double area_px2)
 {
+    bool is_shown = true;
     const double side_px = std::sqrt(area_px2);
     const double corner_px = std::clamp(0.4 * side_px, 2.0, 24.0);
     ColorsOfFace colors{};
     const auto look = [&](const Vector3d& place, double width_px) {
         const auto pixel = pixel_beyond(photo, place);
-        return pixel ? rounded_color(pyramid.at(*pixel, width_px)) : Color{};
+        if (!pixel) return Color{};
+        is_shown = is_shown && pyramid.shows(*pixel, width_px);
+        return rounded_color(pyramid.at(*pixel, width_px));
     };
     for (int i = 0; i < 3; ++i) {
         colors[i] = look(corners[i], corner_px);
     }
     colors[3] = look((corners[0] + corners[1] + corners[2]) / 3.0, 0.6 * side_px);
+    if (!is_shown) return std::nullopt;
     return colors;
+}
+
+/// Keeps those photographs of a face for which keep(place) holds. Returns how many are dropped.
+template <typename Keep>
+std::uint8_t keep_photos(PhotosOfFace& photos,
+                         std::array<ColorsOfFace, PhotosOfFace::kMost>& colors, const Keep& keep)
+{
+    std::uint8_t kept = 0;
+    for (std::uint8_t i = 0; i < photos.count; ++i) {
+        if (!keep(i)) continue;
+        photos.best[kept] = photos.best[i];
+        colors[kept] = colors[i];
+        ++kept;
+    }
+    const auto dropped = static_cast<std::uint8_t>(photos.count - kept);
+    photos.count = kept;
+    return dropped;
 }
 
 double mean_level(const Color& color)
@@ -122,9 +145,11 @@ float gain_of(std::vector<double>& quotients)
 
 } // namespace
 
-void for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
-                         const std::function<void(std::uint32_t, const PhotoPyramid&)>& body)
+std::vector<std::string>
+for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
+                    const std::function<void(std::uint32_t, const PhotoPyramid&)>& body)
 {
+    std::vector<std::string> problems(photos.size());
     constexpr std::size_t kAtATime = 4;
     for (std::size_t first = 0; first < photos.size(); first += kAtATime) {
         const std::size_t count = std::min(kAtATime, photos.size() - first);
@@ -132,27 +157,36 @@ void for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progr
             count,
             [&](std::size_t i) {
                 const auto photo = static_cast<std::uint32_t>(first + i);
-                body(photo, PhotoPyramid(read_photograph(photos[photo].file)));
+                body(photo, PhotoPyramid(photograph_of(photos[photo], problems[photo])));
             },
             1);
         progress.tell(static_cast<double>(first + count), static_cast<double>(photos.size()));
     }
+    std::erase(problems, "");
+    return problems;
 }
 
-FaceColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
-                          const std::vector<PhotosOfFace>& photos_of_faces,
-                          const Progress& progress)
+ShownColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
+                           std::vector<PhotosOfFace>& photos_of_faces, const Progress& progress)
 {
     FaceColors colors(mesh.faces.size());
+    std::vector<std::array<bool, PhotosOfFace::kMost>> shown(mesh.faces.size());
     const auto faces = faces_of_photos(photos.size(), photos_of_faces);
-    for_each_photograph(photos, progress, [&](std::uint32_t photo, const PhotoPyramid& pyramid) {
+    const auto look = [&](std::uint32_t photo, const PhotoPyramid& pyramid) {
         for (const auto& [face, place] : faces[photo]) {
-            colors[face][place] =
+            const auto found =
                 colors_in(pyramid, photos[photo], corners_of(mesh.positions, mesh.faces[face]),
                           photos_of_faces[face].best[place].area_px2);
+            shown[face][place] = found.has_value();
+            if (found) colors[face][place] = *found;
         }
+    };
+    std::vector<std::string> unreadable = for_each_photograph(photos, progress, look);
+    parallel_for(shown.size(), [&](std::size_t face) {
+        keep_photos(photos_of_faces[face], colors[face],
+                    [&](std::size_t place) { return shown[face][place]; });
     });
-    return colors;
+    return {std::move(colors), std::move(unreadable)};
 }
 
 Gains find_gains(std::size_t num_photos, const std::vector<PhotosOfFace>& photos_of_faces,
@@ -196,15 +230,8 @@ std::size_t drop_outliers(const Gains& gains, std::vector<PhotosOfFace>& photos_
         if (photos.count < 3) return;
         const std::vector<double> distances = distances_from_median(photos, colors[face], gains);
         const double most = std::max(kLeastLevels, kTimesMedian * median(distances));
-        std::uint8_t kept = 0;
-        for (std::size_t i = 0; i < distances.size(); ++i) {
-            if (distances[i] > most) continue;
-            photos.best[kept] = photos.best[i];
-            colors[face][kept] = colors[face][i];
-            ++kept;
-        }
-        dropped[face] = static_cast<std::uint8_t>(photos.count - kept);
-        photos.count = kept;
+        dropped[face] = keep_photos(photos, colors[face],
+                                    [&](std::size_t place) { return distances[place] <= most; });
     });
     std::size_t sum = 0;
     for (const std::uint8_t count : dropped) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace vcarve {
@@ -24,15 +25,22 @@ using FaceColors = std::vector<std::array<ColorsOfFace, PhotosOfFace::kMost>>;
 /// agree with one another.
 using Gains = std::vector<Eigen::Array3f>;
 
-/// Calls body(photo, pyramid) for all photographs, read one after the other; at most four are in
-/// memory at a time. A photograph that cannot be read ends it with InputError.
-void for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
-                         const std::function<void(std::uint32_t, const PhotoPyramid&)>& body);
+/// Calls body(photo, pyramid) for all photographs; at most four are in memory at a time. Those that
+/// cannot be read show nothing. Returns a sentence for each of these.
+std::vector<std::string>
+for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
+                    const std::function<void(std::uint32_t, const PhotoPyramid&)>& body);
 
-/// What all photographs show of the faces. Reads each photograph once.
-FaceColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
-                          const std::vector<PhotosOfFace>& photos_of_faces,
-                          const Progress& progress);
+/// What photographs show of the faces.
+struct ShownColors {
+    FaceColors colors;
+    std::vector<std::string> unreadable; ///< a sentence for each photograph
+};
+
+/// Looks up the colors of the faces. A photograph that is transparent where it should show a face
+/// is taken from that face's photographs. Reads each photograph once.
+ShownColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
+                           std::vector<PhotosOfFace>& photos_of_faces, const Progress& progress);
 
 /// The exposures of photographs, as the faces tell that several show: each gain is the median
 /// quotient of what others and what the photograph shows, in some rounds; their mean is 1.

@@ -143,7 +143,8 @@ class Painter {
         for (const std::uint32_t face : faces) {
             visit_own(face, [&](Canvas& canvas, std::size_t texel, const Vector3d& shares) {
                 const auto color = seen(photo, face, shares, pyramid);
-                canvas.set(texel, color + mixed(plan_.levels[face], shares));
+                canvas.set(texel, color ? *color + mixed(plan_.levels[face], shares)
+                                        : vertex_color(face, shares));
             });
         }
     }
@@ -158,9 +159,10 @@ class Painter {
                                  static_cast<float>(shares[1]) * blend.far[1] +
                                  static_cast<float>(shares[2]) * blend.far[2];
                 if (far >= 1.0F) return;
-                const Array3f color = seen(photo, blend.face, shares, pyramid);
-                strokes.push_back(
-                    {texel, page, std::min(1.0F, 1.0F - far), color + mixed(blend.levels, shares)});
+                const auto color = seen(photo, blend.face, shares, pyramid);
+                if (!color) return;
+                strokes.push_back({texel, page, std::min(1.0F, 1.0F - far),
+                                   *color + mixed(blend.levels, shares)});
             });
         }
         return strokes;
@@ -193,14 +195,10 @@ class Painter {
     {
         parallel_for(plan_.mesh.faces.size(), [&](std::size_t face) {
             if (plan_.photo_of_face[face] != kNoPhoto) return;
-            std::array<Array3f, 3> colors;
-            for (int i = 0; i < 3; ++i) {
-                colors[i] = channels_of(plan_.mesh.colors[plan_.mesh.faces[face][i]]);
-            }
-            visit_own(static_cast<std::uint32_t>(face),
-                      [&](Canvas& canvas, std::size_t texel, const Vector3d& shares) {
-                          canvas.set(texel, mixed(colors, shares));
-                      });
+            const auto number = static_cast<std::uint32_t>(face);
+            visit_own(number, [&](Canvas& canvas, std::size_t texel, const Vector3d& shares) {
+                canvas.set(texel, vertex_color(number, shares));
+            });
         });
     }
 
@@ -243,13 +241,25 @@ class Painter {
                      });
     }
 
-    Array3f seen(std::uint32_t photo, std::uint32_t face, const Vector3d& shares,
-                 const PhotoPyramid& pyramid) const
+    /// Between the colors of a face's vertices.
+    Array3f vertex_color(std::uint32_t face, const Vector3d& shares) const
+    {
+        std::array<Array3f, 3> colors;
+        for (int i = 0; i < 3; ++i) {
+            colors[i] = channels_of(plan_.mesh.colors[plan_.mesh.faces[face][i]]);
+        }
+        return mixed(colors, shares);
+    }
+
+    /// Nothing where the photograph is transparent.
+    std::optional<Array3f> seen(std::uint32_t photo, std::uint32_t face, const Vector3d& shares,
+                                const PhotoPyramid& pyramid) const
     {
         const auto [a, b, c] = corners_of(plan_.mesh.positions, plan_.mesh.faces[face]);
         const Vector3d place = shares[0] * a + shares[1] * b + shares[2] * c;
         const auto pixel = pixel_beyond(plan_.photos[photo], place);
         if (!pixel) return Array3f::Zero();
+        if (!pyramid.shows(*pixel)) return std::nullopt;
         return pyramid.at(*pixel) * plan_.gains[photo];
     }
 

@@ -75,8 +75,8 @@ std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photogr
     for (std::uint32_t i = 0; i < scene.views.size(); ++i) {
         const View& view = scene.views[i];
         const Camera& camera = scene.cameras[view.camera];
-        if (photographs.of_view[i].empty() || !intrinsics(camera) || camera.width_px == 0 ||
-            camera.height_px == 0) {
+        if (photographs.of_view[i].empty() || !project(camera, Eigen::Vector3d::UnitZ()) ||
+            camera.width_px == 0 || camera.height_px == 0) {
             continue;
         }
         CalibratedPhoto& photo = photos.emplace_back();
@@ -111,7 +111,9 @@ TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& phot
     Gains gains;
     {
         Stage stage(log, "colors");
-        colors = look_up_colors(mesh, photos, photos_of_faces, stage);
+        ShownColors shown = look_up_colors(mesh, photos, photos_of_faces, stage);
+        colors = std::move(shown.colors);
+        note_unusable(shown.unreadable, log);
         gains = find_gains(photos.size(), photos_of_faces, colors);
         const std::size_t outliers = drop_outliers(gains, photos_of_faces, colors);
         const std::size_t colored = color_vertices(photos_of_faces, colors, gains, mesh);

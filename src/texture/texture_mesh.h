@@ -13,8 +13,8 @@
 
 namespace vcarve {
 
-/// The photographs of a scene's views, as they lie before a mesh. A view whose lens is not known or
-/// that has no photograph has none.
+/// The photographs of a scene's views, in the frame of a mesh. Views without a photograph or with
+/// an unknown lens are left out.
 std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photographs& photographs,
                                                const Eigen::Vector3d& mesh_offset);
 
@@ -41,8 +41,8 @@ struct TexturedMesh {
 /// Goesele, "Let there be color! Large-scale texturing of 3D reconstructions", ECCV 2014, and V.
 /// Lempitsky and D. Ivanov, "Seamless mosaicing of image-based texture maps", CVPR 2007). Runs as
 /// the stages "photos", "colors" and "texture" of `log`. The same result for any number of threads.
-/// Throws InputError where a photograph cannot be read, and Cancelled. Cost: every photograph is
-/// read twice, for colours alone once; at most four are in memory.
+/// Photographs that cannot be read are left out with a note. Throws Cancelled. Cost: every
+/// photograph is read twice, for colours alone once; at most four are in memory.
 TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& photos,
                           const TextureOptions& options, Log& log);
 

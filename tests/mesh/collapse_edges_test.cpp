@@ -61,6 +61,16 @@ TEST(CollapseEdges, StopsAtANumberOfFaces)
     EXPECT_GT(coarse.faces.size(), 350U);
 }
 
+TEST(RemoveFolds, RemovesFacesThatLieBackToBack)
+{
+    std::vector<Face> faces = {{0, 1, 2}, {5, 3, 4}, {1, 3, 2}, {3, 5, 4}};
+    remove_folds(faces);
+    EXPECT_EQ(faces, (std::vector<Face>{{0, 1, 2}, {1, 3, 2}}));
+    std::vector<Face> all = {{0, 1, 2}, {0, 2, 1}};
+    remove_folds(all);
+    EXPECT_EQ(all.size(), 2U) << "nothing would be left";
+}
+
 TEST(CollapseEdges, KeepsAMeshWithoutFaces)
 {
     EXPECT_TRUE(collapse_edges({}, {.max_distance = 1.0}).faces.empty());

@@ -6,6 +6,7 @@
 #include "support/temporary_folder.h"
 #include "support/told_log.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,6 +95,23 @@ TEST(DensePoints, IncludeTheSparsePoints)
     ASSERT_GT(dense.num_points(), room.sparse.scene.num_points());
     EXPECT_EQ(dense.positions.back(), room.sparse.scene.positions.back());
     EXPECT_EQ(dense.tracks.size(), dense.num_points());
+}
+
+TEST(DensePoints, LeaveOutPhotographsThatCannotBeReadAndTransparentPixels)
+{
+    const PhotographedRoom room;
+    Photograph cut = {160, 120, std::vector<std::uint8_t>(3 * 160 * 120, 90)};
+    cut.alpha.assign(160 * 120, 255);
+    cut.alpha[60 * 160 + 80] = 0;
+    write_cutout(room.photos[2].file, cut);
+    const StereoView view = stereo_view(room.photos[2], 160);
+    EXPECT_EQ(view.image.at(80, 60), -1.0F);
+    EXPECT_FLOAT_EQ(view.image.at(20, 60), 90.0F);
+
+    room.folder.write("3.png", "no image");
+    EXPECT_THAT(stereo_view(room.photos[3], 160).problem,
+                ::testing::HasSubstr("3.png: found neither"));
+    EXPECT_GT(room.dense().num_points(), 1000U) << "the others suffice";
 }
 
 TEST(DensePoints, AreTheSameForAnyThreadCount)

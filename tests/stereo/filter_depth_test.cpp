@@ -10,10 +10,11 @@ namespace {
 
 const Pinhole kCamera = {20.0F, {19.0F, 19.0F}};
 
-/// The plane z = 2, seen by 20 x 20 pixels of a depth map.
-DepthMap wall()
+/// The plane z = 2, seen by the pixels of a depth map.
+DepthMap wall(int width_px = 20)
 {
-    DepthMap map{20, 20, std::vector<PixelPlane>(400), std::vector<float>(400, 0.1F)};
+    const auto pixels = static_cast<std::size_t>(width_px) * 20;
+    DepthMap map{width_px, 20, std::vector<PixelPlane>(pixels), std::vector<float>(pixels, 0.1F)};
     for (PixelPlane& plane : map.planes) {
         plane.depth = 2.0F;
     }
@@ -85,6 +86,34 @@ TEST(FillPlainRegions, LeavesARegionEmptyThatIsMeasuredAlongALineOnly)
         map.costs[map.index(x, 0)] = 0.1F;
     }
     const std::vector<PixelPlane> surface = map.planes;
+    fill_plain_regions(map, kCamera, surface);
+    EXPECT_EQ(std::ranges::count(map.costs, DepthMap::kFilled), 0);
+}
+
+TEST(FillPlainRegions, EndsWhereTheMeasuredPixelsEnd)
+{
+    DepthMap map = wall();
+    const std::vector<PixelPlane> surface = map.planes;
+    for (int i = 0; i < 400; ++i) {
+        const int x = i % 20;
+        const int y = i / 20;
+        if (x >= 8 || y >= 8 || (x > 2 && x < 5 && y > 2 && y < 5)) map.costs[i] = DepthMap::kPlain;
+    }
+    fill_plain_regions(map, kCamera, surface);
+    EXPECT_EQ(map.costs[map.index(19, 19)], DepthMap::kPlain);
+    EXPECT_EQ(map.costs[map.index(19, 2)], DepthMap::kPlain);
+}
+
+TEST(FillPlainRegions, LeavesARegionEmptyThatIsMeasuredAlongANarrowBandOnly)
+{
+    DepthMap map = wall(200);
+    const std::vector<PixelPlane> surface = map.planes;
+    std::ranges::fill(map.costs, DepthMap::kPlain);
+    for (int x = 0; x < 200; ++x) {
+        for (int y = 0; y < (x % 20 < 10 ? 1 : 5); ++y) {
+            map.costs[map.index(x, y)] = 0.1F;
+        }
+    }
     fill_plain_regions(map, kCamera, surface);
     EXPECT_EQ(std::ranges::count(map.costs, DepthMap::kFilled), 0);
 }

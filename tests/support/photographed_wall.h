@@ -6,6 +6,7 @@
 #include "vcarve/tri_mesh.h"
 
 #include <Eigen/Core>
+#include <png.h>
 
 #include <algorithm>
 #include <array>
@@ -86,6 +87,22 @@ inline void write_photograph(const std::filesystem::path& path, const Photograph
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
+}
+
+/// Writes a PNG with the alpha of the image.
+inline void write_cutout(const std::filesystem::path& path, const Photograph& image)
+{
+    std::vector<std::uint8_t> pixels;
+    for (std::size_t i = 0; i < image.alpha.size(); ++i) {
+        pixels.insert(pixels.end(), {image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2],
+                                     image.alpha[i]});
+    }
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(image.width_px);
+    png.height = static_cast<png_uint_32>(image.height_px);
+    png.format = PNG_FORMAT_RGBA;
+    png_image_write_to_file(&png, path.c_str(), 0, pixels.data(), 0, nullptr);
 }
 
 } // namespace vcarve

@@ -33,6 +33,11 @@ class ToldLog : public Log {
         const std::lock_guard lock(mutex_);
         ended_.emplace_back(name);
     }
+    void note(std::string_view sentence) override
+    {
+        const std::lock_guard lock(mutex_);
+        notes_.emplace_back(sentence);
+    }
     bool wants_stop() const override { return stops_; }
 
     void stop() { stops_ = true; }
@@ -49,6 +54,12 @@ class ToldLog : public Log {
         return ended_;
     }
 
+    std::vector<std::string> notes() const
+    {
+        const std::lock_guard lock(mutex_);
+        return notes_;
+    }
+
     std::function<void(const std::string&)> on_stage; ///< called with the stage that begins
     std::function<void(const std::string&)> on_share; ///< called with the stage that progresses
 
@@ -57,6 +68,7 @@ class ToldLog : public Log {
     std::string stage_;
     std::map<std::string, std::vector<double>> shares_;
     std::vector<std::string> ended_;
+    std::vector<std::string> notes_;
     std::atomic<bool> stops_ = false;
 };
 

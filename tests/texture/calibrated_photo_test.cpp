@@ -73,6 +73,20 @@ TEST(PhotoPyramid, GoesOnBeyondTheEdges)
     EXPECT_TRUE(pyramid.at({500.0, -9.0}, 4.0).isApprox(Eigen::Array3f(123, 5, 7), 0.02F));
 }
 
+TEST(PhotoPyramid, ShowsNothingWhereAPixelIsTransparent)
+{
+    Photograph image = ramp(8, 8);
+    image.alpha.assign(64, 255);
+    image.alpha[3 * 8 + 5] = 0; // column 5, row 3
+    const PhotoPyramid pyramid(image);
+    EXPECT_FALSE(pyramid.shows({5.5, 3.5}));
+    EXPECT_FALSE(pyramid.shows({4.6, 3.5})) << "the pixel is blended in";
+    EXPECT_TRUE(pyramid.shows({4.4, 3.5}));
+    EXPECT_FALSE(pyramid.shows({5.0, 3.0}, 2.0));
+    EXPECT_TRUE(pyramid.shows({1.0, 7.0}, 2.0));
+    EXPECT_TRUE(PhotoPyramid(ramp(8, 8)).shows({5.5, 3.5}));
+}
+
 TEST(PhotoPyramid, OfOnePixelIsThatPixel)
 {
     const PhotoPyramid pyramid(Photograph{1, 1, {9, 8, 7}});

@@ -2,7 +2,6 @@
 #include "support/photographed_wall.h"
 #include "support/told_log.h"
 #include "texture/texture_mesh.h"
-#include "vcarve/error.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -224,18 +223,44 @@ TEST(TextureMesh, OfASurfaceWithoutFacesIsEmpty)
     EXPECT_TRUE(made.texture.is_empty());
 }
 
-TEST(TextureMesh, NamesAPhotographThatCannotBeRead)
+TEST(TextureMesh, LeavesOutAPhotographThatCannotBeReadAndNamesIt)
 {
     PhotographedWall wall;
     wall.add({0, 0, -2.5});
-    wall.folder.write("0.png", "no image");
+    wall.add({0.1, 0, -2.0});
+    wall.folder.write("1.png", bytes_of(wall.photos[1].file).substr(0, 900));
     ToldLog log;
-    try {
-        texture_mesh(wall_mesh(2), wall.photos, {}, log);
-        FAIL() << "it was read";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("0.png"), std::string::npos) << error.what();
-    }
+    const TexturedMesh made = texture_mesh(wall_mesh(4), wall.photos, {}, log);
+    EXPECT_LT(worst_difference(made), 12.0) << "the other photograph covers all";
+    ASSERT_EQ(log.notes().size(), 1U);
+    EXPECT_NE(log.notes()[0].find("1.png: found a PNG that cannot be read"), std::string::npos);
+}
+
+TEST(TextureMesh, ShowsNoColorsOfTransparentPixels)
+{
+    const auto made_over = [](const Array3d& hidden) {
+        PhotographedWall wall;
+        wall.add({-0.6, 0, -1.7}); // not the right edge
+        wall.add({0.1, 0, -2.0});
+        const auto cut = [&](int x, int /*y*/, Array3d& color) {
+            if (x < 80) color = hidden;
+        };
+        Photograph image = photograph_of_wall(wall.photos[1], {1.0, 1.0, 1.0}, cut);
+        for (int i = 0; i < image.width_px * image.height_px; ++i) {
+            image.alpha.push_back(i % image.width_px < 80 ? 0 : 255);
+        }
+        write_cutout(wall.photos[1].file, image);
+        ToldLog log;
+        return texture_mesh(wall_mesh(8), wall.photos, {}, log);
+    };
+    const TexturedMesh green = made_over({0, 255, 0});
+    const TexturedMesh red = made_over({255, 0, 0});
+    EXPECT_LT(worst_difference(green), 12.0);
+    EXPECT_EQ(green.mesh.colors, red.mesh.colors);
+    ASSERT_EQ(green.texture.pages.size(), red.texture.pages.size());
+    EXPECT_EQ(green.texture.pages[0].rgb, red.texture.pages[0].rgb);
+    EXPECT_EQ(std::ranges::count(green.view_of_face, -1), 0);
+    EXPECT_GT(std::ranges::count(green.view_of_face, 1), 0) << "the other half is used";
 }
 
 } // namespace

@@ -14,7 +14,8 @@ inline constexpr std::array<const char*, 3> kModelFiles{"cameras", "images", "po
 
 /// What may stand for points3D beside the others, as converters write it.
 inline constexpr const char* kPointsPly = "points3D.ply";
-/// The same beside transforms.json.
+/// nerfstudio's poses and, beside them, their points.
+inline constexpr const char* kTransforms = "transforms.json";
 inline constexpr const char* kSparsePly = "sparse_pc.ply";
 
 /// The name of one of them: model_file("images", ModelFormat::text) is "images.txt".

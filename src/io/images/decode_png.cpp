@@ -2,9 +2,11 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstring>
+#include <vector>
 
 namespace vcarve {
 
@@ -62,22 +64,31 @@ class PngReader {
     Photograph decode()
     {
         Photograph photo = blank_photograph(size());
-        const std::size_t row_bytes = std::size_t{3} * photo.width_px;
+        const bool has_alpha = (png_get_color_type(png_, info_) & PNG_COLOR_MASK_ALPHA) != 0 ||
+                               png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
+        const std::size_t row_bytes = std::size_t{has_alpha ? 4U : 3U} * photo.width_px;
+        std::vector<std::uint8_t> pixels(has_alpha ? row_bytes * photo.height_px : 0);
+        std::uint8_t* const rows = has_alpha ? pixels.data() : photo.rgb.data();
         const bool is_whole = libpng_does([&] {
             png_set_expand(png_);
             png_set_scale_16(png_);
-            png_set_strip_alpha(png_);
             png_set_gray_to_rgb(png_);
             const int passes = png_set_interlace_handling(png_);
             png_read_update_info(png_, info_);
             for (int pass = 0; pass < passes; ++pass) {
                 for (int y = 0; y < photo.height_px; ++y) {
-                    png_read_row(png_, photo.rgb.data() + y * row_bytes, nullptr);
+                    png_read_row(png_, rows + y * row_bytes, nullptr);
                 }
             }
             png_read_end(png_, nullptr);
         });
         if (!is_whole) refuse_image(file_, "PNG", state_.message.data());
+        if (!has_alpha) return photo;
+        for (std::size_t i = 0; i < pixels.size(); i += 4) {
+            std::copy_n(&pixels[i], 3, &photo.rgb[i / 4 * 3]);
+            photo.alpha.push_back(pixels[i + 3]);
+        }
+        forget_opaque(photo);
         return photo;
     }
 

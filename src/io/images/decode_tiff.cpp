@@ -61,7 +61,7 @@ class TiffReader {
     Photograph decode()
     {
         Photograph photo = blank_photograph(size());
-        keep_from_multiplying_by_alpha();
+        const bool has_alpha = keep_from_multiplying_by_alpha();
         TIFFSetField(tiff_.get(), TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT); // rows as stored
         std::vector<std::uint32_t> pixels(photo.rgb.size() / 3);
         if (TIFFReadRGBAImageOriented(tiff_.get(), static_cast<std::uint32_t>(photo.width_px),
@@ -74,19 +74,24 @@ class TiffReader {
             *to++ = static_cast<std::uint8_t>(TIFFGetR(pixel));
             *to++ = static_cast<std::uint8_t>(TIFFGetG(pixel));
             *to++ = static_cast<std::uint8_t>(TIFFGetB(pixel));
+            if (has_alpha) photo.alpha.push_back(static_cast<std::uint8_t>(TIFFGetA(pixel)));
         }
+        forget_opaque(photo);
         return photo;
     }
 
   private:
     /// Marks all extra channels as premultiplied alpha, so that libtiff leaves the colors alone.
-    void keep_from_multiplying_by_alpha()
+    /// Returns whether the first is alpha.
+    bool keep_from_multiplying_by_alpha()
     {
         std::uint16_t count = 0;
         std::uint16_t* kinds = nullptr;
         TIFFGetFieldDefaulted(tiff_.get(), TIFFTAG_EXTRASAMPLES, &count, &kinds);
+        const bool has_alpha = count > 0 && kinds[0] != EXTRASAMPLE_UNSPECIFIED;
         std::vector<std::uint16_t> done(count, EXTRASAMPLE_ASSOCALPHA);
         if (count > 0) TIFFSetField(tiff_.get(), TIFFTAG_EXTRASAMPLES, count, done.data());
+        return has_alpha;
     }
 
     [[noreturn]] void refuse() const { refuse_image(file_, "TIFF", message_.data()); }

@@ -31,6 +31,9 @@ Photograph decode_tiff(const ImageFile& file);
 /// The size that a header declares. Throws InputError where it is zero or too large.
 PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::uint64_t height_px);
 
+/// Empties the alpha channel if no pixel is transparent.
+void forget_opaque(Photograph& photo);
+
 /// One of that size, to be filled.
 Photograph blank_photograph(const PhotographSize& size);
 

@@ -1,6 +1,7 @@
 #include "io/images/find_photographs.h"
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "io/colmap/model_files.h"
 #include "io/images/read_photograph.h"
 #include "vcarve/error.h"
@@ -8,6 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <system_error>
 
 namespace vcarve {
 
@@ -15,38 +21,93 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Ends of the names of photographs, in lower case.
+constexpr std::array<std::string_view, 7> kEnds = {".jpg",  ".jpeg", ".png", ".tif",
+                                                   ".tiff", ".ppm",  ".pgm"};
+
 bool leads_out(const fs::path& name)
 {
     return name.empty() || name.has_root_path() || std::ranges::count(name, fs::path("..")) > 0;
 }
 
-fs::path with_its_name(const fs::path& path)
+/// The paths below `folder` that the name of a view may mean, the likeliest first.
+std::vector<fs::path> readings_of(const std::string& name, const fs::path& folder)
 {
-    return is_file(path) ? path : fs::path();
-}
-
-fs::path with_another_end(const fs::path& path)
-{
-    for (const char* const end :
-         {".jpg", ".jpeg", ".png", ".tif", ".tiff", ".JPG", ".JPEG", ".PNG", ".TIF", ".TIFF"}) {
-        fs::path other = fs::path(path).replace_extension(end);
-        if (is_file(other)) return other;
+    std::vector<fs::path> readings = {name};
+    if (std::ranges::count(name, '\\') > 0) {
+        std::string with_slashes = name;
+        std::ranges::replace(with_slashes, '\\', '/');
+        readings.emplace_back(with_slashes);
     }
-    return {};
+    // transforms.json names images/a.png relative to itself.
+    const std::size_t count = readings.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const fs::path reading = readings[i].lexically_normal();
+        if (reading.begin() == reading.end() || *reading.begin() != folder.filename()) continue;
+        readings.push_back(reading.lexically_relative(*reading.begin()));
+    }
+    std::erase_if(readings, leads_out);
+    return readings;
 }
 
-/// The file of each view, which `find` tells by the path that its name means.
-template <typename Find>
-std::vector<fs::path> files_of(const Scene& scene, const fs::path& folder, const Find& find)
+/// The photographs in a folder, found by names that differ in case or in their ends.
+class SimilarNames {
+  public:
+    /// `taken`, sorted, belong to views that they are named after. Cost: lists the folder.
+    SimilarNames(const fs::path& folder, const std::vector<fs::path>& taken)
+    {
+        std::vector<fs::path> files;
+        std::error_code error;
+        for (fs::recursive_directory_iterator at(folder, error), end; at != end && !error;
+             at.increment(error)) {
+            if (std::ranges::count(kEnds, lower_case_end(at->path())) == 0) continue;
+            if (!std::ranges::binary_search(taken, at->path())) files.push_back(at->path());
+        }
+        std::ranges::sort(files);
+        for (const fs::path& file : files) {
+            const fs::path name = file.lexically_relative(folder);
+            files_.emplace(lower_case(name.generic_string()), file);
+            files_.emplace(lower_case(fs::path(name).replace_extension().generic_string()), file);
+        }
+    }
+
+    fs::path find(const fs::path& name) const
+    {
+        const auto known_end = std::ranges::count(kEnds, lower_case_end(name)) > 0;
+        for (const fs::path& key : {name, known_end ? fs::path(name).replace_extension() : name}) {
+            const auto found = files_.find(lower_case(key.lexically_normal().generic_string()));
+            if (found != files_.end()) return found->second;
+        }
+        return {};
+    }
+
+  private:
+    std::map<std::string, fs::path> files_; ///< the first by name of each key
+};
+
+/// The file of each view.
+std::vector<fs::path> files_of(const Scene& scene, const fs::path& folder)
 {
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(folder, error); // "." has a name
     std::vector<fs::path> files(scene.views.size());
     parallel_for(
         files.size(),
         [&](std::size_t view) {
-            const fs::path name = scene.views[view].name;
-            if (!leads_out(name)) files[view] = find(folder / name);
+            for (const fs::path& name : readings_of(scene.views[view].name, whole)) {
+                if (files[view].empty() && is_file(folder / name)) files[view] = folder / name;
+            }
         },
         16);
+    if (std::ranges::count(files, fs::path()) == 0) return files;
+    std::vector<fs::path> taken = files;
+    std::ranges::sort(taken);
+    const SimilarNames similar(folder, taken);
+    for (std::size_t view = 0; view < files.size(); ++view) {
+        for (const fs::path& name : readings_of(scene.views[view].name, whole)) {
+            if (files[view].empty()) files[view] = similar.find(name);
+        }
+    }
     return files;
 }
 
@@ -55,24 +116,44 @@ std::size_t num_missing(const std::vector<fs::path>& files)
     return static_cast<std::size_t>(std::ranges::count(files, fs::path()));
 }
 
-/// Reads the sizes, and takes out the files that cannot be read.
-void measure(Photographs& photographs)
+/// Whether a photograph can be its camera's image made smaller or larger, with rounded sides.
+bool has_shape_of(const Camera& camera, const PhotographSize& photo)
+{
+    constexpr double kShare = 0.01;
+    const double width = camera.width_px;
+    const double height = camera.height_px;
+    const double difference = std::abs(photo.width_px * height - photo.height_px * width);
+    return difference <= std::max(2.0 * (width + height), kShare * photo.width_px * height);
+}
+
+/// Reads the sizes, and takes out the files that cannot be used.
+void measure(const Scene& scene, Photographs& photographs)
 {
     std::vector<std::string> reasons(photographs.of_view.size());
     parallel_for(
         reasons.size(),
         [&](std::size_t view) {
-            if (photographs.of_view[view].empty()) return;
+            fs::path& file = photographs.of_view[view];
+            if (file.empty()) return;
             try {
-                photographs.sizes[view] = photograph_size(photographs.of_view[view]);
+                const PhotographSize size = photograph_size(file);
+                const Camera& camera = scene.cameras[scene.views[view].camera];
+                if (camera.width_px > 0 && camera.height_px > 0 && !has_shape_of(camera, size)) {
+                    throw InputError(fmt::format(
+                        "{}: found {} x {} pixels, but the camera's images have {} x {}; a "
+                        "photograph may be scaled, but not cropped or turned",
+                        file.string(), size.width_px, size.height_px, camera.width_px,
+                        camera.height_px));
+                }
+                photographs.sizes[view] = size;
             } catch (const InputError& error) {
                 reasons[view] = error.what();
-                photographs.of_view[view].clear();
+                file.clear();
             }
         },
         4);
     std::erase(reasons, "");
-    photographs.unreadable = std::move(reasons);
+    photographs.unusable = std::move(reasons);
 }
 
 } // namespace
@@ -88,10 +169,7 @@ Photographs find_photographs(const Scene& scene, const fs::path& folder)
     }
     Photographs found;
     found.folder = folder;
-    found.of_view = files_of(scene, folder, with_its_name);
-    if (num_missing(found.of_view) == scene.views.size()) {
-        found.of_view = files_of(scene, folder, with_another_end);
-    }
+    found.of_view = files_of(scene, folder);
     found.missing = num_missing(found.of_view);
     if (found.missing == scene.views.size()) {
         throw InputError(fmt::format(
@@ -100,9 +178,24 @@ Photographs find_photographs(const Scene& scene, const fs::path& folder)
             folder.string(), scene.views.size(), scene.views.empty() ? "" : scene.views[0].name));
     }
     found.sizes.resize(found.of_view.size());
-    measure(found);
-    if (num_missing(found.of_view) == scene.views.size()) throw InputError(found.unreadable[0]);
+    measure(scene, found);
+    if (num_missing(found.of_view) == scene.views.size()) throw InputError(found.unusable[0]);
     return found;
+}
+
+void note_unusable(const std::vector<std::string>& sentences, Log& log)
+{
+    constexpr std::size_t kMostNamed = 5;
+    if (sentences.empty()) return;
+    if (sentences.size() == 1) return log.note(sentences[0]);
+    std::string names;
+    for (std::size_t i = 1; i < std::min(sentences.size(), kMostNamed); ++i) {
+        const std::string path = sentences[i].substr(0, sentences[i].find(": "));
+        names += fmt::format("{}{}", i == 1 ? "" : ", ", fs::path(path).filename().string());
+    }
+    const char* const more = sentences.size() > kMostNamed ? ", ..." : "";
+    log.note(fmt::format("{} photographs cannot be used. {}. The others are {}{}", sentences.size(),
+                         sentences[0], names, more));
 }
 
 std::optional<fs::path> photographs_beside(const fs::path& model)
@@ -110,8 +203,10 @@ std::optional<fs::path> photographs_beside(const fs::path& model)
     std::error_code error;
     const fs::path folder = fs::weakly_canonical(model, error); // so that "." has a parent
     if (error) return std::nullopt;
+    if (lower_case_end(model) == ".json") return folder.parent_path();
     const auto images_in = [](const fs::path& parent) { return parent / "images"; };
     if (is_folder(images_in(model))) return images_in(model);
+    if (is_file(model / kTransforms)) return folder;
     const fs::path parent = folder.parent_path();
     if (folder.filename() == "sparse" && is_folder(images_in(parent))) return images_in(parent);
     const fs::path above = parent.parent_path();

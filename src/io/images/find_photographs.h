@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/photograph.h"
+#include "vcarve/log.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>
@@ -17,17 +18,22 @@ struct Photographs {
     std::vector<std::filesystem::path> of_view; ///< empty where there is none that can be read
     std::vector<PhotographSize> sizes;          ///< zero where there is none
     std::size_t missing = 0;                    ///< views without a file
-    std::vector<std::string> unreadable;        ///< a sentence for each file that is none
+    std::vector<std::string> unusable;          ///< a sentence for each file that cannot be used
 };
 
-/// Finds them as `folder`/name; where not one is there, by names that end otherwise, as after the
-/// photographs were converted: a.png may be a.JPG. Names that lead out of the folder count as
-/// missing. Reads the header of each, on all threads. Throws InputError where there is no such
-/// folder, or not one photograph that can be read.
+/// Finds them as `folder`/name. A backslash in a name may separate folders, and a name may begin
+/// with the name of `folder` itself. A view without such a file gets one whose name differs in
+/// case or in its end only: a.png may be A.JPG. Names that lead out of the folder count as missing.
+/// Files with another aspect ratio than their camera cannot be used. Reads the header of each, on
+/// all threads. Throws InputError if there is no such folder, or no photograph that can be used.
 Photographs find_photographs(const Scene& scene, const std::filesystem::path& folder);
 
-/// The folder `images` that belongs to a model: in the model's folder, beside the folder `sparse`
-/// that it is, or beside the one that it is a part of (sparse/0). Nothing where there is none.
+/// Adds one note about photographs that are left out. Each sentence begins with a path and a colon.
+void note_unusable(const std::vector<std::string>& sentences, Log& log);
+
+/// The folder that the names of a model's photographs are relative to: that of transforms.json, or
+/// the folder `images` in the model's folder, beside the folder `sparse` that it is, or beside the
+/// one that it is a part of (sparse/0). Nothing if there is none.
 std::optional<std::filesystem::path> photographs_beside(const std::filesystem::path& model);
 
 } // namespace vcarve

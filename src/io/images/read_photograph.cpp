@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 namespace vcarve {
@@ -80,6 +81,11 @@ PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::
                                      file.path.string(), width_px, height_px, kMostPixels));
     }
     return {static_cast<int>(width_px), static_cast<int>(height_px)};
+}
+
+void forget_opaque(Photograph& photo)
+{
+    if (std::ranges::count(photo.alpha, 0) == 0) photo.alpha = {};
 }
 
 Photograph blank_photograph(const PhotographSize& size)

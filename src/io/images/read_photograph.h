@@ -11,10 +11,10 @@ namespace vcarve {
 /// pixels.
 PhotographSize photograph_size(const std::filesystem::path& path);
 
-/// Reads one as COLMAP does: as its pixels are stored, whatever EXIF says of turning them, without
-/// alpha, grey as three equal colours, 16 bits rounded to 8. Throws InputError as photograph_size
-/// does, and where pixels are missing. Needs little more memory than the result, but for
-/// progressive JPEGs, which libjpeg keeps as coefficients (twice the result).
+/// Reads a photograph as COLMAP does: its pixels as they are stored, without EXIF rotation, gray as
+/// three equal colors, 16 bits rounded to 8. Alpha is kept if a pixel is transparent. Throws
+/// InputError as photograph_size() does, and if pixels are missing. Needs little more memory than
+/// the result, but twice the result for progressive JPEGs and PNGs with alpha.
 Photograph read_photograph(const std::filesystem::path& path);
 
 } // namespace vcarve

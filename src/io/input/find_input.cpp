@@ -247,7 +247,7 @@ FoundInput transforms_input(const fs::path& file, const PointsOptions& options)
 std::optional<fs::path> find_transforms(const fs::path& input)
 {
     if (is_file(input) && lower_case_end(input) == ".json") return input;
-    const fs::path file = input / "transforms.json";
+    const fs::path file = input / kTransforms;
     if (!is_file(file)) return std::nullopt;
     try {
         find_model(input);
@@ -310,8 +310,8 @@ FoundInput look_for_points(FoundModel model, const fs::path& input, const Points
 }
 
 constexpr const char* kNamesBesideModels[] = {
-    "rigs.bin",      "rigs.txt",    "frames.bin",  "frames.txt",      "points3D.ply", "fused.ply",
-    "fused.ply.vis", "database.db", "project.ini", "transforms.json", "sparse_pc.ply"};
+    "rigs.bin",      "rigs.txt",    "frames.bin",  "frames.txt", "points3D.ply", "fused.ply",
+    "fused.ply.vis", "database.db", "project.ini", kTransforms,  kSparsePly};
 
 void add_if_there(const fs::path& path, std::vector<fs::path>& files)
 {

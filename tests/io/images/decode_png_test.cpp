@@ -90,10 +90,13 @@ TEST(DecodePng, MakesGreyThreeEqualColours)
     EXPECT_THAT(decoded(png_of(2, {{0x40}}, bits)).rgb, ElementsAre(0, 0, 0, 255, 255, 255));
 }
 
-TEST(DecodePng, DropsAlphaAndLeavesColoursAsTheyAre)
+TEST(DecodePng, KeepsAlphaOfTransparentPixelsAndTheirColors)
 {
     const Look colours{.color_type = PNG_COLOR_TYPE_RGB_ALPHA};
-    EXPECT_THAT(decoded(png_of(1, {{10, 20, 30, 0}}, colours)).rgb, ElementsAre(10, 20, 30));
+    const Photograph half = decoded(png_of(2, {{10, 20, 30, 0, 40, 50, 60, 200}}, colours));
+    EXPECT_THAT(half.rgb, ElementsAre(10, 20, 30, 40, 50, 60));
+    EXPECT_THAT(half.alpha, ElementsAre(0, 200));
+    EXPECT_THAT(decoded(png_of(1, {{10, 20, 30, 1}}, colours)).alpha, ElementsAre());
     const Look grey{.color_type = PNG_COLOR_TYPE_GRAY_ALPHA};
     EXPECT_THAT(decoded(png_of(1, {{99, 5}}, grey)).rgb, ElementsAre(99, 99, 99));
 }
@@ -104,7 +107,9 @@ TEST(DecodePng, LooksColoursUpInThePalette)
                     .bits = 4,
                     .palette = {{1, 2, 3}, {200, 100, 50}},
                     .transparent = {255, 0}};
-    EXPECT_THAT(decoded(png_of(2, {{0x10}}, look)).rgb, ElementsAre(200, 100, 50, 1, 2, 3));
+    const Photograph photo = decoded(png_of(2, {{0x10}}, look));
+    EXPECT_THAT(photo.rgb, ElementsAre(200, 100, 50, 1, 2, 3));
+    EXPECT_THAT(photo.alpha, ElementsAre(0, 255));
 }
 
 TEST(DecodePng, RoundsSixteenBitsToEight)

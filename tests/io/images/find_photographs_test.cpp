@@ -34,7 +34,6 @@ TEST(FindPhotographs, FindsThemByTheNamesOfTheViews)
     const TemporaryFolder folder;
     const auto first = put_photo(folder, "a.jpg", 3);
     const auto second = put_photo(folder, "left/b.jpg", 5);
-    put_photo(folder, "c.JPG", 7); // is another's, for some are there under their names
     const Photographs found =
         find_photographs(scene_of({"left/b.jpg", "c.jpg", "a.jpg"}), folder.path());
     EXPECT_EQ(found.folder, folder.path());
@@ -44,18 +43,60 @@ TEST(FindPhotographs, FindsThemByTheNamesOfTheViews)
     EXPECT_EQ(found.sizes[2].width_px, 3);
     EXPECT_EQ(found.sizes[2].height_px, 2);
     EXPECT_EQ(found.missing, 1U);
-    EXPECT_THAT(found.unreadable, IsEmpty());
+    EXPECT_THAT(found.unusable, IsEmpty());
 }
 
-TEST(FindPhotographs, TakesOtherEndsWhereNoneIsThereUnderItsName)
+TEST(FindPhotographs, IgnoresCaseAndEndsOfNamesWithoutAFile)
 {
     const TemporaryFolder folder;
-    const auto first = put_photo(folder, "a.JPG", 3);
-    const auto second = put_photo(folder, "left/b.c.tif", 3);
-    const Photographs found =
-        find_photographs(scene_of({"a.png", "left/b.c.png", "d.png"}), folder.path());
-    EXPECT_THAT(found.of_view, ElementsAre(first, second, ""));
-    EXPECT_EQ(found.missing, 1U);
+    const auto first = put_photo(folder, "A.JPG", 3);
+    const auto second = put_photo(folder, "Left/b.c.tif", 3);
+    const auto third = put_photo(folder, "e.jpg", 3);
+    const auto fourth = put_photo(folder, "r_0.png", 3);
+    const Photographs found = find_photographs(
+        scene_of({"a.png", "left/b.c.png", "d.png", "e.jpg", "e.png", "./r_0"}), folder.path());
+    EXPECT_THAT(found.of_view, ElementsAre(first, second, "", third, "", fourth))
+        << "e.jpg belongs to the view of its name only";
+    EXPECT_EQ(found.missing, 2U);
+}
+
+TEST(FindPhotographs, TakesBackslashesForSlashes)
+{
+    const TemporaryFolder folder;
+    const auto photo = put_photo(folder, "left/a.jpg", 3);
+    EXPECT_THAT(find_photographs(scene_of({"left\\a.jpg"}), folder.path()).of_view,
+                ElementsAre(photo));
+}
+
+TEST(FindPhotographs, TakesNamesThatBeginWithTheNameOfTheFolder)
+{
+    const TemporaryFolder folder;
+    const auto photo = put_photo(folder, "images/a.jpg", 3);
+    const Scene scene = scene_of({"images/a.jpg"});
+    EXPECT_THAT(find_photographs(scene, folder.path()).of_view, ElementsAre(photo));
+    EXPECT_THAT(find_photographs(scene, folder / "images").of_view, ElementsAre(photo));
+}
+
+TEST(FindPhotographs, LeavesOutPhotographsOfAnotherShape)
+{
+    const TemporaryFolder folder;
+    Scene scene = scene_of({"whole.png", "half.png", "turned.png", "cropped.png"});
+    scene.cameras[0].width_px = 401;
+    scene.cameras[0].height_px = 301;
+    const auto put = [&](const std::string& name, int width_px, int height_px) {
+        return folder.write(name, text_of(encode_png(gradient(width_px, height_px))));
+    };
+    const auto whole = put("whole.png", 401, 301);
+    const auto half = put("half.png", 200, 150);
+    const auto turned = put("turned.png", 301, 401);
+    const auto cropped = put("cropped.png", 401, 280);
+    const Photographs found = find_photographs(scene, folder.path());
+    EXPECT_THAT(found.of_view, ElementsAre(whole, half, "", ""));
+    EXPECT_THAT(found.unusable,
+                ElementsAre(turned.string() +
+                                ": found 301 x 401 pixels, but the camera's images have 401 x 301; "
+                                "a photograph may be scaled, but not cropped or turned",
+                            HasSubstr("found 401 x 280 pixels")));
 }
 
 TEST(FindPhotographs, StaysWithinTheFolder)
@@ -70,7 +111,7 @@ TEST(FindPhotographs, StaysWithinTheFolder)
     EXPECT_EQ(found.missing, 4U);
 }
 
-TEST(FindPhotographs, TellsWhichFilesAreUnreadable)
+TEST(FindPhotographs, TellsWhichFilesCannotBeUsed)
 {
     const TemporaryFolder folder;
     const auto good = put_photo(folder, "good.jpg", 3);
@@ -79,7 +120,7 @@ TEST(FindPhotographs, TellsWhichFilesAreUnreadable)
         find_photographs(scene_of({"text.jpg", "good.jpg", "gone.jpg"}), folder.path());
     EXPECT_THAT(found.of_view, ElementsAre("", good, ""));
     EXPECT_EQ(found.missing, 1U);
-    EXPECT_THAT(found.unreadable, ElementsAre(HasSubstr(text.string() + ": found neither JPEG")));
+    EXPECT_THAT(found.unusable, ElementsAre(HasSubstr(text.string() + ": found neither JPEG")));
     EXPECT_THAT(refusal<InputError>([&] {
                     find_photographs(scene_of({"text.jpg", "gone.jpg"}), folder.path());
                 }),
@@ -121,6 +162,9 @@ TEST(PhotographsBeside, LooksWhereCOLMAPAndItsUsersPutThem)
     EXPECT_EQ(photographs_beside(folder / "other/0"), std::nullopt);
     EXPECT_EQ(photographs_beside(folder / "other"), std::nullopt);
     EXPECT_EQ(photographs_beside(folder / "gone"), std::nullopt);
+    folder.write("nerf/transforms.json", "{}");
+    EXPECT_EQ(photographs_beside(folder / "nerf"), canonical / "nerf");
+    EXPECT_EQ(photographs_beside(folder / "nerf/transforms.json"), canonical / "nerf");
 }
 
 } // namespace
