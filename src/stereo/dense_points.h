@@ -37,9 +37,8 @@ struct DensePoints {
 /// A dense scene measured from photographs: depth maps by PatchMatch that starts from the surface
 /// of the sparse points, fused to points that at least three views agree on. The measured points of
 /// `sparse` are added. `photos` and `surface` are in the frame of `sparse`. Stages "photographs",
-/// "depth" and "fuse". The result is the same for any thread count. Photographs
-/// that cannot be read are left out with a note. Throws Cancelled. Cost: about 2 CPU seconds a view
-/// of 640 pixels.
+/// "depth" and "fuse". The result is the same for any thread count. Photographs that cannot be read
+/// are left out with a note. Throws Cancelled. Cost: about 2 CPU seconds a view of 640 pixels.
 DensePoints dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
                          const StereoOptions& options, const KeepDepthMap& keep, Log& log);
 

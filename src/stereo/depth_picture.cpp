@@ -12,11 +12,6 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-Photograph empty_picture(const DepthMap& map)
-{
-    return {map.width_px, map.height_px, {}};
-}
-
 } // namespace
 
 std::int64_t num_measured(const DepthMap& map)
@@ -36,7 +31,7 @@ DepthPicture depth_picture(const StereoView& view, const DepthMap& map)
     constexpr float kDarkest = 30.0F;
     std::vector<float> nearness; // 1 / depth, ascending
     for (std::size_t i = 0; i < map.costs.size(); ++i) {
-        if (map.costs[i] < DepthMap::kNoCost) nearness.push_back(1.0F / map.planes[i].depth);
+        if (map.is_measured(i)) nearness.push_back(1.0F / map.planes[i].depth);
     }
     std::ranges::sort(nearness);
     const std::size_t tail = nearness.size() / 50;
@@ -44,12 +39,13 @@ DepthPicture depth_picture(const StereoView& view, const DepthMap& map)
     const float nearest = nearness.empty() ? 1.0F : nearness[nearness.size() - 1 - tail];
     const float range = std::max(nearest - farthest, 1e-6F * nearest);
 
-    DepthPicture picture = {view.view, empty_picture(map), empty_picture(map)};
+    const Photograph empty = {map.width_px, map.height_px, {}};
+    DepthPicture picture = {view.view, empty, empty};
     for (std::size_t i = 0; i < map.costs.size(); ++i) {
         const Color& color = view.colors[i];
         picture.photograph.rgb.insert(picture.photograph.rgb.end(), {color[0], color[1], color[2]});
         Rgb shown = kUnmeasured;
-        if (map.costs[i] < DepthMap::kNoCost) {
+        if (map.is_measured(i)) {
             const float share =
                 std::clamp((1.0F / map.planes[i].depth - farthest) / range, 0.0F, 1.0F);
             shown.fill(static_cast<std::uint8_t>(kDarkest + (255.0F - kDarkest) * share));

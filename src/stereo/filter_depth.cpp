@@ -177,7 +177,7 @@ class PlainRegions {
             if (!map_.has(to_x, to_y)) return;
             const std::size_t other = map_.index(to_x, to_y);
             if (map_.costs[other] == DepthMap::kPlain) return;
-            if (map_.costs[other] >= DepthMap::kNoCost) continue;
+            if (!map_.is_measured(other)) continue;
             around.push_back({ray(to_x, to_y), 1.0 / map_.planes[other].depth});
             return;
         }
@@ -214,7 +214,7 @@ void drop_speckles(DepthMap& map, int min_pixels)
     constexpr float kSameDepth = 0.01F;
     UnionFind regions = regions_of(map, [&](std::size_t a, std::size_t b) {
         const float depth = map.planes[a].depth;
-        return map.costs[a] < DepthMap::kNoCost && map.costs[b] < DepthMap::kNoCost &&
+        return map.is_measured(a) && map.is_measured(b) &&
                std::abs(depth - map.planes[b].depth) < kSameDepth * depth;
     });
     std::vector<int> sizes(map.planes.size());
@@ -222,7 +222,7 @@ void drop_speckles(DepthMap& map, int min_pixels)
         ++sizes[regions.root(pixel)];
     }
     for (std::uint32_t pixel = 0; pixel < sizes.size(); ++pixel) {
-        if (map.costs[pixel] >= DepthMap::kNoCost) continue;
+        if (!map.is_measured(pixel)) continue;
         if (sizes[regions.root(pixel)] < min_pixels) map.costs[pixel] = DepthMap::kNoCost;
     }
 }

@@ -40,7 +40,7 @@ class Fusion {
         for (int y = 0; y < own.height_px; ++y) {
             for (int x = 0; x < own.width_px; ++x) {
                 const std::size_t pixel = own.index(x, y);
-                if (used_[map][pixel] || own.costs[pixel] >= DepthMap::kNoCost) continue;
+                if (used_[map][pixel] || !own.is_measured(pixel)) continue;
                 fuse_pixel(sample(map, x, y));
             }
         }
@@ -69,8 +69,7 @@ class Fusion {
         if (!(pixel.array().abs() < 1e6).all()) return std::nullopt;
         const auto x = static_cast<int>(std::lround(pixel.x() / kDepthStep));
         const auto y = static_cast<int>(std::lround(pixel.y() / kDepthStep));
-        if (!depths.has(x, y) || depths.costs[depths.index(x, y)] >= DepthMap::kNoCost)
-            return std::nullopt;
+        if (!depths.has(x, y) || !depths.is_measured(depths.index(x, y))) return std::nullopt;
         FusedPixel other = sample(map, x, y);
         const double depth = in_cam.z();
         const double found = depths.planes[other.pixel].depth;

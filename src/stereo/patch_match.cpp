@@ -155,7 +155,7 @@ void Matcher::start(const DepthPrior& prior, const DepthMap* coarse)
                 const int cy = std::min(y / 2, coarse->height_px - 1);
                 attempt(pixel, towards, coarse->planes[coarse->index(cx, cy)]);
             }
-            if (map_.costs[pixel] >= DepthMap::kNoCost) {
+            if (!map_.is_measured(pixel)) {
                 attempt(pixel, towards, random_plane(towards, prior));
             }
         }
@@ -167,7 +167,7 @@ void Matcher::spread_from(int x, int y, std::size_t pixel, const Eigen::Vector3f
 {
     if (!map_.has(x, y)) return;
     const std::size_t from = map_.index(x, y);
-    if (map_.costs[from] >= DepthMap::kNoCost) return;
+    if (!map_.is_measured(from)) return;
     const PixelPlane& plane = map_.planes[from];
     const float distance = plane.depth * plane.normal.dot(ray(x, y));
     attempt(pixel, towards, {distance / plane.normal.dot(towards), plane.normal});
@@ -209,7 +209,7 @@ void Matcher::sweep(int round, const DepthPrior& prior)
             spread_from(x + step, y, pixel, towards);
             spread_from(x, y + step, pixel, towards);
         }
-        if (map_.costs[pixel] < DepthMap::kNoCost) change(pixel, towards, range);
+        if (map_.is_measured(pixel)) change(pixel, towards, range);
         if (map_.costs[pixel] > kBadCost) {
             PixelPlane plane = random_plane(towards, prior);
             if (!prior.surface.empty() && prior.surface[pixel].depth > 0.0F) {

@@ -23,6 +23,7 @@ struct DepthMap {
     std::vector<float> costs; ///< below kNoCost where there is a plane
 
     std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_px + x; }
+    bool is_measured(std::size_t pixel) const { return costs[pixel] < kNoCost; }
     bool has(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
 };
 

@@ -1,6 +1,7 @@
 #include "stereo/stereo_view.h"
 
 #include "model/camera.h"
+#include "model/colors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,13 +63,6 @@ float gray(const Eigen::Array3f& color)
     return 0.299F * color[0] + 0.587F * color[1] + 0.114F * color[2];
 }
 
-Color rounded(const Eigen::Array3f& color)
-{
-    const Eigen::Array3f near = (color + 0.5F).max(0.0F).min(255.0F);
-    return {static_cast<std::uint8_t>(near[0]), static_cast<std::uint8_t>(near[1]),
-            static_cast<std::uint8_t>(near[2])};
-}
-
 } // namespace
 
 GrayImage halved(const GrayImage& image)
@@ -118,7 +112,7 @@ StereoView stereo_view(const CalibratedPhoto& photo, int size_px)
             const auto color = photograph.mean_at(x, y);
             image.pixels.push_back(color ? gray(*color) : -1.0F);
             if (x % kDepthStep == 0 && y % kDepthStep == 0) {
-                result.colors.push_back(color ? rounded(*color) : Color());
+                result.colors.push_back(color ? rounded_color(*color) : Color());
             }
         }
     }

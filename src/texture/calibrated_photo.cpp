@@ -30,20 +30,15 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
     return is_inside ? pixel : std::nullopt;
 }
 
-Photograph transparent_photograph(const PhotographSize& size)
-{
-    const auto pixels = static_cast<std::size_t>(size.width_px) * size.height_px;
-    return {size.width_px, size.height_px, std::vector<std::uint8_t>(3 * pixels),
-            std::vector<std::uint8_t>(pixels)};
-}
-
 Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem)
 {
     try {
         return read_photograph(photo.file);
     } catch (const InputError& error) {
         problem = error.what();
-        return transparent_photograph(photo.size);
+        const auto pixels = static_cast<std::size_t>(photo.size.width_px) * photo.size.height_px;
+        return {photo.size.width_px, photo.size.height_px, std::vector<std::uint8_t>(3 * pixels),
+                std::vector<std::uint8_t>(pixels)};
     }
 }
 

@@ -34,9 +34,6 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
 std::optional<Eigen::Vector2d> pixel_beyond(const CalibratedPhoto& photo,
                                             const Eigen::Vector3d& position);
 
-/// A photograph that shows nothing.
-Photograph transparent_photograph(const PhotographSize& size);
-
 /// Reads a photograph. One that cannot be read shows nothing, and `problem` says why.
 Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem);
 

@@ -25,8 +25,8 @@ using FaceColors = std::vector<std::array<ColorsOfFace, PhotosOfFace::kMost>>;
 /// agree with one another.
 using Gains = std::vector<Eigen::Array3f>;
 
-/// Calls body(photo, pyramid) for all photographs; at most four are in memory at a time. Those that
-/// cannot be read show nothing. Returns a sentence for each of these.
+/// Calls body(photo, pyramid) for all photographs; at most four are in memory at a time. An
+/// unreadable photograph shows nothing. Returns a sentence for each unreadable photograph.
 std::vector<std::string>
 for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
                     const std::function<void(std::uint32_t, const PhotoPyramid&)>& body);
