@@ -16,8 +16,8 @@ if(library_type STREQUAL "SHARED_LIBRARY")
   set(VCARVE_STATIC_LIBS "")
 else()
   set(VCARVE_IS_SHARED FALSE)
-  set(VCARVE_STATIC_LIBS
-    " -lOpenMeshTools -lOpenMeshCore -ltbb -ltbbmalloc -lfmt -lgmp -lmpfr -ljpeg -lpng -ltiff")
+  string(CONCAT VCARVE_STATIC_LIBS " -lOpenMeshTools -lOpenMeshCore -ltbb -ltbbmalloc -lfmt"
+    " -lgmp -lmpfr -lmeshoptimizer -ljpeg -lpng -ltiff")
 endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vcarveConfig.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfig.cmake INSTALL_DESTINATION ${package_folder})

@@ -16,6 +16,7 @@ class Vcarve < Formula
   depends_on "libpng"
   depends_on "libtiff"
   depends_on :linux
+  depends_on "meshoptimizer"
   depends_on "open-mesh"
   depends_on "tbb"
 
