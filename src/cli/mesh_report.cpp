@@ -52,21 +52,22 @@ std::string percent(double share)
     return fmt::format("{} %", std::llround(100.0 * share));
 }
 
-/// Whether it shows, rounded.
-bool is_open(const RunOutcome& outcome)
-{
-    constexpr double kShown = 0.005;
-    return outcome.open.value_or(0.0) >= kShown;
-}
-
 std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& options)
 {
+    constexpr double kShown = 0.005; // of all pixels, rounds to 1 %
     if (outcome.boundary_edges == 0) return "closed";
     if (!outcome.open) return fmt::format("{} open edges", grouped_digits(outcome.boundary_edges));
-    if (*outcome.open == 0.0) return "no visible holes";
-    if (!is_open(outcome)) return "less than 1 % of what cameras see is open";
-    return fmt::format("{} of what cameras see is open (to close: {})", percent(*outcome.open),
-                       options.rules.max_closing > 0.0 ? "--max-closing 0" : "--closed");
+    std::string text = "no visible holes";
+    if (*outcome.open >= kShown) {
+        text = fmt::format("{} of what cameras see is open (to close: {})", percent(*outcome.open),
+                           options.rules.max_closing > 0.0 ? "--max-closing 0" : "--closed");
+    } else if (*outcome.open > 0.0) {
+        text = "less than 1 % of what cameras see is open";
+    }
+    if (outcome.past >= kShown)
+        text += fmt::format("; {} of the pixels show sky or surfaces without points",
+                            percent(outcome.past));
+    return text;
 }
 
 void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
@@ -178,6 +179,7 @@ RunOutcome outcome_of(const CountsOfStages& counts)
     const auto rays = static_cast<double>(count_of(counts, "open", "of"));
     if (rays > 0.0) {
         outcome.open = static_cast<double>(count_of(counts, "open", "rays of the views")) / rays;
+        outcome.past = static_cast<double>(count_of(counts, "open", "past")) / rays;
     }
     outcome.points = count_of(counts, "filter", "points");
     outcome.points_before = count_of(counts, "filter", "of");

@@ -56,6 +56,7 @@ struct RunOutcome {
     std::int64_t faces = 0;
     std::int64_t boundary_edges = 0;
     std::optional<double> open; ///< share of what the views look at (measure_openness)
+    double past = 0.0;          ///< share of their pixels that meet no surface, open or not
     double long_area = 0.0;     ///< share of the area in faces with an edge over kLong median edges
     std::int64_t points = 0;    ///< that the surface was made of
     std::int64_t points_before = 0; ///< that the filter was given

@@ -64,7 +64,7 @@ inline constexpr int kNumFields<SightEvidence> = 2;
 template <>
 inline constexpr int kNumFields<ViewLine> = 2;
 template <>
-inline constexpr int kNumFields<Openness> = 2;
+inline constexpr int kNumFields<Openness> = 3;
 template <>
 inline constexpr int kNumFields<RemovedFaces> = 2;
 template <>

@@ -255,12 +255,12 @@ Counts clean(RunState& run, const Progress& /*progress*/)
 /// Holes that were filled are not open.
 Counts count_open(RunState& run, const Progress& /*progress*/)
 {
-    const auto& [rays, open] = run.carved.openness.value();
+    const auto& [rays, past, open] = run.carved.openness.value();
     std::vector<std::array<Eigen::Vector3d, 3>> filled;
     for (std::size_t i = run.first_filled; i < run.mesh->n_faces(); ++i) {
         filled.push_back(run.mesh->triangle(handle_at<OpenMesh::FaceHandle>(i)));
     }
-    return {{"rays of the views", count_free(open, filled)}, {"of", rays}};
+    return {{"rays of the views", count_free(open, filled)}, {"of", rays}, {"past", past}};
 }
 
 Counts settle(RunState& run, const Progress& progress)

@@ -30,7 +30,7 @@ struct Atlas {
 /// page is made smaller. Cost: O(faces), and the packing of the charts by stb_rect_pack.
 struct AtlasOptions {
     double scale = 1.0;
-    int most_page_px = 8192;
+    int most_page_px = 4096;
 };
 Atlas lay_out_charts(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
                      const std::vector<std::uint32_t>& photo_of_face, const FacesBeside& beside,

@@ -21,7 +21,7 @@ std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photogr
 /// How a surface is covered with photographs.
 struct TextureOptions {
     double scale = 1.0;      ///< texels a pixel of the photographs
-    int most_page_px = 8192; ///< a page's longest side
+    int most_page_px = 4096; ///< a page's longest side
     /// Where all pages together would have more texels, at 7 bytes each, they are made coarser, and
     /// a note says so.
     std::size_t most_texels = std::size_t{1} << 28U;

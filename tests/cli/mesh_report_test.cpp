@@ -190,6 +190,9 @@ TEST(ClosingLine, ShowsTheReportWhereNothingStandsOut)
                              "out.html");
     outcome.has_report = true;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes");
+    outcome.past = 0.08;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes; 8 % of the pixels "
+                             "show sky or surfaces without points");
     outcome.open.reset();
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 990 open edges");
     outcome.boundary_edges = 0;

@@ -186,7 +186,7 @@ TEST_F(StageFile, GivesBackASurfaceAndWhatWasTakenAway)
     carved.faces = sample_sheet();
     carved.faces.points = {3, 2, kNoPoint};
     carved.faces.offset = Eigen::Vector3d(1.0, 2.0, 3.0);
-    carved.openness = Openness{12, {{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}}};
+    carved.openness = Openness{12, 5, {{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}}};
     carved.removed.mesh.positions = {Eigen::Vector3d(7, 8, 9)};
     carved.removed.reasons = {Removal::closing, Removal::unseen};
     const CarvedSurface same = through_file(carved);
@@ -198,6 +198,7 @@ TEST_F(StageFile, GivesBackASurfaceAndWhatWasTakenAway)
     EXPECT_EQ(same.faces.offset, carved.faces.offset);
     ASSERT_TRUE(same.openness.has_value());
     EXPECT_EQ(same.openness->rays, 12);
+    EXPECT_EQ(same.openness->past, 5);
     ASSERT_EQ(same.openness->open.size(), 1U);
     EXPECT_EQ(same.openness->open[0].eye, Eigen::Vector3d(1, 2, 3));
     EXPECT_EQ(same.openness->open[0].end, Eigen::Vector3d(4, 5, 6));

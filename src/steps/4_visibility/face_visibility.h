@@ -81,6 +81,12 @@ class FaceVisibility {
     /// shows it at least. Where a lens or a pose is wrong they do not.
     bool is_told_by_images(const CellFacet& facet) const;
 
+    /// Whether nothing but infinity lies behind a facet.
+    bool is_before_infinity(const CellFacet& facet) const
+    {
+        return cells_.cells[facet.cell].is_infinite();
+    }
+
     /// Whether nothing but infinity lies before a facet.
     bool is_on_hull(const CellFacet& facet) const
     {

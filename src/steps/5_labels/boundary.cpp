@@ -7,10 +7,12 @@
 #include "model/camera.h"
 #include "model/scene_points.h"
 #include "steps/4_visibility/face_visibility.h"
+#include "steps/5_labels/plain_walls.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace vcarve {
@@ -150,7 +152,14 @@ std::int64_t go_on_along_hull(const TetMesh& cells, const Scene& scene,
     for (const Index cell : solid) {
         labels[cell] = Label::inside;
     }
-    return static_cast<std::int64_t>(solid.size());
+    std::vector<Index> open;
+    std::ranges::copy_if(seen, std::back_inserter(open),
+                         [&](Index cell) { return labels[cell] == Label::outside; });
+    const std::vector<Index> walls = plain_walls(cells, scene, open, labels);
+    for (const Index cell : walls) {
+        labels[cell] = Label::inside;
+    }
+    return static_cast<std::int64_t>(solid.size() + walls.size());
 }
 
 } // namespace vcarve

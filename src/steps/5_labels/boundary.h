@@ -40,9 +40,9 @@ std::vector<Index> uncrossed_hull_cells(const TetMesh& cells, const FlowNetwork&
 /// called inside before which an outside cell lies, whose facet of the hull is seen from within (at
 /// each corner) and from beyond by none (no view there saw a corner or has it in its image), is at
 /// most `hull_edge` times as long as the edges around, and goes on with the surface at one corner
-/// or more (goes_on). Then the boundary has such facets of the hull, and borders where they end.
-/// Returns how many there are. Cost: O(uncrossed x views) at most, in parallel, and the
-/// boundary of the labels.
+/// or more (goes_on), or belongs to a wall without points of its own (plain_walls). Then the
+/// boundary has such facets of the hull, and borders where they end. Returns how many there are.
+/// Cost: O(uncrossed x views) at most, in parallel, and the boundary of the labels.
 std::int64_t go_on_along_hull(const TetMesh& cells, const Scene& scene,
                               const std::vector<Index>& uncrossed, const HullOptions& options,
                               Labels& labels);

@@ -46,8 +46,13 @@ class FaceEvidence {
     double usual_length() const { return usual_length_; }
 
     /// Whether the face goes on with the small faces around one of its corners; else it turns off.
-    /// Where no corner has small faces it turns off, too.
-    bool goes_on(std::uint32_t face) const { return vcarve::goes_on(face, normals_); }
+    /// Where no corner has small faces it turns off, too. A face before infinity goes on with what
+    /// it was called inside for (go_on_along_hull).
+    bool goes_on(std::uint32_t face) const
+    {
+        return boundary_.visibility.is_before_infinity(boundary_.facets[face]) ||
+               vcarve::goes_on(face, normals_);
+    }
 
     /// Whether the surface ends at the face: it faces infinity, or a face beside it is not kept.
     bool surface_ends_at(std::uint32_t face) const;

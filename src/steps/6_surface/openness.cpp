@@ -98,7 +98,9 @@ Openness seen_by(const Onlooker& onlooker, const Scene& scene, const Eigen::Alig
         });
         if (!is_followed) continue;
         ++openness.rays;
-        if (meets_boundary && !meets_kept) {
+        if (!meets_boundary) {
+            ++openness.past;
+        } else if (!meets_kept) {
             openness.open.push_back({view.center, view.center + reach * direction});
         }
     }
@@ -125,6 +127,7 @@ Openness measure_openness(const TetMesh& cells, const Labels& labels,
     Openness all;
     for (const Openness& of_view : of_views) {
         all.rays += of_view.rays;
+        all.past += of_view.past;
         all.open.insert(all.open.end(), of_view.open.begin(), of_view.open.end());
     }
     return all;

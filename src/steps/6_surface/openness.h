@@ -21,6 +21,7 @@ struct ViewLine {
 /// How much of what the views look at is open.
 struct Openness {
     std::int64_t rays = 0;      ///< lines of sight that were followed
+    std::int64_t past = 0;      ///< that meet no boundary: to the sky, or where no points lie
     std::vector<ViewLine> open; ///< those that meet the boundary, but nothing of it that is kept
 };
 

@@ -30,8 +30,8 @@ constexpr FaceRules kSeenFromLong = {.max_closing = kLong / 2.0 / 9.0};
 
 /// Points a step apart on the walls of a hall without a ceiling, and on the rim of its floor, whose
 /// middle is plain; all seen from a view on the floor that looks up and shows everything above it.
-/// Eight points far around that nobody saw, but another view looks down on them.
-Scene open_hall()
+/// Eight points far around that nobody saw, but another view looks down on them; or none.
+Scene open_hall(bool has_surroundings = true)
 {
     std::vector<MadePoint> points;
     for (const Vector3d& p : lattice(static_cast<int>(kSide) + 1)) {
@@ -41,6 +41,7 @@ Scene open_hall()
     }
     for (const double x : {-30.0, 36.0}) {
         for (const double y : {-30.0, 36.0}) {
+            if (!has_surroundings) continue;
             points.push_back({{x, y, -kTop}, {}});
             points.push_back({{x, y, kTop}, {}});
         }
@@ -61,11 +62,23 @@ Labels around_the_hall(const TetMesh& mesh)
     });
 }
 
+/// As where the hall goes on along the hull.
+Labels beyond_the_hull(const TetMesh& mesh)
+{
+    Labels labels(mesh.cells.size(), Label::outside);
+    for (std::size_t cell = 0; cell < labels.size(); ++cell) {
+        if (mesh.cells[cell].is_infinite()) labels[cell] = Label::inside;
+    }
+    return labels;
+}
+
 /// Where a face lies.
 enum class Part { hall, lid, top, around };
 
 struct Hall {
-    Hall() : made(open_hall(), around_the_hall)
+    explicit Hall(const Scene& scene = open_hall(),
+                  Labels (*label)(const TetMesh&) = around_the_hall)
+        : made(scene, label)
     {
         for (const Face& face : made.corners) {
             parts.push_back(part_of(face));
@@ -194,6 +207,14 @@ TEST(DropUnsupported, TakesUnseenFacesOfTheHullAndThenWhatTheyWereBehind)
     const FaceFlags keep = hall.opened(hall.all_but({}));
     const FaceFlags open = hall.opened(hall.all_but({Part::top, Part::around}));
     expect_dropped(hall, kSeenFromLong, keep, hall.without(open, Part::lid, kLong));
+}
+
+TEST(DropUnsupported, LeavesALidBeforeInfinity)
+{
+    const Hall hall(open_hall(false), beyond_the_hull);
+    const FaceFlags keep = hall.opened(hall.all_but({}));
+    ASSERT_NE(hall.without(keep, Part::lid, kLong), keep);
+    expect_dropped(hall, kSeenFromLong, keep, keep);
 }
 
 TEST(DropUnsupported, TakesNoFaceThatIsNotKept)

@@ -36,6 +36,7 @@ bool meets(const LabelledScene& made, const FaceFlags& keep, bool only_kept, con
 
 struct Count {
     std::int64_t rays = 0;
+    std::int64_t past = 0;
     std::int64_t open = 0;
 };
 
@@ -49,9 +50,11 @@ Count tried(const LabelledScene& made, const FaceFlags& keep, std::size_t rays_a
             const Vector3d line = view.cam_from_world.conjugate() * *ray(camera, pixel);
             const Vector3d target = view.center + 100.0 * line;
             ++openness.rays;
-            const bool is_open = meets(made, keep, false, view.center, target) &&
-                                 !meets(made, keep, true, view.center, target);
-            openness.open += is_open ? 1 : 0;
+            if (!meets(made, keep, false, view.center, target)) {
+                ++openness.past;
+            } else if (!meets(made, keep, true, view.center, target)) {
+                ++openness.open;
+            }
         }
     }
     return openness;
@@ -61,7 +64,7 @@ Count measured(const LabelledScene& made, const FaceFlags& keep)
 {
     const Openness openness =
         measure_openness(made.mesh, made.labels, made.facets, keep, made.scene);
-    return {openness.rays, static_cast<std::int64_t>(openness.open.size())};
+    return {openness.rays, openness.past, static_cast<std::int64_t>(openness.open.size())};
 }
 
 LabelledScene solid_ball()
@@ -92,6 +95,7 @@ TEST(Openness, IsWhatTryingEveryFaceFinds)
     const Count expected = tried(made, keep, 4096 / made.scene.views.size());
     const Count openness = measured(made, keep);
     EXPECT_EQ(openness.rays, expected.rays);
+    EXPECT_EQ(openness.past, expected.past);
     EXPECT_EQ(openness.open, expected.open);
     EXPECT_GT(openness.open, 100);
 }
@@ -117,6 +121,7 @@ TEST(Openness, LooksFromWithin)
     const Count expected = tried(made, keep, 4096 / made.scene.views.size());
     const Count openness = measured(made, keep);
     EXPECT_EQ(openness.rays, expected.rays);
+    EXPECT_EQ(openness.past, expected.past);
     EXPECT_EQ(openness.open, expected.open);
     EXPECT_GT(openness.open, 100);
 }
