@@ -63,7 +63,8 @@ std::vector<std::string> words_meant(std::span<const std::string> arguments)
 std::vector<Command> commands()
 {
     return {{"", mesh_manual, [](const ParsedArguments& given) { run_mesh(given); }},
-            {"compare", compare_manual, run_compare}};
+            {"compare", compare_manual, run_compare},
+            {"texture", texture_manual, run_texture}};
 }
 
 void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands)

@@ -35,4 +35,9 @@ void run_mesh(const ParsedArguments& given, RunRanks* ranks = nullptr);
 Manual compare_manual();
 void run_compare(const ParsedArguments& given);
 
+/// `colmap-vcarve texture MODEL MESH OUT.glb`: covers a mesh that is there with the photographs of
+/// a model. Throws UsageError and InputError.
+Manual texture_manual();
+void run_texture(const ParsedArguments& given);
+
 } // namespace vcarve::cli

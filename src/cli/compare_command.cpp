@@ -1,5 +1,4 @@
 #include "base/text.h"
-#include "base/threads.h"
 #include "cli/baseline_runs.h"
 #include "cli/commands.h"
 #include "cli/compare_outputs.h"
@@ -44,9 +43,7 @@ struct CompareArguments {
     CompareOptions measure;
     fs::path colmap; ///< empty: not run
     BaselineRunOptions colmap_run;
-    bool quiet = false;
-    bool verbose = false;
-    int threads = 0;
+    ConsoleArguments console;
     HelpOptions help;
 };
 
@@ -77,31 +74,12 @@ OptionList baseline_options(CompareArguments& arguments)
     };
 }
 
-OptionList run_options(CompareArguments& arguments)
-{
-    return {
-        {kRunStage,
-         {.name = "quiet", .help = "Print only the table and errors."},
-         &arguments.quiet},
-        {kRunStage,
-         {.name = "verbose",
-          .help = "Print every stage with all its counts.",
-          .level = OptionLevel::advanced},
-         &arguments.verbose},
-        {kRunStage,
-         {.name = "threads",
-          .unit = "threads",
-          .help = "Use N threads. 0 uses all. Figures are the same for any thread count.",
-          .max = 1024},
-         &arguments.threads},
-    };
-}
-
 OptionList options_of(CompareArguments& arguments)
 {
     return joined({options_of(arguments.model), truth_options(arguments),
                    vcarve::options_of(arguments.measure), baseline_options(arguments),
-                   output_options(arguments.outputs), run_options(arguments),
+                   output_options(arguments.outputs),
+                   cli::options_of(arguments.console, "Print only the table and errors."),
                    cli::options_of(arguments.help)});
 }
 
@@ -157,7 +135,7 @@ std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, Log& l
     return run_baselines({.colmap = arguments.colmap.string(),
                           .model = arguments.model,
                           .options = arguments.colmap_run,
-                          .threads = arguments.threads},
+                          .threads = arguments.console.threads},
                          scratch, log);
 }
 
@@ -258,11 +236,9 @@ void run_compare(const ParsedArguments& given)
     const CompareArguments arguments = read_arguments(given);
     check_files(arguments);
 
-    const int wanted = arguments.threads;
-    const int threads = wanted == 0 ? available_threads() : wanted;
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-    ConsoleLog log(console_on_stderr(arguments.quiet, arguments.verbose));
+                                    static_cast<std::size_t>(arguments.console.num_threads()));
+    ConsoleLog log(console_on_stderr(arguments.console.quiet, arguments.console.verbose));
 
     std::vector<BaselineMesh> baselines = baselines_of(arguments, log);
     remove_on_signals(arguments, nullptr);

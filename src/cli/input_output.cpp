@@ -1,7 +1,10 @@
 #include "cli/input_output.h"
 
+#include "base/threads.h"
+#include "cli/exit_code.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/sim3_text.h"
+#include "io/files/output_file.h"
 #include "io/input/find_input.h"
 #include "model/views.h"
 #include "vcarve/error.h"
@@ -58,6 +61,42 @@ void require_distinct(std::span<const Output> outputs)
             throw UsageError(fmt::format("{} and {} cannot both be written to {}", outputs[i].name,
                                          outputs[k].name, outputs[i].path.string()));
         }
+    }
+}
+
+int ConsoleArguments::num_threads() const
+{
+    return threads == 0 ? available_threads() : threads;
+}
+
+OptionList options_of(ConsoleArguments& arguments, const char* quiet_help)
+{
+    return {
+        {kRunStage, {.name = "quiet", .help = quiet_help}, &arguments.quiet},
+        {kRunStage,
+         {.name = "verbose",
+          .help = "Print every stage with all its counts.",
+          .level = OptionLevel::advanced},
+         &arguments.verbose},
+        {kRunStage,
+         {.name = "threads",
+          .unit = "threads",
+          .help = "Use N threads. 0 uses all. Results are the same for any thread count.",
+          .max = 1024},
+         &arguments.threads},
+    };
+}
+
+void prepare_outputs(std::span<const Output> outputs, const std::vector<fs::path>& scratch)
+{
+    std::vector<fs::path> unfinished;
+    for (const Output& output : outputs) {
+        unfinished.push_back(part_path(output.path));
+    }
+    unfinished.insert(unfinished.end(), scratch.begin(), scratch.end());
+    end_cleanly_on_signals(unfinished);
+    for (const Output& output : outputs) {
+        require_writable(output.path);
     }
 }
 

@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace vcarve::cli {
 
@@ -29,6 +30,18 @@ struct Output {
     std::filesystem::path path;
 };
 
+/// How much is printed, and how many threads work.
+struct ConsoleArguments {
+    bool quiet = false;
+    bool verbose = false;
+    int threads = 0; ///< 0: all
+
+    int num_threads() const;
+};
+
+/// --quiet, with its help, --verbose and --threads, under the heading "Run".
+OptionList options_of(ConsoleArguments& arguments, const char* quiet_help);
+
 /// Throws UsageError if two outputs would be one file.
 void require_distinct(std::span<const Output> outputs);
 
@@ -37,6 +50,11 @@ void require_distinct(std::span<const Output> outputs);
 /// does. Costs nothing if no output exists yet.
 void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
                  std::span<const Output> others);
+
+/// Reports errors of outputs before the work starts: throws UsageError. A run that fails or is
+/// ended by a signal leaves no partial file, and nothing of `scratch`.
+void prepare_outputs(std::span<const Output> outputs,
+                     const std::vector<std::filesystem::path>& scratch = {});
 
 /// A model and its record.
 struct ModelInput {

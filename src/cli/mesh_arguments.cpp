@@ -196,12 +196,9 @@ OptionList options_of(MeshArguments& arguments)
 
 std::vector<Output> outputs_of(const MeshArguments& arguments)
 {
-    constexpr std::size_t kManyPages = 64;
     std::vector<Output> outputs = {{"the surface", arguments.out}};
     if (arguments.texture.texture) {
-        for (const fs::path& file : files_beside(arguments.out, kManyPages)) {
-            outputs.push_back({"the texture", file});
-        }
+        std::ranges::move(texture_outputs(arguments.out), std::back_inserter(outputs));
     }
     if (!arguments.dense.keep_points.empty()) {
         outputs.push_back({"--keep-points", arguments.dense.keep_points});
@@ -276,8 +273,9 @@ Manual mesh_manual()
          "The mesh: .ply, .obj, .off, .stl or .glb. The file extension selects the format. It has "
          "vertex colors and normals (.off no normals, .stl neither), in the model's frame."},
     };
-    manual.ends = {"Measure meshes: see colmap-vcarve compare --help. All options: --help-all.",
-                   kExitCodes};
+    manual.ends = {
+        "Also: colmap-vcarve compare --help (measure meshes), texture --help (texture any mesh).",
+        "All options: --help-all.", kExitCodes};
     const auto arguments = std::make_shared<MeshArguments>();
     manual.options = options_of(*arguments);
     manual.values = arguments;

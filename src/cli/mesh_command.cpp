@@ -39,21 +39,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reports errors of outputs before the work starts. A failed run leaves no partial file.
-void prepare_outputs(const std::vector<Output>& outputs, const ArrayFolder& scratch)
-{
-    std::vector<fs::path> parts;
-    parts.reserve(outputs.size() + 1);
-    for (const Output& output : outputs) {
-        parts.push_back(part_path(output.path));
-    }
-    if (scratch.is_temporary()) parts.push_back(scratch.path());
-    end_cleanly_on_signals(parts);
-    for (const Output& output : outputs) {
-        require_writable(output.path);
-    }
-}
-
 /// The output of a run.
 struct Surface {
     TriMesh mesh;
@@ -390,7 +375,9 @@ void run(const ParsedArguments& given, RunRanks* ranks)
                                            {"the transformation", arguments.output.transform}}};
     keep_inputs(outputs_of(arguments), arguments.model, others);
     const ArrayFolder scratch(arguments.work, arguments.out);
-    prepare_outputs(outputs_of(arguments), scratch);
+    prepare_outputs(outputs_of(arguments), scratch.is_temporary()
+                                               ? std::vector<fs::path>{scratch.path()}
+                                               : std::vector<fs::path>());
     // Errors in these files are reported before the work starts.
     arguments.transform = transform_of(arguments.output.transform);
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {

@@ -1,6 +1,7 @@
 #include "cli/picture_output.h"
 
 #include "base/text.h"
+#include "io/formats/textured_files.h"
 #include "picture/eye.h"
 #include "vcarve/error.h"
 
@@ -37,6 +38,16 @@ OptionList texture_options(TextureArguments& texture)
           .level = OptionLevel::advanced},
          &texture.scale},
     };
+}
+
+std::vector<Output> texture_outputs(const fs::path& out)
+{
+    constexpr std::size_t kManyPages = 64;
+    std::vector<Output> outputs;
+    for (const fs::path& file : files_beside(out, kManyPages)) {
+        outputs.push_back({"the texture", file});
+    }
+    return outputs;
 }
 
 void check_texture(const TextureArguments& texture, const fs::path& out,

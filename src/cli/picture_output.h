@@ -2,6 +2,7 @@
 
 #include "base/progress.h"
 #include "cli/command_line.h"
+#include "cli/input_output.h"
 #include "cli/run_record.h"
 #include "picture/preview.h"
 #include "texture/texture_mesh.h"
@@ -30,6 +31,9 @@ struct TextureArguments {
 
 /// --images, --texture and --texture-scale, under the heading "Output".
 OptionList texture_options(TextureArguments& texture);
+
+/// The files beside a textured surface. The number of texture pages is an upper bound.
+std::vector<Output> texture_outputs(const std::filesystem::path& out);
 
 /// Throws UsageError if the format of a surface has no texture, or only a scale is given.
 void check_texture(const TextureArguments& texture, const std::filesystem::path& out,

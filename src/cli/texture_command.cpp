@@ -1,0 +1,142 @@
+#include "base/text.h"
+#include "base/version.h"
+#include "cli/commands.h"
+#include "cli/console_log.h"
+#include "cli/input_output.h"
+#include "cli/picture_output.h"
+#include "cli/run_memory.h"
+#include "io/formats/mesh_reader.h"
+#include "model/views.h"
+#include "vcarve/error.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace vcarve::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSeeTextureHelp = " (see colmap-vcarve texture --help)";
+
+/// Everything the command line says.
+struct TextureCommand {
+    ModelArguments model;
+    fs::path mesh;
+    fs::path out;
+    TextureArguments texture{{}, true};
+    PreviewArguments preview;
+    ConsoleArguments console;
+    HelpOptions help;
+
+    std::vector<Output> outputs() const
+    {
+        std::vector<Output> all = {{"the textured mesh", out}};
+        std::ranges::move(texture_outputs(out), std::back_inserter(all));
+        if (!preview.out.empty()) all.push_back({"--preview", preview.out});
+        return all;
+    }
+};
+
+OptionList options_of(TextureCommand& command)
+{
+    OptionList photographs = texture_options(command.texture);
+    std::erase_if(photographs, [](const Option& option) { return option.info.name == "texture"; });
+    return joined({photographs, preview_options(command.preview),
+                   cli::options_of(command.console, "Print only errors."),
+                   cli::options_of(command.help)});
+}
+
+TextureCommand read_command(const ParsedArguments& given)
+{
+    TextureCommand command;
+    read_options(given, options_of(command));
+    if (given.operands.size() != 3)
+        throw UsageError(fmt::format("expected MODEL MESH OUT.glb, found {} arguments{}",
+                                     given.operands.size(), kSeeTextureHelp));
+    command.model.path = given.operands[0];
+    command.model.points.points = "sparse";
+    command.mesh = given.operands[1];
+    command.out = given.operands[2];
+    require_readable_mesh_name(command.mesh);
+    check_texture(command.texture, command.out, {});
+    check_preview(command.preview, given);
+    require_distinct(command.outputs());
+    return command;
+}
+
+/// Reports errors of inputs and outputs before the work starts.
+void check_files(const TextureCommand& command, const Photographs& photographs)
+{
+    std::vector<Output> inputs = {{"the mesh", command.mesh}};
+    for (const fs::path& file : photographs.of_view) {
+        if (!file.empty()) inputs.push_back({"the photograph", file});
+    }
+    keep_inputs(command.outputs(), command.model, inputs);
+    prepare_outputs(command.outputs());
+}
+
+} // namespace
+
+Manual texture_manual()
+{
+    Manual manual;
+    manual.command = "colmap-vcarve texture";
+    manual.operands = "MODEL MESH OUT.glb";
+    manual.summary = "Cover any mesh with the photographs of a model.";
+    manual.examples = {
+        {"colmap-vcarve texture sparse/0 edited.ply out.glb", "an edited mesh"},
+        {"colmap-vcarve texture sparse/0 poisson.ply out.obj --images photos", "others' photos"},
+    };
+    manual.operand_meanings = {
+        {"MODEL", "The COLMAP model of the photographs, as for colmap-vcarve."},
+        {"MESH", "A mesh in the model's frame: .ply, .obj, .off or .stl. It need not be manifold."},
+        {"OUT.glb", "The textured mesh: .glb, .obj or .ply. Faces that no photograph shows whole "
+                    "may be halved; the shape stays."},
+    };
+    manual.ends = {kExitCodes};
+    const auto command = std::make_shared<TextureCommand>();
+    manual.options = options_of(*command);
+    manual.values = command;
+    return manual;
+}
+
+void run_texture(const ParsedArguments& given)
+{
+    const TextureCommand command = read_command(given);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(command.console.num_threads()));
+    ConsoleLog log(console_on_stderr(command.console.quiet, command.console.verbose));
+    TriMesh mesh = read_mesh(command.mesh);
+    const ModelInput model = read_model_input(command.model, log);
+    const Photographs photographs =
+        photographs_of(command.texture, command.model.path, model.scene, log);
+    check_files(command, photographs);
+    PreviewOutput preview(command.preview);
+    preview.stand_in(model.scene);
+    const std::int64_t most = allowed_memory(MemoryOptions(), 1).value_or(0);
+    const TexturedMesh made =
+        textured(std::move(mesh), model.scene, photographs, {command.texture, most}, log);
+    {
+        Stage stage(log, "write");
+        write_mesh(command.out, made.mesh,
+                   {.comments = {"made by colmap-vcarve " + versions().program},
+                    .texture = &made.texture,
+                    .up = up_of(model.scene)});
+        stage.end({{"faces", made.mesh.faces.size()}, {"vertices", made.mesh.positions.size()}});
+    }
+    preview.add(command.out.filename().string(), made.mesh, made.texture, log);
+    preview.write();
+    const auto bare = std::ranges::count(made.view_of_face, -1);
+    log.conclude(fmt::format("wrote {}: {} faces, {} of them shown by no photograph",
+                             command.out.string(), grouped_digits(size_of(made.mesh.faces.size())),
+                             grouped_digits(bare)));
+}
+
+} // namespace vcarve::cli
