@@ -2,7 +2,7 @@
 _colmap_vcarve()
 {
     local command=${COMP_WORDS[1]}
-    [[ $command == compare ]] || command=
+    [[ $command == compare || $command == texture ]] || command=
     COMPREPLY=()
     [[ $2 == -* ]] || return
     COMPREPLY=($(compgen -W "$("$1" $command --help-all | grep -oE '^  (-., )?--[a-z-]+' |

@@ -171,13 +171,29 @@ Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted,
     return round_offset(moved);
 }
 
-Eigen::Vector3d up_for(const Scene& model, UpWord wanted,
+Eigen::Vector3d up_for(const Scene& model, const WordOrVector& wanted,
                        const std::optional<Similarity>& transform)
 {
-    if (wanted == UpWord::none) return Eigen::Vector3d::Zero();
-    if (wanted == UpWord::z) return Eigen::Vector3d::UnitZ();
-    const Eigen::Vector3d up = up_of(model);
+    if (wanted.word == WordOrVector::kNoWord) {
+        if (wanted.vector.stableNormalized().isZero())
+            throw UsageError("--up takes a direction, and 0,0,0 is none");
+        return wanted.vector.stableNormalized();
+    }
+    const auto word = static_cast<UpWord>(wanted.word);
+    if (word == UpWord::none) return Eigen::Vector3d::Zero();
+    if (word == UpWord::z) return Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d up =
+        word == UpWord::back ? back_of(model).value_or(up_of(model)) : up_of(model);
     return transform ? (transform->linear * up).normalized() : up;
+}
+
+Similarity turned_upright(const std::optional<Similarity>& transform, const Eigen::Vector3d& up)
+{
+    Similarity turned = transform.value_or(Similarity());
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+    turned.linear = turn * turned.linear;
+    turned.translation = turn * turned.translation;
+    return turned;
 }
 
 TriMesh transformed(TriMesh mesh, const Similarity& to)

@@ -67,8 +67,9 @@ struct ModelInput {
 ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading = {});
 
 enum class OffsetWord { none, automatic };
-/// What is up: as the cameras stand (up_of), z of what is written, or not to be asked.
-enum class UpWord { automatic, z, none };
+/// What is up: as the cameras stand (up_of), where they look back to, z of what is written, or not
+/// to be asked.
+enum class UpWord { automatic, back, z, none };
 
 /// What the value of --transform says, a scale or a file; nothing of an empty one. Throws
 /// UsageError of a number that is no scale, and InputError as read_sim3() does.
@@ -80,8 +81,12 @@ Eigen::Vector3d offset_for(const Scene& model, const WordOrVector& wanted,
                            const std::optional<Similarity>& transform);
 
 /// What points up in what is written of a model, once that is transformed; zero of UpWord::none.
-Eigen::Vector3d up_for(const Scene& model, UpWord wanted,
+/// The words are those of UpWord. Throws UsageError for a vector without length.
+Eigen::Vector3d up_for(const Scene& model, const WordOrVector& wanted,
                        const std::optional<Similarity>& transform);
+
+/// `transform`, and then a rotation that turns `up` to z.
+Similarity turned_upright(const std::optional<Similarity>& transform, const Eigen::Vector3d& up);
 
 /// A surface in another frame.
 TriMesh transformed(TriMesh mesh, const Similarity& to);

@@ -174,10 +174,18 @@ OptionList options_of(OutputOptions& output)
          {.name = "up",
           .help =
               "Choose the up direction of .glb, whose y is up, and record it in the file. auto: "
-              "up in most cameras. z: z of the coordinates. none: y as it is.",
-          .words = {"auto", "z", "none"},
+              "up in most cameras. back: where the cameras look back to, if they look straight "
+              "down. z, or x,y,z: that direction of the coordinates. none: y as it is.",
+          .min = -kUnlimited,
+          .words = {"auto", "back", "z", "none"},
           .level = advanced},
-         value_of_enum(output.up)},
+         &output.up},
+        {kStage,
+         {.name = "upright",
+          .help = "Rotate coordinates so that z is up, as --up says, and record it in the file "
+                  "header. It follows --transform.",
+          .level = advanced},
+         &output.upright},
         {kStage, {.name = "quiet", .help = "Print only errors."}, &output.quiet},
         {kStage,
          {.name = "verbose", .help = "Print every stage with all its counts.", .level = advanced},
@@ -218,6 +226,8 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.model.path = given.operands[0];
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
+    if (arguments.output.upright && arguments.output.up.word == static_cast<int>(UpWord::none))
+        throw UsageError("--upright needs a direction, and --up none gives none");
     check_dense(arguments.dense, given);
     if (arguments.dense.dense) arguments.model.points.points = "sparse";
     if (arguments.dense.dense && !given.has("max-closing")) {

@@ -20,7 +20,8 @@ struct OutputOptions {
     bool attributes = false;
     WordOrVector offset;   ///< the words are those of OffsetWord
     std::string transform; ///< a file, or a scale; empty for none
-    UpWord up = UpWord::automatic;
+    WordOrVector up;       ///< the words are those of UpWord
+    bool upright = false;
     bool quiet = false;
     bool verbose = false;
 };

@@ -1,3 +1,4 @@
+#include "base/text.h"
 #include "base/threads.h"
 #include "cli/commands.h"
 #include "cli/console_log.h"
@@ -12,6 +13,7 @@
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
 #include "mesh/check.h"
+#include "model/views.h"
 #include "options/declared.h"
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
@@ -52,20 +54,43 @@ struct Surface {
 
 /// The frame of the mesh file.
 struct Place {
-    Eigen::Vector3d offset; ///< subtracted
+    std::optional<Similarity> transform; ///< of the model, at first
+    Eigen::Vector3d offset;              ///< subtracted then
     Eigen::Vector3d up;
 };
+
+/// A note tells the direction that was taken for up if the images leave it open.
+Place place_for(const Scene& model, const MeshArguments& arguments, Log& log)
+{
+    const OutputOptions& output = arguments.output;
+    Place place = {arguments.transform, {}, up_for(model, output.up, arguments.transform)};
+    const bool is_used = output.upright || lower_case_end(arguments.out) == ".glb";
+    if (is_used && output.up.word == 0 && look_one_way(model)) {
+        const Eigen::Vector3d shown = (place.up * 100.0).array().round() / 100.0 + 0.0; // no -0.00
+        log.note(fmt::format("all cameras look one way; the top of their images is taken for up, "
+                             "direction {:.2f}; if they look straight down, use --up back",
+                             fmt::join(shown, ", ")));
+    }
+    if (output.upright) {
+        place.transform = turned_upright(place.transform, place.up);
+        place.up = Eigen::Vector3d::UnitZ();
+    }
+    place.offset = offset_for(model, output.offset, place.transform);
+    return place;
+}
 
 void write_surface(const MeshArguments& arguments, const Surface& surface, const Place& place,
                    Log& log)
 {
     std::vector<std::string> comments = surface.comments;
     std::optional<TriMesh> moved;
-    if (arguments.transform) {
-        moved = transformed(surface.mesh, *arguments.transform);
-        comments.push_back("transform " + sim3_text(*arguments.transform));
-        log.note(fmt::format("the coordinates written are those of the model transformed by {}",
-                             arguments.output.transform));
+    if (place.transform) {
+        moved = transformed(surface.mesh, *place.transform);
+        comments.push_back("transform " + sim3_text(*place.transform));
+        log.note(
+            fmt::format("the coordinates written are those of the model{}{}",
+                        arguments.transform ? " transformed by " + arguments.output.transform : "",
+                        arguments.output.upright ? ", turned so that z is up" : ""));
     }
     const TriMesh& mesh = moved ? *moved : surface.mesh;
     if (!place.offset.isZero(0.0)) {
@@ -289,10 +314,9 @@ Made make_surface(const Run& run, Json& record)
     PreviewOutput preview(arguments.preview);
     preview.stand_in(input.scene);
     record["preview"] = preview.record();
-    const Place place = {offset_for(input.scene, arguments.output.offset, arguments.transform),
-                         up_for(input.scene, arguments.output.up, arguments.transform)};
+    const Place place = place_for(input.scene, arguments, run.log);
     record["offset"] = {place.offset.x(), place.offset.y(), place.offset.z()};
-    if (arguments.transform) record["transform"] = sim3_text(*arguments.transform);
+    if (place.transform) record["transform"] = sim3_text(*place.transform);
     Made made;
     made.is_dense = input.read.is_dense;
     Surface surface = surface_of(std::move(input), run);

@@ -37,6 +37,11 @@ std::vector<Sight> ordered_sights(const Scene& scene, std::size_t point,
     return sights;
 }
 
+Vector3d look_back(const View& view)
+{
+    return view.cam_from_world.conjugate() * -Vector3d::UnitZ();
+}
+
 } // namespace
 
 Vector3d up_of(const Scene& scene)
@@ -46,10 +51,22 @@ Vector3d up_of(const Scene& scene)
         return view.cam_from_world.conjugate() * -Vector3d::UnitY();
     });
     if (up) return *up;
-    const auto back = mean_direction(scene, [&](const View& view) -> Vector3d {
-        return view.cam_from_world.conjugate() * -Vector3d::UnitZ();
-    });
-    return back.value_or(Vector3d::UnitZ());
+    return back_of(scene).value_or(Vector3d::UnitZ());
+}
+
+std::optional<Vector3d> back_of(const Scene& scene)
+{
+    return mean_direction(scene, look_back);
+}
+
+bool look_one_way(const Scene& scene)
+{
+    constexpr double kOneWay = 0.97; // length of a mean of unit vectors: all within 14 degrees
+    Vector3d sum = Vector3d::Zero();
+    for (const View& view : scene.views) {
+        if (!scene.cameras[view.camera].measures_range) sum += look_back(view);
+    }
+    return sum.norm() > kOneWay * static_cast<double>(scene.views.size());
 }
 
 std::vector<Eigen::Vector2d> pixel_grid(const Camera& camera, std::size_t most)

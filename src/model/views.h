@@ -58,6 +58,14 @@ std::optional<Eigen::Vector3d> mean_direction(const Scene& scene, const Directio
 /// scan.
 Eigen::Vector3d up_of(const Scene& scene);
 
+/// The mean direction the cameras look back along, unit: up where they look down. Nothing where
+/// they look in all directions.
+std::optional<Eigen::Vector3d> back_of(const Scene& scene);
+
+/// Whether all cameras look in nearly one direction, so that their images may be upright or taken
+/// straight down.
+bool look_one_way(const Scene& scene);
+
 /// Where the views stand in rows of them, view by view.
 class PlacesOfViews {
   public:

@@ -151,16 +151,42 @@ TEST(OffsetFor, IsRoundOnceTheModelIsTransformed)
     EXPECT_EQ(offset_for(scene, {}, far), Vector3d(0, 0, 0));
 }
 
+WordOrVector word(UpWord up)
+{
+    return {.word = static_cast<int>(up)};
+}
+
 TEST(UpFor, IsOfTheFrameThatIsWritten)
 {
     Scene scene = make_scene({{0, 0, 0}}, {});
     Similarity quarter; // around x: what was -y is -z
     quarter.scale = 2.0;
     quarter.linear << 2, 0, 0, 0, 0, -2, 0, 2, 0;
-    EXPECT_EQ(up_for(scene, UpWord::automatic, std::nullopt), Vector3d(0, -1, 0));
-    EXPECT_EQ(up_for(scene, UpWord::automatic, quarter), Vector3d(0, 0, -1));
-    EXPECT_EQ(up_for(scene, UpWord::z, quarter), Vector3d(0, 0, 1));
-    EXPECT_EQ(up_for(scene, UpWord::none, quarter), Vector3d(0, 0, 0));
+    EXPECT_EQ(up_for(scene, word(UpWord::automatic), std::nullopt), Vector3d(0, -1, 0));
+    EXPECT_EQ(up_for(scene, word(UpWord::automatic), quarter), Vector3d(0, 0, -1));
+    EXPECT_EQ(up_for(scene, word(UpWord::back), std::nullopt), Vector3d(0, 0, -1));
+    EXPECT_EQ(up_for(scene, word(UpWord::back), quarter), Vector3d(0, 1, 0));
+    EXPECT_EQ(up_for(scene, word(UpWord::z), quarter), Vector3d(0, 0, 1));
+    EXPECT_EQ(up_for(scene, word(UpWord::none), quarter), Vector3d(0, 0, 0));
+    const WordOrVector given = {.word = WordOrVector::kNoWord, .vector = {0, 3e-200, -4e-200}};
+    EXPECT_TRUE(up_for(scene, given, quarter).isApprox(Vector3d(0, 0.6, -0.8), 1e-15));
+    const WordOrVector nowhere = {.word = WordOrVector::kNoWord};
+    EXPECT_THROW(up_for(scene, nowhere, quarter), UsageError);
+}
+
+TEST(TurnedUpright, TurnsUpToZAfterATransformation)
+{
+    Similarity moved;
+    moved.scale = 2.0;
+    moved.linear *= 2.0;
+    moved.translation = {0, 5, 0};
+    const Similarity turned = turned_upright(moved, Vector3d::UnitY());
+    const Vector3d place = turned.linear * Vector3d(0, 1, 0) + turned.translation;
+    EXPECT_TRUE(place.isApprox(Vector3d(0, 0, 7), 1e-15)) << place.transpose();
+    EXPECT_EQ(turned.scale, 2.0);
+    const Similarity alone = turned_upright(std::nullopt, -Vector3d::UnitZ());
+    EXPECT_TRUE((alone.linear * Vector3d(0, 0, -1)).isApprox(Vector3d::UnitZ(), 1e-15));
+    EXPECT_NEAR(alone.linear.determinant(), 1.0, 1e-15) << "a rotation, no reflection";
 }
 
 TEST(Transformed, TurnsNormalsWithoutScalingThem)

@@ -297,6 +297,63 @@ TEST_F(ProgramOnBall, TransformsWhatItWritesBeforeItSubtractsTheOffset)
     EXPECT_NEAR(record["mesh"]["area"], 4.0 * 4.0 * std::numbers::pi, 1.0);
 }
 
+TEST_F(ProgramOnBall, TurnsEveryFormatUpright)
+{
+    ASSERT_EQ(run_program({ball, out, "--quiet"}).exit_code, 0);
+    const TriMesh plain = read_ply(out);
+    const Outcome outcome =
+        run_program({ball, out, "--upright", "--up", "0,-2,0", "--transform", "3"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("those of the model transformed by 3, turned so that z is "
+                                       "up\n"));
+    const TriMesh turned = read_ply(out);
+    ASSERT_EQ(turned.positions.size(), plain.positions.size());
+    for (std::size_t i = 0; i < plain.positions.size(); ++i) {
+        const Eigen::Vector3d& p = plain.positions[i];
+        EXPECT_LT((turned.positions[i] - 3.0 * Eigen::Vector3d(p.x(), p.z(), -p.y())).norm(), 1e-9);
+    }
+    EXPECT_THAT(bytes_of(out), HasSubstr("comment transform 3 "));
+    EXPECT_EQ(sentence_of(2, {ball, out, "--upright", "--up", "none"}),
+              "colmap-vcarve: --upright needs a direction, and --up none gives none\n");
+}
+
+/// Writes a model of three pictures of a floor 5 below, all taken straight down with one heading.
+void write_pictures_from_above(const TemporaryFolder& folder)
+{
+    std::string images;
+    std::string points;
+    for (int image = 1; image <= 3; ++image) {
+        images += fmt::format("{} 1 0 0 0 {} 0 0 1 {}.jpg\n", image, 2 - image, image);
+        for (int point = 0; point < 25; ++point) {
+            const int x = 50 + 20 * (point % 5 - image);
+            images += fmt::format("{} {} {} ", x, 50 + 20 * (point / 5 - 2), point + 1);
+        }
+        images += "\n";
+    }
+    for (int point = 0; point < 25; ++point) {
+        points += fmt::format("{} {} {} {} 0 0 0 0.5 1 {} 2 {} 3 {}\n", point + 1, point % 5 - 2,
+                              point / 5 - 2, point % 3 == 1 ? 4.8 : 5.0, point, point, point);
+    }
+    folder.write("above/cameras.txt", "1 PINHOLE 200 200 100 100 100 100\n");
+    folder.write("above/images.txt", images);
+    folder.write("above/points3D.txt", points);
+}
+
+TEST_F(ProgramOnBall, SaysWhatIsTakenForUpWhereAllCamerasLookOneWay)
+{
+    write_pictures_from_above(folder);
+    const std::string above = folder / "above";
+    const std::string glb = folder / "out.glb";
+    EXPECT_THAT(run_program({above, glb}).err,
+                HasSubstr("all cameras look one way; the top of their images is taken for up, "
+                          "direction 0.00, -1.00, 0.00; if they look straight down, use --up "
+                          "back\n"));
+    EXPECT_THAT(run_program({above, glb, "--up", "back"}).err, Not(HasSubstr("one way")));
+    EXPECT_THAT(bytes_of(glb), HasSubstr("\"up\":[0.0,0.0,-1.0]"));
+    EXPECT_THAT(run_program({above, out}).err, Not(HasSubstr("one way"))) << "PLY has no up";
+    EXPECT_THAT(run_program({ball, glb}).err, Not(HasSubstr("one way")));
+}
+
 TEST_F(ProgramOnBall, RefusesAReflectionAndToReplaceTheTransformation)
 {
     const std::string mirror = folder.write("mirror.ply", "1 0 0 0 0 1 0 0 0 0 -1 0");

@@ -51,6 +51,20 @@ TEST(UpOf, IsZOfALaserScan)
     EXPECT_EQ(up_of(scan), Vector3d::UnitZ());
 }
 
+TEST(LookOneWay, IsTrueOfCamerasWithinAFewDegrees)
+{
+    const auto fan = [](double degrees) {
+        return turned({around(Vector3d::UnitX(), degrees), around(Vector3d::UnitX(), -degrees)});
+    };
+    EXPECT_TRUE(look_one_way(fan(10)));
+    EXPECT_FALSE(look_one_way(fan(20)));
+    Scene scan = fan(0);
+    for (Camera& camera : scan.cameras) {
+        camera.measures_range = true;
+    }
+    EXPECT_FALSE(look_one_way(scan)) << "a scanner looks everywhere";
+}
+
 TEST(PixelGrid, IsOfAboutSquareCells)
 {
     Camera camera;
