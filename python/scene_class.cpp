@@ -90,8 +90,8 @@ void add_view(Scene& scene, std::uint32_t camera, const std::string& name,
 /// Rows of views in any order become tracks.
 void set_tracks(Scene& scene, const py::object& begins, const py::object& views)
 {
-    const auto begin_of = rows_of<std::uint64_t>(begins, "the beginnings of the tracks");
-    const auto all = rows_of<std::uint32_t>(views, "the views of the tracks");
+    const auto begin_of = rows_of<std::uint64_t>(begins, "track_begins");
+    const auto all = rows_of<std::uint32_t>(views, "track_views");
     if (begin_of.size() != scene.num_points() + 1 || begin_of.front() != 0 ||
         begin_of.back() != all.size() || !std::ranges::is_sorted(begin_of)) {
         throw UsageError(fmt::format("the beginnings of the tracks of {} points must be {} numbers "
@@ -131,7 +131,7 @@ void take_nearest_views(Scene& scene, const py::object& listener)
 
 void place_scanners(Scene& scene, const py::object& places)
 {
-    const auto scanners = rows_of<Vector3d>(places, "the places of scanners");
+    const auto scanners = rows_of<Vector3d>(places, "scanners");
     if (scanners.size() != 1 && scanners.size() != scene.num_points()) {
         throw UsageError(fmt::format("{} places of scanners are neither one nor one for each of {} "
                                      "points",
