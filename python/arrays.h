@@ -7,6 +7,8 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 namespace vcarve::python {
@@ -16,7 +18,8 @@ namespace py = pybind11;
 /// How an entry of an array of the library lies in memory: numbers of which type, how many a row.
 template <typename Entry>
 struct Layout {
-    using Number = Entry;
+    using Number = typename std::conditional_t<std::is_enum_v<Entry>, std::underlying_type<Entry>,
+                                               std::type_identity<Entry>>::type;
     static constexpr py::ssize_t kColumns = 0; ///< no second dimension
 };
 template <typename Number_, int kRows>
@@ -60,21 +63,49 @@ void require_unseen(const std::shared_ptr<Owner>& owner)
     }
 }
 
-/// What numbers may be given as: anything that NumPy makes an array of the type of.
-template <typename Number>
-using Given = py::array_t<Number, py::array::c_style | py::array::forcecast>;
-
 /// Throws UsageError unless the array has rows of so many numbers; 0: unless it is one row.
 void require_shape(const py::array& given, const std::string& name, py::ssize_t columns);
 
-/// The rows of an array.
+/// The rows of an array whose numbers are not checked.
 template <typename Entry>
-std::vector<Entry> rows_of(const Given<typename Layout<Entry>::Number>& given,
-                           const std::string& name)
+std::vector<Entry> unchecked_rows_of(const py::object& given, const std::string& name)
 {
-    require_shape(given, name, Layout<Entry>::kColumns);
-    const auto* first = reinterpret_cast<const Entry*>(given.data());
-    return {first, first + given.shape(0)};
+    using Number = typename Layout<Entry>::Number;
+    const auto array = py::cast<py::array_t<Number, py::array::c_style>>(given);
+    require_shape(array, name, Layout<Entry>::kColumns);
+    const auto* first = reinterpret_cast<const Entry*>(array.data());
+    return {first, first + array.shape(0)};
+}
+
+/// The rows of an array of a user. Throws UsageError with the index of the first number that does
+/// not fit the entries; numbers() of vcarve/_arrays.py defines which do.
+template <typename Entry>
+std::vector<Entry> rows_of(const py::object& given, const std::string& name)
+{
+    const auto numbers = py::module_::import("vcarve._arrays").attr("numbers");
+    const auto dtype = py::dtype::of<typename Layout<Entry>::Number>();
+    return unchecked_rows_of<Entry>(numbers(name, given, dtype), name);
+}
+
+/// Arrays of `owner` as a tuple of NumPy's, for pickle. Nothing is copied.
+template <typename Owner, typename... Entries>
+py::tuple tuple_of_arrays(const std::tuple<std::vector<Entries>&...>& arrays,
+                          const std::shared_ptr<Owner>& owner)
+{
+    return std::apply([&](auto&... array) { return py::make_tuple(view_of(array, owner)...); },
+                      arrays);
+}
+
+/// The reverse of tuple_of_arrays(); copies.
+template <typename... Entries>
+void set_arrays(const std::tuple<std::vector<Entries>&...>& arrays, const py::tuple& state)
+{
+    std::size_t i = 0;
+    std::apply(
+        [&](auto&... array) {
+            ((array = unchecked_rows_of<Entries>(state[i++], "a pickled array")), ...);
+        },
+        arrays);
 }
 
 } // namespace vcarve::python

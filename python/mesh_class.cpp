@@ -16,45 +16,54 @@ namespace vcarve::python {
 
 namespace {
 
-void require_corners(const TriMesh& mesh)
+template <typename Rows, typename IsValid>
+void require_all(const Rows& rows, const char* name, const IsValid& is_valid,
+                 const std::string& fault)
 {
-    for (const Face& face : mesh.faces) {
-        const std::uint32_t last = std::ranges::max(face);
-        if (last < mesh.positions.size()) continue;
-        throw UsageError(fmt::format("a face has vertex {}, but there are {}, counted from 0", last,
-                                     mesh.positions.size()));
-    }
+    const auto wrong = std::ranges::find_if_not(rows, is_valid);
+    if (wrong == rows.end()) return;
+    throw UsageError(fmt::format("{}[{}] {}", name, wrong - rows.begin(), fault));
 }
 
-void require_one_a_vertex(std::size_t entries, std::size_t vertices, const char* name)
+/// Users can write into the arrays of a mesh at any time.
+void require_valid(const TriMesh& mesh)
 {
-    if (entries == vertices) return;
+    const auto is_finite = [](const auto& vector) { return vector.allFinite(); };
+    require_all(mesh.positions, "vertices", is_finite, "is not finite");
+    require_all(mesh.normals, "normals", is_finite, "is not finite");
+    require_corners(mesh);
+    const auto differ = [](const Face& f) { return f[0] != f[1] && f[1] != f[2] && f[2] != f[0]; };
+    require_all(mesh.faces, "faces", differ, "is degenerate: it has a vertex twice");
+}
+
+template <typename Entry>
+void set_of_vertices(std::vector<Entry>& rows, const py::object& given, const char* name,
+                     std::size_t vertices)
+{
+    if (!given.is_none()) rows = rows_of<Entry>(given, name);
+    if (given.is_none() || rows.size() == vertices) return;
     throw UsageError(
-        fmt::format("{} {} are not one for each of {} vertices", entries, name, vertices));
+        fmt::format("{} {} are not one for each of {} vertices", rows.size(), name, vertices));
 }
 
-std::shared_ptr<Mesh> mesh_of(const Given<double>& vertices, const Given<std::uint32_t>& faces,
+std::shared_ptr<Mesh> mesh_of(const py::object& vertices, const py::object& faces,
                               const py::object& colors, const py::object& normals)
 {
     auto mesh = std::make_shared<Mesh>();
     TriMesh& surface = mesh->surface;
     surface.positions = rows_of<Eigen::Vector3d>(vertices, "vertices");
     surface.faces = rows_of<Face>(faces, "faces");
-    require_corners(surface);
-    if (!colors.is_none()) {
-        surface.colors = rows_of<Color>(py::cast<Given<std::uint8_t>>(colors), "colors");
-        require_one_a_vertex(surface.colors.size(), surface.positions.size(), "colors");
-    }
-    if (!normals.is_none()) {
-        surface.normals = rows_of<Eigen::Vector3f>(py::cast<Given<float>>(normals), "normals");
-        require_one_a_vertex(surface.normals.size(), surface.positions.size(), "normals");
-    }
+    set_of_vertices(surface.colors, colors, "colors", surface.positions.size());
+    set_of_vertices(surface.normals, normals, "normals", surface.positions.size());
+    require_valid(surface);
     return mesh;
 }
 
 void write(const Mesh& mesh, const std::filesystem::path& path, bool ascii,
            const Eigen::Vector3d& offset)
 {
+    require_valid(mesh.surface);
+    if (!offset.allFinite()) throw UsageError("the offset is not finite");
     // Only PLY has room for it.
     const bool has_provenance =
         !mesh.provenance.point_ids.empty() && lower_case_end(path) == ".ply";
@@ -76,6 +85,26 @@ std::shared_ptr<Mesh> read(const std::filesystem::path& path)
     return mesh;
 }
 
+auto arrays_of(Mesh& mesh)
+{
+    return std::tie(mesh.surface.positions, mesh.surface.faces, mesh.surface.colors,
+                    mesh.surface.normals, mesh.surface.points, mesh.provenance.point_ids,
+                    mesh.provenance.num_views, mesh.provenance.errors_px, mesh.provenance.supports);
+}
+
+py::tuple state_of(const std::shared_ptr<Mesh>& mesh)
+{
+    return py::make_tuple(tuple_of_arrays(arrays_of(*mesh), mesh), mesh->counts);
+}
+
+std::shared_ptr<Mesh> unpickled(const py::tuple& state)
+{
+    auto mesh = std::make_shared<Mesh>();
+    set_arrays(arrays_of(*mesh), state[0]);
+    mesh->counts = state[1].attr("copy")();
+    return mesh;
+}
+
 /// A property that is an array of the mesh, at its address.
 template <typename Part, typename Entry>
 auto array_of(Part Mesh::*part, std::vector<Entry> Part::*field)
@@ -86,6 +115,14 @@ auto array_of(Part Mesh::*part, std::vector<Entry> Part::*field)
 }
 
 } // namespace
+
+void require_corners(const TriMesh& mesh)
+{
+    const std::size_t vertices = mesh.positions.size();
+    const auto exists = [&](const Face& face) { return std::ranges::max(face) < vertices; };
+    require_all(mesh.faces, "faces", exists,
+                fmt::format("has a vertex that does not exist: there are {}", vertices));
+}
 
 TriMesh in_frame_of_model(TriMesh mesh)
 {
@@ -110,6 +147,7 @@ void add_mesh_class(py::module_& module)
         .def_property_readonly("errors_px", array_of(&Mesh::provenance, &Provenance::errors_px))
         .def_property_readonly("support", array_of(&Mesh::provenance, &Provenance::supports))
         .def_readonly("counts", &Mesh::counts)
+        .def(py::pickle(&state_of, &unpickled))
         .def("write", &write, py::arg("path"), py::kw_only(), py::arg("ascii") = false,
              py::arg("offset") = Eigen::Vector3d(Eigen::Vector3d::Zero()));
     module.def("read_mesh", &read, py::arg("path"));

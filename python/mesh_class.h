@@ -17,6 +17,10 @@ struct Mesh {
 /// Positions are those of the model: the offset is added, which leaves what is written as it is.
 TriMesh in_frame_of_model(TriMesh mesh);
 
+/// Throws UsageError naming the first face with a vertex that does not exist. Users can write into
+/// the arrays of a mesh at any time.
+void require_corners(const TriMesh& mesh);
+
 /// Mesh, whose arrays are NumPy's at the same addresses.
 void add_mesh_class(pybind11::module_& module);
 

@@ -102,9 +102,11 @@ std::string compare_meshes(const std::shared_ptr<Scene>& model,
     const auto options = options_from<CompareOptions>(keywords);
     std::vector<NamedMesh> named;
     for (const auto& [name, mesh] : meshes) {
+        require_corners(mesh->surface);
         named.push_back({name, mesh->surface});
     }
     std::optional<NamedMesh> true_mesh;
+    if (truth) require_corners(truth->second->surface);
     if (truth) true_mesh = {truth->first, truth->second->surface};
     std::string json;
     run_told(listener, [&](Log& log) {

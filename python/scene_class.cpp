@@ -88,10 +88,10 @@ void add_view(Scene& scene, std::uint32_t camera, const std::string& name,
 }
 
 /// Rows of views in any order become tracks.
-void set_tracks(Scene& scene, const Given<std::uint64_t>& begins, const Given<std::uint32_t>& views)
+void set_tracks(Scene& scene, const py::object& begins, const py::object& views)
 {
-    const auto begin_of = rows_of<std::uint64_t>(begins, "the beginnings of the tracks");
-    const auto all = rows_of<std::uint32_t>(views, "the views of the tracks");
+    const auto begin_of = rows_of<std::uint64_t>(begins, "track_begins");
+    const auto all = rows_of<std::uint32_t>(views, "track_views");
     if (begin_of.size() != scene.num_points() + 1 || begin_of.front() != 0 ||
         begin_of.back() != all.size() || !std::ranges::is_sorted(begin_of)) {
         throw UsageError(fmt::format("the beginnings of the tracks of {} points must be {} numbers "
@@ -129,9 +129,9 @@ void take_nearest_views(Scene& scene, const py::object& listener)
     scene.tracks = std::move(tracks);
 }
 
-void place_scanners(Scene& scene, const Given<double>& places)
+void place_scanners(Scene& scene, const py::object& places)
 {
-    const auto scanners = rows_of<Vector3d>(places, "the places of scanners");
+    const auto scanners = rows_of<Vector3d>(places, "scanners");
     if (scanners.size() != 1 && scanners.size() != scene.num_points()) {
         throw UsageError(fmt::format("{} places of scanners are neither one nor one for each of {} "
                                      "points",
@@ -141,7 +141,7 @@ void place_scanners(Scene& scene, const Given<double>& places)
     add_scanner_views(scanners, scene);
 }
 
-void set_normals(Scene& scene, const Given<float>& normals)
+void set_normals(Scene& scene, const py::object& normals)
 {
     scene.normals = rows_of<Eigen::Vector3f>(normals, "normals");
 }
@@ -163,6 +163,55 @@ std::vector<std::string> names(const Scene& scene)
     std::vector<std::string> all;
     std::ranges::transform(scene.views, std::back_inserter(all), &View::name);
     return all;
+}
+
+auto arrays_of(Scene& scene)
+{
+    return std::tie(scene.positions, scene.colors, scene.errors_px, scene.point_ids, scene.normals,
+                    scene.kinds, scene.tracks.begins, scene.tracks.views);
+}
+
+auto fields_of(Camera& camera)
+{
+    return std::tie(camera.id, camera.model, camera.width_px, camera.height_px, camera.params,
+                    camera.measures_range);
+}
+
+auto fields_of(View& view)
+{
+    return std::tie(view.id, view.camera, view.name, view.cam_from_world.coeffs(), view.center);
+}
+
+using CameraValues =
+    std::tuple<std::uint32_t, int, std::uint64_t, std::uint64_t, std::vector<double>, bool>;
+using ViewValues = std::tuple<std::uint32_t, std::uint32_t, std::string, Eigen::Vector4d, Vector3d>;
+
+py::tuple state_of(const std::shared_ptr<Scene>& scene)
+{
+    std::vector<CameraValues> cameras;
+    for (Camera& camera : scene->cameras) {
+        cameras.emplace_back(fields_of(camera));
+    }
+    std::vector<ViewValues> views;
+    for (View& view : scene->views) {
+        views.emplace_back(fields_of(view));
+    }
+    return py::make_tuple(tuple_of_arrays(arrays_of(*scene), scene), cameras, views,
+                          std::pair(scene->is_dense, scene->offset));
+}
+
+std::shared_ptr<Scene> unpickled(const py::tuple& state)
+{
+    auto scene = std::make_shared<Scene>();
+    set_arrays(arrays_of(*scene), state[0]);
+    for (const auto& values : py::cast<std::vector<CameraValues>>(state[1])) {
+        fields_of(scene->cameras.emplace_back()) = values;
+    }
+    for (const auto& values : py::cast<std::vector<ViewValues>>(state[2])) {
+        fields_of(scene->views.emplace_back()) = values;
+    }
+    std::tie(scene->is_dense, scene->offset) = py::cast<std::pair<bool, Vector3d>>(state[3]);
+    return scene;
 }
 
 /// A method that replaces arrays, which NumPy must not look at meanwhile.
@@ -214,6 +263,7 @@ void add_scene_class(py::module_& module)
         .def_property_readonly("centers", &centers)
         .def_property_readonly("names", &names)
         .def_readwrite("is_dense", &Scene::is_dense)
+        .def(py::pickle(&state_of, &unpickled))
         .def("add_camera", &add_camera)
         .def("add_view", &add_view)
         .def("set_tracks", replacing(&set_tracks))

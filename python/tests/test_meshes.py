@@ -1,7 +1,9 @@
 """Meshes: their arrays in memory, files, and comparison."""
+import copy
 import json
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 
@@ -58,9 +60,95 @@ def test_every_format_is_written(mesh, tmp_path):
         mesh.write(tmp_path / "out.doc")
 
 
-def test_faces_have_corners_that_there_are():
-    with pytest.raises(vcarve.UsageError, match="a face has vertex 3, but there are 3"):
-        vcarve.Mesh(np.zeros((3, 3)), [[0, 1, 3]])
+TRIANGLE = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+
+
+def with_value(rows, index, value, dtype):
+    rows = np.array(rows, dtype=dtype)
+    rows[index] = value
+    return rows
+
+
+@pytest.mark.parametrize("vertices, faces, given, sentence", [
+    (TRIANGLE, [[0, 1, 2], [0, 1, 3]], {}, r"faces\[1\] has a vertex that does not exist"),
+    (TRIANGLE, [[0, 1, 2], [2, 0, 2]], {}, r"faces\[1\] is degenerate"),
+    (TRIANGLE, [[0, 1, -1]], {}, r"faces must be integers .* faces\[0, 2\] is -1"),
+    (TRIANGLE, [[0, 1, 2**32]], {}, r"faces\[0, 2\] is 4294967296"),
+    (TRIANGLE, [[0.0, 1.0, 2.9]], {}, "faces must be integers"),
+    (TRIANGLE, [["0", "1", "2"]], {}, "faces must be integers"),
+    (with_value(TRIANGLE, (1, 2), np.nan, float), [[0, 1, 2]], {}, r"vertices\[1, 2\] is nan"),
+    (with_value(TRIANGLE, (2, 0), 1j, complex), [[0, 1, 2]], {}, "vertices must be real numbers"),
+    (TRIANGLE, [[0, 1, 2]], {"normals": with_value(TRIANGLE, (2, 1), np.inf, float)},
+     r"normals\[2, 1\] is inf"),
+    (TRIANGLE, [[0, 1, 2]], {"normals": with_value(TRIANGLE, (2, 1), 1e300, float)},
+     r"normals\[2, 1\] is 1e\+300"),
+    (TRIANGLE, [[0, 1, 2]], {"colors": with_value(TRIANGLE, (2, 1), 200.0, float)},
+     r"floats from 0 to 1, but colors\[2, 1\] is 200"),
+    (TRIANGLE, [[0, 1, 2]], {"colors": with_value(TRIANGLE, (1, 1), np.nan, float)},
+     r"colors\[1, 1\] is nan"),
+    (TRIANGLE, [[0, 1, 2]], {"colors": with_value(TRIANGLE, (0, 2), 300, int)},
+     r"integers from 0 to 255, but colors\[0, 2\] is 300"),
+    (TRIANGLE, [[0, 1, 2]], {"colors": with_value(TRIANGLE, (0, 2), -1, int)},
+     r"colors\[0, 2\] is -1"),
+])
+def test_a_mesh_refuses_numbers_that_it_cannot_hold(vertices, faces, given, sentence):
+    with pytest.raises(vcarve.UsageError, match=sentence):
+        vcarve.Mesh(vertices, faces, **given)
+
+
+def test_float_colors_of_a_mesh_are_from_0_to_1():
+    mesh = vcarve.Mesh(TRIANGLE, [[0, 1, 2]], np.array([[0.0, 0.5, 1.0]] * 3))
+    assert mesh.colors.tolist() == [[0, 128, 255]] * 3
+    assert "floats from 0 to 1" in vcarve.Mesh.__doc__
+    assert vcarve.Mesh(TRIANGLE, np.zeros((0, 3))).faces.shape == (0, 3), "an empty list is floats"
+
+
+@pytest.mark.parametrize("array, index, value, sentence", [
+    ("vertices", (1, 0), np.nan, r"vertices\[1\] is not finite"),
+    ("normals", (2, 0), np.inf, r"normals\[2\] is not finite"),
+    ("faces", (0, 2), 1, r"faces\[0\] is degenerate"),
+    ("faces", (0, 2), 9, r"faces\[0\] has a vertex that does not exist"),
+])
+@pytest.mark.parametrize("end", ["ply", "glb"])
+def test_writing_refuses_what_was_made_invalid_in_place(end, array, index, value, sentence,
+                                                        tmp_path):
+    mesh = vcarve.Mesh(TRIANGLE, [[0, 1, 2]], normals=[[0.0, 0.0, 1.0]] * 3)
+    getattr(mesh, array)[index] = value
+    with pytest.raises(vcarve.UsageError, match=sentence):
+        mesh.write(tmp_path / f"out.{end}")
+    assert not list(tmp_path.iterdir())
+
+
+def test_writing_refuses_an_offset_that_is_not_finite(tmp_path):
+    with pytest.raises(vcarve.UsageError, match="offset is not finite"):
+        vcarve.Mesh(TRIANGLE, [[0, 1, 2]]).write(tmp_path / "out.ply", offset=[0, np.nan, 0])
+
+
+def test_comparison_refuses_faces_without_vertices(model):
+    mesh = vcarve.Mesh(TRIANGLE, [[0, 1, 2]])
+    mesh.faces[0] = 1 << 30
+    with pytest.raises(vcarve.UsageError, match=r"faces\[0\] has a vertex that does not exist"):
+        vcarve.compare(model, mesh)
+    with pytest.raises(vcarve.UsageError, match=r"faces\[0\] has a vertex that does not exist"):
+        vcarve.compare(model, vcarve.Mesh(TRIANGLE, [[0, 1, 2]]), mesh)
+
+
+def test_a_mesh_shows_its_counts():
+    assert repr(vcarve.Mesh(np.zeros((1234, 3)), [[0, 1, 2]])) == (
+        "<vcarve.Mesh: 1,234 vertices, 1 faces>")
+
+
+@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy,
+                                       lambda mesh: pickle.loads(pickle.dumps(mesh))])
+def test_copies_and_pickles_of_a_mesh_are_equal_and_independent(duplicate, mesh, tmp_path):
+    made = duplicate(mesh)
+    mesh.write(tmp_path / "mesh.ply")
+    made.write(tmp_path / "made.ply")
+    assert (tmp_path / "mesh.ply").read_bytes() == (tmp_path / "made.ply").read_bytes()
+    assert made.counts == mesh.counts and np.array_equal(made.support, mesh.support)
+    made.vertices[0] += 1.0
+    made.counts.clear()
+    assert not np.array_equal(made.vertices[0], mesh.vertices[0]) and mesh.counts
 
 
 def test_a_comparison_is_what_the_program_writes(mesh, model, program, tmp_path):

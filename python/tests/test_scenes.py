@@ -1,4 +1,6 @@
 """Scenes: from arrays, from what looks like pycolmap's, and their arrays in memory."""
+import copy
+import pickle
 import types
 
 import numpy as np
@@ -96,17 +98,90 @@ def test_colours_are_bytes_or_shares(room):
     ({"centers": [[0.0, 0.0]]}, r"centers must be an array of shape \(n, 3\), not \(1, 2\)"),
     ({"tracks": [[0, 9]] * 2000}, "the track of point 0 has view 9, but there are 4"),
     ({"tracks": ([0, 1], [0])}, "the beginnings of the tracks of 2000 points must be 2001 numbers"),
-    ({"tracks": [[-1]] * 2000}, "tracks must be whole numbers from 0"),
+    ({"tracks": [[-1]] * 2000}, r"track_views\[0\] is -1"),
+    ({"tracks": [[0.5]] * 2000}, "track_views must be integers"),
+    ({"tracks": np.ones((2000, 3), dtype=bool)},
+     r"boolean tracks must be an array of shape \(2000, 4\), not \(2000, 3\)"),
     ({"cam_from_world": np.zeros((1, 3, 4))}, "views are given as one of"),
     ({"centers": None, "cam_from_world": np.zeros((4, 3, 4))},
      "the pose of view 0 holds no rotation"),
     ({"colors": np.zeros((3, 3))}, r"colors must be an array of shape \(2000, 3\), not \(3, 3\)"),
+    ({"colors": np.full((2000, 3), 200.0)}, r"floats from 0 to 1, but colors\[0, 0\] is 200"),
+    ({"colors": np.full((2000, 3), -0.1)}, r"colors\[0, 0\] is -0.1"),
+    ({"colors": np.full((2000, 3), 300)}, r"colors\[0, 0\] is 300"),
+    ({"colors": np.full((2000, 3), -1)}, r"colors\[0, 0\] is -1"),
+    ({"errors_px": np.full(2000, 1j)}, "errors_px must be real numbers"),
+    ({"normals": np.full((2000, 3), np.nan)}, r"normals\[0, 0\] is nan"),
+    ({"normals": np.zeros((3, 3))}, r"normals must be an array of shape \(2000, 3\)"),
+    ({"centers": np.full((4, 3), 1j)}, "centers must be real numbers"),
+    ({"centers": [[0.0, 0.0, 0.0], [0.0, np.inf, 0.0]]}, r"centers\[1, 1\] is inf"),
+    ({"intrinsics": np.full((3, 3), np.nan), "size": (640, 480)}, r"intrinsics\[0, 0\] is nan"),
+    ({"intrinsics": np.eye(3), "size": (640.5, 480)}, "size must be integers"),
     ({"intrinsics": np.eye(3)}, "intrinsics need the size of the images"),
     ({"scanners": [0, 0, 0]}, "scanners tell all"),
 ])
 def test_arrays_that_do_not_fit_are_refused_in_a_sentence(given, sentence, room):
     with pytest.raises(vcarve.UsageError, match=sentence):
         room.scene(**given)
+
+
+def test_complex_positions_are_refused(room):
+    with pytest.raises(vcarve.UsageError, match="positions must be real numbers"):
+        vcarve.Scene.from_arrays(room.positions + 1j, centers=room.centers, tracks=room.tracks)
+
+
+def test_positions_that_are_not_finite_are_dropped_and_counted(room):
+    room.positions[5] = np.nan
+    mesh = vcarve.reconstruct(room.scene())
+    assert mesh.counts["filter"]["non-finite"] == 1 and np.isfinite(mesh.vertices).all()
+
+
+def seen_at_random(room):
+    """A boolean matrix of points by views, and the scene of its rows."""
+    seen = np.random.default_rng(2).uniform(size=(len(room.positions), len(room.centers))) < 0.7
+    return seen, room.scene(tracks=[np.flatnonzero(row) for row in seen])
+
+
+def require_same_tracks(scene, other):
+    assert np.array_equal(scene.track_begins, other.track_begins)
+    assert np.array_equal(scene.track_views, other.track_views)
+
+
+def test_a_boolean_matrix_of_points_by_views_is_tracks(room):
+    seen, rows = seen_at_random(room)
+    for matrix in (seen, seen.tolist()):
+        require_same_tracks(room.scene(tracks=matrix), rows)
+
+
+def test_sparse_matrices_in_any_format_are_points_by_views(room):
+    sparse = pytest.importorskip("scipy.sparse")
+    seen, rows = seen_at_random(room)
+    with_stored_zeros = sparse.csr_matrix(np.ones_like(seen))
+    with_stored_zeros.data[:] = seen.ravel()
+    for matrix in (sparse.csr_matrix(seen), sparse.csc_matrix(seen), sparse.coo_matrix(seen),
+                   with_stored_zeros):
+        require_same_tracks(room.scene(tracks=matrix), rows)
+
+
+def test_a_scene_shows_its_counts(room):
+    assert repr(room.scene()) == "<vcarve.Scene: 2,000 points, 4 views, 8,000 rays>"
+
+
+@pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy,
+                                       lambda scene: pickle.loads(pickle.dumps(scene))])
+def test_copies_and_pickles_of_a_scene_are_equal_and_independent(duplicate, model):
+    scene = vcarve.read_model(model)
+    scene.set_normals(np.tile([0.0, 0.0, 1.0], (len(scene.positions), 1)))
+    scene.is_dense = True
+    made = duplicate(scene)
+    for name in ("positions", "colors", "errors_px", "point_ids", "normals", "track_begins",
+                 "track_views", "centers"):
+        assert np.array_equal(getattr(made, name), getattr(scene, name)), name
+    assert made.names == scene.names and made.is_dense
+    surface = vcarve.reconstruct(scene)
+    assert np.array_equal(vcarve.reconstruct(made).vertices, surface.vertices)
+    made.positions[0] += 1.0
+    assert not np.array_equal(made.positions[0], scene.positions[0])
 
 
 def _as_method(value):

@@ -100,5 +100,23 @@ def compare(model, meshes, truth=None, *, progress=None, **options):
                                              named_truth, settings, listener))
 
 
+def _mesh_text(mesh):
+    return f"<vcarve.Mesh: {len(mesh.vertices):,} vertices, {len(mesh.faces):,} faces>"
+
+
+def _scene_text(scene):
+    return (f"<vcarve.Scene: {len(scene.positions):,} points, {len(scene.names):,} views, "
+            f"{len(scene.track_views):,} rays>")
+
+
+Mesh.__doc__ = """A surface: vertices (n, 3), faces (m, 3) of vertex indices, colors (n, 3), normals (n, 3).
+
+Colors are integers from 0 to 255 or floats from 0 to 1. Numbers that do not fit, vertices that are
+not finite, and degenerate faces raise UsageError, which names the index. The arrays are the
+library's own memory; they are empty where nothing is known.
+"""
+Mesh.__repr__ = _mesh_text
+Scene.__repr__ = _scene_text
+Scene.__module__ = Mesh.__module__ = "vcarve"
 Scene.from_arrays = staticmethod(_scenes.from_arrays)
 Scene.from_colmap = staticmethod(_colmap.from_colmap)

@@ -65,7 +65,8 @@ class Scene:
 
 
 class Mesh:
-    """A surface. The arrays are the library's own memory; they are empty where nothing is known."""
+    """A surface. The arrays are the library's own memory; they are empty where nothing is known.
+    Colors are integers from 0 to 255 or floats from 0 to 1."""
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, colors: ArrayLike | None = None,
                  normals: ArrayLike | None = None) -> None: ...
     @property

@@ -1,6 +1,7 @@
 """Scenes from objects that are shaped like pycolmap.Reconstruction."""
 import numpy as np
 
+from ._arrays import fill
 from ._vcarve import Scene, UsageError
 
 
@@ -73,9 +74,9 @@ def from_colmap(reconstruction):
     views = _add_views(reconstruction, scene)
     rows = []
     if points:
-        scene.positions[:] = [point.xyz for _, point in points]
-        scene.colors[:] = [_first(point, "color", "rgb") for _, point in points]
-        scene.errors_px[:] = [point.error for _, point in points]
+        fill("positions", scene.positions, [point.xyz for _, point in points], finite=False)
+        fill("colors", scene.colors, [_first(point, "color", "rgb") for _, point in points])
+        fill("errors_px", scene.errors_px, [point.error for _, point in points], finite=False)
         scene.point_ids[:] = [point_id for point_id, _ in points]
     for _, point in points:
         rows.append([views[e.image_id] for e in point.track.elements if e.image_id in views])

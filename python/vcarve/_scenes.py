@@ -1,23 +1,12 @@
 """Scenes from NumPy arrays."""
 import numpy as np
 
+from ._arrays import fill, numbers
 from ._runs import Listener
 from ._vcarve import Scene, UsageError
 
 # A view of which only the place is known looks all round, by COLMAP's lens for panoramas.
 PANORAMA = ("EQUIRECTANGULAR", (4000, 2000), [4000.0, 2000.0])
-
-
-def _filled(name, target, values):
-    """Copies values into an array of the scene; None leaves what is there."""
-    if values is None:
-        return
-    values = np.asarray(values)
-    if values.shape != target.shape:
-        raise UsageError(f"{name} must be an array of shape {target.shape}, not {values.shape}")
-    if name == "colors" and values.dtype.kind == "f":
-        values = np.rint(np.clip(values, 0.0, 1.0) * 255.0)
-    target[...] = values
 
 
 def _poses(cam_from_world, world_from_cam, centers):
@@ -27,11 +16,11 @@ def _poses(cam_from_world, world_from_cam, centers):
         raise UsageError("views are given as one of cam_from_world, world_from_cam, centers and "
                          f"scanners, not as {len(given)} of them")
     if centers is not None:
-        centers = np.asarray(centers, dtype=np.float64)
+        centers = numbers("centers", centers, np.float64)
         if centers.ndim != 2 or centers.shape[1] != 3:
             raise UsageError(f"centers must be an array of shape (n, 3), not {centers.shape}")
         return np.broadcast_to(np.eye(3), (len(centers), 3, 3)), centers
-    poses = np.asarray(given[0], dtype=np.float64)
+    poses = numbers("poses", given[0], np.float64)
     if poses.ndim != 3 or poses.shape[1:] not in ((3, 4), (4, 4)):
         raise UsageError(f"poses must be an array of shape (n, 3, 4) or (n, 4, 4), not "
                          f"{poses.shape}")
@@ -48,8 +37,8 @@ def _add_cameras(scene, views, intrinsics, size, ranges):
         return np.zeros(views, dtype=np.uint32)
     if size is None:
         raise UsageError("intrinsics need the size of the images, size=(width, height)")
-    matrices = np.asarray(intrinsics, dtype=np.float64).reshape(-1, 3, 3)
-    sizes = np.broadcast_to(np.asarray(size, dtype=np.int64).reshape(-1, 2), (len(matrices), 2))
+    matrices = numbers("intrinsics", intrinsics, np.float64).reshape(-1, 3, 3)
+    sizes = np.broadcast_to(numbers("size", size, np.uint64).reshape(-1, 2), (len(matrices), 2))
     if len(matrices) not in (1, views):
         raise UsageError(f"{len(matrices)} intrinsics are neither one nor one for each of {views} "
                          "views")
@@ -59,11 +48,26 @@ def _add_cameras(scene, views, intrinsics, size, ranges):
     return np.arange(views, dtype=np.uint32) if len(matrices) > 1 else np.zeros(views, np.uint32)
 
 
-def _rows(tracks):
-    """Beginnings and views of tracks that are a list of rows, a pair of arrays or a sparse matrix
-    of SciPy's, points by views."""
+def _rows_of_matrix(seen, shape):
+    """Beginnings and views of the tracks of a boolean matrix, points by views."""
+    seen = np.asarray(seen)
+    if seen.shape != shape:
+        raise UsageError(f"boolean tracks must be an array of shape {shape}, not {seen.shape}")
+    return np.cumsum([0, *np.count_nonzero(seen, axis=1)]), np.nonzero(seen)[1]
+
+
+def _rows(tracks, points, views):
+    """Beginnings and views of tracks that are a list of rows, a pair of arrays, or a matrix of
+    points by views: boolean, or sparse of SciPy's."""
+    if hasattr(tracks, "tocsr"):
+        tracks = tracks.tocsr()
+        if tracks.dtype == bool:
+            tracks = tracks.copy()
+            tracks.eliminate_zeros()
     if hasattr(tracks, "indptr") and hasattr(tracks, "indices"):
         return tracks.indptr, tracks.indices
+    if len(tracks) and np.asarray(tracks[0]).dtype == bool:
+        return _rows_of_matrix(tracks, (points, views))
     if isinstance(tracks, tuple) and len(tracks) == 2:
         return tracks
     lengths = [len(row) for row in tracks]
@@ -73,48 +77,44 @@ def _rows(tracks):
     return begins, np.concatenate(rows) if rows else np.zeros(0, dtype=np.uint32)
 
 
-def _whole(name, values):
-    """Whole numbers that fit; NumPy would turn -1 into a large one."""
-    values = np.asarray(values)
-    if values.dtype.kind not in "iu" or (values.size and (values.min() < 0)):
-        raise UsageError(f"{name} must be whole numbers from 0")
-    return values
-
-
 def from_arrays(positions, *, cam_from_world=None, world_from_cam=None, centers=None,
                 scanners=None, intrinsics=None, size=None, tracks=None, colors=None, normals=None,
                 errors_px=None, ranges=False, dense=False, progress=None):
     """A scene of points and of views that saw them, from arrays.
 
-    positions: (n, 3).
+    positions: (n, 3). Points that are not finite are dropped and counted.
     cam_from_world or world_from_cam: poses of the views, (v, 3, 4) or (v, 4, 4), x right, y down
         and z ahead as in COLMAP and OpenCV; or centers, (v, 3), where only their places are known;
         or scanners, (3,) or (n, 3): where the scanner of all points, or of each, stood.
     intrinsics: (3, 3) or (v, 3, 3) with focal lengths and principal point in pixels, of images of
         size (width, height); without them views look all round.
     tracks: which views saw which point, as numbers from 0: a list of rows, a pair (begins, views)
-        in which row i is views[begins[i]:begins[i + 1]], or a scipy.sparse.csr matrix of points by
-        views. None: not known; the nearest views are taken before which no other point stands.
-    colors: (n, 3), bytes or from 0 to 1. normals: (n, 3). errors_px: (n,), reprojection errors.
+        in which row i is views[begins[i]:begins[i + 1]], or a matrix of points by views: boolean,
+        or of scipy.sparse. None: not known; the nearest views are taken before which no other
+        point stands.
+    colors: (n, 3), integers from 0 to 255 or floats from 0 to 1. normals: (n, 3). errors_px: (n,),
+        reprojection errors.
     ranges: the views measured how far the points are, as depth maps do, so one view is enough.
     dense: the points are a dense cloud, to be merged where images do not resolve them.
+    Raises UsageError, which names the index, if a number does not fit its array.
     """
-    positions = np.asarray(positions)
+    positions = numbers("positions", positions, np.float64, finite=False)
     if positions.ndim != 2 or positions.shape[1] != 3:
         raise UsageError(f"positions must be an array of shape (n, 3), not {positions.shape}")
     scene = Scene.empty(len(positions))
-    _filled("positions", scene.positions, positions)
-    _filled("colors", scene.colors, colors)
-    _filled("errors_px", scene.errors_px, errors_px)
+    fill("positions", scene.positions, positions, finite=False)
+    fill("colors", scene.colors, colors)
+    fill("errors_px", scene.errors_px, errors_px, finite=False)
     if normals is not None:
-        _filled("normals", np.empty(positions.shape, dtype=bool), normals)
-        scene.set_normals(normals)
+        checked = np.empty(positions.shape, dtype=np.float32)
+        fill("normals", checked, normals)
+        scene.set_normals(checked)
     scene.is_dense = bool(dense) or scanners is not None
     if scanners is not None:
         others = (tracks, cam_from_world, world_from_cam, centers)
         if any(value is not None for value in others):
             raise UsageError("scanners tell all of the views and tracks, so no other are given")
-        scene.place_scanners(np.asarray(scanners, dtype=np.float64).reshape(-1, 3))
+        scene.place_scanners(numbers("scanners", scanners, np.float64).reshape(-1, 3))
         return scene
     rotations, places = _poses(cam_from_world, world_from_cam, centers)
     cameras = _add_cameras(scene, len(places), intrinsics, size, bool(ranges))
@@ -123,6 +123,5 @@ def from_arrays(positions, *, cam_from_world=None, world_from_cam=None, centers=
     if tracks is None:
         scene.take_nearest_views(Listener(progress))
     else:
-        begins, views = _rows(tracks)
-        scene.set_tracks(_whole("the beginnings of tracks", begins), _whole("tracks", views))
+        scene.set_tracks(*_rows(tracks, len(positions), len(places)))
     return scene
