@@ -74,18 +74,23 @@ struct Place {
     }
 };
 
+std::ptrdiff_t line_at(std::string_view text, std::size_t byte)
+{
+    return 1 + std::ranges::count(text.substr(0, byte), '\n');
+}
+
 /// Says where a text stops being JSON.
 [[noreturn]] void refuse_text(const fs::path& path, std::string_view text, std::size_t byte)
 {
     const std::size_t at = std::min(byte, text.size());
     const std::string_view before = text.substr(0, at);
-    const auto line = 1 + std::ranges::count(before, '\n');
     const std::size_t begin = before.find_last_of('\n') + 1; // npos + 1 is 0
     constexpr std::size_t kShown = 40;
     const std::size_t from = std::max(begin, at > kShown ? at - kShown : 0);
     throw InputError(fmt::format("{}: line {}: no JSON after '{}', expected a transforms.json as "
                                  "nerfstudio and instant-ngp write it",
-                                 path.string(), line, printable(text.substr(from, at - from))));
+                                 path.string(), line_at(text, at),
+                                 printable(text.substr(from, at - from))));
 }
 
 Json parse(const fs::path& path)
@@ -104,8 +109,13 @@ Json parse(const fs::path& path)
         return Json::parse(text, is_shallow);
     } catch (const Json::parse_error& error) {
         refuse_text(path, text, error.byte);
-    } catch (const Json::exception&) { // a number that no double holds
-        throw InputError(fmt::format("{}: holds a number too large to be one", path.string()));
+    } catch (const Json::exception& error) { // a number that no double holds, in quotes
+        const std::string_view reason = error.what();
+        std::string_view number = reason.substr(reason.find('\'') + 1);
+        number = number.substr(0, number.find('\''));
+        throw InputError(fmt::format("{}: line {}: found the number {}, expected one below 1.8e308",
+                                     path.string(), line_at(text, text.find(number)),
+                                     printable(number)));
     }
 }
 

@@ -159,7 +159,9 @@ TEST_F(TransformsJson, SaysWhereItIsNoJson)
     const std::string end = ", expected a transforms.json as nerfstudio and instant-ngp write it";
     EXPECT_EQ(refused(""), "line 1: no JSON after ''" + end);
     EXPECT_EQ(refused("{\n\"w\": 640,\n\"h\": NaN}"), "line 3: no JSON after '\"h\": N'" + end);
-    EXPECT_EQ(refused("{\"w\": 1e999}"), "holds a number too large to be one");
+    EXPECT_EQ(refused("{\"w\": 1e999}"), "line 1: found the number 1e999, expected one below 1.8e308");
+    EXPECT_EQ(refused("{\n\"w\": 640,\n\"h\": -1e999}"),
+              "line 3: found the number -1e999, expected one below 1.8e308");
     const std::string deep(200, '[');
     EXPECT_EQ(refused(deep), "its values stand more than 64 deep in each other" + end);
     EXPECT_EQ(refused(std::string(20'000'000, '[')),
