@@ -101,6 +101,7 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading
     if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
     input.scene = std::move(read.scene);
     input.read = read.read;
+    input.takes_nearest_views = read.found.takes_nearest_views();
     return input;
 }
 

@@ -42,6 +42,7 @@ void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
 struct ModelInput {
     Scene scene;
     SceneSize read; ///< before points were merged
+    bool takes_nearest_views = false; ///< see FoundInput
     Json record;    ///< "model", "folder", "format", "cloud", "points", "views", "sights"
 };
 
