@@ -41,9 +41,9 @@ void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
 /// A model and its record.
 struct ModelInput {
     Scene scene;
-    SceneSize read; ///< before points were merged
+    SceneSize read;                   ///< before points were merged
     bool takes_nearest_views = false; ///< see FoundInput
-    Json record;    ///< "model", "folder", "format", "cloud", "points", "views", "sights"
+    Json record; ///< "model", "folder", "format", "cloud", "points", "views", "sights"
 };
 
 /// Finds and reads a model, as the stage "read". Throws InputError.
@@ -53,9 +53,10 @@ enum class OffsetWord { none, automatic };
 /// What is up: as the cameras stand (up_of), z of what is written, or not to be asked.
 enum class UpWord { automatic, z, none };
 
-/// What the value of --transform says, a scale or a file; nothing of an empty one. Throws
-/// UsageError of a number that is no scale, and InputError as read_sim3() does.
-std::optional<Similarity> transform_of(const std::string& text);
+/// What the value of --transform says, a scale or a file, from the frame of the model; nothing of
+/// an empty one. Throws UsageError of a number that is no scale, and InputError as read_sim3(),
+/// read_nerfstudio_transform() and find_input() do.
+std::optional<Similarity> transform_of(const std::string& text, const ModelArguments& model);
 
 /// What --offset says is to be subtracted from what is written of a model, once that is
 /// transformed. The words are those of OffsetWord.

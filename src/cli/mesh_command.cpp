@@ -395,7 +395,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     const ArrayFolder scratch(arguments.work, arguments.out);
     prepare_outputs(outputs_of(arguments), scratch);
     // Errors in these files are reported before the work starts.
-    arguments.transform = transform_of(arguments.output.transform);
+    arguments.transform = transform_of(arguments.output.transform, arguments.model);
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
         make_region(arguments.options.crop.region, Scene());
     }
