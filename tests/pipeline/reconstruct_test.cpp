@@ -243,20 +243,24 @@ TEST(Reconstruct, NamesTheFilterThatLeftTooFewPoints)
         return refusal<InputError>([&] { run(scene, options); });
     };
     const std::string begin = "0 points passed the filter; a surface needs at least four that do "
-                              "not lie in one plane. 200 of 200 points fell to ";
-    EXPECT_EQ(refused([](Scene& /*scene*/, Options& options) { options.points.min_views = 1000; }),
-              begin + "--min-views 1000; try a smaller one, or --sights nearest");
+                              "not lie in one plane. ";
+    EXPECT_EQ(
+        refused([](Scene& /*scene*/, Options& options) { options.points.min_views = 1000; }),
+        begin +
+            "200 of 200 points fell to --min-views 1000; try a smaller one, or --sights nearest");
+    // 23 points have one view or none.
     EXPECT_EQ(
         refused([](Scene& /*scene*/, Options& options) { options.points.min_angle_deg = 180.0; }),
-        begin + "--min-angle 180; try a smaller one");
+        begin + "177 of 200 points fell to --min-angle 180; try a smaller one");
     EXPECT_EQ(refused([](Scene& scene, Options& /*options*/) { scene.errors_px.assign(200, 9.0); }),
-              begin + "--max-error 4; try a larger one");
-    EXPECT_EQ(refused([](Scene& scene, Options& options) {
-                  scene.tracks = {};
-                  scene.tracks.begins.assign(201, 0);
-                  options.points.min_views = 1;
-              }),
-              begin + "--min-views 1; try a smaller one, or --sights nearest");
+              begin + "177 of 200 points fell to --max-error 4; try a larger one");
+    EXPECT_EQ(
+        refused([](Scene& scene, Options& options) {
+            scene.tracks = {};
+            scene.tracks.begins.assign(201, 0);
+            options.points.min_views = 1;
+        }),
+        begin + "200 of 200 points fell to --min-views 1; try a smaller one, or --sights nearest");
 }
 
 TEST(Reconstruct, WarnsOfACameraThatHardlyMoved)

@@ -22,7 +22,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -180,23 +179,20 @@ class Lens {
     }
 
     /// Of the picture of the frame, whose name may lack its end, as in scenes of Blender.
-    std::optional<PhotographSize> picture_size() const
+    PhotographSize picture_size(const Place& missing) const
     {
-        const fs::path picture = frame_.file.parent_path() / name_of(frame_);
         for (const char* const end : {"", ".png", ".jpg", ".jpeg"}) {
-            fs::path file = picture;
-            if (is_file(file += end)) return photograph_size(file);
+            const fs::path file = frame_.file.parent_path() / (name_of(frame_) + end);
+            if (is_file(file)) return photograph_size(file);
         }
-        return std::nullopt;
+        missing.refuse("the size of the images in pixels, or the image itself");
     }
 
     std::uint64_t size_px(const std::string& key, int PhotographSize::*side) const
     {
         constexpr const char* kExpected = "the size of the images in pixels";
         const Place place = at(key);
-        const auto picture = place.value == nullptr ? picture_size() : std::nullopt;
-        if (picture) return static_cast<std::uint64_t>((*picture).*side);
-        if (place.value == nullptr) place.refuse(fmt::format("{}, or the image itself", kExpected));
+        if (place.value == nullptr) return static_cast<std::uint64_t>(picture_size(place).*side);
         const double size = place.number(kExpected);
         if (!(size >= 1.0 && size <= 1e9) || size != std::floor(size)) place.refuse(kExpected);
         return static_cast<std::uint64_t>(size);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace vcarve {
 
@@ -44,15 +45,11 @@ constexpr struct {
     {"BM"sv, kStb},
 };
 
-/// Formats that are not read, by the bytes at a place in the file.
-constexpr struct {
-    std::size_t place;
-    std::string_view bytes;
-    const char* name;
-} kUnread[] = {
-    {0, "GIF8"sv, "a GIF"},       {0, "\xff\x0a"sv, "a JPEG XL"}, {4, "JXL "sv, "a JPEG XL"},
-    {4, "jP  "sv, "a JPEG 2000"}, {4, "ftypavif"sv, "an AVIF"},   {4, "ftyphei"sv, "a HEIC"},
-    {4, "ftypmif1"sv, "a HEIC"},  {0, "P3"sv, "a PPM as text"},
+/// Formats that are not read, by what stands in their first 12 bytes.
+constexpr std::pair<std::string_view, const char*> kUnread[] = {
+    {"GIF8", "a GIF"},         {"JXL ", "a JPEG XL"},    {"jP  ", "a JPEG 2000"},
+    {"ftypavif", "an AVIF"},   {"ftyphei", "a HEIC"},    {"ftypmif1", "a HEIC"},
+    {"P3\n", "a PPM as text"}, {"P3 ", "a PPM as text"},
 };
 
 const Decoder& decoder_of(const std::filesystem::path& path, std::span<const char> bytes)
@@ -70,12 +67,12 @@ const Decoder& decoder_of(const std::filesystem::path& path, std::span<const cha
     // TGA has no first bytes; its second version ends with a word.
     if (lower_case_end(path) == ".tga" || text.ends_with("TRUEVISION-XFILE.\0"sv)) return kStb;
     const auto* const unread = std::ranges::find_if(kUnread, [&](const auto& kind) {
-        return text.size() >= kind.place && text.substr(kind.place).starts_with(kind.bytes);
+        return text.substr(0, 12).find(kind.first) != std::string_view::npos;
     });
-    throw InputError(fmt::format(
-        "{}: found {}, but photographs are read as JPEG, PNG, TIFF, WebP, "
-        "BMP, TGA, PPM and PGM only; convert it to one of them",
-        path.string(), unread == std::ranges::end(kUnread) ? "an unknown format" : unread->name));
+    const bool is_known = unread != std::ranges::end(kUnread);
+    throw InputError(fmt::format("{}: found {}, but photographs are read as JPEG, PNG, TIFF, WebP, "
+                                 "BMP, TGA, PPM and PGM only; convert it to one of them",
+                                 path.string(), is_known ? unread->second : "an unknown format"));
 }
 
 ImageFile image_file(const std::filesystem::path& path, std::span<const char> bytes)
