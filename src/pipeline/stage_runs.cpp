@@ -79,8 +79,8 @@ std::string largest_loss(const FilterReport& dropped, std::int64_t stray, std::i
                          const FilterOptions& options)
 {
     const std::pair<std::int64_t, std::string> losses[] = {
-        {dropped.few_views,
-         fmt::format("--min-views {}; try a smaller one, or --sights nearest", options.min_views)},
+        {dropped.few_views, fmt::format("--min-views {}; try {}--sights nearest", options.min_views,
+                                        options.min_views > 1 ? "a smaller one, or " : "")},
         {dropped.high_error, fmt::format("--max-error {}; try a larger one", options.max_error_px)},
         {dropped.low_angle,
          fmt::format("--min-angle {}; try a smaller one", options.min_angle_deg)},
