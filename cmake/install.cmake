@@ -17,7 +17,7 @@ if(library_type STREQUAL "SHARED_LIBRARY")
 else()
   set(VCARVE_IS_SHARED FALSE)
   string(CONCAT VCARVE_STATIC_LIBS " -lOpenMeshTools -lOpenMeshCore -ltbb -ltbbmalloc -lfmt"
-    " -lgmp -lmpfr -lmeshoptimizer -ljpeg -lpng -ltiff")
+    " -lgmp -lmpfr -lmeshoptimizer -ljpeg -lpng -ltiff -lwebp")
 endif()
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vcarveConfig.cmake.in
   ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfig.cmake INSTALL_DESTINATION ${package_folder})
@@ -25,6 +25,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/vcarveConfigVersion
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/vcarveConfigVersion.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/FindWebP.cmake
   DESTINATION ${package_folder})
 
 file(RELATIVE_PATH VCARVE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)

@@ -18,7 +18,9 @@ class Vcarve < Formula
   depends_on :linux
   depends_on "meshoptimizer"
   depends_on "open-mesh"
+  depends_on "stb"
   depends_on "tbb"
+  depends_on "webp"
 
   def install
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", *std_cmake_args,

@@ -254,6 +254,7 @@ ChildOutcome run_child(std::vector<std::string> words, const std::filesystem::pa
     pointers.push_back(nullptr);
 
     const Clock::time_point start = Clock::now();
+    ::signal(SIGCHLD, SIG_DFL); // a caller may ignore it; then the system drops the exit code
     const pid_t child = ::fork();
     if (child < 0) throw UsageError("no further process can be started");
     if (child == 0) become(pointers.data(), printed.c_str());

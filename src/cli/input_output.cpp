@@ -1,9 +1,11 @@
 #include "cli/input_output.h"
 
+#include "base/text.h"
 #include "base/threads.h"
 #include "cli/exit_code.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/sim3_text.h"
+#include "io/colmap/transforms_json.h"
 #include "io/files/output_file.h"
 #include "io/input/find_input.h"
 #include "model/views.h"
@@ -140,15 +142,21 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading
     if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
     input.scene = std::move(read.scene);
     input.read = read.read;
+    input.takes_nearest_views = read.found.takes_nearest_views();
     return input;
 }
 
-std::optional<Similarity> transform_of(const std::string& text)
+std::optional<Similarity> transform_of(const std::string& text, const ModelArguments& model)
 {
     if (text.empty()) return std::nullopt;
     double scale = 0.0;
     const char* const end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, scale);
+    if (lower_case_end(text) == ".json") {
+        const FoundModel found = find_input(model.path, model.all_points()).model;
+        const bool has_poses = found.format == ModelFormat::transforms;
+        return read_nerfstudio_transform(text, has_poses ? found.folder : fs::path());
+    }
     if (error == std::errc::invalid_argument || stop != end) return read_sim3(text);
     if (error != std::errc() || !(scale > 0.0) || !std::isfinite(scale)) {
         throw UsageError(

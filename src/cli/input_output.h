@@ -59,8 +59,9 @@ void prepare_outputs(std::span<const Output> outputs,
 /// A model and its record.
 struct ModelInput {
     Scene scene;
-    SceneSize read; ///< before points were merged
-    Json record;    ///< "model", "folder", "format", "cloud", "points", "views", "sights"
+    SceneSize read;                   ///< before points were merged
+    bool takes_nearest_views = false; ///< see FoundInput
+    Json record; ///< "model", "folder", "format", "cloud", "points", "views", "sights"
 };
 
 /// Finds and reads a model, as the stage "read". Throws InputError.
@@ -71,9 +72,10 @@ enum class OffsetWord { none, automatic };
 /// to be asked.
 enum class UpWord { automatic, back, z, none };
 
-/// What the value of --transform says, a scale or a file; nothing of an empty one. Throws
-/// UsageError of a number that is no scale, and InputError as read_sim3() does.
-std::optional<Similarity> transform_of(const std::string& text);
+/// What the value of --transform says, a scale or a file, from the frame of the model; nothing of
+/// an empty one. Throws UsageError of a number that is no scale, and InputError as read_sim3(),
+/// read_nerfstudio_transform() and find_input() do.
+std::optional<Similarity> transform_of(const std::string& text, const ModelArguments& model);
 
 /// What --offset says is to be subtracted from what is written of a model, once that is
 /// transformed. The words are those of OffsetWord.

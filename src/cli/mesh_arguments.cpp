@@ -166,8 +166,8 @@ OptionList options_of(OutputOptions& output)
           .unit = "file or scale",
           .help = "Transform coordinates before --offset, and record it in the file header. A "
                   "number scales them. A file moves them to another frame, as COLMAP's "
-                  "model_aligner writes it (scale, quaternion, translation) or as a matrix of 3 or "
-                  "4 rows.",
+                  "model_aligner writes it (scale, quaternion, translation), as a matrix of 3 or 4 "
+                  "rows, or as nerfstudio's dataparser_transforms.json.",
           .level = advanced},
          &output.transform},
         {kStage,

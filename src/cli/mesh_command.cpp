@@ -273,6 +273,7 @@ struct Made {
     std::optional<ReportParts> report;
     double long_area = 0.0; ///< see RunOutcome
     bool is_dense = false;  ///< the points were a cloud's
+    bool takes_nearest_views = false;
 };
 
 ModelInput read_input(const Run& run)
@@ -319,6 +320,7 @@ Made make_surface(const Run& run, Json& record)
     if (place.transform) record["transform"] = sim3_text(*place.transform);
     Made made;
     made.is_dense = input.read.is_dense;
+    made.takes_nearest_views = input.takes_nearest_views;
     Surface surface = surface_of(std::move(input), run);
     MeshArguments told = arguments;
     if (place.offset.isZero(0.0)) told.output.offset = {}; // makes no difference
@@ -343,6 +345,7 @@ std::string closing_line(const MeshArguments& arguments, const Made& made,
     outcome.out = arguments.out.string();
     outcome.long_area = made.long_area;
     outcome.is_dense = made.is_dense;
+    outcome.takes_nearest_views = made.takes_nearest_views;
     outcome.has_report = !arguments.report.empty();
     return closing_line(outcome, arguments.options);
 }
@@ -403,7 +406,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
                                                ? std::vector<fs::path>{scratch.path()}
                                                : std::vector<fs::path>());
     // Errors in these files are reported before the work starts.
-    arguments.transform = transform_of(arguments.output.transform);
+    arguments.transform = transform_of(arguments.output.transform, arguments.model);
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
         make_region(arguments.options.crop.region, Scene());
     }

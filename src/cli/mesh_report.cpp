@@ -75,10 +75,13 @@ void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
 {
     constexpr double kMany = 0.2;
     constexpr std::int64_t kFew = 500;
+    const bool is_nearest = outcome.takes_nearest_views;
     std::vector<std::pair<std::int64_t, const char*>> losses = {
-        {outcome.few_views, options.min_views > 2   ? "a smaller --min-views"
-                            : options.min_views > 1 ? "--min-views 1 or --sights nearest"
-                                                    : "--sights nearest"},
+        {is_nearest && options.min_views < 2 ? 0 : outcome.few_views,
+         options.min_views > 2   ? "a smaller --min-views"
+         : options.min_views < 2 ? "--sights nearest"
+         : is_nearest            ? "--min-views 1"
+                                 : "--min-views 1 or --sights nearest"},
         {outcome.high_error, "a larger --max-error"},
         {outcome.low_angle, "a smaller --min-angle"},
         {outcome.stray, "a larger --stray-spacing"}};

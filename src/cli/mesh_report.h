@@ -65,6 +65,7 @@ struct RunOutcome {
     std::int64_t low_angle = 0;     ///< ... by --min-angle
     std::int64_t stray = 0;         ///< ... by --stray-spacing
     bool is_dense = false;
+    bool takes_nearest_views = false; ///< see FoundInput
     bool has_report = false;
     static constexpr double kLong = 10.0;
 };

@@ -12,6 +12,7 @@
 #include "steps/1_points/stray_points.h"
 #include "steps/1_points/thin.h"
 #include "steps/2_planes/added_points.h"
+#include "steps/3_cells/limits.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/count_crossings.h"
 #include "steps/4_visibility/inferred_sights.h"
@@ -73,6 +74,23 @@ std::int64_t walk_inferred(RunState& run, double weight, const Progress& progres
     return size_of(inferred.views.size());
 }
 
+/// The filter that dropped most points, as the end of a sentence; empty if none dropped any.
+std::string largest_loss(const FilterReport& dropped, std::int64_t stray, std::int64_t all,
+                         const FilterOptions& options)
+{
+    const std::pair<std::int64_t, std::string> losses[] = {
+        {dropped.few_views, fmt::format("--min-views {}; try {}--sights nearest", options.min_views,
+                                        options.min_views > 1 ? "a smaller one, or " : "")},
+        {dropped.high_error, fmt::format("--max-error {}; try a larger one", options.max_error_px)},
+        {dropped.low_angle,
+         fmt::format("--min-angle {}; try a smaller one", options.min_angle_deg)},
+        {stray, fmt::format("--stray-spacing {}; try a larger one", options.stray_spacing)},
+        {dropped.duplicate, "the merging of points at one place"},
+        {dropped.non_finite, "the check for finite coordinates"}};
+    const auto& [count, filter] = *std::ranges::max_element(losses);
+    return count == 0 ? "" : fmt::format(". {} of {} points fell to {}", count, all, filter);
+}
+
 } // namespace
 
 Counts foresee_memory(RunState& run, const Progress& /*progress*/)
@@ -104,6 +122,16 @@ Counts filter(RunState& run, const Progress& progress)
         run.notes.push_back(fmt::format("{} of {} points are left out: a coordinate is no finite "
                                         "number, or beyond {:.0e}",
                                         dropped.non_finite, before, kFarthest));
+    }
+    require_four_points(scene.num_points(), largest_loss(dropped, stray, before, options));
+    constexpr double kSmallDeg = 3.0; // COLMAP's mapper keeps points from 1.5 degrees on
+    const double angle_deg = median_angle_deg(scene);
+    if (angle_deg > 0.0 && angle_deg < kSmallDeg) {
+        run.notes.push_back(fmt::format(
+            "the rays of half of the points meet at less than {:.1f} degrees, so depths are "
+            "uncertain and the surface may have spikes; take photographs from places farther "
+            "apart, or try a larger --min-angle",
+            angle_deg));
     }
     return {{"points", size_of(scene.num_points())}, {"of", before},
             {"non-finite", dropped.non_finite},      {"duplicate", dropped.duplicate},

@@ -200,8 +200,16 @@ std::string difference(const Job& before, const Job& now)
 WorkFolder::WorkFolder(fs::path folder)
     : folder_(std::move(folder)), was_made_(make_folder(folder_))
 {
-    require_ours(folder_);
-    lock_ = lock(folder_);
+    std::error_code error;
+    const bool had_lock = fs::exists(folder_ / kLockName, error);
+    lock_ = lock(folder_); // first: nobody else changes a locked folder
+    try {
+        require_ours(folder_);
+    } catch (...) {
+        if (!had_lock) remove_quietly(folder_ / kLockName);
+        ::close(lock_);
+        throw;
+    }
     if (was_made_) {
         std::ofstream(folder_ / kLockName) << kMadeHere;
     } else {

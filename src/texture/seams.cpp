@@ -302,7 +302,9 @@ CornerLevels level_seams(const TriMesh& mesh, const std::vector<PhotosOfFace>& p
     Eigen::SparseMatrix<double> matrix(count, count);
     matrix.setFromTriplets(equations.entries.begin(), equations.entries.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
+    if (factors.info() != Eigen::Success) return levels;
     const Eigen::MatrixX3d solution = factors.solve(equations.right);
+    if (!solution.allFinite()) return levels;
     parallel_for(mesh.faces.size(), [&](std::size_t face) {
         if (photo_of_face[face] == kNoPhoto) return;
         for (int i = 0; i < 3; ++i) {

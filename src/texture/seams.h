@@ -21,7 +21,8 @@ using CornerLevels = std::vector<std::array<Eigen::Array3f, 3>>;
 /// What makes photographs agree where they meet: at a vertex where several do, their colours are to
 /// be the same after it, and from vertex to vertex of a photograph it changes little (V. Lempitsky
 /// and D. Ivanov, "Seamless mosaicing of image-based texture maps", CVPR 2007). Least squares, by
-/// Eigen's sparse Cholesky factors. Cost: that of factors of a matrix of a row a vertex.
+/// Eigen's sparse Cholesky factors. All zero if they have no finite solution. Cost: that of factors
+/// of a matrix of a row a vertex.
 CornerLevels level_seams(const TriMesh& mesh, const std::vector<PhotosOfFace>& photos_of_faces,
                          const FaceColors& colors, const Gains& gains,
                          const std::vector<std::uint32_t>& photo_of_face);

@@ -223,6 +223,17 @@ TEST_F(CompareOnBall, SaysWhatColmapSaidLastWhereItFails)
                           " could not be started and wrote no mesh; its column is left out\n"));
 }
 
+TEST_F(CompareOnBall, SeesThatColmapFailsWhereSignalsOfChildrenAreIgnored)
+{
+    const std::string mesher = script("cp '" + mesh + "' \"$7\"; exit 4");
+    const Outcome outcome = Subprocess({"/usr/bin/env", "--ignore-signal=CHLD", built_program(),
+                                        "compare", model, "--samples", "2000", "--colmap", mesher})
+                                .wait();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("ended with exit code 4"));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("| COLMAP |")));
+}
+
 TEST_F(CompareOnBall, KillsColmapWhenItsTimeIsUp)
 {
     const std::string pid = folder / "pid";

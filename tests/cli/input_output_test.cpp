@@ -123,16 +123,34 @@ TEST(RequireDistinct, KnowsAFileByAnotherPath)
 
 TEST(TransformOf, IsAScaleOrAFile)
 {
-    EXPECT_FALSE(transform_of(""));
-    EXPECT_EQ(transform_of("0.25")->linear, 0.25 * Eigen::Matrix3d::Identity());
-    EXPECT_EQ(transform_of("0.25")->scale, 0.25);
+    EXPECT_FALSE(transform_of("", {}));
+    EXPECT_EQ(transform_of("0.25", {})->linear, 0.25 * Eigen::Matrix3d::Identity());
+    EXPECT_EQ(transform_of("0.25", {})->scale, 0.25);
     const TemporaryFolder folder;
-    EXPECT_EQ(transform_of(folder.write("2", "1 1 0 0 0 5 6 7"))->translation, Vector3d(5, 6, 7));
+    EXPECT_EQ(transform_of(folder.write("2", "1 1 0 0 0 5 6 7"), {})->translation,
+              Vector3d(5, 6, 7));
     for (const char* const text : {"0", "-2", "nan", "inf", "1e999"}) {
-        EXPECT_EQ(refusal<UsageError>([&] { transform_of(text); }),
+        EXPECT_EQ(refusal<UsageError>([&] { transform_of(text, {}); }),
                   "--transform takes a file or a scale above 0, not \"" + std::string(text) + "\"");
     }
-    EXPECT_NE(refusal<InputError>([] { transform_of("2m"); }).find("2m"), std::string::npos);
+    EXPECT_NE(refusal<InputError>([] { transform_of("2m", {}); }).find("2m"), std::string::npos);
+}
+
+TEST(TransformOf, LeadsFromTheFrameOfTheModelToThatOfNerfstudio)
+{
+    const TemporaryFolder folder;
+    const std::string file =
+        folder.write("dataparser_transforms.json",
+                     R"({"transform": [[1, 0, 0, 1], [0, 1, 0, 2], [0, 0, 1, 3]], "scale": 2})");
+    write_ball_model(folder / "sparse/0", 20);
+    ModelArguments model;
+    model.path = folder / "sparse/0";
+    EXPECT_EQ(transform_of(file, model)->translation, Vector3d(2, 4, 6));
+    model.path = folder.write(
+        "transforms.json",
+        R"({"frames": [{}], "applied_transform": [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]]})");
+    folder.write("sparse_pc.ply", "ply\n");
+    EXPECT_EQ(transform_of(file, model)->translation, Vector3d(0, 2, 4));
 }
 
 TEST(OffsetFor, IsRoundOnceTheModelIsTransformed)

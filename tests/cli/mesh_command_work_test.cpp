@@ -3,6 +3,7 @@
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -52,9 +53,19 @@ TEST_F(WorkOfProgram, ChangesNothingAndGoes)
 
 TEST_F(WorkOfProgram, IsEmptyAfterARefusal)
 {
+    // Points of one plane pass the filter, and have no cells.
+    folder.write("plane/cameras.txt", "1 SIMPLE_PINHOLE 1000 1000 1000 500 500\n");
+    folder.write("plane/images.txt", "1 1 0 0 0 1 0 5 1 a\n\n2 1 0 0 0 -1 0 5 1 b\n\n");
+    std::string points;
+    for (int i = 0; i < 25; ++i) {
+        points +=
+            fmt::format("{} {} {} 0 9 9 9 0.5 1 0 2 0\n", i + 1, 0.1 * (i % 5), 0.1 * (i / 5));
+    }
+    folder.write("plane/points3D.txt", points);
     fs::create_directory(work);
-    const Outcome outcome = run({"--min-views", "1000"});
+    const Outcome outcome = run_program({folder / "plane", out, "--work", work});
     EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("all lie in one plane"));
     EXPECT_THAT(outcome.err, HasSubstr("keep "));
     EXPECT_TRUE(fs::is_empty(work));
 }

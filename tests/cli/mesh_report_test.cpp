@@ -248,6 +248,17 @@ TEST(ClosingLine, SaysAtTheDefaultsHowToKeepPointsOfOneView)
     outcome.few_views = 11000;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\nif parts are missing, try "
                              "--min-views 1 or --sights nearest: 50 % of the points fell to it");
+    outcome.takes_nearest_views = true;
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\nif parts are missing, try "
+                             "--min-views 1: 50 % of the points fell to it");
+    Options one_view;
+    one_view.points.min_views = 1;
+    EXPECT_EQ(line(outcome, one_view),
+              "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
+    outcome.takes_nearest_views = false;
+    EXPECT_EQ(line(outcome, one_view),
+              "wrote out.ply: 22,268 faces, closed\nif parts are missing, try --sights nearest: "
+              "50 % of the points fell to it");
     outcome.few_views = 4000; // 18 %
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
     Options options;

@@ -122,6 +122,8 @@ TEST(Reconstruct, RefusesOptionsOutOfTheirRangeBeforeAnyWork)
               "--quality takes a number from 0 to 100000 (rays), not nan");
     EXPECT_EQ(refused([](Options& options) { options.threads = 1025; }),
               "--threads takes a whole number from 0 to 1024 (threads), not 1025");
+    EXPECT_EQ(refused([](Options& options) { options.surface.cleanup.max_hole_edges = 1001; }),
+              "--max-hole takes a whole number from 0 to 1000 (edges), not 1001");
     EXPECT_TRUE(log.shares().empty());
 }
 

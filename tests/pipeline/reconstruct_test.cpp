@@ -9,6 +9,7 @@
 #include "vcarve/error.h"
 #include "vcarve/reconstruct.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -231,6 +232,55 @@ TEST(Reconstruct, RefusesWhatHoldsTooLittle)
         EXPECT_STREQ(error.what(), "1 point passed the filter; a surface needs at least four that "
                                    "do not lie in one plane");
     }
+}
+
+TEST(Reconstruct, NamesTheFilterThatLeftTooFewPoints)
+{
+    const auto refused = [](const auto& change) {
+        Scene scene = bumpy_sphere(200, 1);
+        Options options;
+        change(scene, options);
+        return refusal<InputError>([&] { run(scene, options); });
+    };
+    const std::string begin = "0 points passed the filter; a surface needs at least four that do "
+                              "not lie in one plane. ";
+    EXPECT_EQ(
+        refused([](Scene& /*scene*/, Options& options) { options.points.min_views = 1000; }),
+        begin +
+            "200 of 200 points fell to --min-views 1000; try a smaller one, or --sights nearest");
+    // 23 points have one view or none.
+    EXPECT_EQ(
+        refused([](Scene& /*scene*/, Options& options) { options.points.min_angle_deg = 180.0; }),
+        begin + "177 of 200 points fell to --min-angle 180; try a smaller one");
+    EXPECT_EQ(refused([](Scene& scene, Options& /*options*/) { scene.errors_px.assign(200, 9.0); }),
+              begin + "177 of 200 points fell to --max-error 4; try a larger one");
+    EXPECT_EQ(refused([](Scene& scene, Options& options) {
+                  scene.tracks = {};
+                  scene.tracks.begins.assign(201, 0);
+                  options.points.min_views = 1;
+              }),
+              begin + "200 of 200 points fell to --min-views 1; try --sights nearest");
+}
+
+TEST(Reconstruct, WarnsOfACameraThatHardlyMoved)
+{
+    class Notes : public Log {
+      public:
+        void note(std::string_view sentence) override { all.emplace_back(sentence); }
+        std::vector<std::string> all;
+    };
+    Scene scene = bumpy_sphere(400, 1);
+    Notes moved;
+    reconstruct(scene, {}, moved);
+    EXPECT_THAT(moved.all, ::testing::IsEmpty());
+    const Eigen::Vector3d stand(0, 0, 50);
+    for (View& view : scene.views) {
+        view.center = stand + 0.2 * view.center;
+    }
+    Notes still;
+    reconstruct(scene, {}, still);
+    EXPECT_THAT(still.all, ::testing::Contains(::testing::StartsWith(
+                               "the rays of half of the points meet at less than 1.")));
 }
 
 TEST(Reconstruct, TellsTheLogEveryStageOnce)

@@ -156,6 +156,25 @@ TEST_F(Work, IsOneRunsAtATime)
     EXPECT_TRUE(work.has("numbers"));
 }
 
+TEST_F(Work, IsLockedBeforeItIsChecked)
+{
+    const WorkFolder work(path);
+    folder.write("work/notes.txt", "mine"); // would be refused, were the folder free
+    EXPECT_THAT(refusal<InputError>([&] { WorkFolder other(path); }),
+                StartsWith("another run works in the folder"));
+}
+
+TEST_F(Work, LeavesForeignLockFiles)
+{
+    folder.write("work/lock", "mine");
+    folder.write("work/notes.txt", "mine");
+    for (int i = 0; i < 2; ++i) { // unlocked after the first
+        EXPECT_THAT(refusal<UsageError>([&] { WorkFolder other(path); }),
+                    HasSubstr("is no work folder"));
+    }
+    EXPECT_EQ(bytes_of(path / "lock"), "mine");
+}
+
 TEST_F(Work, IsFreeWhenItsProcessWasKilled)
 {
     int ready[2] = {};

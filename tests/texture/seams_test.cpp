@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 
 namespace vcarve::seams_test {
@@ -169,6 +170,18 @@ TEST(SeamLevels, TakeExposuresAsTheyAreAfterTheGains)
         level_seams(wall.mesh, wall.photos, wall.colors, gains, wall.photo_of_face);
     for (const auto& corners : levels) {
         EXPECT_NEAR(corners[0].abs().maxCoeff(), 0.0, 1e-4);
+    }
+}
+
+TEST(SeamLevels, AreZeroIfTheEquationsHaveNoFiniteSolution)
+{
+    const BrighterHalf wall(25);
+    const float infinity = std::numeric_limits<float>::infinity();
+    const Gains gains = {Eigen::Array3f::Constant(infinity), Eigen::Array3f::Ones()};
+    const CornerLevels levels =
+        level_seams(wall.mesh, wall.photos, wall.colors, gains, wall.photo_of_face);
+    for (const auto& corners : levels) {
+        EXPECT_EQ(corners[0].abs().maxCoeff(), 0.0F);
     }
 }
 

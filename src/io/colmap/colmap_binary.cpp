@@ -101,8 +101,9 @@ void read_binary_sights(const std::filesystem::path& path, const TakeSight& told
 {
     const auto take = [&](ByteReader& reader, const ImageRecord& image, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) {
-            reader.skip(1, kPoint2dBytes - sizeof(std::uint64_t));
-            told(image.id, reader.read<std::uint64_t>("the point of a 2D point"));
+            const auto x_px = reader.read<double>("the place of a 2D point");
+            const auto y_px = reader.read<double>("the place of a 2D point");
+            told(image.id, reader.read<std::uint64_t>("the point of a 2D point"), {x_px, y_px});
         }
     };
     read_each_binary_image(path, progress, take);

@@ -9,8 +9,9 @@
 
 namespace vcarve {
 
-/// Is told of an image and of a point that one of its 2D points is of, if there is such a point.
-using TakeSight = std::function<void(std::uint32_t image_id, std::uint64_t point_id)>;
+/// Receives a 2D point of an image: the pixel, and the id of its point, if there is such a point.
+using TakeSight = std::function<void(std::uint32_t image_id, std::uint64_t point_id,
+                                     const Eigen::Vector2d& place_px)>;
 
 /// Readers of a model's three files, to be called in this order; each puts what its file holds into
 /// a builder. The last reads the file of images again.

@@ -4,6 +4,7 @@
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/scene_builder.h"
+#include "model/camera.h"
 
 #include <algorithm>
 #include <fstream>
@@ -38,6 +39,25 @@ SceneBuilder read_views(const std::filesystem::path& folder, ModelFormat format,
     return builder;
 }
 
+/// Calls take(point, view, place_px) for the 2D points that are of a point of the scene.
+template <typename Take>
+void visit_points2d(const std::filesystem::path& folder, ModelFormat format, const Scene& scene,
+                    const Progress& progress, const Take& take)
+{
+    std::vector<std::uint32_t> by_id(scene.num_points());
+    std::iota(by_id.begin(), by_id.end(), 0U);
+    const auto id_of = [&](std::uint32_t point) { return scene.point_ids[point]; };
+    std::ranges::sort(by_id, {}, id_of);
+    const auto told = [&](std::uint32_t image_id, std::uint64_t point_id,
+                          const Eigen::Vector2d& place_px) {
+        const auto point = std::ranges::lower_bound(by_id, point_id, {}, id_of);
+        if (point == by_id.end() || id_of(*point) != point_id) return;
+        const auto view = std::ranges::lower_bound(scene.views, image_id, {}, &View::id);
+        take(*point, static_cast<std::uint32_t>(view - scene.views.begin()), place_px);
+    };
+    reader_of(format).read_sights(model_path(folder, "images", format), told, progress);
+}
+
 constexpr std::uint64_t kCountBytes = 8;
 
 /// The count a binary file begins with.
@@ -67,18 +87,11 @@ Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
 Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat format,
                              const Scene& scene, const Progress& progress)
 {
-    std::vector<std::uint32_t> by_id(scene.num_points());
-    std::iota(by_id.begin(), by_id.end(), 0U);
-    const auto id_of = [&](std::uint32_t point) { return scene.point_ids[point]; };
-    std::ranges::sort(by_id, {}, id_of);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> sights; // point, view
-    const auto take = [&](std::uint32_t image_id, std::uint64_t point_id) {
-        const auto point = std::ranges::lower_bound(by_id, point_id, {}, id_of);
-        if (point == by_id.end() || id_of(*point) != point_id) return;
-        const auto view = std::ranges::lower_bound(scene.views, image_id, {}, &View::id);
-        sights.emplace_back(*point, static_cast<std::uint32_t>(view - scene.views.begin()));
-    };
-    reader_of(format).read_sights(model_path(folder, "images", format), take, progress);
+    visit_points2d(folder, format, scene, progress,
+                   [&](std::uint32_t point, std::uint32_t view, const Eigen::Vector2d& /*px*/) {
+                       sights.emplace_back(point, view);
+                   });
     sort_unique(sights);
     Tracks tracks;
     auto sight = sights.begin();
@@ -89,6 +102,23 @@ Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat fo
         tracks.begins.push_back(tracks.views.size());
     }
     return tracks;
+}
+
+bool points2d_agree(const std::filesystem::path& folder, ModelFormat format, const Scene& scene)
+{
+    constexpr double kNearPx = 4.0; // the largest error that COLMAP's mapper keeps
+    std::size_t all = 0;
+    std::size_t near = 0;
+    visit_points2d(folder, format, scene, {},
+                   [&](std::uint32_t point, std::uint32_t view, const Eigen::Vector2d& place_px) {
+                       const View& from = scene.views[view];
+                       const auto shown =
+                           project(scene.cameras[from.camera],
+                                   from.cam_from_world * (scene.positions[point] - from.center));
+                       ++all;
+                       near += shown && (*shown - place_px).norm() <= kNearPx ? 1 : 0;
+                   });
+    return 4 * near > 3 * all;
 }
 
 ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,

@@ -50,7 +50,11 @@ Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
 Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat format,
                              const Scene& scene, const Progress& progress = {});
 
-/// The same without the points, whose file is not read.
+/// Whether more than three quarters of the 2D points of the images lie within 4 pixels of the
+/// projections of their points, in the image or beyond its edges. Cost: as read_tracks_of_images.
+bool points2d_agree(const std::filesystem::path& folder, ModelFormat format, const Scene& scene);
+
+/// As read_colmap_model without the points, whose file is not read.
 ColmapViews read_colmap_views(const std::filesystem::path& folder, ModelFormat format,
                               const Progress& progress = {});
 

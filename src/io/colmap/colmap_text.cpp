@@ -109,9 +109,9 @@ void read_text_sights(const std::filesystem::path& path, const TakeSight& told,
 {
     read_each_text_image(path, progress, [&](TextReader& reader, const ImageRecord& image) {
         while (!reader.at_line_end()) {
-            reader.read_word("the place of a 2D point");
-            reader.read_word("the place of a 2D point");
-            told(image.id, reader.read_uint64_or_none("the point of a 2D point"));
+            const double x_px = reader.read_double("the place of a 2D point");
+            const double y_px = reader.read_double("the place of a 2D point");
+            told(image.id, reader.read_uint64_or_none("the point of a 2D point"), {x_px, y_px});
         }
     });
 }

@@ -76,14 +76,14 @@ std::vector<std::string> names_in(const fs::path& folder)
     return names;
 }
 
-/// What the header of points3D.bin says, or zero where the file cannot hold that many.
-std::uint64_t count_points_binary(const fs::path& path)
+std::uint64_t count_points_binary(const fs::path& path, std::string* fault)
 {
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
     try {
         return reader.read_count(kPointBytes, "points");
-    } catch (const InputError&) {
+    } catch (const InputError& error) {
+        if (fault != nullptr) *fault = error.what();
         return 0;
     }
 }
@@ -101,11 +101,12 @@ std::uint64_t count_points_text(const fs::path& path)
 
 } // namespace
 
-std::uint64_t count_points(const fs::path& folder, ModelFormat format)
+std::uint64_t count_points(const fs::path& folder, ModelFormat format, std::string* fault)
 {
     const fs::path path = folder / model_file("points3D", format);
     if (!is_file(path)) return 0;
-    return format == ModelFormat::binary ? count_points_binary(path) : count_points_text(path);
+    return format == ModelFormat::binary ? count_points_binary(path, fault)
+                                         : count_points_text(path);
 }
 
 namespace {

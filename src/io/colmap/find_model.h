@@ -22,8 +22,10 @@ struct FoundModel {
 };
 
 /// How many points a model has: what the header of points3D.bin says, or zero where the file cannot
-/// hold that many; as many as points3D.txt has lines; zero where there is neither.
-std::uint64_t count_points(const std::filesystem::path& folder, ModelFormat format);
+/// hold that many, which `fault` says as a sentence if it is not null; as many as points3D.txt has
+/// lines; zero where there is neither.
+std::uint64_t count_points(const std::filesystem::path& folder, ModelFormat format,
+                           std::string* fault = nullptr);
 
 /// Finds the model that `input` means: the model's own folder or a file in it, a `sparse` folder
 /// with components (the one with most points is taken), a workspace that holds `sparse/0` or

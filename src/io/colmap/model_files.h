@@ -1,11 +1,11 @@
 #pragma once
 
 #include "io/colmap/colmap_model.h"
+#include "io/files/mapped_file.h"
 
 #include <array>
 #include <filesystem>
 #include <string>
-#include <system_error>
 
 namespace vcarve {
 
@@ -14,8 +14,7 @@ inline constexpr std::array<const char*, 3> kModelFiles{"cameras", "images", "po
 
 /// What may stand for points3D beside the others, as converters write it.
 inline constexpr const char* kPointsPly = "points3D.ply";
-/// nerfstudio's poses and, beside them, their points.
-inline constexpr const char* kTransforms = "transforms.json";
+/// The points beside nerfstudio's poses.
 inline constexpr const char* kSparsePly = "sparse_pc.ply";
 
 /// The name of one of them: model_file("images", ModelFormat::text) is "images.txt".
@@ -34,18 +33,5 @@ inline std::filesystem::path model_path(const std::filesystem::path& model, cons
 /// The fewest bytes a point takes in points3D.bin: id, position, colour, error, length of the
 /// track.
 inline constexpr std::size_t kPointBytes = 8 + 3 * 8 + 3 + 8 + 8;
-
-/// Whether there is a file, or a folder, that links lead to; what cannot be asked is none.
-inline bool is_file(const std::filesystem::path& path)
-{
-    std::error_code error;
-    return std::filesystem::is_regular_file(path, error);
-}
-
-inline bool is_folder(const std::filesystem::path& path)
-{
-    std::error_code error;
-    return std::filesystem::is_directory(path, error);
-}
 
 } // namespace vcarve

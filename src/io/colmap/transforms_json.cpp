@@ -9,6 +9,7 @@
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
 #include "io/files/mapped_file.h"
+#include "io/images/read_photograph.h"
 #include "model/lens.h"
 #include "model/similarity.h"
 #include "vcarve/error.h"
@@ -109,14 +110,38 @@ Json parse(const fs::path& path)
     }
 }
 
+/// JSON of other programs, by a key of it or of its first entry.
+constexpr struct {
+    const char* key;
+    const char* sentence;
+} kOthers[] = {
+    {"img_name",
+     "is the list of cameras of 3D Gaussian splatting, which is not read: give the COLMAP model "
+     "that it was trained on (source_path in cfg_args), with --points "
+     "point_cloud/iteration_30000/point_cloud.ply for its Gaussians"},
+    {"shots", "is a reconstruction of OpenSfM, which is not read: opensfm export_colmap DATASET "
+              "makes a folder that is"},
+    {"sfm_data_version", "is a scene of OpenMVG, which is not read: openMVG_main_openMVG2Colmap -i "
+                         "{} -o FOLDER makes a folder that is"}};
+
 /// The entries of `frames`, of which there is at least one.
 Place frames_of(const Json& json, const fs::path& path)
 {
+    const Json& first = json.is_array() && !json.empty() ? json.front() : json;
+    for (const auto& [key, sentence] : kOthers) {
+        if (!first.contains(key)) continue;
+        throw InputError(path.string() + ": " + fmt::format(fmt::runtime(sentence), path.string()));
+    }
     Place frames = Place{path, "", &json}.member("frames");
     if (!frames.is_array() || frames.value->empty()) {
         frames.refuse("a list of images with their poses, as nerfstudio and instant-ngp write it");
     }
     return frames;
+}
+
+std::string name_of(const Place& frame)
+{
+    return frame.member("file_path").text("the name of the image");
 }
 
 /// What is said of the lens of an image, by the image or for all.
@@ -127,8 +152,8 @@ class Lens {
     Camera camera() const
     {
         Camera camera;
-        camera.width_px = size_px("w");
-        camera.height_px = size_px("h");
+        camera.width_px = size_px("w", &PhotographSize::width_px);
+        camera.height_px = size_px("h", &PhotographSize::height_px);
         const auto width = static_cast<double>(camera.width_px);
         const auto height = static_cast<double>(camera.height_px);
         const double focal_x = focal_px("fl_x", "camera_angle_x", width, 0.0);
@@ -153,10 +178,21 @@ class Lens {
         return place.value == nullptr ? other : place.number("a number");
     }
 
-    std::uint64_t size_px(const std::string& key) const
+    /// Of the picture of the frame, whose name may lack its end, as in scenes of Blender.
+    PhotographSize picture_size(const Place& missing) const
+    {
+        for (const char* const end : {"", ".png", ".jpg", ".jpeg"}) {
+            const fs::path file = frame_.file.parent_path() / (name_of(frame_) + end);
+            if (is_file(file)) return photograph_size(file);
+        }
+        missing.refuse("the size of the images in pixels, or the image itself");
+    }
+
+    std::uint64_t size_px(const std::string& key, int PhotographSize::*side) const
     {
         constexpr const char* kExpected = "the size of the images in pixels";
         const Place place = at(key);
+        if (place.value == nullptr) return static_cast<std::uint64_t>(picture_size(place).*side);
         const double size = place.number(kExpected);
         if (!(size >= 1.0 && size <= 1e9) || size != std::floor(size)) place.refuse(kExpected);
         return static_cast<std::uint64_t>(size);
@@ -247,23 +283,22 @@ std::vector<Camera> cameras_of(const Json& json, const Place& frames)
     return cameras;
 }
 
-Matrix34 pose_of(const Place& frame)
+/// A similarity in 3 or 4 rows of 4 numbers.
+Matrix34 matrix_in(const Place& rows, const char* expected)
 {
-    constexpr const char* kExpected = "a pose: 4 rows of 4 numbers, from the camera to the world";
-    const Place rows = frame.member("transform_matrix");
     if (!rows.is_array() || rows.value->size() < 3 || rows.value->size() > 4) {
-        rows.refuse(kExpected);
+        rows.refuse(expected);
     }
     Matrix34 pose;
     for (int r = 0; r < 3; ++r) {
         const Place row = rows.entry(static_cast<std::size_t>(r));
-        if (!row.is_array() || row.value->size() != 4) row.refuse(kExpected);
+        if (!row.is_array() || row.value->size() != 4) row.refuse(expected);
         for (int c = 0; c < 4; ++c) {
             pose(r, c) = row.entry(static_cast<std::size_t>(c)).number("a number");
         }
     }
     const std::string fault = fault_of_similarity(pose);
-    if (!fault.empty()) rows.refuse(fault, "a rotation and a place, from the camera to the world");
+    if (!fault.empty()) rows.refuse(fault, expected);
     return pose;
 }
 
@@ -286,13 +321,14 @@ void read_frame_images(const fs::path& path, SceneBuilder& builder, const Progre
     const std::vector<Camera> cameras = cameras_of(json, frames);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const Place frame = frames.entry(i);
-        const Similarity pose = similarity_of(pose_of(frame));
+        const Similarity pose =
+            similarity_of(matrix_in(frame.member("transform_matrix"),
+                                    "a pose: 4 rows of 4 numbers, from the camera to the world"));
         // From axes with y up and z backwards
         const Eigen::Matrix3d world_from_cam =
             pose.linear / pose.scale * Eigen::Vector3d(1, -1, -1).asDiagonal();
         const Eigen::Quaterniond rotation(Eigen::Matrix3d(world_from_cam.transpose()));
-        const std::string name =
-            fs::path(frame.member("file_path").text("the name of the image")).lexically_normal();
+        const std::string name = fs::path(name_of(frame)).lexically_normal();
         builder.add_image(
             {.id = static_cast<std::uint32_t>(i + 1),
              .rotation_wxyz = {rotation.w(), rotation.x(), rotation.y(), rotation.z()},
@@ -318,6 +354,24 @@ fs::path points_of_transforms(const fs::path& file)
         if (is_file(folder / name)) return folder / name;
     }
     return {};
+}
+
+Similarity read_nerfstudio_transform(const fs::path& file, const fs::path& poses)
+{
+    constexpr const char* kExpected = "a matrix of 3 rows of 4 numbers";
+    const Json json = parse(file);
+    const Place all{file, "", &json};
+    const Place scale = all.member("scale");
+    const double factor = scale.number("the scale of nerfstudio");
+    if (!(factor > 0.0)) scale.refuse("a scale above 0");
+    Eigen::AffineCompact3d to;
+    to.matrix() = factor * matrix_in(all.member("transform"), kExpected);
+    const Json saved = poses.empty() ? Json() : parse(poses);
+    const Place applied = Place{poses, "", &saved}.member("applied_transform");
+    if (applied.value == nullptr) return similarity_of(to.matrix());
+    Eigen::AffineCompact3d first;
+    first.matrix() = matrix_in(applied, kExpected);
+    return similarity_of((to * first.inverse()).matrix());
 }
 
 } // namespace vcarve

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
@@ -28,26 +27,29 @@ constexpr Foreign kForeign[] = {
     {"\x1f\x8b", "is a gzip archive: unpack it first"},
 };
 
+/// The same by the ends of names, each between blanks.
 constexpr Foreign kForeignNames[] = {
-    {".las", "is a scan as LAS, which is not read: pdal translate {0} {0}.ply converts it"},
-    {".laz", "is a scan as LAZ, which is not read: pdal translate {0} {0}.ply converts it"},
-    {".e57", "is a scan as E57, which is not read: pdal translate {0} {0}.ply converts it"},
-    {".pcd", "is a cloud of PCL, which is not read: pcl_pcd2ply {0} {0}.ply converts it"},
-    {".xyz", "is a cloud as text, which is not read: pdal translate --reader readers.text "
-             "--readers.text.header=\"X Y Z\" {0} {0}.ply converts it (the header names all of its "
-             "columns)"},
-    {".nvm", "is a model of VisualSFM, which is not read: kapture_import_nvm.py -i {0} -im IMAGES "
-             "-o KAPTURE --add-reconstruction, then kapture_export_colmap.py -i KAPTURE -db "
-             "KAPTURE/colmap.db -txt FOLDER make a folder that is"},
-    {".out", "is a model of Bundler, which is not read: kapture_import_bundler.py -i {0} -l "
-             "LIST.txt -im IMAGES -o KAPTURE --add-reconstruction, then kapture_export_colmap.py "
-             "-i KAPTURE -db KAPTURE/colmap.db -txt FOLDER make a folder that is"},
-    {".mvs", "is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i {0} -o FOLDER brings it "
-             "into a folder that is"},
-    {".obj", "is a mesh, but a model or a cloud is wanted"},
-    {".off", "is a mesh, but a model or a cloud is wanted"},
-    {".stl", "is a mesh, but a model or a cloud is wanted"},
-    {".glb", "is a mesh, but a model or a cloud is wanted"},
+    {" .las .laz .e57 ", "is a scan, which is not read: pdal translate {0} {0}.ply converts it"},
+    {" .pcd ", "is a cloud of PCL, which is not read: pcl_pcd2ply {0} {0}.ply converts it"},
+    {" .xyz ", "is a cloud as text, which is not read: pdal translate --reader readers.text "
+               "--readers.text.header=\"X Y Z\" {0} {0}.ply converts it (the header names all of "
+               "its columns)"},
+    {" .splat .spz ", "is a packed splat, which is not read: splat-transform {0} {0}.ply converts "
+                      "it to a cloud for --points, beside a COLMAP model"},
+    {" .nvm ",
+     "is a model of VisualSFM, which is not read: kapture_import_nvm.py -i {0} -im IMAGES "
+     "-o KAPTURE --add-reconstruction, then kapture_export_colmap.py -i KAPTURE -db "
+     "KAPTURE/colmap.db -txt FOLDER make a folder that is"},
+    {" .out ", "is a model of Bundler, which is not read: kapture_import_bundler.py -i {0} -l "
+               "LIST.txt -im IMAGES -o KAPTURE --add-reconstruction, then kapture_export_colmap.py "
+               "-i KAPTURE -db KAPTURE/colmap.db -txt FOLDER make a folder that is"},
+    {" .mvs ", "is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i {0} -o FOLDER brings "
+               "it into a folder that is"},
+    {" .sfm ", "is a scene of Meshroom, which is not read: aliceVision_exportColmap -i {0} -o "
+               "FOLDER makes a folder that is"},
+    {" .xml ", "is no model that is read; if it is of Metashape, its Export Cameras makes a folder "
+               "that is, with the format Colmap"},
+    {" .obj .off .stl .glb ", "is a mesh, but a model or a cloud is wanted"},
 };
 
 } // namespace
@@ -55,9 +57,8 @@ constexpr Foreign kForeignNames[] = {
 void refuse_foreign_file(const std::filesystem::path& path, std::span<const char> bytes)
 {
     constexpr std::size_t kLongest = 32;
-    std::string begin(bytes.data(), std::min(bytes.size(), kLongest));
-    std::ranges::transform(begin, begin.begin(),
-                           [](unsigned char letter) { return std::tolower(letter); });
+    const std::string begin =
+        lower_case(std::string(bytes.data(), std::min(bytes.size(), kLongest)));
     for (const Foreign& foreign : kForeign) {
         if (!begin.starts_with(foreign.begin)) continue;
         throw InputError(fmt::format("{} {}", path.string(), foreign.sentence));
@@ -66,16 +67,18 @@ void refuse_foreign_file(const std::filesystem::path& path, std::span<const char
 
 void refuse_foreign_name(const std::filesystem::path& path)
 {
-    const std::string end = lower_case_end(path);
-    const auto* const foreign = std::ranges::find(kForeignNames, end, &Foreign::begin);
-    if (foreign == std::ranges::end(kForeignNames)) return;
-    throw InputError(path.string() + ": " +
-                     fmt::format(fmt::runtime(foreign->sentence), path.string()));
+    const std::string end = fmt::format(" {} ", lower_case_end(path));
+    for (const Foreign& foreign : kForeignNames) {
+        if (foreign.begin.find(end) == std::string_view::npos) continue;
+        throw InputError(path.string() + ": " +
+                         fmt::format(fmt::runtime(foreign.sentence), path.string()));
+    }
 }
 
 bool has_image_name(const std::filesystem::path& path)
 {
-    constexpr std::string_view kEnds[] = {".jpg", ".jpeg", ".png", ".tif", ".tiff"};
+    constexpr std::string_view kEnds[] = {".jpg",  ".jpeg", ".png", ".tif", ".tiff",
+                                          ".webp", ".bmp",  ".tga", ".ppm", ".pgm"};
     return std::ranges::count(kEnds, lower_case_end(path)) > 0;
 }
 

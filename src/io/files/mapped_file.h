@@ -7,8 +7,26 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <system_error>
 
 namespace vcarve {
+
+/// Files with the poses of nerfstudio, and of Blender's scripts for NeRF.
+inline constexpr const char* kTransforms = "transforms.json";
+inline constexpr const char* kTransformsTrain = "transforms_train.json";
+
+/// Whether there is a file, or a folder, that links lead to; what cannot be asked is none.
+inline bool is_file(const std::filesystem::path& path)
+{
+    std::error_code error;
+    return std::filesystem::is_regular_file(path, error);
+}
+
+inline bool is_folder(const std::filesystem::path& path)
+{
+    std::error_code error;
+    return std::filesystem::is_directory(path, error);
+}
 
 /// Why there is no file of that path, as a clause; empty where there is one.
 std::string why_no_file(const std::filesystem::path& path);

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -80,11 +81,16 @@ int open_for_writing(const fs::path& path, const fs::path& target, const fs::pat
         return device;
     }
     ::unlink(part.c_str());
-    const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    struct stat replaced = {};
+    const bool exists = ::stat(target.c_str(), &replaced) == 0;
+    const int descriptor =
+        ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : 0666);
     if (descriptor < 0) {
         refuse(path, fmt::format("no file can be created in the folder {}: {}",
                                  folder_of(target).string(), std::strerror(errno)));
     }
+    // File systems without permissions refuse; the file then has the mode of all their files.
+    if (exists) static_cast<void>(::fchmod(descriptor, replaced.st_mode & 0777));
     return descriptor;
 }
 

@@ -22,7 +22,8 @@ void require_writable(const std::filesystem::path& path);
 void print(std::string_view text);
 
 /// A file that appears whole or not at all: what is streamed goes to part_path(path), commit()
-/// renames it, and without a commit the destructor removes it. A character device (/dev/null,
+/// renames it, and without a commit the destructor removes it. A file that is replaced passes on
+/// its permissions. A character device (/dev/null,
 /// /dev/stdout) cannot be replaced and is written straight. One object a path at a time.
 class OutputFile {
   public:

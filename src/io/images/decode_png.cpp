@@ -2,7 +2,6 @@
 
 #include <png.h>
 
-#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstring>
@@ -83,12 +82,7 @@ class PngReader {
             png_read_end(png_, nullptr);
         });
         if (!is_whole) refuse_image(file_, "PNG", state_.message.data());
-        if (!has_alpha) return photo;
-        for (std::size_t i = 0; i < pixels.size(); i += 4) {
-            std::copy_n(&pixels[i], 3, &photo.rgb[i / 4 * 3]);
-            photo.alpha.push_back(pixels[i + 3]);
-        }
-        forget_opaque(photo);
+        if (has_alpha) split_alpha(pixels.data(), photo);
         return photo;
     }
 

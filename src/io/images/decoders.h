@@ -18,12 +18,16 @@ struct ImageFile {
 PhotographSize jpeg_size(const ImageFile& file);
 PhotographSize png_size(const ImageFile& file);
 PhotographSize pnm_size(const ImageFile& file);
+PhotographSize stb_size(const ImageFile& file); ///< BMP and TGA
 PhotographSize tiff_size(const ImageFile& file);
+PhotographSize webp_size(const ImageFile& file);
 
 Photograph decode_jpeg(const ImageFile& file);
 Photograph decode_png(const ImageFile& file);
 Photograph decode_pnm(const ImageFile& file); ///< binary PPM and PGM
+Photograph decode_stb(const ImageFile& file); ///< BMP and TGA; without RLE the former
 Photograph decode_tiff(const ImageFile& file);
+Photograph decode_webp(const ImageFile& file);
 
 /// Throws InputError with the library's reason.
 [[noreturn]] void refuse_image(const ImageFile& file, const char* kind, std::string_view reason);
@@ -33,6 +37,9 @@ PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::
 
 /// Empties the alpha channel if no pixel is transparent.
 void forget_opaque(Photograph& photo);
+
+/// Fills a photograph with the pixels of a file with alpha.
+void split_alpha(const std::uint8_t* rgba, Photograph& photo);
 
 /// One of that size, to be filled.
 Photograph blank_photograph(const PhotographSize& size);

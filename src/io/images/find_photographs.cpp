@@ -2,17 +2,16 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
-#include "io/colmap/model_files.h"
+#include "io/files/foreign_file.h"
+#include "io/files/mapped_file.h"
 #include "io/images/read_photograph.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <string_view>
 #include <system_error>
 
 namespace vcarve {
@@ -20,10 +19,6 @@ namespace vcarve {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Ends of the names of photographs, in lower case.
-constexpr std::array<std::string_view, 7> kEnds = {".jpg",  ".jpeg", ".png", ".tif",
-                                                   ".tiff", ".ppm",  ".pgm"};
 
 bool leads_out(const fs::path& name)
 {
@@ -60,7 +55,7 @@ class SimilarNames {
         std::error_code error;
         for (fs::recursive_directory_iterator at(folder, error), end; at != end && !error;
              at.increment(error)) {
-            if (std::ranges::count(kEnds, lower_case_end(at->path())) == 0) continue;
+            if (!has_image_name(at->path())) continue;
             if (!std::ranges::binary_search(taken, at->path())) files.push_back(at->path());
         }
         std::ranges::sort(files);
@@ -73,8 +68,8 @@ class SimilarNames {
 
     fs::path find(const fs::path& name) const
     {
-        const auto known_end = std::ranges::count(kEnds, lower_case_end(name)) > 0;
-        for (const fs::path& key : {name, known_end ? fs::path(name).replace_extension() : name}) {
+        for (const fs::path& key :
+             {name, has_image_name(name) ? fs::path(name).replace_extension() : name}) {
             const auto found = files_.find(lower_case(key.lexically_normal().generic_string()));
             if (found != files_.end()) return found->second;
         }
@@ -206,7 +201,7 @@ std::optional<fs::path> photographs_beside(const fs::path& model)
     if (lower_case_end(model) == ".json") return folder.parent_path();
     const auto images_in = [](const fs::path& parent) { return parent / "images"; };
     if (is_folder(images_in(model))) return images_in(model);
-    if (is_file(model / kTransforms)) return folder;
+    if (is_file(model / kTransforms) || is_file(model / kTransformsTrain)) return folder;
     const fs::path parent = folder.parent_path();
     if (folder.filename() == "sparse" && is_folder(images_in(parent))) return images_in(parent);
     const fs::path above = parent.parent_path();

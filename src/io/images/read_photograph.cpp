@@ -1,5 +1,6 @@
 #include "io/images/read_photograph.h"
 
+#include "base/text.h"
 #include "io/files/mapped_file.h"
 #include "io/images/decoders.h"
 #include "vcarve/error.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace vcarve {
 
@@ -23,7 +25,9 @@ struct Decoder {
 constexpr Decoder kJpeg{jpeg_size, decode_jpeg};
 constexpr Decoder kPng{png_size, decode_png};
 constexpr Decoder kPnm{pnm_size, decode_pnm};
+constexpr Decoder kStb{stb_size, decode_stb};
 constexpr Decoder kTiff{tiff_size, decode_tiff};
+constexpr Decoder kWebp{webp_size, decode_webp};
 
 /// What a file begins with; TIFF has two orders of bytes, and two sizes of offsets.
 constexpr struct {
@@ -38,6 +42,14 @@ constexpr struct {
     {"MM\0*"sv, kTiff},
     {"II+\0"sv, kTiff},
     {"MM\0+"sv, kTiff},
+    {"BM"sv, kStb},
+};
+
+/// Formats that are not read, by what stands in their first 12 bytes.
+constexpr std::pair<std::string_view, const char*> kUnread[] = {
+    {"GIF8", "a GIF"},         {"JXL ", "a JPEG XL"},    {"jP  ", "a JPEG 2000"},
+    {"ftypavif", "an AVIF"},   {"ftyphei", "a HEIC"},    {"ftypmif1", "a HEIC"},
+    {"P3\n", "a PPM as text"}, {"P3 ", "a PPM as text"},
 };
 
 const Decoder& decoder_of(const std::filesystem::path& path, std::span<const char> bytes)
@@ -51,10 +63,16 @@ const Decoder& decoder_of(const std::filesystem::path& path, std::span<const cha
     for (const auto& kind : kKinds) {
         if (text.starts_with(kind.begin)) return kind.decoder;
     }
-    throw InputError(
-        fmt::format("{}: found neither JPEG, PNG, TIFF nor PPM by the first bytes, but "
-                    "photographs are read as these only; convert it to one of them",
-                    path.string()));
+    if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP")) return kWebp;
+    // TGA has no first bytes; its second version ends with a word.
+    if (lower_case_end(path) == ".tga" || text.ends_with("TRUEVISION-XFILE.\0"sv)) return kStb;
+    const auto* const unread = std::ranges::find_if(kUnread, [&](const auto& kind) {
+        return text.substr(0, 12).find(kind.first) != std::string_view::npos;
+    });
+    const bool is_known = unread != std::ranges::end(kUnread);
+    throw InputError(fmt::format("{}: found {}, but photographs are read as JPEG, PNG, TIFF, WebP, "
+                                 "BMP, TGA, PPM and PGM only; convert it to one of them",
+                                 path.string(), is_known ? unread->second : "an unknown format"));
 }
 
 ImageFile image_file(const std::filesystem::path& path, std::span<const char> bytes)
@@ -86,6 +104,15 @@ PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::
 void forget_opaque(Photograph& photo)
 {
     if (std::ranges::count(photo.alpha, 0) == 0) photo.alpha = {};
+}
+
+void split_alpha(const std::uint8_t* rgba, Photograph& photo)
+{
+    for (std::size_t i = 0; i < photo.rgb.size(); i += 3, rgba += 4) {
+        std::copy_n(rgba, 3, &photo.rgb[i]);
+        photo.alpha.push_back(rgba[3]);
+    }
+    forget_opaque(photo);
 }
 
 Photograph blank_photograph(const PhotographSize& size)

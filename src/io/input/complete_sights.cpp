@@ -103,7 +103,7 @@ Shown count_shown(const Scene& scene)
 
 } // namespace
 
-std::vector<std::string> complete_sights(const FoundInput& found, const DroppedSights& dropped,
+std::vector<std::string> complete_sights(FoundInput& found, const DroppedSights& dropped,
                                          Scene& scene, const Progress& progress)
 {
     const FoundModel& model = found.model;
@@ -131,6 +131,7 @@ std::vector<std::string> complete_sights(const FoundInput& found, const DroppedS
     }
     if (!are_most(still_few)) return notes;
     scene.tracks = joined_where_few(scene.tracks, nearest_sights(scene, progress.part(0.3, 1.0)));
+    found.sights = SightsFrom::nearest;
     notes.push_back(fmt::format("nothing tells of {} of {} points which two views saw them, so "
                                 "the nearest views are taken before which no other point stands "
                                 "(--sights file leaves these points out)",

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 
@@ -219,8 +220,13 @@ FoundInput input_of_points(FoundModel model, const fs::path& cloud, const Points
 std::optional<FoundInput> points_ply_input(const FoundModel& model, const PointsOptions& options)
 {
     const fs::path cloud = model.folder / kPointsPly;
-    if (!is_file(cloud) || count_points(model.folder, model.format) > 0) return std::nullopt;
-    return input_of_points(model, cloud, options);
+    std::string fault;
+    if (!is_file(cloud) || count_points(model.folder, model.format, &fault) > 0) {
+        return std::nullopt;
+    }
+    FoundInput found = input_of_points(model, cloud, options);
+    if (!fault.empty()) found.notes.push_back(fault + "; copy it again to use its points");
+    return found;
 }
 
 /// The poses of transforms.json, and the points it names or --points does.
@@ -242,17 +248,21 @@ FoundInput transforms_input(const fs::path& file, const PointsOptions& options)
     return input_of_points({file, ModelFormat::transforms, {}}, cloud, options);
 }
 
-/// The transforms.json that is meant: the file itself, or the one of a folder without a model of
-/// COLMAP's, which has tracks.
+/// The file that is meant: itself, or the one of a folder without a model of COLMAP's, which has
+/// tracks.
 std::optional<fs::path> find_transforms(const fs::path& input)
 {
     if (is_file(input) && lower_case_end(input) == ".json") return input;
-    const fs::path file = input / kTransforms;
-    if (!is_file(file)) return std::nullopt;
+    // Reading the last three says how to convert them.
+    constexpr std::array kNames = {kTransforms, kTransformsTrain, "cameras.json",
+                                   "reconstruction.json", "sfm_data.json"};
+    const auto* const name =
+        std::ranges::find_if(kNames, [&](const char* each) { return is_file(input / each); });
+    if (name == kNames.end()) return std::nullopt;
     try {
         find_model(input);
     } catch (const InputError&) {
-        return file;
+        return input / *name;
     }
     return std::nullopt;
 }
@@ -310,8 +320,8 @@ FoundInput look_for_points(FoundModel model, const fs::path& input, const Points
 }
 
 constexpr const char* kNamesBesideModels[] = {
-    "rigs.bin",      "rigs.txt",    "frames.bin",  "frames.txt", "points3D.ply", "fused.ply",
-    "fused.ply.vis", "database.db", "project.ini", kTransforms,  kSparsePly};
+    "rigs.bin",      "rigs.txt",    "frames.bin",  "frames.txt", "points3D.ply",   "fused.ply",
+    "fused.ply.vis", "database.db", "project.ini", kTransforms,  kTransformsTrain, kSparsePly};
 
 void add_if_there(const fs::path& path, std::vector<fs::path>& files)
 {

@@ -20,6 +20,13 @@ struct FoundInput {
     std::optional<ScanFile> scan;
     std::vector<std::string> notes;            ///< sentences: what was taken and what not
     SightsFrom sights = SightsFrom::automatic; ///< of the points of the model
+
+    /// Whether the nearest views are taken for those that saw the points.
+    bool takes_nearest_views() const
+    {
+        return sights == SightsFrom::nearest ||
+               (dense && dense->visibility.empty() && !dense->takes_lists);
+    }
 };
 
 /// Finds what `input` and the options mean, see read_model. Throws UsageError where they contradict

@@ -91,7 +91,10 @@ Scene sparse_scene(FoundInput& found, const Progress& progress)
     Scene scene = read_colmap_model(found.model.folder, found.model.format, progress.part(0.0, 0.9),
                                     &dropped);
     const std::string warning = warning_of_poses(scene, file_of(found, "images"));
-    if (!warning.empty()) found.notes.push_back(warning);
+    // Points of cropped images show beyond their edges.
+    if (!warning.empty() && !points2d_agree(found.model.folder, found.model.format, scene)) {
+        found.notes.push_back(warning);
+    }
     std::ranges::move(complete_sights(found, dropped, scene, progress.part(0.9, 1.0)),
                       std::back_inserter(found.notes));
     return scene;

@@ -247,7 +247,7 @@ double PlyData::number_of_text()
     double value = 0.0;
     const char* const end = word.data() + word.size();
     const auto [stop, error] = std::from_chars(word.data() + sign, end, value);
-    if (error == std::errc::invalid_argument || stop != end) {
+    if (error != std::errc() || stop != end) {
         throw BadPlyEntry{fmt::format("found \"{:.40}\", expected a number", word)};
     }
     bytes_.remove_prefix(word.size());

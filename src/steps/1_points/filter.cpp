@@ -2,6 +2,7 @@
 
 #include "base/numbers.h"
 #include "base/parallel.h"
+#include "base/statistics.h"
 #include "base/union_find.h"
 #include "model/extent.h"
 #include "model/scene_check.h"
@@ -256,6 +257,22 @@ std::vector<std::uint32_t> first_at_place(const std::vector<Eigen::Vector3d>& po
     Points firsts;
     find_firsts(same_place_size(positions, finite), positions, finite, firsts);
     return firsts;
+}
+
+double median_angle_deg(const Scene& scene)
+{
+    return median_of_some(scene.num_points(), [&](std::size_t i) {
+        const auto track = scene.tracks[i];
+        const auto ray = [&](std::uint32_t view) {
+            return Vector3d(scene.views[view].center - scene.positions[i]).stableNormalized();
+        };
+        if (track.size() < 2 || has_measured_range(scene, track)) return -1.0;
+        double cosine = 1.0;
+        for (const std::uint32_t view : track) {
+            cosine = std::min(cosine, ray(track[0]).dot(ray(view)));
+        }
+        return std::acos(std::max(cosine, -1.0)) * 180.0 / std::numbers::pi;
+    });
 }
 
 FilteredPoints filter_points(Scene scene, const FilterOptions& options, const Progress& progress)

@@ -47,4 +47,9 @@ struct FilteredPoints {
 FilteredPoints filter_points(Scene scene, const FilterOptions& options,
                              const Progress& progress = {});
 
+/// Median over the points of the widest angle between their first ray and another, in degrees.
+/// Points of one view or of a scanner do not count; 0 if none counts. Cost: O(rays), of 100,000
+/// points at most.
+double median_angle_deg(const Scene& scene);
+
 } // namespace vcarve

@@ -4,12 +4,12 @@
 
 namespace vcarve {
 
-void require_four_points(std::size_t num_points)
+void require_four_points(std::size_t num_points, std::string_view losses)
 {
     if (num_points >= 4) return;
     throw InputError(fmt::format("{} point{} passed the filter; a surface needs at least four "
-                                 "that do not lie in one plane",
-                                 num_points, num_points == 1 ? "" : "s"));
+                                 "that do not lie in one plane{}",
+                                 num_points, num_points == 1 ? "" : "s", losses));
 }
 
 InputError all_in_one_plane(std::size_t num_points)

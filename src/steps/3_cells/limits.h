@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <string_view>
 
 namespace vcarve {
 
-/// Throws InputError where so few points are left that they have no tetrahedron.
-void require_four_points(std::size_t num_points);
+/// Throws InputError where so few points are left that they have no tetrahedron. `losses` ends the
+/// sentence: why the others are gone.
+void require_four_points(std::size_t num_points, std::string_view losses = {});
 
 /// What is thrown where the points do not span space.
 InputError all_in_one_plane(std::size_t num_points);

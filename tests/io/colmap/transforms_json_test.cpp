@@ -200,7 +200,86 @@ TEST_F(TransformsJson, SaysWhatWasFoundInstead)
     Json json = small_file();
     json.erase("w");
     EXPECT_EQ(refused(json.dump()),
-              "frames[0].w: found nothing, expected the size of the images in pixels");
+              "frames[0].w: found nothing, expected the size of the images in pixels, or the image "
+              "itself");
+}
+
+TEST_F(TransformsJson, TakesTheSizeFromThePicturesWhereItIsMissing)
+{
+    Json json = small_file();
+    json.erase("w");
+    json.erase("h");
+    json["frames"] = {{{"file_path", "./train/r_0"}, {"transform_matrix", kPose}},
+                      {{"file_path", "train/r_1.pgm"}, {"transform_matrix", kPose}}};
+    folder.write("train/r_0.png", "P5 3 2 255\nabcdef");
+    folder.write("train/r_1.pgm", "P5 4 1 255\nabcd");
+    const ColmapViews views = read(json);
+    ASSERT_EQ(views.cameras.size(), 2U);
+    EXPECT_EQ(views.cameras[0].width_px, 3U);
+    EXPECT_EQ(views.cameras[0].height_px, 2U);
+    EXPECT_EQ(views.cameras[1].width_px, 4U);
+    EXPECT_EQ(views.cameras[1].height_px, 1U);
+    EXPECT_EQ(views.views[0].name, "train/r_0");
+}
+
+TEST_F(TransformsJson, SaysHowToConvertOtherPrograms)
+{
+    EXPECT_EQ(refused(R"([{"id": 0, "img_name": "a", "position": [0, 0, 0]}])"),
+              "is the list of cameras of 3D Gaussian splatting, which is not read: give the COLMAP "
+              "model that it was trained on (source_path in cfg_args), with --points "
+              "point_cloud/iteration_30000/point_cloud.ply for its Gaussians");
+    EXPECT_EQ(refused(R"([{"cameras": {}, "shots": {}, "points": {}}])"),
+              "is a reconstruction of OpenSfM, which is not read: opensfm export_colmap DATASET "
+              "makes a folder that is");
+    EXPECT_EQ(refused(R"({"sfm_data_version": "0.3", "views": []})"),
+              "is a scene of OpenMVG, which is not read: openMVG_main_openMVG2Colmap -i " +
+                  (folder / "transforms.json").string() + " -o FOLDER makes a folder that is");
+}
+
+/// A quarter turn about z, a shift, and a scale of 2.
+constexpr const char* kParsed =
+    R"({"transform": [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3]], "scale": 2.0})";
+
+Vector3d moved(const Similarity& to, const Vector3d& x)
+{
+    return to.linear * x + to.translation;
+}
+
+TEST_F(TransformsJson, LeadsFromColmapToTheFrameOfTraining)
+{
+    const fs::path file = folder.write("dataparser_transforms.json", kParsed);
+    const Similarity to = read_nerfstudio_transform(file, {});
+    EXPECT_NEAR(to.scale, 2.0, 1e-15);
+    EXPECT_TRUE(moved(to, {5, 6, 7}).isApprox(Vector3d(2 * (-6 + 1), 2 * (5 + 2), 2 * (7 + 3))));
+}
+
+TEST_F(TransformsJson, LeadsFromItsOwnFrameToThatOfTraining)
+{
+    const fs::path file = folder.write("dataparser_transforms.json", kParsed);
+    const Similarity from_colmap = read_nerfstudio_transform(file, {});
+    Json json = small_file();
+    const fs::path poses = folder.write("transforms.json", json.dump());
+    EXPECT_EQ(read_nerfstudio_transform(file, poses).linear, from_colmap.linear);
+    // nerfstudio writes x, z and -y of COLMAP.
+    json["applied_transform"] = {{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 4}};
+    folder.write("transforms.json", json.dump());
+    const Similarity to = read_nerfstudio_transform(file, poses);
+    EXPECT_TRUE(moved(to, {5, 7, -6 + 4}).isApprox(moved(from_colmap, {5, 6, 7})));
+    EXPECT_NEAR(to.scale, 2.0, 1e-15);
+}
+
+TEST_F(TransformsJson, RefusesFilesThatAreNotOfTheDataparser)
+{
+    const auto refused_transform = [&](const char* text) {
+        const fs::path file = folder.write("t.json", text);
+        const std::string sentence =
+            refusal<InputError>([&] { read_nerfstudio_transform(file, {}); });
+        return sentence.substr(file.string().size());
+    };
+    EXPECT_EQ(refused_transform("{}"), ": scale: found nothing, expected the scale of nerfstudio");
+    EXPECT_EQ(refused_transform(R"({"scale": 0})"), ": scale: found 0, expected a scale above 0");
+    EXPECT_EQ(refused_transform(R"({"scale": 1, "transform": [1]})"),
+              ": transform: found an array of 1, expected a matrix of 3 rows of 4 numbers");
 }
 
 TEST_F(TransformsJson, RefusesWhatIsNoPose)
@@ -214,11 +293,10 @@ TEST_F(TransformsJson, RefusesWhatIsNoPose)
               place + "[1]: found an array of 3" + pose);
     EXPECT_EQ(refused_with("/frames/0/transform_matrix/1/2", nullptr),
               place + "[1][2]: found null, expected a number");
-    const std::string expected = ", expected a rotation and a place, from the camera to the world";
     EXPECT_EQ(refused_with("/frames/0/transform_matrix/0/2", -1),
-              place + ": found a reflection, which turns surfaces inside out" + expected);
+              place + ": found a reflection, which turns surfaces inside out" + pose);
     EXPECT_EQ(refused_with("/frames/0/transform_matrix/0/2", 0),
-              place + ": found no matrix that could be inverted" + expected);
+              place + ": found no matrix that could be inverted" + pose);
 }
 
 TEST_F(TransformsJson, NamesItsPointsOrHasThemBesideIt)

@@ -55,7 +55,7 @@ TEST(ForeignFile, IsNoneThatOnlyBeginsAlike)
 TEST(ForeignFile, IsKnownByTheEndOfItsName)
 {
     EXPECT_EQ(refusal_of_name("a/scan.LAS"),
-              "a/scan.LAS: is a scan as LAS, which is not read: pdal translate a/scan.LAS "
+              "a/scan.LAS: is a scan, which is not read: pdal translate a/scan.LAS "
               "a/scan.LAS.ply converts it");
     EXPECT_EQ(refusal_of_name("s.mvs"),
               "s.mvs: is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i s.mvs -o FOLDER "

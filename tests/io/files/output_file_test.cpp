@@ -56,6 +56,18 @@ TEST(OutputFile, AppearsUnderItsNameOnlyWhenCommitted)
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
+TEST(OutputFile, KeepsThePermissionsOfTheFileItReplaces)
+{
+    const TemporaryFolder folder;
+    const fs::path path = folder.write("out.ply", "old");
+    for (const unsigned mode : {0600U, 0664U, 0755U}) {
+        fs::permissions(path, fs::perms(mode));
+        OutputFile file(path);
+        file.commit();
+        EXPECT_EQ(fs::status(path).permissions(), fs::perms(mode));
+    }
+}
+
 TEST(OutputFile, LeavesNothingWithoutACommit)
 {
     const TemporaryFolder folder;

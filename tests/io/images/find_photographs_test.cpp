@@ -120,11 +120,12 @@ TEST(FindPhotographs, TellsWhichFilesCannotBeUsed)
         find_photographs(scene_of({"text.jpg", "good.jpg", "gone.jpg"}), folder.path());
     EXPECT_THAT(found.of_view, ElementsAre("", good, ""));
     EXPECT_EQ(found.missing, 1U);
-    EXPECT_THAT(found.unusable, ElementsAre(HasSubstr(text.string() + ": found neither JPEG")));
+    EXPECT_THAT(found.unusable,
+                ElementsAre(HasSubstr(text.string() + ": found an unknown format")));
     EXPECT_THAT(refusal<InputError>([&] {
                     find_photographs(scene_of({"text.jpg", "gone.jpg"}), folder.path());
                 }),
-                HasSubstr(text.string() + ": found neither JPEG"));
+                HasSubstr(text.string() + ": found an unknown format"));
 }
 
 TEST(FindPhotographs, RefusesAFolderThatHoldsNone)

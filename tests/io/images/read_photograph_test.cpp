@@ -64,6 +64,31 @@ TEST(ReadPhotograph, ReadsPpmAndPgm)
                 testing::HasSubstr("huge.ppm"));
 }
 
+TEST(ReadPhotograph, ReadsBmpTgaAndWebp)
+{
+    const TemporaryFolder folder;
+    const auto bmp = folder.write(
+        "a.jpg",
+        std::string_view("BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0"
+                         "\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0"
+                         "cba\0",
+                         58));
+    EXPECT_THAT(read_photograph(bmp).rgb, ElementsAre('a', 'b', 'c'));
+    const std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\x20"
+                          "cba",
+                          21);
+    EXPECT_THAT(read_photograph(folder.write("b.TGA", tga)).rgb, ElementsAre('a', 'b', 'c'));
+    const std::string footer("\0\0\0\0\0\0\0\0TRUEVISION-XFILE.\0", 26);
+    EXPECT_THAT(read_photograph(folder.write("b.jpg", tga + footer)).rgb,
+                ElementsAre('a', 'b', 'c'));
+    const auto webp = folder.write(
+        "c.png", std::string_view("RIFF\x1a\0\0\0WEBPVP8L\x0d\0\0\0\x2f\0\0\0\x10\x07\x10\x11\x11"
+                                  "\x88\x88\xfe\x07\0",
+                                  34));
+    EXPECT_EQ(photograph_size(webp).width_px, 1);
+    EXPECT_THAT(read_photograph(webp).alpha, ElementsAre(0));
+}
+
 TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
 {
     const TemporaryFolder folder;
@@ -73,9 +98,26 @@ TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
         return sentence;
     };
     const auto text = folder.write("text.jpg", "to be replaced by a photograph\n");
-    EXPECT_EQ(refused(text), text.string() +
-                                 ": found neither JPEG, PNG, TIFF nor PPM by the first bytes, but "
-                                 "photographs are read as these only; convert it to one of them");
+    const std::string read = ", but photographs are read as JPEG, PNG, TIFF, WebP, BMP, TGA, PPM "
+                             "and PGM only; convert it to one of them";
+    EXPECT_EQ(refused(text), text.string() + ": found an unknown format" + read);
+    const std::pair<std::string_view, const char*> kinds[] = {
+        {"GIF89a", "a GIF"},
+        {std::string_view("\0\0\0\x18"
+                          "ftypheic",
+                          12),
+         "a HEIC"},
+        {std::string_view("\0\0\0\x1c"
+                          "ftypavif",
+                          12),
+         "an AVIF"},
+        {std::string_view("\0\0\0\x0cjP  \r\n", 10), "a JPEG 2000"},
+        {std::string_view("\0\0\0\x0cJXL \r\n", 10), "a JPEG XL"},
+        {"P3 1 1 255 1 2 3", "a PPM as text"}};
+    for (const auto& [bytes, name] : kinds) {
+        const auto file = folder.write("kind.jpg", bytes);
+        EXPECT_EQ(refused(file), file.string() + ": found " + name + read);
+    }
     const auto empty = folder.write("empty.jpg", "");
     EXPECT_EQ(refused(empty), empty.string() + ": the file is empty, but a photograph is "
                                                "expected; copy it again");

@@ -70,11 +70,11 @@ class CompleteSights : public ::testing::Test {
 
     std::vector<std::string> complete(SightsFrom from = SightsFrom::automatic)
     {
-        const FoundInput found = {.model = {folder.path(), ModelFormat::text, {}},
-                                  .dense = {},
-                                  .scan = {},
-                                  .notes = {},
-                                  .sights = from};
+        FoundInput found = {.model = {folder.path(), ModelFormat::text, {}},
+                            .dense = {},
+                            .scan = {},
+                            .notes = {},
+                            .sights = from};
         DroppedSights dropped;
         scene = read_colmap_model(folder.path(), ModelFormat::text, {}, &dropped);
         return complete_sights(found, dropped, scene);

@@ -97,7 +97,7 @@ TEST_F(FindInput, RefusesAMeshInThePlaceOfAModel)
 TEST_F(FindInput, NamesTheFormatOfCloudsThatAreNotRead)
 {
     EXPECT_EQ(refused(dense, {.points = "a/scan.las"}),
-              "a/scan.las: is a scan as LAS, which is not read: pdal translate a/scan.las "
+              "a/scan.las: is a scan, which is not read: pdal translate a/scan.las "
               "a/scan.las.ply converts it");
 }
 
@@ -243,6 +243,38 @@ TEST_F(FindInput, TakesPointsThatStandAsPlyBesideTheViews)
                 ::testing::HasSubstr("points3D.ply.vis"));
 }
 
+TEST_F(FindInput, SaysThatThePointsAreCutOffWhereOthersStandIn)
+{
+    const fs::path sparse = dense / "sparse";
+    const std::string bytes = bytes_of(sparse / "points3D.bin");
+    fs::copy(fused, sparse / "points3D.ply");
+    folder.write("dense/sparse/points3D.bin", bytes.substr(0, 60));
+    const FoundInput found = find_input(sparse, {});
+    EXPECT_EQ(found.dense->cloud, sparse / "points3D.ply");
+    EXPECT_THAT(found.notes,
+                Contains(AllOf(::testing::StartsWith((sparse / "points3D.bin").string() +
+                                                     ": byte 0: found a count of "),
+                               ::testing::HasSubstr("but the rest of the file can hold 1 at most"),
+                               ::testing::EndsWith("; copy it again to use its points"))));
+}
+
+TEST_F(FindInput, SaysHowToConvertFoldersOfOtherPrograms)
+{
+    folder.write("splats/cameras.json", R"([{"id": 0, "img_name": "a"}])");
+    EXPECT_THAT(refused(folder / "splats", {}), ::testing::HasSubstr("of 3D Gaussian splatting"));
+    folder.write("opensfm/reconstruction.json", R"([{"cameras": {}, "shots": {}}])");
+    EXPECT_THAT(refused(folder / "opensfm", {}), ::testing::HasSubstr("opensfm export_colmap"));
+    folder.write("openmvg/sfm_data.json", R"({"sfm_data_version": "0.3"})");
+    EXPECT_THAT(refused(folder / "openmvg", {}),
+                ::testing::HasSubstr("openMVG_main_openMVG2Colmap"));
+    for (const char* const name : {"a.sfm", "b.xml", "c.splat", "d.spz"}) {
+        EXPECT_THAT(refused(folder.write(name, "x"), {}),
+                    ::testing::AnyOf(::testing::HasSubstr("makes a folder"),
+                                     ::testing::HasSubstr("--points")))
+            << name;
+    }
+}
+
 /// A scan in the workspace, with views beside it that saw its points.
 class FindScan : public FindInput {
   protected:
@@ -335,6 +367,7 @@ TEST_F(FindInput, TakesTransformsWithTheirPointsAndTheNearestViews)
     const fs::path json = folder.write("nerf/transforms.json", kTransforms);
     const fs::path cloud = folder.write("nerf/sparse_pc.ply", "ply\n");
     const fs::path other = folder.write("other.ply", "ply\n");
+    EXPECT_TRUE(find_input(json, {}).takes_nearest_views());
     for (const fs::path& input : {json, folder / "nerf"}) {
         const FoundInput found = find_input(input, {});
         ASSERT_TRUE(found.dense);

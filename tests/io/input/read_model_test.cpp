@@ -1,4 +1,6 @@
+#include "io/colmap/colmap_model.h"
 #include "io/input/read_model.h"
+#include "model/camera.h"
 #include "support/ball_model.h"
 #include "support/dense_workspace.h"
 #include "support/told_log.h"
@@ -79,6 +81,35 @@ TEST_F(ReadModelOfBall, WarnsOfPosesFromCameraToWorld)
     ToldLog log;
     EXPECT_THAT(read_found_model(model, {}, log).found.notes,
                 Contains(HasSubstr("camera-to-world")));
+}
+
+TEST_F(ReadModelOfBall, TakesTwoDimensionalPointsBeyondTheEdgesForThoseOfCroppedImages)
+{
+    // 50 x 50 pixels of the 1000 x 1000 that show the points.
+    folder.write("m/cameras.txt", "1 SIMPLE_PINHOLE 50 50 1000 25 25\n");
+    const auto notes = [&](double off_px) {
+        const Scene scene = read_colmap_model(model, ModelFormat::text);
+        std::string images;
+        for (std::uint32_t i = 0; i < scene.views.size(); ++i) {
+            const View& view = scene.views[i];
+            const Eigen::Quaterniond& q = view.cam_from_world;
+            const Eigen::Vector3d shift = -(q * view.center);
+            images += fmt::format("{} {} {} {} {} {} {} {} 1 a\n", view.id, q.w(), q.x(), q.y(),
+                                  q.z(), shift.x(), shift.y(), shift.z());
+            for (std::size_t point = 0; point < scene.num_points(); ++point) {
+                if (std::ranges::count(scene.tracks[point], i) == 0) continue;
+                const auto place = project(scene.cameras[0], q * scene.positions[point] + shift);
+                images += fmt::format("{} {} {} ", place->x() + off_px, place->y(),
+                                      scene.point_ids[point]);
+            }
+            images += "\n";
+        }
+        folder.write("m/images.txt", images);
+        ToldLog log;
+        return read_found_model(model, {}, log).found.notes;
+    };
+    EXPECT_THAT(notes(3.0), ::testing::IsEmpty());
+    EXPECT_THAT(notes(5.0), Contains(HasSubstr("do not seem to belong together")));
 }
 
 } // namespace

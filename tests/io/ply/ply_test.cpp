@@ -364,6 +364,10 @@ TEST(ReadPly, RefusesBrokenText)
               "a.ply: vertex 2 of 4: the file ends there");
     EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 zero 0 1 1 0 0 1 0 3 0 1 2"),
               "a.ply: vertex 1 of 4: found \"zero\", expected a number");
+    for (const std::string word : {"1e400", "-1e400", "1e-400"}) { // no double holds them
+        EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 " + word + " 0 1 1 0 0 1 0 3 0 1 2"),
+                  "a.ply: vertex 1 of 4: found \"" + word + "\", expected a number");
+    }
     EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 0 0 1 nan 0 0 1 0 3 0 1 2"),
               "a.ply: vertex 2 of 4: its position is (1, nan, 0), expected finite numbers");
     EXPECT_EQ(refusal_of(folder, good + "2 0 1"),

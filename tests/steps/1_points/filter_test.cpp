@@ -42,6 +42,17 @@ TEST(Filter, KeepsEveryGoodPointInOrder)
               0);
 }
 
+TEST(MedianAngle, IsThatOfTheFirstRayAndTheFarthest)
+{
+    // The cameras are 10 away and at most 4 apart, as atan(0.4) says.
+    const Scene wide = make_scene(kCenters, {{{0, 0, 0}, {0, 1, 2}}, {{0, 0, 0}, {0, 1}}});
+    EXPECT_NEAR(median_angle_deg(wide), 21.80, 0.01);
+    const Scene still = make_scene(kCenters, {{{0, 0, 0}, {0, 2}}, {{0, 0, 0}, {0}}});
+    EXPECT_NEAR(median_angle_deg(still), 0.0573, 0.001);
+    const Scene one_view = make_scene(kCenters, {{{0, 0, 0}, {0}}});
+    EXPECT_EQ(median_angle_deg(one_view), 0.0);
+}
+
 TEST(Filter, DropsEachBadPointForItsOwnReason)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
