@@ -241,7 +241,7 @@ OptionList cleanup_options(Options& options)
         {kCleanup,
          {.name = "max-hole",
           .unit = "edges",
-          .help = "Fill holes with at most N edges. 0 fills none.",
+          .help = "Fill holes up to N edges. 0 fills none.",
           .max = 1000}, // N edges take 16 N^2 bytes, N^3 steps and a recursion N deep
          &cleanup.max_hole_edges},
         {kCleanup,

@@ -171,7 +171,7 @@ TEST(Program, ListsEachOptionAtItsLevel)
     }
     EXPECT_THAT(help, HasSubstr("\nCleanup options:\n"
                                 "  --max-hole N                "
-                                "Fill holes with at most N edges [default: 12]\n"));
+                                "Fill holes up to N edges [default: 12, max: 1000]\n"));
     EXPECT_THAT(help, HasSubstr("  --min-views N               "
                                 "Drop points with fewer views [default: 2, min: 1]\n"));
     for (const char* name : {"--ascii", "--stats", "--verbose", "--view"}) {
