@@ -284,7 +284,7 @@ Manual mesh_manual()
          "vertex colors and normals (.off no normals, .stl neither), in the model's frame."},
     };
     manual.ends = {
-        "Also: colmap-vcarve compare --help (measure meshes), texture --help (texture any mesh).",
+        "Measure meshes: colmap-vcarve compare --help. Texture any mesh: texture --help.",
         "All options: --help-all.", kExitCodes};
     const auto arguments = std::make_shared<MeshArguments>();
     manual.options = options_of(*arguments);

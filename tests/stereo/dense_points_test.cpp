@@ -110,7 +110,7 @@ TEST(DensePoints, LeaveOutPhotographsThatCannotBeReadAndTransparentPixels)
 
     room.folder.write("3.png", "no image");
     EXPECT_THAT(stereo_view(room.photos[3], 160).problem,
-                ::testing::HasSubstr("3.png: found neither"));
+                ::testing::HasSubstr("3.png: found an unknown format"));
     EXPECT_GT(room.dense().num_points(), 1000U) << "the others suffice";
 }
 
