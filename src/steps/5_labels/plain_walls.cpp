@@ -69,9 +69,11 @@ class Walls {
         // What is too far off the plane of a small wall may lie in that of a large one.
         for (std::size_t before = 0; before < wall.cells.size();) {
             before = wall.cells.size();
-            for (std::size_t i = 0; i < wall.cells.size(); ++i) {
+            std::size_t i = 0;
+            while (i < wall.cells.size()) { // take() adds cells
+                const Index at = wall.cells[i++];
                 for (int slot = 0; slot < kHullSlot; ++slot) {
-                    const Index beside = cells_.cells[wall.cells[i]].neighbors[slot];
+                    const Index beside = cells_.cells[at].neighbors[slot];
                     const auto found = wall_of_.find(beside);
                     if (found != wall_of_.end() && found->second == kNone && is_flat(beside))
                         take(beside);
@@ -147,6 +149,7 @@ std::vector<Index> plain_walls(const TetMesh& cells, const Scene& scene,
                                const std::vector<Index>& open, const Labels& labels)
 {
     std::vector<std::pair<double, Index>> seeds; // large facets first
+    seeds.reserve(open.size());
     for (const Index cell : open) {
         seeds.emplace_back(-face_area(cells.positions, face_of(cells, {cell, kHullSlot})), cell);
     }
