@@ -113,8 +113,8 @@ struct FaceRules {
 /// What is mended, and what is thrown away.
 struct CleanupOptions {
     int min_component_faces = 6; ///< pieces with fewer faces are removed; 0: none
-    int max_hole_edges = 12;     ///< holes with at most so many edges are filled; 0: none, at most
-                                 ///< 1000, for N edges take 16 N^2 bytes and N^3 steps
+    int max_hole_edges = 12;     ///< holes with at most so many edges are filled; 0: none. At most
+                                 ///< 1000: N edges take 16 N^2 bytes and N^3 steps
 };
 
 /// Which faces of the boundary are kept, and how the surface is mended.

@@ -7,4 +7,10 @@ namespace vcarve {
 /// least 1.
 int available_threads();
 
+/// The number of threads that an option asks for: 0 means all.
+inline int threads_or_all(int wanted)
+{
+    return wanted == 0 ? available_threads() : wanted;
+}
+
 } // namespace vcarve

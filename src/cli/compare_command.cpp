@@ -1,4 +1,5 @@
 #include "base/text.h"
+#include "base/threads.h"
 #include "cli/baseline_runs.h"
 #include "cli/commands.h"
 #include "cli/compare_outputs.h"
@@ -236,8 +237,9 @@ void run_compare(const ParsedArguments& given)
     const CompareArguments arguments = read_arguments(given);
     check_files(arguments);
 
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(arguments.console.num_threads()));
+    const tbb::global_control limit(
+        tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(threads_or_all(arguments.console.threads)));
     ConsoleLog log(console_on_stderr(arguments.console.quiet, arguments.console.verbose));
 
     std::vector<BaselineMesh> baselines = baselines_of(arguments, log);

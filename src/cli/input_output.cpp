@@ -1,7 +1,6 @@
 #include "cli/input_output.h"
 
 #include "base/text.h"
-#include "base/threads.h"
 #include "cli/exit_code.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/sim3_text.h"
@@ -66,11 +65,6 @@ void require_distinct(std::span<const Output> outputs)
     }
 }
 
-int ConsoleArguments::num_threads() const
-{
-    return threads == 0 ? available_threads() : threads;
-}
-
 OptionList options_of(ConsoleArguments& arguments, const char* quiet_help)
 {
     return {
@@ -89,13 +83,13 @@ OptionList options_of(ConsoleArguments& arguments, const char* quiet_help)
     };
 }
 
-void prepare_outputs(std::span<const Output> outputs, const std::vector<fs::path>& scratch)
+void prepare_outputs(std::span<const Output> outputs, const fs::path& scratch)
 {
     std::vector<fs::path> unfinished;
     for (const Output& output : outputs) {
         unfinished.push_back(part_path(output.path));
     }
-    unfinished.insert(unfinished.end(), scratch.begin(), scratch.end());
+    if (!scratch.empty()) unfinished.push_back(scratch);
     end_cleanly_on_signals(unfinished);
     for (const Output& output : outputs) {
         require_writable(output.path);

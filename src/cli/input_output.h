@@ -15,7 +15,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace vcarve::cli {
 
@@ -35,8 +34,6 @@ struct ConsoleArguments {
     bool quiet = false;
     bool verbose = false;
     int threads = 0; ///< 0: all
-
-    int num_threads() const;
 };
 
 /// --quiet, with its help, --verbose and --threads, under the heading "Run".
@@ -52,9 +49,8 @@ void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
                  std::span<const Output> others);
 
 /// Reports errors of outputs before the work starts: throws UsageError. A run that fails or is
-/// ended by a signal leaves no partial file, and nothing of `scratch`.
-void prepare_outputs(std::span<const Output> outputs,
-                     const std::vector<std::filesystem::path>& scratch = {});
+/// ended by a signal leaves no partial file, and no folder `scratch`, if one is given.
+void prepare_outputs(std::span<const Output> outputs, const std::filesystem::path& scratch = {});
 
 /// A model and its record.
 struct ModelInput {

@@ -65,7 +65,7 @@ Place place_for(const Scene& model, const MeshArguments& arguments, Log& log)
     const OutputOptions& output = arguments.output;
     Place place = {arguments.transform, {}, up_for(model, output.up, arguments.transform)};
     const bool is_used = output.upright || lower_case_end(arguments.out) == ".glb";
-    if (is_used && output.up.word == 0 && look_one_way(model)) {
+    if (is_used && output.up.word == static_cast<int>(UpWord::automatic) && look_one_way(model)) {
         const Eigen::Vector3d shown = (place.up * 100.0).array().round() / 100.0 + 0.0; // no -0.00
         log.note(fmt::format("all cameras look one way; the top of their images is taken for up, "
                              "direction {:.2f}; if they look straight down, use --up back",
@@ -122,11 +122,6 @@ void write_stats(const fs::path& path, const Json& record)
     OutputFile file(path);
     file.stream() << json_text(record);
     file.commit();
-}
-
-int threads_of(const Options& options)
-{
-    return options.threads == 0 ? available_threads() : options.threads;
 }
 
 /// The parts of a run.
@@ -191,11 +186,7 @@ std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
     if (!arguments.dense.dense && !arguments.texture.reads_images()) return std::nullopt;
     Photographs photographs =
         photographs_of(arguments.texture, arguments.model.path, input.scene, run.log);
-    std::vector<Output> files;
-    for (const fs::path& file : photographs.of_view) {
-        if (!file.empty()) files.push_back({"the photograph", file});
-    }
-    keep_inputs(outputs_of(arguments), arguments.model, files);
+    keep_inputs(outputs_of(arguments), arguments.model, files_of(photographs));
     return photographs;
 }
 
@@ -402,16 +393,14 @@ void run(const ParsedArguments& given, RunRanks* ranks)
                                            {"the transformation", arguments.output.transform}}};
     keep_inputs(outputs_of(arguments), arguments.model, others);
     const ArrayFolder scratch(arguments.work, arguments.out);
-    prepare_outputs(outputs_of(arguments), scratch.is_temporary()
-                                               ? std::vector<fs::path>{scratch.path()}
-                                               : std::vector<fs::path>());
+    prepare_outputs(outputs_of(arguments), scratch.is_temporary() ? scratch.path() : fs::path());
     // Errors in these files are reported before the work starts.
     arguments.transform = transform_of(arguments.output.transform, arguments.model);
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
         make_region(arguments.options.crop.region, Scene());
     }
 
-    const int threads = threads_of(arguments.options);
+    const int threads = threads_or_all(arguments.options.threads);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     ConsoleLog shown(console_on_stderr(arguments.output.quiet, arguments.output.verbose));

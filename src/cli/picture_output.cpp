@@ -88,6 +88,15 @@ Photographs photographs_of(const TextureArguments& arguments, const fs::path& mo
     return photographs;
 }
 
+std::vector<Output> files_of(const Photographs& photographs)
+{
+    std::vector<Output> files;
+    for (const fs::path& file : photographs.of_view) {
+        if (!file.empty()) files.push_back({"the photograph", file});
+    }
+    return files;
+}
+
 TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photographs,
                       const TextureTask& task, Log& log)
 {

@@ -45,6 +45,9 @@ void check_texture(const TextureArguments& texture, const std::filesystem::path&
 Photographs photographs_of(const TextureArguments& arguments, const std::filesystem::path& model,
                            const Scene& scene, Log& log);
 
+/// The files of photographs, which no output may replace.
+std::vector<Output> files_of(const Photographs& photographs);
+
 /// The options, and the memory limit of the run in bytes, 0 for none.
 struct TextureTask {
     const TextureArguments& arguments;

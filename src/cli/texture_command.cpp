@@ -1,4 +1,5 @@
 #include "base/text.h"
+#include "base/threads.h"
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/console_log.h"
@@ -13,6 +14,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -71,17 +73,6 @@ TextureCommand read_command(const ParsedArguments& given)
     return command;
 }
 
-/// Reports errors of inputs and outputs before the work starts.
-void check_files(const TextureCommand& command, const Photographs& photographs)
-{
-    std::vector<Output> inputs = {{"the mesh", command.mesh}};
-    for (const fs::path& file : photographs.of_view) {
-        if (!file.empty()) inputs.push_back({"the photograph", file});
-    }
-    keep_inputs(command.outputs(), command.model, inputs);
-    prepare_outputs(command.outputs());
-}
-
 } // namespace
 
 Manual texture_manual()
@@ -110,14 +101,18 @@ Manual texture_manual()
 void run_texture(const ParsedArguments& given)
 {
     const TextureCommand command = read_command(given);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(command.console.num_threads()));
+    const tbb::global_control limit(
+        tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(threads_or_all(command.console.threads)));
     ConsoleLog log(console_on_stderr(command.console.quiet, command.console.verbose));
     TriMesh mesh = read_mesh(command.mesh);
     const ModelInput model = read_model_input(command.model, log);
     const Photographs photographs =
         photographs_of(command.texture, command.model.path, model.scene, log);
-    check_files(command, photographs);
+    std::vector<Output> inputs = files_of(photographs);
+    inputs.push_back({"the mesh", command.mesh});
+    keep_inputs(command.outputs(), command.model, inputs);
+    prepare_outputs(command.outputs());
     PreviewOutput preview(command.preview);
     preview.stand_in(model.scene);
     const std::int64_t most = allowed_memory(MemoryOptions(), 1).value_or(0);

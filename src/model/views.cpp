@@ -61,12 +61,12 @@ std::optional<Vector3d> back_of(const Scene& scene)
 
 bool look_one_way(const Scene& scene)
 {
-    constexpr double kOneWay = 0.97; // length of a mean of unit vectors: all within 14 degrees
-    Vector3d sum = Vector3d::Zero();
-    for (const View& view : scene.views) {
-        if (!scene.cameras[view.camera].measures_range) sum += look_back(view);
-    }
-    return sum.norm() > kOneWay * static_cast<double>(scene.views.size());
+    constexpr double kOneWay = 0.97; // if all are as far off their mean: 14 degrees
+    const auto way = [&](const View& view) -> Vector3d {
+        if (scene.cameras[view.camera].measures_range) return Vector3d::Zero(); // all ways
+        return look_back(view);
+    };
+    return mean_direction(scene, way, kOneWay).has_value();
 }
 
 std::vector<Eigen::Vector2d> pixel_grid(const Camera& camera, std::size_t most)

@@ -40,16 +40,17 @@ inline Eigen::Vector3d towards_views(const Scene& scene, std::size_t point)
     return sum;
 }
 
-/// The mean of what `direction` says of the views; nothing where these cancel out.
+/// The mean direction of the views by direction(view), unit vectors; nothing if the mean of these
+/// is not longer than `agreeing`, as where they cancel out.
 template <typename Direction>
-std::optional<Eigen::Vector3d> mean_direction(const Scene& scene, const Direction& direction)
+std::optional<Eigen::Vector3d> mean_direction(const Scene& scene, const Direction& direction,
+                                              double agreeing = 0.1)
 {
-    constexpr double kAgreeing = 0.1; // a mean of unit vectors that is shorter says nothing
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const View& view : scene.views) {
         sum += direction(view);
     }
-    if (!(sum.norm() > kAgreeing * static_cast<double>(scene.views.size()))) return std::nullopt;
+    if (!(sum.norm() > agreeing * static_cast<double>(scene.views.size()))) return std::nullopt;
     return sum.normalized();
 }
 

@@ -113,8 +113,7 @@ void follow(const Session& session, const cli::Processes& processes, const ReadA
 {
     cli::MeshArguments arguments;
     const cli::Ending reading = cli::ending_of([&] { arguments = read(); });
-    const int threads =
-        arguments.options.threads == 0 ? available_threads() : arguments.options.threads;
+    const int threads = threads_or_all(arguments.options.threads);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     Order begun;

@@ -48,14 +48,14 @@ void visit_points2d(const std::filesystem::path& folder, ModelFormat format, con
     std::iota(by_id.begin(), by_id.end(), 0U);
     const auto id_of = [&](std::uint32_t point) { return scene.point_ids[point]; };
     std::ranges::sort(by_id, {}, id_of);
-    const auto told = [&](std::uint32_t image_id, std::uint64_t point_id,
+    const auto find = [&](std::uint32_t image_id, std::uint64_t point_id,
                           const Eigen::Vector2d& place_px) {
         const auto point = std::ranges::lower_bound(by_id, point_id, {}, id_of);
         if (point == by_id.end() || id_of(*point) != point_id) return;
         const auto view = std::ranges::lower_bound(scene.views, image_id, {}, &View::id);
         take(*point, static_cast<std::uint32_t>(view - scene.views.begin()), place_px);
     };
-    reader_of(format).read_sights(model_path(folder, "images", format), told, progress);
+    reader_of(format).read_sights(model_path(folder, "images", format), find, progress);
 }
 
 constexpr std::uint64_t kCountBytes = 8;

@@ -23,8 +23,8 @@ void print(std::string_view text);
 
 /// A file that appears whole or not at all: what is streamed goes to part_path(path), commit()
 /// renames it, and without a commit the destructor removes it. A file that is replaced passes on
-/// its permissions. A character device (/dev/null,
-/// /dev/stdout) cannot be replaced and is written straight. One object a path at a time.
+/// its permissions. A character device (/dev/null, /dev/stdout) cannot be replaced and is written
+/// straight. One object a path at a time.
 class OutputFile {
   public:
     /// Throws UsageError as require_writable does.

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "geometry/cgal_kernel.h"
+#include "io/files/mapped_file.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <new>
@@ -90,9 +90,8 @@ TriMesh read_mesh(const fs::path& path)
     if (lower_case_end(path) == ".ply") {
         mesh = read_ply(path);
     } else {
-        std::error_code error;
-        if (!fs::is_regular_file(path, error))
-            throw InputError(fmt::format("{}: no such file", path.string()));
+        const std::string fault = why_no_file(path);
+        if (!fault.empty()) throw InputError(fmt::format("{}: {}", path.string(), fault));
         Polygons polygons;
         if (!read_polygons(path, polygons))
             throw InputError(

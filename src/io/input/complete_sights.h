@@ -15,10 +15,9 @@ namespace vcarve {
 /// SLAM, of networks that need no matches, and of many converters have: takes them from the 2D
 /// points of the images, as COLMAP's own mesher does, and where that leaves most points with fewer
 /// than two, adds to these points the nearest views (see nearest_sights). With SightsFrom::nearest
-/// all points have those only, with SightsFrom::file none. Sets `found.sights` to nearest if those
-/// were added. Returns what the user should know, in
-/// sentences; of the sights that were `dropped`, too. Cost: that of reading images, and
-/// nearest_sights.
+/// all points have only those, with SightsFrom::file none. Sets `found.sights` to nearest if
+/// nearest views were added. Returns what the user should know, in sentences; of the sights that
+/// were `dropped`, too. Cost: that of reading images, and nearest_sights.
 std::vector<std::string> complete_sights(FoundInput& found, const DroppedSights& dropped,
                                          Scene& scene, const Progress& progress = {});
 

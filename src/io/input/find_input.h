@@ -21,7 +21,7 @@ struct FoundInput {
     std::vector<std::string> notes;            ///< sentences: what was taken and what not
     SightsFrom sights = SightsFrom::automatic; ///< of the points of the model
 
-    /// Whether the nearest views are taken for those that saw the points.
+    /// Whether the views of points are the nearest ones, since no file says which saw them.
     bool takes_nearest_views() const
     {
         return sights == SightsFrom::nearest ||

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <iterator>
 #include <unordered_map>
+#include <utility>
 
 namespace vcarve {
 
@@ -154,17 +155,22 @@ std::vector<Index> plain_walls(const TetMesh& cells, const Scene& scene,
         seeds.emplace_back(-face_area(cells.positions, face_of(cells, {cell, kHullSlot})), cell);
     }
     std::ranges::sort(seeds);
+    const Vector3d up = up_of(scene);
+    Walls walls(cells, open);
+    std::vector<Wall> upright;
+    for (const auto& seed : seeds) {
+        Wall wall = walls.grow(seed.second);
+        if (!wall.cells.empty() && std::abs(wall.normal.dot(up)) <= kUpright &&
+            walls.num_points(wall) >= kMinPoints)
+            upright.push_back(std::move(wall));
+    }
+    if (upright.empty()) return {};
     const std::vector<Face> faces = boundary_faces(cells, boundary_facets(cells, labels));
     const VertexFaces faces_at(faces, cells.positions.size());
     const FaceVisibility visibility(cells, labels, scene);
-    const Vector3d up = up_of(scene);
-    Walls walls(cells, open);
     std::vector<Index> found;
-    for (const auto& seed : seeds) {
-        const Wall wall = walls.grow(seed.second);
-        if (!wall.cells.empty() && std::abs(wall.normal.dot(up)) <= kUpright &&
-            walls.num_points(wall) >= kMinPoints &&
-            walls.held_share(wall, faces, faces_at) >= kHeld &&
+    for (const Wall& wall : upright) {
+        if (walls.held_share(wall, faces, faces_at) >= kHeld &&
             num_views(wall, visibility) >= kMinViews)
             std::ranges::copy(wall.cells, std::back_inserter(found));
     }

@@ -11,8 +11,7 @@ namespace vcarve {
 /// outline. `open` holds infinite cells labelled outside, whose facets of the hull are seen from
 /// within; those facets are a wall that
 ///   - lie in one plane, within 2 % of how far they reach, through at least 6 points,
-///   - stand upright, within 30 degrees, as the cameras tell (up_of): a bare ceiling looks like
-///   sky,
+///   - stand upright, within 30 degrees, by up_of(): a bare ceiling looks like the sky,
 ///   - are held along .6 of their outline by faces between inside and outside cells: more than the
 ///     two sides of a triangle in an open corner can be,
 ///   - and are seen by at least 3 views through outside cells.
