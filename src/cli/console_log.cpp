@@ -67,6 +67,7 @@ constexpr Wording kWordings[] = {
     {"decimate", "simplify", "{of} faces merged to {faces}"},
     {"simplify", "simplify", "{of} faces merged to {faces}"},
     {"orient", "orient", ""},
+    {"masks", "masks", "{faces} of {of} faces outside the masks"},
     {"photos", "photos", "{seen} of {faces} faces shown by {photographs} photographs"},
     {"colors", "colours", "{vertices} vertices coloured|, {outliers} views of passers-by left out"},
     {"texture", "texture", "{charts} charts on {pages} pages"},

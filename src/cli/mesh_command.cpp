@@ -164,8 +164,10 @@ Job job_of(const MeshArguments& arguments, Log& log)
     job.insert(job.end(), options.begin(), options.end());
     if (arguments.dense.dense) {
         job.push_back({"--dense-size", std::to_string(arguments.dense.size_px)});
-        const Job photographs = photograph_facts(photograph_folder(arguments), stage);
-        job.insert(job.end(), photographs.begin(), photographs.end());
+        for (const fs::path& folder : {photograph_folder(arguments), arguments.texture.masks}) {
+            const Job facts = photograph_facts(folder, stage);
+            job.insert(job.end(), facts.begin(), facts.end());
+        }
     }
     return job;
 }
@@ -179,15 +181,23 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
     return folder;
 }
 
-/// Errors of the photographs are reported before the work starts.
-std::optional<Photographs> photographs_if_wanted(const MeshArguments& arguments,
-                                                 const ModelInput& input, const Run& run)
+/// The images that a run reads, if any.
+struct RunImages {
+    std::optional<Photographs> photographs;
+    std::optional<Photographs> masks;
+};
+
+/// Errors of the images are reported before the work starts.
+RunImages find_images(const MeshArguments& arguments, const Scene& scene, Log& log)
 {
-    if (!arguments.dense.dense && !arguments.texture.reads_images()) return std::nullopt;
-    Photographs photographs =
-        photographs_of(arguments.texture, arguments.model.path, input.scene, run.log);
-    keep_inputs(outputs_of(arguments), arguments.model, files_of(photographs));
-    return photographs;
+    RunImages found;
+    found.masks = masks_of(arguments.texture, scene, log);
+    if (found.masks) keep_inputs(outputs_of(arguments), arguments.model, files_of(*found.masks));
+    if (!arguments.dense.dense && !arguments.texture.reads_images()) return found;
+    found.photographs = photographs_of(arguments.texture, arguments.model.path, scene, log);
+    if (found.masks) found.photographs->masks = found.masks->of_view;
+    keep_inputs(outputs_of(arguments), arguments.model, files_of(*found.photographs));
+    return found;
 }
 
 /// Replaces the sparse points by dense ones that are measured in the photographs. Returns the
@@ -227,10 +237,10 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
 Surface surface_of(ModelInput input, const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
+    const RunImages images = find_images(arguments, input.scene, run.log);
     try {
         Surface surface;
-        const std::optional<Photographs> photographs = photographs_if_wanted(arguments, input, run);
-        if (arguments.dense.dense) surface.depth = make_dense(input, *photographs, run);
+        if (arguments.dense.dense) surface.depth = make_dense(input, *images.photographs, run);
         Options options = arguments.options;
         options.memory = run.memory.options();
         if (run.ranks != nullptr && run.work != nullptr) {
@@ -241,9 +251,10 @@ Surface surface_of(ModelInput input, const Run& run)
                                   .ranks = run.ranks};
         Reconstruction made =
             reconstruct_thinned(std::move(input.scene), input.read, options, run.log, extras);
-        if (photographs) {
+        if (images.masks) made.mesh = unmasked(made.mesh, made.scene, *images.masks, run.log);
+        if (images.photographs) {
             const std::int64_t most = std::max<std::int64_t>(arguments.options.memory.most, 0);
-            TexturedMesh covered = textured(std::move(made.mesh), made.scene, *photographs,
+            TexturedMesh covered = textured(std::move(made.mesh), made.scene, *images.photographs,
                                             {arguments.texture, most}, run.log);
             made.mesh = std::move(covered.mesh);
             surface.texture = std::move(covered.texture);

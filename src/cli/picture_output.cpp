@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "io/formats/textured_files.h"
 #include "picture/eye.h"
+#include "texture/masked_faces.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -14,6 +15,19 @@ namespace vcarve::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+void note_missing(const Photographs& found, const char* kind, Log& log)
+{
+    if (found.missing > 0) {
+        log.note(fmt::format("{} of {} views have no {} in {}", found.missing, found.of_view.size(),
+                             kind, found.folder.string()));
+    }
+    note_unusable(found.unusable, log);
+}
+
+} // namespace
+
 OptionList texture_options(TextureArguments& texture)
 {
     constexpr const char* kStage = "Output";
@@ -24,6 +38,14 @@ OptionList texture_options(TextureArguments& texture)
           .help = "Take vertex colors from photographs. FOLDER has the photographs of the model; "
                   "vertices get the colors that they agree on, instead of those of single pixels."},
          &texture.images},
+        {kStage,
+         {.name = "masks",
+          .unit = "folder",
+          .help = "Exclude the black pixels of FOLDER/NAME.png from photograph NAME, as COLMAP "
+                  "does. They give neither colors nor dense points, and faces that most views see "
+                  "only there are removed.",
+          .level = OptionLevel::advanced},
+         &texture.masks},
         {kStage,
          {.name = "texture",
           .help = "Write a texture made of the photographs. They are those of --images, or of the "
@@ -80,12 +102,31 @@ Photographs photographs_of(const TextureArguments& arguments, const fs::path& mo
         log.note(fmt::format("the photographs are taken from {}", folder.string()));
     }
     Photographs photographs = find_photographs(scene, folder);
-    if (photographs.missing > 0) {
-        log.note(fmt::format("{} of {} views have no photograph in {}", photographs.missing,
-                             scene.views.size(), folder.string()));
-    }
-    note_unusable(photographs.unusable, log);
+    note_missing(photographs, "photograph", log);
     return photographs;
+}
+
+std::optional<Photographs> masks_of(const TextureArguments& arguments, const Scene& scene, Log& log)
+{
+    if (arguments.masks.empty()) return std::nullopt;
+    Photographs masks = find_masks(scene, arguments.masks);
+    note_missing(masks, "mask", log);
+    return masks;
+}
+
+TriMesh unmasked(const TriMesh& mesh, const Scene& scene, const Photographs& masks, Log& log)
+{
+    Stage stage(log, "masks");
+    TriMesh kept = without_masked_faces(mesh, calibrated_photos(scene, masks, mesh.offset), stage);
+    if (kept.faces.empty()) {
+        throw InputError(fmt::format("the masks in {} leave no face of the surface; black pixels "
+                                     "are excluded, so they may have to be inverted",
+                                     masks.folder.string()));
+    }
+    stage.end({{"masks", size_of(masks.of_view.size() - masks.missing)},
+               {"faces", size_of(kept.faces.size())},
+               {"of", size_of(mesh.faces.size())}});
+    return kept;
 }
 
 std::vector<Output> files_of(const Photographs& photographs)

@@ -22,6 +22,7 @@ namespace vcarve::cli {
 /// The options about photographs.
 struct TextureArguments {
     std::filesystem::path images; ///< empty: a texture is made of those beside the model
+    std::filesystem::path masks;  ///< empty: none
     bool texture = false;
     double scale = 1.0;
 
@@ -29,7 +30,7 @@ struct TextureArguments {
     bool reads_images() const { return texture || !images.empty(); }
 };
 
-/// --images, --texture and --texture-scale, under the heading "Output".
+/// --images, --masks, --texture and --texture-scale, under the heading "Output".
 OptionList texture_options(TextureArguments& texture);
 
 /// The files beside a textured surface. The number of texture pages is an upper bound.
@@ -45,7 +46,16 @@ void check_texture(const TextureArguments& texture, const std::filesystem::path&
 Photographs photographs_of(const TextureArguments& arguments, const std::filesystem::path& model,
                            const Scene& scene, Log& log);
 
-/// The files of photographs, which no output may replace.
+/// Finds the masks of --masks, if it is given, with notes about views without one and unreadable
+/// files. Throws InputError as find_masks() does.
+std::optional<Photographs> masks_of(const TextureArguments& arguments, const Scene& scene,
+                                    Log& log);
+
+/// The surface without the faces that most views see only in masked pixels, as the stage "masks".
+/// Throws InputError if no face is left.
+TriMesh unmasked(const TriMesh& mesh, const Scene& scene, const Photographs& masks, Log& log);
+
+/// The files of photographs or masks, which no output may replace.
 std::vector<Output> files_of(const Photographs& photographs);
 
 /// The options, and the memory limit of the run in bytes, 0 for none.

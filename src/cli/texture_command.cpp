@@ -32,7 +32,7 @@ struct TextureCommand {
     ModelArguments model;
     fs::path mesh;
     fs::path out;
-    TextureArguments texture{{}, true};
+    TextureArguments texture;
     PreviewArguments preview;
     ConsoleArguments console;
     HelpOptions help;
@@ -59,6 +59,7 @@ TextureCommand read_command(const ParsedArguments& given)
 {
     TextureCommand command;
     read_options(given, options_of(command));
+    command.texture.texture = true;
     if (given.operands.size() != 3)
         throw UsageError(fmt::format("expected MODEL MESH OUT.glb, found {} arguments{}",
                                      given.operands.size(), kSeeTextureHelp));
@@ -107,9 +108,12 @@ void run_texture(const ParsedArguments& given)
     ConsoleLog log(console_on_stderr(command.console.quiet, command.console.verbose));
     TriMesh mesh = read_mesh(command.mesh);
     const ModelInput model = read_model_input(command.model, log);
-    const Photographs photographs =
-        photographs_of(command.texture, command.model.path, model.scene, log);
+    Photographs photographs = photographs_of(command.texture, command.model.path, model.scene, log);
     std::vector<Output> inputs = files_of(photographs);
+    if (const auto masks = masks_of(command.texture, model.scene, log)) {
+        photographs.masks = masks->of_view;
+        std::ranges::move(files_of(*masks), std::back_inserter(inputs));
+    }
     inputs.push_back({"the mesh", command.mesh});
     keep_inputs(command.outputs(), command.model, inputs);
     prepare_outputs(command.outputs());

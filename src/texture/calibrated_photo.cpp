@@ -3,6 +3,7 @@
 #include "io/images/read_photograph.h"
 #include "model/camera.h"
 #include "model/photograph.h"
+#include "texture/masked_faces.h"
 #include "vcarve/error.h"
 
 #include <algorithm>
@@ -33,7 +34,9 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
 Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem)
 {
     try {
-        return read_photograph(photo.file);
+        Photograph read = read_photograph(photo.file);
+        if (!photo.mask.empty()) exclude_masked(photo.mask, read);
+        return read;
     } catch (const InputError& error) {
         problem = error.what();
         const auto pixels = static_cast<std::size_t>(photo.size.width_px) * photo.size.height_px;

@@ -17,6 +17,7 @@ namespace vcarve {
 /// camera says, as after the photographs were made smaller.
 struct CalibratedPhoto {
     std::filesystem::path file;
+    std::filesystem::path mask; ///< its black pixels are excluded; empty: none
     PhotographSize size;
     std::uint32_t view = 0;         ///< index into Scene::views
     View pose;                      ///< its centre in the frame of the mesh
@@ -34,7 +35,8 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
 std::optional<Eigen::Vector2d> pixel_beyond(const CalibratedPhoto& photo,
                                             const Eigen::Vector3d& position);
 
-/// Reads a photograph. One that cannot be read shows nothing, and `problem` says why.
+/// Reads a photograph and its mask. If either cannot be read, the result shows nothing, and
+/// `problem` says why.
 Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem);
 
 /// Every square of 2 x 2 pixels made one, which shows nothing if one of them does not; an odd row

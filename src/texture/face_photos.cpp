@@ -4,8 +4,7 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "mesh/edge_halving.h"
-#include "mesh/vertices.h"
-#include "picture/first_faces.h"
+#include "texture/occlusion.h"
 
 #include <Eigen/Geometry>
 
@@ -26,19 +25,6 @@ constexpr std::size_t kMostAsked = 48;
 constexpr int kMostRounds = 9;
 constexpr double kShortestPx = 24.0; ///< an edge that is not halved for being partly hidden
 
-/// Where a face is looked at: near its corners, amid its edges, in its middle.
-std::array<Vector3d, 7> places_of(const Corners& corners)
-{
-    constexpr double kPulled = 0.08;
-    const auto& [a, b, c] = corners;
-    const Vector3d middle = (a + b + c) / 3.0;
-    std::array<Vector3d, 7> places = {a, b, c, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), middle};
-    for (Vector3d& place : places) {
-        place += kPulled * (middle - place);
-    }
-    return places;
-}
-
 double area_px2(const std::array<Vector2d, 3>& pixels)
 {
     const Vector2d ab = pixels[1] - pixels[0];
@@ -51,41 +37,6 @@ double longest_px(const std::array<Vector2d, 3>& pixels)
     return std::max({(pixels[1] - pixels[0]).norm(), (pixels[2] - pixels[1]).norm(),
                      (pixels[0] - pixels[2]).norm()});
 }
-
-/// What hides what: the mesh as it was before any face was halved.
-class Occlusion {
-  public:
-    explicit Occlusion(const TriMesh& mesh) : mesh_(mesh), faces_(mesh_, box_center(mesh)) {}
-
-    /// How many of a face's places a photograph sees, of seven. `whole` is the face that this one
-    /// was a part of at first.
-    int seen_places(const CalibratedPhoto& photo, const Corners& corners, std::uint32_t whole) const
-    {
-        int seen = 0;
-        for (const Vector3d& place : places_of(corners)) {
-            seen += pixel_of(photo, place) && sees(photo.pose.center, place, whole) ? 1 : 0;
-        }
-        return seen;
-    }
-
-  private:
-    bool sees(const Vector3d& center, const Vector3d& place, std::uint32_t whole) const
-    {
-        constexpr double kNear = 1e-3; // of the way
-        const Vector3d way = place - center;
-        const FirstFace hit = faces_.from(center, way.normalized());
-        if (hit.face == whole) return true;
-        if (hit.face == FirstFace::kNone) return false;
-        const auto [a, b, c] = corners_of(mesh_.positions, mesh_.faces[hit.face]);
-        const double second = hit.second;
-        const double third = hit.third;
-        const Vector3d met = (1.0 - second - third) * a + second * b + third * c;
-        return (met - center).norm() >= (1.0 - kNear) * way.norm();
-    }
-
-    TriMesh mesh_;
-    FirstFaces faces_;
-};
 
 struct Asked {
     std::uint32_t photo;
@@ -101,7 +52,7 @@ double guessed_px(const CalibratedPhoto& photo, const Corners& corners, double d
 
 bool shows_part(const CalibratedPhoto& photo, const Corners& corners)
 {
-    return std::ranges::any_of(places_of(corners), [&](const Vector3d& place) {
+    return std::ranges::any_of(face_samples(corners), [&](const Vector3d& place) {
         return pixel_of(photo, place).has_value();
     });
 }

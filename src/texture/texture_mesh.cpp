@@ -81,6 +81,7 @@ std::vector<CalibratedPhoto> calibrated_photos(const Scene& scene, const Photogr
         }
         CalibratedPhoto& photo = photos.emplace_back();
         photo.file = photographs.of_view[i];
+        if (!photographs.masks.empty()) photo.mask = photographs.masks[i];
         photo.size = photographs.sizes[i];
         photo.view = i;
         photo.pose = view;

@@ -1,4 +1,5 @@
 #include "io/formats/mesh_file.h"
+#include "support/photographed_wall.h"
 #include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -7,7 +8,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace vcarve::texture_command_test {
 namespace {
@@ -83,6 +86,71 @@ TEST_F(TextureCommand, SaysWhatIsWrongBeforeTheWorkStarts)
     EXPECT_EQ(sentence_of(2, {"texture", kModel, given, given, "--quiet"}),
               "colmap-vcarve: the textured mesh would replace the mesh " + given + "\n");
     EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+/// Masks for the photographs of the desk, black to the right of a share of the width.
+void write_masks(const TemporaryFolder& folder, double share)
+{
+    Log log;
+    const Scene scene = read_model(kModel, log);
+    for (const View& view : scene.views) {
+        const Camera& camera = scene.cameras[view.camera];
+        const auto width = static_cast<int>(camera.width_px / 4);
+        const auto height = static_cast<int>(camera.height_px / 4);
+        Photograph mask{width, height, {}};
+        for (int i = 0; i < width * height; ++i) {
+            mask.rgb.insert(mask.rgb.end(), 3, i % width < share * width ? 255 : 0);
+        }
+        const auto file = folder.path() / "masks" / (view.name + ".png");
+        std::filesystem::create_directories(file.parent_path());
+        write_photograph(file, mask);
+    }
+}
+
+TEST_F(TextureCommand, LeavesFacesBareThatPhotographsShowInMaskedPixels)
+{
+    const std::string given = folder / "mesh.ply";
+    const std::string masks = folder / "masks";
+    const auto bare_with = [&](double share) {
+        write_masks(folder, share);
+        const Outcome outcome =
+            run_program({"texture", kModel, given, folder / "out.glb", "--masks", masks});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        std::string count = outcome.err.substr(outcome.err.rfind("faces, ") + 7);
+        std::erase(count, ',');
+        return std::stoi(count);
+    };
+    const int whole = bare_with(1.0);
+    EXPECT_GT(bare_with(0.3), whole + 100);
+}
+
+TEST_F(TextureCommand, RemovesMaskedFacesFromTheMeshOfARunWithOrWithoutPhotographs)
+{
+    write_masks(folder, 0.5);
+    const std::string masks = folder / "masks";
+    const auto num_faces = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> line = {kModel, folder / "out.ply", "--quiet", "--check"};
+        line.insert(line.end(), more.begin(), more.end());
+        const Outcome outcome = run_program(line);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return read_ply(folder / "out.ply").faces.size();
+    };
+    const std::size_t all = num_faces({});
+    const std::size_t kept = num_faces({"--masks", masks});
+    EXPECT_LT(kept, all);
+    EXPECT_GT(kept, all / 4);
+    const std::string images = fixtures_folder() / "desk_photos/images"; // divides faces
+    EXPECT_LT(num_faces({"--masks", masks, "--images", images}), num_faces({"--images", images}));
+    write_masks(folder, 0.0);
+    EXPECT_EQ(sentence_of(3, {kModel, folder / "none.ply", "--masks", masks, "--quiet"}),
+              "colmap-vcarve: " + kModel + ": the masks in " + masks +
+                  " leave no face of the surface; black pixels are excluded, so they may have to "
+                  "be inverted\n");
+    EXPECT_FALSE(std::filesystem::exists(folder / "none.ply"));
+    EXPECT_EQ(sentence_of(3, {kModel, folder / "none.ply", "--masks", folder / "gone", "--quiet"}),
+              "colmap-vcarve: " + (folder / "gone").string() +
+                  ": the folder does not exist or cannot be entered, but the folder of the masks "
+                  "is expected\n");
 }
 
 } // namespace

@@ -38,8 +38,10 @@ std::vector<fs::path> readings_of(const std::string& name, const fs::path& folde
     const std::size_t count = readings.size();
     for (std::size_t i = 0; i < count; ++i) {
         const fs::path reading = readings[i].lexically_normal();
-        if (reading.begin() == reading.end() || *reading.begin() != folder.filename()) continue;
-        readings.push_back(reading.lexically_relative(*reading.begin()));
+        if (reading.begin() == reading.end()) continue;
+        const fs::path& first = *reading.begin();
+        if (first != folder.filename() && first != "images") continue;
+        readings.push_back(reading.lexically_relative(first));
     }
     std::erase_if(readings, leads_out);
     return readings;
@@ -122,7 +124,7 @@ bool has_shape_of(const Camera& camera, const PhotographSize& photo)
 }
 
 /// Reads the sizes, and takes out the files that cannot be used.
-void measure(const Scene& scene, Photographs& photographs)
+void measure(const Scene& scene, const char* kind, Photographs& photographs)
 {
     std::vector<std::string> reasons(photographs.of_view.size());
     parallel_for(
@@ -136,9 +138,9 @@ void measure(const Scene& scene, Photographs& photographs)
                 if (camera.width_px > 0 && camera.height_px > 0 && !has_shape_of(camera, size)) {
                     throw InputError(fmt::format(
                         "{}: found {} x {} pixels, but the camera's images have {} x {}; a "
-                        "photograph may be scaled, but not cropped or turned",
+                        "{} may be scaled, but not cropped or turned",
                         file.string(), size.width_px, size.height_px, camera.width_px,
-                        camera.height_px));
+                        camera.height_px, kind));
                 }
                 photographs.sizes[view] = size;
             } catch (const InputError& error) {
@@ -151,31 +153,44 @@ void measure(const Scene& scene, Photographs& photographs)
     photographs.unusable = std::move(reasons);
 }
 
-} // namespace
-
-Photographs find_photographs(const Scene& scene, const fs::path& folder)
+/// `kind` is a photograph or a mask.
+Photographs find_pictures(const Scene& scene, const fs::path& folder, const char* kind)
 {
     if (!is_folder(folder)) {
-        throw InputError(fmt::format("{}: {}, but the folder of the photographs is expected",
+        throw InputError(fmt::format("{}: {}, but the folder of the {}s is expected",
                                      folder.string(),
                                      is_file(folder) ? "found a file"
                                                      : "the folder does not exist "
-                                                       "or cannot be entered"));
+                                                       "or cannot be entered",
+                                     kind));
     }
     Photographs found;
     found.folder = folder;
     found.of_view = files_of(scene, folder);
     found.missing = num_missing(found.of_view);
     if (found.missing == scene.views.size()) {
-        throw InputError(fmt::format(
-            "{}: found the photograph of none of the {} views, such as {}; expected the folder "
-            "that the names of the views are paths in",
-            folder.string(), scene.views.size(), scene.views.empty() ? "" : scene.views[0].name));
+        throw InputError(
+            fmt::format("{}: found the {} of none of the {} views, such as {}; expected the folder "
+                        "that the names of the views are paths in",
+                        folder.string(), kind, scene.views.size(),
+                        scene.views.empty() ? "" : scene.views[0].name));
     }
     found.sizes.resize(found.of_view.size());
-    measure(scene, found);
+    measure(scene, kind, found);
     if (num_missing(found.of_view) == scene.views.size()) throw InputError(found.unusable[0]);
     return found;
+}
+
+} // namespace
+
+Photographs find_photographs(const Scene& scene, const fs::path& folder)
+{
+    return find_pictures(scene, folder, "photograph");
+}
+
+Photographs find_masks(const Scene& scene, const fs::path& folder)
+{
+    return find_pictures(scene, folder, "mask");
 }
 
 void note_unusable(const std::vector<std::string>& sentences, Log& log)

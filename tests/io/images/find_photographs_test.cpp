@@ -128,6 +128,19 @@ TEST(FindPhotographs, TellsWhichFilesCannotBeUsed)
                 HasSubstr(text.string() + ": found an unknown format"));
 }
 
+TEST(FindMasks, AppendsPngToTheNameOfThePhotographOrReplacesItsExtension)
+{
+    const TemporaryFolder folder;
+    const auto first = put_photo(folder, "left/a.jpg.png", 3);
+    const auto second = put_photo(folder, "b.png", 3);
+    const Photographs found =
+        find_masks(scene_of({"left/a.jpg", "images/b.jpg", "c.jpg"}), folder.path());
+    EXPECT_THAT(found.of_view, ElementsAre(first, second, ""));
+    EXPECT_EQ(found.missing, 1U);
+    EXPECT_THAT(refusal<InputError>([&] { find_masks(scene_of({"d.jpg"}), folder.path()); }),
+                HasSubstr(": found the mask of none of the 1 views, such as d.jpg"));
+}
+
 TEST(FindPhotographs, RefusesAFolderThatHoldsNone)
 {
     const TemporaryFolder folder;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "picture/first_faces.h"
+#include "texture/calibrated_photo.h"
+#include "vcarve/tri_mesh.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+
+namespace vcarve {
+
+/// Sample positions on a face: near its corners, near the middles of its edges, and its centroid.
+std::array<Eigen::Vector3d, 7> face_samples(const std::array<Eigen::Vector3d, 3>& corners);
+
+/// Tests whether faces of a mesh hide a position from a camera. Keeps a copy of the mesh. Cost: as
+/// FirstFaces.
+class Occlusion {
+  public:
+    explicit Occlusion(const TriMesh& mesh);
+
+    const TriMesh& mesh() const { return mesh_; }
+
+    /// Whether nothing hides a position on a face from a camera center. Faces within a thousandth
+    /// of the distance do not hide it.
+    bool sees(const Eigen::Vector3d& center, const Eigen::Vector3d& position,
+              std::uint32_t face) const;
+
+    /// How many of the seven positions on `corners`, a part of a face, a photograph sees.
+    int seen_places(const CalibratedPhoto& photo, const std::array<Eigen::Vector3d, 3>& corners,
+                    std::uint32_t face) const;
+
+  private:
+    TriMesh mesh_;
+    FirstFaces faces_;
+};
+
+} // namespace vcarve
