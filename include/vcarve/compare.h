@@ -27,8 +27,7 @@ struct NamedMesh {
 /// What was measured of meshes.
 struct ComparisonReport {
     /// Of each mesh, in the order they were given, its figures by their place in the JSON text:
-    /// "/views/hidden_sights", "/size/faces", "/truth/blocked". docs/compare.md says what they
-    /// mean.
+    /// "/views/hidden_sights", "/size/faces", "/truth/blocked". docs/results.md explains them.
     std::vector<std::map<std::string, double>> figures;
     std::string table; ///< a Markdown table, a row a figure and a column a mesh, and what they mean
     std::string json;  ///< the same as JSON text

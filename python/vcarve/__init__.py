@@ -90,8 +90,8 @@ def compare(model, meshes, truth=None, *, progress=None, **options):
 
     `model` is what reconstruct() takes. `meshes` is a Mesh, the path of a PLY file, a list or a
     dictionary of them; `truth` is one of the first two. Returns what `colmap-vcarve compare --json`
-    writes, as a dictionary: report["meshes"][0]["views"]["hidden_sights"]; docs/compare.md says
-    what the figures mean.
+    writes, as a dictionary: report["meshes"][0]["views"]["hidden_sights"]; docs/results.md
+    explains the figures.
     """
     given, settings = _options.split(options, "input")
     listener = Listener(progress)

@@ -254,7 +254,7 @@ TEST(PlanBlocks, AllowsFourFifthsOfWhatIsFreeWhereNothingIsSaid)
 
 TEST(PlanBlocks, TakesSoManyThatThoseAtATimeTakeHalfOfTheMemory)
 {
-    // As docs/scale.md says: 20 million points in 4 GiB.
+    // As in docs/performance.md: 20 million points in 4 GiB.
     const SceneSize twenty = {.points = 20'000'000, .sights = 74'000'000, .views = 4'000};
     const RunSize run = size_of_run(twenty);
     const BlockPlan plan = plan_blocks(run, 2, {.most = 4 * kGiB}, std::nullopt);

@@ -103,7 +103,7 @@ def table_beside_paper(kept):
             for (name, (title, seconds)), papers_share in zip(OPERATIONS.items(), PAPERS_SHARES)]
     rows.append(["all five", *(three_digits(sum(c)) for c in zip(*papers.values())), "",
                  *(three_digits(sum(c)) for c in zip(*ours.values())), ""])
-    rows.append(["sights"] + [""] * 5 +
+    rows.append(["rays"] + [""] * 5 +
                 [f"{row['sights']:,}" for row in rows_at(kept, PAPERS_POINTS)] + [""])
     return markdown(head, rows)
 
@@ -116,7 +116,7 @@ def table_of_sizes(kept):
         rows.append([f"{points:,}", f"{row['sights']:,}",
                      *(f"{duration(every[name][0])}, {percent(share_of(name, every))}"
                        for name in OPERATIONS)])
-    return markdown(["points", "sights", *(title for title, _ in OPERATIONS.values())], rows, 0)
+    return markdown(["points", "rays", *(title for title, _ in OPERATIONS.values())], rows, 0)
 
 
 def table_of_laws(kept):

@@ -45,7 +45,7 @@ Vector3d area_within(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 }
 
 /// The least-area triangulation of a polygon in space, by dynamic programming over its chords.
-/// (CGAL's triangulate_hole() wants small angles first, and bulges: see docs/algorithm.md.)
+/// CGAL's triangulate_hole() minimizes angles first, so its patches bulge.
 class PolygonFill {
   public:
     PolygonFill(const HalfEdgeMesh& mesh, std::vector<VertexHandle> corners)

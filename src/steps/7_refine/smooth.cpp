@@ -132,7 +132,7 @@ std::vector<std::vector<VertexHandle>> independent_sets(const HalfEdgeMesh& mesh
 }
 
 /// OpenMesh's smoother with goals of ours, since those of its JacobiLaplaceSmootherT round off
-/// edges (docs/algorithm.md has figures), and with sights held free. Vertices at rims stay.
+/// edges, and with rays held free. Vertices at rims stay.
 class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> {
   public:
     SightGuardedSmoother(HalfEdgeMesh& mesh, const SightGuard& guard, int iterations,
