@@ -190,6 +190,7 @@ struct RunImages {
 /// Errors of the images are reported before the work starts.
 RunImages find_images(const MeshArguments& arguments, const Scene& scene, Log& log)
 {
+    const MemoryOptions& memory = arguments.options.memory;
     RunImages found;
     found.masks = masks_of(arguments.texture, scene, log);
     if (found.masks) keep_inputs(outputs_of(arguments), arguments.model, files_of(*found.masks));
@@ -197,6 +198,7 @@ RunImages find_images(const MeshArguments& arguments, const Scene& scene, Log& l
     found.photographs = photographs_of(arguments.texture, arguments.model.path, scene, log);
     if (found.masks) found.photographs->masks = found.masks->of_view;
     keep_inputs(outputs_of(arguments), arguments.model, files_of(*found.photographs));
+    require_photo_memory(*found.photographs, std::max<std::int64_t>(memory.most, 0));
     return found;
 }
 

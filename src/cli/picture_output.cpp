@@ -26,6 +26,17 @@ void note_missing(const Photographs& found, const char* kind, Log& log)
     note_unusable(found.unusable, log);
 }
 
+/// With its smaller levels, while it is decoded.
+std::int64_t bytes_of_largest(const Photographs& photographs)
+{
+    constexpr std::int64_t kBytesOfPixel = 8;
+    std::int64_t most = 1;
+    for (const PhotographSize& size : photographs.sizes) {
+        most = std::max(most, std::int64_t{size.width_px} * size.height_px);
+    }
+    return kBytesOfPixel * most;
+}
+
 } // namespace
 
 OptionList texture_options(TextureArguments& texture)
@@ -138,16 +149,30 @@ std::vector<Output> files_of(const Photographs& photographs)
     return files;
 }
 
+void require_photo_memory(const Photographs& photographs, std::int64_t most)
+{
+    const std::int64_t needed = bytes_of_largest(photographs);
+    if (most == 0 || 2 * needed <= most) return;
+    throw InputError(fmt::format("{}: the largest photograph needs {} of memory, so --max-memory "
+                                 "must be at least {}, but is {}; raise it, or scale the "
+                                 "photographs down",
+                                 photographs.folder.string(), byte_size_text(needed),
+                                 byte_size_text(2 * needed), byte_size_text(most)));
+}
+
 TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photographs,
                       const TextureTask& task, Log& log)
 {
-    // Half of what is allowed: the surface, colours of faces and four photographs are there, too.
+    // A quarter of the memory is for the pages, a half for photographs, the rest for the surface.
     constexpr std::int64_t kBytesOfTexel = 7;
     TextureOptions options = {.scale = task.arguments.scale,
                               .only_colors = !task.arguments.texture};
     if (task.most_memory > 0) {
         options.most_texels = std::min(
-            options.most_texels, static_cast<std::size_t>(task.most_memory / 2 / kBytesOfTexel));
+            options.most_texels, static_cast<std::size_t>(task.most_memory / 4 / kBytesOfTexel));
+        const std::int64_t fitting = task.most_memory / 2 / bytes_of_largest(photographs);
+        options.photos_at_a_time =
+            static_cast<std::size_t>(std::clamp<std::int64_t>(fitting, 1, 4));
     }
     const std::vector<CalibratedPhoto> photos = calibrated_photos(scene, photographs, mesh.offset);
     if (photos.empty()) {

@@ -58,6 +58,10 @@ TriMesh unmasked(const TriMesh& mesh, const Scene& scene, const Photographs& mas
 /// The files of photographs or masks, which no output may replace.
 std::vector<Output> files_of(const Photographs& photographs);
 
+/// Throws InputError if the largest photograph needs more than half of the memory limit in bytes,
+/// unless that is 0.
+void require_photo_memory(const Photographs& photographs, std::int64_t most);
+
 /// The options, and the memory limit of the run in bytes, 0 for none.
 struct TextureTask {
     const TextureArguments& arguments;

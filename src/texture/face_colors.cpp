@@ -146,13 +146,13 @@ float gain_of(std::vector<double>& quotients)
 } // namespace
 
 std::vector<std::string>
-for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
+for_each_photograph(const std::vector<CalibratedPhoto>& photos, std::size_t at_a_time,
+                    const Progress& progress,
                     const std::function<void(std::uint32_t, const PhotoPyramid&)>& body)
 {
     std::vector<std::string> problems(photos.size());
-    constexpr std::size_t kAtATime = 4;
-    for (std::size_t first = 0; first < photos.size(); first += kAtATime) {
-        const std::size_t count = std::min(kAtATime, photos.size() - first);
+    for (std::size_t first = 0; first < photos.size(); first += at_a_time) {
+        const std::size_t count = std::min(at_a_time, photos.size() - first);
         parallel_for(
             count,
             [&](std::size_t i) {
@@ -167,7 +167,8 @@ for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& 
 }
 
 ShownColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
-                           std::vector<PhotosOfFace>& photos_of_faces, const Progress& progress)
+                           std::vector<PhotosOfFace>& photos_of_faces, std::size_t at_a_time,
+                           const Progress& progress)
 {
     FaceColors colors(mesh.faces.size());
     std::vector<std::array<bool, PhotosOfFace::kMost>> shown(mesh.faces.size());
@@ -181,7 +182,7 @@ ShownColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhot
             if (found) colors[face][place] = *found;
         }
     };
-    std::vector<std::string> unreadable = for_each_photograph(photos, progress, look);
+    std::vector<std::string> unreadable = for_each_photograph(photos, at_a_time, progress, look);
     parallel_for(shown.size(), [&](std::size_t face) {
         keep_photos(photos_of_faces[face], colors[face],
                     [&](std::size_t place) { return shown[face][place]; });

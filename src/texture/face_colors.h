@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -25,10 +26,11 @@ using FaceColors = std::vector<std::array<ColorsOfFace, PhotosOfFace::kMost>>;
 /// agree with one another.
 using Gains = std::vector<Eigen::Array3f>;
 
-/// Calls body(photo, pyramid) for all photographs; at most four are in memory at a time. An
+/// Calls body(photo, pyramid) for all photographs, with at most `at_a_time` of them in memory. An
 /// unreadable photograph shows nothing. Returns a sentence for each unreadable photograph.
 std::vector<std::string>
-for_each_photograph(const std::vector<CalibratedPhoto>& photos, const Progress& progress,
+for_each_photograph(const std::vector<CalibratedPhoto>& photos, std::size_t at_a_time,
+                    const Progress& progress,
                     const std::function<void(std::uint32_t, const PhotoPyramid&)>& body);
 
 /// What photographs show of the faces.
@@ -40,7 +42,8 @@ struct ShownColors {
 /// Looks up the colors of the faces. A photograph that is transparent where it should show a face
 /// is taken from that face's photographs. Reads each photograph once.
 ShownColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
-                           std::vector<PhotosOfFace>& photos_of_faces, const Progress& progress);
+                           std::vector<PhotosOfFace>& photos_of_faces, std::size_t at_a_time,
+                           const Progress& progress);
 
 /// The exposures of photographs, as the faces tell that several show: each gain is the median
 /// quotient of what others and what the photograph shows, in some rounds; their mean is 1.

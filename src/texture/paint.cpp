@@ -280,12 +280,19 @@ class Painter {
     static void surround(Canvas& canvas)
     {
         constexpr std::array<std::array<int, 2>, 4> kSides = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+        const auto is_bare = [&](std::optional<std::size_t> texel) {
+            return texel && canvas.owners[*texel] == kNoFace;
+        };
         std::vector<std::size_t> edge; // texels painted last
         Eigen::Array3d sum = Eigen::Array3d::Zero();
         double count = 0.0;
         for (std::size_t texel = 0; texel < canvas.owners.size(); ++texel) {
             if (canvas.owners[texel] == kNoFace) continue;
-            edge.push_back(texel);
+            if (std::ranges::any_of(kSides, [&](const auto& side) {
+                    return is_bare(beside_texel(canvas, texel, side));
+                })) {
+                edge.push_back(texel);
+            }
             sum += canvas.get(texel).cast<double>();
             count += 1.0;
         }
@@ -295,7 +302,7 @@ class Painter {
             for (const std::size_t texel : edge) {
                 for (const auto& side : kSides) {
                     const std::optional<std::size_t> beside = beside_texel(canvas, texel, side);
-                    if (!beside || canvas.owners[*beside] != kNoFace) continue;
+                    if (!is_bare(beside)) continue;
                     canvas.owners[*beside] = canvas.owners[texel];
                     canvas.set(*beside, canvas.get(texel));
                     next.push_back(*beside);
@@ -324,7 +331,7 @@ std::vector<Photograph> paint_pages(const PaintPlan& plan, const Progress& progr
         }
     }
     std::vector<std::vector<Stroke>> strokes(plan.photos.size());
-    for_each_photograph(plan.photos, progress.part(0.0, 0.9),
+    for_each_photograph(plan.photos, plan.photos_at_a_time, progress.part(0.0, 0.9),
                         [&](std::uint32_t photo, const PhotoPyramid& pyramid) {
                             painter.paint(photo, faces_of_photo[photo], pyramid);
                             strokes[photo] = painter.strokes(photo, pyramid);

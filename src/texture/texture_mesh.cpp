@@ -112,7 +112,8 @@ TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& phot
     Gains gains;
     {
         Stage stage(log, "colors");
-        ShownColors shown = look_up_colors(mesh, photos, photos_of_faces, stage);
+        ShownColors shown =
+            look_up_colors(mesh, photos, photos_of_faces, options.photos_at_a_time, stage);
         colors = std::move(shown.colors);
         note_unusable(shown.unreadable, log);
         gains = find_gains(photos.size(), photos_of_faces, colors);
@@ -135,9 +136,9 @@ TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& phot
     const CornerLevels levels = level_seams(mesh, photos_of_faces, colors, gains, photo_of_face);
     auto blends = find_blends(mesh, photos_of_faces, photo_of_face, atlas, levels);
     blends.resize(photos.size());
-    result.texture =
-        texture_of(atlas, paint_pages({mesh, photos, photo_of_face, atlas, gains, levels, blends},
-                                      progress.part(0.3, 1.0)));
+    result.texture = texture_of(atlas, paint_pages({mesh, photos, photo_of_face, atlas, gains,
+                                                    levels, blends, options.photos_at_a_time},
+                                                   progress.part(0.3, 1.0)));
     result.view_of_face = views_of(photo_of_face, photos);
     result.mesh = std::move(mesh);
     stage.end({{"charts", size_of(atlas.num_charts)}, {"pages", size_of(atlas.page_sizes.size())}});

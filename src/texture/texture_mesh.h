@@ -25,7 +25,8 @@ struct TextureOptions {
     /// Where all pages together would have more texels, at 7 bytes each, they are made coarser, and
     /// a note says so.
     std::size_t most_texels = std::size_t{1} << 28U;
-    bool only_colors = false; ///< vertices are coloured, no texture is made
+    std::size_t photos_at_a_time = 4; ///< in memory
+    bool only_colors = false;         ///< vertices are coloured, no texture is made
 };
 
 /// A surface that is covered with photographs. Faces may have been halved where no photograph shows
@@ -42,7 +43,7 @@ struct TexturedMesh {
 /// Lempitsky and D. Ivanov, "Seamless mosaicing of image-based texture maps", CVPR 2007). Runs as
 /// the stages "photos", "colors" and "texture" of `log`. The same result for any number of threads.
 /// Photographs that cannot be read are left out with a note. Throws Cancelled. Cost: every
-/// photograph is read twice, for colours alone once; at most four are in memory.
+/// photograph is read twice, for colours alone once; `photos_at_a_time` are in memory.
 TexturedMesh texture_mesh(TriMesh mesh, const std::vector<CalibratedPhoto>& photos,
                           const TextureOptions& options, Log& log);
 

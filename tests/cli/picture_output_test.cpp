@@ -1,7 +1,9 @@
+#include "cli/picture_output.h"
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/read_png.h"
 #include "support/temporary_folder.h"
+#include "vcarve/error.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -118,6 +120,20 @@ TEST_F(PreviewOfBall, RefusesAViewThatTheModelLacksBeforeTheSurfaceIsMade)
               "colmap-vcarve: --view takes auto, top, orbit or the name of an image, but the model "
               "has no image x.jpg: it has 6 (+z.jpg, -z.jpg, +y.jpg, ...)\n");
     EXPECT_EQ(folder.num_entries(), 1U);
+}
+
+TEST(RequirePhotoMemory, RefusesPhotographsThatNeedMoreThanHalfOfTheLimit)
+{
+    Photographs photographs;
+    photographs.folder = "images";
+    photographs.sizes = {{100, 100}, {4000, 3000}};
+    const std::int64_t needed = std::int64_t{8} * 4000 * 3000;
+    EXPECT_NO_THROW(cli::require_photo_memory(photographs, 0));
+    EXPECT_NO_THROW(cli::require_photo_memory(photographs, 2 * needed));
+    EXPECT_THAT(
+        refusal<InputError>([&] { cli::require_photo_memory(photographs, 2 * needed - 1); }),
+        HasSubstr("images: the largest photograph needs 91.55M of memory, so --max-memory must be "
+                  "at least 183.1M, but is 183.1M; raise it, or scale the photographs down"));
 }
 
 } // namespace

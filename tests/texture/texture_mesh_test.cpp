@@ -263,5 +263,18 @@ TEST(TextureMesh, ShowsNoColorsOfTransparentPixels)
     EXPECT_GT(std::ranges::count(green.view_of_face, 1), 0) << "the other half is used";
 }
 
+TEST(TextureMesh, IsTheSameWithFewerPhotographsInMemory)
+{
+    PhotographedWall wall;
+    for (int i = 0; i < 5; ++i) {
+        wall.add({0.2 * i - 0.4, 0, -2.5});
+    }
+    ToldLog log;
+    const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
+    const TexturedMesh one = texture_mesh(wall_mesh(6), wall.photos, {.photos_at_a_time = 1}, log);
+    EXPECT_EQ(one.texture.pages[0].rgb, made.texture.pages[0].rgb);
+    EXPECT_EQ(one.mesh.colors, made.mesh.colors);
+}
+
 } // namespace
 } // namespace vcarve::texture_mesh_test
