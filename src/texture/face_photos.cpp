@@ -90,10 +90,12 @@ Looked look_at_face(const std::vector<CalibratedPhoto>& photos, const Occlusion&
 {
     photos_before(photos, corners, asked);
     Looked looked;
+    PhotosOfFace clear;
+    PhotosOfFace edge;
     double longest = 0.0;
     int side = 0;
     for (const Asked& one : asked) {
-        if (looked.photos.count == PhotosOfFace::kMost) break;
+        if (clear.count == PhotosOfFace::kMost) break;
         const int seen = occlusion.seen_places(photos[one.photo], corners, whole);
         if (seen == 0) continue;
         if (longest == 0.0) {
@@ -101,10 +103,13 @@ Looked look_at_face(const std::vector<CalibratedPhoto>& photos, const Occlusion&
             side = std::max(photos[one.photo].size.width_px, photos[one.photo].size.height_px);
         }
         if (seen == 7 && one.area_px2 > 0.0) {
-            looked.photos.best[looked.photos.count] = {one.photo, static_cast<float>(one.area_px2)};
-            ++looked.photos.count;
+            PhotosOfFace& list =
+                occlusion.is_near_silhouette(photos[one.photo], corners) ? edge : clear;
+            if (list.count == PhotosOfFace::kMost) continue;
+            list.best[list.count++] = {one.photo, static_cast<float>(one.area_px2)};
         }
     }
+    looked.photos = clear.count > 0 ? clear : edge;
     looked.photos.is_partly_shown = looked.photos.count == 0 && longest > kShortestPx;
     looked.is_large = longest > 0.125 * side;
     return looked;

@@ -49,6 +49,7 @@ corner_pixels(const CalibratedPhoto& photo, const std::array<Eigen::Vector3d, 3>
 
 /// Of each face the photographs that show it. A face counts as shown where seven places of it are:
 /// near its corners, amid its edges and in its middle, and where it is seen at 6 degrees or more.
+/// Photographs with a depth discontinuity within 3 pixels of the face count only if all have one.
 /// Where no photograph shows all of a face, but one a part, the face is halved at its longest edge
 /// until its parts are shown or not, or are some pixels long; so is a face longer than an eighth of
 /// the photograph that shows it best. Faces beside are halved with it, so the surface stays whole.

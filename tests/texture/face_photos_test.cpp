@@ -109,5 +109,25 @@ TEST(CornerPixels, AreNoneWhereThePhotographBendsAFace)
     EXPECT_FALSE(corner_pixels(panorama, across));
 }
 
+TEST(PhotosOfFaces, AreNotThoseThatShowTheBackgroundBesideTheFaceIfOthersDoNot)
+{
+    TriMesh corner = wall_mesh(6); // 6 squares a side, in two faces each
+    const auto first = static_cast<std::uint32_t>(corner.positions.size());
+    corner.positions.insert(corner.positions.end(), {{1, -1, 0}, {1, 1, 0}, {1, -1, 2}, {1, 1, 2}});
+    corner.faces.push_back({first, first + 1, first + 2});
+    corner.faces.push_back({first + 1, first + 3, first + 2});
+    // The first camera sees the wall's right edge before nothing, the second before the side wall.
+    const std::vector<CalibratedPhoto> photos = {photo_from({0, 0, -2.5}),
+                                                 photo_from({1.7, 0, -2.5})};
+    const auto found = find_photos_of_faces(corner, photos, Progress());
+    const std::size_t middle = 2 * (2 * 6 + 3); // a face amid the wall
+    const std::size_t edge = 2 * (2 * 6 + 5) + 1;
+    EXPECT_EQ(found[middle].count, 2);
+    ASSERT_EQ(found[edge].count, 1);
+    EXPECT_EQ(found[edge].best[0].photo, 1U);
+    const auto alone = find_photos_of_faces(corner, {photos[0]}, Progress());
+    EXPECT_EQ(alone[edge].count, 1) << "better than none";
+}
+
 } // namespace
 } // namespace vcarve::face_photos_test
