@@ -5,12 +5,16 @@
 #include "support/temporary_folder.h"
 #include "vcarve/reconstruct.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 namespace vcarve::mesh_command_run_test {
@@ -72,6 +76,17 @@ TEST_F(ProgramOnBall, TellsEveryStageAndAllItsCountsWhereItIsToBeVerbose)
                              "wrote (.|\n)*"));
 }
 
+/// Whether pseudo-terminals can be opened. A bare chroot has no /dev/pts.
+bool has_pseudo_terminals()
+{
+    const int ours = ::posix_openpt(O_RDWR | O_NOCTTY);
+    if (ours < 0) return false;
+    const char* const name = ::unlockpt(ours) == 0 ? ::ptsname(ours) : nullptr;
+    const bool has = name != nullptr && std::filesystem::exists(name);
+    ::close(ours);
+    return has;
+}
+
 /// What the program writes to a terminal of this kind.
 std::string shown_on_terminal(const std::string& environment,
                               const std::vector<std::string>& arguments)
@@ -85,6 +100,7 @@ std::string shown_on_terminal(const std::string& environment,
 
 TEST_F(ProgramOnBall, EmphasisesOnATerminalUnlessNoColorForbidsIt)
 {
+    if (!has_pseudo_terminals()) GTEST_SKIP() << "no pseudo-terminals: /dev/pts is not mounted";
     const auto shown = [&](const std::string& environment) {
         return shown_on_terminal(environment, {ball, out});
     };
