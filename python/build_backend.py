@@ -26,9 +26,9 @@ Requires-Dist: numpy
 EARLIEST = (1980, 1, 1, 0, 0, 0)  # which a zip file can tell, so that the same build gives the same
 
 
-def _tag():
+def _tag(platform):
     version = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    return f"{version}-{version}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
+    return f"{version}-{version}-{re.sub('[-.]', '_', platform)}"
 
 
 def _install(prefix):
@@ -48,22 +48,20 @@ def _record_line(name, content):
     return f"{name},sha256={digest},{len(content)}\n"
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """As PEP 517 says; returns the name of the wheel."""
-    del config_settings, metadata_directory
+def pack(prefix, wheel_directory, platform):
+    """Packs all files below a folder into a wheel; returns its name."""
+    tag = _tag(platform)
     info = f"vcarve-{VERSION}.dist-info"
     contents = {f"{info}/METADATA": METADATA.encode(),
                 f"{info}/WHEEL": (f"Wheel-Version: 1.0\nGenerator: vcarve\n"
-                                  f"Root-Is-Purelib: false\nTag: {_tag()}\n").encode(),
+                                  f"Root-Is-Purelib: false\nTag: {tag}\n").encode(),
                 f"{info}/LICENSE": (ROOT / "LICENSE").read_bytes()}
-    with tempfile.TemporaryDirectory() as prefix:
-        _install(prefix)
-        for file in sorted(pathlib.Path(prefix).rglob("*")):
-            if file.is_file():
-                contents[file.relative_to(prefix).as_posix()] = file.read_bytes()
+    for file in sorted(pathlib.Path(prefix).rglob("*")):
+        if file.is_file():
+            contents[file.relative_to(prefix).as_posix()] = file.read_bytes()
     lines = [_record_line(name, content) for name, content in contents.items()]
     contents[f"{info}/RECORD"] = "".join([*lines, f"{info}/RECORD,,\n"]).encode()
-    name = f"vcarve-{VERSION}-{_tag()}.whl"
+    name = f"vcarve-{VERSION}-{tag}.whl"
     with zipfile.ZipFile(os.path.join(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel:
         for path, content in contents.items():
             entry = zipfile.ZipInfo(path, EARLIEST)
@@ -71,3 +69,15 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
             entry.compress_type = zipfile.ZIP_DEFLATED
             wheel.writestr(entry, content)
     return name
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """As PEP 517 says; returns the name of the wheel."""
+    del config_settings, metadata_directory
+    with tempfile.TemporaryDirectory() as prefix:
+        _install(prefix)
+        return pack(prefix, wheel_directory, sysconfig.get_platform())
+
+
+if __name__ == "__main__":
+    print(pack(*sys.argv[1:]))  # tools/package: FOLDER OUT PLATFORM

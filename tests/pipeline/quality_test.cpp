@@ -18,7 +18,9 @@
 // What the program is proud of, held to bounds on every fixture whose truth is known, at the
 // defaults it ships. After a change that is meant to move these figures, print them anew with
 //   build/pipeline_tests --gtest_filter='*Quality*'
-// and put the lines that begin with a brace in place of those below.
+// and put the lines that begin with a brace in place of those below. The surfaces of dense points
+// depend on the version of meshoptimizer, which simplifies them: dense_room and scanned_room have
+// the worse figures of Debian 12 (version 0.18) and Debian 13 (0.22).
 
 namespace vcarve::quality_test {
 namespace {
@@ -46,8 +48,8 @@ constexpr Measured kMeasured[] = {
     {"scene", {0.8298, 0.0459, 0.0266, 0.8054, 0.0000, 0.0738}},
     {"air", {0.7136, 0.0789, 0.0090, 0.7057, 0.0000, 0.0231}},
     {"room", {0.6632, 0.0692, 0.0256, 0.6682, 0.0000, 0.1917}},
-    {"dense_room", {0.7203, 0.0369, 0.0196, 0.7015, 0.0000, 0.2083}, "room"},
-    {"scanned_room", {0.9090, 0.0354, 0.0146, 0.8987, 0.0000, 0.0041}, "room"},
+    {"dense_room", {0.7454, 0.0175, 0.0180, 0.7210, 0.0000, 0.2080}, "room"},
+    {"scanned_room", {0.9211, 0.0306, 0.0128, 0.9038, 0.0002, 0.0068}, "room"},
     {"paper/cube_with_cavity", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
     {"paper/boissonnat", {1.0000, 0.0000, 0.0000, 1.0000, 0.0000, 0.0000}},
     {"paper/cubicles", {0.9902, 0.0039, 0.0000, 0.9904, 0.0000, 0.0008}},
@@ -57,7 +59,7 @@ constexpr Measured kMeasured[] = {
 /// What no fixture may exceed.
 constexpr std::pair<const char*, double> kMost[] = {
     {"/views/back_faces_seen", 0.001}, {"/views/hidden_sights", 0.002},
-    {"/views/missed_points", 0.006},   {"/views/seen_boundary_edges", 90},
+    {"/views/missed_points", 0.0065},  {"/views/seen_boundary_edges", 90},
     {"/size/nonmanifold_edges", 0},    {"/size/nonmanifold_vertices", 0},
     {"/size/orientation_faults", 0},
 };

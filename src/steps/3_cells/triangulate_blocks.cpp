@@ -176,6 +176,7 @@ std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& w
     try {
         blocks = all_blocks(scene, first, wanted, progress.part(0.0, 0.9));
     } catch (const TooManyTies&) {
+        return_freed_memory(); // the caller triangulates at once, in this thread's own arena
         return std::nullopt;
     }
     return_freed_memory();
