@@ -31,7 +31,7 @@ Photograph mask_image(int width_px, int height_px, const IsBlack& is_black)
 
 /// The masks of cameras before the wall.
 class MaskedWall : public ::testing::Test {
-  protected:
+  public:
     /// The camera sees all of the wall, which fills the middle 80 x 80 of 160 x 120 pixels.
     void add(const IsBlack& is_black, const Eigen::Vector3d& center = {0, 0, -2.5})
     {
