@@ -32,8 +32,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace vcarve::cli {
 
@@ -181,6 +183,12 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
     return folder;
 }
 
+/// --max-memory in bytes; 0 if it is `auto`.
+std::int64_t memory_limit(const MeshArguments& arguments)
+{
+    return std::max<std::int64_t>(arguments.options.memory.most, 0);
+}
+
 /// The images that a run reads, if any.
 struct RunImages {
     std::optional<Photographs> photographs;
@@ -190,15 +198,17 @@ struct RunImages {
 /// Errors of the images are reported before the work starts.
 RunImages find_images(const MeshArguments& arguments, const Scene& scene, Log& log)
 {
-    const MemoryOptions& memory = arguments.options.memory;
     RunImages found;
+    std::vector<Output> files;
     found.masks = masks_of(arguments.texture, scene, log);
-    if (found.masks) keep_inputs(outputs_of(arguments), arguments.model, files_of(*found.masks));
-    if (!arguments.dense.dense && !arguments.texture.reads_images()) return found;
-    found.photographs = photographs_of(arguments.texture, arguments.model.path, scene, log);
-    if (found.masks) found.photographs->masks = found.masks->of_view;
-    keep_inputs(outputs_of(arguments), arguments.model, files_of(*found.photographs));
-    require_photo_memory(*found.photographs, std::max<std::int64_t>(memory.most, 0));
+    if (found.masks) files = files_of(*found.masks);
+    if (arguments.dense.dense || arguments.texture.reads_images()) {
+        found.photographs = photographs_of(arguments.texture, arguments.model.path, scene, log);
+        if (found.masks) found.photographs->masks = found.masks->of_view;
+        std::ranges::move(files_of(*found.photographs), std::back_inserter(files));
+        require_photo_memory(*found.photographs, memory_limit(arguments));
+    }
+    if (!files.empty()) keep_inputs(outputs_of(arguments), arguments.model, files);
     return found;
 }
 
@@ -255,9 +265,8 @@ Surface surface_of(ModelInput input, const Run& run)
             reconstruct_thinned(std::move(input.scene), input.read, options, run.log, extras);
         if (images.masks) made.mesh = unmasked(made.mesh, made.scene, *images.masks, run.log);
         if (images.photographs) {
-            const std::int64_t most = std::max<std::int64_t>(arguments.options.memory.most, 0);
             TexturedMesh covered = textured(std::move(made.mesh), made.scene, *images.photographs,
-                                            {arguments.texture, most}, run.log);
+                                            {arguments.texture, memory_limit(arguments)}, run.log);
             made.mesh = std::move(covered.mesh);
             surface.texture = std::move(covered.texture);
         }

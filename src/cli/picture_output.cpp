@@ -171,8 +171,8 @@ TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photo
         options.most_texels = std::min(
             options.most_texels, static_cast<std::size_t>(task.most_memory / 4 / kBytesOfTexel));
         const std::int64_t fitting = task.most_memory / 2 / bytes_of_largest(photographs);
-        options.photos_at_a_time =
-            static_cast<std::size_t>(std::clamp<std::int64_t>(fitting, 1, 4));
+        options.photos_at_a_time = static_cast<std::size_t>(
+            std::clamp<std::int64_t>(fitting, 1, size_of(options.photos_at_a_time)));
     }
     const std::vector<CalibratedPhoto> photos = calibrated_photos(scene, photographs, mesh.offset);
     if (photos.empty()) {

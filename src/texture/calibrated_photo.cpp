@@ -3,7 +3,6 @@
 #include "io/images/read_photograph.h"
 #include "model/camera.h"
 #include "model/photograph.h"
-#include "texture/masked_faces.h"
 #include "vcarve/error.h"
 
 #include <algorithm>
@@ -29,6 +28,29 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
     const bool is_inside = pixel && pixel->x() >= 0.0 && pixel->y() >= 0.0 &&
                            pixel->x() <= photo.size.width_px && pixel->y() <= photo.size.height_px;
     return is_inside ? pixel : std::nullopt;
+}
+
+bool is_excluded(const Photograph& mask, const Eigen::Vector2d& pixel)
+{
+    const int x = std::min(static_cast<int>(pixel.x()), mask.width_px - 1);
+    const int y = std::min(static_cast<int>(pixel.y()), mask.height_px - 1);
+    const std::uint8_t* const at =
+        mask.rgb.data() + 3 * (static_cast<std::size_t>(y) * mask.width_px + x);
+    return at[0] == 0 && at[1] == 0 && at[2] == 0;
+}
+
+void exclude_masked(const std::filesystem::path& mask_file, Photograph& photo)
+{
+    const Photograph mask = read_photograph(mask_file);
+    if (photo.alpha.empty()) photo.alpha.assign(photo.rgb.size() / 3, 255);
+    const double right = static_cast<double>(mask.width_px) / photo.width_px;
+    const double down = static_cast<double>(mask.height_px) / photo.height_px;
+    auto alpha = photo.alpha.begin();
+    for (int y = 0; y < photo.height_px; ++y) {
+        for (int x = 0; x < photo.width_px; ++x, ++alpha) {
+            if (is_excluded(mask, {right * (x + 0.5), down * (y + 0.5)})) *alpha = 0;
+        }
+    }
 }
 
 Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem)

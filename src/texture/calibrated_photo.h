@@ -35,6 +35,13 @@ std::optional<Eigen::Vector2d> pixel_of(const CalibratedPhoto& photo,
 std::optional<Eigen::Vector2d> pixel_beyond(const CalibratedPhoto& photo,
                                             const Eigen::Vector3d& position);
 
+/// Whether a mask excludes a pixel, as in COLMAP: whether it is black there.
+bool is_excluded(const Photograph& mask, const Eigen::Vector2d& pixel);
+
+/// Makes the pixels of a photograph transparent that a mask, which may have another size, excludes.
+/// Throws InputError as read_photograph() does.
+void exclude_masked(const std::filesystem::path& mask_file, Photograph& photo);
+
 /// Reads a photograph and its mask. If either cannot be read, the result shows nothing, and
 /// `problem` says why.
 Photograph photograph_of(const CalibratedPhoto& photo, std::string& problem);

@@ -9,9 +9,7 @@
 #include "texture/occlusion.h"
 #include "vcarve/error.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,19 +22,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-bool is_black(const Photograph& mask, std::size_t pixel)
-{
-    const auto at = mask.rgb.begin() + static_cast<std::ptrdiff_t>(3 * pixel);
-    return std::all_of(at, at + 3, [](std::uint8_t channel) { return channel == 0; });
-}
-
-bool is_black_at(const Photograph& mask, const Vector2d& place)
-{
-    const int x = std::min(static_cast<int>(place.x()), mask.width_px - 1);
-    const int y = std::min(static_cast<int>(place.y()), mask.height_px - 1);
-    return is_black(mask, static_cast<std::size_t>(y) * mask.width_px + x);
-}
-
 /// How a view sees a face.
 enum class Look : std::uint8_t { unseen, masked, clear };
 
@@ -48,7 +33,7 @@ Look look_at(const CalibratedPhoto& view, const Photograph& mask, const Occlusio
     for (const Vector3d& place : face_samples(corners_of(mesh.positions, mesh.faces[face]))) {
         const std::optional<Vector2d> pixel = pixel_of(view, place);
         if (!pixel) continue;
-        const bool is_masked = is_black_at(mask, *pixel);
+        const bool is_masked = is_excluded(mask, *pixel);
         if (is_masked && look == Look::masked) continue;
         if (!occlusion.sees(view.pose.center, place, face)) continue;
         if (!is_masked) return Look::clear;
@@ -89,20 +74,6 @@ std::vector<Votes> votes_of(const TriMesh& mesh, const std::vector<CalibratedPho
 }
 
 } // namespace
-
-void exclude_masked(const std::filesystem::path& mask_file, Photograph& photo)
-{
-    const Photograph mask = read_photograph(mask_file);
-    if (photo.alpha.empty()) photo.alpha.assign(photo.rgb.size() / 3, 255);
-    const double right = static_cast<double>(mask.width_px) / photo.width_px;
-    const double down = static_cast<double>(mask.height_px) / photo.height_px;
-    auto alpha = photo.alpha.begin();
-    for (int y = 0; y < photo.height_px; ++y) {
-        for (int x = 0; x < photo.width_px; ++x, ++alpha) {
-            if (is_black_at(mask, {right * (x + 0.5), down * (y + 0.5)})) *alpha = 0;
-        }
-    }
-}
 
 TriMesh without_masked_faces(const TriMesh& mesh, const std::vector<CalibratedPhoto>& masks,
                              const Progress& progress)

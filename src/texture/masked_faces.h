@@ -1,18 +1,12 @@
 #pragma once
 
 #include "base/progress.h"
-#include "model/photograph.h"
 #include "texture/calibrated_photo.h"
 #include "vcarve/tri_mesh.h"
 
-#include <filesystem>
 #include <vector>
 
 namespace vcarve {
-
-/// Makes the pixels of a photograph transparent that are black in a mask, as COLMAP excludes them.
-/// The mask may have another size. Throws InputError as read_photograph() does.
-void exclude_masked(const std::filesystem::path& mask, Photograph& photo);
 
 /// Removes the faces that most views see only in masked pixels, and the connected components
 /// without a face that a view sees in another pixel. `masks` are the masks with their views'

@@ -31,8 +31,8 @@ class Occlusion {
     int seen_places(const CalibratedPhoto& photo, const std::array<Eigen::Vector3d, 3>& corners,
                     std::uint32_t face) const;
 
-    /// Whether a photograph shows a depth discontinuity within some pixels of a face: next to one,
-    /// small errors of shape and pose paint the background, or what stands before the face, on it.
+    /// Whether a photograph shows a depth discontinuity within 3 pixels of a face. Next to one,
+    /// small errors of shape and pose paint the background or a nearer object on the face.
     bool is_near_silhouette(const CalibratedPhoto& photo,
                             const std::array<Eigen::Vector3d, 3>& corners) const;
 

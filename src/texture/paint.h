@@ -21,7 +21,7 @@ struct PaintPlan {
     const Gains& gains;
     const CornerLevels& levels;
     const std::vector<std::vector<Blend>>& blends;
-    std::size_t photos_at_a_time = 4;
+    std::size_t photos_at_a_time; ///< in memory
 };
 
 /// The pages of an atlas. Each texel is a place of the surface, which the photograph is asked for

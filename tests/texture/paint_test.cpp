@@ -30,7 +30,7 @@ struct Painted {
 
     std::vector<Photograph> pages() const
     {
-        return paint_pages({mesh, photos, photo_of_face, atlas, gains, levels, blends}, {});
+        return paint_pages({mesh, photos, photo_of_face, atlas, gains, levels, blends, 4}, {});
     }
 };
 
