@@ -97,10 +97,8 @@ void write_masks(const TemporaryFolder& folder, double share)
         const Camera& camera = scene.cameras[view.camera];
         const auto width = static_cast<int>(camera.width_px / 4);
         const auto height = static_cast<int>(camera.height_px / 4);
-        Photograph mask{width, height, {}};
-        for (int i = 0; i < width * height; ++i) {
-            mask.rgb.insert(mask.rgb.end(), 3, i % width < share * width ? 255 : 0);
-        }
+        const Photograph mask =
+            mask_image(width, height, [&](int x, int) { return x >= share * width; });
         const auto file = folder.path() / "masks" / (view.name + ".png");
         std::filesystem::create_directories(file.parent_path());
         write_photograph(file, mask);

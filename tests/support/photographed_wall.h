@@ -81,6 +81,21 @@ photograph_of_wall(const CalibratedPhoto& photo, const Eigen::Array3d& exposure 
     return image;
 }
 
+using IsBlack = std::function<bool(int, int)>; ///< of x and y
+
+/// A mask of any size, black and white.
+inline Photograph mask_image(int width_px, int height_px, const IsBlack& is_black)
+{
+    constexpr std::uint8_t kWhite = 255;
+    Photograph image{width_px, height_px, {}};
+    for (int y = 0; y < height_px; ++y) {
+        for (int x = 0; x < width_px; ++x) {
+            image.rgb.insert(image.rgb.end(), 3, is_black(x, y) ? 0 : kWhite);
+        }
+    }
+    return image;
+}
+
 inline void write_photograph(const std::filesystem::path& path, const Photograph& image)
 {
     const std::vector<std::uint8_t> bytes = encode_png(image);

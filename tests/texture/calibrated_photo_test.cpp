@@ -1,10 +1,13 @@
 #include "support/photographed_wall.h"
 #include "texture/calibrated_photo.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace vcarve::calibrated_photo_test {
 namespace {
+
+using ::testing::ElementsAre;
 
 TEST(CalibratedPhoto, ShowsAPlaceAtThePixelOfItsCamera)
 {
@@ -91,6 +94,32 @@ TEST(PhotoPyramid, OfOnePixelIsThatPixel)
 {
     const PhotoPyramid pyramid(Photograph{1, 1, {9, 8, 7}});
     EXPECT_TRUE(pyramid.at({0.5, 0.5}, 16.0).isApprox(Eigen::Array3f(9, 8, 7)));
+}
+
+TEST(ExcludeMasked, MakesBlackPixelsTransparentWhateverTheSizeOfTheMask)
+{
+    const TemporaryFolder folder;
+    for (const int size : {2, 4, 8}) {
+        write_photograph(folder / "mask.png",
+                         mask_image(size, size, [&](int x, int) { return 2 * x >= size; }));
+        Photograph photo = mask_image(4, 2, [](int, int) { return false; });
+        exclude_masked(folder / "mask.png", photo);
+        EXPECT_THAT(photo.alpha, ElementsAre(255, 255, 0, 0, 255, 255, 0, 0)) << size;
+        photo.alpha[0] = 0;
+        exclude_masked(folder / "mask.png", photo);
+        EXPECT_EQ(photo.alpha[0], 0) << "transparent before";
+    }
+}
+
+TEST(ExcludeMasked, TakesOnlyBlackForExcluded)
+{
+    const TemporaryFolder folder;
+    Photograph mask = mask_image(2, 1, [](int, int) { return true; });
+    mask.rgb[2] = 1;
+    write_photograph(folder / "mask.png", mask);
+    Photograph photo = mask_image(2, 1, [](int, int) { return false; });
+    exclude_masked(folder / "mask.png", photo);
+    EXPECT_THAT(photo.alpha, ElementsAre(255, 0));
 }
 
 } // namespace

@@ -11,23 +11,6 @@ namespace vcarve::masked_faces_test {
 namespace {
 
 using ::testing::Each;
-using ::testing::ElementsAre;
-
-constexpr std::uint8_t kWhite = 255;
-
-using IsBlack = std::function<bool(int, int)>;
-
-/// A mask of any size.
-Photograph mask_image(int width_px, int height_px, const IsBlack& is_black)
-{
-    Photograph image{width_px, height_px, {}};
-    for (int y = 0; y < height_px; ++y) {
-        for (int x = 0; x < width_px; ++x) {
-            image.rgb.insert(image.rgb.end(), 3, is_black(x, y) ? 0 : kWhite);
-        }
-    }
-    return image;
-}
 
 /// The masks of cameras before the wall.
 class MaskedWall : public ::testing::Test {
@@ -126,32 +109,6 @@ TEST_F(MaskedWall, IgnoresAMaskThatCannotBeRead)
     add([](int, int) { return false; });
     std::filesystem::remove(masks[1].file);
     EXPECT_EQ(kept_of(wall).faces.size(), wall.faces.size() / 2);
-}
-
-TEST(ExcludeMasked, MakesBlackPixelsTransparentWhateverTheSizeOfTheMask)
-{
-    const TemporaryFolder folder;
-    for (const int size : {2, 4, 8}) {
-        write_photograph(folder / "mask.png",
-                         mask_image(size, size, [&](int x, int) { return 2 * x >= size; }));
-        Photograph photo = mask_image(4, 2, [](int, int) { return false; });
-        exclude_masked(folder / "mask.png", photo);
-        EXPECT_THAT(photo.alpha, ElementsAre(255, 255, 0, 0, 255, 255, 0, 0)) << size;
-        photo.alpha[0] = 0;
-        exclude_masked(folder / "mask.png", photo);
-        EXPECT_EQ(photo.alpha[0], 0) << "transparent before";
-    }
-}
-
-TEST(ExcludeMasked, TakesOnlyBlackForExcluded)
-{
-    const TemporaryFolder folder;
-    Photograph mask = mask_image(2, 1, [](int, int) { return true; });
-    mask.rgb[2] = 1;
-    write_photograph(folder / "mask.png", mask);
-    Photograph photo = mask_image(2, 1, [](int, int) { return false; });
-    exclude_masked(folder / "mask.png", photo);
-    EXPECT_THAT(photo.alpha, ElementsAre(255, 0));
 }
 
 } // namespace
