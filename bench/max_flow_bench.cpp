@@ -30,7 +30,7 @@ void bench_minimum_cut(benchmark::State& state)
     report(state, cells.cells.size(), inside);
 }
 
-/// The program of Boykov and Kolmogorov themselves (PAMI 2004).
+/// The implementation by Boykov and Kolmogorov (PAMI 2004).
 void bench_libmaxflow(benchmark::State& state)
 {
     using FlowGraph = maxflow::Graph_III;

@@ -27,7 +27,7 @@ namespace {
 using Eigen::Vector3d;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// CGAL's triangulation as its manual has it, with nothing of ours.
+/// CGAL's triangulation as in its manual, without our code.
 template <typename Concurrency>
 using BareDelaunay = CGAL::Delaunay_triangulation_3<
     Kernel, CGAL::Triangulation_data_structure_3<CGAL::Triangulation_vertex_base_3<Kernel>,
@@ -44,7 +44,7 @@ std::vector<Kernel::Point_3> cgal_points(const std::vector<Eigen::Vector3d>& poi
     return result;
 }
 
-/// Time, and memory above what there was, since it was made.
+/// Time since construction, and the peak of memory above the memory in use at construction.
 class Meter {
   public:
     Meter() : base_bytes_(begin_peak()), began_(cli::process_usage()) {}
@@ -64,8 +64,8 @@ class Meter {
     static std::int64_t begin_peak()
     {
         if (!cli::reset_peak_memory()) {
-            throw std::runtime_error("peaks of memory cannot be told apart here: "
-                                     "/proc/self/clear_refs takes no 5");
+            throw std::runtime_error("cannot reset the peak of memory: this system does not "
+                                     "accept 5 in /proc/self/clear_refs");
         }
         return cli::peak_memory_bytes();
     }
@@ -97,7 +97,7 @@ tbb::global_control limit_of(int threads)
                                static_cast<std::size_t>(threads));
 }
 
-/// What a run read and triangulated.
+/// The sizes of a run, and the points that it triangulated.
 struct Run {
     RunSize size;
     std::vector<Vector3d> triangulated;
@@ -120,7 +120,7 @@ Run make_surface(const Sample& sample, int threads, Log& log)
     return {size, std::move(made.scene.positions)};
 }
 
-/// The stages recorded, with their peaks above the base and what was foretold of them.
+/// The recorded stages, with their peaks above the base and the predicted memory.
 Json stages_of(const cli::Json& recorded, const Meter& meter, const Run& run, int threads)
 {
     Json stages = Json::array();
@@ -155,7 +155,7 @@ Json prepare(const Sample& sample)
             {"points", run.size.read.points},
             {"triangulated", run.triangulated.size()},
             {"views", run.size.read.views},
-            {"sights", run.size.read.sights}};
+            {"rays", run.size.read.rays}};
 }
 
 Json measure_sequential_triangulation(const Sample& sample)
@@ -192,7 +192,7 @@ Json measure_run(const Sample& sample, int threads)
     Json result = meter.json();
     result["base_bytes"] = meter.base_bytes();
     result["predicted_bytes"] = predicted_peak(run.size, threads);
-    // Each stage began a new peak
+    // Each stage resets the peak.
     const cli::Json recorded = recorder.json();
     result["peak_bytes"] = meter.above_base(recorded["total"]["peak_memory_bytes"]);
     result["stages"] = stages_of(recorded["stages"], meter, run, threads);

@@ -42,7 +42,7 @@ std::string answer_of(const std::function<Json()>& work)
         if (count <= 0) break;
         written += static_cast<std::size_t>(count);
     }
-    // Buffers of streams are the parent's to write
+    // Do not flush stream buffers: the parent writes them.
     ::_exit(written == text.size() ? 0 : 1);
 }
 
@@ -59,7 +59,7 @@ std::string read_all(int in)
 
 [[noreturn]] void become(std::vector<std::string> words)
 {
-    std::vector<char*> pointers(words.size() + 1, nullptr); // the last ends the list
+    std::vector<char*> pointers(words.size() + 1, nullptr); // terminated by nullptr
     std::ranges::transform(words, pointers.begin(), [](std::string& word) { return word.data(); });
     ::execvp(pointers[0], pointers.data());
     ::_exit(127);
@@ -74,7 +74,7 @@ pid_t start(const std::vector<std::string>& words)
     return child;
 }
 
-/// What the files in a folder take on disk. Files may come and go meanwhile.
+/// The disk space of the files in a folder. Files may appear and disappear meanwhile.
 std::int64_t bytes_on_disk(const fs::path& folder)
 {
     constexpr std::int64_t kBlock = 512; // of stat, on every file system
@@ -88,7 +88,7 @@ std::int64_t bytes_on_disk(const fs::path& folder)
     return bytes;
 }
 
-/// Whether it has ended; what it used stays to be asked.
+/// Whether a child has ended. Its resource usage stays available.
 bool has_ended(pid_t child)
 {
     siginfo_t state = {};
@@ -96,7 +96,7 @@ bool has_ended(pid_t child)
     return state.si_pid == child;
 }
 
-/// What a process moved, as /proc tells of it until it is waited for.
+/// The bytes that a process read and wrote, from /proc. Call it before waiting for the process.
 std::map<std::string, std::int64_t> traffic_of(pid_t process)
 {
     std::map<std::string, std::int64_t> traffic;

@@ -17,11 +17,11 @@ namespace fs = std::filesystem;
 
 constexpr const char* kInMemory = "0";
 
-/// A run of a program, whose surface must be that of run number `like`.
+/// A run of a program. Its surface must be byte-identical to that of run `like`.
 struct Run {
-    std::vector<std::string> words; ///< all but the name of the surface
+    std::vector<std::string> words; ///< the command line without the output file
     std::size_t like = 0;
-    Json figures = {}; ///< of measure_program(), medians over the rounds
+    Json figures = {}; ///< of measure_program(): medians over the rounds
     bool is_same = true;
 };
 
@@ -67,7 +67,7 @@ const char* yes_or_no(bool is_same)
     return is_same ? "yes" : "**NO**";
 }
 
-/// 0 where that only shows when the model is read.
+/// The number of points of a model; 0 if it is unknown before the model is read.
 std::size_t points_of(const fs::path& model)
 {
     try {
@@ -75,7 +75,7 @@ std::size_t points_of(const fs::path& model)
         const auto size = size_before_reading(found.folder, found.format);
         return size ? size->points : 0;
     } catch (const std::exception&) {
-        return 0; // a scan, say
+        return 0; // for example a scan
     }
 }
 
@@ -101,14 +101,14 @@ ProgramReport compare_blocks(const fs::path& model, const std::vector<std::strin
     report.table = fmt::format(
         "## {}: {} points\n\n"
         "| blocks | threads | seconds | x in memory | CPU seconds | peak MB | x in memory "
-        "| bytes a point | scratch MB | written MB | read MB | same bytes |\n"
+        "| bytes per point | scratch MB | written MB | read MB | same bytes |\n"
         "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|\n",
         name, points > 0 ? std::to_string(points) : "?");
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const Run& run = runs[i];
         const std::string& word = blocks[i % blocks.size()];
         const int count = threads[i / blocks.size()];
-        const Run& first = runs[i - i % blocks.size()]; // on as many threads
+        const Run& first = runs[i - i % blocks.size()]; // with the same thread count
         const auto beside = [&](const char* of) {
             return blocks[0] == kInMemory
                        ? fmt::format("{:.2f}", figure(run, of) / figure(first, of))
@@ -135,7 +135,7 @@ ProgramReport compare_blocks(const fs::path& model, const std::vector<std::strin
 ProgramReport compare_ranks(const std::string& title, const std::vector<RankModel>& models,
                             const Programs& programs)
 {
-    std::vector<Run> runs; // of each model: alone, and on ranks
+    std::vector<Run> runs; // two per model: one process, and ranks
     for (const RankModel& model : models) {
         runs.push_back(
             {{programs.program, "--quiet", "--threads", "1", "--blocks", kInMemory, model.folder},
@@ -150,13 +150,13 @@ ProgramReport compare_ranks(const std::string& title, const std::vector<RankMode
     report.figures = {{"model", title}, {"runs", Json::array()}};
     report.table = fmt::format(
         "## {}\n\n"
-        "| ranks | points | seconds | CPU seconds | CPU us a point | efficiency, CPU "
-        "| efficiency, elapsed | CPU us a point, one process | x one process | largest peak MB "
+        "| ranks | points | seconds | CPU seconds | CPU us per point | efficiency, CPU "
+        "| efficiency, elapsed | CPU us per point, one process | x one process | largest peak MB "
         "| written MB | same bytes |\n"
         "|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---|\n",
         title);
     const auto cpu_s_a_point = [&](std::size_t i) {
-        const std::size_t model = i / 2; // each has two runs
+        const std::size_t model = i / 2; // two runs per model
         return figure(runs[i], "cpu_seconds") / static_cast<double>(models[model].points);
     };
     const auto seconds_a_share = [&](std::size_t i) {

@@ -9,8 +9,8 @@
 
 namespace vcarve::bench {
 
-/// The programs that are measured. Runs go over all in turn, so that what disturbs the machine
-/// disturbs all alike.
+/// The measured programs. Each round runs all of them in turn, so other load on the machine affects
+/// all equally.
 struct Programs {
     std::filesystem::path program;
     std::filesystem::path rank_program; ///< for ranks, started by mpirun
@@ -19,14 +19,14 @@ struct Programs {
 };
 
 struct ProgramReport {
-    std::string table;   ///< in Markdown, a row per run
-    Json figures;        ///< all of them, medians over the rounds
-    bool is_same = true; ///< whether the surfaces of all rounds have the same bytes
+    std::string table;   ///< in Markdown, one row per run
+    Json figures;        ///< medians over the rounds
+    bool is_same = true; ///< whether the surfaces of all rounds are byte-identical
 };
 
-/// Runs a model with each word for --blocks on each number of threads, and compares seconds and
-/// memory with the run in memory, --blocks 0, if there is one. The surfaces must be that of the
-/// first run.
+/// Runs a model with each value of --blocks and each thread count. Compares seconds and memory with
+/// the run in memory (--blocks 0), if `blocks` has it. All surfaces must equal that of the first
+/// run.
 ProgramReport compare_blocks(const std::filesystem::path& model,
                              const std::vector<std::string>& blocks,
                              const std::vector<int>& threads, const Programs& programs);
@@ -39,8 +39,8 @@ struct RankModel {
 };
 
 /// Runs each model on its ranks, with one thread each and a work folder, and on one process with
-/// one thread, in memory. The efficiency is that of weak scaling against the first model: of CPU
-/// seconds per point, and of elapsed seconds per point of a rank.
+/// one thread, in memory. Reports the efficiency of weak scaling relative to the first model: in
+/// CPU seconds per point, and in elapsed seconds per point of a rank.
 ProgramReport compare_ranks(const std::string& title, const std::vector<RankModel>& models,
                             const Programs& programs);
 

@@ -7,8 +7,8 @@
 
 namespace vcarve::bench {
 
-/// Random numbers that are the same with every standard library: the engine is fixed by the
-/// standard, the distributions of <random> are not.
+/// Random numbers that are the same with every standard library. The standard specifies the engine,
+/// but not the distributions of <random>.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -23,7 +23,7 @@ class Random {
         return static_cast<std::size_t>(uniform() * static_cast<double>(count));
     }
 
-    /// About normal, of mean 0 and variance 1: a sum of twelve, without tails beyond 6.
+    /// Approximately normal with mean 0 and variance 1: a sum of twelve, without tails beyond 6.
     double normal()
     {
         double sum = -6.0;

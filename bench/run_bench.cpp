@@ -1,6 +1,6 @@
 // Measures whole runs, from files to files, against CGAL's triangulation of the same points:
-// seconds, CPU seconds and peaks of memory, stage by stage; or runs of the program in blocks
-// against those in memory, or on ranks against one process. See tools/bench.
+// seconds, CPU seconds and peak memory per stage. Also compares runs in blocks with runs in memory,
+// and runs on ranks with one process. See tools/bench.
 
 #include "measurements.h"
 #include "processes.h"
@@ -30,24 +30,24 @@ struct Arguments {
     std::vector<std::filesystem::path> models; ///< to measure
     std::vector<std::string> shapes = {"surface"};
     std::vector<double> noise_along = {SampleKind().noise_along};
-    std::vector<double> noise_across; ///< none: as along
+    std::vector<double> noise_across; ///< empty: the same as along
     std::vector<double> outliers = {SampleKind().outliers};
     bool clustered = false;
     std::size_t views = SampleKind().views;
     std::vector<std::uint64_t>
-        points;                 ///< of samples; none: the usual sizes, unless there are models
-    std::filesystem::path peer; ///< empty: none is timed
+        points;                 ///< of samples; empty: default sizes, or no samples with models
+    std::filesystem::path peer; ///< empty disables it
     std::vector<int> threads = {1, 2};
     std::size_t rounds = 3;
-    std::vector<std::string> blocks; ///< none: runs are not measured in blocks
-    std::filesystem::path program;   ///< which is run in blocks, and beside ranks
+    std::vector<std::string> blocks; ///< empty: do not measure runs in blocks
+    std::filesystem::path program;   ///< the program for runs in blocks and on one process
     bool no_memory_run = false;
-    std::vector<std::size_t> ranks;     ///< none: runs are not measured on ranks
-    std::filesystem::path rank_program; ///< which they run
-    std::filesystem::path json;         ///< empty: none
+    std::vector<std::size_t> ranks;     ///< empty: do not measure runs on ranks
+    std::filesystem::path rank_program; ///< the program for ranks
+    std::filesystem::path json;         ///< empty: write no file
 };
 
-using Rounds = std::map<int, std::vector<Json>>; ///< measurements, by the number of threads
+using Rounds = std::map<int, std::vector<Json>>; ///< measurements by thread count
 
 std::map<int, Json> medians_of(const Rounds& rounds)
 {
@@ -58,7 +58,7 @@ std::map<int, Json> medians_of(const Rounds& rounds)
     return medians;
 }
 
-/// Rounds go over all measurements in turn, so that what disturbs the machine disturbs all alike.
+/// Each round runs all measurements in turn, so other load on the machine affects all equally.
 SampleResult measure(const Sample& sample, const Arguments& arguments)
 {
     std::vector<Json> sequential;
@@ -91,27 +91,27 @@ std::string load_line()
 {
     std::array<double, 3> loads{};
     const bool known = ::getloadavg(loads.data(), 3) == 3;
-    return fmt::format("Load of the machine when this began: {:.1f}.", known ? loads[0] : -1.0);
+    return fmt::format("System load at the start: {:.1f}.", known ? loads[0] : -1.0);
 }
 
 std::string machine_line()
 {
-    return load_line() + " Peaks are above the program's own memory; predicted / measured is of "
-                         "the whole process. x sequential and x parallel: times CGAL's "
-                         "triangulation alone, the latter on as many threads.";
+    return load_line() + " Peaks are above the memory at the start of the measurement. \"predicted "
+                         "/ measured\" is for the whole process. \"x sequential\" and \"x "
+                         "parallel\" are relative to CGAL's triangulation alone.";
 }
 
 std::string rank_line()
 {
     return fmt::format(
-        "{} It has {} cores, so more ranks than that cannot be as fast; CPU seconds, of all ranks "
-        "and of what starts them, suffer less from others at work. One rank works in memory, and "
-        "has nobody to share with, but keeps its stages in the work folder as the others do; one "
-        "process keeps nothing.",
+        "{} The machine has {} cores; more ranks than cores are slower. CPU seconds are those of "
+        "all ranks and of mpirun, and depend less on other load. A single rank shares no work, but "
+        "writes checkpoints to the work folder like several ranks. The run on one process writes "
+        "no checkpoints.",
         load_line(), std::thread::hardware_concurrency());
 }
 
-/// Every shape with every noise and every share of outliers.
+/// All combinations of shapes, noise and shares of outliers.
 std::vector<SampleKind> kinds(const Arguments& arguments)
 {
     std::vector<SampleKind> result;
@@ -144,7 +144,7 @@ std::vector<std::uint64_t> sizes(const Arguments& arguments)
     return {10'000, 100'000};
 }
 
-/// A model made of so many points.
+/// Makes a model with this number of points.
 Sample made_sample(const Arguments& arguments, const SampleKind& kind, std::uint64_t points)
 {
     const auto folder = arguments.folder / fmt::format("{}_{}", name_of(kind), points);
@@ -155,7 +155,7 @@ Sample made_sample(const Arguments& arguments, const SampleKind& kind, std::uint
     return {folder, folder};
 }
 
-/// The models given, and models made of as many points as asked for.
+/// The given models, and samples with the requested numbers of points.
 std::vector<Sample> samples(const Arguments& arguments)
 {
     std::vector<Sample> result;
@@ -184,7 +184,7 @@ Programs programs(const Arguments& arguments)
             .rounds = arguments.rounds};
 }
 
-/// Prints each report when it is made. False where the bytes of surfaces differ.
+/// Prints each report when it is ready. Returns false if surfaces are not byte-identical.
 template <typename Reports>
 bool print_reports(const Arguments& arguments, const Reports& make)
 {
@@ -211,7 +211,7 @@ bool run_in_blocks(const Arguments& arguments)
     });
 }
 
-/// Models of as many points for every rank.
+/// One model per number of ranks, with the same number of points per rank.
 std::vector<RankModel> rank_models(const Arguments& arguments, const SampleKind& kind,
                                    std::uint64_t points)
 {
@@ -229,7 +229,7 @@ bool run_on_ranks(const Arguments& arguments)
     return print_reports(arguments, [&](const auto& print) {
         for (const SampleKind& kind : kinds(arguments)) {
             for (const std::uint64_t points : sizes(arguments)) {
-                print(compare_ranks(fmt::format("{}: {} points a rank", name_of(kind), points),
+                print(compare_ranks(fmt::format("{}: {} points per rank", name_of(kind), points),
                                     rank_models(arguments, kind, points), programs(arguments)));
             }
         }
@@ -257,24 +257,24 @@ void run(const Arguments& arguments)
 void add_sample_options(CLI::App& app, Arguments& arguments)
 {
     app.add_option("--model", arguments.models,
-                   "models or dense workspaces; with --points beside samples")
+                   "models or dense workspaces; add --points for samples")
         ->check(CLI::ExistingDirectory);
     app.add_option("--shape", arguments.shapes, "surface,terrain,hall,wide")->delimiter(',');
-    app.add_option("--views", arguments.views, "of a sample; 100, or 300 from a million points on");
+    app.add_option("--views", arguments.views,
+                   "views of a sample; 100, or 300 from a million points on");
     app.add_option("--noise", arguments.noise_along,
-                   "of points along their sights, in spacings of the points: .1,.25,.5,1")
+                   "noise of points along their rays, in point spacings: .1,.25,.5,1")
         ->delimiter(',')
         ->check(CLI::NonNegativeNumber);
     app.add_option("--noise-across", arguments.noise_across,
-                   "across their sights; as along, if it is not given")
+                   "noise across the rays; default: as along")
         ->delimiter(',')
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--outliers", arguments.outliers, "share of the points: 0,.02,.1")
+    app.add_option("--outliers", arguments.outliers, "share of outliers: 0,.02,.1")
         ->delimiter(',')
         ->check(CLI::Range(0.0, 1.0));
-    app.add_flag("--clustered", arguments.clustered,
-                 "points up to 256 times denser here than there");
-    app.add_option("--points", arguments.points, "sizes of models: 10k,1M")
+    app.add_flag("--clustered", arguments.clustered, "vary the density by up to 256 times");
+    app.add_option("--points", arguments.points, "numbers of points: 10k,1M")
         ->delimiter(',')
         ->transform(CLI::AsNumberWithUnit(
             std::map<std::string, std::uint64_t>{{"k", 1'000}, {"M", 1'000'000}}));
@@ -283,26 +283,25 @@ void add_sample_options(CLI::App& app, Arguments& arguments)
 void add_block_options(CLI::App& app, Arguments& arguments)
 {
     CLI::Option* program =
-        app.add_option("--program", arguments.program, "which is run with --blocks")
+        app.add_option("--program", arguments.program, "the program to run with --blocks")
             ->check(CLI::ExistingFile);
-    CLI::Option* blocks = app.add_option("--blocks", arguments.blocks,
-                                         "runs the program with these --blocks beside --blocks 0, "
-                                         "in memory: 8,64")
-                              ->delimiter(',')
-                              ->needs(program);
+    CLI::Option* blocks =
+        app.add_option("--blocks", arguments.blocks, "compare these --blocks with --blocks 0: 8,64")
+            ->delimiter(',')
+            ->needs(program);
     app.add_flag("--no-memory-run", arguments.no_memory_run,
-                 "not in memory, where there is not enough")
+                 "skip --blocks 0, if memory is too small")
         ->needs(blocks);
 }
 
 void add_rank_options(CLI::App& app, Arguments& arguments)
 {
     CLI::Option* program =
-        app.add_option("--rank-program", arguments.rank_program, "which is run on ranks")
+        app.add_option("--rank-program", arguments.rank_program, "the program to run on ranks")
             ->check(CLI::ExistingFile);
     app.add_option("--ranks", arguments.ranks,
-                   "runs it on so many ranks, each with --points of a model, beside the program "
-                   "on one process: 1,2,4")
+                   "compare runs on ranks, each with --points points, with one "
+                   "process: 1,2,4")
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
         ->needs(program)
@@ -319,18 +318,19 @@ int main(int count, char** words)
 {
     try {
         vcarve::bench::Arguments arguments;
-        CLI::App app("Measures colmap-vcarve on sample models.");
-        app.add_option("--folder", arguments.folder, "where models are, or are made")->required();
+        CLI::App app("Measure colmap-vcarve on models and samples.");
+        app.add_option("--folder", arguments.folder, "the folder of models; missing ones are made")
+            ->required();
         vcarve::bench::add_sample_options(app, arguments);
         vcarve::bench::add_block_options(app, arguments);
         vcarve::bench::add_rank_options(app, arguments);
         app.add_option("--peer", arguments.peer,
-                       "a program that is run in turn, as PROGRAM MODEL OUT.ply")
+                       "run another program in turn, as PROGRAM MODEL OUT.ply")
             ->check(CLI::ExistingFile);
-        app.add_option("--threads", arguments.threads, "1,2")->delimiter(',');
-        app.add_option("--rounds", arguments.rounds, "of which medians are printed")
+        app.add_option("--threads", arguments.threads, "thread counts: 1,2")->delimiter(',');
+        app.add_option("--rounds", arguments.rounds, "number of rounds; medians are printed")
             ->check(CLI::PositiveNumber);
-        app.add_option("--json", arguments.json, "a file for all figures");
+        app.add_option("--json", arguments.json, "write all figures to this file");
         CLI11_PARSE(app, count, words);
         if (!arguments.blocks.empty()) return vcarve::bench::run_in_blocks(arguments) ? 0 : 1;
         if (!arguments.ranks.empty()) return vcarve::bench::run_on_ranks(arguments) ? 0 : 1;

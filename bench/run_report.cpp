@@ -28,15 +28,15 @@ double seconds_of_stage(const Json& run, const std::string& name)
     return found != run["stages"].end() ? seconds_of(*found) : 0.0;
 }
 
-/// What the rows of one number of threads are compared with.
+/// The references for the rows of one thread count.
 struct Bases {
     double points;
     double sequential_s;
-    double parallel_s;       ///< 0 where there is none
-    double base_bytes = 0.0; ///< what the process held before; predictions are of the whole process
+    double parallel_s;       ///< 0 if missing
+    double base_bytes = 0.0; ///< memory before the run; predictions are for the whole process
 };
 
-/// Foretold memory over measured memory; nothing where none was foretold.
+/// The ratio of predicted to measured memory; nothing without a prediction.
 std::optional<double> predicted_share(const Json& measured, double base_bytes)
 {
     if (!measured.contains("predicted_bytes")) return std::nullopt;
@@ -86,7 +86,7 @@ std::string verdict_on_memory(const Json& run)
 {
     const double share = predicted_share(run, run["base_bytes"].get<double>()).value();
     const bool is_right = share >= kLeastPredicted && share <= kMostPredicted;
-    return fmt::format("predicted peak of the process {:.0f} MB, {:.2f} x what was measured{}",
+    return fmt::format("predicted peak of the process {:.0f} MB, {:.2f} x the measured one{}",
                        1e-6 * run["predicted_bytes"].get<double>(), share,
                        is_right ? ""
                                 : fmt::format(" (**WARNING**: not within {} to {})",
@@ -98,7 +98,7 @@ std::string summary_of_run(const SampleResult& result, int threads, const Json& 
     const auto points = result.sizes["points"].get<double>();
     const double first_s = seconds_of(result.runs.begin()->second);
     const double base_cpu_s = result.sequential["cpu_seconds"].get<double>();
-    return fmt::format("- on {} thread{}: {:.2f} us a point; {:.2f} x as fast as on {}; {:.2f} x "
+    return fmt::format("- on {} thread{}: {:.2f} us per point; {:.2f} x as fast as on {}; {:.2f} x "
                        "the CPU seconds of the sequential triangulation; {}\n",
                        threads, threads == 1 ? "" : "s", 1e6 * seconds_of(run) / points,
                        first_s / seconds_of(run), result.runs.begin()->first,
@@ -131,12 +131,12 @@ std::string report(const SampleResult& result)
 {
     const auto points = result.sizes["points"].get<double>();
     std::string text = fmt::format(
-        "## {}: {} points ({} triangulated), {} sights, {} views\n\n"
-        "| what | threads | seconds | CPU seconds | peak MB | bytes a point | "
+        "## {}: {} points ({} triangulated), {} rays, {} views\n\n"
+        "| what | threads | seconds | CPU seconds | peak MB | bytes per point | "
         "predicted / measured | x sequential | x parallel |\n"
         "|---|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         result.sizes["model"].get<std::string>(), result.sizes["points"].get<std::size_t>(),
-        result.sizes["triangulated"].get<std::size_t>(), result.sizes["sights"].get<std::size_t>(),
+        result.sizes["triangulated"].get<std::size_t>(), result.sizes["rays"].get<std::size_t>(),
         result.sizes["views"].get<std::size_t>());
     text += rows_of_runs(result, points) + '\n';
     for (const auto& [threads, run] : result.runs) {
@@ -147,10 +147,10 @@ std::string report(const SampleResult& result)
 
 std::string summary(const std::vector<SampleResult>& results)
 {
-    constexpr const char* kStages[] = {"fill", "triangulate", "sights", "cut", "surface"};
-    std::string text = "| model | points | sights | views | threads | CGAL, s | run, s | x CGAL | "
-                       "x one thread | fill | triangulate | sights | cut | surface | "
-                       "bytes a point | peer, s |\n"
+    constexpr const char* kStages[] = {"fill", "triangulate", "rays", "cut", "surface"};
+    std::string text = "| model | points | rays | views | threads | CGAL, s | run, s | x CGAL | "
+                       "x one thread | fill | triangulate | rays | cut | surface | "
+                       "bytes per point | peer, s |\n"
                        "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|"
                        "---:|---:|\n";
     for (const SampleResult& result : results) {
@@ -162,7 +162,7 @@ std::string summary(const std::vector<SampleResult>& results)
         const auto points = result.sizes["points"].get<std::size_t>();
         text += fmt::format(
             "| {} | {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |",
-            model.filename().string(), points, result.sizes["sights"].get<std::size_t>(),
+            model.filename().string(), points, result.sizes["rays"].get<std::size_t>(),
             result.sizes["views"].get<std::size_t>(), threads, cgal_s, seconds_of(run),
             seconds_of(run) / cgal_s, seconds_of(result.runs.begin()->second) / seconds_of(run));
         for (const char* stage : kStages) {

@@ -8,25 +8,25 @@
 
 namespace vcarve::bench {
 
-/// What was measured on one sample, medians over the rounds.
+/// The measurements on one sample: medians over the rounds.
 struct SampleResult {
-    Json sizes;                   ///< as prepare() has it
+    Json sizes;                   ///< from prepare()
     Json sequential;              ///< CGAL's triangulation
-    Json peer;                    ///< another program's whole run; null where none was given
-    std::map<int, Json> parallel; ///< by the number of threads, from two on
-    std::map<int, Json> runs;     ///< by the number of threads
+    Json peer;                    ///< another program's whole run, or null
+    std::map<int, Json> parallel; ///< by thread count, from 2 on
+    std::map<int, Json> runs;     ///< by thread count
 };
 
-/// The middle of each figure of some measurements of the same thing; of an even number the upper.
+/// The median of each figure over repeated measurements; the upper one of an even number.
 Json median_of(const std::vector<Json>& measurements);
 
-/// A table in Markdown, with the ratios to CGAL's triangulation and of predicted to measured
-/// memory; warns of runs whose memory was not foretold as pipeline_memory.h says.
+/// A Markdown table with the ratios to CGAL's triangulation, and of predicted to measured memory.
+/// Warns if a prediction is not as exact as pipeline/memory.h promises.
 std::string report(const SampleResult& result);
 
-/// A table in Markdown with a row for each sample: what its run on most threads took, and how much
-/// of it added points, the triangulation, the sights, the cut and the surface, against CGAL's
-/// triangulation and another program.
+/// A Markdown table with a row per sample: the time of its run on most threads, and the parts of
+/// added points, triangulation, rays, cut and surface, relative to CGAL's triangulation and
+/// another program.
 std::string summary(const std::vector<SampleResult>& results);
 
 /// All figures.

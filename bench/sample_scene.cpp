@@ -18,14 +18,14 @@ namespace {
 using Eigen::Vector3d;
 using ViewIndices = std::vector<std::uint32_t>;
 
-/// Sights of a point leave from views so near to each other; of a wide shape from any.
+/// The number of neighboring views that may see a point; all views for wide shapes.
 std::size_t most_nearby(const SampleKind& kind, std::size_t views)
 {
     constexpr std::size_t kNearby = 12;
     return kind.shape == Shape::wide ? views : std::min(kNearby, views);
 }
 
-/// For each view so many near it, the nearest (itself) first.
+/// The `most` nearest views of each view, nearest first, beginning with the view itself.
 std::vector<ViewIndices> nearby_views(const std::vector<View>& views, std::size_t most)
 {
     ViewIndices all(views.size());
@@ -44,7 +44,7 @@ std::vector<ViewIndices> nearby_views(const std::vector<View>& views, std::size_
 /// Photographs a shape: makes points and decides which views see them.
 class Photographer {
   public:
-    /// `spacing` is that of as many points, evenly laid.
+    /// `spacing` is the spacing of the same number of evenly distributed points.
     Photographer(const SampleShape& shape, std::vector<View> views, const SampleKind& kind,
                  double spacing)
         : shape_(shape),
@@ -68,7 +68,7 @@ class Photographer {
     }
 
   private:
-    /// On the shape, but for noise; an outlier slides along its first sight.
+    /// Adds a point of the shape with noise. An outlier is shifted along its first ray.
     void add_seen(bool is_outlier, Random& random, Scene& scene) const
     {
         constexpr double kSlide = 0.25;
@@ -81,18 +81,18 @@ class Photographer {
             const ViewIndices track =
                 some_of(nearby_[anchor], wanted, random,
                         [&](std::uint32_t view) { return sees(views_[view], spot); });
-            // What fewer than two views see is in no model
+            // Models have no points with fewer than two views.
             if (track.size() < 2) continue;
             Vector3d noise = spacing_ / std::sqrt(density) * noise_of(spot, track, random);
             if (is_outlier) {
-                const Vector3d sight = views_[track.front()].center - spot.position;
-                noise += kSlide * random.normal_3d().x() * sight.normalized();
+                const Vector3d ray = views_[track.front()].center - spot.position;
+                noise += kSlide * random.normal_3d().x() * ray.normalized();
             }
             return add(spot.position + noise, track, random, scene);
         }
     }
 
-    /// From 1/256 to 1, in clusters a tenth of the shape wide.
+    /// The density at a position, 1/256 to 1, in clusters a tenth of the shape wide.
     static double density_at(const Vector3d& place)
     {
         constexpr double kFrequency = 15.0;
@@ -100,17 +100,17 @@ class Photographer {
         return std::exp2(-4.0 * (1.0 - waves.sum() / 3.0));
     }
 
-    /// In spacings.
+    /// The noise of a point, in spacings.
     Vector3d noise_of(const Spot& spot, const ViewIndices& track, Random& random) const
     {
-        Vector3d sight = Vector3d::Zero();
+        Vector3d ray = Vector3d::Zero();
         for (const std::uint32_t view : track) {
-            sight += (spot.position - views_[view].center).normalized();
+            ray += (spot.position - views_[view].center).normalized();
         }
-        sight.normalize();
+        ray.normalize();
         const Vector3d even = random.normal_3d();
         return kind_.noise_across * even +
-               (kind_.noise_along - kind_.noise_across) * sight.dot(even) * sight;
+               (kind_.noise_along - kind_.noise_across) * ray.dot(even) * ray;
     }
 
     void add_outlier(Random& random, Scene& scene) const
@@ -137,7 +137,7 @@ class Photographer {
         scene.tracks.push_back(track);
     }
 
-    /// 2 to 8, 3.7 on average, each count less common than the one before.
+    /// 2 to 8, 3.7 on average; longer tracks are rarer.
     static std::size_t track_length(Random& random)
     {
         constexpr double kOneMore = 0.7;
@@ -151,7 +151,7 @@ class Photographer {
         }
     }
 
-    /// Up to `wanted` of the candidates that pass, in random order.
+    /// Up to `wanted` random candidates for which `passes` returns true.
     template <typename Passes>
     static ViewIndices some_of(ViewIndices candidates, std::size_t wanted, Random& random,
                                const Passes& passes)
@@ -184,7 +184,7 @@ class Photographer {
         return !is_hidden(spot.position, view.center);
     }
 
-    /// Whether the shape comes between a spot and what looks at it.
+    /// Whether the shape occludes a spot from a view.
     bool is_hidden(const Vector3d& spot, const Vector3d& center) const
     {
         constexpr double kStep = 0.04; // a quarter of the narrowest hill
@@ -279,7 +279,7 @@ class SampleParts final : public SceneParts {
         scene.point_ids.resize(whole);
         std::iota(scene.point_ids.begin(), scene.point_ids.end(), std::uint64_t{first_} + 1);
         first_ += whole;
-        progress.tell(1.0);
+        progress.report(1.0);
         return scene;
     }
 
@@ -288,7 +288,7 @@ class SampleParts final : public SceneParts {
     std::size_t num_points_;
     Photographer photographer_;
     Scene views_;
-    std::size_t first_ = 0; ///< point of the next part, the first of a block
+    std::size_t first_ = 0; ///< first point of the next part, which is the first of a block
 };
 
 } // namespace
@@ -299,7 +299,7 @@ Shape shape_named(std::string_view name)
         if (name == name_of(shape)) return shape;
     }
     throw UsageError(
-        fmt::format("a sample is called surface, terrain, hall or wide, not \"{}\"", name));
+        fmt::format("unknown sample \"{}\"; expected surface, terrain, hall or wide", name));
 }
 
 const char* name_of(Shape shape)

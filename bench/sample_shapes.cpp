@@ -96,7 +96,7 @@ class BumpyBall final : public SampleShape {
 
     std::vector<View> views(std::size_t count) const override
     {
-        // Along a spiral, about evenly
+        // On a spiral, approximately evenly
         const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
         std::vector<View> views;
         for (std::size_t i = 0; i < count; ++i) {
@@ -147,7 +147,7 @@ class Terrain final : public SampleShape {
 
     std::vector<View> views(std::size_t count) const override
     {
-        // Within a strip the views overlap more than the strips do
+        // Views in a strip overlap more than strips.
         const auto strips = static_cast<std::size_t>(std::ceil(std::sqrt(0.6 * double(count))));
         const std::size_t per_strip = (count + strips - 1) / strips;
         const auto place = [](std::size_t i, std::size_t of) {
@@ -167,7 +167,7 @@ class Terrain final : public SampleShape {
     Waves waves_;
 };
 
-/// Four walls, floor, ceiling and columns; free is what lies between them.
+/// Four walls, floor, ceiling and columns, with free space between them.
 class Hall final : public SampleShape {
   public:
     Spot spot(Random& random) const override
@@ -205,7 +205,7 @@ class Hall final : public SampleShape {
 
     std::vector<View> views(std::size_t count) const override
     {
-        // On a path around the columns and between them, turning on
+        // On a path around and between the columns, while the heading turns
         std::vector<View> views;
         for (std::size_t i = 0; i < count; ++i) {
             const double along =
@@ -247,7 +247,7 @@ class Hall final : public SampleShape {
         return {{side, along, z}, -side * Vector3d::UnitX()};
     }
 
-    static constexpr double kTurns = 3.0; ///< of the heading on the way around
+    static constexpr double kTurns = 3.0; ///< full turns of the heading along the path
     static constexpr double kHalfHeight = 0.4;
     static constexpr double kColumnRadius = 0.1;
     static constexpr std::array<std::array<double, 2>, 4> kColumns = {

@@ -19,7 +19,7 @@ namespace vcarve::bench {
 
 namespace {
 
-/// Models of this process, gone when it ends.
+/// The models of this process. The destructor removes them.
 class ModelFolder {
   public:
     ModelFolder() { std::filesystem::create_directories(path_); }
@@ -58,7 +58,7 @@ FlowNetwork make_network(std::int64_t points)
 {
     const TetMesh& cells = sample_cells(points);
     Log silent;
-    Stage stage(silent, "sights");
+    Stage stage(silent, "rays");
     const Scene& scene = sample_scene(points);
     const TraceOptions options;
     VisibilityEnergy energy;
@@ -67,7 +67,7 @@ FlowNetwork make_network(std::int64_t points)
     return cut_network(cells, std::move(energy), CutOptions());
 }
 
-/// What `make` makes of so many points, made once.
+/// The cached result of `make` for a number of points.
 template <typename Make>
 const auto& made_once(std::int64_t points, const Make& make)
 {

@@ -1,4 +1,5 @@
-// What the triangulation costs at once and in blocks, and how many points of others blocks take in.
+// Costs of the triangulation at once and in blocks, and the share of points that blocks take in
+// from other blocks.
 
 #include "samples.h"
 #include "steps/3_cells/block_cells.h"

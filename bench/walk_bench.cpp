@@ -1,5 +1,5 @@
-// What a crossing costs on one core: our walk over flat cells, and the same walk over CGAL's own
-// cells with CGAL's exact predicates.
+// The cost of a crossing on one core: our walk over flat cells, and the same walk over CGAL's cells
+// with CGAL's exact predicates.
 
 #include "samples.h"
 #include "steps/4_visibility/walk.h"
@@ -33,7 +33,7 @@ Point cgal_point(const Eigen::Vector3d& p)
     return {p.x(), p.y(), p.z()};
 }
 
-/// Sights from one vertex of CGAL's triangulation, which must meet no edge and no other vertex.
+/// Rays from one vertex of CGAL's triangulation. They must meet no edge and no other vertex.
 class CgalWalk {
   public:
     CgalWalk(const Delaunay& triangulation, VertexHandle vertex)
@@ -42,7 +42,7 @@ class CgalWalk {
         triangulation_.finite_incident_cells(vertex, std::back_inserter(star_));
     }
 
-    /// How many facets the segment from the vertex to the target crosses.
+    /// The number of facets that the segment from the vertex to the target crosses.
     std::size_t count_crossings(const Point& target)
     {
         target_ = target;
@@ -58,12 +58,12 @@ class CgalWalk {
     }
 
   private:
-    /// Positive where the sight passes left of the way from a to b, seen from the vertex.
+    /// Whether the ray passes left of the edge from a to b, seen from the vertex.
     bool passes_left_of(VertexHandle a, VertexHandle b) const
     {
         const CGAL::Orientation side =
             CGAL::orientation(vertex_->point(), target_, a->point(), b->point());
-        if (side == CGAL::COPLANAR) throw std::logic_error("a sight of the sample meets an edge");
+        if (side == CGAL::COPLANAR) throw std::logic_error("a ray of the sample meets an edge");
         return side == CGAL::NEGATIVE;
     }
 
@@ -88,7 +88,7 @@ class CgalWalk {
     {
         const CellHandle next = cell_->neighbor(slot_);
         const VertexHandle tip = next->vertex(next->index(cell_));
-        // The tip replaces the one corner that is not on the facet the sight leaves by
+        // The tip replaces the corner that is not on the facet through which the ray leaves.
         std::size_t replaced = 0;
         if (passes_left_of(corners_[0], tip)) {
             replaced = passes_left_of(corners_[2], tip) ? 0 : 1;
@@ -108,7 +108,7 @@ class CgalWalk {
     std::array<VertexHandle, 3> corners_; ///< counter-clockwise seen from the vertex
 };
 
-/// CGAL's triangulation of a sample, with its vertices in the order of the scene.
+/// CGAL's triangulation of a sample, with vertices in the order of the scene.
 struct CgalCells {
     explicit CgalCells(const Scene& scene) : vertices(scene.num_points())
     {
@@ -147,18 +147,18 @@ std::size_t crossings_of_cgal(const CgalCells& cells, const Scene& scene)
     return crossings;
 }
 
-/// How many facets all sights of a scene cross.
-std::size_t walk_all_sights(const TetMesh& cells, const Scene& scene)
+/// The number of facets that all rays of a scene cross.
+std::size_t walk_all_rays(const TetMesh& cells, const Scene& scene)
 {
-    std::vector<Sight> sights;
+    std::vector<Ray> rays;
     for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
         for (const std::uint32_t view : scene.tracks[vertex]) {
-            sights.push_back({vertex, scene.views[view].center});
+            rays.push_back({vertex, scene.views[view].center});
         }
     }
     std::size_t crossings = 0;
-    SightWalk(cells).along_each(
-        sights.size(), [&](std::size_t k) { return sights[k]; },
+    RayWalk(cells).along_each(
+        rays.size(), [&](std::size_t k) { return rays[k]; },
         [&](std::size_t, Index, int) {
             ++crossings;
             return true;
@@ -181,7 +181,7 @@ void bench_walk(benchmark::State& state)
     const Scene& scene = sample_scene(state.range(0));
     std::size_t crossings = 0;
     for (auto _ : state) {
-        crossings = walk_all_sights(cells, scene);
+        crossings = walk_all_rays(cells, scene);
     }
     report_crossings(state, crossings);
 }
@@ -195,8 +195,8 @@ void bench_walk_of_cgal(benchmark::State& state)
         crossings = crossings_of_cgal(cells, scene);
     }
     report_crossings(state, crossings);
-    if (crossings != walk_all_sights(sample_cells(state.range(0)), scene)) {
-        state.SkipWithError("the two walks do not cross the same number of facets");
+    if (crossings != walk_all_rays(sample_cells(state.range(0)), scene)) {
+        state.SkipWithError("the walks cross different numbers of facets");
     }
 }
 

@@ -1,6 +1,6 @@
-// The layout is documented at https://colmap.github.io/format.html. Points are written as they
-// come. The 2D points of an image stand together in images.bin and name all points it sees, so they
-// are written when all points are, from the file of these, each image at its own place.
+// https://colmap.github.io/format.html documents the layout. Points are written part by part.
+// images.bin groups the 2D points of each image. They are therefore written after all points, from
+// points3D.bin, each at the position of its image.
 
 #include "io/colmap/byte_reader.h"
 #include "io/files/mapped_file.h"
@@ -51,7 +51,7 @@ class RecordWriter {
         file_.write(text.c_str(), static_cast<std::streamsize>(text.size() + 1));
     }
 
-    /// Goes on writing at this byte.
+    /// Continues writing at this byte.
     void go_to(std::uint64_t byte) { file_.seekp(static_cast<std::streamoff>(byte)); }
     std::uint64_t byte() { return static_cast<std::uint64_t>(file_.tellp()); }
 
@@ -82,7 +82,7 @@ void write_cameras(const std::filesystem::path& path, const Scene& scene)
     file.close();
 }
 
-using Counts2d = std::vector<std::uint32_t>; ///< of the 2D points of each view
+using Counts2d = std::vector<std::uint32_t>; ///< number of 2D points of each view
 
 /// points3D.bin, part by part.
 class PointsFile {
@@ -117,7 +117,7 @@ class PointsFile {
 
   private:
     RecordWriter file_;
-    Counts2d listed_; ///< so far
+    Counts2d listed_; ///< 2D points so far
 };
 
 /// A 2D point of an image.
@@ -125,9 +125,9 @@ struct Seen {
     std::array<double, 2> pixel_px;
     std::uint64_t point_id;
 };
-static_assert(sizeof(Seen) == 24, "it is written as it stands");
+static_assert(sizeof(Seen) == 24, "records are written without padding");
 
-/// images.bin, whose 2D points are collected and written some at a time.
+/// images.bin. Its 2D points are collected and written in batches.
 class ImagesFile {
   public:
     ImagesFile(const std::filesystem::path& path, const Scene& scene, const Counts2d& counts)
@@ -185,13 +185,13 @@ class ImagesFile {
 
     RecordWriter file_;
     const std::vector<View>& views_;
-    std::vector<std::uint64_t> places_; ///< of each view's next 2D point in the file
+    std::vector<std::uint64_t> places_; ///< file offset of the next 2D point of each view
     std::vector<std::vector<Seen>> seen_;
     std::size_t num_seen_ = 0; ///< of all views
     std::unordered_map<std::uint32_t, std::uint32_t> index_of_;
 };
 
-/// From the points that were written.
+/// Writes images.bin from the file of points.
 void write_images(const std::filesystem::path& path, const Scene& scene, const Counts2d& counts,
                   const std::filesystem::path& points_path)
 {
@@ -205,7 +205,7 @@ void write_images(const std::filesystem::path& path, const Scene& scene, const C
         const auto position = reader.read<std::array<double, 3>>("the position of a point");
         reader.skip(1, sizeof(Color) + sizeof(double));
         const auto length = reader.read<std::uint64_t>("the length of a track");
-        for (std::uint64_t sight = 0; sight < length; ++sight) {
+        for (std::uint64_t ray = 0; ray < length; ++ray) {
             const auto view_id = reader.read<std::uint32_t>("the track of a point");
             reader.skip(1, sizeof(std::uint32_t));
             file.add(view_id, {position[0], position[1], position[2]}, id);

@@ -1,7 +1,7 @@
 include(GoogleTest)
 
-# vcarve_discover_tests(TARGET) tells ctest of every test in a program. Where it is sanitized ctest
-# gets a test for every suite instead, since many more would take longer to start than to test.
+# vcarve_discover_tests(TARGET) adds every test of a program to ctest. With sanitizers it adds every
+# suite instead, because starting a process for each test would take longer than the tests.
 function(vcarve_discover_tests target)
   if(VCARVE_SANITIZE)
     set(suites ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)

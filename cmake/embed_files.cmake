@@ -1,5 +1,5 @@
-# Writes OUT, C++ that defines a text `const std::string_view NAME` of each file in FILES, a list of
-# NAME=PATH. HEADER declares them. The texts are put into pages, so none may end a script or a style.
+# Writes OUT, a C++ source that defines `const std::string_view NAME` for each file in FILES, a list of
+# NAME=PATH. HEADER declares them. They are embedded in pages, so none may end a script or a style.
 # cmake "-DFILES=NAME=PATH;..." -DHEADER=FILE -DOUT=FILE -P embed_files.cmake
 file(WRITE "${OUT}.new" "#include \"${HEADER}\"\n\nnamespace vcarve {\n\n")
 foreach(entry IN LISTS FILES)
@@ -10,12 +10,12 @@ foreach(entry IN LISTS FILES)
   file(READ "${path}" text)
   string(FIND "${text}" ")vcarve_embed\"" ends_literal)
   if(NOT ends_literal EQUAL -1)
-    message(FATAL_ERROR "${path} cannot be embedded: it holds the end of a raw string")
+    message(FATAL_ERROR "${path} cannot be embedded: it contains the end of a raw string")
   endif()
   if(path MATCHES "\\.(js|css)$")
     string(TOLOWER "${text}" lower)
     if(lower MATCHES "</(script|style)|<!--")
-      message(FATAL_ERROR "${path} cannot stand in a page: it holds </script, </style or <!--")
+      message(FATAL_ERROR "${path} cannot be embedded in a page: it contains </script, </style or <!--")
     endif()
   endif()
   file(APPEND "${OUT}.new" "const std::string_view ${name} = R\"vcarve_embed(")

@@ -1,5 +1,5 @@
-# cmake --install gives the library with its public headers for find_package(vcarve) and pkg-config,
-# and where it is built the program with its man page and completion.
+# cmake --install installs the library and its public headers for find_package(vcarve) and pkg-config.
+# It also installs the program, its man page and completion if the program was built.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS vcarve EXPORT vcarve_targets
@@ -32,9 +32,9 @@ file(RELATIVE_PATH VCARVE_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/vcarve.pc.in ${CMAKE_CURRENT_BINARY_DIR}/vcarve.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vcarve.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 
-# What was not built is left out: `tools/build vcarve` makes the library, tools/run the program.
+# Targets that were not built are skipped: `tools/build vcarve` builds the library, tools/run the program.
 if(VCARVE_PROGRAM)
-  # A shared library beside it is found without being known to the system.
+  # The program finds a shared library in its prefix without the system's configuration.
   set(programs colmap-vcarve)
   if(TARGET colmap-vcarve-mpi)
     list(APPEND programs colmap-vcarve-mpi)

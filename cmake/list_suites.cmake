@@ -1,4 +1,4 @@
-# Writes OUTPUT, which tells ctest of every suite of tests that PROGRAM lists:
+# Writes OUTPUT, which adds every test suite that PROGRAM lists to ctest:
 #   cmake -D PROGRAM=... -D OUTPUT=... -P list_suites.cmake
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests
   OUTPUT_VARIABLE listed COMMAND_ERROR_IS_FATAL ANY)

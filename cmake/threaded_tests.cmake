@@ -1,7 +1,7 @@
-# vcarve_threaded_tests(OUT TEST...) puts into OUT those of the files that test what several threads
-# do: that name threads, and those named here. Loops cut little input into one piece, so that other
-# tests would show nothing; those of the pipeline run every pass on several threads. What runs the whole
-# program is left out: ThreadSanitizer takes long for it.
+# vcarve_threaded_tests(OUT TEST...) sets OUT to the test files that use several threads: files that mention
+# threads, and those listed here. Other tests have too little input for parallel loops. The pipeline's tests
+# run every step on several threads. Tests that run the whole program are excluded, because ThreadSanitizer
+# is slow.
 function(vcarve_threaded_tests out)
   set(threaded "")
   foreach(test IN LISTS ARGN)

@@ -1,5 +1,5 @@
-// example_compare MODEL MESH.ply [TRUTH.ply]: how a mesh fits the views of a model, and the true
-// surface where it is known.
+// example_compare MODEL MESH.ply [TRUTH.ply]: compares a mesh with the views of a model, and with
+// the true surface if it is known.
 #include <vcarve/vcarve.h>
 
 #include <iostream>
@@ -18,7 +18,7 @@ int main(int count, char** words)
         const vcarve::ComparisonReport report = vcarve::compare(
             model, std::span(&mesh, 1), truth ? &*truth : nullptr, {.samples = 20000}, silent);
         std::cout << report.table;
-        std::cerr << "hidden sights: " << report.figures[0].at("/views/hidden_sights") << '\n';
+        std::cerr << "hidden rays: " << report.figures[0].at("/views/hidden_rays") << '\n';
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return 1;

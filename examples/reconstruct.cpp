@@ -1,5 +1,5 @@
-// example_reconstruct MODEL OUT.ply: from a COLMAP model to its surface, in thirty lines. A second
-// ctrl-C is not needed: the run asks the log whether to stop.
+// example_reconstruct MODEL OUT.ply: makes the surface of a COLMAP model, in thirty lines. ctrl-C
+// cancels the run through the log.
 #include <vcarve/vcarve.h>
 
 #include <csignal>

@@ -1,7 +1,7 @@
-// example_scanner OUT.ply: evidence of one's own instead of a COLMAP model. A laser scanner stands
-// at a few known places in a room and measures points on its walls, floor, ceiling and on a column.
-// That is all the library needs: each place is a view, each measured point has a sight to the place
-// it was measured from. The mesh, of the room seen from within, is written to OUT.ply.
+// example_scanner OUT.ply: uses your data instead of a COLMAP model. A laser scanner at a few known
+// positions in a room measures points on walls, floor, ceiling and a column. Each scanner position
+// is a view, and each measured point has a ray to its scanner. The library needs no more. The mesh
+// of the room is written to OUT.ply.
 #include <vcarve/vcarve.h>
 
 #include <cmath>
@@ -11,12 +11,12 @@
 
 namespace {
 
-/// Where a ray from within the room, 4 x 3 x 2.5 m, first meets it or the column in its middle.
+/// The first hit of a ray with the room, 4 x 3 x 2.5 m, or the column in its center.
 Eigen::Vector3d measured(const Eigen::Vector3d& from, const Eigen::Vector3d& way)
 {
     const Eigen::Array3d walls = (way.array() > 0.0).select(Eigen::Array3d(4.0, 3.0, 2.5), 0.0);
     double range = ((walls - from.array()) / way.array()).minCoeff();
-    // The column: |from + range way - middle| = radius, seen from above.
+    // The column: |from + range way - center| = radius, in the ground plane.
     const Eigen::Vector2d to_middle = Eigen::Vector2d(2.0, 1.5) - from.head<2>();
     const double level = way.head<2>().squaredNorm();
     const double half = to_middle.dot(way.head<2>()) / level;
@@ -25,7 +25,7 @@ Eigen::Vector3d measured(const Eigen::Vector3d& from, const Eigen::Vector3d& way
     return from + range * way;
 }
 
-/// Adds what a scanner at `place` measures: directions spread evenly over the sphere.
+/// Adds the points that a scanner at `place` measures, in directions uniform on the sphere.
 void add_scan(const Eigen::Vector3d& place, vcarve::Scene& scene)
 {
     constexpr int kRays = 4000;
@@ -38,7 +38,7 @@ void add_scan(const Eigen::Vector3d& place, vcarve::Scene& scene)
         scene.positions.push_back(
             measured(place, {level * std::cos(turn), level * std::sin(turn), height}));
         scene.colors.push_back({200, 200, 200});
-        scene.errors_px.push_back(-1.0); // a scanner has none
+        scene.errors_px.push_back(-1.0); // unknown: a scanner has no reprojection error
         scene.point_ids.push_back(scene.positions.size());
         scene.tracks.push_back(std::array{view});
     }
@@ -51,7 +51,7 @@ int main(int count, char** words)
     if (count != 2) return 2;
     try {
         vcarve::Scene scene;
-        // It looks all round, COLMAP's equirectangular lens, and one view tells where a point is.
+        // COLMAP's equirectangular lens shows all directions. One view is enough for a point.
         scene.cameras.push_back({.id = 1,
                                  .model = 17,
                                  .width_px = 4000,

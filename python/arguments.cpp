@@ -24,7 +24,7 @@ std::string text_of_number(const py::handle& value)
     return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
 }
 
-/// What one would type for it.
+/// The text of a value on the command line.
 std::string text_of(const py::handle& value)
 {
     if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
@@ -57,9 +57,8 @@ void set_options(const OptionList& options, const py::dict& keywords)
     for (const auto& [key, value] : keywords) {
         std::string name = py::cast<std::string>(key);
         std::ranges::replace(name, '_', '-');
-        const auto option = std::ranges::find_if(
-            options, [&](const Option& candidate) { return candidate.info.name == name; });
-        if (option == options.end()) {
+        const Option* option = find_option(name, options);
+        if (option == nullptr) {
             throw py::type_error("unexpected keyword argument '" + py::cast<std::string>(key) +
                                  "'");
         }

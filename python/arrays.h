@@ -15,7 +15,7 @@ namespace vcarve::python {
 
 namespace py = pybind11;
 
-/// How an entry of an array of the library lies in memory: numbers of which type, how many a row.
+/// The memory layout of an array entry of the library: type and count of its numbers.
 template <typename Entry>
 struct Layout {
     using Number = typename std::conditional_t<std::is_enum_v<Entry>, std::underlying_type<Entry>,
@@ -33,8 +33,8 @@ struct Layout<std::array<Number_, kSize>> {
     static constexpr py::ssize_t kColumns = kSize;
 };
 
-/// An array of the library as one of NumPy, at the same address; it keeps `owner` alive, which must
-/// not change the array's size meanwhile.
+/// A NumPy array at the address of an array of the library. It keeps `owner` alive, which must not
+/// change the array's size meanwhile.
 template <typename Entry, typename Owner>
 py::array view_of(std::vector<Entry>& entries, const std::shared_ptr<Owner>& owner)
 {
@@ -45,28 +45,27 @@ py::array view_of(std::vector<Entry>& entries, const std::shared_ptr<Owner>& own
                              [](void* kept) { delete static_cast<std::shared_ptr<Owner>*>(kept); });
     std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(entries.size())};
     if (Layout<Entry>::kColumns > 0) shape.push_back(Layout<Entry>::kColumns);
-    // An empty vector may have no address, which NumPy would take for an order to allocate.
+    // The address of an empty vector may be null, in which case NumPy would allocate memory.
     static Number nothing{};
     const void* data = entries.empty() ? static_cast<const void*>(&nothing) : entries.data();
     return py::array(py::dtype::of<Number>(), shape, data, keeper);
 }
 
-/// Throws BufferError where NumPy holds arrays of a scene or mesh that are about to change. Takes
-/// what a method of the class was called with, of which Python's object and the call hold one share
-/// each.
+/// Throws BufferError if NumPy arrays of a scene or mesh exist. Call it before arrays change.
+/// `owner` is the argument of a method: Python's object and the call hold one share each.
 template <typename Owner>
 void require_unseen(const std::shared_ptr<Owner>& owner)
 {
     constexpr long kShares = 2;
     if (owner.use_count() > kShares) {
-        throw py::buffer_error("arrays of it are in use, so it cannot change: delete them before");
+        throw py::buffer_error("its NumPy arrays are in use, so it cannot change; delete them");
     }
 }
 
-/// Throws UsageError unless the array has rows of so many numbers; 0: unless it is one row.
+/// Throws UsageError unless the array has rows of `columns` numbers; 0 requires one dimension.
 void require_shape(const py::array& given, const std::string& name, py::ssize_t columns);
 
-/// The rows of an array whose numbers are not checked.
+/// The rows of an array, without checking its numbers.
 template <typename Entry>
 std::vector<Entry> unchecked_rows_of(const py::object& given, const std::string& name)
 {
@@ -77,8 +76,8 @@ std::vector<Entry> unchecked_rows_of(const py::object& given, const std::string&
     return {first, first + array.shape(0)};
 }
 
-/// The rows of an array of a user. Throws UsageError with the index of the first number that does
-/// not fit the entries; numbers() of vcarve/_arrays.py defines which do.
+/// The rows of a user's array. Throws UsageError with the index of the first number that does not
+/// fit the entries, as numbers() of vcarve/_arrays.py defines it.
 template <typename Entry>
 std::vector<Entry> rows_of(const py::object& given, const std::string& name)
 {
@@ -87,7 +86,7 @@ std::vector<Entry> rows_of(const py::object& given, const std::string& name)
     return unchecked_rows_of<Entry>(numbers(name, given, dtype), name);
 }
 
-/// Arrays of `owner` as a tuple of NumPy's, for pickle. Nothing is copied.
+/// Arrays of `owner` as a tuple of NumPy arrays, for pickle. Nothing is copied.
 template <typename Owner, typename... Entries>
 py::tuple tuple_of_arrays(const std::tuple<std::vector<Entries>&...>& arrays,
                           const std::shared_ptr<Owner>& owner)

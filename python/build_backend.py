@@ -1,5 +1,5 @@
-"""What pip calls to make a wheel of a checkout: CMake builds and installs the package, this packs
-it. It needs what tools/setup --python installs, and nothing of Python's own.
+"""The build backend of pip: CMake builds and installs the package, and this module packs a wheel.
+It needs the packages of tools/setup --python, and no Python packages.
 """
 import base64
 import hashlib
@@ -23,7 +23,7 @@ License: GPL-3.0-or-later
 Requires-Python: >=3.9
 Requires-Dist: numpy
 """
-EARLIEST = (1980, 1, 1, 0, 0, 0)  # which a zip file can tell, so that the same build gives the same
+EARLIEST = (1980, 1, 1, 0, 0, 0)  # earliest date of zip files; makes equal builds byte-identical
 
 
 def _tag(platform):
@@ -32,7 +32,7 @@ def _tag(platform):
 
 
 def _install(prefix):
-    """Builds the package in build-wheel/, of which what is there is used again, and installs it."""
+    """Builds the package in build-wheel/, incrementally, and installs it."""
     build = ROOT / "build-wheel"
     subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                     "-DVCARVE_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}",
@@ -72,7 +72,7 @@ def pack(prefix, wheel_directory, platform):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """As PEP 517 says; returns the name of the wheel."""
+    """Builds a wheel (PEP 517). Returns its name."""
     del config_settings, metadata_directory
     with tempfile.TemporaryDirectory() as prefix:
         _install(prefix)

@@ -25,7 +25,7 @@ void require_all(const Rows& rows, const char* name, const IsValid& is_valid,
     throw UsageError(fmt::format("{}[{}] {}", name, wrong - rows.begin(), fault));
 }
 
-/// Users can write into the arrays of a mesh at any time.
+/// Throws UsageError for invalid arrays. Users can write into the arrays of a mesh at any time.
 void require_valid(const TriMesh& mesh)
 {
     const auto is_finite = [](const auto& vector) { return vector.allFinite(); };
@@ -42,8 +42,8 @@ void set_of_vertices(std::vector<Entry>& rows, const py::object& given, const ch
 {
     if (!given.is_none()) rows = rows_of<Entry>(given, name);
     if (given.is_none() || rows.size() == vertices) return;
-    throw UsageError(
-        fmt::format("{} {} are not one for each of {} vertices", rows.size(), name, vertices));
+    throw UsageError(fmt::format("found {} {}, but expected one for each of {} vertices",
+                                 rows.size(), name, vertices));
 }
 
 std::shared_ptr<Mesh> mesh_of(const py::object& vertices, const py::object& faces,
@@ -64,7 +64,7 @@ void write(const Mesh& mesh, const std::filesystem::path& path, bool ascii,
 {
     require_valid(mesh.surface);
     if (!offset.allFinite()) throw UsageError("the offset is not finite");
-    // Only PLY has room for it.
+    // Only PLY can store it.
     const bool has_provenance =
         !mesh.provenance.point_ids.empty() && lower_case_end(path) == ".ply";
     const MeshFormat format = {.ascii = ascii,
@@ -105,7 +105,7 @@ std::shared_ptr<Mesh> unpickled(const py::tuple& state)
     return mesh;
 }
 
-/// A property that is an array of the mesh, at its address.
+/// A property that returns a NumPy array at the address of the mesh's array.
 template <typename Part, typename Entry>
 auto array_of(Part Mesh::*part, std::vector<Entry> Part::*field)
 {
@@ -121,7 +121,7 @@ void require_corners(const TriMesh& mesh)
     const std::size_t vertices = mesh.positions.size();
     const auto exists = [&](const Face& face) { return std::ranges::max(face) < vertices; };
     require_all(mesh.faces, "faces", exists,
-                fmt::format("has a vertex that does not exist: there are {}", vertices));
+                fmt::format("has a vertex that does not exist; there are {} vertices", vertices));
 }
 
 TriMesh in_frame_of_model(TriMesh mesh)

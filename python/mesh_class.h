@@ -7,21 +7,21 @@
 
 namespace vcarve::python {
 
-/// A surface in the frame of the model, and what it comes from where that was asked for.
+/// A mesh in the frame of the model, with its provenance if requested.
 struct Mesh {
     TriMesh surface; ///< its offset is zero
     Provenance provenance;
-    pybind11::dict counts; ///< what every stage of the run counted
+    pybind11::dict counts; ///< counts of every stage of the run
 };
 
-/// Positions are those of the model: the offset is added, which leaves what is written as it is.
+/// Adds the offset to positions, so they are in the frame of the model. Files do not change.
 TriMesh in_frame_of_model(TriMesh mesh);
 
-/// Throws UsageError naming the first face with a vertex that does not exist. Users can write into
-/// the arrays of a mesh at any time.
+/// Throws UsageError with the first face that has a vertex out of range. Users can write into the
+/// arrays of a mesh at any time.
 void require_corners(const TriMesh& mesh);
 
-/// Mesh, whose arrays are NumPy's at the same addresses.
+/// Adds the class Mesh. Its NumPy arrays refer to the library's memory.
 void add_mesh_class(pybind11::module_& module);
 
 } // namespace vcarve::python

@@ -1,13 +1,13 @@
-// The part of `import vcarve` that is compiled: its classes, and runs that are told of. What users
-// call is in vcarve/__init__.py, which makes the keywords.
+// The compiled part of `import vcarve`: its classes, and runs with a listener. Users call the
+// functions in vcarve/__init__.py, which has the keywords.
 #include "arguments.h"
 #include "arrays.h"
 #include "base/version.h"
+#include "logged_run.h"
 #include "mesh_class.h"
 #include "options/declared.h"
 #include "scene_class.h"
 #include "steps/6_surface/provenance.h"
-#include "told_run.h"
 #include "vcarve/compare.h"
 #include "vcarve/error.h"
 #include "vcarve/reconstruct.h"
@@ -59,7 +59,7 @@ std::shared_ptr<Mesh> reconstruct_scene(const std::shared_ptr<Scene>& scene,
     return mesh_of(std::move(*made), attributes);
 }
 
-/// The scene is empty afterwards: its arrays are not copied.
+/// Moves the arrays of the scene instead of copying them; the scene is empty afterwards.
 std::shared_ptr<Mesh> consume_scene(const std::shared_ptr<Scene>& scene, const py::dict& keywords,
                                     bool attributes, const py::object& listener)
 {
@@ -93,7 +93,7 @@ std::shared_ptr<Scene> read_scene(const fs::path& model, const py::dict& input,
 
 using NamedShared = std::pair<std::string, std::shared_ptr<Mesh>>;
 
-/// As JSON text.
+/// Compares meshes. Returns JSON text.
 std::string compare_meshes(const std::shared_ptr<Scene>& model,
                            const std::vector<NamedShared>& meshes,
                            const std::optional<NamedShared>& truth, const py::dict& keywords,

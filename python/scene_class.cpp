@@ -2,10 +2,10 @@
 
 #include "arrays.h"
 #include "base/progress.h"
-#include "io/dense/nearest_sights.h"
+#include "io/dense/nearest_rays.h"
 #include "io/dense/scanner_views.h"
+#include "logged_run.h"
 #include "model/lens.h"
-#include "told_run.h"
 #include "vcarve/error.h"
 #include "vcarve/scene.h"
 
@@ -22,8 +22,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Room for so many points of which nothing is known, to be filled in.
-std::shared_ptr<Scene> empty_scene(std::size_t points, std::size_t sights)
+/// A scene with arrays of this size, to be filled in.
+std::shared_ptr<Scene> empty_scene(std::size_t points, std::size_t rays)
 {
     auto scene = std::make_shared<Scene>();
     scene->positions.resize(points, Vector3d::Zero());
@@ -32,18 +32,18 @@ std::shared_ptr<Scene> empty_scene(std::size_t points, std::size_t sights)
     scene->point_ids.resize(points);
     std::iota(scene->point_ids.begin(), scene->point_ids.end(), std::uint64_t{1});
     scene->tracks.begins.resize(points + 1, 0);
-    scene->tracks.views.resize(sights, 0);
+    scene->tracks.views.resize(rays, 0);
     return scene;
 }
 
 int number_of_lens(const std::string& name)
 {
     const LensModel* const model = lens_model(std::string_view(name));
-    if (model == nullptr) throw UsageError(fmt::format("COLMAP knows no lens \"{}\"", name));
+    if (model == nullptr) throw UsageError(fmt::format("COLMAP has no camera model \"{}\"", name));
     return model->number;
 }
 
-/// A camera, and how many there are then.
+/// Adds a camera. Returns the new number of cameras.
 std::size_t add_camera(Scene& scene, const std::string& lens,
                        const std::array<std::uint64_t, 2>& size_px,
                        const std::vector<double>& params, bool measures_range)
@@ -51,8 +51,8 @@ std::size_t add_camera(Scene& scene, const std::string& lens,
     const int number = number_of_lens(lens);
     const std::size_t wanted = lens_model(number)->num_params;
     if (params.size() != wanted) {
-        throw UsageError(
-            fmt::format("the lens {} has {} parameters, not {}", lens, wanted, params.size()));
+        throw UsageError(fmt::format("the camera model {} has {} parameters, not {}", lens, wanted,
+                                     params.size()));
     }
     scene.cameras.push_back({.id = static_cast<std::uint32_t>(scene.cameras.size() + 1),
                              .model = number,
@@ -63,13 +63,13 @@ std::size_t add_camera(Scene& scene, const std::string& lens,
     return scene.cameras.size();
 }
 
-/// The rotation of a pose as it was given, to the digits of a float.
+/// The rotation of a pose. It must be exact to about the precision of float.
 Eigen::Quaterniond rotation_of(const Eigen::Matrix3d& matrix, const std::string& view)
 {
     constexpr double kRounding = 1e-4;
     const double off = (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).norm();
     if (!(off < kRounding) || !(matrix.determinant() > 0.0)) {
-        throw UsageError(fmt::format("the pose of view {} holds no rotation", view));
+        throw UsageError(fmt::format("the pose of view {} has no valid rotation", view));
     }
     return Eigen::Quaterniond(matrix).normalized();
 }
@@ -78,7 +78,7 @@ void add_view(Scene& scene, std::uint32_t camera, const std::string& name,
               const Eigen::Matrix3d& rotation, const Vector3d& center)
 {
     if (!center.allFinite()) {
-        throw UsageError(fmt::format("the place of view {} is not finite", name));
+        throw UsageError(fmt::format("the center of view {} is not finite", name));
     }
     scene.views.push_back({.id = static_cast<std::uint32_t>(scene.views.size() + 1),
                            .camera = camera,
@@ -87,16 +87,15 @@ void add_view(Scene& scene, std::uint32_t camera, const std::string& name,
                            .center = center});
 }
 
-/// Rows of views in any order become tracks.
+/// Sets the tracks. The views of a row may have any order.
 void set_tracks(Scene& scene, const py::object& begins, const py::object& views)
 {
     const auto begin_of = rows_of<std::uint64_t>(begins, "track_begins");
     const auto all = rows_of<std::uint32_t>(views, "track_views");
     if (begin_of.size() != scene.num_points() + 1 || begin_of.front() != 0 ||
         begin_of.back() != all.size() || !std::ranges::is_sorted(begin_of)) {
-        throw UsageError(fmt::format("the beginnings of the tracks of {} points must be {} numbers "
-                                     "from 0 to the number of their views, {}, none less than that "
-                                     "before",
+        throw UsageError(fmt::format("the track_begins of {} points must be {} numbers in "
+                                     "ascending order, from 0 to the number of track_views, {}",
                                      scene.num_points(), scene.num_points() + 1, all.size()));
     }
     Tracks tracks;
@@ -109,8 +108,8 @@ void set_tracks(Scene& scene, const py::object& begins, const py::object& views)
         std::ranges::sort(row);
         row.erase(std::unique(row.begin(), row.end()), row.end());
         if (!row.empty() && row.back() >= scene.views.size()) {
-            throw UsageError(fmt::format("the track of point {} has view {}, but there are {}, "
-                                         "counted from 0",
+            throw UsageError(fmt::format("the track of point {} has view {}, but there are {} "
+                                         "views, counted from 0",
                                          i, row.back(), scene.views.size()));
         }
         tracks.push_back(row);
@@ -122,9 +121,9 @@ void take_nearest_views(Scene& scene, const py::object& listener)
 {
     Tracks tracks;
     run_told(listener, [&](Log& log) {
-        Stage stage(log, "sights");
-        tracks = nearest_sights(scene, stage);
-        stage.end({{"sights", size_of(tracks.views.size())}});
+        Stage stage(log, "rays");
+        tracks = nearest_rays(scene, stage);
+        stage.end({{"rays", size_of(tracks.views.size())}});
     });
     scene.tracks = std::move(tracks);
 }
@@ -133,8 +132,8 @@ void place_scanners(Scene& scene, const py::object& places)
 {
     const auto scanners = rows_of<Vector3d>(places, "scanners");
     if (scanners.size() != 1 && scanners.size() != scene.num_points()) {
-        throw UsageError(fmt::format("{} places of scanners are neither one nor one for each of {} "
-                                     "points",
+        throw UsageError(fmt::format("found {} scanner positions, but expected one, or one for "
+                                     "each of {} points",
                                      scanners.size(), scene.num_points()));
     }
     scene.tracks = {};
@@ -214,7 +213,7 @@ std::shared_ptr<Scene> unpickled(const py::tuple& state)
     return scene;
 }
 
-/// A method that replaces arrays, which NumPy must not look at meanwhile.
+/// A method that replaces arrays. It fails if NumPy arrays refer to them.
 template <typename... Arguments>
 auto replacing(void (*method)(Scene&, Arguments...))
 {
@@ -224,7 +223,7 @@ auto replacing(void (*method)(Scene&, Arguments...))
     };
 }
 
-/// A property that is an array of the scene, at its address.
+/// A property that returns a NumPy array at the address of the scene's array.
 template <typename Entry>
 auto array_of(std::vector<Entry> Scene::*field)
 {
@@ -252,7 +251,7 @@ void add_scene_class(py::module_& module)
     const auto begins = [](const Shared& scene) { return view_of(scene->tracks.begins, scene); };
     const auto views = [](const Shared& scene) { return view_of(scene->tracks.views, scene); };
     py::class_<Scene, Shared>(module, "Scene")
-        .def_static("empty", &empty_scene, py::arg("points"), py::arg("sights") = 0)
+        .def_static("empty", &empty_scene, py::arg("points"), py::arg("rays") = 0)
         .def_property_readonly("positions", array_of(&Scene::positions))
         .def_property_readonly("colors", array_of(&Scene::colors))
         .def_property_readonly("errors_px", array_of(&Scene::errors_px))

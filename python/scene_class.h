@@ -4,7 +4,7 @@
 
 namespace vcarve::python {
 
-/// Scene, whose arrays are NumPy's at the same addresses.
+/// Adds the class Scene. Its NumPy arrays refer to the library's memory.
 void add_scene_class(pybind11::module_& module);
 
 } // namespace vcarve::python

@@ -24,21 +24,21 @@ def look_at(center, target):
 
 
 def rays(pose):
-    """Directions through all pixels in the world, their length along the axis 1."""
+    """The directions of all pixels in the world, with length 1 along the camera's axis."""
     u, v = np.meshgrid(np.arange(WIDTH) + 0.5, np.arange(HEIGHT) + 0.5)
     in_camera = np.stack([u, v, np.ones_like(u)], axis=-1) @ np.linalg.inv(K).T
     return in_camera.reshape(-1, 3) @ pose[:3, :3].T
 
 
 def depth_map(pose):
-    """What the network would say of an image: the depth of ball or floor, with 0.3 % noise."""
+    """Simulates the network: the depth of the ball or the floor, with 0.3 % noise."""
     ways, from_ball = rays(pose), pose[:3, 3] - BALL
     a, b = (ways * ways).sum(axis=1), ways @ from_ball
     root = b * b - a * (from_ball @ from_ball - RADIUS**2)
     ball = np.where(root > 0.0, (-b - np.sqrt(np.maximum(root, 0.0))) / a, np.inf)
     floor = np.where(ways[:, 2] < 0.0, -pose[2, 3] / np.minimum(ways[:, 2], -1e-9), np.inf)
     depth = np.minimum(ball, floor)
-    depth[depth > 6.0] = np.nan  # not known
+    depth[depth > 6.0] = np.nan  # unknown
     return depth * (1.0 + 0.003 * random.standard_normal(depth.shape))
 
 
@@ -61,5 +61,5 @@ mesh.write("collision.obj")
 
 off_floor = mesh.vertices[mesh.vertices[:, 2] > 0.2]
 miss = np.abs(np.linalg.norm(off_floor - BALL, axis=1) - RADIUS)
-print(f"{len(points)} points, {len(mesh.faces)} faces, the ball is missed by {np.median(miss):.3f}")
+print(f"{len(points)} points, {len(mesh.faces)} faces, distance to ball {np.median(miss):.3f}")
 assert np.median(miss) < 0.05 * RADIUS

@@ -1,4 +1,4 @@
-"""A plot of how good a surface is, F, against an option, where the truth is known. Writes f.png."""
+"""Plots the quality F of a surface over the values of an option. Needs the truth. Writes f.png."""
 import pathlib
 
 import matplotlib.pyplot as plt

@@ -11,34 +11,33 @@
 
 namespace vcarve {
 
-/// How meshes are measured. No length is in scene units.
+/// Options of compare(). No length is in scene units.
 struct CompareOptions {
-    int samples = 400000;  ///< points sampled on each mesh and on the truth
-    int seed = 1;          ///< where the sampling starts
-    double spacings = 3.0; ///< how near is near, in point spacings
+    int samples = 400000;  ///< number of points sampled on each mesh and on the truth
+    int seed = 1;          ///< seed of the sampling
+    double spacings = 3.0; ///< distance tolerance, in point spacings
 };
 
-/// A mesh and what to call it: the file's name in tables and messages.
+/// A mesh with a name for tables and messages, usually the file name.
 struct NamedMesh {
-    std::string name; ///< heads the mesh's column of the table
+    std::string name; ///< column heading of the table
     TriMesh mesh;     ///< in the frame of the model
 };
 
-/// What was measured of meshes.
+/// The measurements of meshes.
 struct ComparisonReport {
-    /// Of each mesh, in the order they were given, its figures by their place in the JSON text:
-    /// "/views/hidden_sights", "/size/faces", "/truth/blocked". docs/results.md explains them.
+    /// The figures of each mesh, in the order of the arguments. Keys are JSON pointers, such as
+    /// "/views/hidden_rays", "/size/faces", "/truth/blocked". docs/results.md explains them.
     std::vector<std::map<std::string, double>> figures;
-    std::string table; ///< a Markdown table, a row a figure and a column a mesh, and what they mean
+    std::string table; ///< Markdown: one row per figure, one column per mesh, and a legend
     std::string json;  ///< the same as JSON text
 };
 
-/// Measures meshes by how they fit the views of a model, and by the true surface where it is known:
-/// `truth` may be null. The same input gives the same figures for any number of threads. Runs as
-/// the stages "reference", those of reconstruct() for the model's closed surface, and "measure" for
-/// each mesh. Throws UsageError where an option is out of its range, InputError where a mesh or the
-/// truth has no surface or lies in another frame than the model, or the model has fewer than two
-/// points that two views saw, and Cancelled.
+/// Compares meshes with the views of a model, and with the true surface unless `truth` is null. The
+/// figures are the same for any thread count. The stages are "reference", those of reconstruct()
+/// for the model's closed surface, and "measure" for each mesh. Throws UsageError if an option is
+/// out of range. Throws InputError if a mesh or the truth has no surface or is in another frame
+/// than the model, or if the model has fewer than two points with two views. Throws Cancelled.
 ComparisonReport compare(const Scene& model, std::span<const NamedMesh> meshes,
                          const NamedMesh* truth, const CompareOptions& options, Log& log);
 

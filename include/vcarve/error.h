@@ -5,32 +5,32 @@
 
 namespace vcarve {
 
-/// Anything the user can mend. The message is one sentence that names the file, the place, what was
-/// found and what was expected; the program prints it and exits with the class's code.
+/// An error that the user can fix. The message is one sentence with the file, the place, the found
+/// and the expected value. The program prints it and exits with the code of the class.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The command line, an option or the output path is wrong: exit code 2.
+/// The command line, an option or the output path is wrong. Exit code 2.
 class UsageError : public Error {
   public:
     using Error::Error;
 };
 
-/// An input file is missing, broken, or holds too little for a surface: exit code 3.
+/// An input file is missing or broken, or has too little data for a surface. Exit code 3.
 class InputError : public Error {
   public:
     using Error::Error;
 };
 
-/// The run was stopped because its Log wanted so (Log::wants_stop). It has written nothing, and
-/// everything it allocated is freed. Not an Error: there is nothing to mend.
+/// The run stopped because Log::should_stop() returned true. It wrote nothing and freed all that it
+/// allocated. Not an Error, because the user has nothing to fix.
 class Cancelled : public std::runtime_error {
   public:
-    /// The stage that was running.
+    /// `stage` is the running stage.
     explicit Cancelled(const std::string& stage)
-        : std::runtime_error("stopped in stage " + stage + ", as was asked for")
+        : std::runtime_error("stopped in stage " + stage + ", as requested")
     {
     }
 };

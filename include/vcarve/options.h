@@ -6,164 +6,171 @@
 
 namespace vcarve {
 
-/// Which points are good enough to carve with.
+/// Filter for input points.
 struct FilterOptions {
-    int min_views = 2;           ///< points seen by fewer views are dropped
-    double max_error_px = 4.0;   ///< points with a larger mean reprojection error are dropped; 0:
-                                 ///< none
-    double min_angle_deg = 1.0;  ///< points whose sights all meet at a smaller angle are dropped
-    double stray_spacing = 16.0; ///< points of two views this many times the usual spacing away
-                                 ///< from others are dropped; 0: none
+    int min_views = 2;         ///< minimum number of views per point; higher drops more
+    double max_error_px = 4.0; ///< maximum mean reprojection error in px; higher drops fewer
+                               ///< points; 0 disables
+    /// Minimum of the widest ray angle of a point, in degrees; higher drops more; 0 disables.
+    double min_angle_deg = 1.0;
+    /// Maximum isolation of two-view points, in median spacings; higher drops fewer; 0 disables.
+    double stray_spacing = 16.0;
 };
 
-/// Where points are added to planar regions of the surface; 0 adds none. All are multiples of the
-/// spacing of the points of that region.
+/// Points added on planar regions. The unit is the region's median point spacing; 0 disables each.
 struct AddedPointOptions {
-    double crease_reach = 28.0;    ///< where two regions meet: how far both may end from that line
-    double border_gap = 3.0;       ///< where a region ends: how near to it sights pass by
-    double textureless_step = 2.0; ///< amid one, where images show no features: how far apart
+    double crease_reach = 28.0;    ///< maximum distance of regions to a crease; higher adds more
+    double border_gap = 3.0;       ///< maximum distance of rays to a border; higher adds more
+    double textureless_step = 2.0; ///< point spacing in textureless areas; higher adds fewer
 
-    /// Whether points are added anywhere.
+    /// Whether any points are added.
     bool add_any() const
     {
         return crease_reach > 0.0 || border_gap > 0.0 || textureless_step > 0.0;
     }
 };
 
-/// Which points of a dense cloud become one.
+/// Merging of dense points.
 struct ThinOptions {
-    double merge_px = 1.8; ///< those within so many pixels of the images that show them largest; 0:
-                           ///< none
+    double merge_px = 1.8; ///< merge radius in px, in the view that images the point at the largest
+                           ///< scale; higher merges more; 0 disables
 };
 
-/// Which part of space the surface is wanted of.
+/// Region to reconstruct.
 struct CropOptions {
-    RegionChoice region; ///< what lies outside only carves
+    RegionChoice region; ///< rays of points outside only mark free space
 };
 
-/// How far the points of a dense cloud are moved, or the vertices of a sparse one's surface.
+/// Denoising of dense points, or of the vertices of a sparse model's mesh.
 struct DenoiseOptions {
-    double denoise = 2.0; ///< standard deviations of the point itself, at most; 0: not at all
+    double denoise = 2.0; ///< maximum move in standard deviations; higher flattens more; 0 disables
 };
 
-/// How much a sight says, and how far behind its point.
+/// Weights of rays.
 struct TraceOptions {
-    double views_sigma = 1.5;    ///< s of the weight 1 - exp(-n^2 / 2 s^2) of a point of n views
-                                 ///< against the median point's; 0: all weigh the same
-    double distance_sigma = 0.5; ///< uncertainty of a point along its sights, in short edges; 0:
-                                 ///< none
-    double sink_depth = 0.0;     ///< how far behind a point its sights call the space inside, in
-                                 ///< these uncertainties; 0: the cell that begins there
-    double error_sigma = 3.0;    ///< s of the factor exp(-(e^2 - 1) / 2 s^2) of a point whose error
-                                 ///< is e > 1 medians; 0: none
-    int bundle_sights = 5;       ///< this many near sights of a dense cloud go on as one far from
-                                 ///< their points; 1: each by itself
-    double inferred_weight = 1.0; ///< of a sight that a dense cloud's file leaves out, where views
-                                  ///< likely saw a point (inferred_sights); 0: none
+    double views_sigma = 1.5;    ///< s of the weight 1 - exp(-n^2 / 2 s^2) of n views, relative to
+                                 ///< the median point; higher favors many views; 0 disables
+    double distance_sigma = 0.5; ///< uncertainty along rays, in 25th percentiles of edge lengths;
+                                 ///< higher lowers weights near points; 0 disables
+    double sink_depth = 0.0;     ///< depth of votes for inside, in this uncertainty; higher
+                                 ///< thickens solids; 0 votes only for the cell behind the point
+    double error_sigma = 3.0;    ///< s of the factor exp(-(e^2 - 1) / 2 s^2) for e > 1 median
+                                 ///< errors; higher trusts inexact points more; 0 disables
+    int bundle_rays = 5;         ///< number of neighboring rays of a dense cloud that merge far
+                                 ///< from their points; higher is faster, less exact; 1 disables
+    double inferred_rays = 1.0;  ///< weight of rays missing in a dense cloud's file
+                                 ///< (inferred_rays.h); higher proves more free space; 0 disables
 };
 
-/// How the minimum cut weighs shapes against sights.
+/// Options of the minimum cut.
 struct CutOptions {
-    double quality = 1.0; ///< what a badly shaped facet costs, in sights of full weight
+    double quality = 1.0; ///< cost of a badly shaped facet, in rays of full weight; higher prefers
+                          ///< well-shaped faces to agreement with rays; 0 disables
 };
 
-/// Where the surface goes on along the hull of the points, where they are seen from within only.
+/// Continuation of the surface along the convex hull, where views see it from inside only.
 struct HullOptions {
-    double hull_edge =
-        20.0; ///< by faces of edges up to so many times the median around; 0: nowhere
+    double hull_edge = 20.0; ///< maximum edge of such faces, in local median edge lengths; higher
+                             ///< closes more; 0 disables
 };
 
-/// How many more viewpoints are tried, and how much they count.
+/// Additional viewpoints.
 struct VirtualViewOptions {
-    int count = 0;       ///< placed where sights have shown space to be free
-    double weight = 0.5; ///< of a sight of theirs, relative to a real one of the same point
+    int count = 0; ///< number of viewpoints in known free space; higher frees more; 0 disables
+    double weight = 0.5; ///< weight of their rays, relative to a real ray; higher frees more
 };
 
-/// How cells are told outside from inside.
+/// Labeling method.
 enum class Method {
-    cut,   ///< the labelling that contradicts the sights least
-    strict ///< every cell that a sight crosses is outside, for points without noise
+    cut,   ///< the labeling that contradicts the rays least
+    strict ///< every cell that a ray crosses is outside, for points without noise
 };
 
-/// Everything that decides which cells are inside.
+/// Labeling of cells as inside or outside.
 struct LabelOptions {
-    Method method = Method::cut;      ///< how
-    int min_crossings = 1;            ///< strict: of a facet, to carve the cells beside it
-    TraceOptions trace;               ///< what a sight says
+    Method method = Method::cut;      ///< labeling method
+    int min_crossings = 1;            ///< strict: rays through a facet that carve its two cells
+    TraceOptions trace;               ///< weights of rays
     CutOptions cut;                   ///< the minimum cut
-    HullOptions hull;                 ///< where no cells lie behind
-    VirtualViewOptions virtual_views; ///< viewpoints beside the model's
+    HullOptions hull;                 ///< surface along the convex hull
+    VirtualViewOptions virtual_views; ///< additional viewpoints
 };
 
-/// The thresholds of the rule book, which says which faces of the boundary are surface
-/// (src/steps/6_surface/face_rules.h).
+/// Thresholds of the rules that keep or drop faces of the boundary. The terms are defined in
+/// src/steps/6_surface/face_rules.h.
 struct FaceRules {
-    double max_closing = 0.115; ///< a longest edge of so much of the diameter of the region of
-                                ///< interest makes a face long; 0: no face that views see is
-                                ///< dropped or trimmed
-    double vast = 2.0;          ///< x that: longer faces go even if seen, where the surface ends
-    double half_seen = 0.5;     ///< long faces that turn off go if a smaller share is seen
-    double hardly_seen = 0.12;  ///< faces that are long or at an end go if a smaller share is seen
-    double trim = 0.5;          ///< x long: from this longest edge on faces are trimmed; 0: none
-    double beside_edge = 3.0;   ///< unseen faces beside kept ones stay up to a longest edge of so
-                                ///< many times the median edge around; 0: none
-    double beside_length = 8.0; ///< and of so many times that of the median kept face
+    /// Edge length of a long face, as a fraction of the diameter of the region of interest. Higher
+    /// keeps more large faces; 0 keeps all visible faces, and trims none.
+    double max_closing = 0.115;
+    /// Length from which visible bent boundary faces drop, in `max_closing`; higher keeps more.
+    double boundary_closing = 2.0;
+    /// Minimum visible fraction of long faces that bend away; higher drops more; 0 disables.
+    double half_seen = 0.5;
+    /// Minimum visible fraction of long faces and boundary faces; higher drops more; 0 disables.
+    double hardly_seen = 0.12;
+    /// Edge length from which faces are trimmed, in `max_closing`; higher trims less; 0 disables.
+    double trim = 0.5;
+    /// Longest unseen faces kept beside kept ones, in local edges; higher keeps more; 0 disables.
+    double beside_edge = 3.0;
+    double beside_length = 8.0; ///< their maximum edge in longest edges of the median kept face
 };
 
-/// What is mended, and what is thrown away.
+/// Cleanup of the mesh.
 struct CleanupOptions {
-    int min_component_faces = 6; ///< pieces with fewer faces are removed; 0: none
-    int max_hole_edges = 12;     ///< holes with at most so many edges are filled; 0: none. At most
-                                 ///< 1000: N edges take 16 N^2 bytes and N^3 steps
+    int min_component = 6; ///< minimum number of faces of a connected component (half if closed and
+                           ///< without long faces); higher removes more; 0 disables
+    int max_hole = 12;     ///< maximum number of edges of filled holes, up to 1000, since N edges
+                           ///< take 16 N^2 bytes and N^3 steps; higher fills more; 0 disables
 };
 
-/// Which faces of the boundary are kept, and how the surface is mended.
+/// Selection of faces, and cleanup.
 struct SurfaceOptions {
-    bool closed = false;    ///< faces that no view sees are kept, so that nothing is open
-    FaceRules rules;        ///< which faces are surface
-    CleanupOptions cleanup; ///< mending
+    bool closed = false;    ///< keep unseen faces, for a watertight mesh
+    FaceRules rules;        ///< thresholds for dropping faces
+    CleanupOptions cleanup; ///< components and holes
 };
 
-/// How far vertices are moved.
+/// Smoothing of the mesh. A move that would occlude an observed point is rejected.
 struct SmoothOptions {
-    int iterations = 0; ///< how often; no face hides a point from a view that it did not hide
+    int iterations = 0; ///< number of iterations; higher is smoother; 0 disables
 };
 
-/// How far vertices are merged.
+/// Simplification of the mesh.
 struct SimplifyOptions {
-    static constexpr int kAutoFaces = -1; ///< of a dense surface as many as its noise allows
+    static constexpr int kAutoFaces = -1; ///< simplify dense surfaces within their noise
 
-    int faces = kAutoFaces; ///< number of faces that are left; 0 keeps all. With a number, a merge
-                            ///< that would occlude an observed point is rejected.
+    int faces = kAutoFaces; ///< target number of faces; higher keeps more; 0 disables. With a
+                            ///< number, a merge that would occlude an observed point is rejected.
 };
 
-/// How vertices are moved and merged; by default neither is done.
+/// Refinement of the mesh.
 struct RefineOptions {
-    SmoothOptions smooth;     ///< moving vertices
-    SimplifyOptions simplify; ///< merging vertices
+    SmoothOptions smooth;     ///< smoothing, by default off
+    SimplifyOptions simplify; ///< simplification, by default of dense surfaces only
 };
 
-/// How a run gets by with the memory there is.
+/// Memory limits.
 struct MemoryOptions {
-    static constexpr int kAutoBlocks = -1;          ///< as many as `most` makes necessary
-    static constexpr std::int64_t kAutoMemory = -1; ///< 80 % of what is free
+    static constexpr int kAutoBlocks = -1;          ///< number of blocks that `limit` requires
+    static constexpr std::int64_t kAutoMemory = -1; ///< 80 % of the free memory
 
-    std::int64_t most = kAutoMemory; ///< bytes that the run may take; 0: no limit
-    int blocks = kAutoBlocks;        ///< that the model is cut into, with files beside; 0: none
+    std::int64_t limit = kAutoMemory; ///< maximum memory in bytes; 0 disables
+    /// Number of blocks, with arrays in files; higher needs less memory; 0 disables.
+    int blocks = kAutoBlocks;
 };
 
-/// Everything a run can be told, step by step.
+/// All options of a run, one struct per step.
 struct Options {
-    FilterOptions points;           ///< which points are kept
-    AddedPointOptions added_points; ///< where points are added
-    ThinOptions thin;               ///< which points become one
-    CropOptions crop;               ///< which part of space counts
-    DenoiseOptions denoise;         ///< how far points move
-    LabelOptions labels;            ///< which cells are inside
-    SurfaceOptions surface;         ///< which faces are kept
-    RefineOptions refine;           ///< what is done to the surface
-    int threads = 0;                ///< how many are used, 0: all; the surface is the same for any
-    MemoryOptions memory;           ///< how much of it is taken
+    FilterOptions points;           ///< filter for input points
+    AddedPointOptions added_points; ///< points added on planes
+    ThinOptions thin;               ///< merging of dense points
+    CropOptions crop;               ///< region to reconstruct
+    DenoiseOptions denoise;         ///< denoising of points or vertices
+    LabelOptions labels;            ///< labeling of cells
+    SurfaceOptions surface;         ///< selection of faces, and cleanup
+    RefineOptions refine;           ///< smoothing and simplification
+    int threads = 0;                ///< number of threads; 0 uses all. The mesh is the same for any
+    MemoryOptions memory;           ///< memory limits
 };
 
 } // namespace vcarve

@@ -10,30 +10,30 @@
 
 namespace vcarve {
 
-/// A surface and what of the scene it was made from, centred.
+/// A mesh and the filtered, centered scene it was made from.
 struct Reconstruction {
-    Scene scene;  ///< the points that passed the filter, in the order TriMesh::points counts them
+    Scene scene;  ///< the points that passed the filter; TriMesh::points are indices of these
     TriMesh mesh; ///< in the frame of `scene`: both have the same offset
 };
 
-/// From a scene to its surface: the steps in order, on `options.threads` threads; the result does
-/// not depend on how many. `log` is told of every stage, and asked all the time whether to stop.
+/// Reconstructs the surface of a scene: runs all steps, on `options.threads` threads. The result is
+/// the same for any thread count. `log` receives every stage, and is polled for cancellation.
 ///
-/// Throws, before any work, UsageError where an option is out of its range (naming it, what was
-/// found and what is accepted) or the arrays of the scene do not fit each other, and InputError
-/// where the run, in memory, would need more than `options.memory.most`; later InputError where the
-/// scene holds too little for a surface, or the file of a region is wrong. Throws Cancelled within
-/// a fraction of a second after Log::wants_stop says so. Holds no globals: several runs may go on
-/// side by side.
+/// Throws UsageError before any work if an option is out of range (with its name, the found and the
+/// accepted values), or if the sizes of the scene's arrays disagree. Throws InputError before any
+/// work if a run in memory would exceed `options.memory.limit`. Throws InputError later if the
+/// scene has too little data for a surface, or the file of a region is wrong. Throws Cancelled
+/// within a fraction of a second after Log::should_stop() returns true. Uses no globals, so runs
+/// may be concurrent.
 ///
-/// All arrays are in memory, where the caller's operator new puts them, so both words "auto" of
-/// MemoryOptions mean no limit and no blocks here: to choose by what is free, and to keep arrays in
-/// files, is what the program does. Blocks that are asked for bound what the triangulation takes.
+/// The caller's operator new allocates all arrays. So kAutoMemory and kAutoBlocks mean no limit and
+/// no blocks here. Only the program measures free memory and keeps arrays in files. A number of
+/// blocks limits the memory of the triangulation.
 Reconstruction reconstruct(Scene input, const Options& options, Log& log);
 
-/// Reads a model, as read_model() does, and reconstructs it; the surface is the same. Of a dense
-/// cloud with a file of visibility not all points are in memory at a time: they are merged
-/// (ThinOptions) while they are read, as part of the stage "read". Throws what both throw.
+/// Reads a model with read_model() and reconstructs it; the surface is the same. Points of a dense
+/// cloud with a visibility file are merged while they are read, in the stage "read" (ThinOptions).
+/// So memory never holds all of them. Throws the exceptions of both functions.
 Reconstruction reconstruct(const std::filesystem::path& input, const PointsOptions& points,
                            const Options& options, Log& log);
 

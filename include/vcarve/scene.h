@@ -14,18 +14,18 @@ namespace vcarve {
 using Color = std::array<std::uint8_t, 3>; ///< red, green, blue
 
 /// A calibrated lens, as COLMAP stores it. `model` is COLMAP's number (0 SIMPLE_PINHOLE, 1 PINHOLE,
-/// ...), or -1 where a text file names a model that is not known.
+/// ...), or -1 if a text file names an unknown model.
 struct Camera {
     std::uint32_t id = 0;        ///< COLMAP's camera id
     int model = 0;               ///< COLMAP's number of the lens model
-    std::uint64_t width_px = 0;  ///< of its images
-    std::uint64_t height_px = 0; ///< of its images
-    std::vector<double> params;  ///< in COLMAP's order for the lens model
-    /// A scanner: its sights end where it measured, so a point needs no other view to be known.
+    std::uint64_t width_px = 0;  ///< image width
+    std::uint64_t height_px = 0; ///< image height
+    std::vector<double> params;  ///< lens parameters, in COLMAP's order
+    /// A laser scanner, whose rays end at the measured range. So its points need only one view.
     bool measures_range = false;
 };
 
-/// A registered image: the pose of its camera and the centre all its sights meet in.
+/// A registered image: the pose and the center of its camera.
 struct View {
     std::uint32_t id = 0;     ///< COLMAP's image id
     std::uint32_t camera = 0; ///< index into Scene::cameras
@@ -34,20 +34,20 @@ struct View {
     Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the frame of Scene::positions
 };
 
-/// Which views saw which point: one row of view indices per point, rows stored end to end.
-/// Within a row the indices ascend and none occurs twice.
+/// The views that saw each point: one row of view indices per point, stored back to back. The
+/// indices of a row are strictly ascending.
 struct Tracks {
     std::vector<std::uint64_t> begins{0}; ///< row i is views[begins[i]] up to views[begins[i + 1]]
     std::vector<std::uint32_t> views;     ///< indices into Scene::views
 
-    /// How many rows there are.
+    /// The number of rows.
     std::size_t size() const { return begins.size() - 1; }
     /// The views that saw a point.
     std::span<const std::uint32_t> operator[](std::size_t point) const
     {
         return {views.data() + begins[point], views.data() + begins[point + 1]};
     }
-    /// Adds a row, the track of the next point.
+    /// Appends a row, the track of the next point.
     void push_back(std::span<const std::uint32_t> row)
     {
         views.insert(views.end(), row.begin(), row.end());
@@ -55,40 +55,40 @@ struct Tracks {
     }
 };
 
-/// Where a point comes from: measured, or added to those that were, in a planar region.
+/// The origin of a point: measured, or added in a planar region (section 2 of algorithm.md).
 enum class PointKind : std::uint8_t {
     measured,
-    crease,     ///< where two regions meet
-    border,     ///< where one ends: behind it there may be anything
-    textureless ///< amid one, where images show no features
+    crease,     ///< added where two regions meet
+    border,     ///< added at the border of a region; the space behind it is unknown
+    textureless ///< added inside a region, where images have no features
 };
 
-/// What COLMAP reconstructed: views, points, and the sights between them.
-/// The arrays positions, colors, errors_px, point_ids and tracks run parallel, one entry a point;
-/// so do the normals and the kinds, where there are any.
+/// COLMAP's reconstruction: views, points, and the rays between them. The arrays positions, colors,
+/// errors_px, point_ids and tracks are parallel, with one entry per point. normals and kinds are
+/// parallel to them, or empty.
 struct Scene {
-    std::vector<Camera> cameras;            ///< what the views were taken with
-    std::vector<View> views;                ///< from where points were seen
-    std::vector<Eigen::Vector3d> positions; ///< in world minus `offset`
+    std::vector<Camera> cameras;            ///< cameras of the views
+    std::vector<View> views;                ///< registered images, or scanner positions
+    std::vector<Eigen::Vector3d> positions; ///< world coordinates minus `offset`
     std::vector<Color> colors;              ///< of the points
-    std::vector<double> errors_px;          ///< mean reprojection error; negative where unknown
+    std::vector<double> errors_px;          ///< mean reprojection error; negative if unknown
     std::vector<std::uint64_t>
-        point_ids; ///< COLMAP's point3D ids, or places in a cloud's file; 0 if added
-    std::vector<Eigen::Vector3f> normals; ///< optional: unit, or zero where unknown
-    std::vector<PointKind> kinds;         ///< optional: all are measured where there are none
-    Tracks tracks;                        ///< which views saw which point
-    bool is_dense = false; ///< points of a dense cloud or a scan, whose errors are not known
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the file's
+        point_ids; ///< COLMAP's point3D ids, or positions in a cloud's file; 0 if added
+    std::vector<Eigen::Vector3f> normals; ///< optional: unit, or zero if unknown
+    std::vector<PointKind> kinds;         ///< optional: if empty, all are measured
+    Tracks tracks;                        ///< the views that saw each point
+    bool is_dense = false;                ///< a dense cloud or a scan, whose errors are unknown
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add this to a position to get the file's
 
-    /// How many points there are.
+    /// The number of points.
     std::size_t num_points() const { return positions.size(); }
-    /// Where a point comes from.
+    /// The origin of a point.
     PointKind kind_of(std::size_t point) const
     {
         return kinds.empty() ? PointKind::measured : kinds[point];
     }
-    /// How many pairs of a point and a view that saw it there are.
-    std::size_t num_sights() const { return tracks.views.size(); }
+    /// The number of rays: pairs of a point and a view that saw it.
+    std::size_t num_rays() const { return tracks.views.size(); }
 };
 
 } // namespace vcarve

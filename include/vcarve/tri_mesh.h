@@ -10,19 +10,19 @@
 
 namespace vcarve {
 
-/// Stands for the point of a vertex that is none.
+/// The entry of TriMesh::points for a vertex that is no point of the scene.
 inline constexpr std::uint32_t kNoPoint = 0xffffffffU;
 
 using Face = std::array<std::uint32_t, 3>; ///< vertex indices, counter-clockwise seen from outside
 
-/// A triangle surface. The optional arrays are empty or have one entry a vertex.
+/// A triangle mesh. The optional arrays are empty or have one entry per vertex.
 struct TriMesh {
-    std::vector<Eigen::Vector3d> positions; ///< in world minus `offset`
-    std::vector<Face> faces;                ///< manifold or not
+    std::vector<Eigen::Vector3d> positions; ///< world coordinates minus `offset`
+    std::vector<Face> faces;                ///< may be non-manifold
     std::vector<Color> colors;              ///< optional
-    std::vector<Eigen::Vector3f> normals;   ///< optional, unit, pointing outside
-    std::vector<std::uint32_t> points; ///< optional: the scene's point a vertex was, or kNoPoint
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add to a position to get the model's
+    std::vector<Eigen::Vector3f> normals;   ///< optional: unit, pointing outside
+    std::vector<std::uint32_t> points; ///< optional: the vertex's point in the scene, or kNoPoint
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< add this to a position to get the model's
 };
 
 } // namespace vcarve

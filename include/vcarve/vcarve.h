@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file
-/// The whole library: read a model, reconstruct its surface, write it, measure it.
+/// The whole library: read a model, reconstruct its surface, write and measure meshes.
 
 /// @mainpage
 /// Include vcarve/vcarve.h. vcarve::read_model reads a COLMAP model into a vcarve::Scene, which you

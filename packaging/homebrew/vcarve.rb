@@ -1,6 +1,6 @@
 # The library, without the program, for Homebrew on Linux:
 #   brew install --HEAD --build-from-source packaging/homebrew/vcarve.rb
-# where the checkout stands at HOMEBREW_VCARVE.
+# HOMEBREW_VCARVE is the path of the checkout.
 class Vcarve < Formula
   desc "Surface meshes of COLMAP models"
   license "GPL-3.0-or-later"

@@ -1,4 +1,4 @@
-# An overlay port: the sources are the checkout that this file is in.
+# An overlay port: the sources are the checkout that contains this file.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 vcpkg_cmake_configure(
   SOURCE_PATH "${SOURCE_PATH}"

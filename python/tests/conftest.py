@@ -1,4 +1,4 @@
-"""What the tests share: the fixtures, and a room whose walls are known."""
+"""Fixtures of the tests, and a room with known walls."""
 import os
 import pathlib
 import subprocess
@@ -19,13 +19,13 @@ def model():
 
 @pytest.fixture
 def program():
-    """Runs the program; fails where it fails."""
+    """Runs the program. Fails if the program fails."""
     return lambda *words: subprocess.run([PROGRAM, *map(str, words)], check=True)
 
 
 @pytest.fixture
 def refusal():
-    """What the program says of a command line that it refuses."""
+    """Returns the program's message for a wrong command line."""
     def said(*words):
         run = subprocess.run([PROGRAM, *map(str, words)], check=False, capture_output=True,
                              text=True)
@@ -35,7 +35,7 @@ def refusal():
 
 
 class Room:
-    """Points on the walls of a box, seen by views within that look all round."""
+    """Points on the walls of a box, seen by views inside that see in all directions."""
 
     def __init__(self, count=2000):
         random = np.random.default_rng(1)

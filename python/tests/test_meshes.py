@@ -24,7 +24,7 @@ def mesh():
     return vcarve.reconstruct(ROOT / "fixtures/scene/sparse/0", attributes=True)
 
 
-def test_arrays_are_the_librarys_memory(mesh):
+def test_arrays_refer_to_the_librarys_memory(mesh):
     vertices, faces = len(mesh.vertices), len(mesh.faces)
     for name, dtype, shape in (("vertices", np.float64, (vertices, 3)),
                                ("faces", np.uint32, (faces, 3)),
@@ -91,7 +91,7 @@ def with_value(rows, index, value, dtype):
     (TRIANGLE, [[0, 1, 2]], {"colors": with_value(TRIANGLE, (0, 2), -1, int)},
      r"colors\[0, 2\] is -1"),
 ])
-def test_a_mesh_refuses_numbers_that_it_cannot_hold(vertices, faces, given, sentence):
+def test_a_mesh_rejects_numbers_that_do_not_fit(vertices, faces, given, sentence):
     with pytest.raises(vcarve.UsageError, match=sentence):
         vcarve.Mesh(vertices, faces, **given)
 
@@ -110,8 +110,8 @@ def test_float_colors_of_a_mesh_are_from_0_to_1():
     ("faces", (0, 2), 9, r"faces\[0\] has a vertex that does not exist"),
 ])
 @pytest.mark.parametrize("end", ["ply", "glb"])
-def test_writing_refuses_what_was_made_invalid_in_place(end, array, index, value, sentence,
-                                                        tmp_path):
+def test_writing_rejects_arrays_made_invalid_in_place(end, array, index, value, sentence,
+                                                      tmp_path):
     mesh = vcarve.Mesh(TRIANGLE, [[0, 1, 2]], normals=[[0.0, 0.0, 1.0]] * 3)
     getattr(mesh, array)[index] = value
     with pytest.raises(vcarve.UsageError, match=sentence):
@@ -119,12 +119,12 @@ def test_writing_refuses_what_was_made_invalid_in_place(end, array, index, value
     assert not list(tmp_path.iterdir())
 
 
-def test_writing_refuses_an_offset_that_is_not_finite(tmp_path):
+def test_writing_rejects_an_offset_that_is_not_finite(tmp_path):
     with pytest.raises(vcarve.UsageError, match="offset is not finite"):
         vcarve.Mesh(TRIANGLE, [[0, 1, 2]]).write(tmp_path / "out.ply", offset=[0, np.nan, 0])
 
 
-def test_comparison_refuses_faces_without_vertices(model):
+def test_comparison_rejects_faces_without_vertices(model):
     mesh = vcarve.Mesh(TRIANGLE, [[0, 1, 2]])
     mesh.faces[0] = 1 << 30
     with pytest.raises(vcarve.UsageError, match=r"faces\[0\] has a vertex that does not exist"):
@@ -151,7 +151,7 @@ def test_copies_and_pickles_of_a_mesh_are_equal_and_independent(duplicate, mesh,
     assert not np.array_equal(made.vertices[0], mesh.vertices[0]) and mesh.counts
 
 
-def test_a_comparison_is_what_the_program_writes(mesh, model, program, tmp_path):
+def test_a_comparison_equals_the_json_of_the_program(mesh, model, program, tmp_path):
     mesh.write(tmp_path / "mesh.ply")
     truth = ROOT / "fixtures/scene/truth.ply"
     program("compare", "--quiet", "--samples", 5000, "--truth", truth,
@@ -160,17 +160,17 @@ def test_a_comparison_is_what_the_program_writes(mesh, model, program, tmp_path)
     assert report == json.loads((tmp_path / "c.json").read_text(encoding="utf-8"))
 
 
-def test_several_meshes_have_names(mesh, model):
+def test_compared_meshes_have_names(mesh, model):
     report = vcarve.compare(model, {"ours": mesh, "again": mesh}, samples=1000)
     assert [one["name"] for one in report["meshes"]] == ["ours", "again"]
     assert report["meshes"][0]["views"] == report["meshes"][1]["views"]
 
 
-def test_the_stub_is_what_is_declared():
+def test_the_stub_matches_the_declarations():
     subprocess.run([ROOT / "tools/docs/python_stub", "--check"], check=True)
 
 
-def test_the_types_are_right(tmp_path):
+def test_mypy_accepts_right_types_and_rejects_wrong_ones(tmp_path):
     (tmp_path / "typed.py").write_text('''
 from typing import Any
 import numpy as np

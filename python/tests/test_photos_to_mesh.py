@@ -1,4 +1,4 @@
-"""examples/photos_to_mesh, with a COLMAP that only pretends to work."""
+"""examples/photos_to_mesh, with a fake COLMAP."""
 import os
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 ROOT = pathlib.Path(os.environ["VCARVE_ROOT"])
 PROGRAM = os.environ["VCARVE_PROGRAM"]
 
-# Models are folders of $MODELS, as "REGISTERED POINTS" each; without any, the mapper fails.
+# Each line of $MODELS is a model: "REGISTERED POINTS". If there is none, the mapper fails.
 COLMAP = r"""#!/usr/bin/env bash
 echo "colmap $1" >>"$CALLS"
 [[ "$1" == mapper ]] || { [[ "$1" != "$FAILS" ]] || { echo "a stack trace"; exit 1; }; exit 0; }
@@ -22,7 +22,7 @@ while read -r registered points; do
 done <<<"$MODELS"
 """
 
-# The true program refuses what does not need a model.
+# The real program reports errors that need no model.
 VCARVE = r"""#!/usr/bin/env bash
 [[ -d "$1" ]] || exec "$PROGRAM" "$@"
 echo "colmap-vcarve $*" >>"$CALLS"
@@ -30,7 +30,7 @@ echo "colmap-vcarve $*" >>"$CALLS"
 
 
 class Script:
-    """The script in a folder with photographs and the two programs; records what it calls."""
+    """The script in a folder with photographs and both programs. Records the calls."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -64,7 +64,7 @@ def script(tmp_path):
 
 @pytest.mark.parametrize("end, options", [("glb", "--texture "), ("OBJ", "--texture "),
                                           ("stl", "")])
-def test_dense_points_are_meshed_and_textured_where_the_format_has_textures(end, options, script):
+def test_dense_points_are_meshed_and_textured_if_the_format_has_textures(end, options, script):
     script.take_photos(12)
     code, errors, calls = script.run("photos", f"out.{end}", "--threads", 1)
     assert code == 0 and "registered" not in errors
@@ -74,7 +74,7 @@ def test_dense_points_are_meshed_and_textured_where_the_format_has_textures(end,
 
 
 @pytest.mark.parametrize("words, sentence", [
-    (["out.doc"], "cannot write out.doc: the name of a surface must end with .ply, .obj"),
+    (["out.doc"], "cannot write out.doc: the name of a mesh must end with .ply, .obj"),
     (["none/out.glb"], "cannot write none/out.glb: the folder none does not exist"),
     (["photos"], "cannot write photos"),
     (["out.glb", "--max-hole", "x"], "--max-hole takes a whole number"),
@@ -88,7 +88,7 @@ def test_output_and_options_are_checked_before_colmap_runs(words, sentence, scri
 
 
 @pytest.mark.parametrize("count", [0, 1, 2])
-def test_fewer_than_three_photographs_are_refused_in_a_sentence(count, script):
+def test_fewer_than_three_photographs_are_rejected_with_a_sentence(count, script):
     script.take_photos(count)
     code, errors, calls = script.run("photos", "out.glb")
     assert code == 3 and not calls
@@ -100,7 +100,7 @@ def test_fewer_than_three_photographs_are_refused_in_a_sentence(count, script):
 def test_photographs_that_do_not_overlap_give_a_remedy_not_a_log(script):
     script.take_photos(3)
     code, errors, _ = script.run("photos", "out.glb", models="")
-    assert code == 1 and "COLMAP could not place the photographs. Take more" in errors
+    assert code == 1 and "COLMAP could not register the photographs. Take more" in errors
     assert "ERROR" not in errors and "failed" not in errors
 
 
@@ -112,7 +112,7 @@ def test_other_failures_show_the_messages_of_colmap(script):
                            "messages are above.\n")
 
 
-def test_photographs_that_were_not_registered_are_counted_in_the_model_that_is_meshed(script):
+def test_unregistered_photographs_of_the_meshed_model_are_counted(script):
     script.take_photos(59)
     code, errors, calls = script.run("photos", "out.glb", models="20 10\n39 200\n5 20")
     assert code == 0 and "/work/sparse/1 out.glb" in calls[-1]
@@ -134,6 +134,6 @@ def test_both_programs_must_be_on_path(missing, script):
     assert run.stderr.startswith(f"photos_to_mesh: {missing} is not on PATH. On Debian,")
 
 
-def test_the_usage_names_what_it_needs(script):
+def test_the_usage_names_the_required_programs(script):
     code, errors, _ = script.run()
     assert code == 2 and "Needs colmap and colmap-vcarve on PATH" in errors

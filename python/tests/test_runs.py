@@ -1,4 +1,4 @@
-"""Runs: the same surface as the program's, options, progress, interruption, errors."""
+"""Runs: the same mesh as the program's, options, progress, interruption, errors."""
 import logging
 import os
 import signal
@@ -12,12 +12,12 @@ import vcarve
 from vcarve import _options
 
 
-def test_a_model_gives_the_bytes_of_the_program(model, program, tmp_path):
+def test_a_model_gives_the_same_bytes_as_the_program(model, program, tmp_path):
     program("--quiet", "--max-hole", 20, "--crop", "auto", "--attributes", model,
             tmp_path / "program.ply")
     mesh = vcarve.reconstruct(model, max_hole=20, crop="auto", attributes=True)
     mesh.write(tmp_path / "python.ply")
-    # But for what the program says of its command line, which Python has none of.
+    # The files differ only in the comments about the command line, which Python does not have.
     lines = (tmp_path / "program.ply").read_bytes().splitlines(keepends=True)
     record = [line for line in lines if line.startswith((b"comment input ", b"comment option "))]
     assert len(record) > 1
@@ -25,7 +25,7 @@ def test_a_model_gives_the_bytes_of_the_program(model, program, tmp_path):
         line for line in lines if line not in record)
 
 
-def test_a_scene_gives_the_surface_of_its_model(model):
+def test_a_scene_gives_the_mesh_of_its_model(model):
     scene = vcarve.read_model(str(model))
     of_scene = vcarve.reconstruct(scene)
     of_model = vcarve.reconstruct(model)
@@ -41,7 +41,7 @@ def test_a_consumed_scene_is_empty(room):
     assert len(scene.positions) == 0
 
 
-def test_arrays_in_use_forbid_to_consume(room):
+def test_a_scene_with_arrays_in_use_cannot_be_consumed(room):
     scene = room.scene()
     positions = scene.positions
     with pytest.raises(BufferError, match="in use"):
@@ -50,7 +50,7 @@ def test_arrays_in_use_forbid_to_consume(room):
 
 
 @pytest.mark.parametrize("option", _options.DECLARED["reconstruct"], ids=lambda o: o["name"])
-def test_every_option_is_a_keyword_that_takes_its_default(option, room):
+def test_every_option_is_a_keyword_that_accepts_its_default(option, room):
     given = {option["name"]: _options.default_of(option)}
     mesh = vcarve.reconstruct(room.scene(), **given)
     assert np.array_equal(mesh.faces, vcarve.reconstruct(room.scene()).faces)
@@ -64,7 +64,7 @@ def test_options_are_documented_and_in_the_signature():
             assert option["name"] in vcarve.reconstruct.__signature__.parameters
 
 
-def test_numbers_texts_paths_and_rows_are_values(room, tmp_path):
+def test_options_accept_numbers_texts_paths_and_rows(room, tmp_path):
     box = [0.5, 0.5, -0.5, 5.0, 5.0, 5.0]
     cropped = vcarve.reconstruct(room.scene(), crop=box, max_hole=np.int64(20),
                                  denoise=np.float32(1))
@@ -87,26 +87,26 @@ def test_flags_are_true_or_false(room):
 @pytest.mark.parametrize("name, value", [("min_views", 0), ("max_error", "much"),
                                          ("method", "paint"), ("crop", "1,2"), ("max_memory", "2Q"),
                                          ("min_views", True), ("threads", 2.5)])
-def test_values_are_refused_in_the_words_of_the_program(name, value, model, refusal, tmp_path):
+def test_wrong_values_raise_the_message_of_the_program(name, value, model, refusal, tmp_path):
     with pytest.raises(vcarve.UsageError) as error:
         vcarve.reconstruct(model, **{name: value})
     option = "--" + name.replace("_", "-")
     assert str(error.value) in refusal(option, value, model, tmp_path / "out.ply")
 
 
-def test_a_keyword_that_is_no_option_is_a_type_error(model):
+def test_an_unknown_keyword_raises_a_type_error(model):
     with pytest.raises(TypeError, match="unexpected keyword argument 'min_vews'"):
         vcarve.reconstruct(model, min_vews=2)
 
 
-def test_input_errors_are_the_sentences_of_the_program(refusal, tmp_path):
+def test_input_errors_have_the_message_of_the_program(refusal, tmp_path):
     with pytest.raises(vcarve.InputError) as error:
         vcarve.reconstruct(tmp_path)
     assert str(error.value) in refusal(tmp_path, tmp_path / "out.ply")
     assert isinstance(error.value, (vcarve.Error, ValueError))
 
 
-def test_progress_grows_to_the_end_of_every_stage(model):
+def test_progress_increases_to_1_in_every_stage(model):
     told = []
     mesh = vcarve.reconstruct(model, progress=lambda stage, share: told.append((stage, share)))
     stages = [stage for stage, share in told if share == 0.0]
@@ -127,7 +127,7 @@ def test_an_exception_of_the_callback_ends_the_run(model):
 
 def test_notes_are_logged(caplog, model):
     with caplog.at_level(logging.WARNING, "vcarve"):
-        vcarve.reconstruct(model, sights="nearest")
+        vcarve.reconstruct(model, rays="nearest")
     assert "nearest views" in caplog.text
 
 
@@ -150,7 +150,7 @@ def test_an_interrupted_run_ends_within_a_second(big_room):
     assert ended - sent[0] < 1.0
 
 
-def test_other_threads_go_on_meanwhile(big_room):
+def test_other_threads_continue_during_a_run(big_room):
     counted = [0]
     stop = threading.Event()
 
@@ -170,7 +170,7 @@ def test_other_threads_go_on_meanwhile(big_room):
 
 
 def _after(seconds):
-    """A callback that ends a run after a while."""
+    """Returns a callback that ends a run after this time."""
     begun = time.monotonic()
 
     def tell(stage, share):

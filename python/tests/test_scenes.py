@@ -1,4 +1,4 @@
-"""Scenes: from arrays, from what looks like pycolmap's, and their arrays in memory."""
+"""Scenes: from arrays, from objects like pycolmap's, and their arrays in memory."""
 import copy
 import pickle
 import types
@@ -13,8 +13,8 @@ def address(array):
     return array.__array_interface__["data"][0]
 
 
-def test_a_million_points_are_numpys_and_the_librarys_at_once():
-    scene = vcarve.Scene.empty(points=1_000_000, sights=3_000_000)
+def test_arrays_of_a_million_points_refer_to_the_librarys_memory():
+    scene = vcarve.Scene.empty(points=1_000_000, rays=3_000_000)
     for name, dtype, shape in (("positions", np.float64, (1_000_000, 3)),
                                ("colors", np.uint8, (1_000_000, 3)),
                                ("errors_px", np.float64, (1_000_000,)),
@@ -28,7 +28,7 @@ def test_a_million_points_are_numpys_and_the_librarys_at_once():
         assert np.all(getattr(scene, name)[-1] == 7)
 
 
-def test_what_is_written_into_an_array_is_reconstructed(room):
+def test_changes_of_arrays_change_the_mesh(room):
     scene, moved = room.scene(), room.scene()
     moved.positions[:] *= 2.0
     moved.positions[:] += 1.0
@@ -45,7 +45,7 @@ def test_arrays_outlive_their_scene(room):
     assert np.array_equal(positions, room.positions)
 
 
-def test_tracks_are_a_list_a_pair_or_a_sparse_matrix(room):
+def test_tracks_may_be_a_list_a_pair_or_a_sparse_matrix(room):
     count, views = len(room.positions), len(room.centers)
     begins = np.arange(count + 1) * views
     flat = np.tile(np.arange(views)[::-1], count)
@@ -58,13 +58,13 @@ def test_tracks_are_a_list_a_pair_or_a_sparse_matrix(room):
         assert np.array_equal(scene.track_views, rows.track_views)
 
 
-def test_without_tracks_the_nearest_views_are_taken(room):
+def test_without_tracks_the_nearest_views_are_used(room):
     scene = room.scene(tracks=None)
     assert len(scene.track_views) > 2 * len(room.positions)
     assert len(vcarve.reconstruct(scene).faces) > 100
 
 
-def test_poses_either_way_and_centres_stand_in_the_same_places(model):
+def test_poses_of_both_conventions_and_centers_give_the_same_centers(model):
     scene = vcarve.read_model(model)
     centers = scene.centers
     rotation = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -86,7 +86,7 @@ def test_scanners_are_views_of_their_points(room):
     assert len(vcarve.reconstruct(scene).faces) > 100
 
 
-def test_colours_are_bytes_or_shares(room):
+def test_colors_may_be_floats(room):
     colors = np.zeros_like(room.positions)
     colors[:, 0] = 1.0
     scene = room.scene(colors=colors)
@@ -97,14 +97,14 @@ def test_colours_are_bytes_or_shares(room):
 @pytest.mark.parametrize("given, sentence", [
     ({"centers": [[0.0, 0.0]]}, r"centers must be an array of shape \(n, 3\), not \(1, 2\)"),
     ({"tracks": [[0, 9]] * 2000}, "the track of point 0 has view 9, but there are 4"),
-    ({"tracks": ([0, 1], [0])}, "the beginnings of the tracks of 2000 points must be 2001 numbers"),
+    ({"tracks": ([0, 1], [0])}, "the track_begins of 2000 points must be 2001 numbers"),
     ({"tracks": [[-1]] * 2000}, r"track_views\[0\] is -1"),
     ({"tracks": [[0.5]] * 2000}, "track_views must be integers"),
     ({"tracks": np.ones((2000, 3), dtype=bool)},
      r"boolean tracks must be an array of shape \(2000, 4\), not \(2000, 3\)"),
-    ({"cam_from_world": np.zeros((1, 3, 4))}, "views are given as one of"),
+    ({"cam_from_world": np.zeros((1, 3, 4))}, "expected one of cam_from_world"),
     ({"centers": None, "cam_from_world": np.zeros((4, 3, 4))},
-     "the pose of view 0 holds no rotation"),
+     "the pose of view 0 has no valid rotation"),
     ({"colors": np.zeros((3, 3))}, r"colors must be an array of shape \(2000, 3\), not \(3, 3\)"),
     ({"colors": np.full((2000, 3), 200.0)}, r"floats from 0 to 1, but colors\[0, 0\] is 200"),
     ({"colors": np.full((2000, 3), -0.1)}, r"colors\[0, 0\] is -0.1"),
@@ -118,14 +118,14 @@ def test_colours_are_bytes_or_shares(room):
     ({"intrinsics": np.full((3, 3), np.nan), "size": (640, 480)}, r"intrinsics\[0, 0\] is nan"),
     ({"intrinsics": np.eye(3), "size": (640.5, 480)}, "size must be integers"),
     ({"intrinsics": np.eye(3)}, "intrinsics need the size of the images"),
-    ({"scanners": [0, 0, 0]}, "scanners tell all"),
+    ({"scanners": [0, 0, 0]}, "scanners replace"),
 ])
-def test_arrays_that_do_not_fit_are_refused_in_a_sentence(given, sentence, room):
+def test_arrays_that_do_not_fit_are_rejected_with_a_sentence(given, sentence, room):
     with pytest.raises(vcarve.UsageError, match=sentence):
         room.scene(**given)
 
 
-def test_complex_positions_are_refused(room):
+def test_complex_positions_are_rejected(room):
     with pytest.raises(vcarve.UsageError, match="positions must be real numbers"):
         vcarve.Scene.from_arrays(room.positions + 1j, centers=room.centers, tracks=room.tracks)
 
@@ -137,7 +137,7 @@ def test_positions_that_are_not_finite_are_dropped_and_counted(room):
 
 
 def seen_at_random(room):
-    """A boolean matrix of points by views, and the scene of its rows."""
+    """Returns a boolean matrix of points by views, and the scene with these tracks."""
     seen = np.random.default_rng(2).uniform(size=(len(room.positions), len(room.centers))) < 0.7
     return seen, room.scene(tracks=[np.flatnonzero(row) for row in seen])
 
@@ -147,13 +147,13 @@ def require_same_tracks(scene, other):
     assert np.array_equal(scene.track_views, other.track_views)
 
 
-def test_a_boolean_matrix_of_points_by_views_is_tracks(room):
+def test_tracks_may_be_a_boolean_matrix_of_points_by_views(room):
     seen, rows = seen_at_random(room)
     for matrix in (seen, seen.tolist()):
         require_same_tracks(room.scene(tracks=matrix), rows)
 
 
-def test_sparse_matrices_in_any_format_are_points_by_views(room):
+def test_tracks_may_be_sparse_matrices_in_any_format(room):
     sparse = pytest.importorskip("scipy.sparse")
     seen, rows = seen_at_random(room)
     with_stored_zeros = sparse.csr_matrix(np.ones_like(seen))
@@ -189,7 +189,7 @@ def _as_method(value):
 
 
 def pycolmap_like(scene, newest):
-    """What pycolmap would hold of a scene, with its newer or its older names."""
+    """Returns a scene as an object like pycolmap's, with newer or older names."""
     views, images = range(len(scene.centers)), {}
     for i in views:
         image = types.SimpleNamespace(image_id=i + 1, camera_id=1, name=scene.names[i])
@@ -212,18 +212,18 @@ def pycolmap_like(scene, newest):
 
 
 @pytest.mark.parametrize("newest", [True, False])
-def test_a_reconstruction_of_pycolmaps_shape_is_a_scene(newest, room):
+def test_an_object_like_pycolmaps_is_a_scene(newest, room):
     scene = room.scene()
     of_shape = vcarve.reconstruct(pycolmap_like(scene, newest))
     assert np.array_equal(of_shape.vertices, vcarve.reconstruct(scene).vertices)
 
 
-def test_what_is_no_scene_is_a_type_error():
-    with pytest.raises(TypeError, match="a list is neither a Scene, nor a path, nor shaped like"):
+def test_other_objects_raise_a_type_error():
+    with pytest.raises(TypeError, match="like pycolmap.Reconstruction; found type list"):
         vcarve.reconstruct([1, 2])
 
 
-def test_arrays_in_use_forbid_other_tracks(room):
+def test_tracks_cannot_change_while_arrays_are_in_use(room):
     scene = room.scene()
     kept = scene.track_views
     with pytest.raises(BufferError):

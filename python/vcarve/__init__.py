@@ -1,14 +1,13 @@
-"""Surfaces of COLMAP models, and of points whose views are known.
+"""Meshes from COLMAP models, and from points with known views.
 
     import vcarve
     mesh = vcarve.reconstruct("sparse/0", max_hole=20)
     mesh.write("out.glb")
     mesh.vertices, mesh.faces   # NumPy arrays, not copied
 
-A scene may come from arrays (Scene.from_arrays) or from a reconstruction of pycolmap's instead.
-The options of the command line are keywords, with the same names, ranges and meanings. What a run
-says of itself goes to the logger "vcarve". Ctrl-C ends a run within a second, and other threads go
-on meanwhile.
+A scene may also be made of arrays (Scene.from_arrays) or of a pycolmap reconstruction. The options
+of the command line are keywords with the same names, ranges and meanings. Runs log to the logger
+"vcarve". Ctrl-C ends a run within a second. Other Python threads continue during a run.
 """
 import json
 import os
@@ -26,11 +25,11 @@ def _is_path(model):
 
 
 def _scene_of(model, given, listener):
-    """The scene that is given as itself, as a reconstruction or as the path of a model."""
+    """Returns the scene of a Scene, a pycolmap reconstruction or the path of a model."""
     if _is_path(model):
         return _vcarve.read_scene(model, given, listener)
     if given:
-        raise TypeError(f"{', '.join(given)}: only of use where the model is a path")
+        raise TypeError(f"{', '.join(given)}: only allowed if the model is a path")
     return model if isinstance(model, Scene) else _colmap.from_colmap(model)
 
 
@@ -38,22 +37,22 @@ def _scene_of(model, given, listener):
 def read_model(model, *, progress=None, **options):
     """Reads a COLMAP model, a dense workspace or a laser scan as a Scene.
 
-    `model` is the path that the command line takes; `progress(stage, share)` is told how far it is.
+    `model` is a path as on the command line. Calls `progress(stage, share)`, see reconstruct().
     """
     return _vcarve.read_scene(model, options, Listener(progress))
 
 
 @_options.takes("input", "reconstruct")
 def reconstruct(scene, *, attributes=False, consume=False, progress=None, **options):
-    """Makes the surface of a scene, as `colmap-vcarve MODEL OUT.ply` does.
+    """Makes the mesh of a scene, as `colmap-vcarve MODEL OUT.ply` does.
 
-    `scene` is a Scene, the path of a model, or an object shaped like pycolmap.Reconstruction. With
-    `attributes` the mesh tells which points its vertices were, and how many views its faces rest
-    on. With `consume` the arrays of a Scene are used up instead of copied; no NumPy array of them
-    may be left then. `progress(stage, share)` is told how far the run is, 0 to 1 in every stage; an
-    exception that it raises ends the run.
-    Raises UsageError where an option is out of its range or the scene does not fit together, and
-    InputError where a file is wrong or the scene holds too little for a surface.
+    `scene` is a Scene, the path of a model, or an object like pycolmap.Reconstruction. With
+    `attributes`, the mesh has the input point of each vertex, and the number of views that support
+    each face. With `consume`, the arrays of a Scene are moved instead of copied; no NumPy arrays of
+    the scene may exist then. Calls `progress(stage, share)`; shares increase from 0 to 1 in every
+    stage. An exception of `progress` ends the run.
+    Raises UsageError if an option is out of range or the scene is inconsistent. Raises InputError
+    if a file is wrong or the scene has too little data for a surface.
     """
     given, settings = _options.split(options, "input")
     listener = Listener(progress)
@@ -73,7 +72,7 @@ def _named(mesh, name):
 
 
 def _all_named(meshes):
-    """Pairs of name and mesh of one mesh, of several, or of a dictionary of them."""
+    """Returns pairs of name and mesh, from one mesh, a list or a dictionary."""
     if isinstance(meshes, (Mesh, str, os.PathLike)):
         meshes = [meshes]
     if isinstance(meshes, dict):
@@ -86,11 +85,11 @@ def _all_named(meshes):
 
 @_options.takes("input", "compare")
 def compare(model, meshes, truth=None, *, progress=None, **options):
-    """Measures meshes against the model they were made from, and the truth where it is known.
+    """Measures meshes against their model, and against the true surface if it is known.
 
-    `model` is what reconstruct() takes. `meshes` is a Mesh, the path of a PLY file, a list or a
-    dictionary of them; `truth` is one of the first two. Returns what `colmap-vcarve compare --json`
-    writes, as a dictionary: report["meshes"][0]["views"]["hidden_sights"]; docs/results.md
+    `model` is a scene as for reconstruct(). `meshes` is a Mesh, the path of a PLY file, or a list
+    or dictionary of these; `truth` is a Mesh or a path. Returns the JSON of `colmap-vcarve compare
+    --json` as a dictionary, such as report["meshes"][0]["views"]["hidden_rays"]. docs/results.md
     explains the figures.
     """
     given, settings = _options.split(options, "input")
@@ -109,11 +108,11 @@ def _scene_text(scene):
             f"{len(scene.track_views):,} rays>")
 
 
-Mesh.__doc__ = """A surface: vertices (n, 3), faces (m, 3) of vertex indices, colors (n, 3), normals (n, 3).
+Mesh.__doc__ = """A mesh: vertices (n, 3), faces (m, 3) of vertex indices, colors (n, 3), normals (n, 3).
 
 Colors are integers from 0 to 255 or floats from 0 to 1. Numbers that do not fit, vertices that are
-not finite, and degenerate faces raise UsageError, which names the index. The arrays are the
-library's own memory; they are empty where nothing is known.
+not finite, and degenerate faces raise UsageError with the index. The arrays are the library's
+memory, without a copy. Arrays without data are empty.
 """
 Mesh.__repr__ = _mesh_text
 Scene.__repr__ = _scene_text

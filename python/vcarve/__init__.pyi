@@ -23,7 +23,7 @@ class InputError(Error, ValueError): ...
 
 
 class Scene:
-    """Points, views, and which views saw which point. The arrays are the library's own memory."""
+    """Points, views, and the views of each point. The arrays are the library's memory."""
     is_dense: bool
     @property
     def positions(self) -> NDArray[np.float64]: ...
@@ -44,7 +44,7 @@ class Scene:
     @property
     def names(self) -> list[str]: ...
     @staticmethod
-    def empty(points: int, sights: int = 0) -> Scene: ...
+    def empty(points: int, rays: int = 0) -> Scene: ...
     @staticmethod
     def from_arrays(
         positions: ArrayLike, *, cam_from_world: ArrayLike | None = None,
@@ -65,7 +65,7 @@ class Scene:
 
 
 class Mesh:
-    """A surface. The arrays are the library's own memory; they are empty where nothing is known.
+    """A surface. The arrays are the library's memory; they are empty if unknown.
     Colors are integers from 0 to 255 or floats from 0 to 1."""
     def __init__(self, vertices: ArrayLike, faces: ArrayLike, colors: ArrayLike | None = None,
                  normals: ArrayLike | None = None) -> None: ...
@@ -98,7 +98,7 @@ def read_model(
     model: _Path, *, progress: _Progress | None = None,
     points: _Path | None = None,
     visibility: _Path | None = None,
-    sights: Literal["auto", "file", "nearest"] = "auto",
+    rays: Literal["auto", "file", "nearest"] = "auto",
     scanner: _Numbers | Literal["file"] = "file",
 ) -> Scene: ...
 
@@ -108,7 +108,7 @@ def reconstruct(
     progress: _Progress | None = None,
     points: _Path | None = None,
     visibility: _Path | None = None,
-    sights: Literal["auto", "file", "nearest"] = "auto",
+    rays: Literal["auto", "file", "nearest"] = "auto",
     scanner: _Numbers | Literal["file"] = "file",
     min_views: int = 2,
     max_error: float = 4.0,
@@ -126,16 +126,16 @@ def reconstruct(
     error_sigma: float = 3.0,
     distance_sigma: float = 0.5,
     sink_depth: float = 0.0,
-    bundle_sights: int = 5,
-    inferred_sights: float = 1.0,
+    bundle_rays: int = 5,
+    inferred_rays: float = 1.0,
     quality: float = 1.0,
     hull_edge: float = 20.0,
     virtual_views: int = 0,
     virtual_weight: float = 0.5,
     closed: bool = False,
     max_closing: float = 0.115,
-    closing_vast: float = 2.0,
-    closing_seen: float = 0.5,
+    boundary_closing: float = 2.0,
+    half_seen: float = 0.5,
     hardly_seen: float = 0.12,
     trim: float = 0.5,
     beside_edge: float = 3.0,
@@ -156,7 +156,7 @@ def compare(
     progress: _Progress | None = None,
     points: _Path | None = None,
     visibility: _Path | None = None,
-    sights: Literal["auto", "file", "nearest"] = "auto",
+    rays: Literal["auto", "file", "nearest"] = "auto",
     scanner: _Numbers | Literal["file"] = "file",
     samples: int = 400000,
     seed: int = 1,

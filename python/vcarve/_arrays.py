@@ -11,7 +11,7 @@ def _refuse(name, values, wrong, wanted):
 
 
 def numbers(name, values, dtype, finite=True):
-    """The values as an array of a dtype, in C order.
+    """Converts values to an array of a dtype, in C order.
 
     Raises UsageError with the index of the first value that does not fit: integers must be in the
     range of the dtype, floats and booleans are not integers, and floats must be finite, unless
@@ -42,7 +42,7 @@ def numbers(name, values, dtype, finite=True):
 
 
 def fill(name, target, values, finite=True):
-    """Copies values into an array of a scene; None leaves the array unchanged."""
+    """Copies values into an array of a scene. None keeps the array."""
     if values is None:
         return
     values = numbers(name, values, target.dtype, finite)

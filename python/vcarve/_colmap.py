@@ -1,4 +1,4 @@
-"""Scenes from objects that are shaped like pycolmap.Reconstruction."""
+"""Scenes from objects like pycolmap.Reconstruction."""
 import numpy as np
 
 from ._arrays import fill
@@ -6,7 +6,7 @@ from ._vcarve import Scene, UsageError
 
 
 def _value(attribute):
-    """pycolmap has made methods of some properties, and properties of some methods."""
+    """Some properties of pycolmap are methods in other versions."""
     return attribute() if callable(attribute) else attribute
 
 
@@ -14,7 +14,7 @@ def _first(thing, *names):
     for name in names:
         if hasattr(thing, name):
             return _value(getattr(thing, name))
-    raise UsageError(f"a {type(thing).__name__} has none of {', '.join(names)}")
+    raise UsageError(f"a {type(thing).__name__} has no attribute {' or '.join(names)}")
 
 
 def _lens(camera):
@@ -23,7 +23,7 @@ def _lens(camera):
 
 
 def _pose(image):
-    """Rotation and place of the image's camera, of which the newer names come first."""
+    """Returns rotation and center of the image's camera. Newer names of pycolmap come first."""
     if hasattr(image, "cam_from_world"):
         pose = _value(image.cam_from_world)
         matrix = np.asarray(_value(pose.matrix), dtype=np.float64)[:3]
@@ -53,22 +53,22 @@ def _add_views(reconstruction, scene):
         if not _is_registered(image):
             continue
         if image.camera_id not in cameras:
-            raise UsageError(f"image {image_id} has camera {image.camera_id}, which the "
-                             "reconstruction does not have")
+            raise UsageError(f"image {image_id} has camera {image.camera_id}, but the "
+                             "reconstruction has no such camera")
         views[image_id] = len(views)
         scene.add_view(cameras[image.camera_id], str(image.name), *_pose(image))
     return views
 
 
 def from_colmap(reconstruction):
-    """The scene of an object with cameras, images and points3D, dictionaries by ids as pycolmap's.
+    """Returns the scene of an object with dictionaries cameras, images and points3D, like pycolmap.
 
-    Points keep the order of their ids, and sights of images that are not registered are left out.
+    Points are sorted by their ids. Rays of images that are not registered are omitted.
     """
     for name in ("cameras", "images", "points3D"):
         if not hasattr(reconstruction, name):
-            raise TypeError(f"a {type(reconstruction).__name__} is neither a Scene, nor a path, "
-                            f"nor shaped like pycolmap.Reconstruction, for it has no {name}")
+            raise TypeError("expected a Scene, a path or an object like pycolmap.Reconstruction; "
+                            f"found type {type(reconstruction).__name__}, which has no {name}")
     points = sorted(reconstruction.points3D.items())
     scene = Scene.empty(len(points))
     views = _add_views(reconstruction, scene)

@@ -1,4 +1,4 @@
-"""The options of the library as keywords: signatures and documentation from its declarations."""
+"""The options of the library as keywords: signatures and documentation from the declarations."""
 import inspect
 
 from . import _vcarve
@@ -7,7 +7,7 @@ DECLARED = _vcarve.declared_options()
 
 
 def default_of(option):
-    """The default as Python has it."""
+    """Returns the default as a Python value."""
     text = option["default"]
     if option["kind"] == "flag":
         return text == "yes"
@@ -17,20 +17,20 @@ def default_of(option):
 
 
 def described(option):
-    """A line of documentation, wrapped by whoever shows it."""
+    """Returns one line of documentation, not wrapped."""
     said = "True or False" if option["kind"] == "flag" else option["accepted"]
-    return f"{option['name']}: {option['help']} Takes {said}; default {default_of(option)}."
+    return f"{option['name']}: {option['help']} Accepts {said}; default {default_of(option)}."
 
 
 def split(given, group):
-    """What was given as two dictionaries: keywords of the group, and all others."""
+    """Splits keywords into two dictionaries: those of the group unless None, and all others."""
     names = {option["name"] for option in DECLARED[group]}
     return ({name: value for name, value in given.items() if name in names and value is not None},
             {name: value for name, value in given.items() if name not in names})
 
 
 def takes(*groups):
-    """Shows the options of the groups as keywords of a function that takes **options."""
+    """Adds the options of the groups to the signature and docstring of a function(**options)."""
     options = [option for group in groups for option in DECLARED[group]]
 
     def with_options(function):

@@ -1,11 +1,11 @@
-"""What a run tells of itself."""
+"""Log and progress of runs."""
 import logging
 
 LOG = logging.getLogger("vcarve")
 
 
 class Listener:
-    """Keeps the counts of every stage, logs what the user should read, and tells of progress."""
+    """Keeps the counts of every stage, logs counts and notes, and reports progress."""
 
     def __init__(self, progress=None):
         self.counts = {}

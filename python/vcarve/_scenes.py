@@ -5,16 +5,16 @@ from ._arrays import fill, numbers
 from ._runs import Listener
 from ._vcarve import Scene, UsageError
 
-# A view of which only the place is known looks all round, by COLMAP's lens for panoramas.
+# Views without a known rotation see in all directions, with COLMAP's camera model of panoramas.
 PANORAMA = ("EQUIRECTANGULAR", (4000, 2000), [4000.0, 2000.0])
 
 
 def _poses(cam_from_world, world_from_cam, centers):
-    """Rotations and places of the views, whichever is given."""
+    """Returns rotations and centers of the views."""
     given = [value for value in (cam_from_world, world_from_cam, centers) if value is not None]
     if len(given) != 1:
-        raise UsageError("views are given as one of cam_from_world, world_from_cam, centers and "
-                         f"scanners, not as {len(given)} of them")
+        raise UsageError("expected one of cam_from_world, world_from_cam, centers and scanners, "
+                         f"found {len(given)} of them")
     if centers is not None:
         centers = numbers("centers", centers, np.float64)
         if centers.ndim != 2 or centers.shape[1] != 3:
@@ -31,7 +31,7 @@ def _poses(cam_from_world, world_from_cam, centers):
 
 
 def _add_cameras(scene, views, intrinsics, size, ranges):
-    """Adds one camera for all views, or one for each; returns the camera of every view."""
+    """Adds one camera for all views or one per view. Returns the camera of every view."""
     if intrinsics is None:
         scene.add_camera(*PANORAMA, ranges)
         return np.zeros(views, dtype=np.uint32)
@@ -40,8 +40,8 @@ def _add_cameras(scene, views, intrinsics, size, ranges):
     matrices = numbers("intrinsics", intrinsics, np.float64).reshape(-1, 3, 3)
     sizes = np.broadcast_to(numbers("size", size, np.uint64).reshape(-1, 2), (len(matrices), 2))
     if len(matrices) not in (1, views):
-        raise UsageError(f"{len(matrices)} intrinsics are neither one nor one for each of {views} "
-                         "views")
+        raise UsageError(f"found {len(matrices)} intrinsics, but expected one, or one for each of "
+                         f"{views} views")
     for matrix, (width, height) in zip(matrices, sizes):
         params = [matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2]]
         scene.add_camera("PINHOLE", (int(width), int(height)), params, ranges)
@@ -49,7 +49,7 @@ def _add_cameras(scene, views, intrinsics, size, ranges):
 
 
 def _rows_of_matrix(seen, shape):
-    """Beginnings and views of the tracks of a boolean matrix, points by views."""
+    """Returns begins and views of the tracks of a boolean matrix, points by views."""
     seen = np.asarray(seen)
     if seen.shape != shape:
         raise UsageError(f"boolean tracks must be an array of shape {shape}, not {seen.shape}")
@@ -57,8 +57,8 @@ def _rows_of_matrix(seen, shape):
 
 
 def _rows(tracks, points, views):
-    """Beginnings and views of tracks that are a list of rows, a pair of arrays, or a matrix of
-    points by views: boolean, or sparse of SciPy's."""
+    """Returns begins and views of tracks. `tracks` is a list of rows, a pair of arrays, or a matrix
+    of points by views, boolean or scipy.sparse."""
     if hasattr(tracks, "tocsr"):
         tracks = tracks.tocsr()
         if tracks.dtype == bool:
@@ -80,23 +80,23 @@ def _rows(tracks, points, views):
 def from_arrays(positions, *, cam_from_world=None, world_from_cam=None, centers=None,
                 scanners=None, intrinsics=None, size=None, tracks=None, colors=None, normals=None,
                 errors_px=None, ranges=False, dense=False, progress=None):
-    """A scene of points and of views that saw them, from arrays.
+    """Returns a scene of points, and of the views that saw them, from arrays.
 
     positions: (n, 3). Points that are not finite are dropped and counted.
-    cam_from_world or world_from_cam: poses of the views, (v, 3, 4) or (v, 4, 4), x right, y down
-        and z ahead as in COLMAP and OpenCV; or centers, (v, 3), where only their places are known;
-        or scanners, (3,) or (n, 3): where the scanner of all points, or of each, stood.
-    intrinsics: (3, 3) or (v, 3, 3) with focal lengths and principal point in pixels, of images of
-        size (width, height); without them views look all round.
-    tracks: which views saw which point, as numbers from 0: a list of rows, a pair (begins, views)
-        in which row i is views[begins[i]:begins[i + 1]], or a matrix of points by views: boolean,
-        or of scipy.sparse. None: not known; the nearest views are taken before which no other
-        point stands.
+    cam_from_world or world_from_cam: poses of the views, (v, 3, 4) or (v, 4, 4), with x right, y
+        down and z forward as in COLMAP and OpenCV. Alternatives are centers, (v, 3), for views
+        without known rotations, and scanners, (3,) or (n, 3): one scanner position for all points
+        or one per point.
+    intrinsics: (3, 3) or (v, 3, 3) with focal lengths and principal point in pixels, for images of
+        size (width, height). Without intrinsics, views see in all directions.
+    tracks: the views of each point, numbered from 0: a list of rows, a pair (begins, views) in
+        which row i is views[begins[i]:begins[i + 1]], or a matrix of points by views, boolean or
+        scipy.sparse. None: the nearest views with an unobstructed line to the point.
     colors: (n, 3), integers from 0 to 255 or floats from 0 to 1. normals: (n, 3). errors_px: (n,),
         reprojection errors.
-    ranges: the views measured how far the points are, as depth maps do, so one view is enough.
-    dense: the points are a dense cloud, to be merged where images do not resolve them.
-    Raises UsageError, which names the index, if a number does not fit its array.
+    ranges: the views measured the distances of points, as depth maps do, so one view is enough.
+    dense: the points are a dense cloud. They are merged where images do not resolve them.
+    Raises UsageError with the index if a number does not fit its array.
     """
     positions = numbers("positions", positions, np.float64, finite=False)
     if positions.ndim != 2 or positions.shape[1] != 3:
@@ -113,7 +113,7 @@ def from_arrays(positions, *, cam_from_world=None, world_from_cam=None, centers=
     if scanners is not None:
         others = (tracks, cam_from_world, world_from_cam, centers)
         if any(value is not None for value in others):
-            raise UsageError("scanners tell all of the views and tracks, so no other are given")
+            raise UsageError("scanners replace tracks, poses and centers; remove these arguments")
         scene.place_scanners(numbers("scanners", scanners, np.float64).reshape(-1, 3))
         return scene
     rotations, places = _poses(cam_from_world, world_from_cam, centers)

@@ -13,7 +13,7 @@
 
 namespace vcarve {
 
-/// Allocates for UnsetArray.
+/// The allocator of UnsetArray. It default-initializes elements, so numbers stay uninitialized.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
     template <typename Item>
@@ -28,13 +28,13 @@ struct UnsetAllocator : std::allocator<T> {
     }
 };
 
-/// A vector whose numbers are not set before they are written, for arrays over millions of cells:
-/// the parallel loop that fills one is then the first to touch its memory, and the system clears
-/// its pages for all threads at once instead of for one.
+/// A vector that leaves numbers uninitialized, for arrays over millions of cells. The parallel loop
+/// that fills it first touches its memory, so the system clears its pages on all threads instead of
+/// one.
 template <typename T>
 using UnsetArray = std::vector<T, UnsetAllocator<T>>;
 
-/// An array of so many equal values, set by all threads.
+/// An array of `count` copies of a value, filled in parallel.
 template <typename T>
 UnsetArray<T> filled_array(std::size_t count, const T& value)
 {
@@ -44,9 +44,9 @@ UnsetArray<T> filled_array(std::size_t count, const T& value)
     return array;
 }
 
-/// Rows of numbers, stored end to end.
+/// Rows of numbers, stored contiguously.
 struct RowTable {
-    std::vector<std::uint32_t> ends; ///< where each row ends; it begins where the one before ends
+    std::vector<std::uint32_t> ends; ///< the end of each row, which is the start of the next
     UnsetArray<std::uint32_t> items;
 
     std::span<const std::uint32_t> operator[](std::size_t row) const
@@ -56,16 +56,16 @@ struct RowTable {
     }
 };
 
-/// Gathers the items of sources [0, count) by row, each row in the order of the sources:
-/// for_each(i, visit) calls visit(row, item) for all that source i has, and does so twice. A
-/// counting sort in which every thread counts for itself; the result does not depend on how many
-/// there are. There must be fewer than 2^32 items. Cost: O(items + rows), 4 bytes a row and thread
-/// (8 at most).
+/// Groups the items of sources [0, count) by row, each row in the order of the sources. The
+/// caller's for_each(i, visit) calls visit(row, item) for each item of source i, and runs twice.
+/// This is a counting sort with one histogram per thread. The result does not depend on the thread
+/// count. There must be fewer than 2^32 items. Cost: O(items + rows), and 4 bytes per row and
+/// thread (at most 8 threads).
 template <typename ForEach>
 RowTable gather_rows(std::size_t count, std::size_t num_rows, const ForEach& for_each)
 {
     constexpr std::size_t kMostBlocks = 8;
-    constexpr std::size_t kLeastSources = 65536; // a thread of its own does not pay for fewer
+    constexpr std::size_t kLeastSources = 65536; // fewer do not justify a thread
     const std::size_t blocks = std::min({kMostBlocks, num_threads(), 1 + count / kLeastSources});
     const auto visit_block = [&](std::size_t block, const auto& visit) {
         const std::size_t end = count * (block + 1) / blocks;
@@ -73,7 +73,7 @@ RowTable gather_rows(std::size_t count, std::size_t num_rows, const ForEach& for
             for_each(i, visit);
         }
     };
-    std::vector<std::vector<std::uint32_t>> places(blocks); // at first counts
+    std::vector<std::vector<std::uint32_t>> places(blocks); // counts at first
     const auto count_block = [&](std::size_t block) {
         places[block].assign(num_rows, 0);
         visit_block(block, [&](std::uint32_t row, std::uint32_t) { ++places[block][row]; });
@@ -101,7 +101,7 @@ RowTable gather_rows(std::size_t count, std::size_t num_rows, const ForEach& for
     return table;
 }
 
-/// Sorts a list and drops what is in it twice.
+/// Sorts a list and removes duplicates.
 template <typename Item>
 void sort_unique(std::vector<Item>& items)
 {
@@ -109,8 +109,7 @@ void sort_unique(std::vector<Item>& items)
     items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-/// Asks the processor for the memory at an address, which will be needed soon. The address need not
-/// be valid.
+/// Prefetches the memory at an address into the processor's cache. The address may be invalid.
 inline void prefetch([[maybe_unused]] const void* address)
 {
 #if defined(__GNUC__)

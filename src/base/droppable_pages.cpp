@@ -17,7 +17,7 @@ struct Range {
     int file;
 };
 
-/// All ranges by their first byte, and where the last drop ended.
+/// All ranges by their first byte, and the address at which the last drop ended.
 struct Ranges {
     std::mutex mutex;
     std::map<std::uintptr_t, Range> by_begin;
@@ -25,7 +25,7 @@ struct Ranges {
     int scattered_uses = 0;
 };
 
-/// It lives as long as the process: pages may be unmapped when other static things are gone.
+/// Lives as long as the process, because pages may be unmapped after static objects are destroyed.
 Ranges& ranges()
 {
     // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
@@ -38,7 +38,7 @@ std::uintptr_t number_of(const void* address)
     return reinterpret_cast<std::uintptr_t>(address);
 }
 
-/// The range that holds `place`, or the next one, or the first; there is one.
+/// The range that contains `place`, else the next range, else the first. Needs at least one range.
 auto range_at(const std::map<std::uintptr_t, Range>& by_begin, std::uintptr_t place)
 {
     auto next = by_begin.upper_bound(place);
@@ -51,10 +51,10 @@ auto range_at(const std::map<std::uintptr_t, Range>& by_begin, std::uintptr_t pl
 
 void* address_of(std::uintptr_t number)
 {
-    return reinterpret_cast<void*>(number); // NOLINT(performance-no-int-to-ptr): it was one
+    return reinterpret_cast<void*>(number); // NOLINT(performance-no-int-to-ptr): was a pointer
 }
 
-/// What the system thinks of the use of all ranges; where it does not listen, it reads too much.
+/// Advises the system how all ranges are used. If it ignores the advice, it only reads too much.
 void advise(const Ranges& all, int advice)
 {
     for (const auto& [begin, range] : all.by_begin)
@@ -70,7 +70,7 @@ std::size_t bytes_of(Ranges& all)
     return bytes;
 }
 
-/// Neither can fail in a way that matters: pages that stay only cost memory.
+/// Drops pages, and starts to write them to the file if there is one. Failures only cost memory.
 void drop(std::uintptr_t begin, std::size_t offset, std::size_t bytes, int written_back)
 {
     static_cast<void>(::madvise(address_of(begin + offset), bytes, MADV_DONTNEED));
@@ -118,11 +118,11 @@ ScatteredUse::~ScatteredUse()
 
 std::size_t drop_next_pages(std::size_t bytes, bool write_back)
 {
-    // The lock is kept for a piece: once a range is forgotten, its addresses may be somebody
-    // else's. A piece takes a fraction of a millisecond.
+    // Holds the lock for a piece, because addresses of an unregistered range may be reused. A piece
+    // needs a fraction of a millisecond.
     constexpr std::size_t kPiece = std::size_t{4} << 20;
     Ranges& all = ranges();
-    const std::size_t most = std::min(bytes, bytes_of(all)); // once around
+    const std::size_t most = std::min(bytes, bytes_of(all)); // each page at most once
     std::size_t looked_at = 0;
     while (looked_at < most) {
         const std::lock_guard lock(all.mutex);

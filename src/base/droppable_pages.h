@@ -5,16 +5,16 @@
 
 namespace vcarve {
 
-/// Pages that are mapped, shared, from a file, and so may be dropped from memory at any time: what
-/// is in them stays in the file, and the system reads it back where it is asked for again. As long
-/// as the object lives, drop_next_pages() may do that. It must go before the pages are unmapped.
-/// Never made of other memory: what is dropped of that is lost. Thread safe.
+/// Registers pages of a shared file mapping, which may be dropped from memory at any time. The file
+/// keeps their content, and the system reads it back on access. drop_next_pages() may drop them
+/// while the object lives. Destroy the object before unmapping the pages. Never register other
+/// memory: its content would be lost. Thread-safe.
 class DroppablePages {
   public:
     DroppablePages() = default;
 
-    /// `begin` is where a page begins. `file` is open for writing, where pages that were written to
-    /// are to go to the disk when they are dropped, or kNoFile.
+    /// `begin` is the start of a page. `file` is a descriptor open for writing, to which dropped
+    /// pages can be written back, or kNoFile.
     DroppablePages(const void* begin, std::size_t bytes, int file = kNoFile);
     DroppablePages(DroppablePages&& other) noexcept : begin_(std::exchange(other.begin_, nullptr))
     {
@@ -32,10 +32,10 @@ class DroppablePages {
     const void* begin_ = nullptr;
 };
 
-/// While one lives, threads touch droppable pages here and there: of those that are in files only,
-/// the system reads what is touched, and not the megabytes around it, as it does for those who go
-/// on from where they are. Costs nothing where there are no such pages. Thread safe; it holds for
-/// the ranges that are droppable when the first is made, and until the last is gone.
+/// Disables read-ahead of droppable pages while an object lives, for threads with random access.
+/// The system then reads only touched pages from files, not the megabytes around them. Costs
+/// nothing without such pages. Thread-safe. Applies to the ranges that are registered when the
+/// first object is created, until the last object is destroyed.
 class ScatteredUse {
   public:
     ScatteredUse();
@@ -44,14 +44,14 @@ class ScatteredUse {
     ~ScatteredUse();
 };
 
-/// Drops the next so many bytes of all droppable pages, at most, in turn; where there are fewer,
-/// all. With `write_back` the system also begins to write those that differ from what is on the
-/// disk, and does not wait for it. Returns how many bytes were looked at, whether they were in
-/// memory or not: 0 where there is nothing to drop.
+/// Drops the next `bytes` of all droppable pages in cyclic order, or all pages if there are fewer.
+/// With `write_back` the system also starts to write modified pages to the disk, without waiting.
+/// Returns the number of visited bytes, whether they were in memory or not; 0 if no pages are
+/// droppable.
 ///
-/// This is madvise(MADV_DONTNEED) on shared mappings of files, which only takes the pages out of
-/// the process: they stay in the system's cache of the file, with all that was written to them, and
-/// threads that read or write them at the same time find them there again (madvise(2)).
+/// Uses madvise(MADV_DONTNEED) on shared file mappings, which only removes pages from the process.
+/// They stay in the system's page cache with all modifications, so concurrent readers and writers
+/// get them back (madvise(2)).
 std::size_t drop_next_pages(std::size_t bytes, bool write_back);
 
 } // namespace vcarve

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number in a file that holds no more; nothing where it holds none, as "max".
+/// The number in a file that contains only a number; nothing for other content, such as "max".
 std::optional<std::int64_t> number_in(const fs::path& path)
 {
     std::ifstream file(path);
@@ -26,7 +26,7 @@ std::optional<std::int64_t> number_in(const fs::path& path)
     return std::nullopt;
 }
 
-/// The number behind a word, in a file of such pairs.
+/// The number after `word`, in a file of pairs of a word and a number.
 std::optional<std::int64_t> number_behind(std::string_view word, const fs::path& path)
 {
     std::ifstream file(path);
@@ -37,13 +37,13 @@ std::optional<std::int64_t> number_behind(std::string_view word, const fs::path&
     return std::nullopt;
 }
 
-/// How one version calls things.
+/// The file names of one cgroup version.
 struct CgroupNames {
-    std::string_view controllers; ///< in /proc/self/cgroup
-    std::string_view mounted;     ///< where the root of the groups usually is
+    std::string_view controllers; ///< the field of /proc/self/cgroup
+    std::string_view mounted;     ///< the usual folder of the root group
     std::string_view limit;
     std::string_view used;
-    std::string_view cache; ///< in memory.stat, of the group and those below it
+    std::string_view cache; ///< the key in memory.stat, for a group and its descendants
 };
 constexpr CgroupNames kVersions[] = {
     {"", "sys/fs/cgroup", "memory.max", "memory.current", "inactive_file"},
@@ -51,7 +51,7 @@ constexpr CgroupNames kVersions[] = {
      "total_inactive_file"},
 };
 
-/// The path of this process's group, without the slash it begins with: "4:memory:/a/b" says it.
+/// The path of this process's group without the leading slash: "a/b" for "4:memory:/a/b".
 std::optional<fs::path> group_of(const CgroupNames& names, const fs::path& root)
 {
     std::ifstream file(root / "proc/self/cgroup");
@@ -69,7 +69,7 @@ std::optional<CgroupMemory> memory_of(const fs::path& group, const CgroupNames& 
 {
     const auto limit = number_in(group / names.limit);
     const auto used = number_in(group / names.used);
-    // Version 1 says a number that no machine has where there is no limit.
+    // Version 1 expresses "no limit" as a huge number.
     constexpr std::int64_t kNoLimit = std::int64_t{1} << 60;
     if (!limit || !used || *limit >= kNoLimit) return std::nullopt;
     const auto cache = number_behind(names.cache, group / "memory.stat");
@@ -91,8 +91,8 @@ std::optional<CgroupMemory> cgroup_memory(const fs::path& root)
     for (const CgroupNames& names : kVersions) {
         std::optional<fs::path> group = group_of(names, root);
         if (!group) continue;
-        // A group is bound by those above it. A container sees its own as the root, whatever the
-        // path says: that one is looked at last.
+        // Ancestors limit a group, too. The root is checked last: a container sees its own group
+        // as the root, whatever the path is.
         while (!group->empty()) {
             least = lesser(least, memory_of(root / names.mounted / *group, names));
             group = group->parent_path();

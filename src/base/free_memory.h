@@ -6,25 +6,25 @@
 
 namespace vcarve {
 
-/// The memory of a control group, in bytes.
+/// The memory of a control group (cgroup), in bytes.
 struct CgroupMemory {
     std::int64_t limit = 0;
-    std::int64_t used = 0;  ///< with the system's cache of files
-    std::int64_t cache = 0; ///< of that, what the system can take back
+    std::int64_t used = 0;  ///< includes the page cache
+    std::int64_t cache = 0; ///< the reclaimable part of the page cache
     std::int64_t free() const { return limit - used + cache; }
 };
 
-/// Of the control groups of this process, version 1 or 2, the one with the least free memory;
-/// nothing where none of them has a limit. `root` is where /proc and /sys are.
+/// The control group with the least free memory: that of this process (cgroup 1 or 2), or one of
+/// its ancestors. Nothing if no group has a limit. `root` is the folder of /proc and /sys.
 std::optional<CgroupMemory> cgroup_memory(const std::filesystem::path& root = "/");
 
-/// How much memory the machine or the control group still has for this process, whichever is less,
-/// in bytes; nothing where neither says.
+/// The free memory of the machine or of the control group, whichever is less, in bytes; nothing if
+/// both are unknown.
 std::optional<std::int64_t> free_memory(const std::filesystem::path& root = "/");
 
-/// Gives memory that was freed back to the system. The allocators keep it for later, and what comes
-/// next may not fit what they keep: after a parallel triangulation oneTBB's keeps up to 400 bytes a
-/// point, after a dense cloud is thinned the C library's 100. Cost: some milliseconds.
+/// Returns freed memory to the system. Allocators keep it, but later allocations may not fit into
+/// it. oneTBB's keeps up to 400 bytes per point after a parallel triangulation. The C library's
+/// keeps 100 after a dense cloud is thinned. Cost: some milliseconds.
 void return_freed_memory();
 
 } // namespace vcarve

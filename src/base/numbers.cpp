@@ -23,8 +23,8 @@ std::uint64_t mix(std::uint64_t z)
 void require_indexable(std::uint64_t count, std::uint64_t most, const char* what)
 {
     if (count <= most) return;
-    throw InputError(
-        fmt::format("the model makes {} {}, and 32-bit indices allow {}", count, what, most));
+    throw InputError(fmt::format("the model results in {} {}, but 32-bit indices allow at most {}",
+                                 count, what, most));
 }
 
 double random_number(std::uint64_t seed, std::uint64_t index)

@@ -22,15 +22,15 @@
 
 namespace vcarve {
 
-/// How many threads the surrounding tbb arena has.
+/// The thread count of the current tbb arena.
 inline std::size_t num_threads()
 {
     return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
 }
 
-/// Calls body(first, last) for ranges [first, last) that make up [0, count), each of `grain` or a
-/// few more, from as many threads as the surrounding tbb arena has. The body must not depend on how
-/// the ranges are cut.
+/// Calls body(first, last) for ranges [first, last) that partition [0, count), on all threads of
+/// the current tbb arena. Ranges have about `grain` elements or more. The result of the body must
+/// not depend on the partition.
 template <typename Body>
 void parallel_for_ranges(std::size_t count, const Body& body, std::size_t grain = 1024)
 {
@@ -43,8 +43,8 @@ void parallel_for_ranges(std::size_t count, const Body& body, std::size_t grain 
 #endif
 }
 
-/// Calls body(i) for every i in [0, count), from as many threads as the surrounding tbb arena has.
-/// The body must not depend on the order of the calls.
+/// Calls body(i) for every i in [0, count), on all threads of the current tbb arena. The body must
+/// not depend on the order of the calls.
 template <typename Body>
 void parallel_for(std::size_t count, const Body& body, std::size_t grain = 1024)
 {
@@ -56,8 +56,8 @@ void parallel_for(std::size_t count, const Body& body, std::size_t grain = 1024)
     parallel_for_ranges(count, run, grain);
 }
 
-/// As parallel_for_ranges, with ranges of at most `grain`, after each of which `progress` is told
-/// how many are done. It ends early, by throwing Cancelled, where the run is to stop.
+/// Like parallel_for_ranges above, but with ranges of at most `grain` elements, and reports each
+/// finished range to `progress`. Throws Cancelled if the run should stop.
 template <typename Body>
 void parallel_for_ranges(std::size_t count, const Progress& progress, const Body& body,
                          std::size_t grain = 1024)
@@ -73,8 +73,8 @@ void parallel_for_ranges(std::size_t count, const Progress& progress, const Body
     parallel_for_ranges(count, run, grain);
 }
 
-/// As parallel_for, and tells `progress` how many are done. It ends early, by throwing Cancelled,
-/// where the run is to stop.
+/// Like parallel_for above, but reports the number of finished elements to `progress`. Throws
+/// Cancelled if the run should stop.
 template <typename Body>
 void parallel_for(std::size_t count, const Progress& progress, const Body& body,
                   std::size_t grain = 1024)
@@ -87,8 +87,8 @@ void parallel_for(std::size_t count, const Progress& progress, const Body& body,
     parallel_for_ranges(count, progress, run, grain);
 }
 
-/// Calls body(i, items) for every i in [0, count) with an empty list, which is allocated once a
-/// range of `grain`. The body must not depend on the order of the calls.
+/// Calls body(i, items) for every i in [0, count) with an empty list, which is allocated once per
+/// range (parallel_for_ranges). The body must not depend on the order of the calls.
 template <typename Item, typename Body>
 void parallel_for_with_list(std::size_t count, const Body& body, std::size_t grain = 1024)
 {
@@ -102,10 +102,9 @@ void parallel_for_with_list(std::size_t count, const Body& body, std::size_t gra
     parallel_for_ranges(count, run, grain);
 }
 
-/// What visit(i, items) appends to `items` for the i in [0, count), in the order of i, from as many
-/// threads as the surrounding tbb arena has. A thread visits `grain` of them at a time, after which
-/// `progress` is told how many are done; it ends early, by throwing Cancelled, where the run is to
-/// stop. Needs the memory of the result twice.
+/// Returns the items that visit(i, items) appends for every i in [0, count), in the order of i.
+/// Uses all threads of the current tbb arena. Reports each block of `grain` calls to `progress`.
+/// Throws Cancelled if the run should stop. Needs twice the memory of the result.
 template <typename Item, typename Visit>
 std::vector<Item> parallel_collect(std::size_t count, const Progress& progress, const Visit& visit,
                                    std::size_t grain = 16384)
@@ -138,16 +137,16 @@ std::vector<Item> parallel_collect(std::size_t count, const Progress& progress, 
     return all;
 }
 
-/// The same, which tells nobody.
+/// The same without progress.
 template <typename Item, typename Visit>
 std::vector<Item> parallel_collect(std::size_t count, const Visit& visit, std::size_t grain = 16384)
 {
     return parallel_collect<Item>(count, Progress(), visit, grain);
 }
 
-/// The sum over i in [0, count) of value(i), by `plus` from `zero`: within runs of 1024 in the
-/// order of i, then over the runs. So it is the same for any number of threads, also where it
-/// depends on the order.
+/// The sum of value(i) over i in [0, count), with `plus` as addition and `zero` as neutral element.
+/// Adds runs of 1024 values in order, then the sums of the runs in order. So the result does not
+/// depend on the thread count, even if `plus` depends on the order.
 template <typename Sum, typename Value, typename Plus = std::plus<>>
 Sum parallel_sum(std::size_t count, const Sum& zero, const Value& value, const Plus& plus = {})
 {
@@ -168,7 +167,7 @@ Sum parallel_sum(std::size_t count, const Sum& zero, const Value& value, const P
     return sum;
 }
 
-/// Of how many i in [0, count) is_so(i) holds, asked as parallel_for() does.
+/// The number of i in [0, count) for which is_so(i) is true. Calls is_so like parallel_for().
 template <typename Predicate>
 std::size_t parallel_count(std::size_t count, const Predicate& is_so, std::size_t grain = 1024)
 {
@@ -184,7 +183,7 @@ std::size_t parallel_count(std::size_t count, const Predicate& is_so, std::size_
     return counted;
 }
 
-/// Calls both, side by side where the surrounding tbb arena has a thread to spare.
+/// Calls both functions, concurrently if the current tbb arena has an idle thread.
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second)
 {
@@ -196,8 +195,8 @@ void parallel_invoke(const First& first, const Second& second)
 #endif
 }
 
-/// Sorts a vector from as many threads as the surrounding tbb arena has. `less` must order any two
-/// elements that can be told apart, or the result depends on the threads.
+/// Sorts a vector on all threads of the current tbb arena. `less` must order any two
+/// distinguishable elements, else the result depends on the threads.
 template <typename Items, typename Less = std::less<>>
 void parallel_sort(Items& items, const Less& less = {})
 {
@@ -208,8 +207,8 @@ void parallel_sort(Items& items, const Less& less = {})
 #endif
 }
 
-/// Lowers a number to another where that is smaller. Many threads may do so at a time: the smallest
-/// of all is left, whoever came first.
+/// Sets `least` to `value` if that is smaller. Threads may do so concurrently: the smallest value
+/// remains, in whatever order they come.
 template <typename Number>
 void atomic_min(Number& least, Number value)
 {

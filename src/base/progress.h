@@ -13,68 +13,67 @@
 
 namespace vcarve {
 
-/// The size of a container, as a count.
+/// Converts the size of a container to a count.
 inline std::int64_t size_of(std::size_t count)
 {
     return static_cast<std::int64_t>(count);
 }
 
-/// One stage of a run: tells the log when it begins and, unless it failed, when it ends.
+/// One stage of a run. Notifies the log of its begin and, if it succeeds, of its end.
 class Stage {
   public:
     Stage(Log& log, std::string_view name) : log_(log), name_(name)
     {
         log_.stage_begins(name_);
-        stop_where_wanted();
+        throw_if_stopped();
     }
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
 
-    /// Tells the log this share, where it is larger by a thousandth than the one told before.
-    /// Throws Cancelled where the log wants the run stopped.
+    /// Reports a share to the log, if it exceeds the last reported share by at least 0.001. Throws
+    /// Cancelled if the log requests a stop.
     void progress(double share)
     {
-        stop_where_wanted();
-        // Another thread tells about the same just now.
+        throw_if_stopped();
+        // If the mutex is locked, another thread is reporting about the same share.
         const std::unique_lock lock(mutex_, std::try_to_lock);
-        if (!lock.owns_lock() || share < told_ + 0.001) return;
-        told_ = std::min(share, 1.0);
-        log_.stage_progresses(told_);
+        if (!lock.owns_lock() || share < events_ + 0.001) return;
+        events_ = std::min(share, 1.0);
+        log_.stage_progresses(events_);
     }
-    /// Ends the stage with what it counted. Call it once, when the work is done.
+    /// Ends the stage with its counts. Call it once, when the work is done.
     void end(const Counts& counts)
     {
-        stop_where_wanted();
-        if (told_ > 0.0 && told_ < 1.0) log_.stage_progresses(1.0);
+        throw_if_stopped();
+        if (events_ > 0.0 && events_ < 1.0) log_.stage_progresses(1.0);
         log_.stage_ends(name_, counts);
     }
 
   private:
-    void stop_where_wanted() const
+    void throw_if_stopped() const
     {
-        if (log_.wants_stop()) throw Cancelled(name_);
+        if (log_.should_stop()) throw Cancelled(name_);
     }
 
     Log& log_;
     std::string name_;
-    std::mutex mutex_; ///< guards told_
-    double told_ = 0.0;
+    std::mutex mutex_; ///< guards events_
+    double events_ = 0.0;
 };
 
-/// How far a piece of work is, told to the stage it is a part of. A copy tells the same stage. One
-/// made of nothing tells nobody and never stops.
+/// The progress of a part of a stage, reported to the stage. Copies report to the same stage. A
+/// default-constructed object reports nothing and never throws Cancelled.
 class Progress {
   public:
-    /// How many small things, some microseconds each, are done between one call of tell() and the
-    /// next.
-    static constexpr std::size_t kToldEvery = 256;
+    /// The number of small work items, some microseconds each, between two calls of report().
+    static constexpr std::size_t kReportEvery = 256;
 
     Progress() = default;
-    /// All of a stage.
+    /// The progress of a whole stage.
     // NOLINTNEXTLINE(google-explicit-constructor): a stage is its own progress, from 0 to 1
     Progress(Stage& stage) : stage_(&stage) {}
 
-    /// The piece from share `from` to share `to` of this one.
+    /// The progress of the part from share `from` to share `to`.
     Progress part(double from, double to) const
     {
         Progress result = *this;
@@ -83,14 +82,14 @@ class Progress {
         return result;
     }
 
-    /// Tells that this share is done, 0 to 1. Throws Cancelled where the run is to stop, so it must
-    /// be called some ten times a second. From any thread.
-    void tell(double share) const
+    /// Reports the finished share, from 0 to 1. Throws Cancelled if the run should stop, so call it
+    /// about ten times per second. Thread-safe.
+    void report(double share) const
     {
         if (stage_ != nullptr) stage_->progress(from_ + share * (to_ - from_));
     }
-    /// The same for so many of all.
-    void tell(double done, double all) const { tell(all > 0.0 ? done / all : 1.0); }
+    /// Reports `done` of `all` work items as finished; 1 if `all` is 0.
+    void report(double done, double all) const { report(all > 0.0 ? done / all : 1.0); }
 
   private:
     Stage* stage_ = nullptr;
@@ -98,7 +97,7 @@ class Progress {
     double to_ = 1.0;
 };
 
-/// Counts what many threads have done of a known number of things.
+/// Counts work items finished by several threads, and reports their share of `all`.
 class ProgressCount {
   public:
     ProgressCount(const Progress& progress, std::size_t all)
@@ -109,7 +108,7 @@ class ProgressCount {
     void add(std::size_t done)
     {
         const std::size_t before = done_.fetch_add(done, std::memory_order_relaxed);
-        progress_.tell(static_cast<double>(before + done), all_);
+        progress_.report(static_cast<double>(before + done), all_);
     }
 
   private:

@@ -16,14 +16,14 @@ namespace vcarve {
 
 namespace {
 
-/// Whether the cgroup has so little left that the system will soon have to take pages back.
+/// Whether less than a quarter of the cgroup's memory is unused, so that pages are reclaimed soon.
 bool is_cgroup_nearly_full()
 {
     const std::optional<CgroupMemory> cgroup = cgroup_memory();
     return cgroup && cgroup->limit - cgroup->used < cgroup->limit / 4;
 }
 
-/// What is looked at may not be in memory, so the system is asked after every piece.
+/// Visited pages may not be in memory, so the resident size is read again after every piece.
 void drop_down_to(ResidentSize now, std::int64_t most, bool writes_back)
 {
     constexpr std::size_t kAtOnce = std::size_t{64} << 20;
@@ -35,13 +35,13 @@ void drop_down_to(ResidentSize now, std::int64_t most, bool writes_back)
     }
 }
 
-/// Has this thread go before others that want the processor, where the process may ask for that:
-/// while it waits, they fill memory. It sleeps nearly all the time.
+/// Raises the priority of this thread, if the process is permitted to. Other threads fill memory
+/// while it waits for a processor. It sleeps most of the time.
 void go_first()
 {
 #ifdef __linux__
     constexpr int kFirst = -15;
-    static_cast<void>(::setpriority(PRIO_PROCESS, 0, kFirst)); // of a thread, on Linux
+    static_cast<void>(::setpriority(PRIO_PROCESS, 0, kFirst)); // per thread on Linux
 #endif
 }
 
@@ -65,8 +65,8 @@ std::optional<ResidentSize> resident_size()
 
 std::int64_t bytes_to_drop(const ResidentSize& now, std::int64_t most)
 {
-    // What threads bring into memory between two looks, and while pages are dropped, comes on top
-    // of the upper end: a quarter of the limit was seen where many processes want the processors.
+    // Threads load more pages between two checks and while pages are dropped. The margin above the
+    // upper end allows for this: a quarter of the limit was observed with many busy processes.
     const std::int64_t upper_end = most / 8 * 5;
     const std::int64_t lower_end = most / 2;
     const std::int64_t least_left = most / 8;
@@ -87,7 +87,7 @@ ResidentLimit::~ResidentLimit()
     thread_.join();
 }
 
-/// False when it is over.
+/// Sleeps for `pause`. Returns false if the object is being destroyed.
 bool ResidentLimit::waits(std::chrono::milliseconds pause)
 {
     std::unique_lock lock(mutex_);

@@ -9,21 +9,20 @@
 
 namespace vcarve {
 
-/// How much of a process is in memory, in bytes.
+/// The resident memory of a process, in bytes.
 struct ResidentSize {
     std::int64_t all = 0;
-    std::int64_t of_files = 0; ///< pages mapped from files, which can be read back
+    std::int64_t of_files = 0; ///< file-backed pages, which can be read back
 };
 
-/// As the system tells of this process; nothing where it does not.
+/// The resident memory of this process; nothing if the system does not report it.
 std::optional<ResidentSize> resident_size();
 
-/// A thread that, as long as the object lives, looks every 20 ms, or 3 ms where it is above half
-/// the limit, at how much of the process is in memory and drops droppable pages where it is more
-/// than `most` bytes. Where others fill memory faster than that, the limit is passed by what they
-/// fill meanwhile; memory that cannot be dropped is not bounded. Where the cgroup of the process is
-/// nearly full the system is also told to write what is dropped, because it may have to wait for
-/// that later.
+/// Limits the resident memory of the process to `most` bytes, with a thread that lives as long as
+/// the object. It checks every 20 ms, or every 3 ms above half the limit, and drops droppable pages
+/// (bytes_to_drop()). Threads that fill memory faster can exceed the limit between two checks.
+/// Memory that is not droppable is not limited. If the process's cgroup is nearly full, the system
+/// also starts to write dropped pages, because it may have to wait for them later.
 class ResidentLimit {
   public:
     explicit ResidentLimit(std::int64_t most);
@@ -42,9 +41,9 @@ class ResidentLimit {
     std::thread thread_;
 };
 
-/// How many bytes of file pages are to be dropped where `most` may be resident: none below the
-/// limit; above, as many as bring it well below, so that not every look finds it above again. Some
-/// pages always stay, even where other memory alone is above the limit: work would come to a halt.
+/// The bytes of file pages to drop if `most` may be resident. 0 up to 5/8 of `most`. Above, enough
+/// to reach half of `most`, so that not every check has to drop pages. File pages of an eighth of
+/// `most` always stay, even if other memory exceeds the limit: work would come to a halt.
 std::int64_t bytes_to_drop(const ResidentSize& now, std::int64_t most);
 
 } // namespace vcarve

@@ -26,10 +26,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kPage = 4096; ///< the least that a system has
+constexpr std::size_t kPage = 4096; ///< smallest page size of any system
 constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
-/// A file descriptor, closed when it goes.
+/// An owned file descriptor.
 class File {
   public:
     explicit File(int descriptor) : descriptor_(descriptor) {}
@@ -49,25 +49,25 @@ class File {
     int descriptor_;
 };
 
-/// A file that is mapped, or memory without one. Its members go in the order that is needed: first
-/// nobody drops pages.
+/// A mapped file, or memory without a file. The order of the members matters: the pages must be
+/// unregistered before the file is closed.
 struct Block {
     File file;
     std::size_t bytes;
     DroppablePages pages;
-    std::int64_t in_folder; ///< bytes
+    std::int64_t in_folder; ///< bytes in the work folder
 };
 
-/// All of them, and where new ones are made. It lives as long as the process, because arrays are
-/// freed when other static things are gone. Nothing is freed while the mutex is held: freeing asks
-/// for it.
+/// All blocks, and the folder of new ones. Lives as long as the process, because arrays are freed
+/// after static objects are destroyed. No memory may be freed while the mutex is locked, because
+/// free_scratch() locks it.
 struct Blocks {
     std::mutex mutex;
     std::map<void*, Block> by_begin;
-    fs::path folder; ///< where is_open; empty for memory
+    fs::path folder; ///< if is_open; empty for memory
     std::int64_t bytes = 0;
     std::int64_t peak_bytes = 0;
-    bool is_open = false;               ///< whether arrays are kept here
+    bool is_open = false;               ///< whether a ScratchMemory exists
     std::atomic<std::size_t> count = 0; ///< of by_begin
 };
 
@@ -81,27 +81,27 @@ Blocks& blocks()
 [[noreturn]] void refuse(const fs::path& folder, std::string_view reason)
 {
     throw ScratchError(
-        fmt::format("no file can be made in the work folder {}: {}", folder.string(), reason));
+        fmt::format("cannot create a file in the work folder {}: {}", folder.string(), reason));
 }
 
 [[noreturn]] void refuse_as_full(const fs::path& folder, std::size_t bytes)
 {
     const std::optional<std::int64_t> left = free_space(folder);
-    throw ScratchError(fmt::format("the work folder {} is full: {} more are needed, and {} are "
-                                   "free",
+    throw ScratchError(fmt::format("the work folder {} is full: {} more are needed, but {} "
+                                   "are free",
                                    folder.string(),
                                    byte_size_text(static_cast<std::int64_t>(bytes)),
                                    left ? byte_size_text(*left) : "none"));
 }
 
-/// A file that nobody else can open, and that ends with its last user.
+/// Creates a file that no other process can open. It disappears with its last user.
 File unnamed_file(const fs::path& folder)
 {
 #ifdef O_TMPFILE
     const int unnamed = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC | O_EXCL, 0600);
     if (unnamed >= 0) return File(unnamed);
 #endif
-    // Some file systems have no files without a name.
+    // Some file systems do not support unnamed files.
     std::string name = (folder / "vcarve-XXXXXX").string();
     const int named = ::mkostemp(name.data(), O_CLOEXEC);
     if (named < 0) refuse(folder, std::strerror(errno));
@@ -109,9 +109,9 @@ File unnamed_file(const fs::path& folder)
     return File(named);
 }
 
-/// Gives a file its size, and its space on the disk: without that, writing to a page of it ends the
-/// process when the disk is full. What is free is looked at first: a file system that is asked for
-/// more may give all that there is before it refuses, and leave none to others meanwhile.
+/// Sets the size of a file and allocates its disk space. Otherwise writing to a page would kill the
+/// process if the disk is full. Checks free space first: a file system may allocate all free space
+/// before it fails, and leave none to others meanwhile.
 void take_space(int file, std::size_t bytes, const fs::path& folder)
 {
     const std::optional<std::int64_t> left = free_space(folder);
@@ -129,8 +129,8 @@ void take_space(int file, std::size_t bytes, const fs::path& folder)
     if (::ftruncate(file, static_cast<off_t>(bytes)) != 0) refuse(folder, std::strerror(errno));
 }
 
-/// Files stay open so that their pages can be written back; but not so many that others, which a
-/// run has to open, find no number left.
+/// Keeps a file open, so that its pages can be written back, or closes it. At most half of the
+/// descriptors are used, because a run has to open other files.
 File kept_open(File file)
 {
     rlimit limit = {};
@@ -146,18 +146,18 @@ void* map(const File& file, std::size_t bytes)
         ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(), 0);
     if (begin == MAP_FAILED) throw std::bad_alloc();
 #ifdef MADV_DONTFORK
-    // A child that wrote to an array would write to the parent's.
+    // A forked child would otherwise write to the parent's arrays.
     static_cast<void>(::madvise(begin, bytes, MADV_DONTFORK));
 #endif
 #ifdef MADV_NOHUGEPAGE
-    // Where the system maps 2 MB for each byte that is touched, passes that go here and there bring
-    // gigabytes into memory before the watching thread looks again.
+    // With huge pages each touched byte maps 2 MB. Random access would load gigabytes before the
+    // thread of ResidentLimit checks again.
     static_cast<void>(::madvise(begin, bytes, MADV_NOHUGEPAGE));
 #endif
     return begin;
 }
 
-/// A map of one block, so that it becomes one of all without memory being asked for.
+/// A map of one new block, which can be merged into all blocks without an allocation.
 std::map<void*, Block> new_block(std::size_t bytes, const fs::path& folder)
 {
     File file = unnamed_file(folder);
@@ -176,7 +176,7 @@ std::map<void*, Block> new_block(std::size_t bytes, const fs::path& folder)
     return block;
 }
 
-/// The same without a file.
+/// The same in memory, without a file.
 std::map<void*, Block> new_block_in_memory(std::size_t bytes)
 {
     void* const begin =
@@ -192,7 +192,7 @@ std::map<void*, Block> new_block_in_memory(std::size_t bytes)
     return block;
 }
 
-/// Where new blocks are made now: empty for memory; nothing where none are.
+/// The folder of new blocks; empty for memory; nothing if no ScratchMemory exists.
 std::optional<fs::path> present_folder()
 {
     const std::lock_guard lock(blocks().mutex);
@@ -200,12 +200,12 @@ std::optional<fs::path> present_folder()
     return blocks().folder;
 }
 
-/// New blocks are made there from now on.
+/// Creates new blocks in `folder` from now on. Throws std::logic_error if blocks are open already.
 void open_blocks(fs::path folder)
 {
     Blocks& all = blocks();
     const std::lock_guard lock(all.mutex);
-    if (all.is_open) throw std::logic_error("there is a ScratchMemory");
+    if (all.is_open) throw std::logic_error("another ScratchMemory exists");
     all.folder.swap(folder);
     all.is_open = true;
 }
@@ -244,7 +244,7 @@ std::int64_t ScratchMemory::peak_bytes()
 
 void* allocate_scratch(std::size_t bytes, std::size_t alignment)
 {
-    // Said first, since it is what nearly all memory ends with, that of blocks() among it.
+    // Checked first because nearly all allocations end here, including that of blocks().
     if (bytes < ScratchMemory::kLeastBytes || alignment > kPage) return nullptr;
     const std::optional<fs::path> folder = present_folder();
     if (!folder) return nullptr;
@@ -265,7 +265,7 @@ void* allocate_scratch(std::size_t bytes, std::size_t alignment)
 
 bool free_scratch(void* memory) noexcept
 {
-    // Nearly all memory ends here: a block begins with a page.
+    // Nearly all memory ends here, because only blocks start at a page.
     if (memory == nullptr || reinterpret_cast<std::uintptr_t>(memory) % kPage != 0) return false;
     Blocks& all = blocks();
     if (all.count == 0) return false;
@@ -277,7 +277,7 @@ bool free_scratch(void* memory) noexcept
         all.count = all.by_begin.size();
         all.bytes -= block.mapped().in_folder;
     }
-    block.mapped().pages = DroppablePages(); // nobody drops what is unmapped
+    block.mapped().pages = DroppablePages(); // unregister before unmapping
     ::munmap(memory, block.mapped().bytes);
     return true;
 }
@@ -290,14 +290,14 @@ bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place)
         const auto known = all.by_begin.find(memory);
         if (known == all.by_begin.end() || bytes > known->second.bytes) return false;
     }
-    // Mapped elsewhere first, so that nothing is lost where that fails.
+    // Maps to another address first, so that nothing is lost if that fails.
     void* const mapped = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, place.file, place.begin);
     if (mapped == MAP_FAILED) return false;
     if (::mremap(mapped, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, memory) == MAP_FAILED) {
         ::munmap(mapped, bytes);
         return false;
     }
-    // What was there before goes, and what is there now may be dropped in turn.
+    // Unregisters and closes the old file, then registers the new pages as droppable.
     const auto exchange = [&](DroppablePages pages, File file) {
         const std::lock_guard lock(all.mutex);
         Block& block = all.by_begin.find(memory)->second;

@@ -12,8 +12,8 @@
 
 namespace vcarve {
 
-/// An array that finds no place in the work folder: what() is one sentence with the folder. It is
-/// what operator new may throw, and text of its own, since memory may be short.
+/// The work folder cannot hold an array. what() is one sentence with the folder. A bad_alloc, so
+/// that operator new may throw it. The text is stored inside, because memory may be short.
 class ScratchError : public std::bad_alloc {
   public:
     explicit ScratchError(const std::string& sentence);
@@ -23,66 +23,63 @@ class ScratchError : public std::bad_alloc {
     std::array<char, 1024> sentence_{};
 };
 
-/// While one lives, large arrays are kept in files of a folder instead of memory: what
-/// allocate_scratch() gives is a file without a name, mapped; and pages of these files leave memory
-/// where the process has more than so many bytes resident. Passes run unchanged on what does not
-/// fit into memory. One at a time in a process; arrays may outlive it.
+/// Keeps large arrays in files of a folder instead of memory, while the object lives.
+/// allocate_scratch() returns mapped, unnamed files. Their pages leave memory if the process has
+/// more than `most_resident` bytes resident (ResidentLimit). So algorithms process data larger than
+/// memory unchanged. Only one object may exist per process; arrays may outlive it.
 ///
-/// Only a program whose operator new asks allocate_scratch() has its arrays there; the one of
-/// colmap-vcarve does (cli/scratch_new.cpp). A program that links the library keeps all its arrays
-/// in memory unless it does the same.
+/// This works only in programs whose operator new calls allocate_scratch(), like that of
+/// colmap-vcarve (cli/scratch_new.cpp). Other programs that link the library keep all arrays in
+/// memory.
 ///
-/// The files are gone when their arrays are, and when the process ends, however that happens. Their
-/// space is taken when they are made, so that a full disk is an exception there and no crash later.
-/// What fails later is the disk itself: then the system sends SIGBUS. A process that forks keeps
-/// the arrays for itself: in the child they are no memory.
+/// Files disappear with their arrays, and whenever the process ends. Their space is allocated at
+/// creation, so a full disk throws then instead of crashing the process later. Later only the disk
+/// itself can fail: the system then sends SIGBUS. Forked children do not inherit the arrays.
 class ScratchMemory {
   public:
-    /// CGAL's and oneTBB's blocks are smaller, and stay in memory.
+    /// The blocks of CGAL and oneTBB are smaller, and stay in memory.
     static constexpr std::size_t kLeastBytes = std::size_t{8} << 20;
 
-    /// Throws ScratchError where no file can be made in the folder, which must exist, and
-    /// std::logic_error where there is a ScratchMemory.
+    /// The folder must exist. Throws ScratchError if no file can be created in it, and
+    /// std::logic_error if another ScratchMemory exists.
     ScratchMemory(const std::filesystem::path& folder, std::int64_t most_resident);
-    /// Arrays stay in memory, as where there is none, but map_over_scratch() can put files in their
-    /// place.
+    /// Keeps arrays in memory, but map_over_scratch() can replace them by files. Throws
+    /// std::logic_error if another ScratchMemory exists.
     ScratchMemory();
     ScratchMemory(const ScratchMemory&) = delete;
     ScratchMemory& operator=(const ScratchMemory&) = delete;
     ~ScratchMemory();
 
-    /// The most bytes that were in the folder at a time since the process began.
+    /// The peak size of arrays in the folder since the process started, in bytes.
     static std::int64_t peak_bytes();
 
   private:
     std::optional<ResidentLimit> limit_;
 };
 
-/// Memory, in the work folder where the ScratchMemory has one, for an array of so many bytes,
-/// aligned to pages and filled with zeros. Null where no ScratchMemory lives, the array has fewer
-/// than kLeastBytes, or wants to be aligned to more than a page: then it is the caller's turn.
-/// Throws ScratchError where the folder takes no more, and std::bad_alloc where the process has no
-/// addresses left. Thread safe.
+/// Allocates `bytes` bytes of page-aligned, zeroed memory, in the folder of the ScratchMemory if it
+/// has one. Returns null if no ScratchMemory exists, the array has fewer than kLeastBytes, or the
+/// alignment exceeds a page. The caller then allocates otherwise. Throws ScratchError if the folder
+/// is full, and std::bad_alloc if the process has no addresses left. Thread-safe.
 void* allocate_scratch(std::size_t bytes, std::size_t alignment);
 
-/// Frees what allocate_scratch() gave and returns true; false for all other memory, which costs a
-/// look at the address. Thread safe; works when the ScratchMemory is gone.
+/// Frees memory of allocate_scratch() and returns true. Returns false for other memory, usually
+/// after a single test of the address. Thread-safe; also works without a ScratchMemory.
 bool free_scratch(void* memory) noexcept;
 
-/// A place in an open file.
+/// A position in an open file.
 struct FilePlace {
-    int file = -1;          ///< descriptor; needed no longer than the call takes
-    std::int64_t begin = 0; ///< where a page of the file begins
+    int file = -1;          ///< descriptor, used only during the call
+    std::int64_t begin = 0; ///< offset in bytes, a multiple of the page size
 };
 
-/// Puts bytes of a file in the place of what allocate_scratch() gave, to be read only: they are in
-/// memory where they are looked at, and only then. What stood there, and its space, is gone. False
-/// where the memory is none of allocate_scratch(), or the file cannot be mapped; nothing is changed
-/// then. The file must keep its length.
+/// Replaces memory of allocate_scratch() by a read-only mapping of a file. Pages are loaded on
+/// access. The previous content and its space are freed. The file must keep its length. Returns
+/// false and changes nothing if the memory is not from allocate_scratch(), is shorter than `bytes`,
+/// or the file cannot be mapped.
 bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place);
 
-/// How many bytes the file system of a folder still takes, for those who are not root; nothing
-/// where it does not say.
+/// The free bytes of the folder's file system for users other than root; nothing if unknown.
 std::optional<std::int64_t> free_space(const std::filesystem::path& folder);
 
 } // namespace vcarve

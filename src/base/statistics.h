@@ -9,7 +9,7 @@
 
 namespace vcarve {
 
-/// The middle one of the values, the upper of two; 0 where there are none. Changes their order.
+/// The median of the values; the upper of two middle values; 0 without values. Changes their order.
 /// Cost: O(n).
 inline double median_in_place(std::span<double> values)
 {
@@ -19,14 +19,14 @@ inline double median_in_place(std::span<double> values)
     return *middle;
 }
 
-/// The same, leaving the values of the caller as they are.
+/// The same, but leaves the caller's values unchanged.
 inline double median(std::vector<double> values)
 {
     return median_in_place(values);
 }
 
-/// The median of value(i) over the i in [0, count), or over every n-th where there are many.
-/// Negative values count for none. Cost: O(count), in parallel.
+/// The median of value(i) over i in [0, count), or over every n-th i if `count` is large (at most
+/// 100,000 samples). Ignores negative values. Cost: O(samples), in parallel.
 template <typename Value>
 double median_of_some(std::size_t count, const Value& value)
 {
@@ -38,8 +38,8 @@ double median_of_some(std::size_t count, const Value& value)
     return median_in_place(values);
 }
 
-/// The value that so large a share of the values, 0 to 1, does not exceed, the lower of two; 0
-/// where there are none. Changes their order. Cost: O(n).
+/// The quantile of the values at `share`, from 0 to 1; the lower of two neighboring values; 0
+/// without values. Changes their order. Cost: O(n).
 inline double quantile_in_place(std::span<double> values, double share)
 {
     if (values.empty()) return 0.0;

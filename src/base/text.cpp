@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kSuffixes = "KMG";
 
-/// 1024 for 'K' and 'k', 1024^2 for 'M' and so on; 0 for other letters.
+/// Returns 1024 for 'K' and 'k', 1024^2 for 'M' and so on; 0 for other letters.
 double factor_of(char suffix)
 {
     constexpr char kToUpper = 'A' - 'a';

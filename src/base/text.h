@@ -11,15 +11,15 @@
 
 namespace vcarve {
 
-/// Bytes as one writes them in an option: plain, "1500000", or with K, M or G (of 1024, upper or
-/// lower case), "8G", "1.5g". Nothing where it is no such text, is negative, or leaves 63 bits.
+/// Parses the byte size of an option: "1500000", or with a suffix K, M or G in either case (powers
+/// of 1024), "8G", "1.5g". Returns nothing for other texts, negative sizes, and 2^63 or more.
 std::optional<std::int64_t> parse_byte_size(std::string_view text);
 
-/// The same the other way, rounded to four digits: "8G", "1.465M", "600".
+/// Formats a byte size with at most four significant digits: "8G", "1.465M", "600".
 std::string byte_size_text(std::int64_t bytes);
 
-/// `text` with question marks for control characters, which a terminal would obey; also for those
-/// of UTF-8, U+0080 to U+009F.
+/// Replaces control characters, which a terminal would obey, by question marks. This includes
+/// U+0080 to U+009F in UTF-8.
 inline std::string control_free(std::string_view text)
 {
     std::string shown;
@@ -34,7 +34,7 @@ inline std::string control_free(std::string_view text)
     return shown;
 }
 
-/// 24310 -> "24,310"
+/// Formats a number with commas: "24,310" for 24310.
 inline std::string grouped_digits(std::int64_t number)
 {
     const std::string digits = std::to_string(number);
@@ -47,7 +47,15 @@ inline std::string grouped_digits(std::int64_t number)
     return text;
 }
 
-/// ASCII letters in lower case.
+/// A number and its noun, which is given in the plural: "1 vertex", "24,310 faces".
+inline std::string counted(std::int64_t number, std::string_view nouns)
+{
+    const std::string_view noun =
+        nouns == "vertices" ? "vertex" : nouns.substr(0, nouns.size() - 1);
+    return grouped_digits(number) + " " + std::string(number == 1 ? noun : nouns);
+}
+
+/// Converts ASCII letters to lower case.
 inline std::string lower_case(std::string text)
 {
     std::ranges::transform(text, text.begin(),
@@ -55,7 +63,7 @@ inline std::string lower_case(std::string text)
     return text;
 }
 
-/// The extension of a file in lower case: ".ply" of "a/B.PLY".
+/// The file extension in lower case: ".ply" for "a/B.PLY".
 inline std::string lower_case_end(const std::filesystem::path& path)
 {
     return lower_case(path.extension().string());

@@ -29,7 +29,7 @@ std::optional<double> number_in_file(const char* path)
     return std::nullopt;
 }
 
-/// cgroup 2: "max 100000" or "150000 100000", quota and period in microseconds.
+/// cgroup 2: quota and period in microseconds, "150000 100000", or "max 100000" without a quota.
 std::optional<double> cores_of_cgroup_2()
 {
     std::ifstream file("/sys/fs/cgroup/cpu.max");

@@ -2,12 +2,11 @@
 
 namespace vcarve {
 
-/// How many threads can run at once: the cores this process may use (its affinity mask), and no
-/// more than the processor time its control group is given (cgroup 1 and 2), rounded up. At
-/// least 1.
+/// The number of threads that can run concurrently, at least 1. Counts the cores in the process's
+/// affinity mask, but at most the CPU quota of its control group (cgroup 1 or 2), rounded up.
 int available_threads();
 
-/// The number of threads that an option asks for: 0 means all.
+/// The thread count for an option's value; 0 means all available threads.
 inline int threads_or_all(int wanted)
 {
     return wanted == 0 ? available_threads() : wanted;

@@ -8,10 +8,9 @@
 
 namespace vcarve {
 
-/// Disjoint sets of the numbers below `size`. The root of a set is its least member, whatever the
-/// order of the joins, so that results do not depend on it. Safe from many threads (Jayanti and
-/// Tarjan, "A randomized concurrent algorithm for disjoint set union", PODC 2016, without its
-/// random order).
+/// Disjoint sets of the numbers below `size`. The root of a set is its least member, so results do
+/// not depend on the order of the joins. Thread-safe (Jayanti and Tarjan, "A randomized concurrent
+/// algorithm for disjoint set union", PODC 2016, but without random order).
 class UnionFind {
   public:
     explicit UnionFind(std::size_t size) : parents_(size)
@@ -24,7 +23,7 @@ class UnionFind {
         for (;;) {
             const std::uint32_t parent = load(member);
             if (parent == member) return member;
-            // An ancestor stays one, so a late store does no harm.
+            // A late store is harmless, because an ancestor remains an ancestor.
             const std::uint32_t grandparent = load(parent);
             if (grandparent != parent) {
                 std::atomic_ref(parents_[member]).store(grandparent, std::memory_order_relaxed);
@@ -40,7 +39,7 @@ class UnionFind {
             b = root(b);
             if (a == b) return;
             if (a > b) std::swap(a, b);
-            std::uint32_t expected = b; // fails where b got a parent meanwhile
+            std::uint32_t expected = b; // fails if b got a parent meanwhile
             if (std::atomic_ref(parents_[b])
                     .compare_exchange_strong(expected, a, std::memory_order_relaxed)) {
                 return;

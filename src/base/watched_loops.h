@@ -11,20 +11,20 @@
 #include <utility>
 #include <vector>
 
-/// What parallel.h runs on in a build with ThreadSanitizer, and in no other. Debian's libtbb is not
-/// built for ThreadSanitizer, so how it hands work from thread to thread goes unseen, and each loop
-/// would be reported. Here threads are the standard library's, which ThreadSanitizer knows: what
-/// happens before a loop and after it is ordered, what happens in two bodies is not.
+/// Parallel loops with threads of the standard library, used by parallel.h only in ThreadSanitizer
+/// builds. Debian's libtbb is not instrumented: ThreadSanitizer would not see its synchronization,
+/// and would report every loop. With these threads, it sees that code before and after a loop is
+/// ordered, and that two bodies are not.
 namespace vcarve::watched {
 
-/// Whether this thread already runs a body; loops within it are not spread any further.
+/// Whether this thread is running a body. Nested loops run on this thread only.
 inline bool& is_in_body()
 {
     thread_local bool is_in_body = false;
     return is_in_body;
 }
 
-/// The first exception of several threads.
+/// Stores the first exception of several threads.
 class FirstFailure {
   public:
     template <typename Work>
@@ -49,11 +49,11 @@ class FirstFailure {
     std::exception_ptr failure_;
 };
 
-/// As parallel_for_ranges.
+/// Like parallel_for_ranges.
 template <typename Body>
 void for_ranges(std::size_t count, const Body& body, std::size_t grain)
 {
-    // Relaxed, so that taking the next range orders nothing.
+    // Relaxed, so that fetching a range does not order the bodies.
     std::atomic<std::size_t> next = 0;
     FirstFailure failure;
     const auto work = [&] {

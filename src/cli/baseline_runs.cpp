@@ -28,9 +28,9 @@ namespace fs = std::filesystem;
 constexpr const char* kColmap = "COLMAP";
 constexpr const char* kOurs = "colmap-vcarve";
 
-/// A program to be run, by its column's name; it writes NAME.ply and prints to NAME.txt.
+/// A program to run. It writes NAME.ply, and its output is in NAME.txt.
 struct Program {
-    std::string name;
+    std::string name;    ///< of the column
     std::string program; ///< for messages
     std::vector<std::string> words;
     double timeout_s = kUnlimited;
@@ -46,12 +46,12 @@ fs::path printed_path(const fs::path& folder, const std::string& name)
     return folder / (name + ".txt");
 }
 
-/// The folder that COLMAP's mesher is to read. It knows dense points by names in one folder only.
+/// The input folder of COLMAP's mesher, which finds dense points by fixed names in one folder.
 fs::path colmap_input(const FoundInput& input)
 {
     if (input.scan) {
-        throw UsageError(fmt::format("--colmap cannot be told to take the points of {}: COLMAP's "
-                                     "mesher knows no scanners",
+        throw UsageError(fmt::format("--colmap cannot use the points of {}: COLMAP's mesher does "
+                                     "not support laser scans",
                                      input.scan->cloud.string()));
     }
     if (!input.dense) return input.model.folder;
@@ -63,8 +63,8 @@ fs::path colmap_input(const FoundInput& input)
                               is_at(input.dense->visibility, "fused.ply.vis") &&
                               is_at(input.dense->model, "sparse");
     if (is_workspace) return workspace;
-    throw UsageError(fmt::format("--colmap cannot be told to take the points of {}: COLMAP's "
-                                 "mesher reads fused.ply, fused.ply.vis and sparse in one folder",
+    throw UsageError(fmt::format("--colmap cannot use the points of {}: COLMAP's mesher reads "
+                                 "fused.ply, fused.ply.vis and sparse from one folder",
                                  input.dense->cloud.string()));
 }
 
@@ -93,7 +93,7 @@ Program own_baseline(const BaselineRun& run, const FoundInput& input, const fs::
     if (input.dense) {
         const fs::path& visibility = input.dense->visibility;
         baseline.words.push_back(input.dense->cloud.string());
-        baseline.words.emplace_back(visibility.empty() ? "--sights" : "--visibility");
+        baseline.words.emplace_back(visibility.empty() ? "--rays" : "--visibility");
         baseline.words.push_back(visibility.empty() ? "nearest" : visibility.string());
     } else {
         baseline.words.emplace_back("sparse");
@@ -117,21 +117,21 @@ std::string last_line(const std::string& text)
     return text.substr(begin, end + 1 - begin);
 }
 
-/// One sentence: why the program made no mesh.
+/// One sentence with the reason why the program made no mesh.
 std::string why_no_mesh(const Program& baseline, const ChildOutcome& outcome,
                         const std::string& printed)
 {
     if (printed.find("requires CGAL") != std::string::npos) {
-        return fmt::format("{} is built without CGAL, so it has no Delaunay mesher; its column is "
-                           "left out",
+        return fmt::format("{} was built without CGAL, so it has no Delaunay mesher; its column is "
+                           "omitted",
                            baseline.program);
     }
     const std::string line = last_line(printed);
-    return fmt::format("{} {} and wrote no mesh{}; its column is left out", baseline.program,
-                       outcome.description, line.empty() ? "" : ", its last line: " + line);
+    return fmt::format("{} {} and wrote no mesh{}; its column is omitted", baseline.program,
+                       outcome.description, line.empty() ? "" : ", its last output: " + line);
 }
 
-/// Nothing in `meshes` is read yet: this process has to stay small until all baselines have run.
+/// Adds a column without its mesh: this process must stay small until all baselines have run.
 void run_program(const Program& baseline, const fs::path& folder, std::vector<BaselineMesh>& meshes,
                  Log& log)
 {
@@ -153,7 +153,7 @@ void run_program(const Program& baseline, const fs::path& folder, std::vector<Ba
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kNotStarted = 127; ///< the exit code shells use, too
+constexpr int kNotStarted = 127; ///< exit code, as in shells
 constexpr std::chrono::milliseconds kPollInterval(2);
 
 double seconds_since(Clock::time_point start)
@@ -161,8 +161,8 @@ double seconds_since(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// In the child, between fork and exec, where only calls that are safe in signal handlers may be
-/// made.
+/// Starts the program in the child. Between fork and exec, only async-signal-safe calls are
+/// allowed.
 [[noreturn]] void become(char** words, const char* printed)
 {
     ::setpgid(0, 0);
@@ -179,12 +179,12 @@ double seconds_since(Clock::time_point start)
 
 std::string description_of(int status)
 {
-    if (WIFSIGNALED(status)) return fmt::format("was ended by signal {}", WTERMSIG(status));
+    if (WIFSIGNALED(status)) return fmt::format("was killed by signal {}", WTERMSIG(status));
     if (WEXITSTATUS(status) == kNotStarted) return "could not be started";
-    return fmt::format("ended with exit code {}", WEXITSTATUS(status));
+    return fmt::format("exited with code {}", WEXITSTATUS(status));
 }
 
-/// Waits for the child; true where it had to be killed.
+/// Waits for the child. Returns whether it was killed because of the timeout.
 bool wait_or_kill(pid_t child, double timeout_s, int& status, rusage& usage)
 {
     const Clock::time_point start = Clock::now();
@@ -207,7 +207,7 @@ ScratchFolder::ScratchFolder()
     const fs::path parent = fs::temp_directory_path(error);
     std::string pattern = (parent / "colmap-vcarve-XXXXXX").string();
     if (error || ::mkdtemp(pattern.data()) == nullptr) {
-        throw UsageError(fmt::format("cannot make a temporary folder in {}", parent.string()));
+        throw UsageError(fmt::format("cannot create a temporary folder in {}", parent.string()));
     }
     path_ = pattern;
 }
@@ -254,11 +254,11 @@ ChildOutcome run_child(std::vector<std::string> words, const std::filesystem::pa
     pointers.push_back(nullptr);
 
     const Clock::time_point start = Clock::now();
-    ::signal(SIGCHLD, SIG_DFL); // a caller may ignore it; then the system drops the exit code
+    ::signal(SIGCHLD, SIG_DFL); // if a caller ignores it, the system drops the exit code
     const pid_t child = ::fork();
-    if (child < 0) throw UsageError("no further process can be started");
+    if (child < 0) throw UsageError("cannot start another process");
     if (child == 0) become(pointers.data(), printed.c_str());
-    ::setpgid(child, child); // whichever of the two comes first
+    ::setpgid(child, child); // the child does this, too; the first call counts
 
     ChildOutcome outcome;
     int status = 0;

@@ -10,62 +10,62 @@
 
 namespace vcarve::cli {
 
-/// How COLMAP's mesher is run beside our own program.
+/// Options of the run of COLMAP's mesher.
 struct BaselineRunOptions {
-    int timeout_s = 300; ///< after which it is killed
+    int timeout_s = 300; ///< the mesher is killed after this time
 };
 
-/// A column of the table: the mesh of a program, or why there is none.
+/// A column of the table: the mesh of a program, or the reason why it has none.
 struct BaselineMesh {
     std::string name;
-    std::string failure; ///< "timed out after 300 s"; empty where `mesh` was made
+    std::string failure; ///< "timed out after 300 s"; empty if there is a mesh
     TriMesh mesh;
     RunCost cost;
 };
 
-/// A new folder for what the baselines write, gone with all that is in it at the end.
+/// A new folder for the files of the baselines. The destructor removes it with its content.
 class ScratchFolder {
   public:
-    /// Throws UsageError where there is no place for it.
+    /// Throws UsageError if it cannot be created.
     ScratchFolder();
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
     ~ScratchFolder();
 
     const std::filesystem::path& path() const { return path_; }
-    /// The files that may be in it, and then itself: what is to be removed at an interruption.
+    /// The files that may be in it, then the folder: the paths to remove if a signal ends the run.
     std::vector<std::filesystem::path> contents() const;
 
   private:
     std::filesystem::path path_;
 };
 
-/// Where COLMAP is, what it is run on, and how.
+/// COLMAP's program, its input and its options.
 struct BaselineRun {
     std::string colmap;
     ModelArguments model;
     BaselineRunOptions options;
-    int threads = 0; ///< limits both programs; 0 leaves them free
+    int threads = 0; ///< maximum threads of either program; 0 disables
 };
 
 /// Runs `colmap delaunay_mesher` and this program with its defaults on the sparse or dense points
-/// of the model. A program that fails gives a note instead of a column; one that times out gives a
-/// column without a mesh. Call it before anything large is in memory (see run_child). Throws
-/// InputError without a model, and UsageError for points that COLMAP cannot read.
+/// of the model. A failure causes a note instead of a column, and a timeout a column without a
+/// mesh. Call it before anything large is in memory (see run_child). Throws InputError if there is
+/// no model, and UsageError if COLMAP cannot read the points.
 std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
                                         Log& log);
 
-/// How another program ended, and what it took.
+/// The outcome and the cost of another program.
 struct ChildOutcome {
-    RunCost cost;            ///< of the program and the ones it started and waited for
-    bool timed_out = false;  ///< it was killed, with the ones it started
-    bool succeeded = false;  ///< it ended by itself with exit code 0
-    std::string description; ///< how it ended, to be read after its name: "ended with exit code 1"
+    RunCost cost;            ///< of the program and of the children it waited for
+    bool timed_out = false;  ///< its process group was killed
+    bool succeeded = false;  ///< it exited with code 0
+    std::string description; ///< a phrase after the program's name: "exited with code 1"
 };
 
-/// Runs a program, found along PATH, in its own process group, with its output in the file
-/// `printed`. The group is killed after `timeout_s` seconds, and ends with this process. Call it
-/// while this process is small: the system counts the caller's memory at the start as the
+/// Runs a program from PATH in its own process group, with its output in the file `printed`. The
+/// group is killed after `timeout_s` seconds; the program gets SIGTERM if this process ends. Call
+/// it while this process is small: the system counts the caller's memory at the start as the
 /// program's.
 ChildOutcome run_child(std::vector<std::string> words, const std::filesystem::path& printed,
                        double timeout_s);

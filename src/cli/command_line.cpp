@@ -44,7 +44,7 @@ DashedWord split(const std::string& word)
     return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
-/// The value of the option at words[i]; advances `i` if it is the next word.
+/// The value of the option at words[i]; advances `i` if the value is the next word.
 std::string take_value(const DashedWord& word, std::span<const std::string> words, std::size_t& i)
 {
     if (word.value) return *word.value;
@@ -63,12 +63,11 @@ std::string take_value(const DashedWord& word, std::span<const std::string> word
     throw UsageError(fmt::format("there is no option {}{}{}", name, hint, kSeeHelp));
 }
 
-const Option& find_option(std::string_view name, const OptionList& options)
+const Option& typed_option(std::string_view name, const OptionList& options)
 {
     const std::string_view full = name == "-h" ? "--help" : name == "-v" ? "--verbose" : name;
-    const auto is_it = [&](const Option& option) { return "--" + option.info.name == full; };
-    const auto option = std::ranges::find_if(options, is_it);
-    if (option == options.end()) refuse_unknown(name, options);
+    const Option* option = full.starts_with("--") ? find_option(full.substr(2), options) : nullptr;
+    if (option == nullptr) refuse_unknown(name, options);
     if (option->info.level == OptionLevel::library) {
         throw UsageError(fmt::format("{} can be set from C++ and Python only, not on the command "
                                      "line",
@@ -77,7 +76,7 @@ const Option& find_option(std::string_view name, const OptionList& options)
     return *option;
 }
 
-/// Throws UsageError for a value given to a flag, also as the next word.
+/// Throws UsageError if a flag has a value, after = or as the next word.
 void refuse_value(const Option& option, const DashedWord& word, std::string_view next)
 {
     constexpr std::array kValues = {"yes", "no", "true", "false", "on", "off"};
@@ -190,6 +189,7 @@ ParsedArguments parse_arguments(std::span<const std::string> words, const Option
     given.typed.assign(words.begin(), words.end());
     bool after_dashes = false;
     for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i].empty()) throw UsageError(fmt::format("argument {} is empty", i + 1));
         if (after_dashes || words[i].size() < 2 || words[i].front() != '-') {
             given.operands.push_back(words[i]);
             continue;
@@ -202,9 +202,9 @@ ParsedArguments parse_arguments(std::span<const std::string> words, const Option
         } else if (word.name == "-o" || word.name == "--output_path") {
             given.named_output = take_value(word, words, i);
         } else if (word.name == "--input_type") {
-            given.options["points"] = value_of(find_option("--points", options), word, words, i);
+            given.options["points"] = value_of(typed_option("--points", options), word, words, i);
         } else {
-            const Option& option = find_option(word.name, options);
+            const Option& option = typed_option(word.name, options);
             given.options[option.info.name] = value_of(option, word, words, i);
         }
     }
@@ -266,7 +266,7 @@ std::string help_text(const Manual& manual, bool all)
 std::string markdown_options(const Manual& manual)
 {
     std::string text = fmt::format("## {} {}\n", manual.command, manual.operands);
-    std::string tables[2]; // of the command line, of C++ and Python only
+    std::string tables[2]; // command line; C++ and Python only
     std::string_view stages[2];
     for (const Option& option : manual.options) {
         const bool library = option.info.level == OptionLevel::library;

@@ -26,18 +26,18 @@ struct ParsedArguments {
 
 /// Parses a command line: --name value, --name=value, -h, -v, -- before operands that begin with a
 /// dash. As in COLMAP, -i or --input_path may name the first operand, -o or --output_path the last.
-/// The last of two equal options counts. Throws UsageError for an unknown option (naming the
-/// nearest one), one of the library only, a missing value and a value given to a flag.
+/// The last of two equal options counts. Throws UsageError for an unknown option (with the nearest
+/// name), a library-only option, a missing value, or a value given to a flag.
 ParsedArguments parse_arguments(std::span<const std::string> words, const OptionList& options);
 
-/// Sets the given options. Throws UsageError for a value of the wrong kind or out of range.
+/// Sets the given options. Throws UsageError if a value has the wrong type or is out of range.
 void read_options(const ParsedArguments& given, const OptionList& options);
 
 /// The most similar candidate: the first that contains the word without its dashes, or the one with
 /// the smallest edit distance, at most a third of the letters. Empty if there is none.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// What the help of a command consists of.
+/// The help of a command.
 struct Manual {
     using Lines = std::vector<std::pair<std::string, std::string>>;
 
@@ -48,7 +48,7 @@ struct Manual {
     Lines operand_meanings;        ///< "MODEL", meaning
     std::vector<std::string> ends; ///< lines at the end
     OptionList options;
-    std::shared_ptr<void> values; ///< where the options' defaults are
+    std::shared_ptr<void> values; ///< owns the default values of `options`
 };
 
 /// The last line of every help.
@@ -63,11 +63,11 @@ struct HelpOptions {
 };
 OptionList options_of(HelpOptions& help);
 
-/// --help, at most 80 columns: usage, examples, and the first sentence of each common option's
-/// help. With `all`, --help-all: the whole help of all options that the command line has.
+/// The text of --help, at most 80 columns wide: usage, examples, and the first sentence of each
+/// common option's help. With `all`, --help-all: the full help of all command-line options.
 std::string help_text(const Manual& manual, bool all);
 
-/// The options as Markdown: a table per heading, then one of the options for C++ and Python only.
+/// The options as Markdown: a table per heading, then tables of those for C++ and Python only.
 std::string markdown_options(const Manual& manual);
 
 } // namespace vcarve::cli

@@ -42,7 +42,7 @@ std::string version_text()
     return fmt::format("colmap-vcarve {}\n"
                        "{} build, {}\n"
                        "CGAL {}, OpenMesh {}, Eigen {}, oneTBB {}\n"
-                       "Licence: GPL-3.0-or-later\n",
+                       "License: GPL-3.0-or-later\n",
                        program_version(), build.build_type, build.compiler, build.cgal,
                        build.openmesh, build.eigen, build.tbb);
 }

@@ -21,8 +21,8 @@ struct Command {
 /// The commands of colmap-vcarve, the bare form first.
 std::vector<Command> commands();
 
-/// Runs a program that has these commands on the words after its name. Results go to files, the
-/// log to stderr, and only requested texts (--help, --version, tables of `compare`) to stdout.
+/// Runs a command line; `arguments` are the words after the program's name. Results go to files,
+/// the log to stderr, and only requested texts (--help, --version, tables of `compare`) to stdout.
 /// Throws UsageError and InputError.
 void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands);
 
@@ -30,13 +30,13 @@ void run_command_line(std::span<const std::string> arguments, std::span<const Co
 /// scratch file cannot be written, and InputError.
 void run_mesh(const ParsedArguments& given, RunRanks* ranks = nullptr);
 
-/// `colmap-vcarve compare MODEL A.ply ...`: prints a table of figures, a column per mesh, and
+/// `colmap-vcarve compare MODEL A.ply ...`: prints a table of figures with one column per mesh, and
 /// writes the files of --json, --preview and --report. Throws UsageError and InputError.
 Manual compare_manual();
 void run_compare(const ParsedArguments& given);
 
-/// `colmap-vcarve texture MODEL MESH OUT.glb`: covers a mesh that is there with the photographs of
-/// a model. Throws UsageError and InputError.
+/// `colmap-vcarve texture MODEL MESH OUT.glb`: textures an existing mesh with the photographs of a
+/// model. Throws UsageError and InputError.
 Manual texture_manual();
 void run_texture(const ParsedArguments& given);
 

@@ -34,15 +34,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSeeCompareHelp = " (see colmap-vcarve compare --help)";
 
-/// Everything the command line says.
+/// The parsed command line.
 struct CompareArguments {
     ModelArguments model;
     std::vector<fs::path> meshes;
-    fs::path truth; ///< empty: none
+    fs::path truth; ///< empty if not given
     CompareOutputs outputs;
-    std::string command; ///< as it was typed
+    std::string command; ///< as typed
     CompareOptions measure;
-    fs::path colmap; ///< empty: not run
+    fs::path colmap; ///< empty if not run
     BaselineRunOptions colmap_run;
     ConsoleArguments console;
     HelpOptions help;
@@ -102,12 +102,13 @@ CompareArguments read_arguments(const ParsedArguments& given)
     return arguments;
 }
 
-/// What cannot be read or written is said before the work starts.
+/// Reports unreadable inputs and unwritable outputs before the work starts.
 void check_files(const CompareArguments& arguments)
 {
     std::vector<fs::path> inputs = arguments.meshes;
     if (!arguments.truth.empty()) inputs.push_back(arguments.truth);
     check_outputs(arguments.outputs, arguments.model, inputs);
+    check_images(arguments.model, {}, false, arguments.outputs.preview);
     for (const fs::path& input : inputs) {
         if (is_mesh_name(input) && lower_case_end(input) != ".ply") {
             throw UsageError(fmt::format("{}: compare reads PLY files only", input.string()));
@@ -116,7 +117,7 @@ void check_files(const CompareArguments& arguments)
     }
 }
 
-/// Nothing half written stays behind, whenever the run ends.
+/// Removes partial files if a signal ends the run.
 void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* scratch)
 {
     std::vector<fs::path> unfinished;
@@ -127,7 +128,7 @@ void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* s
     end_cleanly_on_signals(unfinished);
 }
 
-/// The meshes of COLMAP and of this program, where they are asked for.
+/// The meshes of COLMAP and of this program; empty without --colmap.
 std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, Log& log)
 {
     if (arguments.colmap.empty()) return {};
@@ -140,7 +141,7 @@ std::vector<BaselineMesh> baselines_of(const CompareArguments& arguments, Log& l
                          scratch, log);
 }
 
-/// The columns' names: file names, or whole paths where file names would not tell them apart.
+/// The names of the columns: file names, or full paths if file names are equal.
 std::vector<std::string> column_names(const std::vector<fs::path>& meshes)
 {
     std::vector<std::string> names;
@@ -159,7 +160,7 @@ Reference reference_of(const CompareArguments& arguments, Scene model, Log& log)
                               arguments.measure, log);
 }
 
-/// What meshes are measured by, and what their figures go with.
+/// The reference of the measurements, and the outputs that show the meshes.
 struct Yardstick {
     const Reference& reference;
     PreviewOutput& preview;
@@ -167,7 +168,7 @@ struct Yardstick {
     Log& log;
 };
 
-/// The column of that name; the mesh's own name is the one that errors tell.
+/// Measures a mesh as the column with this name. Errors give the mesh's own name.
 Comparison measure(const NamedMesh& mesh, const std::string& column, const Yardstick& by)
 {
     Comparison comparison = compare_mesh(mesh, by.reference, by.log);
@@ -177,7 +178,7 @@ Comparison measure(const NamedMesh& mesh, const std::string& column, const Yards
     return comparison;
 }
 
-/// A column for each baseline.
+/// Measures the baselines, one column each.
 std::vector<Comparison> measure_baselines(std::vector<BaselineMesh> baselines, const Yardstick& by)
 {
     std::vector<Comparison> columns;
@@ -194,7 +195,7 @@ std::vector<Comparison> measure_baselines(std::vector<BaselineMesh> baselines, c
     return columns;
 }
 
-/// A column for each file.
+/// Measures the mesh files, one column each.
 std::vector<Comparison> measure_files(const CompareArguments& arguments, const Yardstick& by)
 {
     std::vector<Comparison> columns;
@@ -213,7 +214,7 @@ Manual compare_manual()
     Manual manual;
     manual.command = "colmap-vcarve compare";
     manual.operands = "MODEL A.ply [B.ply ...]";
-    manual.summary = "Measure meshes against the model they were made from, and the truth.";
+    manual.summary = "Measure meshes against their model, and against the true surface.";
     manual.examples = {
         {"colmap-vcarve compare sparse/0 a.ply b.ply", "which fits better"},
         {"colmap-vcarve compare sparse/0 a.ply --truth gt.ply", "accuracy"},
@@ -222,8 +223,8 @@ Manual compare_manual()
         {"colmap-vcarve compare sparse/0 a.ply --report a.html", "a web page"},
     };
     manual.operand_meanings = {
-        {"MODEL", "The input of the meshes, as for colmap-vcarve."},
-        {"A.ply ...", "Meshes in the model's frame, a column each. Optional with --colmap."},
+        {"MODEL", "The model of the meshes, as for colmap-vcarve."},
+        {"A.ply ...", "Meshes in the model's frame, one column each. Optional with --colmap."},
     };
     manual.ends = {"The table explains its figures.", kExitCodes};
     const auto arguments = std::make_shared<CompareArguments>();
@@ -245,14 +246,14 @@ void run_compare(const ParsedArguments& given)
     std::vector<BaselineMesh> baselines = baselines_of(arguments, log);
     remove_on_signals(arguments, nullptr);
     if (baselines.empty() && arguments.meshes.empty()) {
-        throw InputError(fmt::format("no mesh was made of {}, so there is nothing to compare",
+        throw InputError(fmt::format("found nothing to compare: neither program made a mesh of {}",
                                      arguments.model.path.string()));
     }
     ModelInput model = read_model_input(arguments.model, log);
     PreviewOutput preview(arguments.outputs.preview);
-    preview.stand_in(model.scene);
+    preview.set_scene(model.scene);
     CompareReport report(arguments.outputs.report);
-    report.stand_in(model.scene);
+    report.set_scene(model.scene);
     const Reference reference = reference_of(arguments, std::move(model.scene), log);
     const Yardstick by{reference, preview, report, log};
     std::vector<Comparison> comparisons = measure_baselines(std::move(baselines), by);

@@ -67,8 +67,8 @@ OptionList output_options(CompareOutputs& outputs)
         {kStage,
          {.name = "report",
           .help = "Write a web page with the meshes, OUT.html. It shows them side by side under "
-                  "one camera, colored by their distance to the truth or to each other, the "
-                  "table, and the worst places, and needs no network."},
+                  "one camera, colored by their distance to the truth or to each other, with the "
+                  "table and the largest errors. It needs no network."},
          &outputs.report});
     return options;
 }
@@ -94,7 +94,7 @@ void check_outputs(const CompareOutputs& outputs, const ModelArguments& model,
     }
 }
 
-void CompareReport::stand_in(const Scene& scene)
+void CompareReport::set_scene(const Scene& scene)
 {
     if (out_.empty()) return;
     scene_ = packed_scene(scene);

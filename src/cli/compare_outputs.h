@@ -15,19 +15,19 @@
 
 namespace vcarve::cli {
 
-/// The files of a comparison; an empty path is not written.
+/// The output files of a comparison. An empty path is not written.
 struct CompareOutputs {
     std::filesystem::path json;
     PreviewArguments preview;
     std::filesystem::path report;
 
-    /// The files that are written.
+    /// The files to write.
     std::vector<std::filesystem::path> paths() const;
 };
 
-/// --json, --preview, --view and --report under a heading of their own.
+/// --json, --preview, --view and --report, under the heading "Output".
 OptionList output_options(CompareOutputs& outputs);
-/// Throws UsageError where a name is wrong, or two would be written to one file.
+/// Throws UsageError if a file name is wrong, or two outputs have the same file.
 void check_names(const CompareOutputs& outputs, const ParsedArguments& given);
 
 /// Throws UsageError if an input would be replaced (see keep_inputs), or a file cannot be written.
@@ -39,17 +39,17 @@ class CompareReport {
   public:
     explicit CompareReport(std::filesystem::path out) : out_(std::move(out)) {}
 
-    /// Keeps what the page draws of the model.
-    void stand_in(const Scene& scene);
-    /// Keeps a surface; `column` is what the table calls it.
+    /// Stores the model for the page.
+    void set_scene(const Scene& scene);
+    /// Stores a mesh for the page; `column` is its name in the table.
     void add(const std::string& column, const TriMesh& mesh);
-    /// Writes the page, as the stage "report". `command` is the command line. Throws UsageError
-    /// where it cannot be written.
+    /// Writes the page, as the stage "report". `command` is the command line. Throws UsageError if
+    /// it cannot be written.
     void write(std::span<const Comparison> comparisons, const Reference& reference,
                const std::string& command, Log& log);
 
   private:
-    std::filesystem::path out_; ///< empty: none
+    std::filesystem::path out_; ///< empty if not requested
     Json scene_;
     Eigen::Vector3d offset_ = Eigen::Vector3d::Zero(); ///< of the scene
     std::vector<NamedMesh> meshes_;

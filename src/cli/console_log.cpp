@@ -20,65 +20,60 @@ constexpr std::size_t kBarCells = 30;
 constexpr const char* kClearLine = "\r\x1b[K";
 constexpr const char* kBold = "\x1b[1m";
 constexpr const char* kPlain = "\x1b[0m";
-constexpr std::size_t kTextColumns = 55; ///< beside the name and the seconds, of 80
+constexpr std::size_t kTextColumns = 55; ///< of 80; the others show name and seconds
 
-/// The name and text of a stage: "{points} of {of} points", with names of counts in braces, and
+/// The text of a stage: "{points} of {of} points", with names of counts in braces, and
 /// {name/1000} for thousandths. Parts after a bar are optional: they are shown if none of their
-/// counts is 0 and there is room. A stage without a text is not shown.
+/// counts is 0 and there is room. A stage with an empty text is not shown.
 struct Wording {
     std::string_view stage;
-    std::string_view name;
     std::string_view text;
 };
 
 constexpr Wording kWordings[] = {
-    {"read", "read", "{points} points, {views} views, {sights} rays"},
-    {"digest", "check", "{files} input files"},
-    {"memory", "memory", "{MiB expected} MiB expected"},
-    {"photographs", "photographs", "{photographs} photographs undistorted"},
-    {"depth", "depth", "{depth maps} depth maps"},
-    {"fuse", "fuse", "{points} points fused"},
-    {"thin", "merge", "{of} points merged to {points}"},
-    {"denoise", "denoise",
+    {"read", "{points} points, {views} views, {rays} rays"},
+    {"digest", "{files} input files"},
+    {"memory", "{MiB expected} MiB expected"},
+    {"undistort", "{photographs} photographs undistorted"},
+    {"depth", "{depth maps} depth maps"},
+    {"fuse", "{points} points fused"},
+    {"merge", "{of} points merged to {points}"},
+    {"denoise",
      "{points moved} points moved within their error| ({thousandths of a pixel of noise/1000} px)"},
-    {"filter", "filter",
-     "{points} of {of} points kept|, {duplicate} duplicate|, {few views} of few views"
-     "|, {high error} of large error|, {low angle} of small angle|, {stray} stray"
-     "|, {non-finite} not finite"},
-    {"crop", "crop",
+    {"filter", "{points} of {of} points kept|, {duplicate} duplicate|, {few views} few views"
+               "|, {high error} large error|, {low angle} small angle|, {stray} stray"
+               "|, {non-finite} not finite"},
+    {"crop",
      "{points} of {of} points in the region|, {outside but seen through it} seen through it"},
-    {"fill", "fill", "{points added} points added on planes"},
-    {"triangulate", "triangulate", "{cells} cells"},
-    {"sights", "rays", "{sights} rays from points to cameras|, {inferred} more likely"},
-    {"virtual", "viewpoints", "{views} more viewpoints, {sights} rays"},
-    {"carve", "carve", "{inside} of {of} cells are solid"},
-    {"cut", "cut", "{inside} of {of} cells are solid"},
-    {"surface", "surface",
-     "{faces} faces seen by cameras|, {unseen} unseen dropped"
-     "|, {closing without support} unsupported dropped"},
-    {"clean", "clean",
-     "{faces} faces|, holes filled: {holes filled}|, small pieces dropped: {components dropped}"},
-    {"open", "open", ""},
-    {"settle", "denoise",
-     "{vertices moved} vertices moved within their error"
-     "| ({thousandths of a pixel of noise/1000} px)"},
-    {"guard", "guard", ""},
-    {"smooth", "smooth", "{vertices moved} of {of} vertices moved"},
-    {"decimate", "simplify", "{of} faces merged to {faces}"},
-    {"simplify", "simplify", "{of} faces merged to {faces}"},
-    {"orient", "orient", ""},
-    {"masks", "masks", "{faces} of {of} faces outside the masks"},
-    {"photos", "photos", "{seen} of {faces} faces shown by {photographs} photographs"},
-    {"colors", "colours", "{vertices} vertices coloured|, {outliers} views of passers-by left out"},
-    {"texture", "texture", "{charts} charts on {pages} pages"},
-    {"check", "check",
-     "{open edges} open edges|, {self-intersections} faces through others"
-     "|, {sights from behind} rays from behind"},
-    {"write", "write", ""},
+    {"fill", "{points added} points added on planes"},
+    {"triangulate", "{cells} cells"},
+    {"rays", "{rays} rays from points to cameras| ({inferred} inferred)"},
+    {"viewpoints", "{views} viewpoints added, {rays} rays"},
+    {"carve", "{inside} of {of} cells are solid"},
+    {"cut", "{inside} of {of} cells are solid"},
+    {"surface", "{faces} visible faces|, {unseen} unseen dropped"
+                "|, {unsupported} unsupported dropped"},
+    {"clean",
+     "{faces} faces|, holes filled: {holes filled}|, components dropped: {components dropped}"},
+    {"open", ""},
+    {"adjust", "{vertices moved} vertices moved within their error"
+               "| ({thousandths of a pixel of noise/1000} px)"},
+    {"guard", ""},
+    {"smooth", "{vertices moved} of {of} vertices moved"},
+    {"decimate", "{of} faces merged to {faces}"},
+    {"simplify", "{of} faces merged to {faces}"},
+    {"orient", ""},
+    {"masks", "{faces} of {of} faces outside the masks"},
+    {"photos", "{seen} of {faces} faces shown by {photographs} photographs"},
+    {"colors", "{vertices} vertices colored|, {outliers} occluded views ignored"},
+    {"texture", "{charts} charts on {pages} pages"},
+    {"check", "{open edges} boundary edges|, {self-intersections} intersecting faces"
+              "|, {rays from behind} rays from behind"},
+    {"write", ""},
 };
 
-/// A part of a text with its counts filled in; nothing if one of them is missing, or 0 in an
-/// optional part.
+/// Fills counts into a part of a text. Returns nothing if a count is missing, or 0 in an optional
+/// part.
 std::optional<std::string> filled_in(std::string_view part, const Counts& counts, bool is_optional)
 {
     constexpr std::string_view kThousandths = "/1000";
@@ -94,6 +89,13 @@ std::optional<std::string> filled_in(std::string_view part, const Counts& counts
         filled += thousandths ? fmt::format("{:.2f}", static_cast<double>(count->second) / 1000.0)
                               : grouped_digits(count->second);
         part.remove_prefix(close + 1);
+        const std::string_view nouns =
+            part.substr(0, std::min(part.find_first_of(" ,", 1), part.size()));
+        if (count->second == 1 && nouns.starts_with(' ') && nouns.ends_with('s')) {
+            filled.pop_back();
+            filled += counted(1, nouns.substr(1));
+            part.remove_prefix(nouns.size());
+        }
     }
     return filled.append(part);
 }
@@ -115,7 +117,7 @@ std::string bar_of(double share, std::size_t cells)
     return "[" + bar + "]";
 }
 
-/// No more exact than it is known.
+/// Formats an estimate, rounded to its precision.
 std::string time_text(double seconds)
 {
     constexpr double kMinute = 60.0;
@@ -130,8 +132,8 @@ std::string time_text(double seconds)
 StageWords stage_words(std::string_view stage, const Counts& counts)
 {
     const auto* const wording = std::ranges::find(kWordings, stage, &Wording::stage);
-    if (wording == std::ranges::end(kWordings)) return {std::string(stage), counts_text(counts)};
-    StageWords words = {std::string(wording->name), "", !wording->text.empty()};
+    if (wording == std::ranges::end(kWordings)) return {counts_text(counts)};
+    StageWords words = {"", !wording->text.empty()};
     for (std::string_view text = wording->text; !text.empty();) {
         const std::size_t bar = std::min(text.find('|'), text.size());
         const bool is_optional = !words.text.empty();
@@ -178,7 +180,7 @@ ConsoleSettings console_on_stderr(bool quiet, bool verbose)
 
 std::string bar_line(std::string_view name, double share, double seconds, std::size_t columns)
 {
-    constexpr double kTelling = 0.02; // what is left is not known earlier
+    constexpr double kTelling = 0.02; // the time left is estimated from this share on
     std::string line = fmt::format("{:<12} ", name);
     if (share > 0.0) {
         line +=
@@ -187,7 +189,7 @@ std::string bar_line(std::string_view name, double share, double seconds, std::s
     line += share < kTelling ? fmt::format("{:.0f} s", seconds)
                              : fmt::format("about {} left",
                                            time_text(seconds * (1.0 / std::min(share, 1.0) - 1.0)));
-    // A line as wide as the terminal would scroll it.
+    // A line that fills the terminal's width would scroll it.
     if (columns > 0 && line.size() >= columns) line.resize(columns - 1);
     return line;
 }
@@ -262,7 +264,7 @@ void ConsoleLog::stage_begins(std::string_view name)
 {
     {
         const std::lock_guard lock(mutex_);
-        stage_ = settings_.verbose ? name : stage_words(name, {}).name;
+        stage_ = name;
         stage_began_ = Clock::now();
         share_ = 0.0;
     }
@@ -278,10 +280,10 @@ void ConsoleLog::stage_ends(std::string_view name, const Counts& counts)
 {
     const std::lock_guard lock(mutex_);
     counts_[std::string(name)] = counts;
-    const StageWords words = settings_.verbose ? StageWords{std::string(name), counts_text(counts)}
-                                               : stage_words(name, counts);
+    const StageWords words =
+        settings_.verbose ? StageWords{counts_text(counts)} : stage_words(name, counts);
     if (words.is_shown) {
-        print_line(control_free(fmt::format("{:<12} {:<{}} {:>8.2f} s", words.name, words.text,
+        print_line(control_free(fmt::format("{:<12} {:<{}} {:>8.2f} s", name, words.text,
                                             kTextColumns, stage_seconds())));
     }
     stage_.clear();

@@ -17,14 +17,14 @@ namespace vcarve::cli {
 /// The counts of each stage, of its last run.
 using CountsOfStages = std::map<std::string, Counts, std::less<>>;
 
-/// How a run is shown.
+/// Settings of the console output.
 struct ConsoleSettings {
     std::FILE* stream = stderr;
     bool live = false;      ///< the stream is a terminal: show a bar
     bool quiet = false;     ///< show nothing
     bool verbose = false;   ///< show every stage and all its counts
     bool emphasis = false;  ///< bold notes
-    double bar_after_s = 1; ///< stages that end sooner show no bar
+    double bar_after_s = 1; ///< shorter stages show no bar
 };
 
 /// Settings for stderr: live on a terminal that can move its cursor, with emphasis unless NO_COLOR
@@ -33,7 +33,7 @@ ConsoleSettings console_on_stderr(bool quiet, bool verbose);
 
 /// Prints one line per stage when it ends (see stage_words), with seconds, and `note: ...` for each
 /// note. On a live stream the last line is a bar of a long stage, with the time left. Other streams
-/// get plain lines: no carriage return, no escape.
+/// get plain lines, without carriage returns and escape sequences.
 class ConsoleLog final : public Log {
   public:
     explicit ConsoleLog(const ConsoleSettings& settings);
@@ -63,7 +63,7 @@ class ConsoleLog final : public Log {
     const ConsoleSettings settings_;
     CountsOfStages counts_;
     std::atomic<double> share_ = 0.0;
-    std::mutex mutex_; ///< guards what follows, and the stream
+    std::mutex mutex_; ///< guards the stream and the members below
     std::condition_variable woken_;
     std::string stage_; ///< empty between stages
     Clock::time_point stage_began_;
@@ -72,22 +72,21 @@ class ConsoleLog final : public Log {
     std::thread ticker_;
 };
 
-/// "cut          [=======>            ]  38 %  about 12 s left", no wider than `columns`. Seconds
-/// passed while little is done; no bar while the share is 0.
+/// "cut          [=======>            ]  38 %  about 12 s left", narrower than `columns`. Shows the
+/// elapsed seconds while the share is small, and no bar while it is 0.
 std::string bar_line(std::string_view name, double share, double seconds, std::size_t columns);
 
-/// The line of a stage: "denoise", "2,920 vertices moved within their error (0.27 px)".
+/// The text of a stage's line: "2,920 vertices moved within their error (0.27 px)".
 struct StageWords {
-    std::string name;
     std::string text;
     bool is_shown = true; ///< without --verbose
 };
 
-/// Turns the counts of a stage into words. Stages without words show all their counts.
+/// Describes the counts of a stage in words. Stages without a wording show all their counts.
 StageWords stage_words(std::string_view stage, const Counts& counts);
 
-/// "24,310 of 25,784 points (1,102 few views, 372 high error)", all counts: the first is the
-/// result, a second one named "of" is the total, others follow in brackets unless they are 0.
+/// Formats all counts: "24,310 of 25,784 points (1,102 few views, 372 high error)". The first is
+/// the result, a second one named "of" the total. Others follow in brackets unless they are 0.
 std::string counts_text(const Counts& counts);
 
 } // namespace vcarve::cli

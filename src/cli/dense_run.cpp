@@ -26,11 +26,12 @@ void require_stereo_memory(const DenseRun& run, const std::vector<CalibratedPhot
 {
     const std::int64_t needed =
         predicted_stereo_memory(photos, {run.arguments.size_px}, num_threads());
-    if (!run.most || needed <= *run.most) return;
-    throw InputError(fmt::format("--dense needs about {} for {} photographs, but {} may be used; "
-                                 "use a smaller --dense-size, fewer --threads, or a larger "
-                                 "--max-memory",
-                                 byte_size_text(needed), photos.size(), byte_size_text(*run.most)));
+    if (!run.limit || needed <= *run.limit) return;
+    throw InputError(fmt::format("--dense needs about {} of memory for {} photographs, but the "
+                                 "limit is {}; use a smaller --dense-size, fewer --threads, or a "
+                                 "larger --max-memory",
+                                 byte_size_text(needed), photos.size(),
+                                 byte_size_text(*run.limit)));
 }
 
 } // namespace
@@ -41,14 +42,14 @@ OptionList dense_options(DenseArguments& dense)
     return {
         {kStage,
          {.name = "dense",
-          .help = "Measure dense points from photographs. They are those of "
-                  "--images, or of the folder `images` beside the model."},
+          .help = "Compute dense points from photographs. The photographs are in "
+                  "--images, or in the folder `images` beside the model."},
          &dense.dense},
         {kStage,
          {.name = "dense-size",
           .unit = "px",
-          .help = "Match photographs whose longest side is scaled to N pixels. Depth is measured "
-                  "at every second pixel; time grows with the square.",
+          .help = "Scale the longest side of photographs to N pixels for matching. Depth is "
+                  "measured at every second pixel; time grows with the square of N.",
           .min = 100,
           .max = 10000,
           .level = OptionLevel::advanced},
@@ -75,7 +76,7 @@ void check_dense(const DenseArguments& dense, const ParsedArguments& given)
     }
     if (!dense.keep_points.empty() && lower_case_end(dense.keep_points) != ".ply") {
         throw UsageError(
-            fmt::format("cannot write {}: --keep-points writes .ply", dense.keep_points.string()));
+            fmt::format("cannot write {}: --keep-points needs .ply", dense.keep_points.string()));
     }
 }
 
@@ -116,7 +117,7 @@ void write_points(const fs::path& path, const Scene& scene, const FoundModel& mo
 Job photograph_facts(const fs::path& folder, const Progress& progress)
 {
     std::vector<fs::path> files;
-    std::error_code error; // a missing folder is refused later
+    std::error_code error; // a missing folder is reported later
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error)) {
         if (entry.is_regular_file()) files.push_back(entry.path());
     }
@@ -124,7 +125,7 @@ Job photograph_facts(const fs::path& folder, const Progress& progress)
     Job facts;
     for (const fs::path& file : files) {
         facts.push_back(file_fact("photograph " + file.lexically_relative(folder).string(), file));
-        progress.tell(static_cast<double>(facts.size()), static_cast<double>(files.size()));
+        progress.report(static_cast<double>(facts.size()), static_cast<double>(files.size()));
     }
     return facts;
 }
@@ -135,9 +136,9 @@ DensePoints measure_dense_points(const DenseRun& run, const Reconstruction& spar
         calibrated_photos(sparse.scene, run.photographs, sparse.scene.offset);
     std::erase_if(photos, [](const CalibratedPhoto& photo) { return !intrinsics(photo.camera); });
     if (photos.size() < 3) {
-        throw InputError(fmt::format("{}: --dense found {} photographs of views with a known, "
-                                     "non-spherical lens, but at least 3 are needed; name their "
-                                     "folder with --images",
+        throw InputError(fmt::format("{}: --dense needs at least 3 photographs of views with a "
+                                     "known, non-spherical lens, but found {}; name their folder "
+                                     "with --images",
                                      run.photographs.folder.string(), photos.size()));
     }
     require_stereo_memory(run, photos);

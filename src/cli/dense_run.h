@@ -18,7 +18,7 @@
 
 namespace vcarve {
 
-// For checkpoints. Planes are written as they are in memory.
+// For checkpoints. Planes are written as in memory.
 template <>
 inline constexpr bool kIsPlain<PixelPlane> = true;
 template <>
@@ -38,14 +38,14 @@ namespace vcarve::cli {
 struct DenseArguments {
     bool dense = false;
     int size_px = StereoOptions().size_px; ///< longest side of the working images
-    std::filesystem::path keep_points;     ///< empty: the fused points are not written
+    std::filesystem::path keep_points;     ///< empty if the fused points are not written
 };
 
 /// Default of --max-closing with --dense. Dense points lie close together, so long faces are
 /// spurious: with 0.115 faces span streets from roof to roof.
 inline constexpr double kDenseClosing = 0.02;
 
-/// --dense, --dense-size and --keep-points, under the heading "Input".
+/// --dense, --dense-size and --keep-points, under the heading "Dense stereo".
 OptionList dense_options(DenseArguments& dense);
 
 /// Throws UsageError if an option needs --dense, or the extension of --keep-points is not .ply.
@@ -54,24 +54,23 @@ void check_dense(const DenseArguments& dense, const ParsedArguments& given);
 /// The file of visibility beside the PLY file of --keep-points, as COLMAP's stereo_fusion names it.
 std::filesystem::path visibility_beside(const std::filesystem::path& cloud);
 
-/// Writes points and their visibility as COLMAP's stereo_fusion does: a view is numbered by its
-/// place in the model's file. Throws UsageError if a file cannot be written.
+/// Writes points and their visibility as COLMAP's stereo_fusion does: views are numbered by their
+/// order in the model's file. Throws UsageError if a file cannot be written.
 void write_points(const std::filesystem::path& path, const Scene& scene, const FoundModel& model);
 
-/// The photographs as facts of a job: the content of every file in the folder. Cost: reads them.
+/// The job's facts about photographs: the content of every file in the folder. Cost: reads them.
 Job photograph_facts(const std::filesystem::path& folder, const Progress& progress);
 
 /// A run that measures dense points.
 struct DenseRun {
     const DenseArguments& arguments;
     const Photographs& photographs;
-    std::optional<std::int64_t> most; ///< bytes that may be used; nothing for no limit
-    Checkpoints& checkpoints;         ///< depth maps are kept as pieces of "depth"
+    std::optional<std::int64_t> limit; ///< memory limit in bytes; nothing if unlimited
+    Checkpoints& checkpoints;          ///< keep depth maps as pieces of the stage "depth"
 };
 
-/// Measures dense points from the photographs, starting from the sparse surface. Throws as
-/// dense_points() does; InputError if too few photographs can be used, or the memory does not
-/// suffice.
+/// Measures dense points from the photographs, starting from the sparse surface. Throws InputError
+/// if fewer than 3 photographs are usable or the memory is insufficient, and as dense_points().
 DensePoints measure_dense_points(const DenseRun& run, const Reconstruction& sparse);
 
 } // namespace vcarve::cli

@@ -29,7 +29,7 @@ std::atomic<bool> memory_is_short = false;
     throw std::bad_alloc();
 }
 
-/// Memory may run out where no exception may pass, as within the standard library.
+/// Ends the program if memory runs out where exceptions cannot propagate (standard library).
 [[noreturn]] void end_without_exception()
 {
     if (!memory_is_short) std::abort();
@@ -41,14 +41,14 @@ std::atomic<bool> memory_is_short = false;
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr int kCrashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-/// Global, because a signal handler has no other arguments. Written only while signals are blocked.
+/// Global, because signal handlers get no user data. Written only while signals are blocked.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
 std::vector<std::string> files_to_remove;
 
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): see above
 std::atomic_flag is_reporting;
 
-/// Safe in a signal handler, as all functions below.
+/// Writes to stderr. Async-signal-safe, like the two handlers below.
 void say(std::string_view text)
 {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
@@ -57,31 +57,31 @@ void say(std::string_view text)
 extern "C" void remove_and_exit(int signal, siginfo_t*, void*)
 {
     remove_unfinished();
-    // A progress bar may stand on the terminal's line.
+    // The current line of the terminal may show a progress bar.
     if (::isatty(STDERR_FILENO) != 0) say("\n");
     ::_exit(128 + signal);
 }
 
 extern "C" void remove_and_report(int signal, siginfo_t* info, void*)
 {
-    // Another thread reports.
+    // Another thread is reporting already.
     while (is_reporting.test_and_set()) {
         ::pause();
     }
     remove_unfinished();
     if (signal == SIGBUS && info->si_code == BUS_ADRERR) {
-        say("colmap-vcarve: an input file was shortened while it was read, or a disk fails\n");
+        say("colmap-vcarve: an input file was truncated while it was read, or a disk failed\n");
         ::_exit(3);
     }
     const char number[] = {static_cast<char>('0' + signal / 10),
                            static_cast<char>('0' + signal % 10), '\0'};
     say("colmap-vcarve: internal error: stopped by signal ");
     say(number);
-    say(", please report\n");
+    say("; please report it\n");
     ::_exit(1);
 }
 
-/// Keeps other handlers, as those of sanitizers, and ignored signals, as SIGHUP under nohup.
+/// Sets a handler, but keeps other handlers (sanitizers) and ignored signals (SIGHUP under nohup).
 void handle(int signal, void (*handler)(int, siginfo_t*, void*))
 {
     struct sigaction action = {};
@@ -109,11 +109,11 @@ Ending ending_of(const std::function<void()>& main)
     } catch (const RankError& error) {
         return {error.exit_code(), error.what()};
     } catch (const std::bad_alloc&) {
-        return {1, ""}; // no text, for there may be no memory for it
+        return {1, ""}; // without text, which could need memory
     } catch (const std::exception& error) {
-        return {1, std::string("internal error: ") + error.what() + ", please report"};
+        return {1, std::string("internal error: ") + error.what() + "; please report it"};
     } catch (...) {
-        return {1, "internal error of an unknown kind, please report"};
+        return {1, "internal error of an unknown type; please report it"};
     }
 }
 
@@ -155,9 +155,9 @@ void remove_unfinished()
     }
 }
 
-void hold_standard_streams()
+void open_standard_streams()
 {
-    // The lowest number that is free is given; writing to it fails, as it did.
+    // open() returns the lowest free descriptor. It is read-only: writing still fails.
     int descriptor = 0;
     do {
         descriptor = ::open("/dev/null", O_RDONLY);

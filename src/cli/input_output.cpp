@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files that do not exist yet are compared by path.
+/// Whether two paths name the same file. Missing files are compared by path.
 bool is_same_file(const fs::path& a, const fs::path& b)
 {
     std::error_code error;
@@ -127,7 +127,7 @@ ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading
                     {"cloud", nullptr},
                     {"points", read.read.points},
                     {"views", read.read.views},
-                    {"sights", read.read.sights}};
+                    {"rays", read.read.rays}};
     if (read.found.scan) input.record["cloud"] = read.found.scan->cloud.string();
     if (read.found.scan && found.folder.empty()) {
         input.record["folder"] = nullptr;
@@ -178,7 +178,7 @@ Eigen::Vector3d up_for(const Scene& model, const WordOrVector& wanted,
 {
     if (wanted.word == WordOrVector::kNoWord) {
         if (wanted.vector.stableNormalized().isZero())
-            throw UsageError("--up takes a direction, and 0,0,0 is none");
+            throw UsageError("--up takes a direction, not 0,0,0");
         return wanted.vector.stableNormalized();
     }
     const auto word = static_cast<UpWord>(wanted.word);

@@ -7,7 +7,7 @@
 int main(int count, char** words)
 {
     namespace cli = vcarve::cli;
-    cli::hold_standard_streams();
+    cli::open_standard_streams();
     return cli::report(cli::ending_of([&] {
         const std::vector<std::string> arguments(words + (count > 0 ? 1 : 0), words + count);
         cli::run_command_line(arguments, cli::commands());

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Finds the word that is one too many.
+/// Throws UsageError with the superfluous operand.
 void refuse_stray(const ParsedArguments& given)
 {
     const std::vector<std::string>& operands = given.operands;
@@ -30,6 +30,13 @@ void refuse_stray(const ParsedArguments& given)
     if (operands.size() == 3 && !given.named_output.empty() && out != operands.end() - 1) {
         throw UsageError(fmt::format("the output is given twice, {} and -o {}; remove one", *out,
                                      given.named_output));
+    }
+    const auto command = std::ranges::find_if(
+        operands, [](const std::string& word) { return word.ends_with("_mesher"); });
+    if (command != operands.end()) {
+        throw UsageError(fmt::format("{} is a command of COLMAP; type colmap-vcarve MODEL OUT.ply "
+                                     "without it",
+                                     *command));
     }
     const std::string& stray = operands[out == operands.begin() + 1 ? 2 : 1];
     throw UsageError(fmt::format("unexpected argument \"{}\"; quote paths that contain blanks{}",
@@ -86,8 +93,8 @@ OptionList record_options(MeshArguments& arguments)
         {kStage,
          {.name = "report",
           .help = "Write a web page with the mesh, OUT.html. It shows the mesh in 3D with cameras, "
-                  "points and removed faces, costs of stages, dropped points and warnings, and "
-                  "needs no network."},
+                  "points and removed faces, and the costs of stages, dropped points and warnings. "
+                  "It needs no network."},
          &arguments.report},
         {kStage,
          {.name = "check",
@@ -101,7 +108,7 @@ OptionList record_options(MeshArguments& arguments)
 
 void check_output(const fs::path& out, const OutputOptions& options)
 {
-    // What is a folder is refused as such later.
+    // Folders are rejected later, with another message.
     std::error_code error;
     if (!out.has_filename() || fs::is_directory(out, error)) return;
     require_mesh_name(out);
@@ -165,25 +172,25 @@ OptionList options_of(OutputOptions& output)
          {.name = "transform",
           .unit = "file or scale",
           .help = "Transform coordinates before --offset, and record it in the file header. A "
-                  "number scales them. A file moves them to another frame, as COLMAP's "
-                  "model_aligner writes it (scale, quaternion, translation), as a matrix of 3 or 4 "
-                  "rows, or as nerfstudio's dataparser_transforms.json.",
+                  "number is a scale. A file has a transformation as COLMAP's model_aligner writes "
+                  "it (scale, quaternion, translation), a matrix of 3 or 4 rows, or nerfstudio's "
+                  "dataparser_transforms.json.",
           .level = advanced},
          &output.transform},
         {kStage,
          {.name = "up",
           .help =
-              "Choose the up direction of .glb, whose y is up, and record it in the file. auto: "
-              "up in most cameras. back: where the cameras look back to, if they look straight "
-              "down. z, or x,y,z: that direction of the coordinates. none: y as it is.",
+              "Set the up direction of .glb, which becomes y, and record it in the file. auto: up "
+              "in most cameras. back: opposite to the cameras' view, for cameras that look "
+              "straight down. z, or x,y,z: a direction in output coordinates. none: keep y.",
           .min = -kUnlimited,
           .words = {"auto", "back", "z", "none"},
           .level = advanced},
          &output.up},
         {kStage,
          {.name = "upright",
-          .help = "Rotate coordinates so that z is up, as --up says, and record it in the file "
-                  "header. It follows --transform.",
+          .help = "Rotate coordinates after --transform so that the direction of --up becomes z, "
+                  "and record it in the file header.",
           .level = advanced},
          &output.upright},
         {kStage, {.name = "quiet", .help = "Print only errors."}, &output.quiet},
@@ -204,7 +211,7 @@ OptionList options_of(MeshArguments& arguments)
 
 std::vector<Output> outputs_of(const MeshArguments& arguments)
 {
-    std::vector<Output> outputs = {{"the surface", arguments.out}};
+    std::vector<Output> outputs = {{"the mesh", arguments.out}};
     if (arguments.texture.texture) {
         std::ranges::move(texture_outputs(arguments.out), std::back_inserter(outputs));
     }
@@ -227,7 +234,7 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     arguments.out = given.operands[1];
     check_output(arguments.out, arguments.output);
     if (arguments.output.upright && arguments.output.up.word == static_cast<int>(UpWord::none))
-        throw UsageError("--upright needs a direction, and --up none gives none");
+        throw UsageError("--upright needs an up direction, but --up is none");
     check_dense(arguments.dense, given);
     if (arguments.dense.dense) arguments.model.points.points = "sparse";
     if (arguments.dense.dense && !given.has("max-closing")) {
@@ -269,19 +276,19 @@ Manual mesh_manual()
         {"colmap-vcarve sparse/0 mesh.ply", "a sparse model"},
         {"colmap-vcarve dense mesh.ply", "a dense workspace"},
         {"colmap-vcarve scan.ply mesh.ply", "a laser scan"},
-        {"colmap-vcarve sparse/0 mesh.glb --texture", "with photographs"},
+        {"colmap-vcarve sparse/0 mesh.glb --texture", "with a texture"},
         {"colmap-vcarve sparse/0 mesh.ply --report mesh.html", "and a web page"},
     };
     manual.operand_meanings = {
         {"MODEL",
          "A COLMAP model, workspace, PLY or transforms.json. A model is a folder with cameras, "
          "images and points3D (.bin or .txt). A workspace holds sparse/0 or sparse; its dense "
-         "points are used if fused.ply and fused.ply.vis exist. A PLY file is one of a dense "
+         "points are used if fused.ply and fused.ply.vis exist. A PLY file is the cloud of a dense "
          "workspace, or a laser scan with scanner positions. transforms.json is nerfstudio's, with "
          "its points."},
         {"OUT.ply",
-         "The mesh: .ply, .obj, .off, .stl or .glb. The file extension selects the format. It has "
-         "vertex colors and normals (.off no normals, .stl neither), in the model's frame."},
+         "The mesh: .ply, .obj, .off, .stl or .glb. The file extension selects the format. It is "
+         "in the model's frame, with vertex colors (not .stl) and normals (not .off or .stl)."},
     };
     manual.ends = {
         "Measure meshes: colmap-vcarve compare --help. Texture any mesh: texture --help.",

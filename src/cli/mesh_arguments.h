@@ -14,43 +14,43 @@
 
 namespace vcarve::cli {
 
-/// How the program writes what it computes.
+/// The options of the output.
 struct OutputOptions {
     bool ascii = false;
     bool attributes = false;
     WordOrVector offset;   ///< the words are those of OffsetWord
-    std::string transform; ///< a file, or a scale; empty for none
+    std::string transform; ///< a file or a scale; empty if not given
     WordOrVector up;       ///< the words are those of UpWord
     bool upright = false;
     bool quiet = false;
     bool verbose = false;
 };
 
-/// Everything the command line says.
+/// The parsed command line.
 struct MeshArguments {
     ModelArguments model;
     std::filesystem::path out;
     DenseArguments dense;
     TextureArguments texture;
     PreviewArguments preview;
-    std::filesystem::path stats;  ///< empty: not written
-    std::filesystem::path report; ///< ...
-    std::filesystem::path work;   ///< empty where nothing is kept between stages
-    bool keeps_work = false;      ///< at the end
-    bool checks = false;          ///< the mesh, also without a record
-    std::string command;          ///< as it was typed
+    std::filesystem::path stats;  ///< empty if not written
+    std::filesystem::path report; ///< empty if not written
+    std::filesystem::path work;   ///< empty if no checkpoints are kept
+    bool keeps_work = false;      ///< keeps the checkpoints at the end
+    bool checks = false;          ///< checks the mesh, also without --stats and --report
+    std::string command;          ///< as typed
     OutputOptions output;
-    std::optional<Similarity> transform; ///< what --transform says, once it is read
+    std::optional<Similarity> transform; ///< of --transform; set by the run
     Options options;
     HelpOptions help;
 };
 
-/// All options of the command, as --help lists them.
+/// All options of the command, in the order of --help.
 OptionList options_of(MeshArguments& arguments);
 OptionList options_of(OutputOptions& output);
 
-/// Throws UsageError for missing or stray operands, an unknown file extension, or two outputs in
-/// one file.
+/// Throws UsageError for missing or superfluous operands, an unknown file extension, or two outputs
+/// with the same file.
 MeshArguments read_mesh_arguments(const ParsedArguments& given);
 
 /// The comments of the mesh file: the program, the digest of the scene, and options that affect the

@@ -41,6 +41,8 @@ namespace vcarve::cli {
 
 namespace {
 
+constexpr int kStatsSchema = 2; ///< version of --stats; increased if keys change
+
 namespace fs = std::filesystem;
 
 /// The output of a run.
@@ -49,27 +51,28 @@ struct Surface {
     std::vector<std::string> comments;
     Texture texture; ///< may have no pages
     std::optional<Provenance> provenance;
-    Scene scene;          ///< the points it was made from; empty without a report
+    Scene scene;          ///< the input points; empty without a report
     DepthPicture depth;   ///< empty without --dense
     RemovedFaces removed; ///< empty without a report
 };
 
 /// The frame of the mesh file.
 struct Place {
-    std::optional<Similarity> transform; ///< of the model, at first
-    Eigen::Vector3d offset;              ///< subtracted then
+    std::optional<Similarity> transform; ///< applied to the model first
+    Eigen::Vector3d offset;              ///< then subtracted
     Eigen::Vector3d up;
 };
 
-/// A note tells the direction that was taken for up if the images leave it open.
+/// The frame of the mesh file. Notes the up direction if the images leave it ambiguous.
 Place place_for(const Scene& model, const MeshArguments& arguments, Log& log)
 {
     const OutputOptions& output = arguments.output;
     Place place = {arguments.transform, {}, up_for(model, output.up, arguments.transform)};
     const bool is_used = output.upright || lower_case_end(arguments.out) == ".glb";
-    if (is_used && output.up.word == static_cast<int>(UpWord::automatic) && look_one_way(model)) {
+    if (is_used && output.up.word == static_cast<int>(UpWord::automatic) &&
+        look_in_one_direction(model)) {
         const Eigen::Vector3d shown = (place.up * 100.0).array().round() / 100.0 + 0.0; // no -0.00
-        log.note(fmt::format("all cameras look one way; the top of their images is taken for up, "
+        log.note(fmt::format("all cameras look one way, so the top of their images is used as up, "
                              "direction {:.2f}; if they look straight down, use --up back",
                              fmt::join(shown, ", ")));
     }
@@ -90,13 +93,13 @@ void write_surface(const MeshArguments& arguments, const Surface& surface, const
         moved = transformed(surface.mesh, *place.transform);
         comments.push_back("transform " + sim3_text(*place.transform));
         log.note(
-            fmt::format("the coordinates written are those of the model{}{}",
+            fmt::format("output coordinates are those of the model{}{}",
                         arguments.transform ? " transformed by " + arguments.output.transform : "",
-                        arguments.output.upright ? ", turned so that z is up" : ""));
+                        arguments.output.upright ? ", rotated so that z is up" : ""));
     }
     const TriMesh& mesh = moved ? *moved : surface.mesh;
     if (!place.offset.isZero(0.0)) {
-        log.note(fmt::format("the coordinates written are those of the model{} minus {}",
+        log.note(fmt::format("output coordinates are those of the model{} minus {}",
                              moved ? ", transformed," : "", fmt::join(place.offset, ", ")));
     }
     Stage stage(log, "write");
@@ -112,8 +115,8 @@ void write_surface(const MeshArguments& arguments, const Surface& surface, const
     constexpr double kSeen = 1e-6;
     if (share > kSeen) {
         log.note(
-            fmt::format("the floats of {} move vertices by up to {:.1e} of the surface's size; "
-                        "--offset auto avoids that",
+            fmt::format("32-bit floats in {} move vertices by up to {:.1e} of the mesh's size; "
+                        "use --offset auto",
                         arguments.out.string(), share));
     }
     stage.end({{"faces", mesh.faces.size()}, {"vertices", mesh.positions.size()}});
@@ -130,13 +133,13 @@ void write_stats(const fs::path& path, const Json& record)
 struct Run {
     const MeshArguments& arguments;
     ConsoleLog& shown;
-    Log& log; ///< passes everything on to `shown`
+    Log& log; ///< forwards to `shown`
     RunMemory& memory;
-    WorkFolder* work; ///< null for none
-    RunRanks* ranks;  ///< null for this process alone
+    WorkFolder* work; ///< null without --work
+    RunRanks* ranks;  ///< null if this process works alone
 };
 
-/// Called again when more is known of the size. Errors name the model.
+/// Plans the memory; called again when the size is known better. Errors name the model.
 void fit_memory(const Run& run, const RunSize& size)
 {
     try {
@@ -153,7 +156,7 @@ fs::path photograph_folder(const MeshArguments& arguments)
     return photographs_beside(arguments.model.path).value_or("");
 }
 
-/// Everything that the stages of a run depend on; options such as --offset act later.
+/// Everything that the stages depend on. Options such as --offset take effect later.
 Job job_of(const MeshArguments& arguments, Log& log)
 {
     Stage stage(log, "digest");
@@ -174,7 +177,7 @@ Job job_of(const MeshArguments& arguments, Log& log)
     return job;
 }
 
-/// The folder of --work, its job begun; null where there is none.
+/// Opens the folder of --work and begins its job. Returns null without --work.
 std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log)
 {
     if (arguments.work.empty()) return nullptr;
@@ -186,7 +189,7 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
 /// --max-memory in bytes; 0 if it is `auto`.
 std::int64_t memory_limit(const MeshArguments& arguments)
 {
-    return std::max<std::int64_t>(arguments.options.memory.most, 0);
+    return std::max<std::int64_t>(arguments.options.memory.limit, 0);
 }
 
 /// The images that a run reads, if any.
@@ -195,7 +198,7 @@ struct RunImages {
     std::optional<Photographs> masks;
 };
 
-/// Errors of the images are reported before the work starts.
+/// Finds the images, to report their errors before the work starts.
 RunImages find_images(const MeshArguments& arguments, const Scene& scene, Log& log)
 {
     RunImages found;
@@ -212,15 +215,15 @@ RunImages find_images(const MeshArguments& arguments, const Scene& scene, Log& l
     return found;
 }
 
-/// Replaces the sparse points by dense ones that are measured in the photographs. Returns the
-/// picture of a depth map.
+/// Replaces the sparse points by dense points measured in the photographs. Returns the picture of a
+/// depth map.
 DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
     Options options = arguments.options;
     options.memory = run.memory.options();
     options.refine = {};
-    options.surface = {}; // depth maps start from what is seen, whatever is wanted in the end
+    options.surface = {}; // depth maps always start from the visible surface
     Checkpoints checkpoints(run.work, run.log);
     DensePoints dense;
     checkpoints.keep("depth", dense, [&] {
@@ -234,7 +237,7 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
         const FoundInput found = find_input(arguments.model.path, arguments.model.all_points());
         write_points(arguments.dense.keep_points, dense.scene, found.model);
     }
-    Stage stage(run.log, "thin");
+    Stage stage(run.log, "merge");
     input.read = size_of(dense.scene);
     input.scene = thin_points(dense.scene, options.thin, stage);
     stage.end(
@@ -245,7 +248,7 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
     return std::move(dense.picture);
 }
 
-/// The surface of a scene. Errors name the model.
+/// Makes the surface of a scene. Errors name the model.
 Surface surface_of(ModelInput input, const Run& run)
 {
     const MeshArguments& arguments = run.arguments;
@@ -281,11 +284,11 @@ Surface surface_of(ModelInput input, const Run& run)
     }
 }
 
-/// The results of a run beside the surface.
+/// The results of a run besides the mesh.
 struct Made {
     std::optional<ReportParts> report;
     double long_area = 0.0; ///< see RunOutcome
-    bool is_dense = false;  ///< the points were a cloud's
+    bool is_dense = false;  ///< the points are a dense cloud
     bool takes_nearest_views = false;
 };
 
@@ -304,7 +307,7 @@ ModelInput read_input(const Run& run)
     return input;
 }
 
-/// Adds the check of the surface to the record, before it is written.
+/// Adds the check of the mesh to the record, before the mesh is written.
 void check_surface(const Run& run, const TriMesh& mesh, Json& record)
 {
     const MeshArguments& arguments = run.arguments;
@@ -317,7 +320,7 @@ void check_surface(const Run& run, const TriMesh& mesh, Json& record)
     surface["area"] = surface["area"].get<double>() * scale * scale;
 }
 
-/// From the model to the file; completes the record.
+/// Makes and writes the mesh; completes the record.
 Made make_surface(const Run& run, Json& record)
 {
     const MeshArguments& arguments = run.arguments;
@@ -326,7 +329,7 @@ Made make_surface(const Run& run, Json& record)
     record["input"] = input.record;
     record["input"]["digest"] = digest_text(digest);
     PreviewOutput preview(arguments.preview);
-    preview.stand_in(input.scene);
+    preview.set_scene(input.scene);
     record["preview"] = preview.record();
     const Place place = place_for(input.scene, arguments, run.log);
     record["offset"] = {place.offset.x(), place.offset.y(), place.offset.z()};
@@ -336,7 +339,7 @@ Made make_surface(const Run& run, Json& record)
     made.takes_nearest_views = input.takes_nearest_views;
     Surface surface = surface_of(std::move(input), run);
     MeshArguments told = arguments;
-    if (place.offset.isZero(0.0)) told.output.offset = {}; // makes no difference
+    if (place.offset.isZero(0.0)) told.output.offset = {}; // has no effect
     surface.comments = record_comments(told, digest);
     check_surface(run, surface.mesh, record);
     write_surface(arguments, surface, place, run.log);
@@ -371,13 +374,13 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
     if (report.has_value()) write_report(arguments.report, record, *report);
 }
 
-/// Removes the checkpoints of a run that failed by its input, but not those of earlier runs.
+/// Makes the mesh. If the input is wrong, removes the checkpoints unless the run was resumed.
 Made make_or_clear(const Run& run, Json& record)
 {
     try {
         return make_surface(run, record);
     } catch (const InputError&) {
-        if (run.work != nullptr && !run.work->goes_on()) run.work->clear();
+        if (run.work != nullptr && !run.work->is_resumed()) run.work->clear();
         throw;
     }
 }
@@ -385,15 +388,16 @@ Made make_or_clear(const Run& run, Json& record)
 void require_work_folder(const MeshArguments& arguments, const Processes& processes)
 {
     if (processes.all == 1 || !arguments.work.empty()) return;
-    throw UsageError(fmt::format("{} ranks need --work FOLDER, on a file system that all of them "
-                                 "see{}",
+    throw UsageError(fmt::format("{} ranks need --work FOLDER, on a file system that all ranks "
+                                 "share{}",
                                  processes.all, kSeeHelp));
 }
 
-/// The record before the run.
+/// The record at the start of the run.
 Json begun_record(MeshArguments& arguments, int threads, const Processes& processes)
 {
-    return {{"program", program_json()},
+    return {{"schema", kStatsSchema},
+            {"program", program_json()},
             {"command", arguments.command},
             {"input", nullptr},
             {"output", arguments.out.string()},
@@ -421,12 +425,14 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
         make_region(arguments.options.crop.region, Scene());
     }
+    check_images(arguments.model, arguments.texture,
+                 arguments.dense.dense || arguments.texture.reads_images(), arguments.preview);
 
     const int threads = threads_or_all(arguments.options.threads);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     ConsoleLog shown(console_on_stderr(arguments.output.quiet, arguments.output.verbose));
-    // It resets the system's peak of memory, so it is made only if needed.
+    // It resets the process's peak memory, so it is created only if needed.
     std::optional<StageRecorder> recorder;
     if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(shown);
     Log& log = recorder ? static_cast<Log&>(*recorder) : shown;

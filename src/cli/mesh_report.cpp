@@ -38,7 +38,7 @@ Json check_json(const MeshCheck& check)
             {"is_manifold", check.is_manifold()}};
 }
 
-/// What a stage counted under a name; 0 where it counted no such thing.
+/// A count of a stage; 0 if it is missing.
 std::int64_t count_of(const CountsOfStages& stages, const char* stage, std::string_view name)
 {
     const auto counts = stages.find(stage);
@@ -54,15 +54,17 @@ std::string percent(double share)
 
 std::string openness_text(const RunOutcome& outcome, const SurfaceOptions& options)
 {
-    constexpr double kShown = 0.005; // of all pixels, rounds to 1 %
+    constexpr double kShown = 0.005; // of all pixels; rounds to 1 %
     if (outcome.boundary_edges == 0) return "closed";
-    if (!outcome.open) return fmt::format("{} open edges", grouped_digits(outcome.boundary_edges));
+    if (!outcome.open)
+        return fmt::format("{} boundary edges", grouped_digits(outcome.boundary_edges));
     std::string text = "no visible holes";
     if (*outcome.open >= kShown) {
-        text = fmt::format("{} of what cameras see is open (to close: {})", percent(*outcome.open),
-                           options.rules.max_closing > 0.0 ? "--max-closing 0" : "--closed");
+        text =
+            fmt::format("holes in {} of the visible surface (to close: {})", percent(*outcome.open),
+                        options.rules.max_closing > 0.0 ? "--max-closing 0" : "--closed");
     } else if (*outcome.open > 0.0) {
-        text = "less than 1 % of what cameras see is open";
+        text = "holes in less than 1 % of the visible surface";
     }
     if (outcome.past >= kShown)
         text += fmt::format("; {} of the pixels show sky or surfaces without points",
@@ -79,9 +81,9 @@ void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
     std::vector<std::pair<std::int64_t, const char*>> losses = {
         {is_nearest && options.min_views < 2 ? 0 : outcome.few_views,
          options.min_views > 2   ? "a smaller --min-views"
-         : options.min_views < 2 ? "--sights nearest"
+         : options.min_views < 2 ? "--rays nearest"
          : is_nearest            ? "--min-views 1"
-                                 : "--min-views 1 or --sights nearest"},
+                                 : "--min-views 1 or --rays nearest"},
         {outcome.high_error, "a larger --max-error"},
         {outcome.low_angle, "a smaller --min-angle"},
         {outcome.stray, "a larger --stray-spacing"}};
@@ -90,13 +92,12 @@ void propose_for_points(const RunOutcome& outcome, const FilterOptions& options,
         const double share = static_cast<double>(dropped) /
                              static_cast<double>(std::max<std::int64_t>(outcome.points_before, 1));
         if (share < kMany) break;
-        proposals.push_back(fmt::format("if parts are missing, try {}: {} of the points fell to it",
-                                        remedy, percent(share)));
+        proposals.push_back(fmt::format(
+            "if parts are missing, try {}: {} of the points were dropped", remedy, percent(share)));
     }
     if (proposals.empty() && outcome.points < kFew && !outcome.is_dense) {
-        proposals.push_back(
-            fmt::format("{} points are few, more images or dense points (stereo_fusion) show more",
-                        grouped_digits(outcome.points)));
+        proposals.push_back(fmt::format("only {}; add images, or use a dense cloud",
+                                        counted(outcome.points, "points")));
     }
 }
 
@@ -106,9 +107,9 @@ void propose_for_surface(const RunOutcome& outcome, const Options& options,
     constexpr double kMuchLong = 0.6;
     if (outcome.long_area < kMuchLong) return;
     if (options.surface.closed) {
-        proposals.emplace_back("if its large faces are in the way, leave out --closed");
+        proposals.emplace_back("if large faces are in the way, leave out --closed");
     } else if (options.crop.region.kind == RegionChoice::Kind::everything) {
-        proposals.emplace_back("if its large faces are in the way, try --crop auto");
+        proposals.emplace_back("if large faces are in the way, try --crop auto");
     }
 }
 
@@ -123,7 +124,7 @@ ReportParts make_report(const ReportSubject& shown, Log& log)
     parts.scene = packed_scene(scene);
     Json surface = packed_surface(mesh, scene, {}, stage);
     const auto faces = surface["faces"]["count"].get<std::int64_t>();
-    // A surface that is simplified for the page has other corners than its texture.
+    // If the mesh was simplified for the page, its texture does not fit.
     if (faces == parts.figures.faces) surface["texture"] = packed_texture(texture);
     parts.scene["surfaces"][0] = std::move(surface);
     parts.scene["removed"] = packed_removed(removed);
@@ -154,8 +155,8 @@ Json checked(const TriMesh& mesh, const CountsOfStages& counts, Log& log)
     Counts told;
     const auto oriented = counts.find("orient");
     if (oriented != counts.end() && oriented->second.size() > 1) {
-        const std::int64_t sights = oriented->second[1].second;
-        told = {{"sights from behind", sights - oriented->second[0].second}, {"of", sights}};
+        const std::int64_t rays = oriented->second[1].second;
+        told = {{"rays from behind", rays - oriented->second[0].second}, {"of", rays}};
     }
     told.emplace_back("open edges", json["boundary_edges"]);
     told.emplace_back("self-intersections", json["self_intersections"]);
@@ -168,8 +169,8 @@ void require_promised(const Json& surface, const std::string& command, const std
     for (const char* const fault :
          {"nonmanifold_edges", "nonmanifold_vertices", "orientation_faults", "degenerate_faces"}) {
         if (surface[fault] == 0) continue;
-        throw std::logic_error(fmt::format("the surface has {} {} and was not written; {} "
-                                           "reproduces it with {}",
+        throw std::logic_error(fmt::format("the mesh has {} {} and was not written; the command "
+                                           "was {}, the model {}",
                                            surface[fault].dump(), fault, command, model));
     }
 }
@@ -200,9 +201,8 @@ std::string closing_line(const RunOutcome& outcome, const Options& options)
     std::vector<std::string> proposals;
     propose_for_points(outcome, options.points, proposals);
     propose_for_surface(outcome, options, proposals);
-    std::string line =
-        fmt::format("wrote {}: {} faces, {}", outcome.out, grouped_digits(outcome.faces),
-                    openness_text(outcome, options.surface));
+    std::string line = fmt::format("wrote {}: {}, {}", outcome.out, counted(outcome.faces, "faces"),
+                                   openness_text(outcome, options.surface));
     if (proposals.empty() && !outcome.has_report) {
         const auto page = std::filesystem::path(outcome.out).replace_extension(".html");
         const std::string see = fmt::format("See it: --report {}", page.string());

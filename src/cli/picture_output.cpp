@@ -1,7 +1,9 @@
 #include "cli/picture_output.h"
 
 #include "base/text.h"
+#include "io/colmap/colmap_model.h"
 #include "io/formats/textured_files.h"
+#include "io/input/find_input.h"
 #include "picture/eye.h"
 #include "texture/masked_faces.h"
 #include "vcarve/error.h"
@@ -20,13 +22,14 @@ namespace {
 void note_missing(const Photographs& found, const char* kind, Log& log)
 {
     if (found.missing > 0) {
-        log.note(fmt::format("{} of {} views have no {} in {}", found.missing, found.of_view.size(),
-                             kind, found.folder.string()));
+        log.note(fmt::format("{} of {} have no {} in {}", grouped_digits(size_of(found.missing)),
+                             counted(size_of(found.of_view.size()), "views"), kind,
+                             found.folder.string()));
     }
     note_unusable(found.unusable, log);
 }
 
-/// With its smaller levels, while it is decoded.
+/// The memory of the largest photograph with its pyramid, while it is decoded.
 std::int64_t bytes_of_largest(const Photographs& photographs)
 {
     constexpr std::int64_t kBytesOfPixel = 8;
@@ -46,22 +49,22 @@ OptionList texture_options(TextureArguments& texture)
         {kStage,
          {.name = "images",
           .unit = "folder",
-          .help = "Take vertex colors from photographs. FOLDER has the photographs of the model; "
-                  "vertices get the colors that they agree on, instead of those of single pixels."},
+          .help = "Take vertex colors from photographs. FOLDER has the photographs of the model. "
+                  "Vertices get colors that the photographs agree on, instead of single pixels'."},
          &texture.images},
         {kStage,
          {.name = "masks",
           .unit = "folder",
           .help = "Exclude the black pixels of FOLDER/NAME.png from photograph NAME, as COLMAP "
                   "does. They give neither colors nor dense points, and faces that most views see "
-                  "only there are removed.",
+                  "only in such pixels are removed.",
           .level = OptionLevel::advanced},
          &texture.masks},
         {kStage,
          {.name = "texture",
-          .help = "Write a texture made of the photographs. They are those of --images, or of the "
-                  "folder `images` beside the model. The texture is in OUT.glb, or in JPEG files "
-                  "beside OUT.obj or OUT.ply."},
+          .help = "Write a texture made of the photographs. They are in --images, or in the folder "
+                  "`images` beside the model. The texture is in OUT.glb, or in JPEG files beside "
+                  "OUT.obj or OUT.ply."},
          &texture.texture},
         {kStage,
          {.name = "texture-scale",
@@ -92,7 +95,7 @@ void check_texture(const TextureArguments& texture, const fs::path& out,
     const std::string end = lower_case_end(out);
     if (texture.texture && end != ".glb" && end != ".obj" && end != ".ply") {
         throw UsageError(fmt::format("cannot write {} with --texture: the name of a textured "
-                                     "surface must end with .glb, .obj or .ply",
+                                     "mesh must end with .glb, .obj or .ply",
                                      out.string()));
     }
 }
@@ -110,7 +113,7 @@ Photographs photographs_of(const TextureArguments& arguments, const fs::path& mo
                             model.string()));
         }
         folder = *beside;
-        log.note(fmt::format("the photographs are taken from {}", folder.string()));
+        log.note(fmt::format("using the photographs in {}", folder.string()));
     }
     Photographs photographs = find_photographs(scene, folder);
     note_missing(photographs, "photograph", log);
@@ -130,8 +133,8 @@ TriMesh unmasked(const TriMesh& mesh, const Scene& scene, const Photographs& mas
     Stage stage(log, "masks");
     TriMesh kept = without_masked_faces(mesh, calibrated_photos(scene, masks, mesh.offset), stage);
     if (kept.faces.empty()) {
-        throw InputError(fmt::format("the masks in {} leave no face of the surface; black pixels "
-                                     "are excluded, so they may have to be inverted",
+        throw InputError(fmt::format("the masks in {} exclude all faces; black pixels are "
+                                     "excluded, so the masks may need to be inverted",
                                      masks.folder.string()));
     }
     stage.end({{"masks", size_of(masks.of_view.size() - masks.missing)},
@@ -163,7 +166,7 @@ void require_photo_memory(const Photographs& photographs, std::int64_t most)
 TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photographs,
                       const TextureTask& task, Log& log)
 {
-    // A quarter of the memory is for the pages, a half for photographs, the rest for the surface.
+    // A quarter of the memory is for the pages, half for photographs, the rest for the mesh.
     constexpr std::int64_t kBytesOfTexel = 7;
     TextureOptions options = {.scale = task.arguments.scale,
                               .only_colors = !task.arguments.texture};
@@ -176,16 +179,15 @@ TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photo
     }
     const std::vector<CalibratedPhoto> photos = calibrated_photos(scene, photographs, mesh.offset);
     if (photos.empty()) {
-        throw InputError(fmt::format("{}: the photographs there belong to views with an unknown "
-                                     "lens or without image size, so none can be used; expected "
-                                     "one of COLMAP's camera models",
+        throw InputError(fmt::format("{}: no photograph can be used, because the views have an "
+                                     "unknown lens or no image size; expected one of COLMAP's "
+                                     "camera models",
                                      photographs.folder.string()));
     }
     const auto found = std::ranges::count_if(photographs.of_view,
                                              [](const fs::path& file) { return !file.empty(); });
     if (const auto left_out = size_of(found) - size_of(photos.size()); left_out > 0) {
-        log.note(fmt::format("{} photographs belong to views with an unknown lens and are not used",
-                             left_out));
+        log.note(fmt::format("photographs ignored because their lens is unknown: {}", left_out));
     }
     return texture_mesh(std::move(mesh), photos, options, log);
 }
@@ -196,14 +198,14 @@ OptionList preview_options(PreviewArguments& preview)
     return {
         {kStage,
          {.name = "preview",
-          .help = "Draw a picture of the mesh, OUT.png. It shows the colors, with backs of faces "
-                  "in magenta, beside the normals as colors."},
+          .help = "Draw a picture of the mesh, OUT.png. It shows the colors (back faces are "
+                  "magenta) beside the normals as colors."},
          &preview.out},
         {kStage,
          {.name = "view",
           .help = "Choose the viewpoint of --preview. auto: the camera that sees most. top, "
-                  "orbit: from outside, from above or obliquely, through the backs of walls. "
-                  "Otherwise the name of an image.",
+                  "orbit: a viewpoint outside, above or oblique, that looks through the backs of "
+                  "walls. Otherwise the name of an image.",
           .words = {"auto", "top", "orbit"},
           .level = OptionLevel::advanced},
          &preview.view},
@@ -221,7 +223,25 @@ void check_preview(const PreviewArguments& preview, const ParsedArguments& given
     }
 }
 
-void PreviewOutput::stand_in(const Scene& scene)
+void check_images(const ModelArguments& model, const TextureArguments& texture, bool needs_photos,
+                  const PreviewArguments& preview)
+{
+    const bool names_view = preview.view != "auto" && preview.view != "top" &&
+                            preview.view != "orbit" && !preview.out.empty();
+    if (!needs_photos && texture.masks.empty() && !names_view) return;
+    const FoundInput found = find_input(model.path, model.all_points());
+    if (found.model.folder.empty()) return;
+    ColmapViews read = read_colmap_views(found.model.folder, found.model.format);
+    Scene scene;
+    scene.cameras = std::move(read.cameras);
+    scene.views = std::move(read.views);
+    if (names_view) named_view(scene, preview.view);
+    Log silent;
+    masks_of(texture, scene, silent);
+    if (needs_photos) photographs_of(texture, model.path, scene, silent);
+}
+
+void PreviewOutput::set_scene(const Scene& scene)
 {
     if (!arguments_.out.empty()) preview_.emplace(choose_eye(scene, arguments_.view));
 }

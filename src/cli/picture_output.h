@@ -19,10 +19,10 @@
 
 namespace vcarve::cli {
 
-/// The options about photographs.
+/// The options of photographs.
 struct TextureArguments {
-    std::filesystem::path images; ///< empty: a texture is made of those beside the model
-    std::filesystem::path masks;  ///< empty: none
+    std::filesystem::path images; ///< if empty, a texture uses `images` beside the model
+    std::filesystem::path masks;  ///< empty if not given
     bool texture = false;
     double scale = 1.0;
 
@@ -33,10 +33,10 @@ struct TextureArguments {
 /// --images, --masks, --texture and --texture-scale, under the heading "Output".
 OptionList texture_options(TextureArguments& texture);
 
-/// The files beside a textured surface. The number of texture pages is an upper bound.
+/// The files beside a textured mesh. The number of texture pages is an upper bound.
 std::vector<Output> texture_outputs(const std::filesystem::path& out);
 
-/// Throws UsageError if the format of a surface has no texture, or only a scale is given.
+/// Throws UsageError if the mesh format has no texture, or --texture-scale lacks --texture.
 void check_texture(const TextureArguments& texture, const std::filesystem::path& out,
                    const ParsedArguments& given);
 
@@ -46,42 +46,48 @@ void check_texture(const TextureArguments& texture, const std::filesystem::path&
 Photographs photographs_of(const TextureArguments& arguments, const std::filesystem::path& model,
                            const Scene& scene, Log& log);
 
-/// Finds the masks of --masks, if it is given, with notes about views without one and unreadable
-/// files. Throws InputError as find_masks() does.
+/// Finds the masks of --masks, if given. Notes name views without masks and unreadable files.
+/// Throws InputError as find_masks() does.
 std::optional<Photographs> masks_of(const TextureArguments& arguments, const Scene& scene,
                                     Log& log);
 
-/// The surface without the faces that most views see only in masked pixels, as the stage "masks".
-/// Throws InputError if no face is left.
+/// Removes the faces that most views see only in masked pixels, as the stage "masks". Throws
+/// InputError if no face is left.
 TriMesh unmasked(const TriMesh& mesh, const Scene& scene, const Photographs& masks, Log& log);
 
 /// The files of photographs or masks, which no output may replace.
 std::vector<Output> files_of(const Photographs& photographs);
 
-/// Throws InputError if the largest photograph needs more than half of the memory limit in bytes,
-/// unless that is 0.
+/// Throws InputError if the largest photograph needs more than half of `most`, the memory limit in
+/// bytes; 0 disables.
 void require_photo_memory(const Photographs& photographs, std::int64_t most);
 
-/// The options, and the memory limit of the run in bytes, 0 for none.
+/// The options, and the memory limit of the run in bytes; 0 disables.
 struct TextureTask {
     const TextureArguments& arguments;
     std::int64_t most_memory = 0;
 };
 
-/// Colors a surface by the photographs of a scene in the same frame, and textures it if wanted.
+/// Colors a mesh from the photographs of a scene in the same frame; textures it with --texture.
 TexturedMesh textured(TriMesh mesh, const Scene& scene, const Photographs& photographs,
                       const TextureTask& task, Log& log);
 
-/// The options about the picture.
+/// The options of the picture.
 struct PreviewArguments {
-    std::filesystem::path out; ///< empty: none
+    std::filesystem::path out; ///< empty if not requested
     std::string view = "auto";
 };
 
-/// --preview and --view, under a command's heading "Output".
+/// --preview and --view, under the heading "Output".
 OptionList preview_options(PreviewArguments& preview);
-/// Throws UsageError if the name does not end in .png, or only --view is given.
+/// Throws UsageError if the file name does not end in .png, or --view lacks --preview.
 void check_preview(const PreviewArguments& preview, const ParsedArguments& given);
+
+/// Reports errors of photographs, masks and the name of --view before points are read: throws as
+/// photographs_of(), masks_of() and named_view() do. Does nothing for a scan without a model. Cost:
+/// reading the views, and the header of each photograph.
+void check_images(const ModelArguments& model, const TextureArguments& texture, bool needs_photos,
+                  const PreviewArguments& preview);
 
 /// The picture of a run, if requested; otherwise it does nothing.
 class PreviewOutput {
@@ -89,10 +95,10 @@ class PreviewOutput {
     explicit PreviewOutput(PreviewArguments arguments) : arguments_(std::move(arguments)) {}
 
     /// Chooses the viewpoint. Throws UsageError, as choose_eye does.
-    void stand_in(const Scene& scene);
+    void set_scene(const Scene& scene);
     /// Draws a mesh in the frame of that scene, as the stage "preview".
     void add(const std::string& name, const TriMesh& mesh, const Texture& texture, Log& log);
-    /// Writes the file; it is empty if no mesh was added.
+    /// Writes the file; the picture is empty if no mesh was added.
     void write();
     /// "file" and "view", the name of the viewpoint's image; null without a picture.
     Json record() const;

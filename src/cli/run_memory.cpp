@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that no other run has. Beside a device, such as /dev/null, is no place for files.
+/// A unique path beside the output, or in the temporary folder if the output is a device.
 fs::path folder_beside(const fs::path& out)
 {
     std::error_code error;
@@ -38,7 +38,7 @@ fs::path folder_beside(const fs::path& out)
 std::string note_of(const BlockPlan& plan, std::size_t ranks, const fs::path& folder)
 {
     const std::string allowed =
-        plan.most == 0 ? "no limit" : byte_size_text(plan.most) + " allowed";
+        plan.limit == 0 ? "no limit" : byte_size_text(plan.limit) + " allowed";
     const std::string who = ranks == 1 ? "" : fmt::format(" for {} ranks", ranks);
     const std::string where = plan.in_files()
                                   ? fmt::format("scratch of about {} in {}",
@@ -57,7 +57,7 @@ ArrayFolder::ArrayFolder(fs::path given, const fs::path& out)
 
 ArrayFolder::~ArrayFolder()
 {
-    // Its files have no names, so it is empty, unless somebody else uses it.
+    // Scratch files have no names, so the folder is empty unless another program uses it.
     std::error_code ignored;
     if (is_temporary_) fs::remove(path_, ignored);
 }
@@ -72,15 +72,15 @@ void ArrayFolder::prepare(std::int64_t bytes) const
     if (::access(path_.c_str(), W_OK | X_OK) != 0) refuse(path_, std::strerror(errno));
     const std::optional<std::int64_t> free = free_space(path_);
     if (free && *free < bytes) {
-        refuse(path_, fmt::format("{} are free there, and about {} are needed",
+        refuse(path_, fmt::format("{} are free there, but about {} are needed",
                                   byte_size_text(*free), byte_size_text(bytes)));
     }
 }
 
 std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted, std::size_t processes)
 {
-    if (wanted.most == 0) return std::nullopt;
-    if (wanted.most != MemoryOptions::kAutoMemory) return wanted.most;
+    if (wanted.limit == 0) return std::nullopt;
+    if (wanted.limit != MemoryOptions::kAutoMemory) return wanted.limit;
     const std::optional<std::int64_t> free = free_memory();
     if (!free) return std::nullopt;
     return *free / static_cast<std::int64_t>(processes) / 5 * 4;
@@ -102,7 +102,7 @@ BlockPlan RunMemory::plan_of(const RunSize& size) const
 {
     const BlockPlan plan = plan_blocks(size, threads_, wanted_, free_);
     if (processes_.all == 1 || wanted_.blocks == 0) return plan;
-    // Each thread of each rank has a block, and each other rank sums of what its sights say.
+    // Each thread of each rank gets a block, and each other rank stores the sums of its rays.
     const auto ranks = static_cast<int>(processes_.all);
     MemoryOptions shared = wanted_;
     if (wanted_.blocks == MemoryOptions::kAutoBlocks) {
@@ -120,7 +120,7 @@ BlockPlan RunMemory::plan_of(const RunSize& size) const
 void RunMemory::fit(const RunSize& size, Log& log)
 {
     const BlockPlan before = std::exchange(plan_, plan_of(size));
-    // What is kept in files stays there, even if what is left of a cloud would fit.
+    // Arrays in files stay there, even if the thinned cloud would fit into memory.
     if (before.in_files() && !plan_.in_files()) plan_ = before;
     if (!plan_.in_blocks()) return;
     if (before.blocks != plan_.blocks) log.note(note_of(plan_, processes_.all, folder_.path()));
@@ -132,16 +132,16 @@ void RunMemory::fit(const RunSize& size, Log& log)
     }
     folder_.prepare(plan_.scratch);
     constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-    scratch_.emplace(folder_.path(), plan_.most == 0 ? kNoLimit : plan_.most);
+    scratch_.emplace(folder_.path(), plan_.limit == 0 ? kNoLimit : plan_.limit);
 }
 
 MemoryOptions RunMemory::options() const
 {
     MemoryOptions options = wanted_;
     options.blocks = plan_.blocks;
-    // What grows as nobody could foresee is held to this, too.
-    if (wanted_.blocks != 0 && wanted_.most == MemoryOptions::kAutoMemory)
-        options.most = plan_.most;
+    // The limit also applies to growth that cannot be predicted.
+    if (wanted_.blocks != 0 && wanted_.limit == MemoryOptions::kAutoMemory)
+        options.limit = plan_.limit;
     return options;
 }
 
@@ -149,7 +149,7 @@ Json RunMemory::record() const
 {
     return {{"blocks", plan_.blocks},
             {"needed_bytes", plan_.needed},
-            {"allowed_bytes", plan_.most},
+            {"allowed_bytes", plan_.limit},
             {"expected_scratch_bytes", plan_.scratch},
             {"scratch_bytes", ScratchMemory::peak_bytes()}};
 }

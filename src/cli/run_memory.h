@@ -13,26 +13,26 @@
 
 namespace vcarve::cli {
 
-/// How many processes work on a run.
+/// The number of processes of a run.
 struct Processes {
     std::size_t all = 1;
     std::size_t here = 1; ///< on this machine
 };
 
-/// What ranks have to agree on.
+/// The properties of a run that must be the same on all ranks.
 struct JobOfRanks {
     Digest job{};          ///< of the work folder
     Digest options{};      ///< see digest_of_options()
-    bool in_files = false; ///< large arrays are in the work folder
+    bool in_files = false; ///< whether large arrays are in the work folder
 };
 
-/// The other processes of a run, as its command knows them.
+/// The ranks of a run, as its command uses them.
 class RunRanks : public Ranks {
   public:
     virtual Processes processes() const = 0;
     std::size_t count() const override { return processes().all; }
 
-    /// Tells the others, before anything is shared, what run it is.
+    /// Sends the job to the other ranks. Call it before work is shared.
     virtual void begin(const JobOfRanks& job) = 0;
 };
 
@@ -46,14 +46,14 @@ class ArrayFolder {
     ArrayFolder(std::filesystem::path given, const std::filesystem::path& out);
     ArrayFolder(const ArrayFolder&) = delete;
     ArrayFolder& operator=(const ArrayFolder&) = delete;
-    /// Removes a temporary one.
+    /// Removes a temporary folder.
     ~ArrayFolder();
 
     const std::filesystem::path& path() const { return path_; }
     bool is_temporary() const { return is_temporary_; }
 
-    /// Makes it, if missing. Throws UsageError if it cannot be made or written to, or has fewer
-    /// bytes free.
+    /// Creates the folder if it is missing. Throws UsageError if it cannot be created or written
+    /// to, or has less free space than `bytes`.
     void prepare(std::int64_t bytes) const;
 
   private:
@@ -61,12 +61,12 @@ class ArrayFolder {
     std::filesystem::path path_;
 };
 
-/// The memory limit of one of several processes on this machine, in bytes: as given, or 80 % of its
-/// share of the free memory; nothing for no limit.
+/// The memory limit in bytes of one of several processes on this machine: as given, or 80 % of its
+/// share of the free memory. Nothing if unlimited.
 std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted, std::size_t processes);
 
-/// Decides whether a run works in memory or in blocks, and keeps its arrays in the work folder in
-/// the latter case, for as long as the object lives.
+/// Decides whether a run works in memory or in blocks. In blocks, large arrays are in the work
+/// folder while the object lives.
 class RunMemory {
   public:
     /// Processes on a machine share its free memory and the blocks of the model. Arrays stay in
@@ -74,9 +74,9 @@ class RunMemory {
     RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
               const Processes& processes = {});
 
-    /// Plans for a size; called again when more is known. Later arrays are placed accordingly, and
-    /// a note tells the number of blocks. Throws InputError if the memory, UsageError if the folder
-    /// does not suffice.
+    /// Plans for a size; called again when the size is known better. Later arrays are placed
+    /// accordingly, and a note gives the number of blocks. Throws InputError if the memory is
+    /// insufficient, and UsageError if the folder is.
     void fit(const RunSize& size, Log& log);
 
     /// The options for reconstruct().
@@ -94,7 +94,7 @@ class RunMemory {
     int threads_;
     const ArrayFolder& folder_;
     Processes processes_;
-    std::optional<std::int64_t> free_; ///< before the run took any, for each process
+    std::optional<std::int64_t> free_; ///< memory per process before the run allocates, in bytes
     BlockPlan plan_;
     std::optional<ScratchMemory> scratch_;
 };

@@ -25,7 +25,7 @@ Json counts_json(const Counts& counts)
     return json;
 }
 
-/// One word as a shell takes it.
+/// Quotes a word for a shell if necessary.
 std::string quoted(const std::string& word)
 {
     constexpr const char* kUnquoted =
@@ -43,7 +43,7 @@ std::string quoted(const std::string& word)
     return text;
 }
 
-/// To the microsecond, which is more than such a figure is good for.
+/// Rounds to microseconds, below the precision of such measurements.
 double rounded(double seconds)
 {
     return std::round(seconds * 1e6) / 1e6;
@@ -57,8 +57,8 @@ Json usage_json(const ProcessUsage& began, std::int64_t peak)
             {"peak_memory_bytes", peak}};
 }
 
-/// A number as such unless a word stands for it, or it is none that JSON has; all else as one would
-/// type it.
+/// Numbers, flags, vectors and boxes become JSON values. Words, numbers that are not finite, and
+/// other values become text as typed.
 Json value_json(const Option& option)
 {
     const std::string text = value_text(option);
@@ -86,7 +86,7 @@ StageRecorder::StageRecorder(Log& shown) : shown_(shown), run_began_(process_usa
 
 void StageRecorder::stage_begins(std::string_view name)
 {
-    // What was held between two stages counts for the whole run, though for no stage.
+    // Memory held between two stages counts for the whole run, but for no stage.
     largest_peak_ = std::max(largest_peak_, peak_memory_bytes());
     peak_is_per_stage_ = reset_peak_memory() && peak_is_per_stage_;
     stage_began_ = process_usage();

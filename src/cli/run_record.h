@@ -12,14 +12,14 @@
 
 namespace vcarve::cli {
 
-/// A record keeps its order, so that it can be read from top to bottom.
+/// JSON with keys in insertion order, so that people can read a record from top to bottom.
 using Json = nlohmann::ordered_json;
 
 double seconds_of(const timeval& time);
 
-/// What this process has used so far.
+/// The time that this process has used so far.
 struct ProcessUsage {
-    double seconds = 0.0;     ///< on a clock that only runs forward, from an arbitrary zero
+    double seconds = 0.0;     ///< of a monotonic clock with an arbitrary zero
     double cpu_seconds = 0.0; ///< of all threads, user and system
 };
 ProcessUsage process_usage();
@@ -28,11 +28,11 @@ ProcessUsage process_usage();
 /// unknown.
 std::int64_t peak_memory_bytes();
 
-/// Resets the peak; false if that is not permitted.
+/// Resets the peak. Returns false if the system does not permit it.
 bool reset_peak_memory();
 
 /// Forwards to another log, and records seconds, CPU seconds, peak memory and counts of each stage.
-/// Resets the system's peak of the process at each stage, so `time -v` shows that of the last one.
+/// Resets the process's peak memory at each stage, so `time -v` shows the peak of the last stage.
 class StageRecorder final : public Log {
   public:
     explicit StageRecorder(Log& shown);
@@ -41,11 +41,11 @@ class StageRecorder final : public Log {
     void stage_progresses(double share) override { shown_.stage_progresses(share); }
     void stage_ends(std::string_view name, const Counts& counts) override;
     void note(std::string_view sentence) override;
-    bool wants_stop() const override { return shown_.wants_stop(); }
+    bool should_stop() const override { return shown_.should_stop(); }
 
     /// {"stages": [{"name", "seconds", "cpu_seconds", "peak_memory_bytes", "counts"}], "notes": [],
     /// "total": {"seconds", "cpu_seconds", "peak_memory_bytes"}, "peak_memory_is_per_stage"}.
-    /// A count named "of" is recorded as "of NAME" of the one before it.
+    /// A count named "of" is recorded as "of NAME", with the name of the count before it.
     Json json() const;
 
   private:
@@ -64,7 +64,7 @@ Json options_json(const OptionList& options);
 /// The program's name, version and build, and those of its libraries.
 Json program_json();
 
-/// As text to be written to a file; bytes that are not UTF-8 (in paths) are replaced.
+/// JSON as text for a file. Bytes that are not UTF-8 (in paths) are replaced.
 std::string json_text(const Json& json);
 
 /// A command line, quoted for a shell.

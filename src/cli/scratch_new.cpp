@@ -1,6 +1,6 @@
-// The program's operator new and delete: large arrays go to the work folder where there is one, all
-// others to the C library, as ever. They are part of the program alone, so that the library never
-// decides where the arrays of others are.
+// The program's operator new and delete. Large arrays are in the work folder if there is one; all
+// others come from the C library as usual. Only the program has these operators, so the library
+// never decides where its callers' arrays are.
 #include "base/scratch_memory.h"
 
 #include <algorithm>
@@ -36,9 +36,9 @@ void release(void* memory) noexcept
 
 } // namespace
 
-// The standard library's other ways to ask and to give back end in these ([new.delete] in the C++
-// standard); AddressSanitizer's do not, so those that std::stable_sort and std::allocator use are
-// here, too.
+// The standard library's other operators new and delete call these ([new.delete] in the C++
+// standard). AddressSanitizer's do not, so the variants that std::stable_sort and std::allocator
+// call are defined, too.
 void* operator new(std::size_t bytes)
 {
     return allocate(bytes);

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSeeTextureHelp = " (see colmap-vcarve texture --help)";
 
-/// Everything the command line says.
+/// The parsed command line.
 struct TextureCommand {
     ModelArguments model;
     fs::path mesh;
@@ -81,16 +81,16 @@ Manual texture_manual()
     Manual manual;
     manual.command = "colmap-vcarve texture";
     manual.operands = "MODEL MESH OUT.glb";
-    manual.summary = "Cover any mesh with the photographs of a model.";
+    manual.summary = "Texture any mesh with the photographs of a model.";
     manual.examples = {
         {"colmap-vcarve texture sparse/0 edited.ply out.glb", "an edited mesh"},
-        {"colmap-vcarve texture sparse/0 poisson.ply out.obj --images photos", "others' photos"},
+        {"colmap-vcarve texture sparse/0 a.ply out.obj --images photos", "from a folder"},
     };
     manual.operand_meanings = {
-        {"MODEL", "The COLMAP model of the photographs, as for colmap-vcarve."},
+        {"MODEL", "The model of the photographs, as for colmap-vcarve."},
         {"MESH", "A mesh in the model's frame: .ply, .obj, .off or .stl. It need not be manifold."},
-        {"OUT.glb", "The textured mesh: .glb, .obj or .ply. Faces that no photograph shows whole "
-                    "may be halved; the shape stays."},
+        {"OUT.glb", "The textured mesh: .glb, .obj or .ply. Faces that no photograph shows "
+                    "completely may be bisected, which does not change the shape."},
     };
     manual.ends = {kExitCodes};
     const auto command = std::make_shared<TextureCommand>();
@@ -106,6 +106,7 @@ void run_texture(const ParsedArguments& given)
         tbb::global_control::max_allowed_parallelism,
         static_cast<std::size_t>(threads_or_all(command.console.threads)));
     ConsoleLog log(console_on_stderr(command.console.quiet, command.console.verbose));
+    check_images(command.model, command.texture, true, command.preview);
     TriMesh mesh = read_mesh(command.mesh);
     const ModelInput model = read_model_input(command.model, log);
     Photographs photographs = photographs_of(command.texture, command.model.path, model.scene, log);
@@ -118,7 +119,7 @@ void run_texture(const ParsedArguments& given)
     keep_inputs(command.outputs(), command.model, inputs);
     prepare_outputs(command.outputs());
     PreviewOutput preview(command.preview);
-    preview.stand_in(model.scene);
+    preview.set_scene(model.scene);
     const std::int64_t most = allowed_memory(MemoryOptions(), 1).value_or(0);
     const TexturedMesh made =
         textured(std::move(mesh), model.scene, photographs, {command.texture, most}, log);

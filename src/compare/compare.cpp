@@ -9,7 +9,7 @@ namespace vcarve {
 
 namespace {
 
-/// The figures of a mesh that are known, by their places in the JSON text.
+/// The known figures of a mesh, by their JSON pointers.
 std::map<std::string, double> known_figures(const Comparison& comparison,
                                             const std::vector<Figure>& figures)
 {

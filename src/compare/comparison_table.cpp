@@ -12,9 +12,11 @@
 namespace vcarve {
 namespace {
 
+constexpr int kSchema = 2; ///< changes with the keys
+
 using Json = nlohmann::ordered_json;
 
-/// A column without a mesh says why in its first row.
+/// The cell of a mesh. The first row of a failed mesh has the reason.
 std::string shown(const Figure& figure, const Comparison& comparison, bool is_first)
 {
     if (comparison.failure.empty()) return figure.shown(comparison);
@@ -23,7 +25,7 @@ std::string shown(const Figure& figure, const Comparison& comparison, bool is_fi
 
 std::string table(std::span<const Comparison> comparisons, const std::vector<TableRow>& rows)
 {
-    // The cells, the first row being the head.
+    // The cells; the first row is the head.
     std::vector<std::vector<std::string>> cells(rows.size() + 1);
     cells[0].emplace_back("");
     for (const Comparison& comparison : comparisons) {
@@ -39,7 +41,7 @@ std::string table(std::span<const Comparison> comparisons, const std::vector<Tab
             widths[i] = std::max(widths[i], line[i].size());
         }
     }
-    // Titles to the left, figures to the right.
+    // Align titles to the left, figures to the right.
     std::string text;
     for (std::size_t row = 0; row < cells.size(); ++row) {
         text += fmt::format("| {:<{}} |", cells[row][0], widths[0]);
@@ -90,14 +92,15 @@ nlohmann::ordered_json comparison_record(std::span<const Comparison> comparisons
 {
     const std::vector<Figure> judged_by = figures(reference, comparisons);
     Json report;
+    report["schema"] = kSchema;
     report["definitions"] = definitions(reference, judged_by);
     report["options"] = {{"samples", reference.options.samples},
                          {"seed", reference.options.seed},
                          {"spacings", reference.options.spacings}};
     report["model"] = {{"points", reference.scene.num_points()},
                        {"views", reference.scene.views.size()},
-                       {"sights", reference.scene.num_sights()},
-                       {"rays", reference.rays.size()},
+                       {"rays", reference.scene.num_rays()},
+                       {"view_rays", reference.rays.size()},
                        {"median_spacing", reference.median_spacing}};
     report["truth"] = nullptr;
     if (reference.truth) {
@@ -115,7 +118,7 @@ nlohmann::ordered_json comparison_record(std::span<const Comparison> comparisons
 
 std::string comparison_json(std::span<const Comparison> comparisons, const Reference& reference)
 {
-    // A file's name may be any bytes; what is not UTF-8 is replaced, not fatal.
+    // File names may be any bytes: replace invalid UTF-8.
     return comparison_record(comparisons, reference)
                .dump(2, ' ', false, Json::error_handler_t::replace) +
            '\n';

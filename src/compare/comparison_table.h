@@ -11,25 +11,25 @@
 
 namespace vcarve {
 
-/// A figure of every mesh, as the table has it.
+/// A row of the table: one figure of all meshes.
 struct TableRow {
     std::string title;
     std::string place; ///< see Figure::place
     Better better = Better::neither;
-    std::vector<std::string> cells; ///< one a mesh; of one that failed, in the first row why
+    std::vector<std::string> cells; ///< one per mesh; the first row has the reason of failures
 };
 
-/// The rows of the table from its top to its bottom, without its head.
+/// Returns the rows of the table in order, without its head.
 std::vector<TableRow> table_rows(std::span<const Comparison> comparisons,
                                  const Reference& reference);
 
-/// The figures as a Markdown table, a row a figure and a column a mesh, followed by what the
-/// figures mean. Ends with a newline.
+/// Returns the figures as a Markdown table with a row per figure and a column per mesh, followed by
+/// a legend. Ends with a newline.
 std::string comparison_table(std::span<const Comparison> comparisons, const Reference& reference);
 
-/// The same as JSON, and as its text: "definitions", "options", "model", "truth" (null where there
-/// is none) and "meshes", each with "name", "size", "views" and, where known, "truth" and "cost";
-/// where there is no mesh, "name" and "failure".
+/// Returns the same as JSON, and as JSON text: "definitions", "options", "model", "truth" (null if
+/// missing) and "meshes". Each mesh has "name", "size", "views" and, if known, "truth" and "cost";
+/// a failed mesh has "name" and "failure".
 nlohmann::ordered_json comparison_record(std::span<const Comparison> comparisons,
                                          const Reference& reference);
 std::string comparison_json(std::span<const Comparison> comparisons, const Reference& reference);

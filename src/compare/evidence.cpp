@@ -23,37 +23,36 @@ namespace vcarve {
 
 namespace {
 
-constexpr double kTouchSpacings = 1e-3; ///< nearer hits are the sample's own face
+constexpr double kTouchSpacings = 1e-3; ///< nearer hits are the face of the sample
 constexpr int kSamplesPerAreaSample = 8;
 
-/// Whether the mesh stands between a view and a point it saw, or the point's place does not decide
-/// it.
-bool hides(const TriangleTree& tree, const Reference& reference, std::uint64_t sight)
+/// Whether the mesh occludes the point of a ray, farther than the tolerance from the point.
+bool hides(const TriangleTree& tree, const Reference& reference, std::uint64_t ray)
 {
     const std::vector<std::uint64_t>& begins = reference.scene.tracks.begins;
-    const auto row = std::upper_bound(begins.begin(), begins.end(), sight) - 1;
+    const auto row = std::upper_bound(begins.begin(), begins.end(), ray) - 1;
     const auto point = static_cast<std::size_t>(row - begins.begin());
-    const View& view = reference.scene.views[reference.scene.tracks.views[sight]];
+    const View& view = reference.scene.views[reference.scene.tracks.views[ray]];
     return is_hidden(reference.scene.positions[point], view.center, tree,
                      reference.options.spacings * reference.spacings[point]);
 }
 
 double hidden_share(const TriangleTree& tree, const Reference& reference)
 {
-    const std::uint64_t sights = reference.scene.num_sights();
+    const std::uint64_t rays = reference.scene.num_rays();
     const std::uint64_t most = static_cast<std::uint64_t>(reference.options.samples);
-    const std::size_t count = std::min(sights, most);
-    const double step = static_cast<double>(sights) / static_cast<double>(count);
-    const std::uint64_t seed = stream_seed(reference.options, RandomStream::sight);
+    const std::size_t count = std::min(rays, most);
+    const double step = static_cast<double>(rays) / static_cast<double>(count);
+    const std::uint64_t seed = stream_seed(reference.options, RandomStream::ray);
     const auto hides_one = [&](std::size_t i) {
-        const double within = sights > most ? random_number(seed, i) : 0.5;
+        const double within = rays > most ? random_number(seed, i) : 0.5;
         const double place = (static_cast<double>(i) + within) * step;
-        return hides(tree, reference, std::min(static_cast<std::uint64_t>(place), sights - 1));
+        return hides(tree, reference, std::min(static_cast<std::uint64_t>(place), rays - 1));
     };
     return share_of(parallel_count(count, hides_one, 64), count);
 }
 
-/// Per point: its distance to the mesh in its own spacings.
+/// The distance of each point to the mesh, in spacings of the point.
 std::vector<double> distances_in_spacings(const TriangleTree& tree, const Reference& reference)
 {
     std::vector<double> distances = distances_to(tree, reference.scene.positions);
@@ -63,12 +62,12 @@ std::vector<double> distances_in_spacings(const TriangleTree& tree, const Refere
     return distances;
 }
 
-/// Whether some view sees a sample of the mesh from its front.
+/// Whether a view sees a sample of the mesh from its front.
 bool supported(const MeasuredMesh& mesh, const Reference& reference,
                const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
 {
     return std::ranges::any_of(reference.scene.views, [&](const View& view) {
-        return stands_before(view.center, position, normal) &&
+        return is_in_front_of(view.center, position, normal) &&
                view_sees(view, position, mesh, reference);
     });
 }
@@ -87,7 +86,7 @@ double unsupported_share(const MeasuredMesh& mesh, const Reference& reference)
     return share_of(parallel_count(all, is_unsupported, 16), all);
 }
 
-/// The middles of the edges of one face.
+/// The midpoints of the boundary edges.
 std::vector<Eigen::Vector3d> boundary_of(const TriMesh& mesh)
 {
     const EdgeTable edges = gather_edges(mesh.faces, mesh.positions.size());
@@ -115,7 +114,7 @@ std::int64_t count_seen_boundary(const MeasuredMesh& mesh, const Reference& refe
 constexpr std::size_t kSamplesPerRay = 4;
 constexpr std::size_t kLeastRaysAView = 36;
 
-/// Per ray: what it first meets of a surface.
+/// The first hit of each ray with a surface.
 std::vector<std::optional<FirstHit>> first_hits(const TriangleTree& tree,
                                                 const Reference& reference)
 {
@@ -148,7 +147,7 @@ EvidenceFigures measure_against_views(const MeasuredMesh& mesh, const Reference&
         distances, [&](double distance) { return distance > reference.options.spacings; });
 
     EvidenceFigures figures;
-    figures.hidden_sights = hidden_share(mesh.tree, reference);
+    figures.hidden_rays = hidden_share(mesh.tree, reference);
     figures.missed_points = static_cast<double>(missed) / static_cast<double>(distances.size());
     figures.unsupported_area = unsupported_share(mesh, reference);
     figures.median_distance = median(std::move(distances));
@@ -165,7 +164,7 @@ std::vector<ViewRay> view_rays(const Scene& scene, const CompareOptions& options
     const auto rays_of_view = [&](std::size_t index, std::vector<ViewRay>& rays) {
         const View& view = scene.views[index];
         const Camera& camera = scene.cameras[view.camera];
-        // As long as the centre is far from zero, so that adding it rounds little off.
+        // As long as the center's distance from zero, so that adding the center rounds off little.
         const double reach = view.center.isZero(0.0) ? 1.0 : view.center.norm();
         for (const Eigen::Vector2d& pixel : pixel_grid(camera, most)) {
             const std::optional<Eigen::Vector3d> direction = ray(camera, pixel);

@@ -16,7 +16,7 @@ using Value = Figure::Value;
 
 constexpr const char* kShare = "{:.4f}";
 
-/// A member of something that may not be there.
+/// A member of `whole`, or unknown.
 template <typename Whole, typename Member>
 Value known(const std::optional<Whole>& whole, Member member)
 {
@@ -57,7 +57,7 @@ std::vector<Figure> size_figures()
          .title = "genus",
          .value = [](const Comparison& c) { return c.genus ? Value(*c.genus) : Value(); },
          .when_unknown = "open",
-         .meaning = "genus: handles of a closed manifold surface; open where it is not one."},
+         .meaning = "genus: number of handles; open: the surface is not closed and manifold."},
     };
 }
 
@@ -76,25 +76,25 @@ std::vector<Figure> view_figures(const Reference& reference)
 {
     const double k = reference.options.spacings;
     return {
-        view_figure("hidden_sights", "hidden sights", &EvidenceFigures::hidden_sights,
-                    fmt::format("hidden sights: share of lines from a point to a view that saw it "
-                                "which meet the mesh farther than {} spacings from the point.",
+        view_figure("hidden_rays", "hidden rays", &EvidenceFigures::hidden_rays,
+                    fmt::format("hidden rays: fraction of rays from a point to a view that saw it "
+                                "that hit the mesh farther than {} spacings from the point.",
                                 k)),
         view_figure(
             "missed_points", "missed points", &EvidenceFigures::missed_points,
-            fmt::format("missed points: share of points farther than {} spacings from the mesh.",
+            fmt::format("missed points: fraction of points more than {} spacings from the mesh.",
                         k)),
         view_figure("unsupported_area", "unsupported area", &EvidenceFigures::unsupported_area,
-                    "unsupported area: share of the mesh's area that no view sees from its front "
-                    "(within the image, nothing of the mesh between)."),
+                    "unsupported area: fraction of the mesh's area that no view sees from its "
+                    "front (inside the image, unoccluded)."),
         view_figure("median_distance", "median distance [spacings]",
                     &EvidenceFigures::median_distance, ""),
         {.place = "/views/seen_boundary_edges",
          .title = "seen boundary edges",
          .better = Better::lower,
          .value = [](const Comparison& c) { return c.evidence.seen_boundary_edges; },
-         .meaning = "seen boundary edges: edges of one face whose middle some view sees (within "
-                    "the image, nothing of the mesh between)."},
+         .meaning = "seen boundary edges: boundary edges whose midpoint a view sees (inside the "
+                    "image, unoccluded)."},
         {.place = "/views/back_faces_seen",
          .title = "back faces seen",
          .better = Better::lower,
@@ -103,8 +103,8 @@ std::vector<Figure> view_figures(const Reference& reference)
                  return known(c.evidence.rays, &RayFigures::back_faces_seen);
              },
          .format = kShare,
-         .meaning = fmt::format("back faces seen: share of {} rays, a regular grid in every image, "
-                                "that first meet the mesh from its back.",
+         .meaning = fmt::format("back faces seen: fraction of {} rays, in a regular grid in every "
+                                "image, that hit the mesh from behind first.",
                                 reference.rays.size())},
         {.place = "/views/nothing_seen",
          .title = "nothing seen",
@@ -116,9 +116,9 @@ std::vector<Figure> view_figures(const Reference& reference)
              },
          .format = kShare,
          .meaning = reference.closed_hits
-                        ? "nothing seen: share of these rays that meet no face where the closed "
-                          "surface (what --closed makes of the model) has one."
-                        : "nothing seen: not known, for no closed surface was made of the model."},
+                        ? "nothing seen: fraction of these rays that miss the mesh but hit the "
+                          "closed surface, which --closed makes of the model."
+                        : "nothing seen: unknown, because the model has no closed surface."},
     };
 }
 
@@ -178,27 +178,27 @@ std::vector<Figure> truth_figures(const Reference& reference)
         all.push_back(agreement_figure(i, "recall", "recall", &Agreement::recall));
     }
     all[1].meaning = fmt::format(
-        "precision: share of {} samples by area of the whole mesh within that part of the diagonal "
-        "of the truth; recall: of the truth's samples, of the mesh; F: harmonic mean.",
+        "precision: fraction of {} area samples of the mesh within this part of the diagonal of "
+        "the truth; recall: of the truth's samples, this near to the mesh; F: harmonic mean.",
         reference.options.samples);
     all.push_back(truth_figure("mean_accuracy", "mean accuracy [%]", &TruthFigures::mean_accuracy));
     all.back().scale = 100.0;
     all.back().meaning = "accuracy, completeness: mean distance of the mesh's samples to the truth "
-                         "and back, in % of the diagonal.";
+                         "and vice versa, in % of the diagonal.";
     all.push_back(truth_figure("mean_completeness", "mean completeness [%]",
                                &TruthFigures::mean_completeness));
     all.back().scale = 100.0;
     all.push_back(truth_figure("blocked", "blocked", &TruthFigures::blocked));
     all.back().meaning =
-        "blocked: share of the truth's samples whose line to a view that sees them (one a sample, "
-        "at random) meets the mesh farther than 1 % of the diagonal from the sample.";
+        "blocked: fraction of the truth's samples whose line to a random view that sees them hits "
+        "the mesh farther than 1 % of the diagonal from the sample.";
     all.push_back(
         line_figure("seen right", "seen_right", Better::higher, &LineFigures::seen_right));
     all.back().meaning = fmt::format(
-        "seen right, torn, open: shares of lines from a view on through a sample of the truth that "
-        "it sees within its image (one a sample, at random; {} of {} samples have one): first meet "
-        "the mesh from its front, at most 0.5 % of the diagonal before or behind the sample; first "
-        "meet it from its back; do not meet it.",
+        "seen right, torn, open: fractions of rays from a random view through a sample of the "
+        "truth in its image, and beyond ({} of {} samples have one). Seen right: first hit a "
+        "front, at most 0.5 % of the diagonal before or behind the sample. Torn: first hit a back. "
+        "Open: miss the mesh.",
         reference.truth->image_samples(), reference.truth->samples.size());
     all.push_back(line_figure("torn", "torn", Better::lower, &LineFigures::torn));
     all.push_back(line_figure("open", "open", Better::lower, &LineFigures::open));
@@ -206,7 +206,7 @@ std::vector<Figure> truth_figures(const Reference& reference)
                                 &NormalFigures::median_deg));
     all.back().meaning =
         "normal error: angle between the normals of the mesh and of the nearest face "
-        "of the truth, whichever way these look, over the mesh's samples at most 1 % "
+        "of the truth, regardless of orientation, over the mesh's samples at most 1 % "
         "of the diagonal from the truth.";
     all.push_back(
         normal_figure("p90_normal_error_deg", "90 % normal error [deg]", &NormalFigures::most_deg));
@@ -221,8 +221,8 @@ std::vector<Figure> cost_figures()
          .better = Better::lower,
          .value = [](const Comparison& c) { return known(c.cost, &RunCost::seconds); },
          .format = "{:.2f}",
-         .meaning = "seconds, CPU seconds (all threads), peak memory: of the whole program that "
-                    "made the mesh, from its start to its end, on this machine."},
+         .meaning = "seconds, CPU seconds (all threads), peak memory: of the program that made the "
+                    "mesh, from start to end, on this machine."},
         {.place = "/cost/cpu_seconds",
          .title = "CPU seconds",
          .better = Better::lower,
@@ -283,10 +283,10 @@ std::vector<std::string> definitions(const Reference& reference, const std::vect
         reference.scene.num_points(), is_scan ? "2 views or a measured range" : "2 views",
         reference.scene.views.size())};
     if (reference.truth) {
-        lines.push_back(fmt::format("truth: {} samples by area of what at least {} see "
-                                    "(nothing of the truth between, under 80 degrees from the "
-                                    "normal, wherever its image ends; {:.1f} % of its area), seed "
-                                    "{}; diagonal = of their box = {:.6g}.",
+        lines.push_back(fmt::format("truth: {} area samples of the part visible from at least {} "
+                                    "(unoccluded, less than 80 degrees from the normal, inside "
+                                    "the image or not; {:.1f} % of its area), seed {}; diagonal "
+                                    "of their box: {:.6g}.",
                                     reference.truth->samples.size(),
                                     is_scan ? "one view" : "3 views",
                                     100.0 * reference.truth->seen_share, reference.options.seed,

@@ -12,38 +12,37 @@
 
 namespace vcarve {
 
-/// Which way a figure improves.
+/// The direction in which a figure improves.
 enum class Better { neither, lower, higher };
 
-/// A figure that meshes are judged by, declared once: the table, the JSON text, what stands below
-/// the table and the bounds that the fixtures are held to all come from this.
+/// A figure of a mesh, declared once. The table, its legend, the JSON text and the limits of the
+/// fixtures are made from it.
 struct Figure {
-    using Value = std::variant<std::monostate, std::int64_t, double>; ///< first: not known
+    using Value = std::variant<std::monostate, std::int64_t, double>; ///< monostate: unknown
 
-    std::string place; ///< in a mesh's entry of the JSON text, a JSON pointer
-    std::string title; ///< of its row in the table, with the unit; empty where it has none
+    std::string place; ///< JSON pointer in the mesh's entry of the JSON text
+    std::string title; ///< of its table row, with the unit; empty: no row
     Better better = Better::neither;
     std::function<Value(const Comparison&)> value;
-    std::string format = "{}";      ///< of the number in the table
-    double scale = 1.0;             ///< what the table multiplies a real number by
-    const char* when_unknown = "-"; ///< in the table
-    std::string meaning = {};       ///< one line; empty where the title or an earlier line says it
+    std::string format = "{}";      ///< of numbers in the table
+    double scale = 1.0;             ///< factor for numbers in the table
+    const char* when_unknown = "-"; ///< in the table, if unknown
+    std::string meaning = {};       ///< one line of the legend; empty: no line
 
-    /// The figure as a real number; nothing where it is not known.
+    /// The figure as a real number; nothing if unknown.
     std::optional<double> number(const Comparison& comparison) const;
-    /// The figure as the table has it.
+    /// The text of the figure in the table.
     std::string shown(const Comparison& comparison) const;
 };
 
-/// All figures, from the top of the table to its bottom: of the surface itself, of how it fits the
-/// views, of how near it is to the truth where the reference has one, and where a column has them,
-/// of the run that made it.
+/// Returns all figures in the order of the table: size, agreement with the views, agreement with
+/// the truth (if the reference has one), and costs of the run (if has_costs()).
 std::vector<Figure> figures(const Reference& reference, std::span<const Comparison> comparisons);
 
-/// Whether some column says what its mesh took to make.
+/// Whether a mesh has costs or failed.
 bool has_costs(std::span<const Comparison> comparisons);
 
-/// What the figures are measured against and what each of them means, a line each.
+/// The lines of the legend: the reference, and the meaning of each figure.
 std::vector<std::string> definitions(const Reference& reference,
                                      const std::vector<Figure>& figures);
 

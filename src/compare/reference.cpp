@@ -26,10 +26,10 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-constexpr std::size_t kLeastViews = 2; ///< of a point that counts
+constexpr std::size_t kLeastViews = 2; ///< per point
 constexpr double kMaxScaleRatio = 50.0;
 
-/// The corners of the faces, once per face; none of faces with a corner that is not finite.
+/// The corners of all faces, with repetition, except faces with a corner that is not finite.
 std::vector<Eigen::Vector3d> face_corners(const TriMesh& mesh)
 {
     std::vector<Eigen::Vector3d> corners;
@@ -45,7 +45,7 @@ std::vector<Eigen::Vector3d> face_corners(const TriMesh& mesh)
     return corners;
 }
 
-/// Both boxes are said in the frame of the files, where the user can compare them.
+/// The text of a box in the frame of the files, so that users can compare it.
 std::string box_text(const Box& box, const Eigen::Vector3d& origin)
 {
     const Eigen::Vector3d low = box.min() + origin;
@@ -66,17 +66,17 @@ void refuse_other_frame(const NamedMesh& named, const TriMesh& placed, const Ref
     const double model_size = points.diagonal().norm();
     const bool same_scale =
         mesh_size <= kMaxScaleRatio * model_size && model_size <= kMaxScaleRatio * mesh_size;
-    // Points of a flat scene span no box: what lies a diagonal beside them still belongs to them.
+    // The points of a flat scene span no box, so a mesh within a diagonal of them is accepted.
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(model_size);
     const bool same_place = whole.intersects(Box(points.min() - margin, points.max() + margin));
     if (same_place && same_scale) return;
     throw InputError(fmt::format(
-        "{}: the mesh lies in another frame than the model: it spans {}, but "
-        "most points of the model lie in {}",
+        "{}: the mesh is in another frame than the model: its box is {}, but "
+        "most points of the model are in {}",
         named.name, box_text(whole, reference.origin), box_text(points, reference.origin)));
 }
 
-/// The points that count and all views.
+/// All views, and the finite points with enough views or a measured range.
 Scene countable_part(const Scene& model)
 {
     Scene scene;
@@ -96,7 +96,7 @@ Scene countable_part(const Scene& model)
 constexpr std::size_t kNeighbor = 6;
 constexpr double kLeastShareOfMedian = 0.01;
 
-/// ends[i] is the area of the faces up to and including i. A face that is not finite has none.
+/// The sum of the areas of faces 0 to i, for each i. A face that is not finite counts 0.
 std::vector<double> cumulated_areas(const TriMesh& mesh)
 {
     std::vector<double> ends;
@@ -110,7 +110,7 @@ std::vector<double> cumulated_areas(const TriMesh& mesh)
     return ends;
 }
 
-/// Uniform in the triangle (Osada et al. 2002).
+/// Maps two uniform numbers to a uniform sample of a triangle (Osada et al. 2002).
 Eigen::Vector3d point_in_face(const TriMesh& mesh, const Face& face, double u, double v)
 {
     const double root = std::sqrt(u);
@@ -181,8 +181,8 @@ Reference make_reference(const Scene& model, const NamedMesh* truth, const Compa
     reference.scene = center_points(countable_part(model));
     const std::size_t points = reference.scene.num_points();
     if (points < 2) {
-        throw InputError(fmt::format("the model has {} points that at least two views saw, but "
-                                     "meshes can be measured only against two or more",
+        throw InputError(fmt::format("the model has {} points with two or more views, but a "
+                                     "comparison needs at least two such points",
                                      points));
     }
     reference.origin = reference.scene.offset;
@@ -202,7 +202,7 @@ std::vector<double> point_spacings(const std::vector<Eigen::Vector3d>& points)
     parallel_for_ranges(points.size(), [&](std::size_t first, std::size_t last) {
         std::vector<NearestNeighbors::Neighbor> nearest;
         for (std::size_t i = first; i < last; ++i) {
-            tree.find(points[i], kNeighbor + 1, nearest); // the nearest of all is the point itself
+            tree.find(points[i], kNeighbor + 1, nearest); // the nearest is the point itself
             spacings[i] = std::sqrt(nearest.back().distance_sq);
         }
     });
@@ -222,12 +222,12 @@ SurfaceSamples sample_surface(const TriMesh& mesh, std::size_t count, std::uint6
     samples.faces.resize(count);
     const double step = ends.back() / static_cast<double>(count);
     parallel_for(count, [&](std::size_t i) {
-        // The face that holds this sample's part of the area.
+        // Find the face that contains this sample's part of the area.
         const double area = (static_cast<double>(i) + random_number(seed, 3 * i)) * step;
         auto end = std::upper_bound(ends.begin(), ends.end(), area);
         if (end == ends.end()) end = std::lower_bound(ends.begin(), ends.end(), ends.back());
         const auto face = static_cast<std::size_t>(end - ends.begin());
-        // A random place on it.
+        // Take a random position on it.
         const double u = random_number(seed, 3 * i + 1);
         const double v = random_number(seed, 3 * i + 2);
         samples.positions[i] = point_in_face(mesh, mesh.faces[face], u, v);

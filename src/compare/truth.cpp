@@ -22,7 +22,7 @@ namespace vcarve {
 namespace {
 
 constexpr double kMaxIncidenceDeg = 80.0;
-constexpr double kTouchShare = 1e-6; ///< of the truth's size: nearer hits are the sample's own face
+constexpr double kTouchShare = 1e-6; ///< of the truth's diagonal: nearer hits are the sample's face
 constexpr double kBlockedShare = 0.01;    ///< of the diagonal
 constexpr double kSeenRightShare = 0.005; ///< of the diagonal
 constexpr std::size_t kPilotSamples = 20000;
@@ -37,20 +37,20 @@ double length_of_box(const std::vector<Eigen::Vector3d>& positions)
     return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-/// By how many views a sample of the truth must be seen that a mesh of these views should show: one
-/// that measures the range is enough.
+/// The number of views that must see a sample of the truth for it to count. One is enough if views
+/// measure ranges.
 int least_views(const Scene& scene)
 {
     constexpr int kOfPhotographs = 3;
     return has_scanners(scene) ? 1 : kOfPhotographs;
 }
 
-/// What is to be known of the views that see a sample of the truth.
+/// The views that see a sample of the truth.
 struct SeeingViews {
-    int wanted = 0; ///< how many are enough
+    int wanted = 0; ///< sufficient number of views
     int count = 0;
-    std::uint32_t first = kNoView;          ///< that was asked
-    std::uint32_t first_in_image = kNoView; ///< of those whose image holds the sample
+    std::uint32_t first = kNoView;          ///< first view that sees the sample
+    std::uint32_t first_in_image = kNoView; ///< first with the sample in its image
 
     bool enough() const { return wanted > 0 && count >= wanted; }
     bool complete() const { return enough() && first_in_image != kNoView; }
@@ -63,9 +63,9 @@ struct SeeingViews {
 };
 
 /// Decides which views see points of the true surface.
-class TruthSight {
+class TruthRay {
   public:
-    TruthSight(const MeasuredMesh& surface, const Reference& reference)
+    TruthRay(const MeasuredMesh& surface, const Reference& reference)
         : surface_(surface),
           reference_(reference),
           touch_(kTouchShare * length_of_box(surface.mesh.positions)),
@@ -73,7 +73,7 @@ class TruthSight {
     {
     }
 
-    /// Asks the views in random order until enough see the sample and one of them within its image.
+    /// Tests views in random order until enough see the sample, and one sees it in its image.
     SeeingViews seeing_views(const SurfaceSamples& samples, std::size_t index) const
     {
         const std::vector<View>& views = reference_.scene.views;
@@ -85,7 +85,7 @@ class TruthSight {
         std::iota(order.begin(), order.end(), 0U);
         SeeingViews seeing{.wanted = least_views_};
         for (std::size_t k = 0; k < order.size() && !seeing.complete(); ++k) {
-            // The next of a random order (Fisher and Yates).
+            // Choose the next view of a random order (Fisher and Yates).
             const auto left = static_cast<double>(order.size() - k);
             const double random = random_number(stream_seed(reference_.options, RandomStream::view),
                                                 index * order.size() + k);
@@ -94,7 +94,7 @@ class TruthSight {
             const auto shows = [&] {
                 return view_shows(view, reference_.scene.cameras[view.camera], point);
             };
-            // Another view whose image ends before the sample tells nothing more.
+            // If enough views see the sample, only views with the sample in their image matter.
             if (seeing.enough() && !shows()) continue;
             if (sees(view.center, point, normal)) seeing.add(order[k], shows());
         }
@@ -118,15 +118,15 @@ class TruthSight {
     int least_views_;
 };
 
-/// Replaces truth.samples by those of `count` samples of the whole surface that count.
+/// Draws `count` samples of the whole surface, and stores the samples that enough views see.
 void sample_truth(Truth& truth, const Reference& reference, std::size_t count, RandomStream stream)
 {
     const SurfaceSamples all =
         sample_surface(truth.surface.mesh, count, stream_seed(reference.options, stream));
-    const TruthSight sight(truth.surface, reference);
+    const TruthRay ray(truth.surface, reference);
     std::vector<SeeingViews> views(count);
     parallel_for(
-        count, [&](std::size_t i) { views[i] = sight.seeing_views(all, i); }, 64);
+        count, [&](std::size_t i) { views[i] = ray.seeing_views(all, i); }, 64);
     truth.samples.clear();
     truth.views.clear();
     truth.image_views.clear();
@@ -167,7 +167,7 @@ Deviations deviations(const TriMesh& mesh, const SurfaceSamples& samples, const 
     return result;
 }
 
-/// Nothing where no sample is near the truth.
+/// Returns nothing if no sample is near the truth.
 std::optional<NormalFigures> normal_figures(const Deviations& deviations, const Truth& truth)
 {
     std::vector<double> angles;
@@ -203,7 +203,7 @@ double blocked_share(const MeasuredMesh& mesh, const Truth& truth, const std::ve
 
 enum class Meeting : char { unseen, open, torn, astray, right };
 
-/// What a view meets of the mesh on its way to a sample of the truth and beyond.
+/// The first hit of the ray from a view through a sample of the truth.
 Meeting meeting_of(const MeasuredMesh& mesh, const Truth& truth, const Eigen::Vector3d& center,
                    const Eigen::Vector3d& sample)
 {
@@ -214,7 +214,7 @@ Meeting meeting_of(const MeasuredMesh& mesh, const Truth& truth, const Eigen::Ve
     return off <= kSeenRightShare * truth.diagonal ? Meeting::right : Meeting::astray;
 }
 
-/// Nothing where no image holds a sample of the truth.
+/// Returns nothing if no sample of the truth is in an image.
 std::optional<LineFigures> line_figures(const MeasuredMesh& mesh, const Truth& truth,
                                         const std::vector<View>& views)
 {
@@ -245,16 +245,16 @@ Truth seen_truth(const NamedMesh& named, const Reference& reference)
         .surface = place_mesh(named, reference), .samples = {}, .views = {}, .image_views = {}};
     const auto wanted = static_cast<std::size_t>(reference.options.samples);
     sample_truth(truth, reference, kPilotSamples, RandomStream::pilot);
-    // Only a share of the area is seen: draw as many as leaves the wanted number, more if it did
-    // not.
+    // Only a part of the area is seen: draw more samples accordingly, and still more if too few
+    // remain.
     double surplus = 1.0;
     do {
         surplus *= 1.02;
         if (truth.seen_share < kLeastSeenShare) {
             throw InputError(fmt::format(
-                "{}: less than a thousandth of its area is seen by at least "
-                "{} of the model's {} views, so it cannot tell how good a "
-                "mesh is",
+                "{}: less than a thousandth of the true surface is visible from "
+                "{} or more of the model's {} views, so meshes cannot be "
+                "compared with it",
                 named.name, least_views(reference.scene), reference.scene.views.size()));
         }
         const double draws = surplus * static_cast<double>(wanted) / truth.seen_share;

@@ -20,20 +20,20 @@ constexpr std::size_t kSamples = 100000;
 constexpr double kCellShare = 0.02;  ///< of the diagonal
 constexpr double kApartShare = 0.08; ///< of the diagonal
 
-/// What the samples in one cube of the grid come to.
+/// The samples in one cube of the grid.
 struct Lump {
     double sum = 0.0;
     std::size_t worst = 0; ///< its farthest sample
 };
 
-/// The number of a cube along one axis; beyond what numbers can tell apart, the last.
+/// The index of a cube along one axis, clamped to what doubles resolve.
 std::int64_t cube_of(double coordinate, double cell)
 {
     constexpr double kMost = 1e15;
     return static_cast<std::int64_t>(std::floor(std::clamp(coordinate / cell, -kMost, kMost)));
 }
 
-/// The cubes that hold a sample farther than choice.least, the worst first.
+/// The cubes with a sample farther than choice.least, worst first.
 std::vector<Lump> lumps_of(std::span<const Eigen::Vector3d> samples,
                            std::span<const double> distances, const WorstChoice& choice)
 {
@@ -61,13 +61,13 @@ std::vector<Lump> lumps_of(std::span<const Eigen::Vector3d> samples,
     return lumps;
 }
 
-/// Of samples whose distances are said in diagonals, but not their places.
+/// Options for positions and distances in diagonals.
 WorstChoice choice_of(std::size_t count)
 {
     return {.cell = kCellShare, .apart = kApartShare, .least = kTolerances.front(), .count = count};
 }
 
-/// The worst of samples in the reference's frame, their distances in diagonals.
+/// The worst samples. `samples` are in the reference's frame, `distances` in diagonals.
 std::vector<std::size_t> worst_of(std::vector<Eigen::Vector3d> samples,
                                   std::span<const double> distances, const Reference& reference,
                                   std::size_t count)
@@ -86,8 +86,8 @@ void divide(std::vector<double>& lengths, double unit)
     }
 }
 
-/// Sets from where a place of a mesh is well seen: the view that sees it most squarely, else
-/// straight from the front of its face.
+/// Sets the viewpoint of a position on a mesh: the view that sees its face most frontally, or the
+/// direction of the normal if no view sees it.
 void look_at(WorstPlace& place, const Eigen::Vector3d& normal, const MeasuredMesh& mesh,
              const Reference& reference)
 {
@@ -146,8 +146,8 @@ SurfaceDistances surface_distances(const MeasuredMesh& mesh, const TriangleTree&
     return far;
 }
 
-std::vector<WorstPlace> wrong_places(const MeasuredMesh& mesh, const SurfaceDistances& far,
-                                     const Reference& reference, std::size_t count)
+std::vector<WorstPlace> largest_deviations(const MeasuredMesh& mesh, const SurfaceDistances& far,
+                                           const Reference& reference, std::size_t count)
 {
     std::vector<WorstPlace> places;
     for (const std::size_t i : worst_of(far.samples.positions, far.distances, reference, count)) {
@@ -159,10 +159,10 @@ std::vector<WorstPlace> wrong_places(const MeasuredMesh& mesh, const SurfaceDist
     return places;
 }
 
-std::vector<WorstPlace> missing_places(const MeasuredMesh& mesh, const Reference& reference,
-                                       std::size_t count)
+std::vector<WorstPlace> largest_gaps(const MeasuredMesh& mesh, const Reference& reference,
+                                     std::size_t count)
 {
-    // The samples of the truth lie in the order of its faces, so every n-th is spread as all are.
+    // The truth's samples are sorted by face, so every n-th sample is spread like all.
     const Truth& truth = *reference.truth;
     const std::size_t step = truth.samples.size() / kSamples + 1;
     std::vector<Eigen::Vector3d> samples;

@@ -12,56 +12,55 @@
 
 namespace vcarve {
 
-/// Which of the samples of a surface are named as its worst. Lengths are in the samples' unit.
+/// Options of worst_samples(). Lengths are in the samples' unit.
 struct WorstChoice {
     double cell = 0.0;     ///< edge of the cubes in which distances are summed
-    double apart = 0.0;    ///< the least distance of two that are named
-    double least = 0.0;    ///< nearer samples are never named
-    std::size_t count = 8; ///< how many are named at most
+    double apart = 0.0;    ///< minimum distance of two results
+    double least = 0.0;    ///< samples with at most this distance are ignored
+    std::size_t count = 8; ///< maximum number of results
 };
 
-/// Samples of a surface, evenly spread by area, and how far each lies from another surface: names
-/// those where much of it lies far, the worst first. In every cube of a grid the distances over
-/// `least` are summed, which is area times distance; of the cubes in the order of that sum, each
-/// names its farthest sample, unless one was named nearer than `apart`, or nearer than the smaller
-/// of the two samples' distances: what lies far out in one lump is named once. Equal sums and
-/// distances go by the samples' order. Precondition: cell > 0. Cost: O(n log n).
+/// Returns the worst of a surface's samples, whose distances to another surface are `distances`,
+/// worst first. Samples are uniform by area. Sums the distances above `least` in each cube of a
+/// grid: area times distance. In decreasing order of this sum, each cube adds its farthest sample.
+/// It is skipped if a result is nearer than `apart`, or nearer than the smaller of both samples'
+/// distances, so that a region far away appears only once. The samples' order breaks ties.
+/// Precondition: cell > 0. Cost: O(n log n).
 std::vector<std::size_t> worst_samples(std::span<const Eigen::Vector3d> samples,
                                        std::span<const double> distances,
                                        const WorstChoice& choice);
 
-/// A place where a surface lies far from another.
+/// A position where a surface is far from another.
 struct WorstPlace {
     Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< in the reference's frame
     double distance = 0.0;                              ///< in diagonals
-    Eigen::Vector3d towards = Eigen::Vector3d::UnitZ(); ///< unit, to where it is well seen from
-    double reach = 0.0; ///< how far off the view stands that sees it from there; 0 if none does
-    /// How many views see it, see view_sees(). A place on the truth counts only where enough views
-    /// see it: of that it says 0 where no image holds it, and else nothing.
+    Eigen::Vector3d towards = Eigen::Vector3d::UnitZ(); ///< unit vector to a good viewpoint
+    double reach = 0.0; ///< distance of the view at this viewpoint; 0: no view
+    /// The number of views that see it, see view_sees(). On the truth, which enough views see, it
+    /// is 0 if no image contains the position, and else empty.
     std::optional<std::int64_t> views = {};
 };
 
-/// What distances are shares of: the truth's diagonal; where there is none, that of the box of the
-/// middle nine tenths of the points, or of all of them where that has no size.
+/// The unit of distances: the diagonal of the truth. Without a truth, the diagonal of the box of
+/// the central 90 % of the points, or of all points if that is 0.
 double diagonal_of(const Reference& reference);
 
-/// Samples of a mesh, and how far each lies from another surface. The arrays run parallel.
+/// Samples of a mesh and their distances to another surface, as parallel arrays.
 struct SurfaceDistances {
-    SurfaceSamples samples; ///< at most 100,000, by area, the same for the same mesh and options
+    SurfaceSamples samples;        ///< at most 100,000, by area, reproducible
     std::vector<double> distances; ///< in diagonals
 };
 
 SurfaceDistances surface_distances(const MeasuredMesh& mesh, const TriangleTree& other,
                                    const Reference& reference);
 
-/// Where a mesh lies farthest from the surface that `far` tells the distances to, `count` places at
-/// most.
-std::vector<WorstPlace> wrong_places(const MeasuredMesh& mesh, const SurfaceDistances& far,
-                                     const Reference& reference, std::size_t count);
+/// Returns at most `count` positions where a mesh is farthest from the other surface of `far`.
+std::vector<WorstPlace> largest_deviations(const MeasuredMesh& mesh, const SurfaceDistances& far,
+                                           const Reference& reference, std::size_t count);
 
-/// Where the part of the truth that counts lies farthest from a mesh. Precondition: the reference
-/// has a truth.
-std::vector<WorstPlace> missing_places(const MeasuredMesh& mesh, const Reference& reference,
-                                       std::size_t count);
+/// Returns at most `count` positions where the part of the truth that counts is farthest from a
+/// mesh. Precondition: the reference has a truth.
+std::vector<WorstPlace> largest_gaps(const MeasuredMesh& mesh, const Reference& reference,
+                                     std::size_t count);
 
 } // namespace vcarve

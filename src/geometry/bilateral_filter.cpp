@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The logarithm of how the share falls with the angle between the normals, about 20 degrees.
+/// The log-weight of an angle between normals: a Gaussian, standard deviation about 20 degrees.
 double log_likeness(double cosine)
 {
     constexpr double kSpread = 0.35;
@@ -46,7 +46,7 @@ std::vector<Vector3d> filtered_normals(std::span<const Vector3d> positions,
 
 Height BilateralFilter::height(std::size_t point, double gate) const
 {
-    constexpr double kLeastAgreement = 1e-6; // of planes, or they are all others
+    constexpr double kLeastAgreement = 1e-6; // minimum share of the weights
     double sum = 0.0;
     double weights = 0.0;
     double squares = 0.0;
@@ -85,8 +85,8 @@ Vector3d BilateralFilter::estimate(std::size_t point, double gate) const
 
 double BilateralFilter::noise_px() const
 {
-    constexpr double kSigmaOfMedian = 1.4826; // of a normal distribution
-    constexpr double kAll = 1e100;            // no plane is too far
+    constexpr double kSigmaOfMedian = 1.4826; // standard deviation / median of absolute values
+    constexpr double kAll = 1e100;            // uses planes at any distance
     return kSigmaOfMedian * median_of_some(variances_.size(), [&](std::size_t i) {
                constexpr double kUnknown = -1.0;
                const double variance = variances_[i];

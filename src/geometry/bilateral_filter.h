@@ -13,31 +13,31 @@
 
 namespace vcarve {
 
-/// The logarithm of how the share of a neighbour falls with its distance, if the farthest is within
-/// the root of `reach_sq`. Logarithms, so that one exponential does for a product.
+/// The log-weight of a neighbor at a distance; `reach_sq` is the square of the distance to the
+/// farthest neighbor. Log-weights are added, so that a product needs only one exponential.
 double log_nearness(double distance_sq, double reach_sq);
 
-/// Unit normals filtered once, with weights by nearness and likeness (Jones, Durand, Zwicker,
-/// "Normal improvement for point rendering", CG&A 2004). A normal may be zero, and stays so if all
-/// around are. Cost: O(points x neighbours), in parallel.
+/// Filters unit normals once, weighted by distance and similarity (Jones, Durand, Zwicker, "Normal
+/// improvement for point rendering", CG&A 2004). A zero normal stays zero if all its neighbors'
+/// normals are zero. Cost: O(points x neighbors), in parallel.
 std::vector<Eigen::Vector3d> filtered_normals(std::span<const Eigen::Vector3d> positions,
                                               std::span<const Eigen::Vector3d> normals,
                                               const Neighborhoods& neighborhoods);
 
-/// How far a point lies above the surface, and how uncertain the surface is there.
+/// The height of a point above the surface, and the variance of the surface there.
 struct Height {
     double value = 0.0;
-    double variance = 0.0; ///< at a pixel
+    double variance = 0.0; ///< for noise of one pixel
 };
 
 /// The bilateral filter of Fleishman, Drori, Cohen-Or ("Bilateral mesh denoising", SIGGRAPH 2003)
-/// for points whose uncertainty is known: a point is held against the planes through those around
-/// it, across their normals, each as much as it is near, like in its normal, and certain.
+/// for points with known covariances. A point is compared with the planes of its neighbors. Weights
+/// of planes depend on distance, similarity of normals, and variance.
 class BilateralFilter {
   public:
-    /// Of points with unit `normals` of the surface there. covariance_of(i) is what noise of one
-    /// pixel makes of a point, zero where it says nothing of where the surface is. Holds a
-    /// reference to the positions. Cost: a call for each point, in parallel.
+    /// `normals` are unit normals of the surface. covariance_of(i) is the covariance of a point for
+    /// noise of one pixel, or zero if it is unknown. Keeps a reference to the positions. Calls
+    /// covariance_of once per point, in parallel.
     template <typename Covariance>
     BilateralFilter(std::span<const Eigen::Vector3d> positions,
                     std::vector<Eigen::Vector3d> normals, Neighborhoods neighborhoods,
@@ -55,20 +55,20 @@ class BilateralFilter {
         });
     }
 
-    /// Planes count less, the farther they are for `gate` pixels of noise, and not if they are much
-    /// farther. Cost: O(neighbours).
+    /// The height above the planes of the neighbors. Weights of planes fall with their distance, as
+    /// a Gaussian of `gate` pixels of noise. Zero if all are much farther. Cost: O(neighbors).
     Height height(std::size_t point, double gate) const;
 
-    /// Where a point most likely is, from itself and the planes; it is no more than `gate` times
-    /// what a pixel makes of its uncertainty from where it was. Cost: O(neighbours).
+    /// The most likely position of a point, given its own position and the planes. It moves by at
+    /// most `gate` standard deviations for noise of one pixel. Cost: O(neighbors).
     Eigen::Vector3d estimate(std::size_t point, double gate) const;
 
-    /// The standard deviation of the points' places in images, in pixels: the median height above
-    /// planes however far, over what one pixel makes of it, of the points that say where the
-    /// surface is; of many, of every n-th. Cost: O(points x neighbours), in parallel.
+    /// The standard deviation of image positions, in pixels: the median height above planes at any
+    /// distance, divided by its standard deviation for one pixel. Points of unknown covariance are
+    /// ignored, and large sets are subsampled. Cost: O(points x neighbors), in parallel.
     double noise_px() const;
 
-    /// The same of their heights, over the distances between points: the median.
+    /// The median standard deviation of heights, in units of the local spacing of points.
     double noise_in_spacings() const;
 
   private:

@@ -22,7 +22,7 @@ using NeighborTraits =
 using Nearest = CGAL::Orthogonal_k_neighbor_search<NeighborTraits>;
 
 #ifdef VCARVE_WATCHES_THREADS
-using BuildTag = CGAL::Sequential_tag; // it does not see how oneTBB's tasks hand work over
+using BuildTag = CGAL::Sequential_tag; // ThreadSanitizer cannot follow oneTBB's tasks
 #else
 using BuildTag = CGAL::Parallel_if_available_tag;
 #endif
@@ -36,7 +36,7 @@ struct NearestNeighbors::Search {
 NearestNeighbors::NearestNeighbors(const std::vector<Eigen::Vector3d>& points)
     : search_(std::make_unique<Search>())
 {
-    if (points.empty()) return; // CGAL's tree is not to be built then
+    if (points.empty()) return; // CGAL cannot build an empty tree
     search_->tree.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         search_->tree.insert({to_cartesian(points[i]), i});
@@ -70,7 +70,7 @@ Neighborhoods nearest_neighborhoods(const std::vector<Eigen::Vector3d>& position
 {
     const std::size_t kept = std::min(count, positions.size() - 1);
     const NearestNeighbors tree(positions);
-    progress.tell(0.4);
+    progress.report(0.4);
     Neighborhoods neighborhoods(positions.size(), kept);
     parallel_for_ranges(positions.size(), progress.part(0.4, 1.0),
                         [&](std::size_t first, std::size_t last) {

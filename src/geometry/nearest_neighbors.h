@@ -13,7 +13,7 @@
 
 namespace vcarve {
 
-/// Finds the points nearest to a place, by CGAL's k-d tree.
+/// Finds the points nearest to a position, with CGAL's k-d tree.
 class NearestNeighbors {
   public:
     /// Cost: O(points log points), in parallel.
@@ -27,9 +27,9 @@ class NearestNeighbors {
         double distance_sq;
     };
 
-    /// Fills `nearest` with the `count` points nearest to a place, or all if there are fewer, the
-    /// nearest first. Which of points equally far are left out depends on the points alone. Safe
-    /// from many threads. Cost: O(log points + count).
+    /// Fills `nearest` with the `count` points nearest to `place`, or all if there are fewer, in
+    /// ascending distance. Ties are broken in a way that depends only on the points. Thread-safe.
+    /// Cost: O(log points + count).
     void find(const Eigen::Vector3d& place, std::size_t count,
               std::vector<Neighbor>& nearest) const;
 
@@ -38,28 +38,28 @@ class NearestNeighbors {
     std::unique_ptr<Search> search_;
 };
 
-/// For every point those around it, up to so many, and how far they reach. Takes 4 bytes for each
-/// of them, and 12 a point.
+/// For each point a list of neighbors of limited length, and the radius that contains them.
+/// Memory: 4 bytes per possible neighbor, and 12 bytes per point.
 class Neighborhoods {
   public:
-    /// Every point is alone.
+    /// No point has neighbors yet. `most` is the maximum number of neighbors per point.
     Neighborhoods(std::size_t num_points, std::size_t most)
         : most_(most), points_(num_points * most), counts_(num_points), reaches_sq_(num_points)
     {
     }
 
-    /// Puts up to `most` points around a point, within the root of `reach_sq` of it. Safe from many
-    /// threads for different points.
+    /// Sets the neighbors of a point, at most `most`, all within the square root of `reach_sq`.
+    /// Thread-safe for different points.
     void set(std::size_t point, std::span<const std::uint32_t> around, double reach_sq);
 
     std::span<const std::uint32_t> around(std::size_t point) const
     {
         return {points_.data() + most_ * point, counts_[point]};
     }
-    /// The square of how far they reach; 0 of a point that is alone.
+    /// The squared radius that contains the neighbors; 0 for a point without neighbors.
     double reach_sq(std::size_t point) const { return reaches_sq_[point]; }
 
-    /// The square of how far points stand apart where the surface is flat.
+    /// The squared spacing of points, if the surface is flat.
     double spacing_sq(std::size_t point) const
     {
         return reaches_sq_[point] * std::numbers::pi / static_cast<double>(counts_[point]);
@@ -72,9 +72,9 @@ class Neighborhoods {
     std::vector<double> reaches_sq_;
 };
 
-/// The `count` points nearest to each of at least two, no two at one place, or all others where
-/// there are fewer; they reach to the farthest. Cost: O(points x (log points + count)), in
-/// parallel.
+/// Finds the `count` nearest neighbors of each point, or all other points if there are fewer. The
+/// radius is the distance to the farthest. Needs at least two points, and distinct positions.
+/// Cost: O(points x (log points + count)), in parallel.
 Neighborhoods nearest_neighborhoods(const std::vector<Eigen::Vector3d>& positions,
                                     std::size_t count, const Progress& progress = {});
 

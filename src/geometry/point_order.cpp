@@ -18,8 +18,8 @@ struct Placed {
     std::uint32_t point;
 };
 
-/// Whether a point comes before another along an axis. Those equally far are told apart by the
-/// other axes, so that the order does not depend on the one they were given in.
+/// Compares points along an axis. Ties are broken by the other axes, so that the order does not
+/// depend on the input order.
 template <int kAxis>
 struct LessAlong {
     bool operator()(const Placed& a, const Placed& b) const
@@ -31,9 +31,9 @@ struct LessAlong {
     }
 };
 
-/// What CGAL's sort asks about points.
+/// The traits of CGAL's sort.
 struct SortTraits {
-    // NOLINTBEGIN(readability-identifier-naming): as CGAL calls them.
+    // NOLINTBEGIN(readability-identifier-naming): CGAL's names.
     using Point_3 = Placed;
     using Less_x_3 = LessAlong<0>;
     using Less_y_3 = LessAlong<1>;
@@ -60,7 +60,7 @@ std::vector<std::uint32_t> hilbert_order(const std::vector<Vector3d>& positions)
 
 std::vector<std::uint32_t> lexicographic_sort(const std::vector<Eigen::Vector3d>& positions)
 {
-    // The first coordinate sits beside the index, so that sorting seldom looks elsewhere.
+    // x is stored beside the index, so that most comparisons need no other memory.
     struct Entry {
         double x;
         std::uint32_t index;

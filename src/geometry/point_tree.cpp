@@ -51,10 +51,10 @@ void PointTree::find_nearest(const Eigen::Vector3d& place, std::size_t count,
     });
 }
 
-std::vector<double> PointTree::distances_to_foreign(const PointRun& own) const
+std::vector<double> PointTree::distances_to_others(const PointRun& own) const
 {
     std::vector<double> distances;
-    std::size_t nearest_point = points_.size(); // to the leaf before: not far from the next one's
+    std::size_t nearest_point = points_.size(); // to the previous leaf: a good first bound
     for (std::size_t leaf = own.first / kLeaf; leaf * kLeaf < own.last; ++leaf) {
         const Box& box = levels_[0][leaf];
         const auto distance_to = [&](std::size_t i) {
@@ -62,7 +62,7 @@ std::vector<double> PointTree::distances_to_foreign(const PointRun& own) const
         };
         double nearest = nearest_point < points_.size() ? distance_to(nearest_point)
                                                         : std::numeric_limits<double>::infinity();
-        visit_foreign(
+        visit_excluding(
             own, nearest, [&](const Box& other) { return distance_between(box, other); },
             [&](std::size_t i) {
                 if (!(distance_to(i) < nearest)) return;

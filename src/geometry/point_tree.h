@@ -10,13 +10,13 @@
 
 namespace vcarve {
 
-/// A box along the axes.
+/// An axis-aligned box.
 struct Box {
     Eigen::Vector3d low;
     Eigen::Vector3d high;
 };
 
-/// How far apart two boxes are; 0 where they touch.
+/// The distance between two boxes; 0 if they touch.
 inline double distance_between(const Box& a, const Box& b)
 {
     const Eigen::Vector3d gap =
@@ -24,7 +24,7 @@ inline double distance_between(const Box& a, const Box& b)
     return gap.norm();
 }
 
-/// A run of points, [first, last).
+/// A range of points, [first, last).
 struct PointRun {
     std::size_t first;
     std::size_t last;
@@ -33,8 +33,8 @@ struct PointRun {
     std::size_t size() const { return last - first; }
 };
 
-/// Boxes around runs of points that follow each other in space: leaves of 16 points, and boxes of 8
-/// of the level below. Keeps a reference to the points. Memory: 4 bytes a point; cost: O(points).
+/// A tree of boxes over spatially sorted points, with 16 points per leaf and 8 children per node.
+/// Keeps a reference to the points. Memory: 4 bytes per point. Cost: O(points).
 class PointTree {
   public:
     static constexpr std::size_t kLeaf = 16;
@@ -42,32 +42,32 @@ class PointTree {
     explicit PointTree(const std::vector<Eigen::Vector3d>& points);
 
     const std::vector<Eigen::Vector3d>& points() const { return points_; }
-    /// Around all points.
+    /// The bounding box of all points.
     const Box& box() const { return levels_.back().front(); }
 
-    /// Shows visit_point(i) points that are not in `own`, those first whose boxes have the least
-    /// bound(box), and none in boxes with more than `limit`, which visit_point may lower.
+    /// Calls visit_point(i) for points outside `own`. Boxes with the least bound(box) come first.
+    /// Boxes with a bound above `limit` are skipped; visit_point may lower `limit`.
     template <typename Bound, typename VisitPoint>
-    void visit_foreign(const PointRun& own, const double& limit, const Bound& bound,
-                       const VisitPoint& visit_point) const
+    void visit_excluding(const PointRun& own, const double& limit, const Bound& bound,
+                         const VisitPoint& visit_point) const
     {
         const std::size_t top = levels_.size() - 1;
         if (bound(levels_[top][0]) > limit) return;
         descend(top, 0, Search<Bound, VisitPoint>{own, limit, bound, visit_point});
     }
 
-    /// The same of the distance to a place: shows visit_point(i) all points that are no farther
-    /// from it than `limit` and not in `own`, and some that are farther.
+    /// Calls visit_point(i) for all points outside `own` within the distance `limit` of `place`,
+    /// and for some farther points. visit_point may lower `limit`.
     template <typename VisitPoint>
     void visit_near(const Eigen::Vector3d& place, const PointRun& own, const double& limit,
                     const VisitPoint& visit_point) const
     {
         const Box here{place, place};
-        visit_foreign(
+        visit_excluding(
             own, limit, [&](const Box& box) { return distance_between(here, box); }, visit_point);
     }
 
-    /// A point, and how far it is.
+    /// A point and its distance.
     struct Near {
         double distance;
         std::size_t point;
@@ -76,26 +76,26 @@ class PointTree {
         auto operator<=>(const Near&) const = default;
     };
 
-    /// Fills `nearest` with the `count` points nearest to a place, or all if there are fewer, the
-    /// nearest first, and of those equally far the first. Safe from many threads. Cost: O(log
-    /// points + count) where the points follow each other in space.
+    /// Fills `nearest` with the `count` points nearest to `place`, or all if there are fewer, in
+    /// ascending distance. Ties go to the lower index. Thread-safe. Cost: O(log points + count) if
+    /// the points are in a spatial order.
     void find_nearest(const Eigen::Vector3d& place, std::size_t count,
                       std::vector<Near>& nearest) const;
 
-    /// Of each leaf with points of `own` the distance from its box to the nearest point that is not
-    /// in `own`; infinite where there is none.
-    std::vector<double> distances_to_foreign(const PointRun& own) const;
+    /// For each leaf with points of `own`, the distance from its box to the nearest point outside
+    /// `own`; infinite if there are no other points.
+    std::vector<double> distances_to_others(const PointRun& own) const;
 
   private:
     static constexpr std::size_t kFanout = 8;
 
-    /// A box amid those of its siblings.
+    /// A child node and its bound.
     struct Child {
         double bound;
         std::size_t node;
     };
 
-    /// What visit_foreign() was told.
+    /// The arguments of visit_excluding().
     template <typename Bound, typename VisitPoint>
     struct Search {
         const PointRun& own;
@@ -114,7 +114,7 @@ class PointTree {
             }
             return;
         }
-        std::array<Child, kFanout> children; // those worth a look, the best first
+        std::array<Child, kFanout> children; // children within the limit, ascending
         std::size_t count = 0;
         const std::size_t last = std::min(levels_[level - 1].size(), (node + 1) * kFanout);
         for (std::size_t child = node * kFanout; child < last; ++child) {
@@ -139,7 +139,7 @@ class PointTree {
     }
 
     const std::vector<Eigen::Vector3d>& points_;
-    std::vector<std::vector<Box>> levels_; ///< the leaves first, one box in the last
+    std::vector<std::vector<Box>> levels_; ///< from the leaves up to the root
 };
 
 } // namespace vcarve

@@ -10,7 +10,7 @@
 
 namespace vcarve {
 
-/// The normal of a triangle, as long as twice its area; it points to where a, b, c run
+/// The normal of a triangle; its length is twice the area. Seen from its tip, a, b, c are
 /// counter-clockwise.
 inline Eigen::Vector3d scaled_normal(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                      const Eigen::Vector3d& c)
@@ -24,7 +24,7 @@ inline double triangle_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
     return 0.5 * scaled_normal(a, b, c).norm();
 }
 
-/// The same for a face, given by the indices of its corners.
+/// The same for a face with the given vertex indices.
 inline Eigen::Vector3d scaled_normal(std::span<const Eigen::Vector3d> positions,
                                      const std::array<std::uint32_t, 3>& face)
 {
@@ -37,7 +37,7 @@ inline double face_area(std::span<const Eigen::Vector3d> positions,
     return 0.5 * scaled_normal(positions, face).norm();
 }
 
-/// Unit, pointing outside; zero where the face has no area.
+/// The unit normal of a face, pointing outside; zero if the face has no area.
 inline Eigen::Vector3d face_normal(std::span<const Eigen::Vector3d> positions,
                                    const std::array<std::uint32_t, 3>& face)
 {
@@ -62,8 +62,8 @@ inline double longest_edge(std::span<const Eigen::Vector3d> positions,
     return longest_edge(corners_of(positions, face));
 }
 
-/// Whether a face turns by more than 60 degrees where its corners go, or has no area before or
-/// after: vertices that move must not turn faces over.
+/// Whether a face turns by more than 60 degrees when its corners move, or has no area before or
+/// after. Moved vertices must not flip faces.
 inline bool turns_too_far(const std::array<Eigen::Vector3d, 3>& before,
                           const std::array<Eigen::Vector3d, 3>& after)
 {

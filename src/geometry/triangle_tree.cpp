@@ -53,7 +53,7 @@ bool has_area(const Corners& corners)
     return std::isfinite(size_sq) && size_sq > 0.0 && !collinear(a, b, c);
 }
 
-/// A ray, or a segment, made ready to be held against many boxes and triangles.
+/// A ray or segment, prepared for tests against many boxes and triangles.
 class RayQuery {
   public:
     RayQuery(const Vector3d& from, const Vector3d& towards)
@@ -61,9 +61,9 @@ class RayQuery {
     {
     }
 
-    /// How far along the box begins, infinite where the ray passes it. Never says so of a box it
-    /// meets: the end is moved away by more than all that was rounded (Ize, "Robust BVH Ray
-    /// Traversal", 2013).
+    /// The ray parameter at which the ray enters a box; kMissed if it misses the box. Never misses
+    /// a box that it meets: the exit is moved back by more than the rounding error (Ize, "Robust
+    /// BVH Ray Traversal", 2013).
     double entry(const CGAL::Bbox_3& box) const
     {
         double begin = 0.0;
@@ -72,24 +72,24 @@ class RayQuery {
             double near = (box.min(axis) - from_[axis]) * inverse_[axis];
             double far = (box.max(axis) - from_[axis]) * inverse_[axis];
             if (inverse_[axis] < 0.0) std::swap(near, far);
-            // Neither holds for the NaN of a ray that runs in the box's side.
+            // Both are false for NaN, if the ray is in the plane of a side.
             if (near > begin) begin = near;
             if (far < end) end = far;
         }
         return begin <= end * kBeyondRounding ? begin : kMissed;
     }
 
-    /// Whether the segment to `towards` meets the triangle.
+    /// Whether the segment from `from` to `towards` meets the triangle.
     bool segment_meets(const Triangle& triangle) const
     {
         return meets_triangle(from_, towards_, corners_of(triangle));
     }
 
-    /// Where the ray meets the triangle, at `towards` or beyond, too.
+    /// The hit of the ray with the triangle, which may be at or beyond `towards`.
     std::optional<FirstHit> meets(const Triangle& triangle) const
     {
         const Corners corners = corners_of(triangle);
-        // On which side of each edge the ray passes.
+        // The side on which the ray passes each edge.
         int least = 0;
         int most = 0;
         Vector3d weights;
@@ -117,7 +117,7 @@ class RayQuery {
         return line_.dot((a - from_).cross(b - from_));
     }
 
-    /// Of the mean of the corners by weight: so it never leaves the triangle, however slim.
+    /// The ray parameter of the weighted mean of the corners, which is inside even thin triangles.
     double place_along(const Corners& corners, const Vector3d& weights) const
     {
         const double sum = weights.sum();
@@ -130,11 +130,11 @@ class RayQuery {
     Vector3d from_;
     Vector3d towards_;
     Vector3d line_;
-    Vector3d inverse_; ///< infinite where the ray stays at one coordinate
+    Vector3d inverse_; ///< infinite if a coordinate is constant along the ray
 };
 
-/// How CGAL's tree asks about segments: boxes, of which there are many more, with rounding on the
-/// safe side, and triangles exactly.
+/// Intersection tests of segments for CGAL's tree. Tests of triangles are exact. Tests of boxes,
+/// which are far more frequent, are conservative.
 class Traits : public BoxTraits {
   public:
     struct Meets {
@@ -152,8 +152,8 @@ class Traits : public BoxTraits {
 };
 using AabbTree = CGAL::AABB_tree<Traits>;
 
-/// Keeps the nearest of all triangles a ray meets; tells the tree to look at near boxes first, and
-/// at none behind what is found.
+/// Finds the first hit of a ray. The tree visits near boxes first, and skips boxes behind the
+/// nearest hit so far.
 class FirstHitTraits {
   public:
     using Node = CGAL::AABB_node<Traits>;
@@ -191,8 +191,8 @@ class FirstHitTraits {
 } // namespace
 
 struct TriangleTree::Tree {
-    Triangles triangles;             ///< those with area
-    std::vector<std::size_t> places; ///< of each among all
+    Triangles triangles;             ///< without degenerate ones
+    std::vector<std::size_t> places; ///< index of each triangle in the input
     AabbTree aabb;
 
     template <typename CornersOf>

@@ -19,7 +19,7 @@ namespace vcarve {
 
 namespace {
 
-/// What is wrong at each edge.
+/// Counts boundary edges, non-manifold edges and inconsistent orientations.
 void count_edges(std::span<const Face> faces, const EdgeTable& edges, MeshCheck& check)
 {
     for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -47,14 +47,14 @@ std::int64_t num_components(std::span<const Face> faces, const EdgeTable& edges)
     return count;
 }
 
-/// The corner of a half-edge's face at `vertex`, which is one of the half-edge's ends.
+/// The corner of a half-edge's face at `vertex`, which is an end of the half-edge.
 HalfEdge corner_at(std::span<const Face> faces, HalfEdge half_edge, std::uint32_t vertex)
 {
     return tail(faces, half_edge) == vertex ? half_edge : next_half_edge(half_edge);
 }
 
-/// A vertex is fine if its corners hang together through edges and none of these has three faces:
-/// then they form one fan or one disk.
+/// A vertex is manifold if edges of at most two faces connect all its corners. The corners then
+/// form one fan or one disk.
 void count_vertices(const TriMesh& mesh, const EdgeTable& edges, MeshCheck& check)
 {
     const std::span<const Face> faces(mesh.faces);
@@ -126,7 +126,7 @@ Kernel::Triangle_3 triangle(const Corners& corners)
     return {corners[0], corners[1], corners[2]};
 }
 
-/// Puts the corners of a triangle that are none of another one's first; how many there are.
+/// Moves the corners that are not in `others` to the front. Returns their number.
 std::ptrdiff_t own_first(Corners& corners, const Corners& others)
 {
     const auto is_own = [&](const Kernel::Point_3& corner) {
@@ -142,7 +142,7 @@ bool intersect(Corners a, Corners b)
     switch (own) {
     case 0:
         return true;
-    case 1: // folded back at their edge
+    case 1: // whether the faces overlap beside their common edge
         return CGAL::coplanar(a[0], a[1], a[2], b[0]) &&
                CGAL::coplanar_orientation(a[1], a[2], a[0], b[0]) == CGAL::POSITIVE;
     case 2:
@@ -205,11 +205,11 @@ std::int64_t count_self_intersections(const TriMesh& mesh)
         if (CGAL::collinear(corners[0], corners[1], corners[2])) continue;
         boxes.emplace_back(CGAL::bbox_3(corners.begin(), corners.end()), f);
     }
-    std::vector<const Box*> all; // pointers are moved faster
+    std::vector<const Box*> all; // pointers sort faster than boxes
     for (const Box& box : boxes) {
         all.push_back(&box);
     }
-    constexpr std::ptrdiff_t kFewBoxes = 1000; // takes half the time of CGAL's default, 10
+    constexpr std::ptrdiff_t kFewBoxes = 1000; // twice as fast as CGAL's default of 10
     std::vector<std::pair<std::uint32_t, std::uint32_t>> near;
     const auto keep = [&](const Box* a, const Box* b) { near.emplace_back(a->info(), b->info()); };
     CGAL::box_self_intersection_d(all.begin(), all.end(), keep, kFewBoxes);

@@ -11,7 +11,7 @@ namespace vcarve {
 std::array<std::uint32_t, 2> longest_edge_of(std::span<const Eigen::Vector3d> positions,
                                              const Face& face)
 {
-    constexpr double kEqual = 1.0 - 1e-9; // but for rounding
+    constexpr double kEqual = 1.0 - 1e-9; // lengths that differ only by rounding are equal
     const auto squared_length = [&](std::size_t i) {
         return (positions[face[i]] - positions[face[(i + 1) % 3]]).squaredNorm();
     };
@@ -68,7 +68,7 @@ std::vector<EdgeHalving::HalvedFace> EdgeHalving::halve(std::uint32_t a, std::ui
     return done_.back().halved;
 }
 
-/// Whether a halving's halves are what it made of them.
+/// Whether the halves of a bisection are unchanged.
 bool EdgeHalving::is_as_left(const Halving& halving) const
 {
     const auto [a, b] = halving.edge;

@@ -13,36 +13,35 @@
 
 namespace vcarve {
 
-/// The longest edge of a face: its two vertices, the lower one first; of several as long, but
-/// for rounding, that with the lowest numbers.
+/// The longest edge of a face: its two vertices in ascending order. The edge with the lowest vertex
+/// numbers wins a tie; lengths that differ only by rounding are equal.
 std::array<std::uint32_t, 2> longest_edge_of(std::span<const Eigen::Vector3d> positions,
                                              const Face& face);
 
-/// Halves edges of a surface together with all faces at them, so that no vertex ever lies inside an
-/// edge of another face. Faces are halved at their longest edges as by M.-C. Rivara ("Algorithms
-/// for refining triangular grids suitable for adaptive and multigrid techniques", IJNME 1984), but
-/// those beside at the same edge, whether it is their longest or not: no more of them than asked
-/// for, at the price of narrower ones. Keeps a reference to the mesh, which others may
-/// not change meanwhile.
+/// Bisects edges of a surface together with all their faces, so that no vertex lies inside an edge
+/// of another face. Callers choose longest edges (M.-C. Rivara, "Algorithms for refining triangular
+/// grids suitable for adaptive and multigrid techniques", IJNME 1984). Unlike there, the other
+/// faces of the edge are bisected even if it is not their longest edge. This splits fewer faces,
+/// but makes narrower ones. Keeps a reference to the mesh, which nothing else may change meanwhile.
 class EdgeHalving {
   public:
-    /// A face that was halved: the half at one end of the edge took its place, the other was added.
+    /// A bisected face: one half replaced the face, the other half was appended.
     struct HalvedFace {
         std::uint32_t face;
         std::uint32_t other_half;
     };
 
-    /// Only the faces with a flag are looked after. `mesh` has no normals. Cost: O(faces).
+    /// Bisects only flagged faces; all if `flags` is empty. `mesh` has no normals. Cost: O(faces).
     EdgeHalving(TriMesh& mesh, const FaceFlags& flags);
 
-    /// Adds the middle of the edge between two vertices (add_midpoint) and halves the faces at it.
-    /// Cost: O(faces at the vertices of these).
+    /// Adds the midpoint of an edge (add_midpoint) and bisects the faces of the edge. The half at
+    /// `a` replaces the face. Cost: O(faces at the vertices of these faces).
     std::vector<HalvedFace> halve(std::uint32_t a, std::uint32_t b);
 
-    /// Takes halvings back, the last one first: those of which all halves are still there, and
-    /// may_join(face, other_half) says yes for every two. Returns which faces are no more, in no
-    /// order; the mesh still holds them, but the halves that took the places of the whole faces are
-    /// these again. For once, when nothing is to be halved any more.
+    /// Reverts bisections, the latest first, if all their halves are unchanged and
+    /// may_join(face, other_half) is true for each pair. Restores the bisected faces. Returns the
+    /// obsolete appended halves, unordered, which remain in the mesh. Call this only once, after
+    /// all calls of halve().
     template <typename MayJoin>
     std::vector<std::uint32_t> take_back(const MayJoin& may_join);
 
@@ -51,17 +50,17 @@ class EdgeHalving {
         std::array<std::uint32_t, 2> edge;
         std::uint32_t middle;
         std::vector<HalvedFace> halved;
-        std::vector<Face> whole; ///< what these faces were
+        std::vector<Face> whole; ///< these faces before the bisection
     };
 
-    /// The row of a vertex, to be changed.
+    /// The mutable list of faces at a vertex.
     std::vector<std::uint32_t>& faces_at(std::uint32_t vertex);
     bool is_as_left(const Halving& halving) const;
 
     TriMesh& mesh_;
-    std::size_t num_vertices_; ///< at first
+    std::size_t num_vertices_; ///< before any bisection
     VertexFaces faces_at_first_;
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> faces_at_; ///< of asked vertices
+    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> faces_at_; ///< if changed
     std::vector<Halving> done_;
 };
 

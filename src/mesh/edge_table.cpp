@@ -15,7 +15,7 @@ std::uint32_t higher_end(std::span<const Face> faces, HalfEdge half_edge)
     return std::max(tail(faces, half_edge), head(faces, half_edge));
 }
 
-/// The half-edges of faces that are not degenerate, by their lower ends.
+/// The half-edges of non-degenerate faces, grouped by their lower vertex.
 RowTable half_edges_by_lower_end(std::span<const Face> faces, std::size_t num_vertices)
 {
     return gather_rows(faces.size(), num_vertices, [&](std::size_t face, const auto& visit) {
@@ -28,8 +28,8 @@ RowTable half_edges_by_lower_end(std::span<const Face> faces, std::size_t num_ve
     });
 }
 
-/// Sorts the half-edges with one lower end by the higher one, then by number, and flags the first
-/// of each edge.
+/// Sorts half-edges with the same lower vertex by the higher vertex, then by number. Flags the
+/// first half-edge of each edge.
 void sort_half_edges(std::span<const Face> faces, std::span<HalfEdge> half_edges,
                      std::span<char> begins_edge, std::vector<std::uint64_t>& keys)
 {
@@ -52,7 +52,7 @@ EdgeTable gather_edges(std::span<const Face> faces, std::size_t num_vertices)
     EdgeTable edges;
     edges.half_edges = std::move(half_edges);
 
-    // Each vertex sorts its few half-edges by the higher end.
+    // Sort the few half-edges of each vertex by the higher vertex.
     std::vector<char> begins_edge(edges.half_edges.size());
     parallel_for_ranges(num_vertices, [&, &ends = ends](std::size_t first, std::size_t last) {
         std::vector<std::uint64_t> keys;

@@ -11,9 +11,8 @@
 
 namespace vcarve {
 
-/// Half-edge i of face f runs from its corner i to its corner (i + 1) % 3 and has the number
-/// 3 f + i; corner i has the same number. So a number names a half-edge and the corner it starts
-/// at.
+/// Half-edge i of face f leads from corner i to corner (i + 1) % 3 and has the number 3 f + i.
+/// Corner i has the same number.
 ///
 ///        2
 ///       / \          half-edge 0: 0 -> 1
@@ -32,7 +31,7 @@ inline HalfEdge previous_half_edge(HalfEdge half_edge)
     return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
 }
 
-/// The vertex a half-edge starts at, and the one it ends at.
+/// The start vertex (tail) and the end vertex (head) of a half-edge.
 inline std::uint32_t tail(std::span<const Face> faces, HalfEdge half_edge)
 {
     return faces[half_edge / 3][half_edge % 3];
@@ -47,8 +46,8 @@ inline bool is_degenerate(const Face& face)
     return face[0] == face[1] || face[1] == face[2] || face[2] == face[0];
 }
 
-/// The half-edges of all faces, gathered by the edge they run along. Edges are in ascending order
-/// of (lower, higher vertex), the half-edges of an edge ascend.
+/// The half-edges of all faces, grouped by edge. Edges are sorted by (lower, higher vertex), and
+/// the half-edges of an edge by number.
 struct EdgeTable {
     UnsetArray<HalfEdge> half_edges;
     /// Edge e has half_edges[begins[e]] up to half_edges[begins[e + 1]].
@@ -61,23 +60,23 @@ struct EdgeTable {
     }
 };
 
-/// Degenerate faces (a vertex twice) are left out. Every index must be below `num_vertices`, and
-/// the faces fewer than 2^32 / 3. Cost: O(faces log(faces of a vertex)) time, 24 bytes a face and 4
-/// a vertex.
+/// Groups half-edges by edge, without degenerate faces (with a repeated vertex). Vertex indices
+/// must be below `num_vertices`, and the number of faces below 2^32 / 3. Cost: O(faces log(faces
+/// per vertex)) time; 24 bytes per face and 4 per vertex.
 EdgeTable gather_edges(std::span<const Face> faces, std::size_t num_vertices);
 
-// Corners at one vertex that hang together through sewn half-edges form a fan, or a disk if they
-// close. `twins` has the half-edge that each half-edge is sewn to, or kNoHalfEdge at a border.
-// Twins run along the same two vertices in opposite directions.
+// Corners of a vertex that are connected by twins form a fan, or a disk if they close. `twins` has
+// the twin of each half-edge, or kNoHalfEdge on the boundary. Twins connect the same two vertices
+// in opposite directions.
 
-/// The next corner of a fan, clockwise seen from outside; kNoHalfEdge at its end.
+/// The next corner of a fan, clockwise seen from outside; kNoHalfEdge at the end of the fan.
 inline HalfEdge next_corner(std::span<const HalfEdge> twins, HalfEdge corner)
 {
     return twins[corner] == kNoHalfEdge ? kNoHalfEdge : next_half_edge(twins[corner]);
 }
 
-/// Calls visit for each corner of the fan of `first`; for none where that is kNoHalfEdge. A disk
-/// ends with `first`.
+/// Calls visit for each corner of the fan of `first`; for none if that is kNoHalfEdge. In a disk,
+/// `first` is last.
 template <typename Visit>
 void for_each_corner_of_fan(std::span<const HalfEdge> twins, HalfEdge first, const Visit& visit)
 {
@@ -94,8 +93,8 @@ void for_each_corner_of_fan(std::span<const HalfEdge> twins, HalfEdge first, con
     }
 }
 
-/// Any corner of each vertex, not the same one every time; kNoHalfEdge where it has none. Cost:
-/// O(faces), in parallel.
+/// An arbitrary corner of each vertex, which may differ between runs; kNoHalfEdge for a vertex
+/// without faces. Cost: O(faces), in parallel.
 inline std::vector<HalfEdge> corners_of_vertices(std::span<const Face> faces,
                                                  std::size_t num_vertices)
 {

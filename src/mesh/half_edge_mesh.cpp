@@ -11,8 +11,8 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-/// Numbers the edges of a surface by their first half-edges, as add_face() would, and lays
-/// OpenMesh's half-edge 2 e along the first half-edge of edge e and 2 e + 1 against it.
+/// Numbers the edges of a surface by their first half-edges, as add_face() does. OpenMesh's
+/// half-edge 2 e is the first half-edge of edge e, and 2 e + 1 the opposite one.
 class EdgeNumbers {
   public:
     explicit EdgeNumbers(std::span<const HalfEdge> twins)
@@ -22,7 +22,7 @@ class EdgeNumbers {
               [&](std::size_t i, auto& firsts) {
                   const HalfEdge half_edge = static_cast<HalfEdge>(i);
                   if (half_edge < twins[half_edge])
-                      firsts.push_back(half_edge); // none is greater than all
+                      firsts.push_back(half_edge); // kNoHalfEdge is the greatest
               })),
           numbers_(twins.size())
     {
@@ -41,13 +41,13 @@ class EdgeNumbers {
     {
         return handle_at<HalfedgeHandle>(numbers_[half_edge]);
     }
-    /// Outside of a border.
+    /// The opposite half-edge, which has no face if `half_edge` is on the boundary.
     HalfedgeHandle against(HalfEdge half_edge) const
     {
         return handle_at<HalfedgeHandle>(numbers_[half_edge] ^ 1U);
     }
 
-    /// The border that begins where the half-edge against `border` ends.
+    /// The boundary half-edge whose opposite follows the opposite of `border` along the boundary.
     HalfEdge next_border(HalfEdge border) const
     {
         HalfEdge half_edge = previous_half_edge(border);
@@ -59,8 +59,8 @@ class EdgeNumbers {
 
   private:
     std::span<const HalfEdge> twins_;
-    std::vector<HalfEdge> first_half_edges_; ///< one an edge
-    std::vector<std::uint32_t> numbers_;     ///< of OpenMesh's half-edges, one a half-edge
+    std::vector<HalfEdge> first_half_edges_; ///< one per edge
+    std::vector<std::uint32_t> numbers_;     ///< OpenMesh's number of each half-edge
 };
 
 void connect_faces(const EdgeNumbers& edges, HalfEdgeMesh& mesh)
@@ -73,11 +73,11 @@ void connect_faces(const EdgeNumbers& edges, HalfEdgeMesh& mesh)
             mesh.set_next_halfedge_handle(edges.along(half_edge),
                                           edges.along(next_half_edge(half_edge)));
         }
-        mesh.set_halfedge_handle(face, edges.along(first + 2)); // which ends at the first corner
+        mesh.set_halfedge_handle(face, edges.along(first + 2)); // the half-edge to the first corner
     });
 }
 
-/// Edges get their ends, and borders a way on along the border.
+/// Sets the vertices of edges, and the next half-edges along the boundary.
 void connect_edges(const std::vector<Face>& faces, const EdgeNumbers& edges, HalfEdgeMesh& mesh)
 {
     parallel_for(edges.first_half_edges().size(), [&](std::size_t edge) {
@@ -92,8 +92,8 @@ void connect_edges(const std::vector<Face>& faces, const EdgeNumbers& edges, Hal
     });
 }
 
-/// A vertex gets the last half-edge that leaves it, or the border if it is on one: OpenMesh relies
-/// on that. Not in parallel, so that the last one is the last for sure.
+/// Gives each vertex its last outgoing half-edge, or the boundary half-edge, as OpenMesh requires.
+/// Sequential, so that the result is deterministic.
 void connect_vertices(const std::vector<Face>& faces, const EdgeNumbers& edges, HalfEdgeMesh& mesh)
 {
     for (HalfEdge half_edge = 0; half_edge < 3 * faces.size(); ++half_edge) {
@@ -201,8 +201,8 @@ TriMesh tri_mesh(const HalfEdgeMesh& mesh)
 
 Vector3d vertex_normal(const HalfEdgeMesh& mesh, VertexHandle vertex)
 {
-    // OpenMesh's own: calc_vertex_normal() weighs all faces the same, ..._correct() counts the gap
-    // at a border as a face.
+    // OpenMesh's calc_vertex_normal() gives all faces equal weight, and ..._correct() counts the
+    // gap at a boundary as a face.
     Vector3d sum = Vector3d::Zero();
     for (const auto incoming : mesh.vih_range(vertex)) {
         if (mesh.is_boundary(incoming)) continue;
@@ -210,7 +210,7 @@ Vector3d vertex_normal(const HalfEdgeMesh& mesh, VertexHandle vertex)
         mesh.calc_sector_normal(incoming, twice_area);
         sum += twice_area;
     }
-    return sum.normalized(); // leaves zero as it is
+    return sum.normalized(); // zero stays zero
 }
 
 void set_vertex_normals(HalfEdgeMesh& mesh)
@@ -229,7 +229,7 @@ std::vector<double> vertex_spacings(const HalfEdgeMesh& mesh)
         for (const auto edge : mesh.ve_range(handle_at<VertexHandle>(v))) {
             const double length = mesh.calc_edge_length(edge);
             lengths.push_back(length);
-            if (!mesh.is_boundary(edge)) lengths.push_back(length); // each face counts its own
+            if (!mesh.is_boundary(edge)) lengths.push_back(length); // count it for each face
         }
         spacings[v] = median_in_place(lengths);
     });

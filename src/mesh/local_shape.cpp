@@ -40,8 +40,8 @@ double LocalEdges::median(std::uint32_t vertex) const
     if (found >= 0.0) return found;
     std::vector<double> lengths_sq;
     collect_squared_lengths(vertex, lengths_sq);
-    const double median = std::sqrt(median_in_place(lengths_sq)); // roots keep the order
-    known.store(median, std::memory_order_relaxed); // whoever else finds it finds the same
+    const double median = std::sqrt(median_in_place(lengths_sq)); // the root is monotonic
+    known.store(median, std::memory_order_relaxed); // other threads store the same value
     return median;
 }
 
@@ -72,7 +72,7 @@ Vector3d SurfaceNormals::at(std::uint32_t vertex) const
         const Vector3d normal = of(face);
         if (edges_.relative_size(face) < kSmall && normal.allFinite()) sum += normal;
     }
-    return sum.normalized(); // leaves zero as it is
+    return sum.normalized(); // zero stays zero
 }
 
 std::array<double, 3> SurfaceNormals::cosines(std::size_t face, double unknown) const
@@ -87,11 +87,11 @@ std::array<double, 3> SurfaceNormals::cosines(std::size_t face, double unknown) 
     return cosines;
 }
 
-bool goes_on(std::size_t face, const SurfaceNormals& normals)
+bool continues_surface(std::size_t face, const SurfaceNormals& normals)
 {
-    constexpr double kGoesOn = 0.9; // cosine, about 26 degrees
+    constexpr double kContinuing = 0.9; // cosine, about 26 degrees
     constexpr double kUnknown = -1.0;
-    return normals.cosines(face, kUnknown)[2] >= kGoesOn;
+    return normals.cosines(face, kUnknown)[2] >= kContinuing;
 }
 
 } // namespace vcarve

@@ -11,27 +11,25 @@
 
 namespace vcarve {
 
-/// How long the edges around a vertex are. Medians cost more than all else that is asked about a
-/// surface, so they are taken when first asked for. Safe from many threads. Keeps references to
-/// positions and faces.
+/// Median edge lengths at vertices. Medians dominate the cost of local measurements, so they are
+/// computed on first use and cached. Thread-safe. Keeps references to positions and faces.
 class LocalEdges {
   public:
-    /// Only the faces with a flag are measured; all where there are no flags. Cost: O(faces).
+    /// Measures only flagged faces, or all if `measured` is empty. Cost: O(faces).
     LocalEdges(std::span<const Eigen::Vector3d> positions, const std::vector<Face>& faces,
                const FaceFlags& measured = {});
 
     /// The measured faces at each vertex.
     const VertexFaces& faces_at() const { return faces_at_; }
 
-    /// The median length of the edges of the measured faces around a vertex; 0 where there are
-    /// none.
+    /// The median length of all edges of the measured faces at a vertex; 0 without such faces.
     double median(std::uint32_t vertex) const;
 
     double longest_edge(std::size_t face) const;
 
-    /// The longest edge of a face over the median at its middle corner: not at the one that knows
-    /// only the face itself, nor at the one in the densest place. Infinite or NaN where no face
-    /// around is measured.
+    /// The longest edge of a face, divided by the second largest median() of its corners. The
+    /// largest may stem from the face alone, the smallest from a much denser region.
+    /// Infinite or NaN if no face around is measured.
     double relative_size(std::size_t face) const;
 
   private:
@@ -44,12 +42,11 @@ class LocalEdges {
     std::span<const Eigen::Vector3d> positions_;
     const std::vector<Face>& faces_;
     VertexFaces faces_at_;
-    mutable std::vector<double> medians_; ///< negative where not known yet
+    mutable std::vector<double> medians_; ///< negative if not computed yet
 };
 
-/// How a surface runs at its vertices, as its small faces tell: those without an edge of two local
-/// edges or more. Only the faces that `edges` measures count. Keeps references. Safe from many
-/// threads.
+/// Surface normals at vertices, estimated from small faces: measured faces of `edges` whose
+/// relative size is below 2. Keeps references. Thread-safe.
 class SurfaceNormals {
   public:
     SurfaceNormals(std::span<const Eigen::Vector3d> positions, const std::vector<Face>& faces,
@@ -58,14 +55,14 @@ class SurfaceNormals {
     {
     }
 
-    /// The normal of a face: unit, pointing outside; zero where the face has no area.
+    /// The unit normal of a face, pointing outside; zero if the face has no area.
     Eigen::Vector3d of(std::size_t face) const;
 
-    /// The mean normal of the small faces around a vertex; zero where there are none.
+    /// The mean normal of the small faces at a vertex, normalized; zero without small faces.
     Eigen::Vector3d at(std::uint32_t vertex) const;
 
     /// The cosines of the angles between a face and the surface at its three corners, ascending.
-    /// A corner without small faces knows nothing and has `unknown`.
+    /// A corner without small faces gets `unknown`.
     std::array<double, 3> cosines(std::size_t face, double unknown) const;
 
   private:
@@ -74,8 +71,8 @@ class SurfaceNormals {
     const LocalEdges& edges_;
 };
 
-/// Whether a face goes on with the surface at one of its corners at least: within 26 degrees of the
-/// small faces there.
-bool goes_on(std::size_t face, const SurfaceNormals& normals);
+/// Whether a face continues the surface at one or more corners: its normal is within 26 degrees of
+/// the normal of the small faces there.
+bool continues_surface(std::size_t face, const SurfaceNormals& normals);
 
 } // namespace vcarve

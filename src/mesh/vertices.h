@@ -12,20 +12,20 @@
 
 namespace vcarve {
 
-/// Which of the corners of a face a vertex is; 3 where it is none.
+/// The corner of a face at a vertex; 3 if the vertex is not in the face.
 inline std::size_t corner_of(const Face& face, std::uint32_t vertex)
 {
     return static_cast<std::size_t>(std::ranges::find(face, vertex) - face.begin());
 }
 
-/// A face with another vertex instead of one of its own.
+/// Returns a face with the vertex `corner` replaced by `other`.
 inline Face with(Face face, std::uint32_t corner, std::uint32_t other)
 {
     std::ranges::replace(face, corner, other);
     return face;
 }
 
-/// A face from one of its corners on.
+/// Rotates a face so that the vertex `corner` is first.
 inline Face turned_to(const Face& face, std::uint32_t corner)
 {
     if (face[0] == corner) return face;
@@ -33,13 +33,13 @@ inline Face turned_to(const Face& face, std::uint32_t corner)
     return {face[2], face[0], face[1]};
 }
 
-using FaceFlags = std::vector<std::uint8_t>; ///< one a face, 0 or 1
+using FaceFlags = std::vector<std::uint8_t>; ///< per face, 0 or 1
 
-/// The faces at each vertex: one row of face numbers a vertex, ascending.
+/// The faces of each vertex: rows of ascending face indices.
 class VertexFaces {
   public:
-    /// Of the faces with a flag only; of all where there are no flags. Cost: O(faces) time, in
-    /// parallel, 12 bytes a face and 4 a vertex.
+    /// Includes only flagged faces, or all if `flags` is empty. Cost: O(faces), in parallel; 12
+    /// bytes per face and 4 per vertex.
     VertexFaces(std::span<const Face> faces, std::size_t num_vertices, const FaceFlags& flags = {});
 
     std::span<const std::uint32_t> operator[](std::size_t vertex) const { return table_[vertex]; }
@@ -50,8 +50,8 @@ class VertexFaces {
 
 inline constexpr std::array<int, 3> kCorners = {0, 1, 2}; ///< of a face
 
-/// Shows visit(other) the other faces that have the edge of a face from a corner to the next, in
-/// either direction, of those that are given at the vertices. Cost: O(faces at the corner).
+/// Calls visit(other) for the other faces in `faces_at` that contain the edge from a corner of a
+/// face to the next one, in either direction. Cost: O(faces at the corner).
 template <typename Visit>
 void visit_beside(std::span<const Face> faces, std::uint32_t face, int corner,
                   const VertexFaces& faces_at, const Visit& visit)
@@ -62,24 +62,24 @@ void visit_beside(std::span<const Face> faces, std::uint32_t face, int corner,
     }
 }
 
-/// The vertices that faces use, ascending. Cost: O(faces + vertices), in parallel.
+/// The vertices of faces, ascending. Cost: O(faces + vertices), in parallel.
 std::vector<std::uint32_t> used_vertices(const std::vector<Face>& faces, std::size_t num_vertices);
 
-/// Numbers the vertices of faces by their place in `used`, which has all of them. Cost: as above.
+/// Replaces vertices by their index in `used`, which must contain them all. Cost: as above.
 void renumber(std::vector<Face>& faces, const std::vector<std::uint32_t>& used,
               std::size_t num_vertices);
 
-/// Adds a vertex with the place, colour and point of another. Returns its number.
+/// Adds a copy of a vertex: its position, color and point. Returns the new index.
 std::uint32_t add_copy(TriMesh& mesh, std::uint32_t original);
 
-/// Adds the middle between two vertices, in their mean colour; it is no point of the scene. Returns
-/// its number.
+/// Adds the midpoint of two vertices, with their mean color and no point of the scene. Returns the
+/// new index.
 std::uint32_t add_midpoint(TriMesh& mesh, std::uint32_t a, std::uint32_t b);
 
-/// The center of the bounding box of the vertices; zero if there are none. Cost: O(vertices).
+/// The center of the bounding box; zero for a mesh without vertices. Cost: O(vertices).
 Eigen::Vector3d box_center(const TriMesh& mesh);
 
-/// A mesh with other faces and only the vertices they use, without normals. Cost: O(faces +
+/// Returns a mesh of the given faces and only their vertices, without normals. Cost: O(faces +
 /// vertices).
 TriMesh with_used_vertices(const TriMesh& mesh, std::vector<Face> faces);
 

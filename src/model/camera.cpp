@@ -18,14 +18,14 @@ bool within(double value_px, double size_px)
     return value_px >= 0.0 && value_px <= size_px;
 }
 
-/// The lens of a camera that has all its parameters, or null.
+/// The lens model of a camera; null if it is unknown or parameters are missing.
 const LensModel* usable_lens(const Camera& camera)
 {
     const LensModel* lens = lens_model(camera.model);
     return lens != nullptr && camera.params.size() >= lens->num_params ? lens : nullptr;
 }
 
-/// The parameters behind the principal point.
+/// The parameters after the principal point.
 const double* extra_params(const LensModel& lens, const Camera& camera)
 {
     return camera.params.data() + lens.num_focals + 2;
@@ -39,7 +39,7 @@ Intrinsics intrinsics_of(const LensModel& lens, const Camera& camera)
             lens.number == kSkewedPinhole ? extra_params(lens, camera)[0] : 0.0};
 }
 
-/// `k` are the parameters behind the principal point.
+/// `k` points to the parameters after the principal point.
 LensDistortion perspective_distortion(int number, const double* k)
 {
     LensDistortion result;
@@ -101,7 +101,7 @@ LensDistortion fisheye_distortion(int number, const double* k)
     return result;
 }
 
-/// Of a polynomial lens.
+/// The distortion of a polynomial lens.
 LensDistortion distortion_of(const LensModel& lens, const Camera& camera)
 {
     const double* k = extra_params(lens, camera);
@@ -109,9 +109,9 @@ LensDistortion distortion_of(const LensModel& lens, const Camera& camera)
                                     : perspective_distortion(lens.number, k);
 }
 
-// ---- directions to the image plane at focal length 1 and back
-// -------------------------------------- Each lens gets its own parameters; `radius` is the
-// distance from the middle of the plane.
+// ---- from directions to the image plane at focal length 1, and back -----------------------------
+// The functions take only the parameters of their lens. `radius` is the distance from the center of
+// the plane.
 
 std::optional<Eigen::Vector2d> fisheye_plane(const Eigen::Vector3d& x)
 {
@@ -150,8 +150,8 @@ std::optional<Eigen::Vector3d> fov_ray(double omega, const Eigen::Vector2d& poin
     return Eigen::Vector3d(ideal.x(), ideal.y(), 1.0);
 }
 
-/// The undistorted point is that on the plane divided by 1 + k radius^2: of the two solutions the
-/// one that comes from the middle.
+/// The undistorted point is the point on the plane divided by 1 + k radius^2. Of the two solutions,
+/// this returns the one that is continuous from the center.
 std::optional<Eigen::Vector2d> division_plane(double k, const Eigen::Vector3d& x)
 {
     const double discriminant = x.z() * x.z() - 4.0 * k * x.head<2>().squaredNorm();
@@ -161,8 +161,8 @@ std::optional<Eigen::Vector2d> division_plane(double k, const Eigen::Vector3d& x
     return x.head<2>() * (2.0 / divisor);
 }
 
-/// The point on the plane is x / (alpha d + (1 - alpha) z), d^2 = beta (x^2 + y^2) + z^2. Beyond a
-/// cone about the backward axis, the wider the farther alpha is from 1 / 2, it is not one to one.
+/// The point on the plane is x / (alpha d + (1 - alpha) z), d^2 = beta (x^2 + y^2) + z^2. It is
+/// not one-to-one in a cone around the backward axis, which widens as alpha departs from 1 / 2.
 std::optional<Eigen::Vector2d> unified_plane(double alpha, double beta, const Eigen::Vector3d& x)
 {
     const double d = std::sqrt(beta * x.head<2>().squaredNorm() + x.z() * x.z());
@@ -217,8 +217,7 @@ std::optional<Eigen::Vector3d> from_plane(const LensModel& lens, const Camera& c
     }
 }
 
-// ---- longitude and latitude
-// ------------------------------------------------------------------------
+// ---- longitude and latitude ---------------------------------------------------------------------
 
 std::optional<Eigen::Vector2d> equirectangular_pixel(const Camera& camera, const Eigen::Vector3d& x)
 {
@@ -240,16 +239,15 @@ std::optional<Eigen::Vector3d> equirectangular_ray(const Camera& camera, const E
                            std::cos(latitude) * std::cos(longitude));
 }
 
-// ---- all lenses
-// ------------------------------------------------------------------------------------
+// ---- all lenses ---------------------------------------------------------------------------------
 
-/// A direction on the image plane before a polynomial moves it, and in pixels.
+/// The projection of a direction: on the image plane before polynomial distortion, and in pixels.
 struct Placed {
     Eigen::Vector2d on_plane;
     Eigen::Vector2d x_px;
 };
 
-/// Does not ask whether the distortion turned.
+/// Projects a direction. Does not check whether it is beyond the turn of the distortion.
 std::optional<Placed> place(const LensModel& lens, const Camera& camera, const Eigen::Vector3d& x)
 {
     if (lens.geometry == equirectangular) {

@@ -11,14 +11,14 @@
 
 namespace vcarve {
 
-/// Red, green and blue, from 0 to 255, to be computed with.
+/// Red, green and blue as floats, from 0 to 255.
 inline Eigen::Array3f channels_of(const Color& color)
 {
     return {static_cast<float>(color[0]), static_cast<float>(color[1]),
             static_cast<float>(color[2])};
 }
 
-/// What was computed as bytes: rounded, and cut off where it is less than 0 or more than 255.
+/// Converts channels to bytes: rounds them and clamps them to 0 to 255.
 template <typename Channels>
 Color rounded_color(const Channels& channels)
 {
@@ -30,8 +30,7 @@ Color rounded_color(const Channels& channels)
     return color;
 }
 
-/// The mean colour of some points of a scene, one at least, of which each counts weight(point)
-/// times; rounded. Cost: O(points).
+/// The mean color of one or more points, weighted by weight(point) and rounded. Cost: O(points).
 template <typename Weight>
 Color mean_color(const Scene& scene, std::span<const std::uint32_t> points, const Weight& weight)
 {
@@ -47,8 +46,8 @@ Color mean_color(const Scene& scene, std::span<const std::uint32_t> points, cons
             static_cast<std::uint8_t>(mean[2])};
 }
 
-/// Whether anything is known of the points' colours: not where all are black, as readers and
-/// exporters leave them that have none.
+/// Whether the points have colors. False if all are black, because readers and exporters use black
+/// for missing colors.
 inline bool has_colors(const Scene& scene)
 {
     return std::ranges::any_of(scene.colors, [](const Color& color) { return color != Color{}; });

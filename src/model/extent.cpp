@@ -21,29 +21,29 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-/// How far a point is, and how many sights end there.
+/// The squared distance of a point, and the number of its rays.
 struct Ends {
     double distance_sq;
-    double num_sights;
+    double num_rays;
 };
 
-/// Where the sights end in the mean that end within a distance of a place.
+/// The mean end of the rays that end within a distance of `around`.
 Vector3d mean_end(const Scene& scene, const Vector3d& around, double most_sq)
 {
     const Vector4d sum =
         parallel_sum(scene.num_points(), Vector4d(Vector4d::Zero()), [&](std::size_t point) {
-            const auto sights = static_cast<double>(scene.tracks[point].size());
+            const auto rays = static_cast<double>(scene.tracks[point].size());
             const Vector3d& place = scene.positions[point];
-            const bool counts = sights > 0.0 && (place - around).squaredNorm() <= most_sq;
-            return counts ? Vector4d(sights * Vector4d(place.x(), place.y(), place.z(), 1.0))
+            const bool counts = rays > 0.0 && (place - around).squaredNorm() <= most_sq;
+            return counts ? Vector4d(rays * Vector4d(place.x(), place.y(), place.z(), 1.0))
                           : Vector4d(Vector4d::Zero());
         });
     return sum.head<3>() / sum[3];
 }
 
-/// The square of the least distance within which so many sights end. Changes the order.
+/// The square of the least distance within which `num_rays` rays end. Reorders `ends`.
 /// Cost: O(points).
-double distance_sq_of(double num_sights, std::vector<Ends>& ends)
+double distance_sq_of(double num_rays, std::vector<Ends>& ends)
 {
     auto first = ends.begin();
     auto last = ends.end();
@@ -54,23 +54,23 @@ double distance_sq_of(double num_sights, std::vector<Ends>& ends)
         });
         double nearer = 0.0;
         for (auto end = first; end != middle; ++end) {
-            nearer += end->num_sights;
+            nearer += end->num_rays;
         }
-        if (nearer >= num_sights) {
+        if (nearer >= num_rays) {
             last = middle;
         } else {
             first = middle;
-            num_sights -= nearer;
+            num_rays -= nearer;
         }
     }
     return first->distance_sq;
 }
 
-/// A float has seven digits, so it keeps 1e-6 of a scene's size in coordinates up to so many times
-/// that size.
+/// Floats have seven digits. So they represent coordinates up to kNear times the size of a scene to
+/// within 1e-6 of its size.
 constexpr double kNear = 10.0;
 
-/// A multiple of the power of ten that is as large as the scene, or next above it.
+/// Rounds to a multiple of the least power of ten that is not below `size`.
 double round_to_size(double coordinate, double size)
 {
     const double power = std::ceil(std::log10(size));
@@ -103,8 +103,8 @@ Ball region_of_interest(const Scene& scene)
     constexpr double kHeld = 0.94;
     constexpr int kRounds = 4;
     Ball ball;
-    if (scene.num_sights() == 0) return ball;
-    const double most = kHeld * static_cast<double>(scene.num_sights());
+    if (scene.num_rays() == 0) return ball;
+    const double most = kHeld * static_cast<double>(scene.num_rays());
     std::vector<Ends> ends(scene.num_points());
     double held_sq = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
@@ -130,7 +130,7 @@ std::vector<std::size_t> seen_places(const Scene& scene)
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t point = i * scene.num_points() / count;
         const Eigen::Vector3d way = scene.positions[point] - ball.center;
-        if (!(way.norm() <= ball.radius)) continue; // nor if it is no number
+        if (!(way.norm() <= ball.radius)) continue; // also skips NaN
         const Eigen::Array3d steps = (way.array() + ball.radius) / edge;
         const Eigen::Array3d cube = steps.floor().min(kCubes - 1.0);
         const auto number =

@@ -10,8 +10,8 @@
 
 namespace vcarve {
 
-/// The box without the share `tail`, below one half, of the positions at either end of each axis;
-/// empty if there are none. Cost: O(positions).
+/// The bounding box without the fraction `tail` (below 1/2) of the positions at both ends of each
+/// axis; empty without positions. Cost: O(positions).
 Eigen::AlignedBox3d middle_box(const std::vector<Eigen::Vector3d>& positions, double tail = 0.05);
 
 struct Ball {
@@ -19,16 +19,16 @@ struct Ball {
     double radius = 0.0;
 };
 
-/// The ball that holds what was looked at, whatever lies far behind: 94 % of the sights end in it.
-/// Its centre is the mean of where those end, found in four rounds from the mean of all. It turns
-/// with the scene, unlike a box along the axes. Of radius 0 where there are no sights.
+/// The ball that contains the ends of 94 % of the rays. This excludes the distant background. The
+/// center is the mean of these ends, found in four iterations from the mean of all ends. Unlike an
+/// axis-aligned box, the ball rotates with the scene. The radius is 0 without rays.
 /// Cost: O(points).
 Ball region_of_interest(const Scene& scene);
 
-/// How much of what was looked at (region_of_interest) each view sees: in how many of the cubes
-/// that fill the ball, 32 along its diameter, it saw points. Numbers of points would prefer a wall
-/// seen from near, which has most of them. Of more than 100,000 points, that many, evenly chosen.
-/// Cost: O(points + sights).
+/// The amount of the region of interest that each view sees: the number of cubes, 32 along the
+/// diameter of the ball, in which it saw points. Counting points would favor walls seen from
+/// nearby, which have most points. Uses at most 100,000 evenly chosen points. Cost: O(points +
+/// rays).
 std::vector<std::size_t> seen_places(const Scene& scene);
 
 } // namespace vcarve

@@ -45,15 +45,15 @@ constexpr bool numbered_by_place()
 }
 static_assert(numbered_by_place());
 
-constexpr int kMostSteps = 50;   ///< of Newton's method, and halvings of one step
-constexpr double kExact = 1e-13; ///< relative to the target and 1
-constexpr int kMostRounds = 200; ///< of the search for a turn
+constexpr int kMostSteps = 50;   ///< maximum Newton steps, and halvings per step
+constexpr double kExact = 1e-13; ///< tolerance, relative to 1 + |target|
+constexpr int kMostRounds = 200; ///< maximum rounds of the search for a turn
 constexpr std::size_t kTerms = 20;
 
-/// Coefficients by rising powers.
+/// Coefficients by ascending power.
 using Polynomial = std::array<double, kTerms>;
 
-/// 1 + c1 s + c2 s^2 + ... and its derivative.
+/// The value of 1 + c1 s + c2 s^2 + ... and its derivative.
 struct Value {
     double value = 1.0;
     double derivative = 0.0;
@@ -71,7 +71,7 @@ Value one_plus(const std::array<double, kSize>& coefficients, double s)
     return sum;
 }
 
-/// N / D and its derivative by s.
+/// N / D and its derivative with respect to s.
 Value radial_factor(const LensDistortion& lens, double s)
 {
     const Value numerator = one_plus(lens.radial, s);
@@ -81,7 +81,7 @@ Value radial_factor(const LensDistortion& lens, double s)
     return {factor, (numerator.derivative - factor * divisor.derivative) / divisor.value};
 }
 
-/// What q, a and b add to a point.
+/// The offset of a point by q, a and b.
 Eigen::Vector2d offset(const LensDistortion& lens, const Eigen::Vector2d& at)
 {
     const double s = at.squaredNorm();
@@ -107,8 +107,8 @@ Eigen::Matrix2d jacobian(const LensDistortion& lens, const Eigen::Vector2d& at)
     return radial + offset_jacobian(lens, moved) * radial;
 }
 
-/// The sum at t of the terms with positive coefficients, or for sign -1 of the negative ones', made
-/// positive. Never falls with t.
+/// The sum at t of the terms with positive coefficients; for sign -1, the negated sum of the terms
+/// with negative ones. It never decreases with t.
 double sum_of_terms(const Polynomial& polynomial, double sign, double t)
 {
     double sum = 0.0;
@@ -117,8 +117,8 @@ double sum_of_terms(const Polynomial& polynomial, double sign, double t)
     return sum;
 }
 
-/// Whether the polynomial is positive on [0, 1]. It is on [from, to] where its positive terms at
-/// `from` outweigh its negative ones at `to`. One that nearly touches 0 may be taken to reach it.
+/// Whether the polynomial is positive on [0, 1]. It is positive on [from, to] if its positive terms
+/// at `from` exceed its negative terms at `to`. May return false if the minimum is close to 0.
 bool positive_to_one(const Polynomial& polynomial)
 {
     double negative = 0.0;
@@ -144,7 +144,7 @@ bool positive_to_one(const Polynomial& polynomial)
     return false;
 }
 
-/// The coefficients c of 1 + c1 s + c2 s^2 + ... times s^i, beginning with 1.
+/// The terms 1, c1 s, c2 s^2, ...
 template <std::size_t kSize>
 std::array<double, kSize + 1> scaled(const std::array<double, kSize>& coefficients, double s)
 {
@@ -155,15 +155,15 @@ std::array<double, kSize + 1> scaled(const std::array<double, kSize>& coefficien
     return result;
 }
 
-/// How the offset at t times a point grows outwards with t: the coefficients of t and of t^3.
+/// The slope of the radial offset at t times a point, by t: the coefficients of t and t^3.
 std::array<double, 2> offset_slope(const LensDistortion& lens, const Eigen::Vector2d& at)
 {
     return {6.0 * lens.tangential.dot(at) + 2.0 * lens.prism_s.dot(at),
             4.0 * at.squaredNorm() * lens.prism_ss.dot(at)};
 }
 
-/// The derivative by t of how far out the lens moves t times a point, divided by the point's
-/// distance, times D^2. s is that of the point itself.
+/// The derivative by t of the distorted radius of t times a point, divided by the radius of the
+/// point and multiplied by D^2. `s` is the squared radius of the point.
 Polynomial slope(const LensDistortion& lens, double s, const std::array<double, 2>& offset_terms)
 {
     const auto numerator = scaled(lens.radial, s);
@@ -183,13 +183,13 @@ Polynomial slope(const LensDistortion& lens, double s, const std::array<double, 
     return result;
 }
 
-/// Of 1 and the terms of an offset, for t up to 1.
+/// A lower bound of 1 plus the terms of an offset, for t up to 1.
 double least_offset_slope(const std::array<double, 2>& offset_terms)
 {
     return 1.0 - std::abs(offset_terms[0]) - std::abs(offset_terms[1]);
 }
 
-/// A bound that most points of an image pass: the slope with all its negative terms at their least.
+/// A fast sufficient test that most pixels pass: a lower bound of the slope is positive.
 bool surely_before_turn(const LensDistortion& lens, double s,
                         const std::array<double, 2>& offset_terms)
 {

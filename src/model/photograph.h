@@ -10,23 +10,23 @@
 
 namespace vcarve {
 
-/// How many pixels an image has.
+/// The size of an image, in pixels.
 struct PhotographSize {
     int width_px = 0;
     int height_px = 0;
 };
 
-/// A photograph, or another image: rows from the top, three bytes a pixel, red first.
+/// A photograph or another image: rows from the top, three bytes per pixel, red first.
 struct Photograph {
     int width_px = 0;
     int height_px = 0;
     std::vector<std::uint8_t> rgb;
-    std::vector<std::uint8_t> alpha = {}; ///< per pixel, 0 where nothing is shown; empty: no 0
+    std::vector<std::uint8_t> alpha = {}; ///< per pixel, 0 if transparent; empty if none is
 };
 
-/// The colour at a place of an image, each channel from 0 to 255, bilinear between the middles of
-/// four pixels: (0.5, 0.5) is that of the first. Beyond the edges the image goes on with the
-/// colours there.
+/// The color at a position of an image, each channel from 0 to 255. Interpolates bilinearly between
+/// pixel centers; (0.5, 0.5) is the center of the first pixel. Colors at the edges extend beyond
+/// them.
 inline Eigen::Array3f between_pixels(const Photograph& image, const Eigen::Vector2d& place)
 {
     const double column = std::clamp(place.x() - 0.5, 0.0, image.width_px - 1.0);
@@ -48,12 +48,12 @@ inline Eigen::Array3f between_pixels(const Photograph& image, const Eigen::Vecto
     return above + below * (mixed(lower) - above);
 }
 
-/// The images that cover a surface, and which part of them covers which face.
+/// The images that cover a surface, and the position of each face in them.
 struct Texture {
     std::vector<Photograph> pages;
     std::vector<std::uint32_t> page_of_face; ///< parallel to the faces of the mesh
-    /// Of each face where its corners lie in its page: (0, 0) is the page's upper left corner,
-    /// (1, 1) its lower right one.
+    /// The positions of each face's corners in its page: (0, 0) is the upper left corner of the
+    /// page, (1, 1) the lower right corner.
     std::vector<std::array<Eigen::Vector2f, 3>> places;
 
     bool is_empty() const { return pages.empty(); }

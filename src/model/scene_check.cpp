@@ -16,23 +16,22 @@ namespace {
 void require_one_a_point(const Scene& scene, std::string_view name, std::size_t entries)
 {
     if (entries == scene.num_points()) return;
-    throw UsageError(
-        fmt::format("the scene's {} have {} entries, not one for each of its {} points", name,
-                    entries, scene.num_points()));
+    throw UsageError(fmt::format("the scene's {} have {} entries, expected {} (one per point)",
+                                 name, entries, scene.num_points()));
 }
 
 void require_cameras(const Scene& scene)
 {
     for (const View& view : scene.views) {
         if (view.camera >= scene.cameras.size()) {
-            throw UsageError(fmt::format("view {} of the scene has camera number {}, but there are "
-                                         "{} cameras, counted from 0",
+            throw UsageError(fmt::format("view {} of the scene has camera index {}, expected an "
+                                         "index below {}, the number of cameras",
                                          view.id, view.camera, scene.cameras.size()));
         }
     }
 }
 
-/// Whether begins, as they are, cut the views of all points into rows.
+/// Whether `begins` divides `views` into rows.
 bool has_rows(const Tracks& tracks)
 {
     return tracks.begins.front() == 0 && tracks.begins.back() == tracks.views.size() &&
@@ -53,8 +52,8 @@ void require_tracks(const Scene& scene)
         if (!is_track(scene.tracks[point], scene.views.size())) atomic_min(first_wrong, point);
     });
     if (first_wrong == kNone) return;
-    throw UsageError(fmt::format("the track of point {} of the scene is not a row of ascending "
-                                 "numbers of views below {}",
+    throw UsageError(fmt::format("the track of point {} of the scene is invalid, expected "
+                                 "strictly ascending view indices below {}",
                                  first_wrong, scene.views.size()));
 }
 
@@ -68,8 +67,9 @@ void require_consistent(const Scene& scene)
     if (!scene.normals.empty()) require_one_a_point(scene, "normals", scene.normals.size());
     if (!scene.kinds.empty()) require_one_a_point(scene, "kinds", scene.kinds.size());
     if (scene.tracks.begins.empty() || !has_rows(scene.tracks)) {
-        throw UsageError("the scene's tracks do not begin at 0, ascend, and end where their views "
-                         "do");
+        throw UsageError(
+            "the scene's tracks.begins is invalid, expected ascending offsets from 0 to "
+            "the size of tracks.views");
     }
     require_one_a_point(scene, "tracks", scene.tracks.size());
     require_cameras(scene);

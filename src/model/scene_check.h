@@ -9,10 +9,10 @@
 
 namespace vcarve {
 
-/// How much there is of a scene: what time and memory of a run depend on.
+/// The size of a scene, which determines the time and memory of a run.
 struct SceneSize {
     std::uint64_t points = 0;
-    std::uint64_t sights = 0;
+    std::uint64_t rays = 0;
     std::uint64_t views = 0;
     bool has_normals = false;
     bool is_dense = false; ///< a dense cloud or a scan
@@ -21,31 +21,31 @@ struct SceneSize {
 inline SceneSize size_of(const Scene& scene)
 {
     return {.points = scene.num_points(),
-            .sights = scene.num_sights(),
+            .rays = scene.num_rays(),
             .views = scene.views.size(),
             .has_normals = !scene.normals.empty(),
             .is_dense = scene.is_dense};
 }
 
-/// No coordinate is larger: of places further out neither an area nor a volume is a finite number.
+/// The largest valid coordinate. Areas and volumes beyond it may overflow.
 inline constexpr double kFarthest = 1e100;
 
-/// Whether a position is a place, and neither too far out nor not a number.
-inline bool is_place(const Eigen::Vector3d& position)
+/// Whether no coordinate is NaN or beyond kFarthest.
+inline bool is_valid_position(const Eigen::Vector3d& position)
 {
     return (position.array().abs() <= kFarthest).all();
 }
 
-/// The position where it is a place, else one that is not a number, as which it is dropped later.
-inline Eigen::Vector3d place_or_none(const Eigen::Vector3d& position)
+/// Returns a valid position unchanged, and NaN for others. The filter drops NaN later.
+inline Eigen::Vector3d position_or_nan(const Eigen::Vector3d& position)
 {
-    if (is_place(position)) return position;
+    if (is_valid_position(position)) return position;
     return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Throws UsageError where the arrays of a scene do not fit each other: where one has not an entry
-/// a point, a view has no camera, or a track is not a row of ascending numbers of views. What
-/// readers make always fits; this is for scenes that somebody filled. Cost: O(sights), in parallel.
+/// Throws UsageError if a scene is inconsistent: an array does not have one entry per point, a view
+/// has no camera, or view indices of a track are not ascending. Scenes of readers are always
+/// consistent; this checks scenes of library callers. Cost: O(rays), in parallel.
 void require_consistent(const Scene& scene);
 
 } // namespace vcarve

@@ -11,7 +11,7 @@ Scene PartsOfScene::next(std::size_t most, const Progress& progress)
     std::vector<std::size_t> points(count);
     std::iota(points.begin(), points.end(), first_);
     first_ += count;
-    progress.tell(1.0);
+    progress.report(1.0);
     return select_points(scene_, points, [&](std::size_t i) { return scene_.tracks[points[i]]; });
 }
 

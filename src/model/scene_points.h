@@ -14,7 +14,7 @@
 
 namespace vcarve {
 
-/// The cameras and views of a scene, in its frame, and none of its points.
+/// A copy of a scene without points: its cameras, views and frame.
 inline Scene without_points(const Scene& scene)
 {
     Scene result;
@@ -25,7 +25,7 @@ inline Scene without_points(const Scene& scene)
     return result;
 }
 
-/// The values at some places, in their order; none where there are no values.
+/// Returns values[place] for each of `places`, in their order; nothing if `values` is empty.
 template <typename Value, typename Places>
 std::vector<Value> values_at(const Places& places, const std::vector<Value>& values)
 {
@@ -35,7 +35,7 @@ std::vector<Value> values_at(const Places& places, const std::vector<Value>& val
     return result;
 }
 
-/// Tracks of which row i is row_of(i), a span of views.
+/// Makes tracks whose row i is row_of(i), a span of views.
 template <typename RowOf>
 Tracks make_tracks(std::size_t count, const RowOf& row_of)
 {
@@ -52,9 +52,9 @@ Tracks make_tracks(std::size_t count, const RowOf& row_of)
     return tracks;
 }
 
-/// Leaves only some points of a scene, in the order given, with tracks for them. The arrays are
-/// replaced one after another, so that the memory of one of them, and not of a scene, is needed
-/// beside those that are there. Cost: O(points), in parallel.
+/// Keeps only the given points of a scene, in the given order, with the given tracks. Replaces one
+/// array after another, so the additional memory is that of one array instead of a scene. Cost:
+/// O(points), in parallel.
 template <typename Points>
 void keep_points(Scene& scene, const Points& points, Tracks tracks)
 {
@@ -67,8 +67,8 @@ void keep_points(Scene& scene, const Points& points, Tracks tracks)
     scene.kinds = values_at(points, scene.kinds);
 }
 
-/// Some points of a scene in the order given, with all its views; the i-th of them was seen by
-/// track_of(i). Cost: O(points + sights), in parallel.
+/// Returns a scene of the given points, in the given order, and all views. track_of(i) is the track
+/// of the i-th of these points. Cost: O(points + rays), in parallel.
 template <typename Points, typename TrackOf>
 Scene select_points(const Scene& scene, const Points& points, const TrackOf& track_of)
 {
@@ -83,12 +83,12 @@ Scene select_points(const Scene& scene, const Points& points, const TrackOf& tra
     return result;
 }
 
-/// Row i has all views that saw a point of group i, ascending, each once. `groups[i]` are the
-/// numbers of its points. Cost: O(sights log sights a group), in parallel.
+/// The union of the tracks of each group of points: row i has the views that saw a point of group
+/// i, ascending. `groups[i]` lists point indices. Cost: O(rays log(rays per group)), in parallel.
 template <typename Groups>
 Tracks united_tracks(const Tracks& tracks, const Groups& groups)
 {
-    std::vector<std::uint64_t> begins{0}; // of as many views as there are with those twice
+    std::vector<std::uint64_t> begins{0}; // of rows that may contain views twice
     begins.reserve(groups.size() + 1);
     for (std::size_t i = 0; i < groups.size(); ++i) {
         std::uint64_t views = 0;
@@ -116,8 +116,8 @@ Tracks united_tracks(const Tracks& tracks, const Groups& groups)
     });
 }
 
-/// A scene whose points come part by part, in their order, so that not all of them need to be in
-/// memory at a time.
+/// A scene that provides its points in parts, in their order. So they need not all be in memory at
+/// the same time.
 class SceneParts {
   public:
     SceneParts() = default;
@@ -125,14 +125,14 @@ class SceneParts {
     SceneParts& operator=(const SceneParts&) = delete;
     virtual ~SceneParts() = default;
 
-    /// How many points there are in all.
+    /// The total number of points.
     virtual std::size_t num_points() const = 0;
-    /// The next points, at most so many, with all cameras and views; none after the last. May throw
-    /// InputError, and Cancelled.
+    /// Returns the next points, at most `most`, with all cameras and views; no points after the
+    /// last part. May throw InputError and Cancelled.
     virtual Scene next(std::size_t most, const Progress& progress) = 0;
 };
 
-/// The parts of a scene that is in memory, and must stay there.
+/// The parts of a scene in memory. Keeps a reference to the scene.
 class PartsOfScene final : public SceneParts {
   public:
     explicit PartsOfScene(const Scene& scene) : scene_(scene) {}
@@ -142,7 +142,7 @@ class PartsOfScene final : public SceneParts {
 
   private:
     const Scene& scene_;
-    std::size_t first_ = 0; ///< point of the next part
+    std::size_t first_ = 0; ///< first point of the next part
 };
 
 } // namespace vcarve

@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// How far off its axis a camera shows things at most, found along the edge of its images; pi where
-/// it is not known.
+/// The largest angle to the axis that a camera shows, sampled along the edge of its image; pi if
+/// unknown.
 double widest_angle(const Camera& camera)
 {
-    constexpr int kSteps = 16; // a side
+    constexpr int kSteps = 16; // per side
     constexpr double kMargin = 1.1;
     double widest = 0.0;
     for (int i = 0; i < 4 * kSteps; ++i) {
@@ -62,7 +62,7 @@ std::vector<double> ViewTree::angles_of(const Scene& scene)
     return angles;
 }
 
-/// Adds the node of a run of views and all below it.
+/// Adds the node of a range of views, and its descendants.
 void ViewTree::add_node(const Scene& scene, const std::vector<double>& angles, std::uint32_t first,
                         std::uint32_t last)
 {
@@ -99,13 +99,13 @@ void ViewTree::add_node(const Scene& scene, const std::vector<double>& angles, s
     add_node(scene, angles, middle, last);
 }
 
-bool ViewTree::is_out_of_sight(const Node& node, const Vector3d& place)
+bool ViewTree::is_out_of_view(const Node& node, const Vector3d& place)
 {
     const Vector3d way = place - node.middle;
     const double radius = node.half.norm();
     const double distance = way.norm();
     if (!(distance > radius)) return false;
-    // Around the box the cone is as much wider as the box looks half wide from the place.
+    // Widen the cone by half the angle that the box subtends at `place`.
     const double half_sine = radius / distance;
     const double half_cosine = std::sqrt(1.0 - half_sine * half_sine);
     const double wide_sine = node.sine * half_cosine + node.cosine * half_sine;
@@ -126,7 +126,7 @@ void ViewTree::add(std::size_t number, const Vector3d& place, const Vector3d& no
                    std::vector<Near>& queue) const
 {
     const Node& node = nodes_[number];
-    if (is_out_of_sight(node, place) || is_behind(node, place, normal)) return;
+    if (is_out_of_view(node, place) || is_behind(node, place, normal)) return;
     const Vector3d gap = (place - node.middle).cwiseAbs() - node.half;
     queue.push_back({gap.cwiseMax(0.0).norm(), number});
     std::ranges::push_heap(queue, std::greater<>());

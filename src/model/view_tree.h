@@ -13,23 +13,23 @@
 
 namespace vcarve {
 
-/// Of the views that have a place in their image, and stand before the surface there, so many are
-/// asked at most whether they see it: what hides it from these mostly hides it from all.
+/// The maximum number of views to test for occlusion of a position, among views that image it from
+/// the front. If all of these are occluded, the others mostly are, too.
 inline constexpr std::size_t kMostAsked = 32;
 
-/// Boxes around the centers of views, one within the other, each with a cone around what its views
-/// show, so that the views that may see a place are found from the nearest on without a look at all
-/// others.
+/// A tree of boxes around camera centers. Each box has a cone that contains the fields of view of
+/// its views. So views that may see a position are found in ascending distance, without visiting
+/// all views.
 class ViewTree {
   public:
-    /// Cost: O(views log views), some 100 bytes a view.
+    /// Cost: O(views log views), about 100 bytes per view.
     explicit ViewTree(const Scene& scene);
 
-    /// Whether ask(view) says yes for some view; the views are asked from the nearest to a place
-    /// on, and of those equally near the first. Left out are some that do not have the place in
-    /// their image or stand behind a plane through it with such a normal; none do if that is zero.
-    /// Views whose center is not finite are not asked. Safe from many threads; ask() must not ask
-    /// in turn. Cost: O(log views) for each that is asked, where most others are left out.
+    /// Whether ask(view) is true for a view. Calls ask() in ascending distance of views from
+    /// `place`, by index for ties, until it returns true. May skip views whose image does not
+    /// contain `place`, or that are behind the plane through `place` with this normal; a zero
+    /// normal disables this test. Skips views without a finite center. Thread-safe, but ask() must
+    /// not call this function. Cost: O(log views) per ask(), if most other views are skipped.
     template <typename Ask>
     bool any_from_nearest(const Eigen::Vector3d& place, const Eigen::Vector3d& normal,
                           const Ask& ask) const;
@@ -37,16 +37,16 @@ class ViewTree {
   private:
     struct Node {
         Eigen::Vector3d middle;
-        Eigen::Vector3d half; ///< of the box's sides
-        std::uint32_t first;  ///< of its views, in `order_`
+        Eigen::Vector3d half; ///< half the side lengths of the box
+        std::uint32_t first;  ///< range of its views in `order_`
         std::uint32_t last;
-        std::uint32_t right;  ///< its second half; the first half follows it. 0 where it has none
-        Eigen::Vector3d axis; ///< of a cone, of unit length
-        double cosine;        ///< of how far off it lies what its views show, at most
+        std::uint32_t right;  ///< second child, or 0 for a leaf; the first child is the next node
+        Eigen::Vector3d axis; ///< of the cone, unit
+        double cosine;        ///< of the cone's half angle
         double sine;
     };
 
-    /// A node, or behind all of these a view, and how far it is from a place at least.
+    /// A node, or a view (its index plus the number of nodes), and a lower bound of its distance.
     struct Near {
         double distance;
         std::size_t number;
@@ -57,27 +57,27 @@ class ViewTree {
         }
     };
 
-    /// How far off its axis each view shows things at most.
+    /// The largest angle to its axis that each view shows.
     static std::vector<double> angles_of(const Scene& scene);
 
     void add_node(const Scene& scene, const std::vector<double>& angles, std::uint32_t first,
                   std::uint32_t last);
 
-    /// Whether no view of a node shows a place.
-    static bool is_out_of_sight(const Node& node, const Eigen::Vector3d& place);
-    /// Whether all views of a node stand behind a plane.
+    /// Whether certainly no view of a node images a position.
+    static bool is_out_of_view(const Node& node, const Eigen::Vector3d& place);
+    /// Whether certainly all views of a node are behind the plane.
     static bool is_behind(const Node& node, const Eigen::Vector3d& place,
                           const Eigen::Vector3d& normal);
 
-    /// Puts a node into the queue, unless it may be left out.
+    /// Adds a node to the queue, unless it can be skipped.
     void add(std::size_t number, const Eigen::Vector3d& place, const Eigen::Vector3d& normal,
              std::vector<Near>& queue) const;
-    /// Puts what is in a node into the queue.
+    /// Adds the children or views of a node to the queue.
     void add_parts(std::size_t number, const Eigen::Vector3d& place, const Eigen::Vector3d& normal,
                    std::vector<Near>& queue) const;
 
     std::vector<Eigen::Vector3d> centers_; ///< of all views
-    std::vector<std::uint32_t> order_;     ///< the views, those of a box next to each other
+    std::vector<std::uint32_t> order_;     ///< views with finite centers, grouped by box
     std::vector<Node> nodes_;
 };
 
@@ -85,7 +85,7 @@ template <typename Ask>
 bool ViewTree::any_from_nearest(const Eigen::Vector3d& place, const Eigen::Vector3d& normal,
                                 const Ask& ask) const
 {
-    thread_local std::vector<Near> queue; // a heap, the nearest on top
+    thread_local std::vector<Near> queue; // a heap with the nearest on top
     queue.clear();
     if (!nodes_.empty()) add(0, place, normal, queue);
     while (!queue.empty()) {

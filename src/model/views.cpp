@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-struct Sight {
+struct Ray {
     Vector3d way; ///< from the view to the point
     double focal_px = 0.0;
     bool measures_range = false;
@@ -22,19 +22,19 @@ struct Sight {
     auto rank() const { return std::tuple(way.x(), way.y(), way.z(), focal_px, measures_range); }
 };
 
-/// In an order that does not depend on that of the views, and so rounding does not.
-std::vector<Sight> ordered_sights(const Scene& scene, std::size_t point,
-                                  const std::vector<double>& focals_px)
+/// The rays of a point, sorted so that rounding does not depend on the order of views.
+std::vector<Ray> ordered_rays(const Scene& scene, std::size_t point,
+                              const std::vector<double>& focals_px)
 {
-    std::vector<Sight> sights;
-    sights.reserve(scene.tracks[point].size());
+    std::vector<Ray> rays;
+    rays.reserve(scene.tracks[point].size());
     for (const std::uint32_t v : scene.tracks[point]) {
         const View& view = scene.views[v];
-        sights.push_back({scene.positions[point] - view.center, focals_px[view.camera],
-                          scene.cameras[view.camera].measures_range});
+        rays.push_back({scene.positions[point] - view.center, focals_px[view.camera],
+                        scene.cameras[view.camera].measures_range});
     }
-    std::ranges::sort(sights, {}, &Sight::rank);
-    return sights;
+    std::ranges::sort(rays, {}, &Ray::rank);
+    return rays;
 }
 
 Vector3d look_back(const View& view)
@@ -59,11 +59,11 @@ std::optional<Vector3d> back_of(const Scene& scene)
     return mean_direction(scene, look_back);
 }
 
-bool look_one_way(const Scene& scene)
+bool look_in_one_direction(const Scene& scene)
 {
-    constexpr double kOneWay = 0.97; // if all are as far off their mean: 14 degrees
+    constexpr double kOneWay = 0.97; // cosine of 14 degrees
     const auto way = [&](const View& view) -> Vector3d {
-        if (scene.cameras[view.camera].measures_range) return Vector3d::Zero(); // all ways
+        if (scene.cameras[view.camera].measures_range) return Vector3d::Zero(); // all directions
         return look_back(view);
     };
     return mean_direction(scene, way, kOneWay).has_value();
@@ -91,11 +91,11 @@ Matrix3d covariance_of_a_pixel(const Scene& scene, std::size_t point,
                                const std::vector<double>& focals_px)
 {
     Matrix3d information = Matrix3d::Zero();
-    for (const Sight& sight : ordered_sights(scene, point, focals_px)) {
-        const double distance_sq = sight.way.squaredNorm();
-        const double pixels_sq = sight.focal_px * sight.focal_px / distance_sq;
+    for (const Ray& ray : ordered_rays(scene, point, focals_px)) {
+        const double distance_sq = ray.way.squaredNorm();
+        const double pixels_sq = ray.focal_px * ray.focal_px / distance_sq;
         Matrix3d across = Matrix3d::Identity();
-        if (!sight.measures_range) across -= sight.way * sight.way.transpose() / distance_sq;
+        if (!ray.measures_range) across -= ray.way * ray.way.transpose() / distance_sq;
         information += pixels_sq * across;
     }
     const double scale = information.trace() / 3.0;

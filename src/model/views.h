@@ -14,8 +14,8 @@
 
 namespace vcarve {
 
-/// Whether one of some views is a scanner: then the range of a point that they saw was measured,
-/// and is as well known as if other views had seen the point, too.
+/// Whether a track contains a scanner. The range of the point was then measured, which is as good
+/// as further views.
 inline bool has_measured_range(const Scene& scene, std::span<const std::uint32_t> track)
 {
     return std::any_of(track.begin(), track.end(), [&](std::uint32_t view) {
@@ -23,14 +23,14 @@ inline bool has_measured_range(const Scene& scene, std::span<const std::uint32_t
     });
 }
 
-/// Whether a scene has a scanner among its views.
+/// Whether a scene has scanner views.
 inline bool has_scanners(const Scene& scene)
 {
     return std::ranges::any_of(
         scene.views, [&](const View& view) { return scene.cameras[view.camera].measures_range; });
 }
 
-/// Where the views that saw a point are, all taken together: the sum of the unit vectors to them.
+/// The sum of the unit vectors from a point to the views that saw it.
 inline Eigen::Vector3d towards_views(const Scene& scene, std::size_t point)
 {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -40,8 +40,8 @@ inline Eigen::Vector3d towards_views(const Scene& scene, std::size_t point)
     return sum;
 }
 
-/// The mean direction of the views by direction(view), unit vectors; nothing if the mean of these
-/// is not longer than `agreeing`, as where they cancel out.
+/// The normalized mean of direction(view), a unit vector, over all views. Returns nothing if the
+/// mean is not longer than `agreeing`, for example because the directions cancel out.
 template <typename Direction>
 std::optional<Eigen::Vector3d> mean_direction(const Scene& scene, const Direction& direction,
                                               double agreeing = 0.1)
@@ -54,28 +54,27 @@ std::optional<Eigen::Vector3d> mean_direction(const Scene& scene, const Directio
     return sum.normalized();
 }
 
-/// The direction that is up, unit. COLMAP does not know it: it is the mean of the upward directions
-/// of the cameras; where these cancel out, the mean direction they look back along; z of a laser
-/// scan.
+/// The upward direction, unit. COLMAP does not provide it. This is the mean upward direction of the
+/// cameras, or back_of() if these directions cancel out. For laser scans it is z.
 Eigen::Vector3d up_of(const Scene& scene);
 
-/// The mean direction the cameras look back along, unit: up where they look down. Nothing where
-/// they look in all directions.
+/// The mean backward direction of the cameras, unit: up if they look down. Returns nothing if they
+/// look in all directions.
 std::optional<Eigen::Vector3d> back_of(const Scene& scene);
 
-/// Whether all cameras look in nearly one direction, so that their images may be upright or taken
+/// Whether the cameras look in nearly the same direction: their images may be upright, or taken
 /// straight down.
-bool look_one_way(const Scene& scene);
+bool look_in_one_direction(const Scene& scene);
 
-/// Where the views stand in rows of them, view by view.
+/// The inverse of rows of views: the occurrences of each view in the rows.
 class PlacesOfViews {
   public:
     struct Entry {
         std::uint32_t row;
-        std::uint32_t number; ///< in the row
+        std::uint32_t number; ///< position in the row
     };
 
-    /// Of rows of which the i-th is row_of(i), a span of views. Cost: O(rows + places).
+    /// row_of(i) is the i-th row, a span of views. Cost: O(rows + their total length).
     template <typename RowOf>
     PlacesOfViews(std::size_t num_rows, std::size_t num_views, const RowOf& row_of)
         : begins_(num_views + 1)
@@ -96,26 +95,25 @@ class PlacesOfViews {
         }
     }
 
-    /// Of a view, by ascending rows.
+    /// The occurrences of a view, by ascending row.
     std::span<const Entry> of(std::size_t view) const
     {
         return std::span(places_).subspan(begins_[view], begins_[view + 1] - begins_[view]);
     }
 
   private:
-    std::vector<std::size_t> begins_; ///< a view's are places_[begins_[view]] up to the next one's
+    std::vector<std::size_t> begins_; ///< places_[begins_[v]] is the first entry of view v
     std::vector<Entry> places_;
 };
 
-/// The middles of a grid of about square cells over a camera's images, in pixels: at most `most` of
-/// them but at least one. None where the size of the images is not known. `most` is 1 or more.
+/// The cell centers of a grid of nearly square cells over a camera's image, in pixels: at least
+/// one, at most `most` (1 or more). Empty if the image size is unknown.
 std::vector<Eigen::Vector2d> pixel_grid(const Camera& camera, std::size_t most);
 
-/// How uncertain a point is if its place in each image is in error by one pixel, in squares of
-/// scene units: its sights meet in an ellipsoid that is long where they meet at small angles
-/// (covariance by backward propagation, Hartley & Zisserman 2004, 5.2). Zero where they do not
-/// cross. Of a scanner's sight the range is in error, too, by as much as a pixel covers there.
-/// `focals_px` are mean_focals_px() of the cameras. Cost: O(sights of the point).
+/// The covariance of a point for errors of one pixel in each image, in squared scene units
+/// (backward propagation, Hartley & Zisserman 2004, 5.2). The ellipsoid is long if the rays meet at
+/// small angles. Zero if the rays do not cross. A scanner's range has the error that a pixel covers
+/// at that distance. `focals_px` is mean_focals_px() of the cameras. Cost: O(rays of the point).
 Eigen::Matrix3d covariance_of_a_pixel(const Scene& scene, std::size_t point,
                                       const std::vector<double>& focals_px);
 

@@ -24,17 +24,17 @@ namespace {
 
 constexpr std::chrono::milliseconds kPause(10);
 
-/// Says nothing, and stops what it is told of where that is wished.
+/// Shows nothing, and can cancel the running task.
 class QuietLog final : public Log {
   public:
-    bool wants_stop() const override { return wants_stop_; }
+    bool should_stop() const override { return wants_stop_; }
     void stop() { wants_stop_ = true; }
 
   private:
     std::atomic<bool> wants_stop_ = false;
 };
 
-/// What a rank has of a run.
+/// The state of a run on a rank.
 class JoinedRun {
   public:
     JoinedRun(const cli::MeshArguments& arguments, const Order& begun, const Session& session,
@@ -45,7 +45,7 @@ class JoinedRun {
           shares_(folder_, arguments.options, session.rank())
     {
         if (begun.options != cli::digest_of_options(arguments.options)) {
-            throw UsageError("it was started with other options, or is another program, than "
+            throw UsageError("it was started with other options or another program than "
                              "rank 0");
         }
     }
@@ -67,13 +67,13 @@ class JoinedRun {
 
   private:
     bool in_files_;
-    std::optional<std::int64_t> allowed_;  ///< of memory
-    std::optional<ScratchMemory> scratch_; ///< goes last
+    std::optional<std::int64_t> allowed_;  ///< memory limit in bytes
+    std::optional<ScratchMemory> scratch_; ///< destroyed last
     WorkFolder folder_;
     RankShares shares_;
 };
 
-/// Does a share in a thread of its own, so that this one can hear of orders to stop.
+/// Does a share on another thread, so that this thread can receive orders to stop.
 Reply done(const Session& session, const std::function<void(Log&)>& work)
 {
     QuietLog log;

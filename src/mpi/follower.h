@@ -10,9 +10,9 @@ namespace vcarve::mpi {
 /// Reads the command line; throws UsageError.
 using ReadArguments = std::function<cli::MeshArguments()>;
 
-/// What every rank but the first does: shares of the run that its command line asks for, until rank
-/// 0 ends the program. Prints nothing; what goes wrong is told rank 0, and that it was started with
-/// other options than rank 0. While nothing is to be done it leaves its core to others.
+/// Runs a rank other than rank 0: does its shares of the run until rank 0 ends the program. Prints
+/// nothing. Reports errors to rank 0, also if its options differ from those of rank 0. Sleeps while
+/// it has no work.
 void follow(const Session& session, const cli::Processes& processes, const ReadArguments& read);
 
 } // namespace vcarve::mpi

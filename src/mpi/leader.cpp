@@ -15,10 +15,10 @@ constexpr std::chrono::milliseconds kAnswerPause(10);
 
 Leader::~Leader()
 {
-    tell_all({.kind = Order::Kind::end});
+    report_all({.kind = Order::Kind::end});
 }
 
-void Leader::tell_all(const Order& order) const
+void Leader::report_all(const Order& order) const
 {
     for (std::size_t rank = 1; rank < processes_.all; ++rank) {
         session_.send(order, rank);
@@ -27,21 +27,21 @@ void Leader::tell_all(const Order& order) const
 
 void Leader::begin(const cli::JobOfRanks& job)
 {
-    tell_all({.kind = Order::Kind::begin,
-              .in_files = job.in_files ? 1 : 0,
-              .job = job.job,
-              .options = job.options});
+    report_all({.kind = Order::Kind::begin,
+                .in_files = job.in_files ? 1 : 0,
+                .job = job.job,
+                .options = job.options});
 }
 
-/// Waits until all others are done, and tells what the first of them failed with. Stops the others
-/// then, or where `stops` is set.
+/// Waits until all other ranks are done, and returns the first failure. A failure, or setting
+/// `stops`, stops the other ranks.
 std::optional<RankError> Leader::gather(const std::atomic<bool>& stops)
 {
     std::optional<RankError> failure;
     bool are_stopped = false;
     for (std::size_t left = processes_.all - 1; left > 0;) {
         if ((stops || failure) && !std::exchange(are_stopped, true)) {
-            tell_all({.kind = Order::Kind::stop});
+            report_all({.kind = Order::Kind::stop});
         }
         const std::optional<Session::Replied> replied = session_.reply();
         if (!replied) {
@@ -61,11 +61,11 @@ void Leader::share(const std::string& task, const std::function<void()>& own)
 {
     Order order = {.kind = Order::Kind::work};
     set_text(order.task, task);
-    tell_all(order);
+    report_all(order);
     has_failed_ = false;
     std::atomic<bool> own_failed = false;
     std::optional<RankError> failure;
-    // Until it ends, it alone calls MPI.
+    // Until this thread ends, no other thread calls MPI.
     std::thread gatherer([&] { failure = gather(own_failed); });
     std::exception_ptr own_failure;
     try {
@@ -75,7 +75,7 @@ void Leader::share(const std::string& task, const std::function<void()>& own)
         own_failed = true;
     }
     gatherer.join();
-    if (failure) throw RankError(*failure); // own() was stopped for it, if it failed
+    if (failure) throw RankError(*failure); // if own() failed too, it was stopped
     if (own_failure) std::rethrow_exception(own_failure);
 }
 

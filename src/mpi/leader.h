@@ -10,18 +10,18 @@
 
 namespace vcarve::mpi {
 
-/// The other ranks, for rank 0, which tells them what to do. While they work a thread looks a
-/// hundred times a second whether one is done or has failed, and sleeps in between.
+/// Lets rank 0 give orders to the other ranks. While they work, a thread polls for replies 100
+/// times per second and sleeps in between.
 class Leader final : public cli::RunRanks {
   public:
-    /// `session` must outlive it. Made by all ranks at the same time, see Session::processes().
+    /// `session` must outlive it. `processes` is Session::processes(), which all ranks must call.
     Leader(const Session& session, const cli::Processes& processes)
         : session_(session), processes_(processes)
     {
     }
     Leader(const Leader&) = delete;
     Leader& operator=(const Leader&) = delete;
-    /// Tells the others that the program ends.
+    /// Orders the other ranks to end.
     ~Leader() override;
 
     cli::Processes processes() const override { return processes_; }
@@ -30,12 +30,12 @@ class Leader final : public cli::RunRanks {
     bool has_failed() const override { return has_failed_; }
 
   private:
-    void tell_all(const Order& order) const;
+    void report_all(const Order& order) const;
     std::optional<RankError> gather(const std::atomic<bool>& stops);
 
     const Session& session_;
     cli::Processes processes_;
-    std::atomic<bool> has_failed_ = false; ///< another rank
+    std::atomic<bool> has_failed_ = false; ///< whether another rank failed
 };
 
 } // namespace vcarve::mpi

@@ -1,5 +1,5 @@
-// colmap-vcarve-mpi: the same command for many processes, on one machine or on many, started by
-// mpirun or srun. Rank 0 runs the command; the others do shares of it.
+// colmap-vcarve-mpi: the same command for several processes on one or more machines, started by
+// mpirun or srun. Rank 0 runs the command; the other ranks do shares of it.
 #include "cli/commands.h"
 #include "cli/exit_code.h"
 #include "cli/mesh_arguments.h"

@@ -6,33 +6,33 @@
 #include <cstdint>
 #include <string_view>
 
-// What ranks tell each other by MPI: little, for all else goes through the work folder.
+// The messages between ranks. They are short, because all data goes through the work folder.
 
 namespace vcarve::mpi {
 
-/// From rank 0 to the others.
+/// A message from rank 0 to another rank.
 struct Order {
     enum class Kind : std::int32_t {
-        begin, ///< a run: its job, and a digest of its options
-        work,  ///< on its share of a task
-        stop,  ///< that work; also told to who has done it meanwhile
-        end,   ///< of the program
+        begin, ///< a run begins; has its job, and a digest of its options
+        work,  ///< do the share of a task
+        stop,  ///< cancel the share; also sent to ranks that are already done
+        end,   ///< end the program
     };
     Kind kind = Kind::end;
-    std::int32_t in_files = 0;   ///< of a run: large arrays are
-    std::array<char, 64> task{}; ///< the name of its file, to work on
+    std::int32_t in_files = 0;   ///< begin: whether large arrays are in files
+    std::array<char, 64> task{}; ///< work: the name of the task's file
     Digest job{};
     Digest options{};
 };
 
-/// From another rank to rank 0, when its share is done or has failed.
+/// A message to rank 0 that a share is done or has failed.
 struct Reply {
-    std::int32_t exit_code = 0;        ///< what the program would end with
-    std::int32_t was_stopped = 0;      ///< as it was ordered
-    std::array<char, 1000> sentence{}; ///< what went wrong
+    std::int32_t exit_code = 0;        ///< of the program, if the share failed
+    std::int32_t was_stopped = 0;      ///< whether an order stopped the share
+    std::array<char, 1000> sentence{}; ///< the error message
 };
 
-/// Copies a text that fits, but for its end where it does not; zeros follow it.
+/// Copies a text, truncated if it does not fit, and fills the rest with at least one zero.
 template <std::size_t kSize>
 void set_text(std::array<char, kSize>& place, std::string_view text)
 {

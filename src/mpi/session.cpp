@@ -30,8 +30,8 @@ std::size_t size_of(MPI_Comm communicator)
     return static_cast<std::size_t>(size);
 }
 
-/// MPI_Send would keep a core busy until the other rank looks, which may be at the end of a long
-/// share of its own.
+/// Sends a message. MPI_Send would keep a core busy until the other rank receives, which may be at
+/// the end of a long share.
 template <typename Message>
 void send(const Message& message, int rank, int tag)
 {
@@ -45,7 +45,7 @@ void send(const Message& message, int rank, int tag)
     }
 }
 
-/// The sender of what it received; nothing where nothing has arrived.
+/// Receives a message if one has arrived. Returns its sender, or nullopt.
 template <typename Message>
 std::optional<int> receive(Message& message, int tag)
 {
@@ -65,7 +65,7 @@ Session::Session(int* count, char*** words)
     int provided = 0;
     MPI_Init_thread(count, words, MPI_THREAD_SERIALIZED, &provided);
     if (provided < MPI_THREAD_SERIALIZED) {
-        throw std::runtime_error("this MPI takes calls of one thread only");
+        throw std::runtime_error("this MPI library does not support calls from several threads");
     }
 }
 

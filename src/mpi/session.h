@@ -9,8 +9,8 @@
 
 namespace vcarve::mpi {
 
-/// MPI, begun when the object is made and ended when it goes. One thread at a time may call. What
-/// a call of MPI does not do ends all ranks, as MPI's own handler of errors says.
+/// Initializes MPI, and finalizes it in the destructor. Only one thread at a time may call. A
+/// failed MPI call ends all ranks, which is MPI's default error handler.
 class Session {
   public:
     Session(int* count, char*** words);
@@ -25,7 +25,7 @@ class Session {
 
     void send(const Order& order, std::size_t rank) const;
     void send(const Reply& reply) const;
-    /// What has arrived, if anything has: an order of rank 0; a reply, and whose it is.
+    /// The next message that has arrived, if any: an order of rank 0, or a reply and its sender.
     std::optional<Order> order() const;
     struct Replied {
         std::size_t rank;

@@ -14,7 +14,7 @@ constexpr const char* kRays = "Ray";
 constexpr const char* kSurface = "Surface";
 constexpr const char* kCleanup = "Cleanup";
 
-/// An option of C++ and Python only. The info has name, unit and help.
+/// An option for C++ and Python only. `info` has name, unit and help.
 Option for_library(const char* stage, OptionInfo info, OptionValue value, double max = kUnlimited)
 {
     info.max = max;
@@ -31,13 +31,13 @@ OptionList filter_options(FilterOptions& points)
         {kPoints,
          {.name = "max-error",
           .unit = "px",
-          .help = "Drop points with a larger error in px. The mean reprojection error counts; 0 "
-                  "keeps all."},
+          .help = "Drop points with a larger error in px. The error is the mean reprojection "
+                  "error; 0 disables."},
          &points.max_error_px},
         {kPoints,
          {.name = "min-angle",
           .unit = "deg",
-          .help = "Drop points whose rays all meet at a smaller angle in degrees; 0 keeps all.",
+          .help = "Drop points whose rays all meet at a smaller angle in degrees; 0 disables.",
           .max = 180.0,
           .level = advanced},
          &points.min_angle_deg},
@@ -46,7 +46,7 @@ OptionList filter_options(FilterOptions& points)
           .unit = "times",
           .help = "Drop two-view points isolated by more than N median spacings, as seen from "
                   "their views. The limit is 2/3 N for points of large error, 1.75 N for points "
-                  "of small error; 0 keeps all.",
+                  "of small error; 0 disables.",
           .level = advanced},
          &points.stray_spacing},
     };
@@ -57,15 +57,15 @@ OptionList added_point_options(AddedPointOptions& added)
     return {
         for_library(kPoints,
                     {"crease-reach", "x spacing",
-                     "Add points at creases of regions that end within N spacings; 0: none."},
+                     "Add points at creases of regions that end within N spacings; 0 disables."},
                     &added.crease_reach, 1000.0),
         for_library(kPoints,
                     {"border-gap", "x spacing",
-                     "Add points at borders that rays pass within N spacings; 0: none."},
+                     "Add points at borders that rays pass within N spacings; 0 disables."},
                     &added.border_gap, 100.0),
         for_library(kPoints,
                     {"textureless-step", "x spacing",
-                     "Add points N spacings apart in textureless regions; 0: none."},
+                     "Add points N spacings apart in textureless regions; 0 disables."},
                     &added.textureless_step, 100.0),
     };
 }
@@ -77,23 +77,23 @@ OptionList cloud_options(Options& options)
          {.name = "merge-px",
           .unit = "px",
           .help = "Merge points of a dense cloud within N px, measured in the view that images "
-                  "the point at the largest scale; 0 merges none.",
+                  "the point at the largest scale; 0 disables.",
           .max = 1000.0,
           .level = advanced},
          &options.thin.merge_px},
         {kPoints,
          {.name = "crop",
-          .help = "Reconstruct only this region. auto: the ball in which 94 % of the rays end. A "
-                  "box: x0,y0,z0,x1,y1,z1. A file: PLY with a closed surface, or text with the x "
-                  "and y of a polygon's corner per line, for all z.",
+          .help = "Reconstruct only this region. auto: the ball that holds the points of 94 % of "
+                  "the rays. A box: x0,y0,z0,x1,y1,z1. A file: a closed surface (PLY), or text "
+                  "with x and y of one polygon corner per line, for all z.",
           .words = {"none", "auto"}},
          &options.crop.region},
         {kPoints,
          {.name = "denoise",
           .unit = "sigma",
           .help = "Denoise by at most N sigma. Points of a dense cloud, or vertices of a sparse "
-                  "model's mesh, move by at most N standard deviations of their error; 0 moves "
-                  "none.",
+                  "model's mesh, move by at most N standard deviations of their error; 0 "
+                  "disables.",
           .max = 100.0},
          &options.denoise.denoise},
     };
@@ -104,7 +104,7 @@ OptionList method_options(LabelOptions& options)
     OptionList list = {
         {kRays,
          {.name = "method",
-          .help = "Choose how cells are labeled. cut: a minimum cut that contradicts the rays "
+          .help = "Select the labeling method. cut: a minimum cut, which contradicts the rays "
                   "least. strict: every cell that a ray crosses is outside, for noise-free points.",
           .words = {"cut", "strict"},
           .level = advanced},
@@ -123,28 +123,28 @@ OptionList trace_options(TraceOptions& trace)
     OptionList list = {
         for_library(kRays,
                     {"views-sigma", "views",
-                     "Set s of the ray weight 1 - exp(-n^2 / 2 s^2), n views; 0: all alike."},
+                     "Set s of the weight 1 - exp(-n^2 / 2 s^2) for n views; 0: equal weights."},
                     &trace.views_sigma, 100.0),
         for_library(kRays,
                     {"error-sigma", "x median error",
-                     "Set s of the factor exp(-(e^2 - 1) / 2 s^2) for errors e > 1; 0: none."},
+                     "Set s of the factor exp(-(e^2 - 1) / 2 s^2) for errors e > 1; 0 disables."},
                     &trace.error_sigma, 1000.0),
         for_library(kRays,
                     {"distance-sigma", "x short edge",
-                     "Set the uncertainty of points along their rays; 0 trusts them fully."},
+                     "Set the uncertainty of points along their rays; 0 disables."},
                     &trace.distance_sigma, 1000.0),
         for_library(kRays,
                     {"sink-depth", "x distance sigma",
-                     "Set how far behind a point its rays vote for inside; 0: the next cell."},
+                     "Set the depth behind points that gets inside votes; 0: the next cell only."},
                     &trace.sink_depth, 1000.0),
         for_library(
             kRays,
-            {"bundle-sights", "rays", "Merge N neighboring rays of a dense cloud; 1 merges none."},
-            &trace.bundle_sights, 64),
+            {"bundle-rays", "rays", "Merge N neighboring rays of a dense cloud; 1 disables."},
+            &trace.bundle_rays, 64),
         for_library(kRays,
-                    {"inferred-sights", "weight",
-                     "Weigh rays of views that likely saw a dense point; 0 ignores them."},
-                    &trace.inferred_weight, 10.0),
+                    {"inferred-rays", "weight",
+                     "Set the weight of rays of views that likely saw a dense point; 0 disables."},
+                    &trace.inferred_rays, 10.0),
     };
     list[4].info.min = 1;
     return list;
@@ -157,26 +157,26 @@ OptionList cut_options(LabelOptions& options)
         {kRays,
          {.name = "quality",
           .unit = "rays",
-          .help = "Set the cost of a badly shaped facet in the cut, in rays of full weight; 0 uses "
-                  "rays only.",
+          .help = "Set the cost of a badly shaped facet in the cut, in rays of full weight; 0 "
+                  "disables.",
           .max = 100'000.0,
           .level = advanced},
          &options.cut.quality},
         for_library(kRays,
                     {"hull-edge", "x local edge",
-                     "Continue the surface along the hull by edges up to this; 0 does not."},
+                     "Continue the surface along the hull by edges of at most N; 0 disables."},
                     &options.hull.hull_edge),
         {kRays,
          {.name = "virtual-views",
           .unit = "views",
           .help = "Place N virtual viewpoints in space known to be free, and label the cells "
-                  "again; 100 suit some thousand points, 0 places none.",
+                  "again; 100 suit some thousand points; 0 disables.",
           .max = 10'000,
           .level = advanced},
          &views.count},
         for_library(kRays,
                     {"virtual-weight", "rays",
-                     "Weigh a ray of a virtual viewpoint, relative to a real one."},
+                     "Set the weight of a virtual viewpoint's ray, relative to a real ray."},
                     &views.weight, 100.0),
     };
 }
@@ -186,43 +186,42 @@ OptionList surface_options(SurfaceOptions& surface)
     FaceRules& rules = surface.rules;
     return {
         {kSurface,
-         {.name = "closed",
-          .help = "Make a watertight mesh. Faces that no view sees are kept, too."},
+         {.name = "closed", .help = "Make a watertight mesh. Faces that no view sees are kept."},
          &surface.closed},
         {kSurface,
          {.name = "max-closing",
           .unit = "x extent",
-          .help = "Drop long, unseen faces. A face is dropped if it has an edge longer than N "
-                  "times the extent of what the views look at, and few views see it or it turns "
-                  "off the surface; 0 drops none and closes most gaps with large faces.",
+          .help = "Drop long, unseen faces. A face is long if it has an edge above N times the "
+                  "diameter of the region of interest. It is dropped if views see little of it, or "
+                  "if it bends away from the surface; 0 disables, so large faces close most gaps.",
           .max = 1.0},
          &rules.max_closing},
         for_library(kSurface,
-                    {"closing-vast", "x closing edge",
-                     "Drop seen boundary faces that turn off the surface beyond this."},
-                    &rules.vast),
+                    {"boundary-closing", "x closing edge",
+                     "Drop visible boundary faces that bend away if an edge is above N."},
+                    &rules.boundary_closing),
         for_library(kSurface,
-                    {"closing-seen", "share",
-                     "Drop long faces that turn off the surface if seen less than this."},
+                    {"half-seen", "share",
+                     "Drop long faces that bend away if a smaller share is visible; 0 disables."},
                     &rules.half_seen, 1.0),
         {kSurface,
          {.name = "hardly-seen",
           .unit = "share",
-          .help = "Drop long faces and boundary faces if views see a smaller share of them.",
+          .help = "Drop long faces and boundary faces if a smaller share is visible; 0 disables.",
           .max = 1.0,
           .level = advanced},
          &rules.hardly_seen},
         for_library(kSurface,
                     {"trim", "x closing edge",
-                     "Trim faces with a longer edge to what views see of them; 0: none."},
+                     "Trim faces with an edge above N to their visible part; 0 disables."},
                     &rules.trim),
         for_library(kSurface,
                     {"beside-edge", "x local edge",
-                     "Keep unseen faces beside seen ones up to this edge; 0 keeps none."},
+                     "Keep unseen faces beside kept ones if no edge is above N; 0 disables."},
                     &rules.beside_edge),
         for_library(kSurface,
                     {"beside-length", "x median edge",
-                     "Keep such faces only up to this multiple of the median longest edge."},
+                     "Limit their edges also to N times the median longest edge of kept faces."},
                     &rules.beside_length),
     };
 }
@@ -234,16 +233,16 @@ OptionList cleanup_options(Options& options)
         {kCleanup,
          {.name = "min-component",
           .unit = "faces",
-          .help = "Remove components with fewer faces, or with half as many if they are closed "
-                  "and have no long faces; 0 keeps all.",
+          .help = "Remove connected components with fewer faces. The limit is half of that for "
+                  "closed components without long faces; 0 disables.",
           .level = advanced},
-         &cleanup.min_component_faces},
+         &cleanup.min_component},
         {kCleanup,
          {.name = "max-hole",
           .unit = "edges",
-          .help = "Fill holes up to N edges. 0 fills none.",
-          .max = 1000}, // N edges take 16 N^2 bytes, N^3 steps and a recursion N deep
-         &cleanup.max_hole_edges},
+          .help = "Fill holes up to N edges. 0 disables.",
+          .max = 1000}, // N edges need 16 N^2 bytes, N^3 steps and recursion depth N
+         &cleanup.max_hole},
         {kCleanup,
          {.name = "smooth",
           .unit = "iterations",
@@ -254,8 +253,8 @@ OptionList cleanup_options(Options& options)
          {.name = "simplify",
           .unit = "faces",
           .help = "Simplify to about N faces. A merge that would occlude an observed point is "
-                  "rejected; 0 keeps all faces. auto: simplify surfaces of dense points within a "
-                  "quarter of their spacing.",
+                  "rejected; 0 disables. auto: simplify meshes of dense points, within a quarter "
+                  "of the vertex spacing.",
           .words = {"auto"},
           .word_value = SimplifyOptions::kAutoFaces},
          &options.refine.simplify.faces},
@@ -273,18 +272,18 @@ OptionList run_options(Options& options)
          &options.threads},
         {kRunStage,
          {.name = "max-memory",
-          .help = "Limit the memory, such as 8G. A larger model is meshed in blocks, with files "
+          .help = "Limit the memory, such as to 8G. A larger model is meshed in blocks, with files "
                   "in --work; the mesh is the same. auto: 80 % of the free memory of the machine "
-                  "or its control group; 0 has no limit.",
+                  "or its control group; 0 disables.",
           .words = {"auto"},
           .word_value = static_cast<double>(MemoryOptions::kAutoMemory)},
-         &options.memory.most},
+         &options.memory.limit},
         {kRunStage,
          {.name = "blocks",
           .unit = "blocks",
-          .help = "Cut the model into N blocks, with arrays in files of --work. auto: as many as "
-                  "--max-memory makes necessary. 0: work in memory, and refuse a model that needs "
-                  "more.",
+          .help = "Divide the model into N blocks, with arrays in files of --work. auto: the "
+                  "number that --max-memory requires. 0: work in memory, and reject a model that "
+                  "needs more.",
           .max = 65536.0,
           .words = {"auto"},
           .word_value = static_cast<double>(MemoryOptions::kAutoBlocks),
@@ -308,26 +307,26 @@ OptionList options_of(PointsArguments& arguments)
         {kInput,
          {.name = "points",
           .unit = "file",
-          .help = "Choose the input points. sparse: those of the model. dense: fused.ply of a "
+          .help = "Choose the input points. sparse: points of the model. dense: fused.ply of a "
                   "dense workspace. A PLY file: points in the model's frame. The default is dense "
                   "if fused.ply and fused.ply.vis exist.",
           .words = {"sparse", "dense"}},
          &arguments.points.points},
         {kInput,
          {.name = "visibility",
-          .help = "Read which views saw the points of a PLY file, as COLMAP's stereo_fusion "
-                  "writes it; by default from the file of the same name with .vis appended.",
+          .help = "Read the views of each point of a PLY file from FILE, which is in the format of "
+                  "COLMAP's stereo_fusion. The default is the name of the PLY file plus .vis.",
           .level = advanced},
          &arguments.points.visibility},
         {kInput,
-         {.name = "sights",
-          .help = "Choose which views saw a point. file: those in the model's tracks or in the "
+         {.name = "rays",
+          .help = "Choose the views of each point. file: the views in the model's tracks or in the "
                   "file of --visibility. nearest: the nearest views with an unobstructed line to "
                   "the point. auto: file, or nearest if most points of a model have fewer than "
                   "two views.",
           .words = {"auto", "file", "nearest"},
           .level = advanced},
-         value_of_enum(arguments.points.sights)},
+         value_of_enum(arguments.points.rays)},
         {kInput,
          {.name = "scanner",
           .help = "Set the scanner position. It applies to all points of a PLY file, in its "
@@ -361,13 +360,12 @@ OptionList options_of(CompareOptions& options)
           .level = advanced},
          &options.samples},
         {kStage,
-         {.name = "seed", .help = "Seed the sampling with any number.", .level = advanced},
+         {.name = "seed", .help = "Set the seed of the sampling.", .level = advanced},
          &options.seed},
         {kStage,
          {.name = "spacings",
           .unit = "x spacing",
-          .help = "Count a mesh as passing through a point within N spacings of the points around "
-                  "it.",
+          .help = "Set the tolerance between mesh and points, in spacings of the points around.",
           .level = advanced},
          &options.spacings},
     };

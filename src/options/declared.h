@@ -7,23 +7,23 @@
 
 namespace vcarve {
 
-/// The heading of options that leave the result as it is: threads, memory.
+/// Heading of options that do not affect the result: threads, memory.
 inline constexpr const char* kRunStage = "Run";
 
-/// PointsOptions as they are typed.
+/// PointsOptions as typed on the command line.
 struct PointsArguments {
-    PointsOptions points; ///< except the scanner
+    PointsOptions points; ///< all but the scanner
     WordOrVector scanner;
 
     PointsOptions all_points() const;
 };
 
-/// The options of a run, of a comparison, and of the choice of points; values are in `options`.
+/// The options of a run, a comparison and the choice of points. Values refer to the argument.
 OptionList options_of(Options& options);
 OptionList options_of(CompareOptions& options);
 OptionList options_of(PointsArguments& arguments);
 
-/// Throws UsageError for a value out of range, for callers that set the fields themselves.
+/// Throws UsageError if a value is out of range. For callers that set the fields themselves.
 template <typename AnyOptions>
 void validate(AnyOptions options)
 {

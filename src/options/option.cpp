@@ -19,6 +19,18 @@ namespace vcarve {
 
 namespace {
 
+/// An option name of version 0.2, accepted until version 0.4.
+struct FormerName {
+    std::string_view former;
+    std::string_view now;
+};
+
+constexpr FormerName kFormerNames[] = {{"sights", "rays"},
+                                       {"bundle-sights", "bundle-rays"},
+                                       {"inferred-sights", "inferred-rays"},
+                                       {"closing-vast", "boundary-closing"},
+                                       {"closing-seen", "half-seen"}};
+
 namespace fs = std::filesystem;
 
 template <typename... Functions>
@@ -26,7 +38,7 @@ struct Overloaded : Functions... {
     using Functions::operator()...;
 };
 template <typename... Functions>
-Overloaded(Functions...) -> Overloaded<Functions...>; // Clang 14 asks for it
+Overloaded(Functions...) -> Overloaded<Functions...>; // Clang 14 requires it
 
 std::string bounded(std::string text, const OptionInfo& info)
 {
@@ -40,7 +52,7 @@ std::string bounded(std::string text, const OptionInfo& info)
     return info.unit.empty() ? text : fmt::format("{} ({})", text, info.unit);
 }
 
-/// "none, auto or a file".
+/// Joins alternatives: "none, auto or a file".
 std::string either(std::vector<std::string> words, const std::string& other)
 {
     if (!other.empty()) words.push_back(other);
@@ -56,7 +68,7 @@ bool means_word(double value, const OptionInfo& info)
 
 bool is_in_range(double value, const OptionInfo& info)
 {
-    return value >= info.min && value <= info.max; // not a number is not
+    return value >= info.min && value <= info.max; // not for NaN
 }
 
 std::string number_text(auto value, const OptionInfo& info)
@@ -105,7 +117,7 @@ bool parse(std::string_view text, Number& number)
     return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Numbers with commas between them, and nothing else.
+/// Parses numbers separated by commas, without other characters.
 bool parse_list(std::string_view text, std::span<double> numbers)
 {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -116,7 +128,7 @@ bool parse_list(std::string_view text, std::span<double> numbers)
     return true;
 }
 
-/// The index of a word among an option's; nothing where it is none.
+/// The index of `text` among the option's words; nothing if it is not one.
 std::optional<int> word_index(const Option& option, std::string_view text)
 {
     const auto& words = option.info.words;
@@ -125,7 +137,7 @@ std::optional<int> word_index(const Option& option, std::string_view text)
     return static_cast<int>(word - words.begin());
 }
 
-/// What the word stands for may be out of the range of what can be typed.
+/// The value of the word may be outside the range for typed numbers.
 template <typename Number>
 void set_number(const Option& option, Number& value, const std::string& text)
 {
@@ -155,7 +167,7 @@ void set_vector(const Option& option, WordOrVector& value, const std::string& te
     if (is_vector && !parse_list(text, {value.vector.data(), 3})) refuse_text(option, text);
 }
 
-/// What begins with a number and a comma is meant to be a box.
+/// Parses a region. A text that begins with a number and a comma is a box.
 RegionChoice parse_region(const Option& option, const std::string& text)
 {
     RegionChoice region;
@@ -190,7 +202,7 @@ void check_word(const Option& option, int word)
     const std::size_t words = option.info.words.size();
     if (word >= 0 && static_cast<std::size_t>(word) < words) return;
     throw UsageError(
-        fmt::format("--{} has {} choices, and {} is none of them", option.info.name, words, word));
+        fmt::format("--{} has {} choices; {} is not one of them", option.info.name, words, word));
 }
 
 void check_vector(const Option& option, const WordOrVector& value)
@@ -235,6 +247,15 @@ OptionList joined(std::initializer_list<OptionList> lists)
         all.insert(all.end(), list.begin(), list.end());
     }
     return all;
+}
+
+const Option* find_option(std::string_view name, const OptionList& options)
+{
+    const auto* const former = std::ranges::find(kFormerNames, name, &FormerName::former);
+    const std::string_view current = former == std::ranges::end(kFormerNames) ? name : former->now;
+    const auto option = std::ranges::find_if(
+        options, [&](const Option& candidate) { return candidate.info.name == current; });
+    return option == options.end() ? nullptr : &*option;
 }
 
 bool is_flag(const Option& option)

@@ -1,11 +1,11 @@
-// Fills the page of a comparison from its record, which holds what --json writes.
+// Fills the page of a comparison from its record, which contains the output of --json.
 
 const ofDiagonal = (share) => {
   const value = 100 * share;
   return (value >= 10 ? value.toFixed(0) : Number(value.toPrecision(2))) + " %";
 };
 
-/// What stands at a place, a JSON pointer, in a mesh's entry; null where nothing does.
+/// Returns the value at a JSON pointer in a mesh's entry, or null.
 function valueAt(mesh, place) {
   let value = mesh;
   for (const key of place.split("/").slice(1)) {
@@ -24,7 +24,7 @@ function fillComparison() {
   const model = comparison.model;
   const points = plural(model.points, "point"), views = plural(model.views, "view");
   let lead = "Measured against " + (hasTruth ? points + ", " + views + " and the true surface."
-    : points + " and " + views + "; the true surface is not known.");
+    : points + " and " + views + "; the true surface is unknown.");
   const good = record.rows.find((one) => one.place === "/truth/agreement/2/f");
   if (good) {
     lead += " F within" + good.title.slice(1) + " of its diagonal: " +
@@ -35,9 +35,9 @@ function fillComparison() {
   driveSurfaces();
 }
 
-// ---- the table, in the words of the terminal's
+// ---- the table, with the same texts as in the terminal
 
-/// Which columns have the best value of a row: none where all are alike or which way is better is not said.
+/// Whether each column has the best value of a row; empty if all are equal or no direction is better.
 function bestColumns(line) {
   const values = comparison.meshes.map((mesh) => valueAt(mesh, line.place));
   const known = values.filter((value) => value !== null);
@@ -59,7 +59,7 @@ function fillTable() {
         return element("td", attributes, text);
       })));
   }
-  byId("table-note").textContent = comparison.meshes.length > 1 ? "Bold is the best of a row, where one is better." : "";
+  byId("table-note").textContent = comparison.meshes.length > 1 ? "The best value of a row is bold." : "";
   for (const line of comparison.definitions) byId("definitions").append(element("li", {}, line));
 }
 
@@ -67,7 +67,7 @@ function fillTable() {
 
 function distanceLegend() {
   const title = hasTruth ? "Distance to the truth, in % of its diagonal"
-    : "Distance to " + (surfaces.length === 2 ? "the other surface" : surfaces[0].name + ", and of that to " +
+    : "Distance to " + (surfaces.length === 2 ? "the other surface" : surfaces[0].name + ", and of this mesh to " +
       surfaces[1].name) + ", in % of the diagonal of the points";
   return { title, ramp: kDistanceRamp, low: "0", middle: ofDiagonal(sceneData.scale / 2),
     high: ofDiagonal(sceneData.scale) + " or more" };
@@ -86,14 +86,14 @@ function driveSurfaces() {
 
 // ---- worst places
 
-/// Where something is missing, only the truth shows what.
+/// Goes to a position. Opens the view of the surface, and of the truth if a part is missing.
 function goTo(chosen, button, surface, words, isMissing) {
   place = chosen;
   for (const wanted of isMissing ? [surface, surfaces.length - 1] : [surface]) {
     if (!panes.some((pane) => pane.surface === wanted) && panes.length < kMostViews) openPane(wanted);
   }
   for (const other of document.querySelectorAll("[data-wrong]")) other.setAttribute("aria-pressed", String(other === button));
-  // Not from behind the camera that sees it, where a wall may stand.
+  // Stay in front of the camera that sees it, because a wall may be behind the camera.
   const distance = Math.min(Math.max(isMissing ? 0.4 : 0.15, 3 * chosen.distance) * sceneData.diagonal,
     chosen.reach || 1.5 * sceneData.diagonal);
   leader().flyTo(vectorOf(chosen.position), vectorOf(chosen.towards), distance);
@@ -119,22 +119,22 @@ function placesOf(surface, number) {
   const add = (found, label, wordsOf) => {
     if (found === null) return;
     box.append(element("p", {}, label), found.length > 0 ? chips(found, number, wordsOf, found === surface.missing)
-      : element("p", {}, "None is farther than 0.1 %."));
+      : element("p", {}, "No deviation is above 0.1 %."));
   };
-  add(surface.missing, "Missing: the truth is here, this surface so far away", (one) =>
-    "Missing in " + surface.name + ": here its nearest part is " + ofDiagonal(one.distance) + " of the diagonal away from the truth" + (one.views === 0 ? "; no image holds the place." : "."));
-  add(surface.wrong, hasTruth ? "Wrong: this surface is here, the truth so far away"
-    : "This surface is here, " + surface.measured_to + " so far away", (one) =>
-    (hasTruth ? "Wrong in " : "") + surface.name + ": here it is " + ofDiagonal(one.distance) + " of the diagonal away from " +
+  add(surface.missing, "Missing: parts of the truth that are far from this surface, with their distance", (one) =>
+    "Missing in " + surface.name + ": its nearest part is " + ofDiagonal(one.distance) + " of the diagonal away from the truth" + (one.views === 0 ? "; no image contains the position." : "."));
+  add(surface.wrong, hasTruth ? "Wrong: parts of this surface that are far from the truth, with their distance"
+    : "Parts of this surface that are far from " + surface.measured_to + ", with their distance", (one) =>
+    (hasTruth ? "Wrong in " : "") + surface.name + ": it is " + ofDiagonal(one.distance) + " of the diagonal away from " +
       surface.measured_to + "; " + seenBy(one.views) + ".");
   return box;
 }
 function fillPlaces() {
   const measured = surfaces.filter((surface) => surface.wrong);
   byId("places").hidden = measured.length === 0;
-  byId("places-note").textContent = "Far off, in % of the diagonal; those with most area times distance come first. A click " +
-    "leads there. " + (hasTruth ? "Of the truth only what enough cameras see can be missing. " : "") +
-    "Unseen: no camera of the model sees that part of the surface" +
-    (hasTruth ? ", or no image holds the place that is missing." : ".");
+  byId("places-note").textContent = "Distances are in % of the diagonal, in order of area times distance. Click a " +
+    "distance to go there. " + (hasTruth ? "Only parts of the truth that enough cameras see can be missing. " : "") +
+    "Unseen: no camera of the model sees this part of the surface" +
+    (hasTruth ? ", or no image contains the missing part." : ".");
   for (const surface of measured) byId("places-of").append(placesOf(surface, surfaces.indexOf(surface)));
 }

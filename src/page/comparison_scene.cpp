@@ -21,20 +21,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kPartShare = 0.005;     ///< of the diagonal: how far apart distances are told
-constexpr std::int64_t kParts = 300'000; ///< small faces that distances may add up to, a surface
+constexpr double kPartShare = 0.005;     ///< of the diagonal: maximum step between distances
+constexpr std::int64_t kParts = 300'000; ///< maximum number of small faces per surface
 constexpr double kScales[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05};
 constexpr double kMostArea = 0.9;
 
-/// A mesh ready to be drawn and measured.
+/// A mesh to draw and its copy to measure.
 struct Compared {
     const NamedMesh& named;
     MeasuredMesh measured;
 };
 
-/// What a mesh is measured against.
+/// The surface that a mesh is measured against.
 struct Target {
-    std::string name; ///< empty: nothing
+    std::string name; ///< empty: none
     const TriangleTree* surface = nullptr;
 };
 
@@ -46,7 +46,7 @@ Target target_of(std::size_t mesh, const std::vector<Compared>& all, const Refer
     return {other.named.name, &other.measured.tree};
 }
 
-/// Moves what packed_scene() made by `shift`.
+/// Moves the result of packed_scene() by `shift`.
 void move_scene(Json& scene, const Eigen::Vector3d& shift)
 {
     const auto move = [&](Json& place) {
@@ -79,7 +79,7 @@ Json surface_json(const std::string& name, const TriMesh& shown, std::size_t of)
     return json;
 }
 
-/// Distances in percent of the diagonal, packed as errors are.
+/// Distances in percent of the diagonal, packed like errors.
 std::string packed_distances(const std::vector<Eigen::Vector3d>& places, const TriangleTree& target,
                              double diagonal)
 {
@@ -118,7 +118,7 @@ double scale_of(double distance)
     return scale == std::end(kScales) ? kScales[std::size(kScales) - 1] : *scale;
 }
 
-/// Adds what a mesh is told apart by; gives how far most of it lies.
+/// Adds distances and worst positions. Returns the distance that 90 % of the area does not exceed.
 double add_distances(Json& surface, const TriMesh& shown, const MeasuredMesh& mesh,
                      const Target& target, const Reference& reference)
 {
@@ -129,15 +129,15 @@ double add_distances(Json& surface, const TriMesh& shown, const MeasuredMesh& me
     surface["measured_to"] = target.name;
     surface["distances"] = distances_json(shown, *target.surface, diagonal_of(reference));
     surface["wrong"] =
-        places_json(wrong_places(mesh, far, reference, has_truth ? kPlaces / 2 : kPlaces));
-    if (has_truth) surface["missing"] = places_json(missing_places(mesh, reference, kPlaces / 2));
+        places_json(largest_deviations(mesh, far, reference, has_truth ? kPlaces / 2 : kPlaces));
+    if (has_truth) surface["missing"] = places_json(largest_gaps(mesh, reference, kPlaces / 2));
     return quantile_in_place(far.distances, kMostArea);
 }
 
-/// What is drawn of a mesh, and what it is told apart by.
+/// The JSON of a mesh with its distances.
 struct DrawnMesh {
     Json json;
-    double usual_most = 0.0; ///< how far most of it lies at most
+    double usual_most = 0.0; ///< distance that 90 % of the area does not exceed
 };
 
 DrawnMesh draw(const Compared& mesh, const Target& target, const Reference& reference,

@@ -12,7 +12,7 @@ namespace vcarve {
 
 namespace {
 
-/// At most so many of the faces, evenly chosen.
+/// At most `max_faces` of the faces, evenly chosen.
 std::vector<Face> some_faces(const std::vector<Face>& faces, std::size_t max_faces)
 {
     std::vector<Face> chosen(std::min(faces.size(), max_faces));
@@ -54,9 +54,9 @@ TriMesh display_mesh(const TriMesh& mesh, std::int64_t max_faces, const Progress
 {
     const auto wanted = static_cast<std::size_t>(std::max<std::int64_t>(max_faces, 1));
     if (mesh.faces.size() <= wanted) return mesh;
-    // Without their boundaries small components would vanish.
+    // If boundaries were not locked, small components would vanish.
     TriMesh shown = collapse_edges(mesh, {.min_faces = wanted, .locks_boundary = true});
-    progress.tell(1.0);
+    progress.report(1.0);
     if (shown.faces.size() <= wanted) return shown;
     return with_used_vertices(shown, some_faces(shown.faces, wanted));
 }

@@ -1,7 +1,7 @@
-// Colors by the distance of a surface to another, for the places of grid_places() in display_mesh.cpp.
+// Colors by the distance of a surface to another, at the positions of grid_places() in display_mesh.cpp.
 
-/// Into how many parts each edge is cut: as few as one of its faces wants, all being powers of two, so
-/// that small faces meet corner to corner and no background shines through between.
+/// Returns the number of parts of each edge: the minimum of its faces. All are powers of two, so small
+/// faces meet corner to corner and there are no cracks.
 function partsOfEdges(corners, parts) {
   const ofEdges = new Map();
   const keyOf = (a, b) => Math.min(a, b) * 16777216 + Math.max(a, b);
@@ -13,12 +13,11 @@ function partsOfEdges(corners, parts) {
   return (a, b) => ofEdges.get(keyOf(a, b));
 }
 
-// From what is right, which stays pale, to what is wrong; ever darker, so that it also reads without
-// colours.
+// From pale (near) to dark (far), so that it is also readable without colors.
 const kDistanceRamp = [[232, 230, 222], [250, 214, 116], [241, 142, 60], [212, 66, 84], [152, 36, 118], [82, 24, 128]];
 
-/// The surface cut into small faces with a colour a corner, `scale` being the distance, in diagonals, at
-/// which the ramp ends.
+/// Splits the surface into small faces with a color per corner. `scale` is the distance, in diagonals,
+/// at which the ramp ends.
 function cutByDistance(positions, corners, packed, scale) {
   const parts = bytesOf(packed.parts);
   const ofVertices = errorsOf(packed.vertices); // thousandths of a percent
@@ -26,17 +25,17 @@ function cutByDistance(positions, corners, packed, scale) {
   let faces = 0;
   for (const n of parts) faces += n * n;
   const places = new Float32Array(9 * faces);
-  const colours = new Uint8Array(9 * faces);
+  const colors = new Uint8Array(9 * faces);
   const table = new Map();
-  const colourOf = (value) => {
-    if (!table.has(value)) table.set(value, rampColour(value / 1e5 / scale, kDistanceRamp));
+  const colorOf = (value) => {
+    if (!table.has(value)) table.set(value, rampColor(value / 1e5 / scale, kDistanceRamp));
     return table.get(value);
   };
   const partsOf = partsOfEdges(corners, parts);
   let corner = 0, next = 0;
   for (let f = 0; f < parts.length; ++f) {
     const n = parts[f], face = [corners[3 * f], corners[3 * f + 1], corners[3 * f + 2]];
-    // Row by row as grid_places() has them, the face's own corners put in between.
+    // Row by row in the order of grid_places(), with the corners of the face inserted.
     const rows = [];
     for (let i = 0; i <= n; ++i) {
       rows.push([]);
@@ -45,7 +44,7 @@ function cutByDistance(positions, corners, packed, scale) {
         rows[i].push(own >= 0 ? ofVertices[face[own]] : between[next++]);
       }
     }
-    // Of the parts of each edge, how many are one of it: those of the sides j = 0, i + j = n, i = 0.
+    // The number of the face's parts per part of an edge, for the sides j = 0, i + j = n and i = 0.
     const steps = [[0, 1], [1, 2], [2, 0]].map(([from, to]) => n / partsOf(face[from], face[to]));
     const put = (i, j) => {
       if (j === 0) i = steps[0] * Math.round(i / steps[0]);
@@ -56,7 +55,7 @@ function cutByDistance(positions, corners, packed, scale) {
         places[3 * corner + axis] = a * positions[3 * face[0] + axis] + b * positions[3 * face[1] + axis] +
           c * positions[3 * face[2] + axis];
       }
-      colours.set(colourOf(rows[i][j]), 3 * corner);
+      colors.set(colorOf(rows[i][j]), 3 * corner);
       ++corner;
     };
     for (let i = 0; i < n; ++i) {
@@ -68,6 +67,6 @@ function cutByDistance(positions, corners, packed, scale) {
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
-  geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3, true));
+  geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3, true));
   return { geometry, legend: null };
 }

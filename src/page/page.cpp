@@ -14,7 +14,7 @@ namespace vcarve {
 
 namespace {
 
-/// Writes a text with what stands for each {{NAME}}. What is put in is not looked at again.
+/// Writes a text, replacing each {{NAME}} by its part. Parts are not searched for names.
 void fill(std::ostream& out, std::string_view text,
           const std::map<std::string_view, std::string_view>& parts)
 {
@@ -44,7 +44,7 @@ std::string json_for_html(const nlohmann::ordered_json& json)
     std::string escaped;
     for (const char letter :
          json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)) {
-        // These stand in strings only, where JSON lets any letter be written by its number.
+        // These characters occur only in strings, where JSON allows escapes for any character.
         if (letter == '<' || letter == '>' || letter == '&') {
             escaped += fmt::format("\\u{:04x}", static_cast<unsigned>(letter));
         } else {

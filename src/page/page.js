@@ -1,5 +1,5 @@
-// What the pages of runs and of comparisons share: texts, and one view per surface, all with the same
-// camera. Texts from files (paths, names of images) only ever become text nodes.
+// Shared by the pages of runs and comparisons: texts, and one view per surface, all with the same
+// camera. Texts from files (paths, names of images) become only text nodes.
 
 const record = JSON.parse(document.getElementById("record").textContent);
 const sceneData = JSON.parse(document.getElementById("scene").textContent);
@@ -16,7 +16,7 @@ const percent = (share) => {
 };
 const short = (number) => number === 0 ? "0" : Number(number.toPrecision(3)).toLocaleString("en-US", { maximumSignificantDigits: 3 });
 
-/// An element with attributes and children; a child that is no element becomes text.
+/// Makes an element with attributes and children; other children become text.
 function element(name, attributes, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes || {})) made.setAttribute(key, value);
@@ -53,14 +53,14 @@ function fillRun() {
 
 // ---- the views
 
-const kMostViews = 4; // browsers keep about ten WebGL pictures at most, phones fewer
+const kMostViews = 4; // browsers allow about ten WebGL contexts, phones fewer
 const surfaces = sceneData.surfaces;
 const panes = []; // { surface, view, root, ring }
-const look = { layers: { surface: true, wireframe: false, points: false, cameras: false, backs: true, removed: false }, colour: "plain" };
-let place = null; // marked in every view
+const look = { layers: { surface: true, wireframe: false, points: false, cameras: false, backs: true, removed: false }, color: "plain" };
+let place = null; // the position marked in every view
 
-/// `legend` has a title; where colors stand for numbers, also "low" and "high", between them perhaps
-/// a "middle", a "ramp" other than the usual, and what "none" in its "noneColour" stands for.
+/// Shows a legend with a "title". Legends of numbers also have "low" and "high", and optionally
+/// "middle", a "ramp" (default: kRamp), and "none", the meaning of "noneColor".
 function showLegend(legend) {
   const box = byId("legend");
   box.replaceChildren();
@@ -72,14 +72,14 @@ function showLegend(legend) {
   scale.style.background = "linear-gradient(to right," + (legend.ramp || kRamp).map(css).join(",") + ")";
   const ends = [legend.low, legend.middle, legend.high].filter((text) => text !== undefined);
   box.append(scale, element("div", { class: "ends" }, ...ends.map((text) => element("span", {}, text))));
-  if (legend.none !== undefined) box.append(element("div", {}, swatch(legend.noneColour), legend.none));
+  if (legend.none !== undefined) box.append(element("div", {}, swatch(legend.noneColor), legend.none));
 }
-function swatch(colour) {
+function swatch(color) {
   const made = element("span", { class: "swatch" });
-  made.style.background = css(colour);
+  made.style.background = css(color);
   return made;
 }
-/// Which reasons removed faces, while these are shown.
+/// Shows the reasons of removed faces while these are shown.
 function showRemoved(on) {
   const box = byId("removed-legend");
   box.replaceChildren();
@@ -91,7 +91,7 @@ function showRemoved(on) {
   }
 }
 
-/// The first view, which leads where a control means all.
+/// The first view. Controls for all views act on it, and the others follow.
 const leader = () => panes[0].view;
 function follow(state, from) {
   for (const pane of panes) if (pane.view !== from) pane.view.follow(state);
@@ -122,7 +122,7 @@ function openPane(number) {
   const root = element("figure", { class: "pane", "data-surface": number },
     element("figcaption", {}, element("strong", {}, surface.name), element("span", {}, facesText(surface))),
     element("div", { class: "stage" }, canvas, frame, ring));
-  // In the order of the surfaces.
+  // Keep the order of the surfaces.
   const after = panes.find((pane) => pane.surface > number);
   byId("panes").insertBefore(root, after ? after.root : null);
   let view = null;
@@ -133,7 +133,7 @@ function openPane(number) {
     throw error;
   }
   for (const [name, on] of Object.entries(look.layers)) if (view.shown[name] !== on) view.show(name, on);
-  view.colourBy(look.colour);
+  view.colorBy(look.color);
   if (panes.length > 0) view.follow(leader().state);
   canvas.addEventListener("keydown", (event) => {
     if (event.key === "[") step(-1);
@@ -183,19 +183,19 @@ function driveCameras() {
   const goes = { overview: () => leader().overview(), top: () => leader().top(), previous: () => step(-1), next: () => step(1) };
   for (const button of document.querySelectorAll("[data-go]")) button.addEventListener("click", goes[button.dataset.go]);
 }
-function colourBy(mode) {
-  look.colour = mode;
-  const legends = panes.map((pane) => pane.view.colourBy(mode));
+function colorBy(mode) {
+  look.color = mode;
+  const legends = panes.map((pane) => pane.view.colorBy(mode));
   showLegend(mode === "distance" ? distanceLegend() : legends[0]);
 }
-/// Removes the colors that no surface has, and returns the first of the others.
-function driveColours() {
+/// Removes color modes that no surface has, and returns the first remaining mode.
+function driveColors() {
   const needs = { texture: "texture", distance: "distances", rgb: "colors", support: "supports", views: "num_views", error: "errors" };
-  const select = byId("colour");
+  const select = byId("color");
   for (const [mode, part] of Object.entries(needs)) {
     if (!surfaces.some((surface) => surface[part])) select.querySelector("[value=" + mode + "]").remove();
   }
-  select.addEventListener("change", () => colourBy(select.value));
+  select.addEventListener("change", () => colorBy(select.value));
   return select.value;
 }
 function shownText() {
@@ -203,17 +203,17 @@ function shownText() {
   const parts = [["points", points.positions.count, points.of], ["cameras", sceneData.views.length, sceneData.views_of]];
   if (removed) parts.push(["removed faces", removed.faces.count, removed.of]);
   return parts.filter(([, count, of]) => count < of)
-    .map(([what, count, of]) => "Of " + whole(of) + " " + what + " " + whole(count) + " are shown.").join(" ");
+    .map(([what, count, of]) => "Of " + whole(of) + " " + what + ", " + whole(count) + " are shown.").join(" ");
 }
 function showViews() {
-  const first = driveColours(), meshes = surfaces.length - (hasTruth ? 1 : 0);
+  const first = driveColors(), meshes = surfaces.length - (hasTruth ? 1 : 0);
   try {
     for (let i = 0; i < Math.min(meshes, kMostViews); ++i) openPane(i);
     if (hasTruth && meshes <= 2 && window.innerWidth > 900) openPane(meshes);
     driveLayers();
     driveCameras();
     if (comparison) fillPlaces();
-    colourBy(first);
+    colorBy(first);
     leader().start();
   } catch (error) {
     byId("panes").replaceChildren(element("p", { id: "no-webgl" }, "The surface cannot be drawn: this browser has no WebGL. " +
@@ -226,7 +226,7 @@ function showViews() {
 
 const kind = comparison ? "comparison" : "report";
 document.body.classList.add(kind);
-if (comparison) document.querySelector(".toolbar").append(byId("legend")); // several views have one
+if (comparison) document.querySelector(".toolbar").append(byId("legend")); // several views share it
 for (const part of document.querySelectorAll("[data-of]")) if (part.dataset.of !== kind) part.remove();
 if (comparison) fillComparison(); else fillReport();
 fillRun();

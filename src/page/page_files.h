@@ -4,7 +4,7 @@
 
 namespace vcarve {
 
-/// The files a page is made of, which CMake compiles in (cmake/embed_files.cmake).
+/// The files of a page, which CMake embeds (cmake/embed_files.cmake).
 extern const std::string_view kPageHtml;
 extern const std::string_view kPageCss;
 extern const std::string_view kPageJs;

@@ -29,7 +29,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The numbers i * of / count, which are `count` of those below `of`, or all of them.
+/// At most `count` evenly spaced numbers below `of`: i * of / count.
 std::vector<std::size_t> evenly_chosen(std::size_t of, std::size_t count)
 {
     std::vector<std::size_t> chosen(std::min(of, count));
@@ -39,7 +39,7 @@ std::vector<std::size_t> evenly_chosen(std::size_t of, std::size_t count)
     return chosen;
 }
 
-/// "count" and what pack_positions() makes of them: "low", "quantum" and "data".
+/// "count", and the members of pack_positions(): "low", "quantum" and "data".
 Json positions_json(std::span<const Eigen::Vector3d> positions)
 {
     const PackedPositions packed = pack_positions(positions);
@@ -62,8 +62,8 @@ Json points_json(const Scene& scene, std::size_t limit)
             {"colors", pack_colors(colors)}};
 }
 
-/// How far an image reaches to the sides and up and down, at distance 1; nothing where that is not
-/// known. Of a very wide lens only the middle is shown.
+/// Half the width and height of an image at distance 1; nothing if unknown. Images of very wide
+/// lenses are reduced to their center.
 std::optional<Eigen::Vector2d> half_size(const Camera& camera)
 {
     constexpr double kWidest = 1.5;
@@ -98,8 +98,7 @@ Json views_json(const Scene& scene, const std::vector<std::size_t>& shown)
     return views;
 }
 
-/// Which of the views that are shown saw most of what was looked at, and how deep before it the
-/// points that it saw lie.
+/// The shown view that sees most of the observed region, and the median depth of its points.
 Json start_json(const Scene& scene, const std::vector<std::size_t>& shown)
 {
     std::vector<std::vector<double>> depths(scene.views.size());
@@ -132,7 +131,7 @@ Json attributes_json(const TriMesh& mesh, const Scene& scene)
             {"supports", pack_bytes(face_supports(mesh, scene))}};
 }
 
-/// The numbers of the largest faces, at most so many, ascending. Of equal ones the first.
+/// The indices of at most `count` faces, the largest, ascending. Ties prefer the first.
 std::vector<std::size_t> largest_faces(const TriMesh& mesh, std::size_t count)
 {
     std::vector<std::size_t> faces(mesh.faces.size());

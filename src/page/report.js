@@ -1,18 +1,18 @@
-// Fills the page of a run from its record, which --stats writes, too.
+// Fills the page of a run from its record, which is the output of --stats.
 
 // ---- head and warnings
 
 function fillReport() {
   const mesh = record.mesh, input = record.input, total = record.total;
   surfaces[0].name = record.output.split("/").pop();
-  const state = mesh.is_closed ? "closed" : "open along " + plural(mesh.boundary_edges, "edge");
-  fillHead(surfaces[0].name, plural(mesh.faces, "face") + " made of " + plural(record.report.points, "point") +
-    " that " + plural(input.views, "view") + " saw, in " + seconds(total.seconds) + " s and " +
-    mebibytes(total.peak_memory_bytes) + " MiB of memory. The surface is " + state + ", in " +
-    plural(mesh.components, "piece") + ".");
+  const state = mesh.is_closed ? "closed" : "open, with " + plural(mesh.boundary_edges, "boundary edge");
+  fillHead(surfaces[0].name, plural(mesh.faces, "face") + " from " + plural(record.report.points, "point") +
+    " in " + plural(input.views, "view") + ", made in " + seconds(total.seconds) + " s with " +
+    mebibytes(total.peak_memory_bytes) + " MiB of memory. The surface is " + state + ", and has " +
+    plural(mesh.components, "connected component") + ".");
   const warnings = record.report.warnings;
   byId("warnings-section").classList.toggle("none", warnings.length === 0);
-  for (const warning of warnings.length ? warnings : ["Nothing in the figures of this run asks for a warning."]) {
+  for (const warning of warnings.length ? warnings : ["No warnings for this run."]) {
     byId("warnings").append(element("li", {}, warning));
   }
   fillStages();
@@ -24,7 +24,7 @@ function fillReport() {
 
 // ---- stages
 
-/// "19,258 cells, 7 trimmed", as the counts of a stage read.
+/// Returns the counts of a stage as text: "19,258 cells, 7 trimmed".
 function countsText(counts) {
   const parts = [];
   for (const [name, count] of Object.entries(counts)) {
@@ -50,25 +50,25 @@ function fillStages() {
       element("td", { class: "bar", "aria-hidden": "true" }, bar),
       element("td", { class: "number" }, mebibytes(stage.peak_memory_bytes))));
   }
-  byId("stages").tFoot.append(element("tr", {}, element("th", { scope: "row" }, "in all"),
+  byId("stages").tFoot.append(element("tr", {}, element("th", { scope: "row" }, "total"),
     element("td", {}, record.threads_used + (record.threads_used === 1 ? " thread, " : " threads, ") +
-      seconds(record.total.cpu_seconds) + " s of processor time"),
+      seconds(record.total.cpu_seconds) + " s of CPU time"),
     element("td", { class: "number" }, seconds(record.total.seconds)), element("td", { class: "bar" }),
     element("td", { class: "number" }, mebibytes(record.total.peak_memory_bytes))));
   byId("stages-note").textContent = record.peak_memory_is_per_stage
-    ? "Memory is the most that was held at once during a stage."
-    : "Memory is the most that was held at once up to the end of a stage.";
+    ? "Memory is the peak during a stage."
+    : "Memory is the peak from the start of the run to the end of a stage.";
 }
 
 // ---- filter
 
 const kReasons = [
-  ["non-finite", "not finite", () => "a coordinate is no finite number, or beyond 1e100"],
-  ["duplicate", "double", () => "at the place of another point, and merged with it"],
+  ["non-finite", "not finite", () => "a coordinate is not finite, or is beyond 1e100"],
+  ["duplicate", "duplicate", () => "at the position of another point, and merged with it"],
   ["few views", "few views", (o) => "seen by fewer than " + o["min-views"] + " views (--min-views)"],
-  ["high error", "high error", (o) => "reprojection error over " + o["max-error"] + " px (--max-error)"],
-  ["low angle", "small angle", (o) => "sights meet at less than " + o["min-angle"] + "° (--min-angle)"],
-  ["stray", "stray", (o) => "of two views, and " + o["stray-spacing"] + " times the usual spacing from others (--stray-spacing)"],
+  ["high error", "high error", (o) => "reprojection error above " + o["max-error"] + " px (--max-error)"],
+  ["low angle", "small angle", (o) => "rays meet at less than " + o["min-angle"] + "° (--min-angle)"],
+  ["stray", "stray", (o) => "seen by two views, and " + o["stray-spacing"] + " times the usual spacing away from other points (--stray-spacing)"],
 ];
 function fillFilter() {
   const stage = record.stages.find((one) => one.name === "filter");
@@ -96,12 +96,12 @@ function fillMesh() {
   const yes = (is) => is ? "yes" : "no";
   body.append(
     row("Faces", whole(mesh.faces), true), row("Vertices", whole(mesh.vertices), true),
-    row("Pieces", whole(mesh.components), true),
-    row("Closed", yes(mesh.is_closed), true), row("Open edges", whole(mesh.boundary_edges), true),
+    row("Connected components", whole(mesh.components), true),
+    row("Closed", yes(mesh.is_closed), true), row("Boundary edges", whole(mesh.boundary_edges), true),
     row("Manifold", yes(mesh.is_manifold), true),
     row("Area, in square model units", short(mesh.area), true),
-    row("Share of the area that no view saw whole from its front", percent(report.unsupported_area), true),
-    row("Share of the area in faces with an edge over 10 median edges", percent(report.long_area), true));
+    row("Area of faces without support (a corner that no view sees from the front)", percent(report.unsupported_area), true),
+    row("Area of faces with an edge above 10 median edges", percent(report.long_area), true));
 }
 
 // ---- dense stereo
@@ -115,7 +115,7 @@ function fillDepth() {
   }
   const counts = (stage) => record.stages.find((one) => one.name === stage).counts;
   const measured = counts("depth"), fused = counts("fuse");
-  byId("depth-note").textContent = depth.name + ": light is near, dark is far, blue was not measured. Of " +
+  byId("depth-note").textContent = depth.name + ": light is near, dark is far, blue is not measured. Of " +
     whole(measured["of pixels measured"]) + " pixels in " + plural(measured["depth maps"], "depth map") + ", " +
     whole(measured["pixels measured"]) + " were measured and " + whole(fused["pixels fused"]) + " fused to " +
     plural(fused.points, "point") + ".";
@@ -151,7 +151,7 @@ function histogram(title, what, data) {
     picture.append(column);
   });
   picture.append(svg("line", { x1: 0, x2: width, y1: base, y2: base }));
-  // A label where it does not touch the next.
+  // Labels, far enough apart to not overlap.
   const last = data.counts.length;
   const every = Math.max(1, Math.ceil(last / 6));
   const end = data.beyond > 0 ? width - 90 : width;
@@ -173,7 +173,7 @@ function histogram(title, what, data) {
 }
 function fillHistograms() {
   const all = record.report.histograms, place = byId("histograms");
-  if (all.track_length) place.append(histogram("Track length", "points, each by the views that saw it", all.track_length));
+  if (all.track_length) place.append(histogram("Track length", "points, by number of views", all.track_length));
   if (all.reprojection_error) place.append(histogram("Reprojection error", "points", all.reprojection_error));
   if (all.edge_length) place.append(histogram("Edge length", "edges of faces", all.edge_length));
 }

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kBins = 32;
 
-/// Of every edge of every face.
+/// The lengths of every edge of every face.
 std::vector<double> edge_lengths(const TriMesh& mesh)
 {
     std::vector<double> lengths;
@@ -54,7 +54,7 @@ Json histogram_json(const Histogram& histogram, const char* unit)
             {"largest", histogram.largest}};
 }
 
-/// The smallest round number that is not smaller.
+/// Rounds up to the next round number.
 double round_step(double step)
 {
     const double power = std::pow(10.0, std::floor(std::log10(step)));
@@ -64,7 +64,7 @@ double round_step(double step)
     return 10.0 * power;
 }
 
-/// The value that a share of all lies below. Sorts them as far as it must.
+/// The quantile at a fraction of the values. Reorders the values.
 template <typename Value>
 double quantile(std::vector<Value>& values, double share)
 {

@@ -1,7 +1,7 @@
 "use strict";
-// The 3D view of a surface: what page_scene.cpp and comparison_scene.cpp wrote, drawn by three.js.
+// The 3D view of a surface: draws the data of page_scene.cpp and comparison_scene.cpp by three.js.
 
-// ---- unpacking, the other side of src/page/pack.cpp
+// ---- unpacking, the inverse of src/page/pack.cpp
 
 function bytesOf(base64) {
   const text = atob(base64);
@@ -37,42 +37,42 @@ function errorsOf(base64) {
   return errors;
 }
 
-// ---- colours
+// ---- colors
 
 const kRamp = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]]; // viridis
-const kNone = [196, 64, 84];     // what has no value: no support, no view
+const kNone = [196, 64, 84];     // no value: no support, no view
 const kUnknown = [150, 150, 150];
 const kPlain = [190, 188, 182];
 
-function rampColour(share, ramp = kRamp) {
+function rampColor(share, ramp = kRamp) {
   const place = Math.min(Math.max(share, 0), 1) * (ramp.length - 1);
   const low = Math.min(Math.floor(place), ramp.length - 2);
   return ramp[low].map((value, i) => Math.round(value + (place - low) * (ramp[low + 1][i] - value)));
 }
 
-/// By the number of the reason why a face was taken away.
+/// Colors of removed faces, indexed by the number of the reason.
 const kRemoved = [[222, 143, 5], [2, 115, 178], [148, 148, 148], [204, 120, 188], [2, 158, 115]];
 
-const css = (colour) => "rgb(" + colour.join(" ") + ")";
+const css = (color) => "rgb(" + color.join(" ") + ")";
 
-/// The value that a share of the numbers accepted lies below.
+/// The quantile of the accepted numbers at a fraction.
 function quantile(numbers, share, accepts) {
   const taken = Array.from(numbers).filter(accepts).sort((a, b) => a - b);
   return taken.length === 0 ? 0 : taken[Math.min(taken.length - 1, Math.floor(share * taken.length))];
 }
 
-/// What stands for a mode: a colour a corner of every face, and a legend.
-function colouring(mode, surface) {
+/// Returns a color per corner of every face, and a legend, for a color mode.
+function coloring(mode, surface) {
   const corners = surface.corners;
-  const colours = new Uint8Array(3 * corners.length);
-  const put = (i, colour) => { colours[3 * i] = colour[0]; colours[3 * i + 1] = colour[1]; colours[3 * i + 2] = colour[2]; };
+  const colors = new Uint8Array(3 * corners.length);
+  const put = (i, color) => { colors[3 * i] = color[0]; colors[3 * i + 1] = color[1]; colors[3 * i + 2] = color[2]; };
   let legend = null;
-  if (mode === "rgb" && surface.colours) {
+  if (mode === "rgb" && surface.colors) {
     for (let i = 0; i < corners.length; ++i) {
       const from = 3 * corners[i];
-      colours[3 * i] = surface.colours[from];
-      colours[3 * i + 1] = surface.colours[from + 1];
-      colours[3 * i + 2] = surface.colours[from + 2];
+      colors[3 * i] = surface.colors[from];
+      colors[3 * i + 1] = surface.colors[from + 1];
+      colors[3 * i + 2] = surface.colors[from + 2];
     }
   } else if (mode === "support" || mode === "views" || mode === "error") {
     const ofFaces = mode === "support";
@@ -81,41 +81,41 @@ function colouring(mode, surface) {
     const low = mode === "error" ? 0 : 1;
     const high = Math.max(quantile(values, 0.95, known), low + 1);
     const table = new Map();
-    const colourOf = (value) => {
+    const colorOf = (value) => {
       if (!known(value)) return mode === "error" ? kUnknown : kNone;
-      if (!table.has(value)) table.set(value, rampColour((value - low) / (high - low)));
+      if (!table.has(value)) table.set(value, rampColor((value - low) / (high - low)));
       return table.get(value);
     };
     for (let i = 0; i < corners.length; ++i) {
-      put(i, colourOf(values[ofFaces ? Math.floor(i / 3) : corners[i]]));
+      put(i, colorOf(values[ofFaces ? Math.floor(i / 3) : corners[i]]));
     }
     legend = {
-      support: { title: "Views that saw all corners of a face from its front", none: "none: no view, or a filled hole", unit: "" },
-      views: { title: "Views that saw a vertex", none: "none: the vertex is no point of the model", unit: "" },
-      error: { title: "Mean reprojection error of a vertex", none: "not known", unit: " px" },
+      support: { title: "Views that see each corner of a face from its front (minimum)", none: "none: no view, or a filled hole", unit: "" },
+      views: { title: "Views that see a vertex", none: "none: the vertex is not a point of the model", unit: "" },
+      error: { title: "Mean reprojection error of a vertex", none: "unknown", unit: " px" },
     }[mode];
-    legend.noneColour = mode === "error" ? kUnknown : kNone;
+    legend.noneColor = mode === "error" ? kUnknown : kNone;
     const shown = (value) => mode === "error" ? (value / 1000).toFixed(2) : String(value);
     legend.low = shown(low) + legend.unit;
     legend.high = shown(high) + legend.unit + " or more";
   } else {
     for (let i = 0; i < corners.length; ++i) put(i, kPlain);
-    if (mode === "normal") legend = { title: "Where a face looks: right red, up green, towards you blue" };
+    if (mode === "normal") legend = { title: "Surface normals: red is right, green is up, blue is towards you" };
   }
-  return { colours, legend };
+  return { colors, legend };
 }
 
-// ---- shading: a light beside the eye, faces flat as they are, their backs striped in one hue
+// ---- shading: a light beside the eye, flat faces, striped back faces in one hue
 
 const kVertexShader = `
-varying vec3 vColour;
+varying vec3 vColor;
 varying vec2 vPlace;
 varying vec3 vEye;
 void main() {
   #ifdef TEXTURED
   vPlace = uv;
   #else
-  vColour = color;
+  vColor = color;
   #endif
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
   vEye = eye.xyz;
@@ -126,7 +126,7 @@ uniform float byNormal;
 uniform float contrast;
 uniform float ownBacks;
 uniform sampler2D page;
-varying vec3 vColour;
+varying vec3 vColor;
 varying vec2 vPlace;
 varying vec3 vEye;
 void main() {
@@ -135,20 +135,20 @@ void main() {
   #ifdef TEXTURED
   vec3 own = texture2D(page, vPlace).rgb;
   #else
-  vec3 own = vColour;
+  vec3 own = vColor;
   #endif
-  vec3 colour = mix(own, 0.5 + 0.5 * normal, byNormal);
+  vec3 color = mix(own, 0.5 + 0.5 * normal, byNormal);
   float shade = 1.0 - contrast * (1.0 - lit);
   if (!gl_FrontFacing) {
     float stripe = step(0.5, fract((gl_FragCoord.x + gl_FragCoord.y) / 9.0));
-    colour = ownBacks > 0.5 ? colour * mix(1.0, 0.72, stripe)
+    color = ownBacks > 0.5 ? color * mix(1.0, 0.72, stripe)
       : mix(vec3(0.72, 0.42, 0.36), vec3(0.62, 0.34, 0.29), stripe);
   }
-  gl_FragColor = vec4(colour * shade, 1.0);
+  gl_FragColor = vec4(color * shade, 1.0);
 }`;
 
-/// How a surface is shaded: in the colours of its corners, or in a page of a texture, whose light is its
-/// own.
+/// Makes the material of a surface: with corner colors, or with a page of a texture. Textures contain
+/// their lighting.
 function surfaceMaterial(page) {
   return new THREE.ShaderMaterial({
     vertexShader: kVertexShader, fragmentShader: kFragmentShader, defines: page ? { TEXTURED: 1 } : {},
@@ -158,8 +158,8 @@ function surfaceMaterial(page) {
   });
 }
 
-/// The surface in its texture: its faces page by page, and a material a page. Pages appear once the
-/// browser has decoded them, and `changed` is called then.
+/// Makes the textured surface: faces page by page, and a material per page. A page appears as soon as
+/// the browser has decoded it; then `changed` is called.
 function texturedSurface(texture, cornerPositions, changed) {
   const pageOfFace = bytesOf(texture.page), bytes = bytesOf(texture.places);
   const geometry = new THREE.BufferGeometry();
@@ -194,8 +194,8 @@ function texturedSurface(texture, cornerPositions, changed) {
 
 function vectorOf(array) { return new THREE.Vector3(array[0], array[1], array[2]); }
 
-/// Where most of the vertices are: the middle and half the diagonal of a box that leaves out 3 % at
-/// each end of every axis.
+/// Returns the region of most vertices: center and half the diagonal of a box that omits 3 % of the
+/// vertices at each end of every axis.
 function middleOf(positions) {
   const low = [], high = [];
   const step = 3 * Math.max(1, Math.floor(positions.length / 3 / 20000));
@@ -210,7 +210,7 @@ function middleOf(positions) {
   return { center, radius: Math.max(vectorOf(high).distanceTo(vectorOf(low)) / 2, 1e-9) };
 }
 
-/// The frusta of all views, each eight lines; a view without a lens is a small cross.
+/// The frusta of all views, with eight lines each. A view without a known lens is a small cross.
 function frustumLines(views, size) {
   const lines = [];
   const push = (a, b) => lines.push(a.x, a.y, a.z, b.x, b.y, b.z);
@@ -230,7 +230,7 @@ function frustumLines(views, size) {
   return new Float32Array(lines);
 }
 
-/// What was taken away, a mesh a reason. What nobody saw stands before all else, so it is faint.
+/// Removed faces, with a mesh per reason. Unseen faces are in front of all others, so they are faint.
 function removedFaces(removed) {
   const why = bytesOf(removed.why), corners = threeByteNumbers(removed.faces.data), places = positionsOf(removed.positions);
   const group = new THREE.Group();
@@ -248,8 +248,8 @@ function removedFaces(removed) {
   return group;
 }
 
-/// A canvas with a surface, points and views in it. `changed` is called whenever the view was moved,
-/// with what to give to follow() of another view.
+/// Draws a surface, points and views in a canvas. When the view moves, `changed` is called with the
+/// argument for follow() of other views.
 function makeView(canvas, frame, surfaceData, sceneData, changed) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
   renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
@@ -261,7 +261,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   const positions = positionsOf(surfaceData.positions);
   const surface = {
     corners: threeByteNumbers(surfaceData.faces.data),
-    colours: surfaceData.colors ? bytesOf(surfaceData.colors) : null,
+    colors: surfaceData.colors ? bytesOf(surfaceData.colors) : null,
     numViews: surfaceData.num_views ? bytesOf(surfaceData.num_views) : null,
     errors: surfaceData.errors ? errorsOf(surfaceData.errors) : null,
     supports: surfaceData.supports ? bytesOf(surfaceData.supports) : null,
@@ -269,7 +269,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   const middle = sceneData.middle
     ? { center: vectorOf(sceneData.middle.center), radius: sceneData.middle.radius } : middleOf(positions);
 
-  // Every face has corners of its own, since support is a face's.
+  // Faces do not share corners, because support belongs to faces.
   const cornerPositions = new Float32Array(3 * surface.corners.length);
   for (let i = 0; i < surface.corners.length; ++i) {
     const from = 3 * surface.corners[i];
@@ -310,9 +310,9 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   let mode = "rgb";
   const state = { position: new THREE.Vector3(), target: new THREE.Vector3(), up: up.clone(), fov: 45, view: null };
   let pending = false;
-  let marked = null; // a place and the element that follows it
+  let marked = null; // a position and the element that follows it
   let textured = null;
-  let cut = null;    // the surface in smaller faces, see distance.js
+  let cut = null;    // the surface split into small faces, see distance.js
 
   function style(name) { return getComputedStyle(document.documentElement).getPropertyValue(name).trim(); }
 
@@ -327,7 +327,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     camera.aspect = width / height;
     frame.hidden = !(view && view.half_size);
     if (view && view.half_size) {
-      // The whole image is seen, with a little around it.
+      // Show the whole image with a small margin.
       const half = 1.08 * Math.max(view.half_size[1], view.half_size[0] / camera.aspect);
       camera.fov = 2 * Math.atan(half) * 180 / Math.PI;
       const scale = height / (2 * half);
@@ -386,7 +386,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     state.position.copy(state.target).add(arm);
     moved();
   }
-  function shift(x, y) { // by shares of the canvas's height
+  function shift(x, y) { // in canvas heights
     leaveEyes();
     const arm = state.position.clone().sub(state.target);
     const length = 2 * arm.length() * Math.tan(state.fov * Math.PI / 360);
@@ -408,7 +408,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     moved();
   }
   function overview() {
-    // From the side of the cameras where they stand on one, else from where the first one stands.
+    // From the side of the cameras if they are on one side, else from the first camera.
     const eyes = new THREE.Vector3();
     for (const view of views) eyes.addScaledVector(vectorOf(view.center), 1 / views.length);
     let direction = eyes.sub(middle.center);
@@ -435,7 +435,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     state.target.copy(state.position).addScaledVector(vectorOf(view.forward), depth || distanceBefore(view));
     moved();
   }
-  /// As the view that saw most sees it, from a little farther back, upright.
+  /// The start view: like the view that sees most, slightly farther back, upright.
   function start() {
     const first = sceneData.start;
     if (!first) return overview();
@@ -448,25 +448,25 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     state.position.copy(vectorOf(view.center)).addScaledVector(forward, -0.15 * first.depth);
     moved();
   }
-  /// To a place, seen from a direction and a distance.
+  /// Moves to look at a position from a direction and distance.
   function flyTo(place, towards, distance) {
     state.view = null;
     state.fov = 45;
     state.up.copy(up);
-    // Not straight from above or below, where up would be no direction.
+    // Not exactly along the up direction, where up would be undefined.
     const from = towards.clone();
     if (from.clone().cross(up).length() < 0.05) from.add(new THREE.Vector3(up.y, up.z, up.x).multiplyScalar(0.1)).normalize();
     state.target.copy(place);
     state.position.copy(place).addScaledVector(from, distance);
     moved();
   }
-  /// An element is kept where a place is shown; null for none.
+  /// Keeps an element at a position; null unsets it.
   function mark(element, place) {
     if (marked) marked.element.hidden = true;
     marked = place ? { element, place } : null;
     redraw();
   }
-  function centreAt(x, y) {
+  function centerAt(x, y) {
     const caster = new THREE.Raycaster();
     caster.setFromCamera(new THREE.Vector2(2 * x / canvas.clientWidth - 1, 1 - 2 * y / canvas.clientHeight), camera);
     const hit = caster.intersectObject(layers.surface)[0];
@@ -474,7 +474,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     leaveEyes();
     state.position.add(hit.point.clone().sub(state.target));
     state.target.copy(hit.point);
-    // Nearer by half, so that the second double click is a closer look.
+    // Move closer, so that a second double click zooms in again.
     const arm = state.position.clone().sub(state.target);
     state.position.copy(state.target).addScaledVector(arm, 0.6);
     moved();
@@ -515,12 +515,12 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
       if (name !== "pointerup" || event.pointerType !== "touch") return;
       const tap = Object.assign(place(event), { time: event.timeStamp });
       if (lastTap && tap.time - lastTap.time < 350 && Math.hypot(tap.x - lastTap.x, tap.y - lastTap.y) < 25) {
-        centreAt(tap.x, tap.y);
+        centerAt(tap.x, tap.y);
       }
       lastTap = tap;
     });
   }
-  canvas.addEventListener("dblclick", (event) => { const at = place(event); centreAt(at.x, at.y); });
+  canvas.addEventListener("dblclick", (event) => { const at = place(event); centerAt(at.x, at.y); });
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -557,7 +557,7 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
     }
     redraw();
   }
-  function colourBy(wanted) {
+  function colorBy(wanted) {
     const isDistance = wanted === "distance" && Boolean(surfaceData.distances);
     mode = wanted === "distance" && !isDistance ? "plain" : wanted;
     if (isDistance && !cut) cut = cutByDistance(positions, surface.corners, surfaceData.distances, sceneData.scale);
@@ -569,8 +569,8 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
       redraw();
       return null;
     }
-    const made = isDistance ? cut : colouring(mode, surface);
-    if (!isDistance) geometry.setAttribute("color", new THREE.BufferAttribute(made.colours, 3, true));
+    const made = isDistance ? cut : coloring(mode, surface);
+    if (!isDistance) geometry.setAttribute("color", new THREE.BufferAttribute(made.colors, 3, true));
     layers.surface.geometry = isDistance ? cut.geometry : geometry;
     material.uniforms.ownBacks.value = isDistance ? 1 : 0;
     material.uniforms.byNormal.value = mode === "normal" ? 1 : 0;
@@ -586,13 +586,13 @@ function makeView(canvas, frame, surfaceData, sceneData, changed) {
   scheme.addEventListener("change", redraw);
 
   return {
-    state, shown, show, colourBy, overview, top, through, start, draw, flyTo, mark,
+    state, shown, show, colorBy, overview, top, through, start, draw, flyTo, mark,
     follow(other) {
       state.position.copy(other.position); state.target.copy(other.target); state.up.copy(other.up);
       state.fov = other.fov; state.view = other.view;
       redraw();
     },
-    /// Gives the picture's memory back; browsers keep some ten such pictures at most.
+    /// Frees the WebGL context; browsers allow only about ten.
     dispose() {
       resizes.disconnect();
       scheme.removeEventListener("change", redraw);

@@ -17,7 +17,7 @@ std::string percent(double share)
     return rounded == 0 ? "less than 1 %" : fmt::format("{} %", rounded);
 }
 
-/// The counts of a stage, or none.
+/// The counts of a stage, or an empty object.
 Json counts_of(const Json& record, const char* name)
 {
     for (const Json& stage : record.value("stages", Json::array())) {
@@ -26,20 +26,20 @@ Json counts_of(const Json& record, const char* name)
     return Json::object();
 }
 
-/// Why points are dropped: what the stage calls it, and what is said of it.
+/// A reason for dropped points: the name of its count, and the text of its warning.
 struct Reason {
     const char* count;
-    const char* option; ///< that sets the limit; empty where none does
+    const char* option; ///< option that sets the limit; empty: none
     const char* means;
 };
 
 constexpr Reason kReasons[] = {
-    {"non-finite", "", "have no finite coordinates"},
-    {"duplicate", "", "lie where another point lies and became one with it"},
-    {"few views", "min-views", "too few views saw them"},
-    {"high error", "max-error", "they were measured too badly"},
-    {"low angle", "min-angle", "their sights meet at too small an angle to tell how far they are"},
-    {"stray", "stray-spacing", "two views saw them, and no others stand near"},
+    {"non-finite", "", "have non-finite coordinates"},
+    {"duplicate", "", "coincide with another point and were merged with it"},
+    {"few views", "min-views", "too few views see them"},
+    {"high error", "max-error", "their reprojection errors are too large"},
+    {"low angle", "min-angle", "the angle between their rays is too small to fix their depth"},
+    {"stray", "stray-spacing", "at most two views see them, and no other points are near"},
 };
 
 void warn_of_dropped_points(std::vector<std::string>& warnings, const Json& record)
@@ -54,7 +54,7 @@ void warn_of_dropped_points(std::vector<std::string>& warnings, const Json& reco
         if (reason.option[0] == '\0') {
             warnings.push_back(fmt::format("{} of the points {}.", share, reason.means));
         } else {
-            warnings.push_back(fmt::format("{} of the points fell to --{}: {}.", share,
+            warnings.push_back(fmt::format("{} of the points were dropped by --{}: {}.", share,
                                            reason.option, reason.means));
         }
     }
@@ -64,13 +64,13 @@ void warn_of_weak_points(std::vector<std::string>& warnings, const SurfaceFigure
 {
     constexpr double kLargeErrorPx = 1.5;
     if (figures.track_lengths.values > 0 && figures.track_lengths.median <= 2.0) {
-        warnings.emplace_back("At least half of the points were seen by no more than two views, so "
-                              "that a wrong match is hard to tell from a point.");
+        warnings.emplace_back("At least half of the points have no more than two views, so wrong "
+                              "matches are hard to detect.");
     }
     if (figures.errors_px.values > 0 && figures.errors_px.median > kLargeErrorPx) {
         warnings.push_back(
-            fmt::format("Half of the points lie {:.1f} px or more from where the images show them; "
-                        "the cameras may not be calibrated well.",
+            fmt::format("Half of the points have a reprojection error of {:.1f} px or more; the "
+                        "calibration of the cameras may be inaccurate.",
                         figures.errors_px.median));
     }
 }
@@ -85,14 +85,14 @@ void warn_of_surface(std::vector<std::string>& warnings, const SurfaceFigures& f
     }
     if (figures.unsupported_area >= kMuchUnsupported) {
         warnings.push_back(
-            fmt::format("{} of the surface has a corner that no camera saw from its front; colour "
-                        "by support to see where.",
+            fmt::format("{} of the surface is unsupported: these faces have a corner that no view "
+                        "sees from the front. Color by support to see them.",
                         percent(figures.unsupported_area)));
     }
     if (figures.long_area >= kMuchLong) {
         warnings.push_back(fmt::format(
-            "{} of the surface is in faces with an edge over {:.0f} times the median edge: they "
-            "span places where points are few.",
+            "{} of the surface is in faces with an edge above {:.0f} times the median edge: they "
+            "span regions with few points.",
             percent(figures.long_area), SurfaceFigures::kLong));
     }
 }
@@ -101,12 +101,12 @@ void warn_of_orientation(std::vector<std::string>& warnings, const Json& record)
 {
     constexpr double kFew = 0.9;
     const Json counts = counts_of(record, "orient");
-    const double all = counts.value("of sights on the outside", 0.0);
+    const double all = counts.value("of rays on the outside", 0.0);
     if (all == 0.0) return;
-    const double outside = counts.value("sights on the outside", 0.0) / all;
+    const double outside = counts.value("rays on the outside", 0.0) / all;
     if (outside < kFew) {
         warnings.push_back(
-            fmt::format("{} of the sights meet the surface from behind.", percent(1.0 - outside)));
+            fmt::format("{} of the rays hit the surface from behind.", percent(1.0 - outside)));
     }
 }
 

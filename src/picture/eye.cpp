@@ -24,7 +24,7 @@ constexpr double kOutsideWidthPx = 1280.0;
 constexpr double kOutsideHeightPx = 960.0;
 constexpr double kHalfAngleRad = 22.5 * std::numbers::pi / 180.0;
 constexpr double kOrbitHeightRad = 35.0 * std::numbers::pi / 180.0;
-/// What lies a little outside the ball, such as the tops of walls, is seen as well.
+/// Shows a margin around the ball, for example the tops of walls.
 constexpr double kRoom = 1.2;
 
 bool has_lens(const Camera& camera)
@@ -43,7 +43,7 @@ Eye eye_of(const Scene& scene, const View& view)
             .center = view.center + scene.offset};
 }
 
-/// The level direction from a place to most cameras; any where these stand evenly around.
+/// The horizontal direction from a position to most cameras, or any if they are evenly distributed.
 Vector3d side_of(const Scene& scene, const Vector3d& from, const Vector3d& up)
 {
     const auto level = [&](const Vector3d& way) -> Vector3d {
@@ -59,7 +59,7 @@ Vector3d side_of(const Scene& scene, const Vector3d& from, const Vector3d& up)
     return up.unitOrthogonal();
 }
 
-/// Looks at a ball, with some room above and below it, from a direction.
+/// Looks at a ball with a margin, from the direction `from`.
 Eye outside_of(const Ball& ball, const Vector3d& from, const Vector3d& upward)
 {
     Eye eye;
@@ -70,7 +70,7 @@ Eye outside_of(const Ball& ball, const Vector3d& from, const Vector3d& upward)
     const double radius = ball.radius > 0.0 ? ball.radius : 1.0;
     eye.center = ball.center + from * (kRoom * radius / std::sin(kHalfAngleRad));
 
-    // Rows are the camera's axes: right, down, ahead.
+    // Rows are the camera's axes: right, down, forward.
     const Vector3d ahead = -from;
     const Vector3d right = ahead.cross(upward).normalized();
     Eigen::Matrix3d axes;
@@ -87,13 +87,13 @@ Eye outside(const Scene& scene, const std::string& word)
     const Vector3d side = side_of(scene, ball.center, up);
     ball.center += scene.offset;
     const Vector3d oblique = std::cos(kOrbitHeightRad) * side + std::sin(kOrbitHeightRad) * up;
-    // From above, the side where most cameras are is the lower one.
+    // From above, the side with most cameras is at the bottom.
     Eye eye = word == "top" ? outside_of(ball, up, -side) : outside_of(ball, oblique, up);
     eye.name = word;
     return eye;
 }
 
-/// The view with a known lens that sees most of what was looked at, or null.
+/// The view with a known lens that sees most of the region of interest, or null.
 const View* widest_view(const Scene& scene)
 {
     const std::vector<std::size_t> places = seen_places(scene);
@@ -108,7 +108,7 @@ const View* widest_view(const Scene& scene)
     return widest;
 }
 
-/// What a model's images are called, so that one can be chosen.
+/// The names of the first images, for error messages.
 std::string names_of(const Scene& scene)
 {
     constexpr std::size_t kShown = 3;
@@ -122,6 +122,23 @@ std::string names_of(const Scene& scene)
 
 } // namespace
 
+const View& named_view(const Scene& scene, const std::string& name)
+{
+    const auto found = std::ranges::find(scene.views, name, &View::name);
+    if (found == scene.views.end()) {
+        throw UsageError(fmt::format("--view must be auto, top, orbit or the name of an image, but "
+                                     "\"{}\" is none of the {} images ({})",
+                                     name, scene.views.size(), names_of(scene)));
+    }
+    if (!has_lens(scene.cameras[found->camera])) {
+        throw UsageError(
+            fmt::format("--view {}: the view through camera {} cannot be drawn, because "
+                        "its lens model is unknown",
+                        name, scene.cameras[found->camera].id));
+    }
+    return *found;
+}
+
 Eye choose_eye(const Scene& scene, const std::string& word)
 {
     if (word == "top" || word == "orbit") return outside(scene, word);
@@ -129,18 +146,7 @@ Eye choose_eye(const Scene& scene, const std::string& word)
         const View* widest = widest_view(scene);
         return widest == nullptr ? outside(scene, "orbit") : eye_of(scene, *widest);
     }
-    const auto found = std::ranges::find(scene.views, word, &View::name);
-    if (found == scene.views.end()) {
-        throw UsageError(fmt::format("--view takes auto, top, orbit or the name of an image, but "
-                                     "the model has no image {}: it has {} ({})",
-                                     word, scene.views.size(), names_of(scene)));
-    }
-    if (!has_lens(scene.cameras[found->camera])) {
-        throw UsageError(fmt::format("--view {}: nothing can be shown through that image's camera "
-                                     "{}, because its lens is not known",
-                                     word, scene.cameras[found->camera].id));
-    }
-    return eye_of(scene, *found);
+    return eye_of(scene, named_view(scene, word));
 }
 
 Eigen::Array2i picture_size(const Camera& camera, double most_pixels)
@@ -149,7 +155,7 @@ Eigen::Array2i picture_size(const Camera& camera, double most_pixels)
     const Eigen::Array2d size(static_cast<double>(camera.width_px),
                               static_cast<double>(camera.height_px));
     const double scale = std::min(std::sqrt(most_pixels / size.prod()), kLongest / size.maxCoeff());
-    constexpr double kRounding = 1e-6; // so that 1280 stays 1280
+    constexpr double kRounding = 1e-6; // keeps 1280 from becoming 1279
     return (scale * size + kRounding).floor().max(1.0).cast<int>();
 }
 

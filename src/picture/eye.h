@@ -11,52 +11,55 @@
 
 namespace vcarve {
 
-/// From where a surface is looked at, and through which lens.
+/// A viewpoint and its lens.
 struct Eye {
-    std::string name; ///< of the image, "top" or "orbit"
+    std::string name; ///< the image name, "top" or "orbit"
     Camera camera;
     Eigen::Quaterniond cam_from_world = Eigen::Quaterniond::Identity();
-    Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the model's frame, without its offset
-    /// Whether backs are looked through where a front lies behind: from outside, walls and ceilings
-    /// would hide what they enclose.
+    Eigen::Vector3d center = Eigen::Vector3d::Zero(); ///< in the model's frame, offset included
+    /// Whether back faces are transparent if a front face is behind them. From outside, walls and
+    /// ceilings would otherwise hide the interior.
     bool through_backs = false;
 };
 
-/// The place that a word means.
+/// Returns the viewpoint that a word selects.
 ///
-/// - "auto": the view that sees most of what was looked at (seen_places), of equal ones the first
-///   by COLMAP's id; "orbit" where no view's camera has a known lens, as in a laser scan.
-/// - "top" and "orbit": outside the region of interest, which fills most of the picture: from
-///   straight above, or 35 degrees above the side where most cameras are.
-/// - else the view of that name.
+/// - "auto": the view that sees most of the region of interest (seen_places), with the lowest id of
+///   COLMAP if equal. "orbit" if no lens is known, as in laser scans.
+/// - "top" and "orbit": outside the region of interest, which fills most of the picture. "top" is
+///   straight above, "orbit" 35 degrees above the side with most cameras.
+/// - other words: the view of this name.
 ///
-/// Throws UsageError where there is no such view, or its lens is not known. Cost: O(sights).
+/// Throws UsageError if the view does not exist or its lens is unknown. Cost: O(rays).
 Eye choose_eye(const Scene& scene, const std::string& word);
 
-/// Width and height of a picture with the proportions of a camera's images and at most so many
-/// pixels, and neither side longer than 4096.
+/// The view of that name. Throws UsageError if there is none, or if its lens is unknown.
+const View& named_view(const Scene& scene, const std::string& name);
+
+/// The width and height of a picture with the aspect ratio of the camera, at most `most_pixels`
+/// pixels, and sides of at most 4096 pixels.
 Eigen::Array2i picture_size(const Camera& camera, double most_pixels);
 
-/// The directions a camera's lens sees along, for a picture of another size than its images. At the
-/// corners of the picture's pixels they are those of ray(); within a pixel they are blended, which
-/// is off by less than a hundredth of a pixel for usual lenses, and saves most of the time.
-/// Safe from many threads. Cost: a ray() per pixel, in parallel, and 24 bytes.
+/// The ray directions of a lens, for a picture of any size. Directions at pixel corners are
+/// computed by ray(), and interpolated within pixels. This saves most of the time, and the error is
+/// less than .01 pixels for usual lenses. Thread-safe. Cost: one ray() per pixel, in parallel, and
+/// 24 bytes.
 class LensRays {
   public:
     LensRays(const Camera& camera, const Eigen::Array2i& size_px);
 
-    /// The unit direction, in the camera's frame, through a place in the pixel with column x and
-    /// row y: `within` is (0, 0) at its upper left corner and (1, 1) at its lower right one.
-    /// Nothing where the lens has none.
+    /// The unit direction in the camera's frame through a position in the pixel at column x and row
+    /// y: `within` is (0, 0) at its upper left corner and (1, 1) at its lower right corner. Nothing
+    /// if the lens has no direction there.
     std::optional<Eigen::Vector3d> at(int x, int y, const Eigen::Array2d& within) const;
 
   private:
     std::optional<Eigen::Vector3d> exact(const Eigen::Array2d& place) const;
 
     const Camera& camera_;
-    Eigen::Array2d step_;                  ///< pixels of the camera a pixel of the picture
-    int columns_;                          ///< of corners
-    std::vector<Eigen::Vector3d> corners_; ///< zero where there is no ray
+    Eigen::Array2d step_;                  ///< camera pixels per picture pixel
+    int columns_;                          ///< number of corners per row
+    std::vector<Eigen::Vector3d> corners_; ///< zero if there is no ray
 };
 
 } // namespace vcarve

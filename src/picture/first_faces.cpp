@@ -32,14 +32,14 @@ struct ReleaseScene {
 using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 
-/// Embree remembers the first error of a device; asked without one, that of making a device.
+/// Throws the first error of a device; for a null device, the error of creating it.
 void require_success(RTCDevice device)
 {
     const RTCError error = rtcGetDeviceError(device);
     if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
     if (error != RTC_ERROR_NONE) {
         throw std::runtime_error(
-            fmt::format("Embree fails with error {}", static_cast<int>(error)));
+            fmt::format("Embree failed with error {}", static_cast<int>(error)));
     }
 }
 
@@ -50,8 +50,7 @@ Item* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std
         rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(Item), count));
 }
 
-/// Lengths times this are at most about 1, so that neither products of lengths nor lengths
-/// themselves leave what floats hold.
+/// Scales lengths to at most about 1, so that lengths and their products are in the range of float.
 double scale_of(const TriMesh& mesh, const Eigen::Vector3d& eye)
 {
     double farthest = 0.0;
@@ -69,7 +68,7 @@ void fill_corners(const TriMesh& mesh, const Eigen::Vector3d& eye, double scale,
     });
 }
 
-/// Has a ray go on through a face that shows its back.
+/// Rejects hits on back faces, so that the ray continues.
 void pass_backs(const RTCFilterFunctionNArguments* found)
 {
     const RTCRay ray = rtcGetRayFromRayN(found->ray, found->N, 0);
@@ -135,8 +134,8 @@ FirstFaces::FirstFaces(const TriMesh& mesh, const Eigen::Vector3d& eye)
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
-    // Several threads would build a tree that depends on which comes first, and where two faces are
-    // equally far, the tree decides.
+    // With several threads the tree would depend on their timing, and the tree decides which of two
+    // equally distant faces is hit.
     tbb::task_arena one_thread(1);
     one_thread.execute([&] { rtcCommitScene(scene); });
     require_success(device);

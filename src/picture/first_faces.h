@@ -9,34 +9,34 @@
 
 namespace vcarve {
 
-/// What a ray first meets of a mesh.
+/// The first hit of a ray with a mesh.
 struct FirstFace {
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
     std::uint32_t face = kNone;
-    float second = 0.0F; ///< share of the face's second corner
-    float third = 0.0F;  ///< share of its third; the first has the rest
+    float second = 0.0F; ///< barycentric coordinate of the second corner
+    float third = 0.0F;  ///< barycentric coordinate of the third corner
 };
 
-/// A mesh made ready for rays from one place, by Embree. Corners are floats relative to that place,
-/// so a direction is right to 1e-7 rad however far from zero the mesh lies; no ray slips through an
-/// edge. Answers do not depend on the number of threads: the tree is built by one thread. Rays may
-/// be sent from any number of threads. The mesh itself is not kept.
-/// Cost: O(n log n) to build, O(log n) a ray on usual meshes; about 150 bytes a face.
+/// Finds the first face on rays from one viewpoint with Embree. Corners are float32 relative to
+/// this point, so directions are exact to 1e-7 rad, even if the mesh is far from the origin. No ray
+/// passes through an edge. Results do not depend on the thread count, because one thread builds the
+/// tree. Queries are thread-safe. The mesh is not referenced after construction.
+/// Cost: O(n log n) to build, O(log n) per ray for usual meshes; about 150 bytes per face.
 class FirstFaces {
   public:
-    /// `eye` is given in the frame of mesh.positions.
+    /// `eye` is in the frame of mesh.positions.
     FirstFaces(const TriMesh& mesh, const Eigen::Vector3d& eye);
     ~FirstFaces();
     FirstFaces(const FirstFaces&) = delete;
     FirstFaces& operator=(const FirstFaces&) = delete;
 
-    /// The face that a ray from the eye meets first, from whichever side. `direction` is of unit
-    /// length. Faces without area are not met.
+    /// Returns the first face on a ray from the eye, seen from either side. `direction` must be a
+    /// unit vector. Faces without area are not hit.
     FirstFace along(const Eigen::Vector3d& direction) const;
-    /// The same of faces that show their front, the side their corners run counter-clockwise on.
+    /// Like along(), but hits only front sides, on which corners are counterclockwise.
     FirstFace front_along(const Eigen::Vector3d& direction) const;
-    /// The same from another place in the frame of mesh.positions, which is rounded to floats, too.
+    /// Like along(), but from another point in the frame of mesh.positions, also rounded to float.
     FirstFace from(const Eigen::Vector3d& place, const Eigen::Vector3d& direction) const;
 
   private:
@@ -46,7 +46,7 @@ class FirstFaces {
     struct Tree;
     std::unique_ptr<Tree> tree_;
     Eigen::Vector3d eye_;
-    double scale_ = 1.0; ///< so that the farthest corner lies at about 1
+    double scale_ = 1.0; ///< puts the farthest corner at a distance of about 1
 };
 
 } // namespace vcarve

@@ -28,7 +28,7 @@ std::vector<std::uint8_t> bytes_of(const Picture& picture)
 
 constexpr std::size_t kMostLetters = 400;
 
-/// As stb_easy_font has them.
+/// The vertex layout of stb_easy_font.
 struct TextCorner {
     float x;
     float y;
@@ -36,10 +36,10 @@ struct TextCorner {
     unsigned char color[4];
 };
 
-/// What stb_easy_font knows; beyond it would read past its table.
+/// Replaces other characters than ASCII, for which stb_easy_font would read beyond its table.
 std::string ascii(std::string text)
 {
-    // A letter of UTF-8 is one question mark: its later bytes go.
+    // Dropping continuation bytes leaves one question mark per UTF-8 character.
     std::erase_if(text, [](unsigned char byte) { return (byte & 0xc0U) == 0x80U; });
     std::ranges::replace_if(
         text, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
@@ -113,7 +113,7 @@ void draw_text(const std::string& text, const Eigen::Array2i& at_px, int scale,
                const Eigen::Array3f& color, Picture& picture)
 {
     std::string shown = ascii(text);
-    // A letter has fewer than 20 strokes of four corners each.
+    // A letter has fewer than 20 strokes, of four corners each.
     constexpr std::size_t kCorners = 4;
     std::vector<TextCorner> corners(20 * kCorners * shown.size());
     const int strokes = stb_easy_font_print(0.0F, 0.0F, shown.data(), nullptr, corners.data(),
@@ -122,7 +122,7 @@ void draw_text(const std::string& text, const Eigen::Array2i& at_px, int scale,
         return at_px + (static_cast<float>(scale) * Eigen::Array2f(corner.x, corner.y)).cast<int>();
     };
     for (std::size_t i = 0; i < kCorners * static_cast<std::size_t>(strokes); i += kCorners) {
-        // Corners run around the stroke, so the first and the third are opposite.
+        // Corners are in cyclic order, so the first and the third are opposite.
         fill_box(pixel(corners[i]), pixel(corners[i + 2]), color, picture);
     }
 }

@@ -17,7 +17,7 @@ const Eigen::Array3f kInk{34.0F, 38.0F, 46.0F};
 const Eigen::Array3f kFaintInk{110.0F, 116.0F, 126.0F};
 constexpr int kGapPx = 8; ///< between panels, and around captions
 
-/// Letters of a size that suits the panels.
+/// The text scale for a panel width.
 int text_scale(int width_px)
 {
     return width_px >= 900 ? 2 : 1;
@@ -28,7 +28,7 @@ int caption_height_px(int panel_width_px)
     return text_scale(panel_width_px) * kTextHeight + kGapPx;
 }
 
-/// The name on the left; on the right, what the flat colour means.
+/// Draws the name and `rest` on the left, and the meaning of the flat color on the right.
 void draw_caption(const std::string& name, const std::string& rest, int panel_width_px,
                   Picture& row)
 {

@@ -11,19 +11,19 @@
 
 namespace vcarve {
 
-/// Pixels of one view of a mesh, at most.
+/// The maximum number of pixels of one panel.
 inline constexpr double kPanelPixels = 1280.0 * 960.0;
 
-/// A picture of meshes from one place: a row each, with the mesh in its colours or texture on the
-/// left, its normals on the right, and a line above that names it. About 30 MB a row.
+/// Draws meshes from one viewpoint, one row per mesh: a caption, the mesh in its colors or texture
+/// on the left, its normals on the right. Cost: about 30 MB per row.
 class Preview {
   public:
     explicit Preview(Eye eye, double panel_pixels = kPanelPixels);
 
-    /// Adds a row, and tells how many pixels a view of it has. Cost: as look_at().
+    /// Adds a row. Returns the number of pixels of one panel. Cost: see look_at().
     std::int64_t add(const std::string& name, const TriMesh& mesh, const Texture& texture = {});
 
-    /// All rows, one below the other.
+    /// Returns all rows, from top to bottom.
     Picture picture() const;
 
     const Eye& eye() const { return eye_; }

@@ -19,12 +19,12 @@ using Eigen::Vector3d;
 
 constexpr int kSamplesASide = 2;
 constexpr int kSamples = kSamplesASide * kSamplesASide;
-/// How bright a face is that is seen edge on. Colours have the light of the scene in them already.
+/// The brightness of a face seen edge-on. It is high because colors include the scene's lighting.
 constexpr double kLeastLight = 0.55;
-/// How strong the colours of normals are: less than full, so that kBack is none of them.
+/// The color strength of normals. It is less than 1, so that no normal has the color kBack.
 constexpr float kNormalStrength = 0.75F;
 
-/// What one ray adds to both pictures.
+/// The colors of one ray in both pictures.
 struct Sample {
     Array3f shaded;
     Array3f normal;
@@ -64,7 +64,7 @@ Array3f own_color(const TriMesh& mesh, const FirstFace& hit)
     return sum;
 }
 
-/// Looks along one ray at a time.
+/// Computes the colors of single rays.
 class Looker {
   public:
     Looker(const TriMesh& mesh, const Texture& texture, const Eye& eye)
@@ -76,7 +76,7 @@ class Looker {
     {
     }
 
-    /// `in_camera` is the unit direction of the ray, if there is one.
+    /// `in_camera` is the unit direction in the camera's frame, or empty if the lens has none.
     Sample along(const std::optional<Vector3d>& in_camera) const
     {
         if (!in_camera) return even_sample(kNoRay);
@@ -87,7 +87,7 @@ class Looker {
         const double facing = -normal.dot(towards);
         if (!(facing > 0.0)) return even_sample(kBack);
         const auto light = static_cast<float>(kLeastLight + (1.0 - kLeastLight) * facing);
-        // The camera's y points down and its z ahead.
+        // The camera's y points down and its z forward.
         const Vector3d turned = world_from_cam_.transpose() * normal;
         const Array3f shown = Vector3d(turned.x(), -turned.y(), -turned.z()).cast<float>().array();
         const Array3f color = texture_.is_empty() ? Array3f(light * own_color(mesh_, hit))

@@ -7,23 +7,22 @@
 
 namespace vcarve {
 
-/// What a place of a picture shows, 0 to 255.
+/// The colors of special pixels, 0 to 255.
 inline const Eigen::Array3f kNothing{236.0F, 239.0F, 243.0F};   ///< no face
-inline const Eigen::Array3f kNoRay{206.0F, 210.0F, 216.0F};     ///< no direction of the lens
+inline const Eigen::Array3f kNoRay{206.0F, 210.0F, 216.0F};     ///< the lens has no direction
 inline const Eigen::Array3f kBack{255.0F, 0.0F, 255.0F};        ///< the back of a face
-inline const Eigen::Array3f kUncolored{200.0F, 200.0F, 205.0F}; ///< of meshes without colours
+inline const Eigen::Array3f kUncolored{200.0F, 200.0F, 205.0F}; ///< the mesh has no colors
 
-/// A mesh as an eye sees it, twice.
+/// Two pictures of a mesh from one viewpoint.
 struct Looks {
-    Picture shaded;  ///< in its texture, or in its vertex colours, lit from the eye
-    Picture normals; ///< of the faces: red grows to the right, green upwards, blue towards the eye
+    Picture shaded;  ///< texture, or vertex colors lit from the eye
+    Picture normals; ///< face normals: red is right, green up, blue toward the eye
 };
 
-/// Both pictures have picture_size(). Each pixel is the mean of four rays through the lens, as
-/// LensRays has them. Backs of faces are kBack in both. The mesh and the eye are given in one
-/// frame, apart from the mesh's offset. The bytes do not depend on the number of threads. Cost:
-/// that of FirstFaces, four rays a pixel in parallel. A texture without pages is none; one with
-/// pages has the light of its photographs, and gets no other.
+/// Draws a mesh. Both pictures have the size picture_size(). Each pixel is the mean of four rays of
+/// LensRays. Back faces are kBack in both. The mesh, with its offset, and the eye are in one frame.
+/// An empty texture counts as none. Textures are not lit, because photographs include lighting. The
+/// bytes do not depend on the thread count. Cost: FirstFaces with four rays per pixel, in parallel.
 Looks look_at(const TriMesh& mesh, const Texture& texture, const Eye& eye, double most_pixels);
 
 } // namespace vcarve

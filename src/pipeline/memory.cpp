@@ -13,19 +13,19 @@ namespace vcarve {
 
 namespace {
 
-/// Code, libraries and small things; the stack of a thread, and what allocators keep for it.
+/// Bytes of code, libraries and small objects; bytes per thread of stack and allocator caches.
 constexpr double kProgram = 12.5e6;
 constexpr double kThread = 0.5e6;
 
-/// CGAL's triangulation of a block, with the ghosts around it, a point of the block.
+/// Bytes per point of a block: CGAL's triangulation of the block with the points around it.
 constexpr double kBlockPoint = 600;
-/// What a run in blocks has in the heap, a point: arrays that are too small for files of their own
-/// (22 bytes were measured of 5 M points).
+/// Heap bytes per point of a run in blocks: arrays that are too small for scratch files (measured:
+/// 22 bytes for 5 M points).
 constexpr double kHeapPoint = 24;
-/// The same while planar regions are looked for: the nodes of the k-d tree, and the points of
-/// regions.
+/// Additional heap bytes per point while planar regions are searched: nodes of the k-d tree, and
+/// points of regions.
 constexpr double kHeapAddedPoint = 42;
-/// Files in the work folder against what passes are predicted to need: arrays that grow stand
+/// Ratio of files in the work folder to the predicted memory of a stage: growing arrays are stored
 /// twice.
 constexpr double kScratchMargin = 1.1;
 
@@ -52,9 +52,9 @@ std::int64_t peak_of(const Needs& needs)
 
 [[noreturn]] void refuse_in_blocks(const RunSize& size, std::int64_t least, std::int64_t most)
 {
-    throw InputError(fmt::format("{} points with {} sights need about {} of memory even in blocks, "
+    throw InputError(fmt::format("{} points with {} rays need about {} of memory even in blocks, "
                                  "and --max-memory allows {}",
-                                 size.read.points, size.read.sights, byte_size_text(least),
+                                 size.read.points, size.read.rays, byte_size_text(least),
                                  byte_size_text(most)));
 }
 
@@ -83,23 +83,23 @@ void require_memory(const RunSize& size, int threads, std::int64_t most)
 {
     const std::int64_t needed = predicted_peak(size, threads);
     if (most <= 0 || needed <= most) return;
-    throw InputError(fmt::format("{} points with {} sights need about {} of memory, and "
+    throw InputError(fmt::format("{} points with {} rays need about {} of memory, and "
                                  "--max-memory allows {}",
-                                 size.read.points, size.read.sights, byte_size_text(needed),
+                                 size.read.points, size.read.rays, byte_size_text(needed),
                                  byte_size_text(most)));
 }
 
 void require_memory_of(const RunSize& size, int threads)
 {
-    if (size.options.memory.blocks <= 0) require_memory(size, threads, size.options.memory.most);
+    if (size.options.memory.blocks <= 0) require_memory(size, threads, size.options.memory.limit);
 }
 
 CellLimit limit_of_cells(const RunSize& size, int threads)
 {
-    constexpr double kSome = 1000; // of few points the hull has more than its share
+    constexpr double kSome = 1000; // few points have more cells on the hull
     constexpr double kMostOfPoint = 0x1p32;
-    constexpr double kGrowing = 1.1; // with what is noted of a block's cells
-    const std::int64_t most = size.options.memory.most;
+    constexpr double kGrowing = 1.1; // with notes about a block's cells
+    const std::int64_t most = size.options.memory.limit;
     if (most <= 0) return {};
     const bool in_blocks = size.options.memory.blocks > 0;
     const auto fits = [&](double cells_of_point) {
@@ -109,12 +109,12 @@ CellLimit limit_of_cells(const RunSize& size, int threads)
         const std::int64_t left = most - least_memory(size, threads);
         return kGrowing * cgal(needs.left) <= static_cast<double>(left);
     };
-    double of_point = 8; // with the points that blocks take in
+    double of_point = 8; // with the points added around blocks
     for (double step = kMostOfPoint; step > 0.1; step /= 2) {
         if (fits(of_point + step)) of_point += step;
     }
     const double cells = of_point * static_cast<double>(size.thinned.points) + kSome;
-    return {.most = static_cast<std::size_t>(cells), .counts_made = !in_blocks};
+    return {.limit = static_cast<std::size_t>(cells), .counts_made = !in_blocks};
 }
 
 std::int64_t predicted_scratch(const RunSize& size)
@@ -126,8 +126,8 @@ std::int64_t predicted_scratch(const RunSize& size)
 
 std::int64_t predicted_share(const RunSize& size)
 {
-    // The sums of all cells, and those that are not zero once more.
-    return rounded(2 * sums_of_sights(sizes_of(size.thinned)));
+    // The sums of all cells, and a copy of the nonzero sums.
+    return rounded(2 * sums_of_rays(sizes_of(size.thinned)));
 }
 
 std::int64_t least_memory(const RunSize& size, int threads)
@@ -139,24 +139,24 @@ std::int64_t least_memory(const RunSize& size, int threads)
 BlockPlan plan_blocks(const RunSize& size, int threads, const MemoryOptions& wanted,
                       std::optional<std::int64_t> free)
 {
-    const bool is_open = wanted.most == MemoryOptions::kAutoMemory;
+    const bool is_open = wanted.limit == MemoryOptions::kAutoMemory;
     BlockPlan plan;
     plan.needed = predicted_peak(size, threads);
-    plan.most = is_open ? free.value_or(0) / 5 * 4 : wanted.most;
+    plan.limit = is_open ? free.value_or(0) / 5 * 4 : wanted.limit;
     if (wanted.blocks == 0) {
-        require_memory(size, threads, wanted.most);
+        require_memory(size, threads, wanted.limit);
         return plan;
     }
-    const bool fits = plan.most == 0 || plan.needed <= plan.most;
+    const bool fits = plan.limit == 0 || plan.needed <= plan.limit;
     if (wanted.blocks == MemoryOptions::kAutoBlocks && fits) return plan;
 
     const std::int64_t least = least_memory(size, threads);
-    if (plan.most > 0 && least >= plan.most) refuse_in_blocks(size, least, plan.most);
+    if (plan.limit > 0 && least >= plan.limit) refuse_in_blocks(size, least, plan.limit);
     plan.scratch = predicted_scratch(size);
     plan.blocks = wanted.blocks;
     if (wanted.blocks == MemoryOptions::kAutoBlocks) {
         const double at_once = kBlockPoint * static_cast<double>(size.thinned.points) * threads;
-        const double blocks = std::ceil(at_once / (0.5 * static_cast<double>(plan.most - least)));
+        const double blocks = std::ceil(at_once / (0.5 * static_cast<double>(plan.limit - least)));
         plan.blocks = static_cast<int>(std::clamp(blocks, 2.0, 65536.0));
     }
     return plan;

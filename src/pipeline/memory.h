@@ -11,66 +11,66 @@
 
 namespace vcarve {
 
-/// The most memory a process is expected to hold while a stage of the pipeline runs.
+/// The expected peak memory of the process during a stage of the pipeline.
 struct StageMemory {
-    const char* stage; ///< as the log calls it
+    const char* stage; ///< name in the log
     std::int64_t bytes;
 };
 
-/// What a run will need, stage by stage (stages.h). Made of the sizes of the arrays that are alive
-/// at once (stage_memory.cpp says which), for points as they usually are (Sizes::cells). Points in
-/// rare positions (on two curves, say) can have many more cells, and need more.
+/// Predicts the memory of each stage (stages.h) from the sizes of the arrays that are alive at the
+/// same time (stage_memory.cpp), for the usual number of cells per point (Sizes::cells_of_point).
+/// Points in rare positions, such as on two curves, can have many more cells and need more memory.
 std::vector<StageMemory> predicted_memory(const RunSize& size, int threads);
 
-/// The most of these, in bytes.
+/// The maximum over all stages, in bytes.
 std::int64_t predicted_peak(const RunSize& size, int threads);
 
-/// What is known before a scene is thinned: of a dense one, nothing for certain is left.
+/// The size of a run before its scene is thinned. A dense scene counts as empty after thinning.
 RunSize size_before_thinning(const SceneSize& read, const Options& options);
 
-/// The predicted peak over the one measured lies between these: 1.04 (a million points on two
-/// threads) to 1.34 (30 thousand on one) on sample models. A test holds the program to it, and
-/// tools/bench warns where a run is not in between.
+/// Bounds of the ratio of predicted to measured peak. On sample models it is 1.04 (a million points
+/// on two threads) to 1.34 (30 thousand points on one). A test checks these bounds, and tools/bench
+/// warns if a run is outside.
 inline constexpr double kLeastPredicted = 1.0;
 inline constexpr double kMostPredicted = 1.4;
 
-/// Throws InputError where the prediction is above `most` bytes, naming both; 0 or less allows all.
+/// Throws InputError with both sizes if the prediction exceeds `most` bytes; <= 0 disables it.
 void require_memory(const RunSize& size, int threads, std::int64_t most);
 
-/// The same as the options of the run say; blocks that are asked for are not looked at.
+/// The same with the limit of the run's options. Does nothing for a run in blocks.
 void require_memory_of(const RunSize& size, int threads);
 
-/// How many cells a run may make, for its memory to do: in memory all of them, in blocks those of
-/// the blocks in work. Never less than points usually have.
+/// The maximum number of cells for the run's memory limit: of all cells in memory, or of the cells
+/// of the current blocks. Never less than points usually have.
 CellLimit limit_of_cells(const RunSize& size, int threads);
 
-/// How a run gets by with the memory it may take.
+/// How a run stays within its memory limit.
 struct BlockPlan {
-    int blocks = 0;           ///< 0: it works in memory
-    std::int64_t needed = 0;  ///< in memory, as predicted
-    std::int64_t most = 0;    ///< how much it may take; 0 for all
-    std::int64_t scratch = 0; ///< the most that arrays in the work folder will take; 0 in memory
+    int blocks = 0;           ///< number of blocks; 0 runs in memory
+    std::int64_t needed = 0;  ///< predicted bytes of a run in memory
+    std::int64_t limit = 0;   ///< allowed bytes; 0 disables the limit
+    std::int64_t scratch = 0; ///< maximum bytes of arrays in the work folder; 0 in memory
 
     bool in_blocks() const { return blocks > 0; }
-    /// Whether arrays are in the work folder.
+    /// Whether large arrays are in the work folder.
     bool in_files() const { return scratch > 0; }
 };
 
-/// In memory where the options ask for that, or the run fits; else in blocks, so many that those
-/// being triangulated at a time, one a thread, take half of what is allowed. `free` is what the
-/// system has, of which four fifths are allowed where the options leave that open; nothing where it
-/// is not known. Throws InputError where a run in memory would need more than the options say, or
-/// one in blocks more than is allowed: each point needs some memory even then.
+/// Plans a run in memory if the options demand it or the run fits; otherwise in blocks. Blocks are
+/// triangulated at the same time, one per thread, and get half of the memory. `free` is the
+/// system's free memory, or nullopt if unknown; without a limit in the options, 4/5 of it is
+/// allowed. Throws InputError if a run in memory would exceed the options' limit, or if the memory
+/// that each point needs even in blocks exceeds the allowed memory.
 BlockPlan plan_blocks(const RunSize& size, int threads, const MemoryOptions& wanted,
                       std::optional<std::int64_t> free);
 
 /// The least memory that a run in blocks needs, in bytes.
 std::int64_t least_memory(const RunSize& size, int threads);
 
-/// The most that arrays in the work folder take at a time, in bytes.
+/// The peak size of arrays in the work folder, in bytes.
 std::int64_t predicted_scratch(const RunSize& size);
 
-/// The most that arrays of another rank take there, in bytes: what the sights say that it walks.
+/// The peak size there of another rank's arrays, in bytes: the sums of the rays that it follows.
 std::int64_t predicted_share(const RunSize& size);
 
 } // namespace vcarve

@@ -23,13 +23,13 @@ inline constexpr int kNumFields<EnergyShare> = 3;
 
 namespace {
 
-// What has to be in the work folder before ranks can do their shares.
+// Stages that must be in the work folder before ranks can do their shares.
 constexpr std::array<std::string_view, 1> kNeededForBlocks = {"points"};
-constexpr std::array<std::string_view, 2> kNeededForSights = {"points", "cells"};
+constexpr std::array<std::string_view, 2> kNeededForRays = {"points", "cells"};
 
 using MakeBlock = std::function<BlockCells()>;
 
-/// The blocks of a rank, which are kept as parts of the checkpoint "cells".
+/// The blocks of a rank, which are saved as parts of the checkpoint "cells".
 Blocks kept_blocks(const BlocksTask& all, const Rank& rank, Checkpoints& work)
 {
     const auto keep = [count = all.count, &work](std::size_t block, const MakeBlock& make) {
@@ -44,7 +44,7 @@ Blocks kept_blocks(const BlocksTask& all, const Rank& rank, Checkpoints& work)
 
 StagePiece share_name(const Rank& rank)
 {
-    return {"sights", rank.number, rank.of};
+    return {"rays", rank.number, rank.of};
 }
 
 } // namespace
@@ -54,7 +54,7 @@ std::optional<TetMesh> triangulate_by_ranks(const BlocksTask& blocks, RunState& 
 {
     const Scene& scene = run.points.scene;
     Checkpoints& work = run.checkpoints;
-    // With other ranks, all blocks but those that gave up are there then.
+    // With other ranks, all blocks exist afterwards, unless they gave up.
     const bool is_shared = work.share(kBlocksTask, blocks, kNeededForBlocks, [&] {
         triangulate_share(scene, kept_blocks(blocks, {0, work.num_ranks()}, work),
                           progress.part(0.0, 0.8));
@@ -69,7 +69,7 @@ std::optional<TetMesh> triangulate_by_ranks(const BlocksTask& blocks, RunState& 
 
 VisibilityEnergy walk_by_ranks(RunState& run, const Progress& progress)
 {
-    constexpr double kWalks = 0.9; // of the time; the rest is adding what others say
+    constexpr double kWalks = 0.9; // fraction of the time; the rest adds the sums of other ranks
     Checkpoints& work = run.checkpoints;
     const Scales scales = measure_scales(run.cells, run.points.scene);
     const RayCaster caster(run.cells, run.points.scene, scales, run.options().labels.trace);
@@ -77,8 +77,8 @@ VisibilityEnergy walk_by_ranks(RunState& run, const Progress& progress)
     VisibilityEnergy energy;
     VisibilityEnergy said;
     const Rank own = {0, work.num_ranks()};
-    const bool is_shared = work.share(kSightsTask, scales, kNeededForSights, [&] {
-        said = caster.said_of(source, share_of(*source.rays, own), progress.part(0.0, kWalks));
+    const bool is_shared = work.share(kRaysTask, scales, kNeededForRays, [&] {
+        said = caster.energy_of(source, share_of(*source.rays, own), progress.part(0.0, kWalks));
     });
     if (!is_shared) {
         caster.cast(source, energy, progress);
@@ -127,12 +127,12 @@ void RankShares::triangulate(std::string_view file, Log& log)
     return_freed_memory();
 }
 
-void RankShares::walk_sights(std::string_view file, Log& log)
+void RankShares::walk_rays(std::string_view file, Log& log)
 {
     Scales scales;
     folder_.map(file, scales);
     Checkpoints work(&folder_, log);
-    Stage stage(work.log(), "sights");
+    Stage stage(work.log(), "rays");
     const RayCaster caster(cells(), scene(), scales, options_.labels.trace);
     const RaySource source = photographs(scene());
     work.piece(share_name(rank_),
@@ -145,10 +145,10 @@ void RankShares::work(std::string_view task, Log& log)
     arena.execute([&] {
         if (task.starts_with(kBlocksTask)) {
             triangulate(task, log);
-        } else if (task.starts_with(kSightsTask)) {
-            walk_sights(task, log);
+        } else if (task.starts_with(kRaysTask)) {
+            walk_rays(task, log);
         } else {
-            throw std::logic_error("a rank is asked for what it does not know");
+            throw std::logic_error("unknown task for a rank");
         }
     });
 }

@@ -11,51 +11,51 @@
 #include <optional>
 #include <string_view>
 
-// What the ranks of a run share: the blocks of the triangulation, and the lines of sight, of which
-// each walks those to a run of points, through all cells. What these say are integers, so their
-// sums are what one rank alone would get.
+// The work that ranks share: the blocks of the triangulation, and the rays. Each rank follows the
+// rays of a range of points through all cells. The sums are integers, so they equal those of a
+// single rank.
 
 namespace vcarve {
 
-/// What the names of tasks for ranks begin with: blocks to triangulate, and sights to walk.
+/// Prefixes of task names: blocks to triangulate, and rays to follow.
 inline constexpr std::string_view kBlocksTask = "task-blocks";
-inline constexpr std::string_view kSightsTask = "task-sights";
+inline constexpr std::string_view kRaysTask = "task-rays";
 
-/// What is to be known of blocks, beside the points.
+/// The task of triangulating blocks; its other input is the points.
 struct BlocksTask {
-    std::size_t count = 0; ///< of all blocks
+    std::size_t count = 0; ///< number of all blocks
     CellLimit limit{};
 };
 
-/// The same cells as triangulate(), made in so many blocks, each of which is kept by itself, by all
-/// ranks. Nothing where triangulate_in_blocks() gives up.
+/// Makes the same cells as triangulate() in blocks, on all ranks. Saves each block separately.
+/// Returns nullopt if triangulate_in_blocks() gives up.
 std::optional<TetMesh> triangulate_by_ranks(const BlocksTask& blocks, RunState& run,
                                             const Progress& progress);
 
-/// What the sights of the photographs say of the cells, walked by all ranks. A share that is
-/// missing, or cannot be read, is walked by this one.
+/// The energy of the photographs' rays, which all ranks follow. This rank follows the rays of
+/// shares that are missing or unreadable.
 VisibilityEnergy walk_by_ranks(RunState& run, const Progress& progress);
 
-/// The points whose rays a rank walks: as many rays as any other, but for those of a point.
+/// The points whose rays a rank follows. Ranks get equal numbers of rays, up to those of one point.
 VertexRun share_of(const Tracks& rays, const Rank& rank);
 
-/// Does a rank's shares of a run, as the first rank asks for them. Memory: the scene and the cells,
-/// mapped from the work folder where there is a ScratchMemory, else read; and 20 bytes a cell.
+/// Does a rank's shares of a run, as rank 0 orders. Memory: 20 bytes per cell, the scene and the
+/// cells. Scene and cells are mapped from the work folder if a ScratchMemory exists, else read.
 class RankShares {
   public:
-    /// `folder` is joined; `options` are those of the run. Both must outlive it.
+    /// `folder` must be joined. `options` are those of the run. Both must outlive the object.
     RankShares(WorkFolder& folder, const Options& options, const Rank& rank)
         : folder_(folder), options_(options), rank_(rank)
     {
     }
 
-    /// Does this rank's share of the task of that name: its results are in the folder then. Throws
-    /// InputError and UsageError where files cannot be read or written, and Cancelled.
+    /// Does this rank's share of a task, and saves its results in the folder. Throws InputError if
+    /// files cannot be read, UsageError if they cannot be written, and Cancelled.
     void work(std::string_view task, Log& log);
 
   private:
     void triangulate(std::string_view file, Log& log);
-    void walk_sights(std::string_view file, Log& log);
+    void walk_rays(std::string_view file, Log& log);
     const Scene& scene();
     const TetMesh& cells();
 

@@ -18,7 +18,7 @@ namespace vcarve {
 
 namespace {
 
-/// Takes the stages of a part, and tells of each.
+/// Runs the stages of a part, and logs each.
 void take(Part part, RunState& run)
 {
     Log& log = run.checkpoints.log();
@@ -33,31 +33,31 @@ void take(Part part, RunState& run)
     }
 }
 
-/// The points that are carved with, and the region that is wanted.
+/// Makes the points and the region.
 void make_points(RunState& run)
 {
     run.points.scene = center_points(std::move(run.points.scene));
     return_freed_memory();
     take(Part::plan, run);
     run.checkpoints.keep("points", run.points, [&] { take(Part::points, run); });
-    if (!run.region) { // the points were kept
+    if (!run.region) { // the points came from a checkpoint
         run.region =
             make_region(run.options().crop.region, run.points.scene.offset, run.points.of_interest);
     }
     return_freed_memory();
 }
 
-/// The faces that views see; the cells are gone when it ends.
+/// Carves the visible faces, and frees the cells.
 void carve(RunState& run)
 {
     run.checkpoints.keep("cells", run.cells, [&] { take(Part::cells, run); });
-    run.checkpoints.keep("sights", run.evidence, [&] { take(Part::sights, run); });
+    run.checkpoints.keep("rays", run.evidence, [&] { take(Part::rays, run); });
     take(Part::surface, run);
     run.cells = {};
-    run.virtual_sights = {};
+    run.virtual_rays = {};
 }
 
-/// All but thinning.
+/// Runs all stages after thinning.
 Reconstruction run_parts(RunState run, RemovedFaces* removed)
 {
     make_points(run);
@@ -82,7 +82,7 @@ Reconstruction thin_and_run(Scene scene, const Options& options, Log& log)
     return run_parts(std::move(run), nullptr);
 }
 
-/// Calls run() with as many threads as the options say.
+/// Calls run() with the thread count of the options.
 template <typename Run>
 Reconstruction with_threads(const Options& options, const Run& run)
 {

@@ -8,7 +8,7 @@
 #include "region/region.h"
 #include "run/checkpoints.h"
 #include "steps/6_surface/carve_surface.h"
-#include "steps/7_refine/sight_guard.h"
+#include "steps/7_refine/ray_guard.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
@@ -21,36 +21,36 @@
 
 namespace vcarve {
 
-/// The points that are carved with.
+/// The points of the triangulation.
 struct CarvingPoints {
     Scene scene;
-    Ball of_interest; ///< of all points, where only those in that ball are wanted
+    Ball of_interest; ///< of the points before cropping; set only for RegionChoice::Kind::looked_at
 };
 
-/// What the sights say of the cells.
-struct SightEvidence {
+/// The votes of the rays on the cells.
+struct RayEvidence {
     VisibilityEnergy energy; ///< empty with Method::strict
-    Crossings crossings;     ///< empty with the others
+    Crossings crossings;     ///< empty with other methods
 };
 
-/// What a run has, as its stages hand it on to each other (stages.h).
+/// The data that the stages of a run (stages.h) pass on.
 struct RunState {
     RunSize size;
     Checkpoints& checkpoints;
     bool wants_removed = false;
 
     CarvingPoints points{};
-    std::unique_ptr<Region> region{}; ///< that the surface is wanted of; null for all of space
+    std::unique_ptr<Region> region{}; ///< region to reconstruct; null for all of space
     TetMesh cells{};
-    SightEvidence evidence{};
+    RayEvidence evidence{};
     Labels labels{};
-    VirtualSights virtual_sights{};
+    VirtualRays virtual_rays{};
     CarvedSurface carved{};
     std::unique_ptr<HalfEdgeMesh> mesh{};
     std::size_t first_filled = 0; ///< faces of the mesh from here on fill holes
-    std::optional<SightGuard> guard{};
+    std::optional<RayGuard> guard{};
     TriMesh surface{};
-    std::vector<std::string> notes{}; ///< told when the stage ends
+    std::vector<std::string> notes{}; ///< logged when the stage ends
 
     const Options& options() const { return size.options; }
 };
@@ -60,7 +60,7 @@ inline constexpr int kNumFields<Ball> = 2;
 template <>
 inline constexpr int kNumFields<CarvingPoints> = 2;
 template <>
-inline constexpr int kNumFields<SightEvidence> = 2;
+inline constexpr int kNumFields<RayEvidence> = 2;
 template <>
 inline constexpr int kNumFields<ViewLine> = 2;
 template <>

@@ -13,42 +13,42 @@ namespace vcarve {
 
 namespace {
 
-/// Scene: position, colour, error, id and begin of the track; a normal, where there are any; index
-/// of a view; a view with its name.
+/// Bytes of the scene. Point: position, color, error, id and begin of the track; normal, if any.
+/// Ray: index of a view. View: with its name.
 constexpr double kScenePoint = 24 + 3 + 8 + 8 + 8;
 constexpr double kSceneNormal = 12;
-constexpr double kSceneSight = 4;
+constexpr double kSceneRay = 4;
 constexpr double kSceneView = 256;
 
-/// CGAL: a cell holds 4 vertices, 4 neighbours, its state and index; a vertex its point, a cell and
-/// its index; both with some room to grow.
+/// Bytes in CGAL. A cell has 4 vertices, 4 neighbors, state and index; a vertex has a point, a cell
+/// and an index. Both include room to grow.
 constexpr double kCgalCell = 73;
 constexpr double kCgalVertex = 48;
-/// TetMesh.
+/// Bytes in a TetMesh.
 constexpr double kFlatCell = sizeof(Cell) + 1;
 constexpr double kFlatVertex = 24 + 4;
 
-/// FlowNetwork, and the solver on top of it: its nodes or the facets' costs, and lists of cells.
+/// Bytes per cell of FlowNetwork, and of the solver: nodes or facet costs, and lists of cells.
 constexpr double kNetworkCell = 16 + 4;
 constexpr double kSolverCell = 16 + 8;
 
-/// Points that are merged: their footprints, leaders and cubes, or the members of clusters, and the
-/// rows of views that become united ones.
+/// Merging points: footprints, leaders and cubes, or members of clusters, and the views of merged
+/// points.
 double merging(const Sizes& n)
 {
     constexpr double kMerged = 70;
-    return n.scene() + kMerged * n.points + kSceneSight * n.sights;
+    return n.scene() + kMerged * n.points + kSceneRay * n.rays;
 }
 
-/// The points that are left of the parts before, one part, and what is left of it; or what is left
-/// of all parts, which is merged once more, and what is left then.
+/// Merging in parts: the merged points of earlier parts, one part, and its merged points; or the
+/// merged points of all parts while they are merged once more, and the result.
 double merging_parts(const Needs& needs)
 {
-    constexpr double kLeftOfParts = 1.25; // over what is left in the end
+    constexpr double kLeftOfParts = 1.25; // ratio to the final result
     const double before = kLeftOfParts * needs.left.scene();
     Sizes part = needs.read;
     part.points = std::min(part.points, static_cast<double>(kThinnedAtOnce));
-    part.sights *= part.points / std::max(needs.read.points, 1.0);
+    part.rays *= part.points / std::max(needs.read.points, 1.0);
     return std::max(before + merging(part) + std::min(part.scene(), before),
                     kLeftOfParts * merging(needs.left) + needs.left.scene());
 }
@@ -62,7 +62,7 @@ double cgal(const Sizes& n)
 
 double Sizes::scene() const
 {
-    return points * point_bytes + sights * kSceneSight + views * kSceneView;
+    return points * point_bytes + rays * kSceneRay + views * kSceneView;
 }
 
 double Sizes::after_triangulation() const
@@ -73,7 +73,7 @@ double Sizes::after_triangulation() const
 Sizes sizes_of(const SceneSize& size)
 {
     return {.points = static_cast<double>(size.points),
-            .sights = static_cast<double>(size.sights),
+            .rays = static_cast<double>(size.rays),
             .views = static_cast<double>(size.views),
             .point_bytes = kScenePoint + (size.has_normals ? kSceneNormal : 0.0)};
 }
@@ -88,8 +88,7 @@ Needs needs_of(const RunSize& size, int threads)
             .in_parts = size.in_parts};
 }
 
-/// The points around each point, 24 of them at most, normals, variances, and places before and
-/// after.
+/// At most 24 neighbors of each point, normals, variances, and positions before and after.
 double denoising(const Needs& needs)
 {
     const Sizes& n = needs.left;
@@ -98,15 +97,15 @@ double denoising(const Needs& needs)
     return n.scene() + n.points * (kAround + kPlaced);
 }
 
-/// The scene that was read, and the parts of it.
+/// The input scene, and its parts.
 double thinning(const Needs& needs)
 {
     return needs.read.scene() + merging_parts(needs);
 }
 
-/// The scene, and its positions once more, where the arrays of a text model grow; a binary one
-/// needs a third of that, for its ids. Files are given back as they are read. Of a cloud that is
-/// merged meanwhile, its parts.
+/// The scene, and a copy of its positions while the arrays of a text model grow. A binary model
+/// needs a third of the copy, for its ids. File pages are released as they are read. If a cloud is
+/// merged while it is read, its parts.
 double reading(const Needs& needs)
 {
     if (needs.in_parts) return merging_parts(needs);
@@ -114,28 +113,28 @@ double reading(const Needs& needs)
     return n.scene() + 24 * n.points;
 }
 
-/// The scene, whose arrays are replaced one by one, and positions with what they are sorted by;
-/// and what the allocator keeps of arrays that were freed, of models below a million points.
+/// The scene, whose arrays are replaced one by one, and positions with sort keys. For models below
+/// a million points, also freed arrays that the allocator retains.
 double filtering(const Needs& needs)
 {
     const Sizes& n = needs.left;
     return n.scene() + (36 + 16) * n.points;
 }
 
-/// A k-d tree, the points around each point, what they tell, and those of flat parts once more.
+/// A k-d tree, the neighbors, spacing and flatness of each point, and the points of regions.
 double finding_planes(const Needs& needs)
 {
     const Sizes& n = needs.left;
     constexpr double kTree = 40 + 13;
     constexpr double kAround = 12 * 4 + 3 * 8;
     constexpr double kOfRegion = 2 * 4 + 2 * 24 + 13;
-    constexpr double kCandidates = 300; ///< near a point, with surfaces
+    constexpr double kCandidates = 300; ///< candidates near a point, and surfaces
     return n.scene() + n.points * (kTree + kAround + kOfRegion + kCandidates);
 }
 
-/// CGAL's triangulation of the blocks in work, with the points they take in, their cells twice, as
-/// these are numbered, and the cells of the other blocks; then, as they are joined, all cells
-/// twice.
+/// First CGAL's triangulation of the current blocks with the points around them, two copies of
+/// their cells for numbering, and the cells of the other blocks. Then two copies of all cells while
+/// blocks are joined.
 double triangulating(const Needs& needs)
 {
     const Sizes& n = needs.left;
@@ -150,20 +149,18 @@ double triangulating(const Needs& needs)
     return n.scene() + std::max(triangulated, 2.0 * cells);
 }
 
-/// First the edges that the distance sigma is measured by, up to six a cell of a choice of cells,
-/// in lists that grow; then the network, and the sights that each thread walks, those of 512
-/// points.
+/// First the edges that determine the distance sigma: up to six per sampled cell, in growing lists.
+/// Then the network, and the current rays of each thread, which are those of 512 points.
 double tracing(const Needs& needs)
 {
     const Sizes& n = needs.left;
     const double edges = 6 * std::min(n.cells(), 5e4);
-    const double walked =
-        std::min(n.sights, needs.threads * 512 * n.sights / std::max(n.points, 1.0));
-    constexpr double kSight = 96;
-    constexpr double kInferred = 20; // of a cloud, about as many as there are; and what they say
-    const double inferred = needs.is_dense ? kInferred * n.sights + kNetworkCell * n.cells() : 0.0;
+    const double walked = std::min(n.rays, needs.threads * 512 * n.rays / std::max(n.points, 1.0));
+    constexpr double kRay = 96;
+    constexpr double kInferred = 20; // per ray of a cloud: about one inferred ray, and its votes
+    const double inferred = needs.is_dense ? kInferred * n.rays + kNetworkCell * n.cells() : 0.0;
     return n.after_triangulation() +
-           std::max(24 * edges, n.cells() * kNetworkCell + kSight * walked + inferred);
+           std::max(24 * edges, n.cells() * kNetworkCell + kRay * walked + inferred);
 }
 
 /// The network, the solver, and the labels.
@@ -173,25 +170,25 @@ double cutting(const Needs& needs)
     return n.after_triangulation() + n.cells() * (kNetworkCell + kSolverCell + 2);
 }
 
-/// What is counted of each facet, and the labels.
+/// The crossing counts of all facets, and the labels.
 double carving(const Needs& needs)
 {
     constexpr double kCell = 16 + 1;
     return needs.left.after_triangulation() + needs.left.cells() * kCell;
 }
 
-/// The labels and the surface, with the faces around each vertex, the usual edge there, and the
-/// faces to keep; with what parallel loops collect twice.
+/// The labels and the surface, with the faces around each vertex, its usual edge length, and the
+/// faces to keep. Results of parallel loops count twice.
 double extracting(const Needs& needs)
 {
     const Sizes& n = needs.left;
-    constexpr double kFace = 80 + 60; // its evidence
+    constexpr double kFace = 80 + 60; // its FaceEvidence
     constexpr double kVertex = 31 + 4 + 8;
     return n.after_triangulation() + n.cells() + n.faces() * kFace + n.points * kVertex;
 }
 
-/// The surface with its edges and seams; then with its seams the half-edges and what these are laid
-/// by (146 bytes a face in all). The cells are gone by then.
+/// The surface with its edges and seams; then seams, half-edges and the tables to build them (146
+/// bytes per face in total). The cells are already freed.
 double cleaning(const Needs& needs)
 {
     const Sizes& n = needs.left;
@@ -199,8 +196,8 @@ double cleaning(const Needs& needs)
     return n.scene() + n.faces() * kFace;
 }
 
-/// The half-edges, and of each vertex what refine.h says.
-double settling(const Needs& needs)
+/// The half-edges, and the data per vertex that refine.h lists.
+double adjusting(const Needs& needs)
 {
     const Sizes& n = needs.left;
     constexpr double kFace = 80;
@@ -208,7 +205,7 @@ double settling(const Needs& needs)
     return n.scene() + n.faces() * kFace + n.points * kVertex;
 }
 
-double sums_of_sights(const Sizes& n)
+double sums_of_rays(const Sizes& n)
 {
     return kNetworkCell * n.cells();
 }

@@ -5,47 +5,46 @@
 
 namespace vcarve {
 
-/// How much a run reads, how much of it is left when the points of a cloud are merged, and what is
-/// to be done with it.
+/// The size of a run's input, its size after the points of a cloud are merged, and the options.
 struct RunSize {
     SceneSize read;
     SceneSize thinned;
-    bool in_parts = false; ///< points are merged while they are read, and never all in memory
+    bool in_parts = false; ///< points are merged while they are read, so memory never holds all
     Options options = {};
 };
 
-/// Counts of a model, as doubles: products of them leave no range.
+/// Counts of a model. They are doubles, so that products do not overflow.
 struct Sizes {
     double points;
-    double sights;
+    double rays;
     double views;
-    double point_bytes; ///< of the scene
-    /// Points as they usually are: points at random in space have 6.77 and points near a surface
-    /// about 6.
+    double point_bytes; ///< bytes of the scene per point
+    /// The usual number of cells per point: 6.77 for random points in space, about 6 for points
+    /// near a surface.
     double cells_of_point = 6.8;
 
     double cells() const { return cells_of_point * points; }
-    double faces() const { return 2.0 * points; } ///< of a closed surface through all points
+    double faces() const { return 2.0 * points; } ///< in a closed surface through all points
     double scene() const;                         ///< bytes
     double after_triangulation() const;           ///< bytes of the scene and the cells
 };
 
 Sizes sizes_of(const SceneSize& size);
 
-/// What the stages of a run, their memory and their time depend on.
+/// The data that determine the stages of a run, their memory and their time.
 struct Needs {
     const Options& options;
     Sizes read;
-    Sizes left; ///< when points are merged
+    Sizes left; ///< size after points are merged
     double threads;
     bool is_dense;
     bool in_parts;
 };
 
-/// `size` must outlive it.
+/// `size` must outlive the result.
 Needs needs_of(const RunSize& size, int threads);
 
-// The bytes that arrays hold while a stage runs: those that are alive at once.
+// The maximum bytes of the arrays that are alive at the same time in a stage.
 
 double reading(const Needs& n);
 double thinning(const Needs& n);
@@ -58,12 +57,12 @@ double cutting(const Needs& n);
 double carving(const Needs& n);
 double extracting(const Needs& n);
 double cleaning(const Needs& n);
-double settling(const Needs& n);
+double adjusting(const Needs& n);
 
-/// CGAL's structure of all cells and points.
+/// CGAL's triangulation of all points.
 double cgal(const Sizes& n);
 
-/// What the sights say that one rank walks.
-double sums_of_sights(const Sizes& n);
+/// The votes of the rays that one rank follows.
+double sums_of_rays(const Sizes& n);
 
 } // namespace vcarve

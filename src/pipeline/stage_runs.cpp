@@ -1,4 +1,5 @@
 #include "base/statistics.h"
+#include "base/text.h"
 #include "mesh/collapse_edges.h"
 #include "model/scene_check.h"
 #include "pipeline/memory.h"
@@ -15,7 +16,7 @@
 #include "steps/3_cells/limits.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/count_crossings.h"
-#include "steps/4_visibility/inferred_sights.h"
+#include "steps/4_visibility/inferred_rays.h"
 #include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/virtual_views.h"
 #include "steps/5_labels/label_cells.h"
@@ -52,7 +53,7 @@ Counts cut_by(VisibilityEnergy energy, RunState& run, const Progress& progress)
             {"faces of the hull", made.on_hull}};
 }
 
-/// Adds what rays say to the energy.
+/// Adds the votes of rays to the energy.
 void cast(const RaySource& source, RunState& run, const Progress& progress)
 {
     const Scene& scene = run.points.scene;
@@ -61,11 +62,11 @@ void cast(const RaySource& source, RunState& run, const Progress& progress)
         .cast(source, run.evidence.energy, progress);
 }
 
-/// Adds what the sights that a cloud's file leaves out say to the energy; how many they are.
+/// Adds the votes of inferred rays, which a cloud's file lacks. Returns their number.
 std::int64_t walk_inferred(RunState& run, double weight, const Progress& progress)
 {
     const Scene& scene = run.points.scene;
-    const Tracks inferred = inferred_sights(scene, progress.part(0.0, 0.5));
+    const Tracks inferred = inferred_rays(scene, progress.part(0.0, 0.5));
     RaySource source = photographs(scene);
     source.rays = &inferred;
     source.weight = weight;
@@ -74,26 +75,29 @@ std::int64_t walk_inferred(RunState& run, double weight, const Progress& progres
     return size_of(inferred.views.size());
 }
 
-/// The filter that dropped most points, as the end of a sentence; empty if none dropped any.
+/// A sentence that names the filter that dropped most points; empty if none dropped any.
 std::string largest_loss(const FilterReport& dropped, std::int64_t stray, std::int64_t all,
                          const FilterOptions& options)
 {
     const std::pair<std::int64_t, std::string> losses[] = {
-        {dropped.few_views, fmt::format("--min-views {}; try {}--sights nearest", options.min_views,
-                                        options.min_views > 1 ? "a smaller one, or " : "")},
-        {dropped.high_error, fmt::format("--max-error {}; try a larger one", options.max_error_px)},
+        {dropped.few_views, fmt::format("--min-views {}; try {}--rays nearest", options.min_views,
+                                        options.min_views > 1 ? "a smaller value, or " : "")},
+        {dropped.high_error,
+         fmt::format("--max-error {}; try a larger value", options.max_error_px)},
         {dropped.low_angle,
-         fmt::format("--min-angle {}; try a smaller one", options.min_angle_deg)},
-        {stray, fmt::format("--stray-spacing {}; try a larger one", options.stray_spacing)},
-        {dropped.duplicate, "the merging of points at one place"},
+         fmt::format("--min-angle {}; try a smaller value", options.min_angle_deg)},
+        {stray, fmt::format("--stray-spacing {}; try a larger value", options.stray_spacing)},
+        {dropped.duplicate, "the merging of duplicate points"},
         {dropped.non_finite, "the check for finite coordinates"}};
     const auto& [count, filter] = *std::ranges::max_element(losses);
-    return count == 0 ? "" : fmt::format(". {} of {} points fell to {}", count, all, filter);
+    return count == 0 ? ""
+                      : fmt::format(". {} of {} were dropped by {}", grouped_digits(count),
+                                    counted(all, "points"), filter);
 }
 
 } // namespace
 
-Counts foresee_memory(RunState& run, const Progress& /*progress*/)
+Counts predict_memory(RunState& run, const Progress& /*progress*/)
 {
     const int threads = tbb::this_task_arena::max_concurrency();
     require_memory_of(run.size, threads);
@@ -114,14 +118,15 @@ Counts filter(RunState& run, const Progress& progress)
     const FilterOptions& options = run.options().points;
     const std::int64_t before = size_of(scene.num_points());
     FilteredPoints filtered = filter_points(std::move(scene), options, progress.part(0.0, 0.6));
-    progress.tell(0.6);
+    progress.report(0.6);
     scene = spatial_sort(std::move(filtered.scene), progress.part(0.6, 0.9));
     const std::int64_t stray = drop_stray_points(scene, options);
     const FilterReport& dropped = filtered.report;
     if (dropped.non_finite > 0) {
-        run.notes.push_back(fmt::format("{} of {} points are left out: a coordinate is no finite "
-                                        "number, or beyond {:.0e}",
-                                        dropped.non_finite, before, kFarthest));
+        run.notes.push_back(fmt::format("{} of {} are dropped: a coordinate is not finite, or "
+                                        "beyond {:.0e}",
+                                        grouped_digits(dropped.non_finite),
+                                        counted(before, "points"), kFarthest));
     }
     require_four_points(scene.num_points(), largest_loss(dropped, stray, before, options));
     constexpr double kSmallDeg = 3.0; // COLMAP's mapper keeps points from 1.5 degrees on
@@ -129,7 +134,7 @@ Counts filter(RunState& run, const Progress& progress)
     if (angle_deg > 0.0 && angle_deg < kSmallDeg) {
         run.notes.push_back(fmt::format(
             "the rays of half of the points meet at less than {:.1f} degrees, so depths are "
-            "uncertain and the surface may have spikes; take photographs from places farther "
+            "uncertain and the surface may have spikes; take photographs from positions farther "
             "apart, or try a larger --min-angle",
             angle_deg));
     }
@@ -146,7 +151,7 @@ Counts add_points(RunState& run, const Progress& progress)
     return {{"points added", report.added}, {"planar regions", report.regions}};
 }
 
-/// The region is found among the points that it drops.
+/// Crops to the region; Kind::looked_at is measured before points are dropped.
 Counts crop(RunState& run, const Progress& progress)
 {
     auto& [scene, of_interest] = run.points;
@@ -180,48 +185,47 @@ Counts triangulate(RunState& run, const Progress& progress)
     } else if (auto cells = triangulate_by_ranks({blocks, limit}, run, progress)) {
         run.cells = std::move(*cells);
     } else {
-        run.notes.emplace_back("so many points lie on common spheres or planes, or next to them, "
-                               "that they are triangulated at once, which takes more memory");
+        run.notes.emplace_back("many points lie on or near common spheres or planes; "
+                               "triangulating them without blocks, which needs more memory");
         run.cells = triangulate_at_once(scene, progress, limit);
     }
     return {{"cells", size_of(run.cells.cells.size())}};
 }
 
-Counts walk_sights(RunState& run, const Progress& progress)
+Counts walk_rays(RunState& run, const Progress& progress)
 {
     const Scene& scene = run.points.scene;
     std::int64_t inferred = 0;
     if (run.options().labels.method == Method::strict) {
         CrossingCounter(run.cells).cast(photographs(scene), run.evidence.crossings, progress);
     } else {
-        const double weight = run.options().labels.trace.inferred_weight;
+        const double weight = run.options().labels.trace.inferred_rays;
         const bool infers = scene.is_dense && weight > 0.0;
         run.evidence.energy = walk_by_ranks(run, progress.part(0.0, infers ? 0.5 : 1.0));
         if (infers) inferred = walk_inferred(run, weight, progress.part(0.5, 1.0));
     }
-    return {{"sights", size_of(scene.num_sights())}, {"inferred", inferred}};
+    return {{"rays", size_of(scene.num_rays())}, {"inferred", inferred}};
 }
 
 Counts place_virtual_views(RunState& run, const Progress& progress)
 {
-    VirtualSights& sights = run.virtual_sights;
-    sights = find_virtual_sights(run.cells, run.points.scene, run.labels,
-                                 run.options().labels.virtual_views, progress);
-    return {{"views", size_of(sights.centers.size())},
-            {"sights", size_of(sights.tracks.views.size())}};
+    VirtualRays& rays = run.virtual_rays;
+    rays = find_virtual_rays(run.cells, run.points.scene, run.labels,
+                             run.options().labels.virtual_views, progress);
+    return {{"views", size_of(rays.centers.size())}, {"rays", size_of(rays.tracks.views.size())}};
 }
 
-Counts walk_virtual_sights(RunState& run, const Progress& progress)
+Counts walk_virtual_rays(RunState& run, const Progress& progress)
 {
     const LabelOptions& options = run.options().labels;
-    const VirtualSights& sights = run.virtual_sights;
-    const RaySource source = sights.source(options.virtual_views.weight);
+    const VirtualRays& rays = run.virtual_rays;
+    const RaySource source = rays.source(options.virtual_views.weight);
     if (options.method == Method::strict) {
         CrossingCounter(run.cells).cast(source, run.evidence.crossings, progress);
     } else {
         cast(source, run, progress);
     }
-    return {{"sights", size_of(sights.tracks.views.size())}};
+    return {{"rays", size_of(rays.tracks.views.size())}};
 }
 
 Counts cut_first(RunState& run, const Progress& progress)
@@ -257,7 +261,7 @@ Counts surface(RunState& run, const Progress& progress)
     const CarvedCounts& left_out = run.carved.counts;
     Counts counts = {{"faces", size_of(run.carved.faces.faces.size())},
                      {"unseen", left_out.unseen},
-                     {"closing without support", left_out.closing},
+                     {"unsupported", left_out.closing},
                      {"trimmed", left_out.trimmed}};
     if (run.region) counts.emplace_back("outside the region", left_out.out_of_region);
     return counts;
@@ -280,7 +284,7 @@ Counts clean(RunState& run, const Progress& /*progress*/)
             {"holes filled", counts.filled_holes}};
 }
 
-/// Holes that were filled are not open.
+/// Counts rays through open boundaries; filled holes are not open.
 Counts count_open(RunState& run, const Progress& /*progress*/)
 {
     const auto& [rays, past, open] = run.carved.openness.value();
@@ -291,31 +295,30 @@ Counts count_open(RunState& run, const Progress& /*progress*/)
     return {{"rays of the views", count_free(open, filled)}, {"of", rays}, {"past", past}};
 }
 
-Counts settle(RunState& run, const Progress& progress)
+Counts denoise_vertices(RunState& run, const Progress& progress)
 {
-    const SettleCounts counts =
-        settle_vertices(*run.mesh, run.points.scene, run.options().denoise, progress);
+    const DenoiseVerticesCounts counts =
+        denoise_vertices(*run.mesh, run.points.scene, run.options().denoise, progress);
     return {{"vertices moved", counts.moved},
             {"of", counts.vertices},
             {"held back", counts.held},
             {"thousandths of a pixel of noise", thousandths(counts.noise_px)}};
 }
 
-/// Non-manifold places that collapses leave are split again, as by clean().
+/// Collapses edges, and then splits non-manifold edges and vertices as clean() does.
 Counts decimate(RunState& run, const Progress& /*progress*/)
 {
-    constexpr double kMostMoved = 0.25; // of the spacing of the vertices
-    constexpr double kSmall = 8.0;      // squared spacings per face of min_component_faces
+    constexpr double kMostMoved = 0.25; // in vertex spacings
+    constexpr double kSmall = 8.0;      // squared spacings per face of min_component
     std::vector<double> spacings = vertex_spacings(*run.mesh);
     std::erase(spacings, 0.0);
     const double spacing = median_in_place(spacings);
-    const double small =
-        kSmall * spacing * spacing * run.options().surface.cleanup.min_component_faces;
+    const double small = kSmall * spacing * spacing * run.options().surface.cleanup.min_component;
     TriMesh mesh = tri_mesh(*run.mesh);
     const std::int64_t before = size_of(mesh.faces.size());
     std::int64_t dropped = drop_small_components(mesh, small);
     mesh = collapse_edges(mesh, {.max_distance = kMostMoved * spacing});
-    constexpr CleanupOptions kOnlySplit = {.min_component_faces = 0, .max_hole_edges = 0};
+    constexpr CleanupOptions kOnlySplit = {.min_component = 0, .max_hole = 0};
     mesh = tri_mesh(*clean_surface(std::move(mesh), kOnlySplit).mesh);
     dropped += drop_small_components(mesh, small);
     CleanSurface cleaned = clean_surface(std::move(mesh), kOnlySplit);
@@ -323,10 +326,10 @@ Counts decimate(RunState& run, const Progress& /*progress*/)
     return {{"faces", cleaned.counts.faces}, {"of", before}, {"components dropped", dropped}};
 }
 
-Counts guard_sights(RunState& run, const Progress& progress)
+Counts guard_rays(RunState& run, const Progress& progress)
 {
     run.guard.emplace(run.points.scene, *run.mesh, progress);
-    return {{"free sights", run.guard->num_free()}, {"of", run.guard->num_sights()}};
+    return {{"free rays", run.guard->num_free()}, {"of", run.guard->num_rays()}};
 }
 
 Counts smooth(RunState& run, const Progress& progress)
@@ -334,7 +337,7 @@ Counts smooth(RunState& run, const Progress& progress)
     const SmoothCounts counts =
         smooth_surface(*run.mesh, *run.guard, run.options().refine.smooth, progress);
     return {
-        {"vertices moved", counts.moved}, {"of", counts.vertices}, {"held by sights", counts.held}};
+        {"vertices moved", counts.moved}, {"of", counts.vertices}, {"held by rays", counts.held}};
 }
 
 Counts simplify(RunState& run, const Progress& progress)
@@ -342,9 +345,10 @@ Counts simplify(RunState& run, const Progress& progress)
     const SimplifyOptions& options = run.options().refine.simplify;
     const SimplifyCounts counts = simplify_surface(*run.mesh, *run.guard, options, progress);
     if (counts.faces > options.faces) {
-        run.notes.push_back(fmt::format("{} faces are left, not {}: merging more vertices would "
-                                        "hide what was seen, or fold or tear the surface",
-                                        counts.faces, options.faces));
+        run.notes.push_back(fmt::format("stopped at {} instead of {}: more collapses would "
+                                        "occlude observed points, or fold or tear the surface",
+                                        counted(counts.faces, "faces"),
+                                        grouped_digits(options.faces)));
     }
     return {{"faces", counts.faces}, {"of", counts.faces_before}};
 }
@@ -353,8 +357,8 @@ Counts orient(RunState& run, const Progress& /*progress*/)
 {
     const ViewAgreement agreement = view_agreement(*run.mesh, run.points.scene);
     run.surface = tri_mesh(*run.mesh);
-    return {{"sights on the outside", agreement.facing},
-            {"of", agreement.sights},
+    return {{"rays on the outside", agreement.facing},
+            {"of", agreement.rays},
             {"boundary edges", num_boundary_edges(*run.mesh)}};
 }
 

@@ -39,14 +39,14 @@ bool merges_in_memory(const Needs& n)
     return n.is_dense && n.options.thin.merge_px > 0.0 && !n.in_parts;
 }
 
-/// The paper's own method is of the points that are given.
+/// Method::strict, the paper's, uses only the given points.
 bool adds_points(const Needs& n)
 {
     return n.options.added_points.add_any() && is_cut(n);
 }
 
-/// Those of a model are added before it is cropped, by all that is known of its planes; those of a
-/// cloud once its noise is gone.
+/// A model gets added points before it is cropped, to use all points on its planes. A cloud gets
+/// them after it is denoised.
 bool adds_to_model(const Needs& n)
 {
     return adds_points(n) && !n.is_dense;
@@ -67,13 +67,13 @@ bool denoises_points(const Needs& n)
     return n.is_dense && n.options.denoise.denoise > 0.0;
 }
 
-/// Points of a dense cloud were moved before; with the paper's own method all stay.
+/// Dense clouds were denoised before, and Method::strict moves no points.
 bool denoises_vertices(const Needs& n)
 {
     return !n.is_dense && n.options.denoise.denoise > 0.0 && is_cut(n);
 }
 
-/// What a region leaves out is not open.
+/// Holes are not counted with a region, because its boundary is no hole.
 bool may_be_open(const Needs& n)
 {
     return !n.options.surface.closed && !is_cropped(n);
@@ -89,7 +89,7 @@ bool simplifies(const Needs& n)
     return n.options.refine.simplify.faces > 0;
 }
 
-/// By default, surfaces of dense points, which have many more vertices than they need.
+/// The default for surfaces of dense points, which have many more vertices than necessary.
 bool decimates(const Needs& n)
 {
     return n.is_dense && n.options.refine.simplify.faces == SimplifyOptions::kAutoFaces;
@@ -105,28 +105,28 @@ namespace run = stage_runs;
 
 constexpr RunStage kStages[] = {
     {"read", input, always, nullptr, reading},
-    {"thin", input, merges_in_memory, run::thin, thinning},
-    {"memory", plan, always, run::foresee_memory},
+    {"merge", input, merges_in_memory, run::thin, thinning},
+    {"memory", plan, always, run::predict_memory},
     {"filter", points, always, run::filter, filtering},
     {"fill", points, adds_to_model, run::add_points, finding_planes},
     {"crop", points, is_cropped, run::crop},
     {"denoise", points, denoises_points, run::denoise, denoising},
     {"fill", points, adds_to_cloud, run::add_points, finding_planes},
     {"triangulate", cells, always, run::triangulate, triangulating},
-    {"sights", sights, always, run::walk_sights, tracing},
-    // Virtual views are placed by what the sights say, and say more.
-    {"cut", sights, cuts_twice, run::cut_first, cutting},
-    {"carve", sights, carves_twice, run::carve_first, carving},
-    {"virtual", sights, has_virtual_views, run::place_virtual_views},
-    {"sights", sights, has_virtual_views, run::walk_virtual_sights, tracing},
+    {"rays", rays, always, run::walk_rays, tracing},
+    // Virtual viewpoints are placed in the cells of a first labeling, and add votes.
+    {"cut", rays, cuts_twice, run::cut_first, cutting},
+    {"carve", rays, carves_twice, run::carve_first, carving},
+    {"viewpoints", rays, has_virtual_views, run::place_virtual_views},
+    {"rays", rays, has_virtual_views, run::walk_virtual_rays, tracing},
     {"cut", surface, is_cut, run::cut, cutting},
     {"carve", surface, is_strict, run::carve, carving},
     {"surface", surface, always, run::surface, extracting},
     {"clean", refinement, always, run::clean, cleaning},
     {"open", refinement, may_be_open, run::count_open},
-    {"settle", refinement, denoises_vertices, run::settle, settling},
+    {"adjust", refinement, denoises_vertices, run::denoise_vertices, adjusting},
     {"decimate", refinement, decimates, run::decimate},
-    {"guard", refinement, changes_mesh, run::guard_sights},
+    {"guard", refinement, changes_mesh, run::guard_rays},
     {"smooth", refinement, smooths, run::smooth},
     {"simplify", refinement, simplifies, run::simplify},
     {"orient", refinement, always, run::orient},

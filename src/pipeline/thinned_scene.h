@@ -10,23 +10,23 @@
 
 namespace vcarve {
 
-/// Merges the points of a cloud while they are read, as reconstruct() does with those in memory;
-/// nothing where none are to be merged.
+/// Returns a function that merges the points of a cloud while they are read, as reconstruct() does
+/// in memory. Empty if merging is disabled.
 Gather thin_while_reading(const ThinOptions& options);
 
-/// What a run has beside a scene and options; nothing of it changes the surface.
+/// Optional inputs and outputs of a run. They do not change the surface.
 struct RunExtras {
-    /// Gets the faces that were taken away, which cost time and memory only where it is not null.
+    /// Receives the removed faces; null saves time and memory.
     RemovedFaces* removed = nullptr;
-    /// Where stages are kept, and taken from where an earlier run kept them; null for nowhere. It
-    /// has begun the job that the scene and the options are of.
+    /// The folder of checkpoints, or null for none. Its begin() was called with the job of the
+    /// scene and the options.
     WorkFolder* work = nullptr;
-    /// The other processes that work on it; null where there are none.
+    /// The other processes of the run; null if there are none.
     Ranks* ranks = nullptr;
 };
 
-/// The surface of a scene whose points were merged so, if they are of a cloud. `read` is the size
-/// of what was read.
+/// Reconstructs a scene. The points of a cloud must have been merged by thin_while_reading().
+/// `read` is the size of the input.
 Reconstruction reconstruct_thinned(Scene thinned, const SceneSize& read, const Options& options,
                                    Log& log, const RunExtras& extras = {});
 

@@ -29,14 +29,14 @@ class MeshRegion final : public Region {
         }
     }
 
-    /// Exact: the parity of the faces that a segment to a place outside of the box crosses. One
+    /// Exact: counts the faces that a segment to a position outside the box crosses. A segment
     /// that meets an edge or vertex is replaced by another.
     bool contains(const Vector3d& place) const override
     {
         if (tree_.is_empty() || !bounds_.contains(place)) return false;
-        // Far enough for directions to differ, however small the surface is
+        // Far enough for directions to differ, even if the surface is tiny
         const double reach = 2.0 * (bounds_.min().norm() + bounds_.max().norm());
-        std::mt19937 random(1); // its sequence is the same everywhere
+        std::mt19937 random(1); // same sequence on every platform
         while (true) {
             Vector3d way;
             for (double& coordinate : way) {
@@ -62,10 +62,10 @@ class MeshRegion final : public Region {
     struct Crossings {
         std::size_t count = 0;
         bool begins_on_face = false;
-        bool is_ambiguous = false; ///< it meets an edge or a vertex, or runs along a face
+        bool is_ambiguous = false; ///< meets an edge or vertex, or runs along a face
     };
 
-    /// `to` is outside of the surface, and the segment meets the face.
+    /// Adds a face that the segment meets. `to` must be outside the surface.
     void add_crossing(const Face& face, const Vector3d& from, const Vector3d& to,
                       Crossings& crossings) const
     {
@@ -88,7 +88,7 @@ class MeshRegion final : public Region {
     Eigen::AlignedBox3d bounds_;
 };
 
-/// Makes one vertex of those at one place.
+/// Merges vertices with equal positions.
 void unite_vertices(TriMesh& surface)
 {
     const std::vector<std::uint32_t> by_place = lexicographic_sort(surface.positions);
@@ -132,7 +132,7 @@ std::unique_ptr<Region> read_mesh_region(const std::filesystem::path& path, cons
     require_closed(surface, path);
     for (Vector3d& position : surface.positions) {
         position += surface.offset - offset;
-        if (is_place(position)) continue;
+        if (is_valid_position(position)) continue;
         throw InputError(fmt::format("{}: found a vertex farther than {} from the origin, expected "
                                      "a surface in the frame of the model",
                                      path.string(), kFarthest));

@@ -46,7 +46,7 @@ class PolygonRegion final : public Region {
     {
         if (contains(from)) return true;
         const Kernel::Segment_2 way(seen_from_above(from), seen_from_above(to));
-        if (way.is_degenerate()) return false; // straight up or down beside it
+        if (way.is_degenerate()) return false; // vertical, and outside the polygon
         for (std::size_t i = 0; i < corners_.size(); ++i) {
             const Point& next = corners_[(i + 1) % corners_.size()];
             if (CGAL::do_intersect(way, Kernel::Segment_2(corners_[i], next))) return true;
@@ -64,7 +64,7 @@ double read_coordinate(TextReader& reader, const char* what)
 {
     const double value = reader.read_double(what);
     if (!std::isfinite(value)) {
-        reader.fail(fmt::format("found {} where {}, a finite number, should stand", value, what));
+        reader.fail(fmt::format("found {}, expected {} (a finite number)", value, what));
     }
     return value;
 }
@@ -78,7 +78,7 @@ std::vector<Point> read_corners(const std::filesystem::path& path)
         const double x = read_coordinate(reader, "the x of a corner");
         const double y = read_coordinate(reader, "the y of a corner");
         if (!reader.at_line_end()) {
-            reader.fail(fmt::format("found '{}' behind the x and y of a corner, expected the end "
+            reader.fail(fmt::format("found '{}' after the x and y of a corner, expected the end "
                                     "of the line",
                                     printable(reader.rest())));
         }
@@ -99,8 +99,8 @@ std::unique_ptr<Region> read_polygon_region(const std::filesystem::path& path,
                                      path.string(), corners.size()));
     }
     if (!CGAL::is_simple_2(corners.begin(), corners.end(), Kernel())) {
-        throw InputError(fmt::format("{}: found a polygon that touches or crosses itself, expected "
-                                     "one that does not",
+        throw InputError(fmt::format("{}: found a polygon that touches or intersects itself, "
+                                     "expected a simple polygon",
                                      path.string()));
     }
     for (Point& corner : corners) {

@@ -13,19 +13,19 @@ Counts size_counts(std::string_view name, std::uint64_t bytes)
 
 void RememberingLog::stage_ends(std::string_view name, const Counts& counts)
 {
-    told_.push_back({std::string(name), true, counts});
+    events_.push_back({std::string(name), true, counts});
     shown_.stage_ends(name, counts);
 }
 
 void RememberingLog::note(std::string_view sentence)
 {
-    told_.push_back({std::string(sentence), false, {}});
+    events_.push_back({std::string(sentence), false, {}});
     shown_.note(sentence);
 }
 
-void RememberingLog::tell_again(const std::vector<ToldEvent>& events)
+void RememberingLog::replay(const std::vector<LogEvent>& events)
 {
-    for (const ToldEvent& event : events) {
+    for (const LogEvent& event : events) {
         if (event.is_stage) {
             stage_begins(event.text);
             stage_ends(event.text, event.counts);
@@ -35,30 +35,30 @@ void RememberingLog::tell_again(const std::vector<ToldEvent>& events)
     }
 }
 
-void Checkpoints::tell_taken(std::string_view name, const std::vector<ToldEvent>& told)
+void Checkpoints::report_resumed(std::string_view name, const std::vector<LogEvent>& told)
 {
     std::vector<std::string> stages;
-    for (const ToldEvent& event : told) {
+    for (const LogEvent& event : told) {
         if (event.is_stage) stages.push_back(event.text);
     }
-    shown_.note(fmt::format("{} of the folder {} has what an earlier run made in {}", name,
+    shown_.note(fmt::format("checkpoint {} in the folder {} replaces the stages {}", name,
                             folder_->path().string(), fmt::join(stages, ", ")));
-    remembering_.tell_again(told);
+    remembering_.replay(told);
 }
 
-void Checkpoints::note_unkept(std::string_view name, const UsageError& error)
+void Checkpoints::note_not_saved(std::string_view name, const UsageError& error)
 {
     shown_.note(
-        fmt::format("{}; the run goes on, but {} would have to be made again", error.what(), name));
+        fmt::format("{}; the run continues without a checkpoint of {}", error.what(), name));
 }
 
 void Checkpoints::note_made_again(std::string_view sentence)
 {
-    shown_.note(fmt::format("{}; it is made again", sentence));
+    shown_.note(fmt::format("{}; it is computed again", sentence));
 }
 
-/// No task has the name of another, also of another process: a rank may still see the file of one
-/// that is over, on a network file system or of a job that was killed.
+/// A name that no other task has, not even of another process. Ranks may still see the files of old
+/// tasks: on a network file system, or after a job was killed.
 std::string Checkpoints::name_of_task(std::string_view name)
 {
     return fmt::format("{}-{}-{}", name, ::getpid(), ++num_tasks_);
@@ -75,7 +75,7 @@ void Checkpoints::share_file(const std::string& task, const std::function<void()
     folder_->drop(task);
 }
 
-void Checkpoints::tell_unusable_pieces()
+void Checkpoints::report_unusable_pieces()
 {
     const std::lock_guard lock(mutex_);
     for (const std::string& sentence : std::exchange(unusable_, {})) {

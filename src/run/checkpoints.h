@@ -17,20 +17,20 @@
 
 namespace vcarve {
 
-/// What a log was told: the end of a stage, or a note.
-struct ToldEvent {
+/// A message to a log: the end of a stage, or a note.
+struct LogEvent {
     std::string text; ///< the stage's name, or the note
     bool is_stage = false;
     Counts counts; ///< of a stage
 };
 
 template <>
-inline constexpr int kNumFields<ToldEvent> = 3;
+inline constexpr int kNumFields<LogEvent> = 3;
 
-/// Passes on what it is told, and remembers it.
+/// Forwards all messages to another log, and records ends of stages and notes.
 class RememberingLog final : public Log {
   public:
-    /// Also wants to stop where one of `ranks` has failed, if they are not null.
+    /// Also requests a stop if one of `ranks` failed, unless `ranks` is null.
     explicit RememberingLog(Log& shown, const Ranks* ranks = nullptr) : shown_(shown), ranks_(ranks)
     {
     }
@@ -39,37 +39,37 @@ class RememberingLog final : public Log {
     void stage_progresses(double share) override { shown_.stage_progresses(share); }
     void stage_ends(std::string_view name, const Counts& counts) override;
     void note(std::string_view sentence) override;
-    bool wants_stop() const override
+    bool should_stop() const override
     {
-        return shown_.wants_stop() || (ranks_ != nullptr && ranks_->has_failed());
+        return shown_.should_stop() || (ranks_ != nullptr && ranks_->has_failed());
     }
 
-    const std::vector<ToldEvent>& told() const { return told_; }
-    /// Tells all of it, now.
-    void tell_again(const std::vector<ToldEvent>& events);
+    const std::vector<LogEvent>& events() const { return events_; }
+    /// Forwards and records these messages.
+    void replay(const std::vector<LogEvent>& events);
 
   private:
     Log& shown_;
     const Ranks* ranks_;
-    std::vector<ToldEvent> told_;
+    std::vector<LogEvent> events_;
 };
 
-/// What was kept of a run by another rank, or was loaded: its large arrays are mapped, to be read
-/// only, as WorkFolder::map() says. Throws InputError as that does.
+/// Maps a checkpoint that another rank saved, or that was loaded before. Large arrays are
+/// read-only. Throws the exceptions of WorkFolder::map().
 template <typename Made>
 void map_kept(const WorkFolder& folder, std::string_view name, Made& made)
 {
-    std::vector<ToldEvent> told;
+    std::vector<LogEvent> told;
     folder.map(name, told, made);
 }
 
-/// Where what a run makes is kept and taken from: a work folder, or nowhere. Without a folder all
-/// is made, and that is all.
+/// Saves results of a run to a work folder, and loads them from it. Without a folder, computes
+/// everything and saves nothing.
 class Checkpoints {
   public:
-    /// The stages of the run have to tell log() instead of `log`, so that what they said can be
-    /// said again. `folder`, where it is not null, has begun the job; `ranks`, where it is not
-    /// null, have that folder in common. All of them must outlive it.
+    /// The stages of the run must use log() instead of `log`, so that their messages are recorded.
+    /// If `folder` is not null, its begin() was called. If `ranks` is not null, all ranks share the
+    /// folder. All arguments must outlive the object.
     Checkpoints(WorkFolder* folder, Log& log, Ranks* ranks = nullptr)
         : folder_(folder), ranks_(ranks), shown_(log), remembering_(log, ranks)
     {
@@ -77,18 +77,17 @@ class Checkpoints {
 
     Log& log() { return folder_ == nullptr ? shown_ : remembering_; }
 
-    /// Calls make(), which fills `made`, and keeps that for later runs; or takes what an earlier
-    /// run kept, and tells again what was told while it was made. A file that cannot be used,
-    /// whatever the reason, is told of in a note, and all is made again: the bytes will be the
-    /// same. It may be called within make(); of what is there, that within is not asked for. Where
-    /// a file cannot be written, for the disk is full, a note says so and the run goes on with what
-    /// it has in memory. Throws what make() throws, and Cancelled.
+    /// Loads `made` from an earlier run's checkpoint and replays its log messages. Without one,
+    /// calls make(), which fills `made`, and saves it. An unusable file causes a note, and make()
+    /// computes the same bytes again. Calls may be nested in make(); a usable outer checkpoint
+    /// skips the inner ones. If a file cannot be written, such as on a full disk, a note is logged
+    /// and the run continues in memory. Throws what make() throws, and Cancelled.
     template <typename Made, typename Make>
     void keep(std::string_view name, Made& made, const Make& make);
 
-    /// What make() returns, or returned in an earlier run: a part of what a keep() around it makes,
-    /// from many threads. What is wrong with its file is told when that ends, and then parts go.
-    /// Throws UsageError where one cannot be written, for who works in parts counts on them.
+    /// Returns make(), or its saved result of an earlier run: a part of what the enclosing keep()
+    /// makes. Thread-safe. keep() logs notes about unusable parts when make() ends, and removes all
+    /// parts. Throws UsageError if a part cannot be written, because its caller relies on it.
     template <typename Make>
     auto piece(const StagePiece& piece, const Make& make) -> decltype(make())
     {
@@ -96,8 +95,8 @@ class Checkpoints {
             [&](const std::string& name, auto& kept) { folder_->load(name, {}, kept); }, piece,
             make);
     }
-    /// The same of a part that share() has had made, or looked at, by some rank of this run: it is
-    /// believed, and large arrays in scratch memory are mapped, to be read only.
+    /// The same for a part that a rank of this run made or checked in share(). Its content is not
+    /// checked, and large arrays in scratch memory are mapped read-only.
     template <typename Make>
     auto shared_piece(const StagePiece& piece, const Make& make) -> decltype(make())
     {
@@ -105,13 +104,13 @@ class Checkpoints {
             [&](const std::string& name, auto& kept) { folder_->map(name, kept); }, piece, make);
     }
 
-    /// How many processes work on the run.
+    /// The number of processes of the run.
     std::size_t num_ranks() const { return ranks_ == nullptr ? 1 : ranks_->count(); }
 
-    /// Has the other ranks do their shares of a task, whose file has a name that begins so, and
-    /// calls own() for the share of this one. False, and nothing is done, where there are no
-    /// others, or `needed`, which they begin with, could not be kept. Throws as Ranks::share()
-    /// does, and UsageError where the task cannot be written.
+    /// Lets the other ranks do their shares of a task, and calls own() for the share of this rank.
+    /// The name of the task's file begins with `name`. Returns false and does nothing if no other
+    /// ranks exist, or if a stage in `needed`, the ranks' input, could not be saved. Throws what
+    /// Ranks::share() throws, and UsageError if the task cannot be written.
     template <typename Task, typename Own>
     bool share(std::string_view name, const Task& task, std::span<const std::string_view> needed,
                const Own& own);
@@ -122,10 +121,10 @@ class Checkpoints {
         -> decltype(make());
     template <typename Made>
     bool is_taken(std::string_view name, Made& made);
-    void tell_taken(std::string_view name, const std::vector<ToldEvent>& told);
+    void report_resumed(std::string_view name, const std::vector<LogEvent>& told);
     void note_made_again(std::string_view sentence);
-    void note_unkept(std::string_view name, const UsageError& error);
-    void tell_unusable_pieces();
+    void note_not_saved(std::string_view name, const UsageError& error);
+    void report_unusable_pieces();
     std::string name_of_task(std::string_view name);
     void share_file(const std::string& task, const std::function<void()>& own);
 
@@ -134,11 +133,11 @@ class Checkpoints {
     Log& shown_;
     RememberingLog remembering_;
     int num_tasks_ = 0;
-    std::mutex mutex_;                  ///< guards what follows
-    std::vector<std::string> unusable_; ///< sentences about pieces
+    std::mutex mutex_;                  ///< guards unusable_
+    std::vector<std::string> unusable_; ///< errors of parts
 };
 
-/// What a stage counts that wrote or read a file.
+/// The counts of a stage that wrote or read a file.
 Counts size_counts(std::string_view name, std::uint64_t bytes);
 
 template <typename Made, typename Make>
@@ -146,17 +145,17 @@ void Checkpoints::keep(std::string_view name, Made& made, const Make& make)
 {
     if (folder_ == nullptr) return make();
     if (is_taken(name, made)) return;
-    const auto first_told = static_cast<std::ptrdiff_t>(remembering_.told().size());
+    const auto first_told = static_cast<std::ptrdiff_t>(remembering_.events().size());
     make();
-    tell_unusable_pieces();
+    report_unusable_pieces();
     try {
         Stage stage(shown_, "keep");
-        const std::vector<ToldEvent> told(remembering_.told().begin() + first_told,
-                                          remembering_.told().end());
+        const std::vector<LogEvent> told(remembering_.events().begin() + first_told,
+                                         remembering_.events().end());
         stage.end(size_counts(name, folder_->save(name, stage, told, std::as_const(made))));
         folder_->drop_pieces(name);
     } catch (const UsageError& error) {
-        note_unkept(name, error);
+        note_not_saved(name, error);
     }
 }
 
@@ -165,21 +164,21 @@ bool Checkpoints::is_taken(std::string_view name, Made& made)
 {
     if (!folder_->has(name)) return false;
     Made kept;
-    std::vector<ToldEvent> told;
+    std::vector<LogEvent> told;
     try {
         Stage stage(shown_, "resume");
         stage.end(size_counts(name, folder_->load(name, stage, told, kept)));
     } catch (const InputError& error) {
         note_made_again(error.what());
-        folder_->drop(name); // other ranks are not to find it
+        folder_->drop(name); // other ranks must not find it
         return false;
     }
     made = std::move(kept);
-    tell_taken(name, told);
+    report_resumed(name, told);
     return true;
 }
 
-/// Calls take(name, kept) for a part that is there.
+/// Calls take(name, kept) if the part exists.
 template <typename Make, typename Take>
 auto Checkpoints::piece_taken_by(const Take& take, const StagePiece& piece, const Make& make)
     -> decltype(make())

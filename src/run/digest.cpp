@@ -17,16 +17,16 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 1 << 20;
 
-/// The MD5 of the digest before and some bytes, as RFC 4122 makes names of them.
+/// The MD5 of the previous digest and some bytes, as in a name of RFC 4122.
 Digest chained(const Digest& before, std::span<const char> bytes)
 {
-    // Boost reads whole words: bytes that begin amid one are copied to where they do not, and those
-    // that are none to somewhere.
+    // Boost reads whole words, so unaligned bytes are copied to aligned memory. An empty span is
+    // copied, too, because its pointer may be null.
     const bool begins_a_word =
         reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(std::uint32_t) == 0;
     std::string copy;
     if (bytes.empty() || !begins_a_word) {
-        copy.reserve(bytes.size() + 64); // in memory of its own, not within the string
+        copy.reserve(bytes.size() + 64); // on the heap, not in the string object
         copy.assign(bytes.begin(), bytes.end());
         bytes = copy;
     }
@@ -96,8 +96,8 @@ Digest digest_of_file(const std::filesystem::path& path, const Progress& progres
     for (std::size_t done = 0; done < file.bytes().size(); done += kPieceBytes) {
         const auto left = file.bytes().subspan(done);
         digest.add(left.first(std::min(left.size(), kPieceBytes)));
-        file.release(done); // what was read need not stay in memory
-        progress.tell(static_cast<double>(done), static_cast<double>(file.bytes().size()));
+        file.release(done); // read pages need not stay in memory
+        progress.report(static_cast<double>(done), static_cast<double>(file.bytes().size()));
     }
     return digest.value();
 }

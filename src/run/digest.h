@@ -12,16 +12,16 @@
 
 namespace vcarve {
 
-/// 128 bits that differ where bytes differ: they guard against mistakes and broken disks, not
-/// against somebody who wants two contents to look the same.
+/// A 128-bit digest. It detects mistakes and broken disks, but not somebody who constructs two
+/// contents with the same digest.
 using Digest = std::array<std::uint8_t, 16>;
 
-/// As 32 letters.
+/// The digest as 32 hexadecimal digits.
 std::string digest_text(const Digest& digest);
 
-/// The digest of bytes that come piece by piece. It does not depend on how they are cut into
-/// pieces: each whole MiB of them has an MD5 of its own, and these are chained. Cost: linear, in
-/// parallel within a piece, some 400 MB/s a thread.
+/// The digest of bytes that are added in pieces. It does not depend on the sizes of the pieces: the
+/// MD5 digests of each whole MiB are chained. Cost: linear, in parallel within a piece, about
+/// 400 MB/s per thread.
 class RunningDigest {
   public:
     void add(std::span<const char> bytes);
@@ -29,12 +29,12 @@ class RunningDigest {
 
   private:
     Digest chain_{};
-    std::vector<char> rest_; ///< of the bytes, what fills no block yet
+    std::vector<char> rest_; ///< bytes of the incomplete last block
 };
 
 Digest digest_of(std::span<const char> bytes);
 
-/// The digest of a file's content. Throws InputError where it cannot be read, and Cancelled.
+/// The digest of a file's content. Throws InputError if it cannot be read, and Cancelled.
 Digest digest_of_file(const std::filesystem::path& path, const Progress& progress = {});
 
 } // namespace vcarve

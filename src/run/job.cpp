@@ -18,7 +18,7 @@ namespace vcarve {
 
 namespace {
 
-/// A file of the input, and what it is called whatever its name.
+/// A file of the input, with a name that does not depend on its path.
 struct ReadFile {
     std::string name;
     std::filesystem::path path;
@@ -32,7 +32,7 @@ std::vector<ReadFile> files_of(const FoundInput& input)
     const ModelFormat format = is_dense ? input.dense->format : input.model.format;
     std::vector<ReadFile> files;
     for (const char* const stem : kModelFiles) {
-        if (is_dense && std::string_view(stem) == "points3D") continue; // is not read then
+        if (is_dense && std::string_view(stem) == "points3D") continue; // not read
         const std::filesystem::path path = model_path(folder, stem, format);
         if (files.empty() || files.back().path != path) files.push_back({path.filename(), path});
     }
@@ -60,7 +60,7 @@ void add(RunningDigest& digest, const T& value)
     }
 }
 
-/// Models list their points in any order.
+/// The order of points by id, because models list their points in any order.
 std::vector<std::size_t> order_by_id(const std::vector<std::uint64_t>& ids)
 {
     std::vector<std::size_t> order(ids.size());
@@ -69,7 +69,7 @@ std::vector<std::size_t> order_by_id(const std::vector<std::uint64_t>& ids)
     return order;
 }
 
-/// 0 of one that is not there, which reading will tell of.
+/// The size in bytes; 0 if the file is missing, which reading it reports.
 double size_of_file(const std::filesystem::path& path)
 {
     std::error_code error;
@@ -100,7 +100,7 @@ Digest digest_of(const Scene& scene)
     add(digest, scene.views);
     add(digest, scene.offset);
     for (const std::size_t point : order_by_id(scene.point_ids)) {
-        if (!is_place(scene.positions[point])) continue;
+        if (!is_valid_position(scene.positions[point])) continue;
         add(digest, scene.point_ids[point]);
         add(digest, scene.positions[point]);
         add(digest, scene.colors[point]);
@@ -146,9 +146,9 @@ Job input_facts(const FoundInput& input, const Progress& progress)
         const auto& place = input.scan->scanner;
         facts.push_back({"--scanner", place ? fmt::format("{}", fmt::join(*place, ",")) : "file"});
     } else if (input.dense) {
-        facts.push_back({"--sights", input.dense->visibility.empty() ? "nearest" : "file"});
-    } else if (input.sights != SightsFrom::automatic) {
-        facts.push_back({"--sights", input.sights == SightsFrom::nearest ? "nearest" : "file"});
+        facts.push_back({"--rays", input.dense->visibility.empty() ? "nearest" : "file"});
+    } else if (input.rays != RaysFrom::automatic) {
+        facts.push_back({"--rays", input.rays == RaysFrom::nearest ? "nearest" : "file"});
     }
     return facts;
 }

@@ -13,7 +13,7 @@
 
 namespace vcarve {
 
-/// Something that a result depends on, in words: {"--quality", "1"}.
+/// A name and value that the result depends on, such as {"--quality", "1"}.
 struct JobFact {
     std::string name;
     std::string value;
@@ -21,33 +21,33 @@ struct JobFact {
     bool operator==(const JobFact&) const = default;
 };
 
-/// All that a result depends on: two runs of equal jobs make the same bytes, so one may go on with
-/// what the other made. One line a fact, without line breaks or tabs.
+/// Everything that the result depends on: runs of equal jobs make the same bytes, so one can resume
+/// the other. Facts contain no line breaks or tabs.
 using Job = std::vector<JobFact>;
 
-/// A line a fact: its name, a tab, its value.
+/// One line per fact: its name, a tab, its value.
 std::string job_text(const Job& job);
 Digest digest_of(const Job& job);
 
-/// The digest of all views and points, whichever files they were read from and in whatever order
-/// the points stand there. Points that are nowhere (is_place()) do not count. Cost: that of the
-/// digest of their bytes, and a sort.
+/// The digest of all views and points. It does not depend on the files they were read from, or on
+/// the order of the points. Points with invalid positions (is_valid_position()) do not count. Cost:
+/// a sort and the digest of the bytes.
 Digest digest_of(const Scene& scene);
 
-/// Which program it is: another version, or one built by another compiler, may round otherwise.
+/// The program's version and compiler, because other versions and compilers may round differently.
 JobFact program_fact();
 
-/// A file by its size and a digest of its content; where it lies and when it was written do not
-/// matter. Throws InputError where it cannot be read.
+/// The size of a file and a digest of its content; its path and time do not matter. Throws
+/// InputError if it cannot be read.
 JobFact file_fact(const std::string& name, const std::filesystem::path& path,
                   const Progress& progress = {});
 
-/// The files that are read of an input, and what it says beside them. Cost: reads them all, see
-/// digest_of_file.
+/// The files of an input, and the options that select and complete them. Cost: reads all files, see
+/// digest_of_file().
 Job input_facts(const FoundInput& input, const Progress& progress = {});
 
-/// Options as facts, but for those under the heading "Run", which leave the result as it is. Of a
-/// region's file the content counts.
+/// All options except those under the heading "Run", which do not change the result. For a
+/// region's file, its content counts.
 Job option_facts(Options options);
 
 } // namespace vcarve

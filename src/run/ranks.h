@@ -7,13 +7,13 @@
 
 namespace vcarve {
 
-/// One process of a run that several work on, as MPI counts them.
+/// One of the processes of a run, as in MPI.
 struct Rank {
     std::size_t number = 0; ///< from 0
     std::size_t of = 1;
 };
 
-/// Another rank failed: what() is its sentence. The model need not be at fault.
+/// Another rank failed; what() is its message. The cause may not be the model.
 class RankError : public std::runtime_error {
   public:
     RankError(int exit_code, const std::string& sentence)
@@ -23,12 +23,11 @@ class RankError : public std::runtime_error {
     int exit_code() const { return exit_code_; }
 
   private:
-    int exit_code_; ///< what the program is to end with
+    int exit_code_; ///< of the program
 };
 
-/// All processes of a run, for the first of them, rank 0: it takes the run's steps, and the others
-/// do their shares of some. They have the work folder in common and nothing else, so a share is
-/// told by a file there, and its results are files, too.
+/// All processes of a run, as seen by rank 0. Rank 0 runs the steps, and the others do shares of
+/// some steps. They share only the work folder, so tasks and results are files in it.
 class Ranks {
   public:
     Ranks() = default;
@@ -36,14 +35,14 @@ class Ranks {
     Ranks& operator=(const Ranks&) = delete;
     virtual ~Ranks() = default;
 
-    /// With this one.
+    /// The number of ranks, including this one.
     virtual std::size_t count() const = 0;
 
-    /// Has every other rank do its share of what the stage file `task` of the run's work folder
-    /// asks for, calls own() here meanwhile, and returns when all are done. Throws what own()
-    /// throws, and RankError where another rank failed; then the rest is stopped.
+    /// Lets every other rank do its share of the task in the stage file `task` of the work folder,
+    /// calls own() meanwhile, and returns when all are done. Throws what own() throws, and
+    /// RankError if another rank failed; the remaining ranks are then stopped.
     virtual void share(const std::string& task, const std::function<void()>& own) = 0;
-    /// Whether another rank has failed, so that own() should stop. From any thread.
+    /// Whether another rank has failed, so that own() should stop. Thread-safe.
     virtual bool has_failed() const { return false; }
 };
 

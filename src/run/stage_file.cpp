@@ -20,14 +20,14 @@ namespace {
 constexpr std::array<char, 16> kMagic = {'v', 'c', 'a', 'r', 'v',  'e',  ' ', 's',
                                          't', 'a', 'g', 'e', '\r', '\n', 0,   1};
 constexpr std::uint64_t kVersion = 4;
-/// Written and read, and looked at for what it adds to a digest, at a time.
+/// Content is written, read and digested in pieces of this size.
 constexpr std::size_t kPieceBytes = 16 << 20;
 
-/// As it stands in the file; every byte of it is set.
+/// The header as in the file, without padding bytes.
 struct Header {
     std::array<char, 16> magic = kMagic;
     std::uint64_t version = kVersion;
-    std::uint64_t bytes = 0; ///< of the content
+    std::uint64_t bytes = 0; ///< size of the content
     Digest job{};
     std::array<char, StageLabel::kLongestName + 1> name{};
 };
@@ -70,10 +70,10 @@ void StageWriter::put_bytes(const void* data, std::size_t count)
         digest_.add(piece);
         done_ += piece.size();
         left = left.subspan(piece.size());
-        // A disk that is full is said at once.
+        // Report a full disk at once.
         if (!file_->stream()) file_->commit();
         if (piece.size() >= kPieceBytes / 16) {
-            progress_.tell(static_cast<double>(done_), static_cast<double>(bytes_));
+            progress_.report(static_cast<double>(done_), static_cast<double>(bytes_));
         }
     }
 }
@@ -109,26 +109,26 @@ void StageReader::read_header(const StageLabel& label)
     const auto found = static_cast<std::uint64_t>(status.st_size);
     constexpr std::uint64_t kFrame = sizeof(Header) + 2 * sizeof(Digest);
     if (found < kFrame) {
-        refuse(fmt::format("it is cut off: it has {} bytes, and no stage file less than {}", found,
-                           kFrame));
+        refuse(
+            fmt::format("it is truncated: it has {} bytes, expected at least {}", found, kFrame));
     }
     Header header;
     Digest digest{};
     read(&header, sizeof(header));
     read(digest.data(), sizeof(digest));
-    if (header.magic != kMagic) refuse("it does not begin as a stage file does");
+    if (header.magic != kMagic) refuse("it is not a stage file");
     if (digest != digest_of(bytes_of(header))) {
-        refuse("its header is damaged: it does not fit its digest");
+        refuse("its header is damaged: the digest does not match");
     }
     if (header.version != kVersion) {
-        refuse(fmt::format("its layout has version {}, not {}", header.version, kVersion));
+        refuse(fmt::format("its layout version is {}, expected {}", header.version, kVersion));
     }
     if (header.name.data() != label.name) {
-        refuse(fmt::format("it is of stage {}, not {}", header.name.data(), label.name));
+        refuse(fmt::format("it contains stage {}, expected {}", header.name.data(), label.name));
     }
-    if (header.job != label.job) refuse("it is of another input or other options");
+    if (header.job != label.job) refuse("it was made from other input or options");
     if (found != header.bytes + kFrame) {
-        refuse(fmt::format("it has {} bytes, but its header tells of {}", found,
+        refuse(fmt::format("it has {} bytes, but its header records {}", found,
                            header.bytes + kFrame));
     }
     bytes_ = header.bytes;
@@ -140,12 +140,12 @@ void StageReader::read(void* data, std::size_t count)
     if (std::fread(data, 1, count, file_.get()) == count) return;
     refuse(std::ferror(file_.get()) != 0
                ? fmt::format("it cannot be read: {}", std::strerror(errno))
-               : std::string("it ended while it was read"));
+               : std::string("it was truncated while it was read"));
 }
 
 void StageReader::get_bytes(void* data, std::size_t count)
 {
-    if (count > bytes_ - done_) refuse("its content is damaged: a part of it is too long");
+    if (count > bytes_ - done_) refuse("its content is damaged: an entry is too long");
     for (std::span<char> left(static_cast<char*>(data), count); !left.empty();) {
         const auto piece = left.first(std::min(left.size(), kPieceBytes));
         read(piece.data(), piece.size());
@@ -153,7 +153,7 @@ void StageReader::get_bytes(void* data, std::size_t count)
         done_ += piece.size();
         left = left.subspan(piece.size());
         if (piece.size() >= kPieceBytes / 16) {
-            progress_.tell(static_cast<double>(done_), static_cast<double>(bytes_));
+            progress_.report(static_cast<double>(done_), static_cast<double>(bytes_));
         }
     }
 }
@@ -165,7 +165,7 @@ void StageReader::get_array(void* data, std::size_t bytes)
     if (!map_array(data, bytes)) get_bytes(data, bytes);
 }
 
-/// False where the array is to be read.
+/// Returns false if the array must be read instead.
 bool StageReader::map_array(void* data, std::size_t bytes)
 {
     if (content_ != Content::mapped || bytes > bytes_ - done_) return false;
@@ -183,8 +183,8 @@ std::size_t StageReader::get_count(std::size_t item_bytes)
     std::uint64_t count = 0;
     get(count);
     if (count > (bytes_ - done_) / item_bytes) {
-        refuse(fmt::format("its content is damaged: it tells of {} entries of {} bytes or more, "
-                           "but {} bytes are left",
+        refuse(fmt::format("its content is damaged: it records {} entries of at least {} bytes, "
+                           "but only {} bytes are left",
                            count, item_bytes, bytes_ - done_));
     }
     return count;
@@ -200,8 +200,8 @@ void StageReader::finish()
     }
     const Digest found = digest_.value();
     if (done_ != bytes_ || found != expected) {
-        refuse(fmt::format("its content is damaged: {} of {} bytes have the digest {}, but {} was "
-                           "written",
+        refuse(fmt::format("its content is damaged: {} of {} bytes have the digest {}, "
+                           "expected {}",
                            done_, bytes_, digest_text(found), digest_text(expected)));
     }
 }

@@ -25,15 +25,14 @@
 #include <utility>
 #include <vector>
 
-// A file with what a stage made: a header (a magic number, the layout's version, the stage's name,
-// the digest of the job, how many bytes follow, and a digest of all that), the content, and a
-// digest of the content. Arrays stand as they do in memory, so that they are written from and read
-// into their place; numbers are those of the machine that wrote them. Large arrays begin with a
-// page of the file, so that they can be mapped.
+// A stage file has the result of a stage. The header has a magic number, the layout's version, the
+// size of the content, the job's digest, the stage's name, and a digest of these. The content and
+// its digest follow. Arrays have their memory layout, so no copy is needed, and numbers are in the
+// format of the machine that wrote them. Large arrays begin at a page of the file, for mapping.
 namespace vcarve {
 
-/// How many fields a noun has that stands in a stage file. All of them are kept, in order: a number
-/// that is not that of the fields does not compile, so that none can be forgotten.
+/// The number of fields of a struct in a stage file. All fields are saved, in order. A wrong number
+/// does not compile, so no field can be forgotten.
 template <typename Noun>
 inline constexpr int kNumFields = 0;
 
@@ -56,7 +55,7 @@ inline constexpr int kNumFields<TriMesh> = 6;
 template <typename First, typename Second>
 inline constexpr int kNumFields<std::pair<First, Second>> = 2;
 
-/// Calls field() with each field of a noun.
+/// Calls field() with each field of a struct.
 template <typename Noun, typename Field>
 void for_each_field(Noun& noun, const Field& field)
 {
@@ -78,13 +77,13 @@ void for_each_field(Noun& noun, const Field& field)
         auto& [a, b, c, d, e, f] = noun;
         all(a, b, c, d, e, f);
     } else {
-        static_assert(kCount == 11, "say how many fields it has");
+        static_assert(kCount == 11, "specialize kNumFields for this type");
         auto& [a, b, c, d, e, f, g, h, i, j, k] = noun;
         all(a, b, c, d, e, f, g, h, i, j, k);
     }
 }
 
-/// Whether the bytes of a value in memory are all there is to it.
+/// Whether the bytes of a value in memory are its complete content.
 template <typename T>
 inline constexpr bool kIsPlain = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 template <typename T, int Rows, int Columns>
@@ -106,18 +105,18 @@ inline constexpr bool kIsArray<std::vector<T, Allocator>> = true;
 template <>
 inline constexpr bool kIsArray<std::string> = true;
 
-/// What a stage file is of.
+/// Identifies the content of a stage file.
 struct StageLabel {
-    std::string name; ///< of the stage, at most kLongestName letters
-    Digest job;       ///< input and options, see job.h
+    std::string name; ///< the stage, at most kLongestName bytes
+    Digest job;       ///< digest of input and options, see job.h
 
     static constexpr std::size_t kLongestName = 63;
 };
 
-/// Where the content of a stage file begins.
+/// The offset of the content in a stage file.
 inline constexpr std::uint64_t kContentBegin = 128;
 
-/// How many bytes stand before an array, so that large ones begin with a page.
+/// The number of padding bytes before an array, so that large arrays begin at a page.
 constexpr std::uint64_t stage_padding(std::uint64_t content_before, std::uint64_t array_bytes)
 {
     constexpr std::uint64_t kPage = 4096;
@@ -126,13 +125,13 @@ constexpr std::uint64_t stage_padding(std::uint64_t content_before, std::uint64_
     return (kPage - (kContentBegin + content_before) % kPage) % kPage;
 }
 
-/// Writes a stage file, which is there when commit() has ended and not before.
+/// Writes a stage file. The file appears only when commit() returns.
 class StageWriter {
   public:
-    /// Writes nothing, but counts the bytes that would be written.
+    /// Writes nothing, but counts the bytes.
     StageWriter() = default;
-    /// `bytes` is what one that counts says of all that will be put. Throws UsageError where the
-    /// file cannot be written, as everything else here does, and Cancelled where the progress does.
+    /// `bytes` is the count of a counting writer for the same values. This and all other functions
+    /// throw UsageError if the file cannot be written, and Cancelled if the progress does.
     StageWriter(const std::filesystem::path& path, const StageLabel& label, std::uint64_t bytes,
                 const Progress& progress);
 
@@ -140,29 +139,29 @@ class StageWriter {
     void put(const T& value);
     void commit();
 
-    std::uint64_t bytes() const { return done_; } ///< of the content, up to now
+    std::uint64_t bytes() const { return done_; } ///< of the content so far
 
   private:
     void put_bytes(const void* data, std::size_t count);
     void put_array(const void* data, std::size_t bytes);
 
-    std::optional<OutputFile> file_; ///< nothing where it counts
+    std::optional<OutputFile> file_; ///< nullopt if it only counts
     std::uint64_t bytes_ = 0;
     std::uint64_t done_ = 0;
     RunningDigest digest_;
     Progress progress_;
 };
 
-/// Reads a stage file. What was got counts only when finish() has found all of it in order: every
-/// function throws InputError, one sentence with the file, what was found and what was expected,
-/// where the file is missing, unreadable, cut off, damaged, or of another stage or job. Never
-/// allocates more than there are bytes in the file.
+/// Reads a stage file. Values are valid only after finish() has returned. Every function throws
+/// InputError if the file is missing, unreadable, truncated, damaged, or of another stage or job;
+/// the message names the file, and what was found and expected. Never allocates more bytes than
+/// the file has.
 class StageReader {
   public:
-    /// How the content is taken.
+    /// How the content is read.
     enum class Content {
-        checked, ///< read, and found to be what was written
-        mapped,  ///< believed; large arrays in scratch memory are mapped from the file, read only
+        checked, ///< read, and compared with its digest
+        mapped,  ///< not checked; large arrays in scratch memory are mapped read-only
     };
 
     StageReader(std::filesystem::path path, const StageLabel& label, const Progress& progress,
@@ -180,7 +179,7 @@ class StageReader {
     void get_bytes(void* data, std::size_t count);
     void get_array(void* data, std::size_t bytes);
     bool map_array(void* data, std::size_t bytes);
-    /// How many items follow; each takes so many bytes at least.
+    /// Reads the number of items, each of at least `item_bytes` bytes.
     std::size_t get_count(std::size_t item_bytes);
     [[noreturn]] void refuse(std::string_view what) const;
 
@@ -220,7 +219,7 @@ void StageReader::get(T& value)
     if constexpr (std::is_same_v<T, bool>) {
         std::uint8_t byte = 0;
         get(byte);
-        if (byte > 1) refuse("its content is damaged: a yes or no is neither");
+        if (byte > 1) refuse("its content is damaged: a boolean is neither 0 nor 1");
         value = byte != 0;
     } else if constexpr (kIsPlain<T>) {
         get_bytes(&value, sizeof(T));
@@ -236,7 +235,7 @@ void StageReader::get(T& value)
             value.resize(get_count(sizeof(Item)));
             get_array(value.data(), value.size() * sizeof(Item));
         } else {
-            // One by one, so that a wrong count ends at the end of the file.
+            // One by one, so that a wrong count fails at the end of the file.
             for (std::size_t left = get_count(1); left > 0; --left)
                 get(value.emplace_back());
         }

@@ -29,27 +29,27 @@ namespace {
 constexpr const char* kLockName = "lock";
 constexpr const char* kJobName = "job";
 constexpr const char* kStageEnd = ".stage";
-/// First line of the job's file, and what the last one begins with.
+/// The first line of the job's file. kJobEnd begins its last line.
 constexpr std::string_view kJobTitle = "work folder of colmap-vcarve, layout 1\n";
-/// Stands in the locked file, which goes last, where the folder is to go with it.
+/// Content of the lock file, which is removed last, if the folder must be removed, too.
 constexpr std::string_view kMadeHere = "the folder was made by the run\n";
 constexpr std::string_view kJobEnd = "digest of the lines above\t";
-constexpr const char* kAnother = "name another folder with --work, or remove this one to begin "
-                                 "anew";
+constexpr const char* kAnother = "choose another folder with --work, or remove this one to start "
+                                 "over";
 
-/// Whether a name is one of a file half written, see part_path().
+/// Whether a file name is that of an incomplete file, see part_path().
 bool is_part(const std::string& name)
 {
     return name.find(".part-") != std::string::npos;
 }
 
-/// Whether a name is one of a task for ranks, which is over when its job is.
+/// Whether a file name is that of a task for ranks, which ends with its job.
 bool is_task(const std::string& name)
 {
     return name.starts_with("task-");
 }
 
-/// Whether we write files of that name.
+/// Whether this program writes files with that name.
 bool is_ours(const std::string& name)
 {
     const std::string whole = name.substr(0, name.find(".part-"));
@@ -58,7 +58,7 @@ bool is_ours(const std::string& name)
 
 std::vector<fs::path> files_in(const fs::path& folder)
 {
-    std::error_code error; // what cannot be listed is refused where it is written
+    std::error_code error; // a folder that cannot be listed is refused when it is written
     std::vector<fs::path> files;
     for (auto entry = fs::directory_iterator(folder, error);
          !error && entry != fs::directory_iterator(); entry.increment(error)) {
@@ -68,7 +68,7 @@ std::vector<fs::path> files_in(const fs::path& folder)
     return files;
 }
 
-/// True where there was none. Throws UsageError where there is none afterwards.
+/// Returns whether it created the folder. Throws UsageError if no folder exists afterwards.
 bool make_folder(const fs::path& folder)
 {
     std::error_code error;
@@ -76,28 +76,28 @@ bool make_folder(const fs::path& folder)
     std::error_code status_error;
     const fs::file_status status = fs::status(folder, status_error);
     if (fs::is_directory(status)) return was_made;
-    const std::string reason = fs::exists(status)         ? "there is a file of that name"
+    const std::string reason = fs::exists(status)         ? "a file with this name exists"
                                : fs::status_known(status) ? error.message()
                                                           : status_error.message();
-    throw UsageError(fmt::format("cannot make the work folder {}: {}", folder.string(), reason));
+    throw UsageError(fmt::format("cannot create the work folder {}: {}", folder.string(), reason));
 }
 
-/// Nobody's files are to be taken for ours, nor mixed with them.
+/// Throws UsageError if the folder has other files, so that they are never mixed with ours.
 void require_ours(const fs::path& folder)
 {
-    std::error_code error; // of a folder that one may not enter: writing tells
+    std::error_code error; // without access to the folder, writing fails later
     if (fs::exists(folder / kJobName, error)) return;
     for (const fs::path& file : files_in(folder)) {
         const std::string name = file.filename();
         if (name == kLockName || (is_ours(name) && is_part(name))) continue;
-        throw UsageError(fmt::format("{} is no work folder, but holds {}; --work takes a folder "
-                                     "that is empty or does not exist, or one that an earlier run "
-                                     "left",
+        throw UsageError(fmt::format("{} is not a work folder: it contains {}; --work needs a "
+                                     "new or empty folder, or the work folder of an earlier "
+                                     "run",
                                      folder.string(), name));
     }
 }
 
-/// Whether the file of that descriptor is the one of that name still.
+/// Whether the path still refers to the file of this descriptor.
 bool is_same_file(int descriptor, const fs::path& path)
 {
     struct stat opened = {};
@@ -106,26 +106,26 @@ bool is_same_file(int descriptor, const fs::path& path)
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// The descriptor of the locked file. A run that ends removes that file, so one that was opened
-/// just before may be nobody's by now.
+/// Locks the folder and returns the descriptor of the lock file. A run that ends removes this file,
+/// so a file that was opened just before may no longer be in the folder.
 int lock(const fs::path& folder)
 {
     const fs::path path = folder / kLockName;
     for (;;) {
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (file < 0) {
-            throw UsageError(fmt::format("cannot write in the work folder {}: {}", folder.string(),
+            throw UsageError(fmt::format("cannot write to the work folder {}: {}", folder.string(),
                                          std::strerror(errno)));
         }
         if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
             const int error = errno;
             ::close(file);
             if (error == EWOULDBLOCK) {
-                throw InputError(fmt::format("another run works in the folder {}; wait until it "
-                                             "has ended, or name another folder with --work",
+                throw InputError(fmt::format("another run uses the work folder {}; wait until it "
+                                             "ends, or choose another folder with --work",
                                              folder.string()));
             }
-            throw UsageError(fmt::format("the work folder {} cannot be locked: {}", folder.string(),
+            throw UsageError(fmt::format("cannot lock the work folder {}: {}", folder.string(),
                                          std::strerror(error)));
         }
         if (is_same_file(file, path)) return file;
@@ -135,7 +135,7 @@ int lock(const fs::path& folder)
 
 void remove_quietly(const fs::path& path)
 {
-    std::error_code error; // what cannot be removed stays
+    std::error_code error; // a file that cannot be removed stays
     fs::remove(path, error);
 }
 
@@ -144,20 +144,20 @@ std::string whole_text(const std::string& lines)
     return fmt::format("{}{}{}\n", lines, kJobEnd, digest_text(digest_of(lines)));
 }
 
-/// Empty where there is no such file.
+/// The content of a file; empty if the file is missing.
 std::string text_of(const fs::path& path)
 {
     std::ifstream in(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The facts in the text of a job's file. Throws InputError where it is damaged.
+/// The facts in the text of a job's file. Throws InputError if it is damaged.
 std::string job_lines(const fs::path& path, const std::string& text)
 {
     const std::string lines = text.substr(0, std::min(text.size(), text.rfind(kJobEnd)));
     if (!lines.starts_with(kJobTitle) || text != whole_text(lines)) {
-        throw InputError(fmt::format("{}: the file that says what the folder is of is damaged: it "
-                                     "does not fit its digest; {}",
+        throw InputError(fmt::format("{}: the job record of the work folder is damaged: its "
+                                     "digest does not match; {}",
                                      path.string(), kAnother));
     }
     return lines.substr(kJobTitle.size());
@@ -178,10 +178,10 @@ Job parse_job(std::string_view lines)
 std::string value_in(const Job& job, const std::string& name)
 {
     const auto fact = std::ranges::find(job, name, &JobFact::name);
-    return fact == job.end() ? "not there" : fact->value;
+    return fact == job.end() ? "missing" : fact->value;
 }
 
-/// The first thing that differs between two jobs that are not equal, as a clause.
+/// The first difference between two different jobs, as a clause.
 std::string difference(const Job& before, const Job& now)
 {
     for (const Job* const job : {&now, &before}) {
@@ -189,10 +189,10 @@ std::string difference(const Job& before, const Job& now)
             const std::string old_value = value_in(before, fact.name);
             const std::string new_value = value_in(now, fact.name);
             if (old_value == new_value) continue;
-            return fmt::format("{} was {} and is {}", fact.name, old_value, new_value);
+            return fmt::format("{} was {} and is now {}", fact.name, old_value, new_value);
         }
     }
-    return "the order of what is read differs";
+    return "the order of the input files differs";
 }
 
 } // namespace
@@ -202,7 +202,7 @@ WorkFolder::WorkFolder(fs::path folder)
 {
     std::error_code error;
     const bool had_lock = fs::exists(folder_ / kLockName, error);
-    lock_ = lock(folder_); // first: nobody else changes a locked folder
+    lock_ = lock(folder_); // first, because nobody else changes a locked folder
     try {
         require_ours(folder_);
     } catch (...) {
@@ -239,15 +239,15 @@ void WorkFolder::begin(const Job& job)
 {
     const fs::path path = folder_ / kJobName;
     job_ = digest_of(job);
-    goes_on_ = holds_stages();
-    if (!goes_on_) { // nothing to go on with, nor to lose
+    is_resumed_ = holds_stages();
+    if (!is_resumed_) { // nothing to resume or to lose
         write_job(job);
         return;
     }
     const std::string lines = job_lines(path, text_of(path));
     if (lines == job_text(job)) return;
-    throw InputError(fmt::format("the work folder {} is of another run: {}; {}", folder_.string(),
-                                 difference(parse_job(lines), job), kAnother));
+    throw InputError(fmt::format("the work folder {} belongs to another run: {}; {}",
+                                 folder_.string(), difference(parse_job(lines), job), kAnother));
 }
 
 void WorkFolder::write_job(const Job& job)
@@ -270,14 +270,14 @@ bool WorkFolder::has(std::string_view stage) const
 
 void WorkFolder::wait_for(std::string_view stage, const Progress& progress) const
 {
-    // A network file system may believe for half a minute that what was not there is not there.
+    // Network file systems may report a new file as missing for half a minute.
     const auto begin = std::chrono::steady_clock::now();
     while (!has(stage)) {
         std::error_code error;
         const std::chrono::seconds most(fs::exists(folder_, error) ? 60 : 5);
-        progress.tell(0.0);
+        progress.report(0.0);
         if (std::chrono::steady_clock::now() > begin + most) {
-            throw UsageError(fmt::format("there is no {}; --work takes a folder on a file system "
+            throw UsageError(fmt::format("{} is missing; --work needs a folder on a file system "
                                          "that all ranks see",
                                          file_of(stage).string()));
         }
@@ -309,15 +309,15 @@ void WorkFolder::drop_pieces(std::string_view stage) const
 void WorkFolder::clear()
 {
     if (lock_ < 0) return;
-    // The job goes after its stages: a run that is killed in between finds what it knows.
+    // The job is removed after its stages, so that a run killed in between leaves a work folder.
     for (const fs::path& file : files_in(folder_)) {
         const std::string name = file.filename();
         if (is_ours(name) && name != kJobName && name != kLockName) remove_quietly(file);
     }
     remove_quietly(folder_ / kJobName);
     remove_quietly(folder_ / kLockName);
-    if (was_made_) remove_quietly(folder_); // but where it holds something
-    ::close(std::exchange(lock_, -1));      // last, for it takes a while to free a removed file
+    if (was_made_) remove_quietly(folder_); // unless it has other files
+    ::close(std::exchange(lock_, -1));      // last, because freeing a removed file takes time
 }
 
 std::string piece_name(const StagePiece& piece)

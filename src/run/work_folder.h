@@ -12,70 +12,69 @@
 
 namespace vcarve {
 
-/// A part of a stage that is kept in parts, by threads of their own.
+/// A part of a stage that several threads save in parts.
 struct StagePiece {
     std::string_view stage;
     std::size_t number; ///< from 0
-    std::size_t of;     ///< how many there are; parts of another number are others
+    std::size_t of;     ///< number of parts; other numbers mean different parts
 };
 
-/// A folder with what the finished stages of one job made, so that a run which ended too early can
-/// be gone on with: a file a stage, one that says what the job is, and one that is locked by the
-/// process that works there, also against other objects of the same process. The system takes the
-/// lock away when the process ends, however it ends.
+/// A folder with checkpoints of one job, so that a run that was stopped can be resumed. It has one
+/// file per finished stage, one that records the job, and one that the process locks, also against
+/// other objects in the same process. The system releases the lock when the process ends, even if
+/// it is killed.
 class WorkFolder {
   public:
-    /// Makes the folder where there is none, and locks it. Throws UsageError where it cannot be
-    /// made or written, or holds something but is no work folder; InputError where another run
-    /// works in it. What a killed run left half written is removed.
+    /// Creates the folder if it is missing, and locks it. Removes incomplete files of killed runs.
+    /// Throws UsageError if the folder cannot be created or written, or has other files but no job.
+    /// Throws InputError if another run uses it.
     explicit WorkFolder(std::filesystem::path folder);
-    /// Another process's folder, which it has locked and begun a job in: stages may be read and
-    /// parts of them written, as the two agree.
+    /// Joins the folder of another process, which locked it and began `job`. Stages can be read and
+    /// parts of them written, as the two processes agree.
     WorkFolder(std::filesystem::path folder, const Digest& job);
     WorkFolder(const WorkFolder&) = delete;
     WorkFolder& operator=(const WorkFolder&) = delete;
-    /// Unlocks it. It goes where it holds nothing that a later run could go on with.
+    /// Unlocks the folder. Clears it if it has no stages for a later run to resume.
     ~WorkFolder();
 
-    /// Says whose stages these are; call it once, before the rest. Throws InputError where the
-    /// folder holds stages of another job, naming the first thing that differs, or where what it
-    /// says of its job is damaged; nothing is changed then.
+    /// Sets the job; call it once, before the other functions. Throws InputError if the folder has
+    /// stages of another job, with the first difference, or if the job's file is damaged. The
+    /// folder is unchanged then.
     void begin(const Job& job);
 
     const std::filesystem::path& path() const { return folder_; }
     const Digest& job() const { return job_; }
-    /// Whether there were stages of an earlier run when the job began.
-    bool goes_on() const { return goes_on_; }
+    /// Whether the folder had stages of an earlier run when the job began.
+    bool is_resumed() const { return is_resumed_; }
     bool has(std::string_view stage) const;
-    /// Returns when a stage is there that another process has written: network file systems show
-    /// new files to other machines late. Throws UsageError where it is not within a minute, or the
-    /// folder within 5 seconds, and Cancelled.
+    /// Waits for a stage that another process has written, because network file systems show new
+    /// files to other machines late. Throws UsageError if the stage is missing after a minute, or
+    /// the folder after 5 seconds, and Cancelled.
     void wait_for(std::string_view stage, const Progress& progress = {}) const;
 
-    /// Writes what a stage made; tells how many bytes it were. Throws UsageError where that cannot
-    /// be written, and Cancelled; the file is whole or not there. Safe from many threads for
-    /// different stages.
+    /// Writes the result of a stage, and returns its size in bytes. Throws UsageError if it cannot
+    /// be written, and Cancelled; the file is complete or missing. Thread-safe for different
+    /// stages.
     template <typename... Parts>
     std::uint64_t save(std::string_view stage, const Progress& progress,
                        const Parts&... parts) const;
-    /// Reads it, in the order it was written; tells how many bytes it were. Throws InputError where
-    /// the file is not as save() left it; the parts may be half read then. Safe from many threads.
+    /// Reads the result of a stage in the order of save(), and returns its size in bytes. Throws
+    /// InputError if the file is not as save() wrote it; parts may then be incomplete. Thread-safe.
     template <typename... Parts>
     std::uint64_t load(std::string_view stage, const Progress& progress, Parts&... parts) const;
 
-    /// The same without a look at whether the content is what was written, for stages that this
-    /// run wrote or has loaded: large arrays that are in scratch memory are mapped from the file,
-    /// to be read only.
+    /// The same without a check of the content, for stages that this run wrote or loaded. Large
+    /// arrays in scratch memory are mapped from the file, read-only.
     template <typename... Parts>
     void map(std::string_view stage, Parts&... parts) const;
 
-    /// Removes a stage, if it is there.
+    /// Removes a stage if it exists.
     void drop(std::string_view stage) const;
-    /// Removes the parts of a stage, whatever their number.
+    /// Removes all parts of a stage, for any number of parts.
     void drop_pieces(std::string_view stage) const;
 
-    /// Removes what the run kept, and the folder where it was made by WorkFolder and holds nothing
-    /// else. Call it last.
+    /// Removes all files of the run, and the folder if WorkFolder created it and it is then empty.
+    /// Does nothing in a joined folder. Call it last.
     void clear();
 
   private:
@@ -84,13 +83,13 @@ class WorkFolder {
     void write_job(const Job& job);
 
     std::filesystem::path folder_;
-    bool goes_on_ = false;
-    bool was_made_ = false; ///< by this object, or by a run that was killed
-    int lock_ = -1;         ///< descriptor
+    bool is_resumed_ = false;
+    bool was_made_ = false; ///< whether this object or a killed run created the folder
+    int lock_ = -1;         ///< descriptor of the lock file; -1 if joined
     Digest job_{};          ///< set by begin()
 };
 
-/// The name under which a part of a stage is saved: "cells-3-of-8".
+/// The name of a part of a stage, such as "cells-3-of-8".
 std::string piece_name(const StagePiece& piece);
 
 template <typename... Parts>

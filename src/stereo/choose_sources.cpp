@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint32_t kNoView = 0xffffffffU;
 constexpr double kLeastScore = 5.0;
-constexpr std::size_t kMostOfTrack = 64; ///< evenly chosen views of a longer track, as partners
+constexpr std::size_t kMostOfTrack = 64; ///< views that are compared; longer tracks are subsampled
 
-/// How much a point says for a pair of views that see it at this angle.
+/// The score of a point for two views whose rays to it meet at this angle.
 double score_of(double angle_deg)
 {
     if (angle_deg < 3.0) return angle_deg / 30.0;

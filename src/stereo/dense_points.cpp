@@ -22,9 +22,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kNeighbors = 10; ///< that fusion compares with
+constexpr std::size_t kNeighbors = 10; ///< views that fusion compares with
 constexpr std::size_t kFewestSources = 2;
-constexpr std::size_t kSources = 5; ///< of these that are matched
+constexpr std::size_t kSources = 5; ///< views that are matched, of the neighbors
 constexpr int kSmallestRegion = 40; ///< pixels of a depth map
 
 /// Looks up the sparse surface along rays.
@@ -121,7 +121,7 @@ class ViewMatcher {
   private:
     const std::vector<StereoView>& views_;
     std::vector<std::vector<std::uint32_t>> neighbors_;
-    std::vector<std::vector<float>> depths_; ///< of the points that each view sees
+    std::vector<std::vector<float>> depths_; ///< depths of the points that each view sees
     SurfaceDepth surface_;
 };
 
@@ -155,8 +155,8 @@ std::int64_t predicted_stereo_memory(const std::vector<CalibratedPhoto>& photos,
                                      const StereoOptions& options, std::size_t threads)
 {
     constexpr double kViewBytes = sizeof(float) + (sizeof(PixelPlane) + sizeof(float) + 4) / 4.0;
-    constexpr double kMatchBytes = 6 * sizeof(float) * 4.0 / 3.0; // of pyramids
-    constexpr double kPhotographBytes = 2 * 3 * 4.0 / 3.0;        // while it is decoded
+    constexpr double kMatchBytes = 6 * sizeof(float) * 4.0 / 3.0; // pyramids
+    constexpr double kPhotographBytes = 2 * 3 * 4.0 / 3.0;        // during decoding
     double views = 0.0;
     double largest = 0.0;
     double largest_photo = 0.0;
@@ -176,7 +176,7 @@ DensePoints dense_points(const Reconstruction& sparse, const std::vector<Calibra
 {
     std::vector<StereoView> views(photos.size());
     {
-        Stage stage(log, "photographs");
+        Stage stage(log, "undistort");
         parallel_for(
             photos.size(), stage,
             [&](std::size_t i) { views[i] = stereo_view(photos[i], options.size_px); }, 1);
@@ -198,7 +198,7 @@ DensePoints dense_points(const Reconstruction& sparse, const std::vector<Calibra
     DensePoints dense;
     dense.scene = fuse(sparse.scene, {views, maps, matcher.neighbors()}, stage);
     stage.end({{"points", size_of(dense.scene.num_points())},
-               {"pixels fused", size_of(dense.scene.num_sights())}});
+               {"pixels fused", size_of(dense.scene.num_rays())}});
     add_measured(sparse.scene, dense.scene);
     const std::size_t shown = fullest(maps);
     dense.picture = depth_picture(views[shown], maps[shown]);

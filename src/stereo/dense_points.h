@@ -15,30 +15,30 @@ namespace vcarve {
 
 /// Options of dense stereo.
 struct StereoOptions {
-    int size_px = 640; ///< longest side of the working images
+    int size_px = 640; ///< maximum side of the working images
 };
 
-/// Returns the depth map of a photograph: that of an earlier run, or what make() returns. Called
-/// from many threads.
+/// Returns the depth map of a photograph: from an earlier run, or made by make(). Called from many
+/// threads.
 using KeepDepthMap =
     std::function<DepthMap(std::size_t photo, const std::function<DepthMap()>& make)>;
 
-/// Peak memory of dense_points(), in bytes: working images and depth maps of all views, and per
-/// thread one photograph at full size with its pyramid, or the pyramids of six working images.
+/// Predicts the peak memory of dense_points() in bytes: working images and depth maps of all views.
+/// Each thread adds a photograph at full size with its pyramid, or six pyramids of working images.
 std::int64_t predicted_stereo_memory(const std::vector<CalibratedPhoto>& photos,
                                      const StereoOptions& options, std::size_t threads);
 
-/// What dense stereo measured.
+/// The result of dense_points().
 struct DensePoints {
     Scene scene;
     DepthPicture picture; ///< of the depth map with the most measured pixels
 };
 
-/// A dense scene measured from photographs: depth maps by PatchMatch that starts from the surface
-/// of the sparse points, fused to points that at least three views agree on. The measured points of
-/// `sparse` are added. `photos` and `surface` are in the frame of `sparse`. Stages "photographs",
-/// "depth" and "fuse". The result is the same for any thread count. Photographs that cannot be read
-/// are left out with a note. Throws Cancelled. Cost: about 2 CPU seconds a view of 640 pixels.
+/// Measures a dense scene from photographs. PatchMatch computes depth maps, starting from the mesh
+/// of `sparse`. Pixels on which at least three views agree are fused to points, and the measured
+/// points of `sparse` are added. `photos` are in the frame of `sparse`. Reports the stages
+/// "undistort", "depth" and "fuse". The result is the same for any thread count. Unreadable
+/// photographs are skipped with a note. Throws Cancelled. Cost: about 2 CPU s per view of 640 px.
 DensePoints dense_points(const Reconstruction& sparse, const std::vector<CalibratedPhoto>& photos,
                          const StereoOptions& options, const KeepDepthMap& keep, Log& log);
 

@@ -18,7 +18,7 @@ namespace vcarve {
 
 namespace {
 
-/// Joins neighboring pixels for which are_joined(a, b).
+/// Joins neighboring pixels if are_joined(a, b).
 template <typename AreJoined>
 UnionFind regions_of(const DepthMap& map, const AreJoined& are_joined)
 {
@@ -53,7 +53,7 @@ struct InverseDepth {
 
 using InverseDepths = std::vector<InverseDepth>;
 
-/// The least-squares plane through some of the pixels.
+/// The least-squares plane through the pixels.
 Eigen::Vector3d fitted_plane(const InverseDepths& pixels)
 {
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
@@ -73,7 +73,7 @@ InverseDepths pixels_in(const Eigen::Vector3d& plane, const InverseDepths& pixel
     return found;
 }
 
-/// The pixels of the plane that most of the given ones lie in, by random sampling (RANSAC).
+/// Finds the plane with the most pixels by random sampling (RANSAC), and returns these pixels.
 InverseDepths largest_plane(const InverseDepths& pixels)
 {
     constexpr int kSamples = 200;
@@ -87,7 +87,7 @@ InverseDepths largest_plane(const InverseDepths& pixels)
     return best;
 }
 
-/// The region of the image that lies between some pixels: within sqrt(3) standard deviations.
+/// The region of the image between some pixels: within sqrt(3) standard deviations of their mean.
 class Between {
   public:
     explicit Between(const InverseDepths& pixels)
@@ -105,7 +105,7 @@ class Between {
         is_wide_ = axes.eigenvalues()[0] > 0.01 * axes.eigenvalues()[1];
     }
 
-    /// Along a narrow band, such as the edge of a roof, pixels say little of the plane.
+    /// Pixels of a narrow band, such as the edge of a roof, do not determine a plane.
     bool is_wide() const { return is_wide_; }
     bool contains(const Eigen::Vector3d& ray) const
     {
@@ -203,8 +203,8 @@ class PlainRegions {
     const std::vector<PixelPlane>& surface_;
     const Pinhole& camera_;
     UnionFind regions_;
-    std::vector<std::vector<Pixel>> pixels_; ///< of each region
-    std::vector<InverseDepths> around_;      ///< of each region
+    std::vector<std::vector<Pixel>> pixels_; ///< pixels of each region
+    std::vector<InverseDepths> around_;      ///< measured pixels around each region
 };
 
 } // namespace

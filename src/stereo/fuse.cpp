@@ -12,11 +12,11 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kLeastViews = 3;
 constexpr double kDepthShare = 0.01;        ///< relative difference of depths
-constexpr double kPlaneShare = 0.004;       ///< distance from the other's plane, of the depth
+constexpr double kPlaneShare = 0.004;       ///< distance from the other's plane, relative to depth
 constexpr double kLeastNormalCosine = 0.85; ///< between normals
 constexpr double kMostReprojection = 3;     ///< pixels
 
-/// A pixel of a depth map.
+/// A pixel of a depth map in world coordinates.
 struct FusedPixel {
     std::uint32_t map = 0;
     std::size_t pixel = 0;
@@ -58,7 +58,7 @@ class Fusion {
                 world_from_cam * plane.normal.cast<double>()};
     }
 
-    /// The pixel of another map that agrees with a sample.
+    /// Returns the pixel of another map that agrees with a sample, if any.
     std::optional<FusedPixel> agreeing(const FusedPixel& own, std::uint32_t map) const
     {
         const StereoView& view = depths_.views[map];
@@ -117,7 +117,7 @@ class Fusion {
 
     const DepthMaps& depths_;
     Scene& fused_;
-    std::vector<std::vector<bool>> used_; ///< pixels of each map
+    std::vector<std::vector<bool>> used_; ///< fused pixels of each map
     std::vector<FusedPixel> agreeing_;
     std::vector<std::uint32_t> track_;
 };
@@ -134,7 +134,7 @@ Scene fuse(const Scene& sparse, const DepthMaps& depths, const Progress& progres
     Fusion fusion(depths, fused);
     for (std::uint32_t map = 0; map < depths.maps.size(); ++map) {
         fusion.fuse_map(map);
-        progress.tell(map + 1.0, static_cast<double>(depths.maps.size()));
+        progress.report(map + 1.0, static_cast<double>(depths.maps.size()));
     }
     fused.errors_px.assign(fused.num_points(), -1.0);
     for (std::uint64_t i = 0; i < fused.num_points(); ++i) {

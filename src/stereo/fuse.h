@@ -11,18 +11,18 @@
 
 namespace vcarve {
 
-/// The depth maps of all views, and the views that each is compared with.
+/// The depth maps of all views, and the neighbors that each view is compared with.
 struct DepthMaps {
     const std::vector<StereoView>& views;
     const std::vector<DepthMap>& maps; ///< parallel to `views`
     const std::vector<std::vector<std::uint32_t>>& neighbors;
 };
 
-/// Points on which at least three depth maps agree (after J. L. Schoenberger et al., "Pixelwise
-/// view selection for unstructured multi-view stereo", ECCV 2016, section 4.5): depths within 1 %,
-/// normals within 32 degrees, reprojection within 3 pixels. Each is the mean of what agrees, whose
-/// pixels are used up. The result has the cameras and views of `sparse`, tracks of the views that
-/// agree, normals and colors; errors are unknown. Cost: O(pixels x neighbors), on one thread.
+/// Fuses pixels on which at least three depth maps agree to points (after J. L. Schoenberger et
+/// al., "Pixelwise view selection for unstructured multi-view stereo", ECCV 2016, section 4.5).
+/// Pixels agree within 1 % of depth, 32 degrees between normals, and 3 pixels of reprojection. A
+/// point is their mean, and they start no further point. The result has the cameras and views of
+/// `sparse`, tracks, normals and colors; errors are unknown. Cost: O(pixels x neighbors), serial.
 Scene fuse(const Scene& sparse, const DepthMaps& depths, const Progress& progress);
 
 } // namespace vcarve

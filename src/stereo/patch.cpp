@@ -5,7 +5,7 @@
 
 namespace vcarve {
 
-// Compiled twice, and chosen when the program starts. Without contraction both give the same bits.
+// Compiled twice, and selected at program start. Without contraction both give the same bits.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) &&                             \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define VCARVE_VECTORIZED __attribute__((target_clones("avx2", "default")))
@@ -16,7 +16,7 @@ namespace vcarve {
 namespace {
 
 constexpr int kLanes = Patch::kLanes;
-constexpr int kWidth = 8; ///< partial sums, so that their order does not depend on the processor
+constexpr int kWidth = 8; ///< partial sums, so that their order is the same on any processor
 
 using Lanes = std::array<float, kLanes>;
 
@@ -40,10 +40,10 @@ constexpr Offsets make_offsets()
 
 constexpr Offsets kOffsets = make_offsets();
 
-/// Where the center of a patch lies in a source image, and how its pixels are stretched there.
+/// The center of a patch in a source image, and the linear map of its pixels there.
 struct Footprint {
     float x, y;   ///< pixel
-    float xx, xy; ///< change of x for a pixel to the right, and down
+    float xx, xy; ///< change of x per pixel to the right, and down
     float yx, yy;
 };
 
@@ -105,7 +105,7 @@ bool is_inside(const GrayImage& image, const Footprint& at)
            at.y + reach_y < static_cast<float>(image.height_px - 1);
 }
 
-/// Variance of the 3 x 3 samples in the middle.
+/// Variance of the central 3 x 3 samples.
 float inner_variance(const Lanes& values)
 {
     float sum = 0.0F;
@@ -140,7 +140,7 @@ bool Patch::set(const GrayImage& image, int x, int y)
 {
     constexpr float kSigmaGray = 25.0F;
     constexpr float kSigmaPx = 6.0F;
-    // Beside a strong edge, plain pixels match wherever the edge does, at its depth.
+    // Pixels without texture beside a strong edge would match at the depth of the edge.
     constexpr float kLeastInnerShare = 0.1F;
     const Footprint at = {static_cast<float>(x), static_cast<float>(y), 1.0F, 0.0F, 0.0F, 1.0F};
     if (!is_inside(image, at)) return false;
@@ -190,7 +190,7 @@ float MatchedView::cost(const Patch& patch, const Eigen::Vector3f& ray, float re
                         const PixelPlane& plane) const
 {
     constexpr float kLeastVariance = 1.0F; // gray levels squared
-    // On the plane z = distance / (normal . ray): a homography of rays.
+    // The plane is z = distance / (normal . ray), so it maps rays by a homography.
     const float distance = plane.depth * plane.normal.dot(ray);
     const Eigen::Vector3f scaled = plane.normal / distance;
     const Eigen::Matrix3f homography = pixel_from_ref_ + pixel_of_center_ * scaled.transpose();

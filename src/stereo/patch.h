@@ -10,8 +10,8 @@ namespace vcarve {
 
 /// A plane through a pixel's ray, in the camera's frame.
 struct PixelPlane {
-    float depth = 0.0F;                                 ///< z along the pixel's ray; 0: none
-    Eigen::Vector3f normal = -Eigen::Vector3f::UnitZ(); ///< unit, towards the camera
+    float depth = 0.0F;                                 ///< z along the pixel's ray; 0: no plane
+    Eigen::Vector3f normal = -Eigen::Vector3f::UnitZ(); ///< unit vector, towards the camera
 };
 
 /// A square patch around a pixel of the reference image: 7 x 7 samples 1.5 pixels apart, with
@@ -21,12 +21,12 @@ class Patch {
     static constexpr int kRadius = 3;
     static constexpr float kStepPx = 1.5F;
     static constexpr int kSide = 2 * kRadius + 1;
-    static constexpr int kLanes = 56; ///< samples, filled up to a multiple of 8 with weights of 0
+    static constexpr int kLanes = 56; ///< samples, padded to a multiple of 8 with weights of 0
 
-    /// False where the patch leaves the image; then nothing else may be called.
+    /// Returns false if the patch leaves the image; then no other function may be called.
     bool set(const GrayImage& image, int x, int y);
 
-    /// Gray levels; the patch shows nothing to match if it is small.
+    /// Standard deviation in gray levels. If it is small, the patch has no texture to match.
     float deviation() const { return deviation_; }
 
     /// The samples' weights, which sum to 1, and the weighted differences from the mean.
@@ -42,21 +42,20 @@ class Patch {
 /// A view that the reference view is matched with.
 class MatchedView {
   public:
-    /// Both views must outlive it. `image` and `camera` are those of `source` at some level of its
-    /// pyramid.
+    /// `image` (must outlive the object) and `camera` are a level of the pyramid of `source`.
     MatchedView(const StereoView& reference, const StereoView& source, const GrayImage& image,
                 const Pinhole& camera);
 
     /// Dissimilarity of the patch and its image under the plane: 1 - normalized cross-correlation,
-    /// from 0 to 2; negative where the source does not show the patch. The homography is
-    /// linearized at the patch's center. `ray` is that of the center pixel. Cost: 49 samples.
+    /// from 0 to 2; negative if the source does not show the whole patch. The homography is
+    /// linearized at the center of the patch, whose ray is `ray`. Cost: 49 samples.
     float cost(const Patch& patch, const Eigen::Vector3f& ray, float reference_focal_px,
                const PixelPlane& plane) const;
 
   private:
     const GrayImage& image_;
-    Eigen::Matrix3f pixel_from_ref_;  ///< homogeneous pixels of the source from directions
-    Eigen::Vector3f pixel_of_center_; ///< of the reference's center
+    Eigen::Matrix3f pixel_from_ref_;  ///< maps directions to homogeneous source pixels
+    Eigen::Vector3f pixel_of_center_; ///< of the reference's camera center
 };
 
 } // namespace vcarve

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kLevels = 3;
 constexpr float kLeastDeviation = 1.5F; ///< gray levels
-constexpr float kMostCost = 0.35F;      ///< of a pixel that counts as measured
+constexpr float kMostCost = 0.35F;      ///< maximum cost of a measured pixel
 constexpr float kLeastCosine = 0.1F;    ///< between a plane's normal and the ray
 
 /// xorshift64*.
@@ -17,7 +17,7 @@ class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed * 0x9e3779b97f4a7c15U + 0x1234567U) {}
 
-    /// From -1 to 1.
+    /// Returns a random number from -1 to 1.
     float symmetric()
     {
         state_ ^= state_ >> 12U;
@@ -66,7 +66,7 @@ class Matcher {
     const DepthMap& map() const { return map_; }
     Eigen::Vector3f ray(int x, int y) const { return depth_ray(camera_, x, y); }
 
-    /// Evaluates the given planes, or a random one where there is none. `coarse` may be null.
+    /// Evaluates the planes of the prior and of `coarse` (may be null), or a random plane.
     void start(const DepthPrior& prior, const DepthMap* coarse);
     void sweep(int round, const DepthPrior& prior);
     DepthMap take() { return std::move(map_); }
@@ -91,7 +91,7 @@ class Matcher {
     Random random_;
     DepthMap map_;
     Patch patch_;
-    bool is_plain_ = false; ///< the last patch that was set
+    bool is_plain_ = false; ///< whether the current patch has no texture
 };
 
 float Matcher::cost(const Eigen::Vector3f& ray, const PixelPlane& plane) const
@@ -162,7 +162,7 @@ void Matcher::start(const DepthPrior& prior, const DepthMap* coarse)
     }
 }
 
-/// Tries the planes of pixels before this one, in the order of the sweep.
+/// Tries the plane of pixel (x, y), which the sweep has visited before.
 void Matcher::spread_from(int x, int y, std::size_t pixel, const Eigen::Vector3f& towards)
 {
     if (!map_.has(x, y)) return;

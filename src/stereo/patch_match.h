@@ -11,37 +11,37 @@
 
 namespace vcarve {
 
-/// Depth and normal per pixel of a view, kDepthStep pixels of its image apart.
+/// Depth and normal of every kDepthStep-th pixel of a view's image, in both directions.
 struct DepthMap {
-    static constexpr float kNoCost = 2.0F; ///< and above: nothing was measured
-    static constexpr float kPlain = 3.0F;  ///< nothing to match: the photograph shows no texture
-    static constexpr float kFilled = 0.3F; ///< a plain pixel that was given a plane
+    static constexpr float kNoCost = 2.0F; ///< from this cost on, a pixel is not measured
+    static constexpr float kPlain = 3.0F;  ///< the photograph has no texture to match
+    static constexpr float kFilled = 0.3F; ///< set by fill_plain_regions()
 
     int width_px = 0;
     int height_px = 0;
     std::vector<PixelPlane> planes;
-    std::vector<float> costs; ///< below kNoCost where there is a plane
+    std::vector<float> costs; ///< below kNoCost if the plane is measured
 
     std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_px + x; }
     bool is_measured(std::size_t pixel) const { return costs[pixel] < kNoCost; }
     bool has(int x, int y) const { return x >= 0 && y >= 0 && x < width_px && y < height_px; }
 };
 
-/// A depth map of the size of an image, without planes.
+/// Returns a depth map for an image, without measured pixels.
 DepthMap empty_depth_map(const GrayImage& image);
 
-/// What is known of a view before it is matched.
+/// Prior knowledge of the depth of a view.
 struct DepthPrior {
     float nearest = 0.0F; ///< range of depths
     float farthest = 0.0F;
-    std::vector<PixelPlane> surface; ///< per pixel of the depth map: the sparse surface, if any
+    std::vector<PixelPlane> surface; ///< sparse surface per pixel of the depth map; or empty
 };
 
-/// Depth of a view by PatchMatch (M. Bleyer et al., "PatchMatch stereo", BMVC 2011), from coarse to
-/// fine (Q. Xu and W. Tao, "Multi-scale geometric consistency guided multi-view stereo", CVPR
-/// 2019). Starts from the prior; where there is none, from random depths. The cost of a plane is
-/// the mean of the two best source views. Random numbers depend on `view.view` only, so the result
-/// is the same for any thread count. Cost: about 40 plane evaluations a pixel.
+/// Computes the depth map of a view by PatchMatch (M. Bleyer et al., "PatchMatch stereo", BMVC
+/// 2011), from coarse to fine (Q. Xu and W. Tao, "Multi-scale geometric consistency guided
+/// multi-view stereo", CVPR 2019). Starts from the prior, or from random depths without a prior.
+/// The cost of a plane is the mean of the two best source views. Random numbers depend on
+/// `view.view` only, so threads do not matter. Cost: about 40 plane evaluations per pixel.
 DepthMap match_view(const StereoView& view, std::span<const StereoView* const> sources,
                     const DepthPrior& prior);
 

@@ -11,7 +11,7 @@ namespace vcarve {
 
 namespace {
 
-/// Samples a photograph through its lens at places of the pinhole image.
+/// Samples a photograph through its lens at pixels of the pinhole image.
 class Undistorter {
   public:
     Undistorter(const CalibratedPhoto& photo, const Pinhole& camera, double width_px,
@@ -23,7 +23,7 @@ class Undistorter {
     {
     }
 
-    /// Nothing where the photograph ends.
+    /// Returns nothing outside the photograph, or if it is transparent there.
     std::optional<Eigen::Array3f> at(float x, float y) const
     {
         const std::optional<Eigen::Vector2d> shown =
@@ -36,7 +36,7 @@ class Undistorter {
         return pyramid_.at(pixel.matrix(), width_px_);
     }
 
-    /// The mean over a pixel; nothing where a part of it is missing.
+    /// The mean over a pixel; nothing if a sample is missing.
     std::optional<Eigen::Array3f> mean_at(int x, int y) const
     {
         constexpr float kQuarter = 0.25F;

@@ -22,7 +22,7 @@ struct GrayImage {
     float at(int x, int y) const { return pixels[static_cast<std::size_t>(y) * width_px + x]; }
 };
 
-/// The mean of each 2 x 2 pixels; an odd last row or column is dropped.
+/// Averages every 2 x 2 pixels to one. Drops an odd last row or column.
 GrayImage halved(const GrayImage& image);
 
 /// A pinhole camera: u = focal x / z + principal.
@@ -40,21 +40,21 @@ struct Pinhole {
 /// The camera of the halved image.
 Pinhole halved(const Pinhole& camera);
 
-/// A photograph as stereo uses it: gray, at the working size, without lens distortion.
+/// A photograph prepared for stereo: gray, at the working size, without lens distortion.
 struct StereoView {
     std::uint32_t view = 0;                                       ///< index into Scene::views
     Eigen::Matrix3d cam_from_world = Eigen::Matrix3d::Identity(); ///< rotation
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     Pinhole camera;
-    GrayImage image;           ///< -1 where the photograph shows nothing
+    GrayImage image;           ///< -1 outside the photograph, and if transparent
     std::vector<Color> colors; ///< per pixel of the depth map
-    std::string problem;       ///< why the photograph cannot be read; empty if it can
+    std::string problem;       ///< error if the photograph is unreadable, else empty
 };
 
-/// A depth map has a pixel for every second pixel of the image, in both directions.
+/// Image pixels per pixel of a depth map, along a side.
 inline constexpr int kDepthStep = 2;
 
-/// The size of a depth map along a side of an image.
+/// The number of depth map pixels along a side of an image.
 constexpr int depth_pixels(int image_px)
 {
     return (image_px + kDepthStep - 1) / kDepthStep;
@@ -69,10 +69,10 @@ inline Eigen::Vector3f depth_ray(const Pinhole& camera, int x, int y)
 /// Pixels of the working image per pixel of the photograph, along a side: at most 1.
 double working_scale(const PhotographSize& photograph, int size_px);
 
-/// Undistorts a photograph to a pinhole image, as COLMAP's image_undistorter does, with its longest
-/// side at most `size_px` and never larger than the photograph. Each pixel is the mean of four
-/// samples half a pixel apart. A photograph that cannot be read shows nothing. Cost: decoding, and
-/// four samples a pixel.
+/// Undistorts a photograph to a pinhole image, like COLMAP's image_undistorter. The longest side is
+/// at most `size_px` and never longer than the photograph's. Each pixel is the mean of four samples
+/// half a pixel apart. An unreadable photograph gives an image of -1. Cost: decoding, and four
+/// samples per pixel.
 StereoView stereo_view(const CalibratedPhoto& photo, int size_px);
 
 } // namespace vcarve

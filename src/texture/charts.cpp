@@ -21,17 +21,17 @@ namespace {
 using Eigen::Array2i;
 using Eigen::Vector2d;
 
-/// Faces that lie together, and the texels they take without the room around.
+/// Connected faces, and the size of the chart without padding.
 struct Chart {
     std::vector<std::uint32_t> faces;
     Array2i size_px{0, 0};
 };
 
-constexpr int kTilePx = 5;      ///< of a face that no photograph shows
-constexpr int kTilesASide = 32; ///< of a chart of such faces
+constexpr int kTilePx = 5;      ///< side of the tile of a face without a photograph
+constexpr int kTilesASide = 32; ///< tiles per row of a chart of such faces
 constexpr std::size_t kTilesOfChart = std::size_t{kTilesASide} * kTilesASide;
 
-/// The faces that one covers with the same photograph, from each on across edges.
+/// The connected components of faces with the same photograph.
 std::vector<Chart> gather_charts(const std::vector<std::uint32_t>& photo_of_face,
                                  const FacesBeside& beside)
 {
@@ -47,9 +47,9 @@ std::vector<Chart> gather_charts(const std::vector<std::uint32_t>& photo_of_face
         take(first, chart);
         for (std::size_t i = 0; i < chart.faces.size(); ++i) {
             for (const std::uint32_t other : beside[chart.faces[i]]) {
-                const bool goes_on = other != kNoFace && is_taken[other] == 0 &&
-                                     photo_of_face[other] == photo_of_face[first];
-                if (goes_on) take(other, chart);
+                const bool continues = other != kNoFace && is_taken[other] == 0 &&
+                                       photo_of_face[other] == photo_of_face[first];
+                if (continues) take(other, chart);
             }
         }
         charts.push_back(std::move(chart));
@@ -57,7 +57,7 @@ std::vector<Chart> gather_charts(const std::vector<std::uint32_t>& photo_of_face
     return charts;
 }
 
-/// Puts the corners of a chart's faces where the photograph shows them, from (0, 0) on.
+/// Lays out the corners of a chart's faces as in the photograph, relative to the chart.
 void place_in_chart(const TriMesh& mesh, const CalibratedPhoto& photo, const AtlasOptions& options,
                     Chart& chart, std::vector<std::array<Vector2d, 3>>& corners)
 {
@@ -68,8 +68,8 @@ void place_in_chart(const TriMesh& mesh, const CalibratedPhoto& photo, const Atl
             box.extend(corner);
         }
     }
-    // From a whole pixel on: at a scale of 1 the middles of texels are those of pixels, and nothing
-    // is blurred.
+    // Start at a whole pixel, so that at scale 1 texel centers are pixel centers and nothing is
+    // blurred.
     const Vector2d first = box.min().array().floor();
     const Vector2d sizes = box.max() - first;
     const int most_px = options.most_page_px - 2 * Atlas::kPadding - 1;
@@ -82,7 +82,7 @@ void place_in_chart(const TriMesh& mesh, const CalibratedPhoto& photo, const Atl
     chart.size_px = (scale * sizes.array()).ceil().cast<int>().max(1);
 }
 
-/// The charts of the faces that no photograph shows: tiles in rows.
+/// Makes charts of the faces without a photograph: tiles in rows.
 std::vector<Chart> tile_unseen(const std::vector<std::uint32_t>& photo_of_face,
                                std::vector<std::array<Vector2d, 3>>& corners)
 {
@@ -115,7 +115,7 @@ std::vector<stbrp_rect> rectangles_of(const std::vector<Chart>& charts)
     return rectangles;
 }
 
-/// Packs what fits into a page.
+/// Packs as many rectangles as fit into a page. Returns whether all fit.
 bool pack(int side_px, std::vector<stbrp_rect>& rectangles)
 {
     std::vector<stbrp_node> nodes(static_cast<std::size_t>(side_px));
@@ -124,8 +124,8 @@ bool pack(int side_px, std::vector<stbrp_rect>& rectangles)
     return stbrp_pack_rects(&context, rectangles.data(), static_cast<int>(rectangles.size())) == 1;
 }
 
-/// Packs rectangles into the smallest page that holds them all, of sides that grow by a quarter; or
-/// what fits into the largest.
+/// Packs rectangles into the smallest page that holds them all; page sides are multiples of 64. If
+/// none does, packs as many as fit into the largest page.
 void pack_page(int most_px, std::vector<stbrp_rect>& rectangles)
 {
     double area = 0.0;
@@ -147,7 +147,7 @@ void pack_page(int most_px, std::vector<stbrp_rect>& rectangles)
     pack(most_px, rectangles);
 }
 
-/// Moves a chart to its place on the last page.
+/// Moves a chart to its position on the last page.
 void put_on_page(const Chart& chart, const stbrp_rect& rectangle, Atlas& atlas)
 {
     const Vector2d move(rectangle.x + Atlas::kPadding, rectangle.y + Atlas::kPadding);

@@ -13,21 +13,21 @@
 
 namespace vcarve {
 
-/// Where the faces lie in the pages of an atlas, in texels: (0, 0) is the upper left corner of a
-/// page, the middle of its first texel (0.5, 0.5). Faces that are covered with the same photograph
-/// and hang together are a chart and lie as they do in the photograph; faces that none shows lie in
-/// small tiles. Between charts there is room on all sides.
+/// The positions of faces in the pages of an atlas, in texels. (0, 0) is the upper left corner of a
+/// page, (0.5, 0.5) the center of its first texel. Connected faces with the same photograph form a
+/// chart and are laid out as in the photograph. Faces without a photograph are laid out in small
+/// tiles. Charts are padded on all sides.
 struct Atlas {
     static constexpr int kPadding = 4; ///< texels around a chart
 
     std::vector<Eigen::Array2i> page_sizes;
     std::vector<std::uint32_t> page_of_face;
-    std::vector<std::array<Eigen::Vector2d, 3>> corners; ///< of each face
+    std::vector<std::array<Eigen::Vector2d, 3>> corners; ///< positions of each face's corners
     std::size_t num_charts = 0;
 };
 
-/// Texels a pixel of the photographs, and the longest side of a page. A chart that is larger than a
-/// page is made smaller. Cost: O(faces), and the packing of the charts by stb_rect_pack.
+/// Texels per photograph pixel (along a side), and the maximum side of a page. A chart larger than
+/// a page is scaled down. Cost: O(faces), and packing the charts by stb_rect_pack.
 struct AtlasOptions {
     double scale = 1.0;
     int most_page_px = 4096;

@@ -16,12 +16,12 @@ namespace vcarve {
 
 namespace {
 
-constexpr double kSidePx = 40.0;    ///< of the squares that pixels are counted in
-constexpr double kCostOfSeam = 0.6; ///< of one side of a square, in squares
-constexpr double kUnit = 10000.0;   ///< costs are integers, so many a square
+constexpr double kSidePx = 40.0;    ///< side of a square, the unit of cost
+constexpr double kCostOfSeam = 0.6; ///< of a seam of kSidePx, in squares
+constexpr double kUnit = 10000.0;   ///< integer cost of one square
 constexpr double kMost = 1e6;
 
-/// What it costs to cover faces with photographs, and to have seams between them.
+/// The costs of faces and of seams.
 class Energy {
   public:
     Energy(const TriMesh& mesh, const std::vector<PhotosOfFace>& photos_of_faces,
@@ -43,7 +43,7 @@ class Energy {
         });
     }
 
-    /// Of a face that the photograph at a place of its list covers.
+    /// The cost of a face with photograph number `place` of its list.
     std::int32_t of_face(std::uint32_t face, std::size_t place) const
     {
         const auto shown = photos_of_faces_[face].shown();
@@ -59,7 +59,7 @@ class Energy {
         return static_cast<std::int32_t>(std::min(kUnit * squares, kMost));
     }
 
-    /// In the photograph that shows the face largest.
+    /// Pixels per unit of length in the photograph that shows the face largest.
     double pixels_a_unit(const TriMesh& mesh, std::size_t face) const
     {
         const double area = face_area(mesh.positions, mesh.faces[face]);
@@ -71,14 +71,14 @@ class Energy {
     std::vector<std::array<std::int32_t, 3>> seams_;
 };
 
-/// One of the three sides of a face, and the face's node in the cut.
+/// An edge of a face, and the node of the face in the cut.
 struct Side {
     Index node;
     std::uint32_t face;
     int side;
 };
 
-/// The faces covered as they are, to be covered better.
+/// The current photograph of each face. expand() improves it.
 class Covering {
   public:
     Covering(const Energy& energy, const std::vector<PhotosOfFace>& photos_of_faces,
@@ -96,8 +96,8 @@ class Covering {
         }
     }
 
-    /// Covers with a photograph those of the faces it shows for which all together cost less then.
-    /// Returns whether any changed.
+    /// Assigns `photo` to the subset of `shown` that minimizes the total cost. Returns whether any
+    /// face changed.
     bool expand(std::uint32_t photo, const std::vector<FaceOfPhoto>& shown)
     {
         for (Index node = 0; node < shown.size(); ++node) {
@@ -116,7 +116,7 @@ class Covering {
                 energy_.of_face(face, place) - energy_.of_face(face, places_[face]);
             Cell& cell = graph.cells[node];
             cell = {{0, 0, 0, 0}, {node, node, node, node}};
-            graph.mirrors[node] = 0b11100100; // each slot its own
+            graph.mirrors[node] = 0b11100100; // slot i mirrors slot i
             for (int side = 0; side < 3; ++side) {
                 add_seam(photo, {node, face, side}, graph, network);
             }
@@ -137,8 +137,8 @@ class Covering {
     std::vector<std::uint32_t> take() { return std::move(photos_); }
 
   private:
-    /// What the seam between a face and one beside it costs: of two that may change, from the lower
-    /// one's side. Inside is what takes the photograph.
+    /// Adds the cost of the seam along an edge; the label inside means that a face gets `photo`. If
+    /// the neighbor is a node, too, the lower node adds the cost.
     void add_seam(std::uint32_t photo, const Side& of, TetMesh& graph, FlowNetwork& network) const
     {
         const Index node = of.node;
@@ -160,7 +160,7 @@ class Covering {
         graph.mirrors[node] = static_cast<std::uint8_t>((graph.mirrors[node] & ~(3 << (2 * side))) |
                                                         (mirror << (2 * side)));
         if (node > other_node) return;
-        // Neither changes, one of them, the other; if both do, there is no seam.
+        // The costs if neither face or only one changes. If both change, there is no seam.
         const std::int32_t neither = seam(photos_[face], photos_[other]);
         const std::int32_t only_other = seam(photos_[face], photo);
         const std::int32_t only_face = seam(photo, photos_[other]);
@@ -172,8 +172,8 @@ class Covering {
     const Energy& energy_;
     const FacesBeside& beside_;
     std::vector<std::uint32_t> photos_;
-    std::vector<std::uint32_t> places_; ///< of the photograph in the face's list
-    std::vector<Index> node_of_;        ///< of the faces in the cut that is made
+    std::vector<std::uint32_t> places_; ///< index of the photograph in the face's list
+    std::vector<Index> node_of_;        ///< node of each face in the current cut
 };
 
 } // namespace
@@ -191,7 +191,7 @@ FacesBeside find_faces_beside(const TriMesh& mesh)
         beside[half_edges[0] / 3][half_edges[0] % 3] = half_edges[1] / 3;
         beside[half_edges[1] / 3][half_edges[1] % 3] = half_edges[0] / 3;
     });
-    // Of two faces that share two edges one is enough.
+    // List a neighbor that shares two edges only once.
     parallel_for(beside.size(), [&](std::size_t face) {
         auto& [first, second, third] = beside[face];
         if (second == first) second = kNoFace;
@@ -213,8 +213,8 @@ std::vector<std::uint32_t> choose_photos(const TriMesh& mesh,
         bool is_changed = false;
         for (std::uint32_t photo = 0; photo < photos.size(); ++photo) {
             if (!shown[photo].empty()) is_changed |= covering.expand(photo, shown[photo]);
-            progress.tell(static_cast<double>(round * photos.size() + photo + 1),
-                          static_cast<double>(kRounds * photos.size()));
+            progress.report(static_cast<double>(round * photos.size() + photo + 1),
+                            static_cast<double>(kRounds * photos.size()));
         }
         if (!is_changed) break;
     }

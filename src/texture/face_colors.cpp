@@ -19,7 +19,7 @@ using Eigen::Array3f;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Nothing if the photograph is transparent at one of the places.
+/// Returns nothing if the photograph is transparent at one of the four positions.
 std::optional<ColorsOfFace> colors_in(const PhotoPyramid& pyramid, const CalibratedPhoto& photo,
                                       const std::array<Vector3d, 3>& corners, double area_px2)
 {
@@ -41,7 +41,7 @@ std::optional<ColorsOfFace> colors_in(const PhotoPyramid& pyramid, const Calibra
     return colors;
 }
 
-/// Keeps those photographs of a face for which keep(place) holds. Returns how many are dropped.
+/// Keeps the photographs of a face for which keep(index) is true. Returns the number of drops.
 template <typename Keep>
 std::uint8_t keep_photos(PhotosOfFace& photos,
                          std::array<ColorsOfFace, PhotosOfFace::kMost>& colors, const Keep& keep)
@@ -63,7 +63,7 @@ double mean_level(const Color& color)
     return (color[0] + color[1] + color[2]) / 3.0;
 }
 
-/// The median of each channel over what photographs show at one of a face's four places.
+/// The median of each channel.
 Array3f median_color(std::span<const Array3f> colors)
 {
     Array3f median;
@@ -78,7 +78,7 @@ Array3f median_color(std::span<const Array3f> colors)
     return median;
 }
 
-/// How far each photograph of a face is from the median of all, in levels of 255.
+/// The distance of each photograph of a face from the median of all, in levels of 255.
 std::vector<double>
 distances_from_median(const PhotosOfFace& photos,
                       const std::array<ColorsOfFace, PhotosOfFace::kMost>& colors,
@@ -98,7 +98,7 @@ distances_from_median(const PhotosOfFace& photos,
     return distances;
 }
 
-/// What the other photographs of a face show over its middle, the mean.
+/// The mean color around a face's centroid in its other photographs.
 Array3f shown_by_others(const FaceOfPhoto& look, const PhotosOfFace& photos,
                         const FaceColors& colors, const Gains& gains)
 {
@@ -110,13 +110,13 @@ Array3f shown_by_others(const FaceOfPhoto& look, const PhotosOfFace& photos,
     return sum / static_cast<float>(photos.count - 1);
 }
 
-/// Of each channel what others show of the faces of a photograph over what it shows itself.
+/// The ratios of the other photographs' colors to a photograph's own, for each channel.
 std::array<std::vector<double>, 3> quotients_of(const std::vector<FaceOfPhoto>& faces,
                                                 const std::vector<PhotosOfFace>& photos_of_faces,
                                                 const FaceColors& colors, const Gains& gains)
 {
     constexpr std::size_t kMostFaces = 4000;
-    constexpr double kBlack = 16.0; // what is nearly black or white says nothing of exposure
+    constexpr double kBlack = 16.0; // clipped colors do not depend on the exposure
     constexpr double kWhite = 240.0;
     std::array<std::vector<double>, 3> quotients;
     const std::size_t step = faces.size() / kMostFaces + 1;
@@ -134,10 +134,10 @@ std::array<std::vector<double>, 3> quotients_of(const std::vector<FaceOfPhoto>& 
     return quotients;
 }
 
-/// Their median; of few it is drawn to 1.
+/// The median of the quotients, drawn to 1 if there are few.
 float gain_of(std::vector<double>& quotients)
 {
-    constexpr double kPrior = 20.0; // so few faces pull half as much as they say
+    constexpr double kPrior = 20.0; // number of faces whose median counts half
     const auto count = static_cast<double>(quotients.size());
     const double gain = std::clamp(median_in_place(quotients), 0.4, 2.5);
     return static_cast<float>((count * gain + kPrior) / (count + kPrior));
@@ -160,7 +160,7 @@ for_each_photograph(const std::vector<CalibratedPhoto>& photos, std::size_t at_a
                 body(photo, PhotoPyramid(photograph_of(photos[photo], problems[photo])));
             },
             1);
-        progress.tell(static_cast<double>(first + count), static_cast<double>(photos.size()));
+        progress.report(static_cast<double>(first + count), static_cast<double>(photos.size()));
     }
     std::erase(problems, "");
     return problems;
@@ -213,7 +213,7 @@ Gains find_gains(std::size_t num_photos, const std::vector<PhotosOfFace>& photos
             mean += gain / static_cast<float>(num_photos);
         }
         for (std::size_t photo = 0; photo < num_photos; ++photo) {
-            // Halfway, so that two photographs do not change places round by round.
+            // Update halfway, so that two photographs do not oscillate.
             gains[photo] = 0.5F * (gains[photo] + next[photo] / mean);
         }
     }

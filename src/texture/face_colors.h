@@ -16,14 +16,13 @@
 
 namespace vcarve {
 
-/// The colours a photograph shows of a face: at its three corners and over its middle.
+/// The colors of a face in a photograph: at its three corners and around its centroid.
 using ColorsOfFace = std::array<Color, 4>;
 
-/// Parallel to the faces, and within each to the photographs that show it.
+/// One entry per face, and within it one per photograph that shows the face.
 using FaceColors = std::vector<std::array<ColorsOfFace, PhotosOfFace::kMost>>;
 
-/// Of each photograph, by how much each of its channels is to be multiplied so that photographs
-/// agree with one another.
+/// Factors for the channels of each photograph that make the exposures of photographs agree.
 using Gains = std::vector<Eigen::Array3f>;
 
 /// Calls body(photo, pyramid) for all photographs, with at most `at_a_time` of them in memory. An
@@ -33,27 +32,27 @@ for_each_photograph(const std::vector<CalibratedPhoto>& photos, std::size_t at_a
                     const Progress& progress,
                     const std::function<void(std::uint32_t, const PhotoPyramid&)>& body);
 
-/// What photographs show of the faces.
+/// The colors of faces in their photographs.
 struct ShownColors {
     FaceColors colors;
     std::vector<std::string> unreadable; ///< a sentence for each photograph
 };
 
-/// Looks up the colors of the faces. A photograph that is transparent where it should show a face
-/// is taken from that face's photographs. Reads each photograph once.
+/// Looks up the colors of the faces. Removes a photograph from the list of a face if it is
+/// transparent there. Reads each photograph once.
 ShownColors look_up_colors(const TriMesh& mesh, const std::vector<CalibratedPhoto>& photos,
                            std::vector<PhotosOfFace>& photos_of_faces, std::size_t at_a_time,
                            const Progress& progress);
 
-/// The exposures of photographs, as the faces tell that several show: each gain is the median
-/// quotient of what others and what the photograph shows, in some rounds; their mean is 1.
+/// Estimates gains from faces with several photographs. A gain is the median ratio of the colors in
+/// other photographs to the colors in this one, iterated. The mean gain is 1.
 Gains find_gains(std::size_t num_photos, const std::vector<PhotosOfFace>& photos_of_faces,
                  const FaceColors& colors);
 
-/// Takes out photographs that show something else where a face is, as somebody who passes by: those
-/// that differ much more from the median of all than the others do (after M. Waechter, N. Moehrle
-/// and M. Goesele, "Let there be color! Large-scale texturing of 3D reconstructions", ECCV 2014).
-/// Of two nobody knows which is right. Returns how many were taken out.
+/// Drops photographs that show a transient occluder, such as a passer-by, instead of a face: they
+/// differ much more from the median of all than the others do (after M. Waechter, N. Moehrle and M.
+/// Goesele, "Let there be color! Large-scale texturing of 3D reconstructions", ECCV 2014). Keeps
+/// both of two photographs, because either may be right. Returns the number of drops.
 std::size_t drop_outliers(const Gains& gains, std::vector<PhotosOfFace>& photos_of_faces,
                           FaceColors& colors);
 

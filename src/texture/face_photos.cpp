@@ -20,10 +20,10 @@ using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
 constexpr double kLeastCosine = 0.1;
-/// Photographs that may show a face are asked in the order of how large they show it, so many.
+/// Maximum number of photographs that are tested per face, in order of decreasing area.
 constexpr std::size_t kMostAsked = 48;
 constexpr int kMostRounds = 9;
-constexpr double kShortestPx = 24.0; ///< an edge that is not halved for being partly hidden
+constexpr double kShortestPx = 24.0; ///< partly visible faces with shorter edges stay whole
 
 double area_px2(const std::array<Vector2d, 3>& pixels)
 {
@@ -40,11 +40,11 @@ double longest_px(const std::array<Vector2d, 3>& pixels)
 
 struct Asked {
     std::uint32_t photo;
-    double area_px2; ///< 0 where the photograph shows but a part of the face
+    double area_px2; ///< 0 if the photograph shows only a part of the face
     double longest_px;
 };
 
-/// How long the longest edge is about, where the photograph does not show both its ends.
+/// Estimates the length of the longest edge if the photograph does not show all corners.
 double guessed_px(const CalibratedPhoto& photo, const Corners& corners, double distance)
 {
     return photo.focal_px * longest_edge(corners) / distance;
@@ -57,7 +57,7 @@ bool shows_part(const CalibratedPhoto& photo, const Corners& corners)
     });
 }
 
-/// The photographs before which a face lies and that it looks at, those that show it largest first.
+/// Finds the photographs that have a face in view from its front, in order of decreasing area.
 void photos_before(const std::vector<CalibratedPhoto>& photos, const Corners& corners,
                    std::vector<Asked>& asked)
 {
@@ -79,10 +79,10 @@ void photos_before(const std::vector<CalibratedPhoto>& photos, const Corners& co
     if (asked.size() > kMostAsked) asked.resize(kMostAsked);
 }
 
-/// Whether a face is to be halved.
+/// The photographs of a face, and whether it is too large.
 struct Looked {
     PhotosOfFace photos;
-    bool is_large = false; ///< in the photograph that shows it best, or could
+    bool is_large = false; ///< in the first photograph that sees a part of it
 };
 
 Looked look_at_face(const std::vector<CalibratedPhoto>& photos, const Occlusion& occlusion,
@@ -115,7 +115,7 @@ Looked look_at_face(const std::vector<CalibratedPhoto>& photos, const Occlusion&
     return looked;
 }
 
-/// Halves the faces that want it; tells of which face at first each is a part.
+/// Bisects faces, and records the input face of each part.
 class Splitter {
   public:
     explicit Splitter(TriMesh& mesh)
@@ -144,8 +144,8 @@ class Splitter {
         if (!normals_.empty()) normals_.push_back((normals_[a] + normals_[b]).normalized());
     }
 
-    /// Halves those of the faces that have a flag, but for those that changed since; returns all
-    /// that changed.
+    /// Bisects the faces with a flag, except faces that this call has already changed. Returns all
+    /// changed faces.
     std::vector<std::uint32_t> halve_all(std::span<const std::uint32_t> faces,
                                          std::span<const std::uint8_t> is_split)
     {
@@ -199,7 +199,7 @@ std::optional<std::array<Vector2d, 3>> corner_pixels(const CalibratedPhoto& phot
     }
     const auto middle = pixel_of(photo, (corners[0] + corners[1] + corners[2]) / 3.0);
     const Vector2d mean = (pixels[0] + pixels[1] + pixels[2]) / 3.0;
-    constexpr double kBent = 0.25; // of the longest edge
+    constexpr double kBent = 0.25; // of the longest edge, maximum offset of the centroid
     if (!middle || (*middle - mean).norm() > kBent * longest_px(pixels)) return std::nullopt;
     return pixels;
 }

@@ -42,7 +42,7 @@ Look look_at(const CalibratedPhoto& view, const Photograph& mask, const Occlusio
     return look;
 }
 
-/// The numbers of views that see a face clearly, and only in masked pixels.
+/// The numbers of views that see a face in an unmasked pixel, and only in masked pixels.
 struct Votes {
     std::uint32_t clear = 0;
     std::uint32_t masked = 0;
@@ -95,7 +95,7 @@ TriMesh without_masked_faces(const TriMesh& mesh, const std::vector<CalibratedPh
     }
     std::erase_if(kept.faces,
                   [&](const Face& face) { return is_clear[components.root(face[0])] == 0; });
-    return tri_mesh(*clean_surface(std::move(kept), {.max_hole_edges = 0}).mesh);
+    return tri_mesh(*clean_surface(std::move(kept), {.max_hole = 0}).mesh);
 }
 
 } // namespace vcarve

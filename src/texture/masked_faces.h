@@ -10,7 +10,7 @@ namespace vcarve {
 
 /// Removes the faces that most views see only in masked pixels, and the connected components
 /// without a face that a view sees in another pixel. `masks` are the masks with their views'
-/// cameras; a mask that cannot be read is left out. The result is manifold and oriented if the mesh
+/// cameras; unreadable masks are ignored. The result is manifold and oriented if the mesh
 /// is. Throws Cancelled. Cost: up to seven rays per face and view; one mask per thread in memory.
 TriMesh without_masked_faces(const TriMesh& mesh, const std::vector<CalibratedPhoto>& masks,
                              const Progress& progress);

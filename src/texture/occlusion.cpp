@@ -26,7 +26,7 @@ Occlusion::Occlusion(const TriMesh& mesh) : mesh_(mesh), faces_(mesh_, box_cente
 
 bool Occlusion::sees(const Vector3d& center, const Vector3d& position, std::uint32_t face) const
 {
-    constexpr double kNear = 1e-3; // of the way
+    constexpr double kNear = 1e-3; // of the distance
     const Vector3d way = position - center;
     const FirstFace hit = faces_.from(center, way.normalized());
     if (hit.face == face) return true;
@@ -38,7 +38,7 @@ bool Occlusion::is_near_silhouette(const CalibratedPhoto& photo,
                                    const std::array<Vector3d, 3>& corners) const
 {
     constexpr double kNearPx = 3.0;
-    constexpr double kSteep = 10.0; // a depth difference, over the step to the side
+    constexpr double kSteep = 10.0; // depth difference per sideways step
     const auto& [a, b, c] = corners;
     const Vector3d middle = (a + b + c) / 3.0;
     const Vector3d& center = photo.pose.center;

@@ -11,7 +11,7 @@
 
 namespace vcarve {
 
-/// Sample positions on a face: near its corners, near the middles of its edges, and its centroid.
+/// Sample positions on a face: near its corners, near the midpoints of its edges, and its centroid.
 std::array<Eigen::Vector3d, 7> face_samples(const std::array<Eigen::Vector3d, 3>& corners);
 
 /// Tests whether faces of a mesh hide a position from a camera. Keeps a copy of the mesh. Cost: as
@@ -27,7 +27,7 @@ class Occlusion {
     bool sees(const Eigen::Vector3d& center, const Eigen::Vector3d& position,
               std::uint32_t face) const;
 
-    /// How many of the seven positions on `corners`, a part of a face, a photograph sees.
+    /// How many of the face_samples() of `corners`, which are a part of a face, a photograph sees.
     int seen_places(const CalibratedPhoto& photo, const std::array<Eigen::Vector3d, 3>& corners,
                     std::uint32_t face) const;
 

@@ -20,10 +20,10 @@ using Eigen::Array3f;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A texel belongs to a face in whose triangle its middle lies, or else to one that is so near.
+/// A texel belongs to the face that contains its center, or to a face at most this far away.
 constexpr double kBeyondPx = 0.75;
 
-/// The shares that a triangle's corners have of a place in its plane.
+/// Barycentric coordinates in a triangle of the plane.
 class Shares {
   public:
     explicit Shares(const std::array<Vector2d, 3>& corners)
@@ -47,7 +47,7 @@ class Shares {
         return {1.0 - second - third, second, third};
     }
 
-    /// How far outside of the triangle a place with these shares lies, about.
+    /// The approximate distance of a position with these coordinates from the triangle.
     double beyond(const Vector3d& shares) const
     {
         double most = 0.0;
@@ -62,10 +62,10 @@ class Shares {
     Vector2d to_second_;
     Vector2d to_third_;
     double determinant_;
-    Vector3d a_pixel_; ///< how much a share changes over one texel
+    Vector3d a_pixel_; ///< change of each coordinate per texel
 };
 
-/// Shows visit(texel, shares, beyond) the texels of a face: column and row, and how far outside.
+/// Calls visit(column, row, barycentric coordinates, distance to the face) for a face's texels.
 template <typename Visit>
 void visit_texels(const std::array<Vector2d, 3>& corners, const Visit& visit)
 {
@@ -81,7 +81,7 @@ void visit_texels(const std::array<Vector2d, 3>& corners, const Visit& visit)
     }
 }
 
-/// A page that is painted, and which face each of its texels belongs to.
+/// A page, and the face that owns each texel.
 struct Canvas {
     Photograph page;
     std::vector<std::uint32_t> owners;
@@ -107,7 +107,7 @@ struct Canvas {
     }
 };
 
-/// What shows through at a texel.
+/// The color of a photograph from beyond a seam at a texel.
 struct Stroke {
     std::uint64_t texel;
     std::uint32_t page;
@@ -136,7 +136,7 @@ class Painter {
         share_out();
     }
 
-    /// The faces that a photograph covers, one after the other: their texels are theirs alone.
+    /// Paints the faces of a photograph. Faces share no texels, so photographs may run in parallel.
     void paint(std::uint32_t photo, const std::vector<std::uint32_t>& faces,
                const PhotoPyramid& pyramid)
     {
@@ -168,8 +168,7 @@ class Painter {
         return strokes;
     }
 
-    /// Of a texel that several show through, all at once: each as much as it weighs, beside what is
-    /// painted there, which weighs 1.
+    /// Blends all strokes of a texel at once, by their weights; the painted color has the weight 1.
     void blend(std::vector<Stroke> strokes)
     {
         std::ranges::stable_sort(strokes, [](const Stroke& a, const Stroke& b) {
@@ -190,7 +189,7 @@ class Painter {
         }
     }
 
-    /// The faces that no photograph shows.
+    /// Paints the faces that no photograph shows.
     void paint_unseen()
     {
         parallel_for(plan_.mesh.faces.size(), [&](std::size_t face) {
@@ -214,7 +213,7 @@ class Painter {
     }
 
   private:
-    /// Which texels belong to which face: those within it, then those beside.
+    /// Assigns texels to faces: first the texels within a face, then the texels beside it.
     void share_out()
     {
         const Atlas& atlas = plan_.atlas;
@@ -241,7 +240,7 @@ class Painter {
                      });
     }
 
-    /// Between the colors of a face's vertices.
+    /// Interpolates the colors of a face's vertices.
     Array3f vertex_color(std::uint32_t face, const Vector3d& shares) const
     {
         std::array<Array3f, 3> colors;
@@ -251,7 +250,7 @@ class Painter {
         return mixed(colors, shares);
     }
 
-    /// Nothing where the photograph is transparent.
+    /// The color in a photograph; nothing if it is transparent there.
     std::optional<Array3f> seen(std::uint32_t photo, std::uint32_t face, const Vector3d& shares,
                                 const PhotoPyramid& pyramid) const
     {
@@ -263,7 +262,7 @@ class Painter {
         return pyramid.at(*pixel) * plan_.gains[photo];
     }
 
-    /// The texel so many to the right and below; nothing beyond the page.
+    /// The texel at an offset to the right and below; nothing beyond the page.
     static std::optional<std::size_t> beside_texel(const Canvas& canvas, std::size_t texel,
                                                    const std::array<int, 2>& side)
     {
@@ -276,14 +275,14 @@ class Painter {
         return canvas.texel(x, y);
     }
 
-    /// Lets the colours of charts go on around them, texel by texel, and fills the rest.
+    /// Extends the colors of charts by kPadding texels, and fills the rest with the mean color.
     static void surround(Canvas& canvas)
     {
         constexpr std::array<std::array<int, 2>, 4> kSides = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
         const auto is_bare = [&](std::optional<std::size_t> texel) {
             return texel && canvas.owners[*texel] == kNoFace;
         };
-        std::vector<std::size_t> edge; // texels painted last
+        std::vector<std::size_t> edge; // texels of the last round
         Eigen::Array3d sum = Eigen::Array3d::Zero();
         double count = 0.0;
         for (std::size_t texel = 0; texel < canvas.owners.size(); ++texel) {

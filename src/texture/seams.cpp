@@ -21,12 +21,12 @@ namespace {
 
 using Eigen::Array3f;
 
-constexpr double kWidthPx = 16.0; ///< of a blend on one side of a seam, in texels
+constexpr double kWidthPx = 16.0; ///< of the blend on each side of a seam, in texels
 
-/// A vertex within the faces of a photograph, and another photograph that shows through there.
+/// A vertex of faces of one photograph, and another photograph that is blended in there.
 using Through = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; ///< vertex, photo, other
 
-/// How far it is to the seam, and what is added to the other's colours there.
+/// The distance to the seam, and the offset of the other photograph's colors.
 struct Near {
     double distance_px;
     Array3f level;
@@ -37,7 +37,7 @@ struct Waiting {
     Through through;
     Array3f level;
 
-    /// The nearest first; which of equally far ones comes first must not be left to chance.
+    /// Nearest first. `through` breaks ties, so that the result is deterministic.
     bool operator<(const Waiting& other) const
     {
         return std::tie(distance_px, through) > std::tie(other.distance_px, other.through);
@@ -55,7 +55,7 @@ class SeamDistances {
     {
     }
 
-    /// Every vertex at which two photographs meet is zero texels from their seam, on both sides.
+    /// Enqueues the vertices where two photographs meet, at distance 0, for both sides.
     void start(const CornerLevels& levels)
     {
         for (std::uint32_t vertex = 0; vertex < mesh_.positions.size(); ++vertex) {
@@ -113,7 +113,7 @@ class SeamDistances {
     std::priority_queue<Waiting> queue_;
 };
 
-/// How another photograph shows through in a face of which some corners are near its seam.
+/// Blends another photograph into a face that has at least one corner near their seam.
 Blend blend_of(const TriMesh& mesh, const std::map<Through, Near>& near, const Atlas& atlas,
                std::uint32_t face, const Through& through)
 {
@@ -135,7 +135,7 @@ Blend blend_of(const TriMesh& mesh, const std::map<Through, Near>& near, const A
             blend.far[i] = static_cast<float>(found[i]->distance_px / kWidthPx);
             continue;
         }
-        // Farther than the blend is wide, so the distance is that along the edge.
+        // The corner is beyond the blend: measure the distance along the face's edges.
         double distance = 1e30;
         for (int k = 0; k < 3; ++k) {
             if (found[k] == nullptr) continue;
@@ -163,7 +163,7 @@ struct Node {
     }
 };
 
-/// All of them, each once, in order; and which one each corner is.
+/// All nodes, sorted and unique, and the node of each corner.
 struct Nodes {
     std::vector<Node> all;
     std::vector<std::array<std::uint32_t, 3>> of_face;
@@ -191,7 +191,7 @@ Nodes gather_nodes(const TriMesh& mesh, const std::vector<std::uint32_t>& photo_
     return nodes;
 }
 
-/// What the photographs show at their nodes, the mean over the faces there.
+/// The color of each node: the mean over its photograph's faces at the vertex.
 std::vector<Eigen::Array3d> colors_of(const Nodes& nodes,
                                       const std::vector<PhotosOfFace>& photos_of_faces,
                                       const FaceColors& colors, const Gains& gains,
@@ -216,7 +216,7 @@ std::vector<Eigen::Array3d> colors_of(const Nodes& nodes,
     return sums;
 }
 
-/// The normal equations of the least squares.
+/// The normal equations of the least squares problem.
 struct Equations {
     std::vector<Triplet> entries;
     Eigen::MatrixX3d right;
@@ -232,8 +232,8 @@ struct Equations {
 
 Equations equations_of(const Nodes& nodes, const std::vector<Eigen::Array3d>& shown)
 {
-    constexpr double kSmooth = 0.1; // of a change from vertex to vertex
-    constexpr double kSmall = 1e-3; // of what is added
+    constexpr double kSmooth = 0.1; // weight of differences between vertices
+    constexpr double kSmall = 1e-3; // weight of the offsets
     Equations equations;
     const std::size_t count = nodes.all.size();
     equations.right = Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(count), 3);
@@ -248,7 +248,7 @@ Equations equations_of(const Nodes& nodes, const std::vector<Eigen::Array3d>& sh
         }
     }
     for (const auto& corners : nodes.of_face) {
-        if (corners[0] == corners[1]) continue; // none
+        if (corners[0] == corners[1]) continue; // no photograph
         for (int i = 0; i < 3; ++i) {
             equations.add(corners[i], corners[(i + 1) % 3], 0.5 * kSmooth);
         }

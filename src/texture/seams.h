@@ -14,33 +14,32 @@
 
 namespace vcarve {
 
-/// Of each corner of each face that a photograph covers, what is added there to its colour, in
-/// levels of 255.
+/// The offset added to the color at each corner of each face with a photograph, in levels of 255.
 using CornerLevels = std::vector<std::array<Eigen::Array3f, 3>>;
 
-/// What makes photographs agree where they meet: at a vertex where several do, their colours are to
-/// be the same after it, and from vertex to vertex of a photograph it changes little (V. Lempitsky
-/// and D. Ivanov, "Seamless mosaicing of image-based texture maps", CVPR 2007). Least squares, by
-/// Eigen's sparse Cholesky factors. All zero if they have no finite solution. Cost: that of factors
-/// of a matrix of a row a vertex.
+/// Computes offsets that make photographs agree at seams. Photographs that meet at a vertex get
+/// equal colors there, and the offsets of a photograph vary little between neighboring vertices (V.
+/// Lempitsky and D. Ivanov, "Seamless mosaicing of image-based texture maps", CVPR 2007). Solves
+/// the least squares by a sparse Cholesky factorization. Returns zeros if there is no finite
+/// solution. Cost: one factorization of a matrix with a row per vertex and photograph.
 CornerLevels level_seams(const TriMesh& mesh, const std::vector<PhotosOfFace>& photos_of_faces,
                          const FaceColors& colors, const Gains& gains,
                          const std::vector<std::uint32_t>& photo_of_face);
 
-/// The place of a photograph in the list of those that show a face; -1 where it is not in it.
+/// Returns the index of a photograph in the list of a face, or -1.
 int place_of(const PhotosOfFace& photos, std::uint32_t photo);
 
-/// How a photograph from beyond a seam shows through in a face.
+/// A photograph from beyond a seam that is blended into a face.
 struct Blend {
     std::uint32_t face;
     std::uint32_t photo;
-    std::array<float, 3> far; ///< of its corners from the seam: 0 there, 1 where it ends
-    std::array<Eigen::Array3f, 3> levels; ///< of its corners, added to the photograph's colours
+    std::array<float, 3> far;             ///< corners' distances to the seam; 1: no blending
+    std::array<Eigen::Array3f, 3> levels; ///< offsets of the photograph's colors at corners
 };
 
-/// The faces near seams, of each photograph those that it shows through, as far as it shows them:
-/// on either side of a seam within so many texels, as distances along edges tell. Cost: O(vertices
-/// near seams). Photographs after the last that shows through anywhere have no row.
+/// Finds, for each photograph, the faces of other photographs that it is blended into. It must show
+/// them, and they lie within 16 texels of a seam, measured along edges. The result has no rows
+/// after the last photograph with blends. Cost: O(vertices near seams).
 std::vector<std::vector<Blend>> find_blends(const TriMesh& mesh,
                                             const std::vector<PhotosOfFace>& photos_of_faces,
                                             const std::vector<std::uint32_t>& photo_of_face,

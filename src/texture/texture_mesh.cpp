@@ -44,12 +44,12 @@ std::vector<std::int32_t> views_of(const std::vector<std::uint32_t>& photo_of_fa
     return views;
 }
 
-/// How fine the texture is: as is wanted, or as fine as its texels allow.
+/// Returns `scale`, or the largest scale that needs at most `most_texels`.
 double scale_for(const std::vector<PhotosOfFace>& photos_of_faces,
                  const std::vector<std::uint32_t>& photo_of_face, const TextureOptions& options,
                  Log& log)
 {
-    constexpr double kPacked = 1.6; // texels of a page for one of a chart
+    constexpr double kPacked = 1.6; // page texels per chart texel
     double texels = 0.0;
     for (std::size_t face = 0; face < photo_of_face.size(); ++face) {
         const int place = place_of(photos_of_faces[face], photo_of_face[face]);
@@ -58,10 +58,9 @@ double scale_for(const std::vector<PhotosOfFace>& photos_of_faces,
     const double finest =
         std::sqrt(static_cast<double>(options.most_texels) / std::max(texels, 1.0));
     if (options.scale <= finest) return options.scale;
-    log.note(
-        fmt::format("the texture is made with {:.2f} texels a pixel, along a side, to fit into "
-                    "the memory that it may take",
-                    finest));
+    log.note(fmt::format("to limit memory, the texture has only {:.2f} texels per photograph pixel "
+                         "(along a side)",
+                         finest));
     return finest;
 }
 

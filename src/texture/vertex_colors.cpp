@@ -19,9 +19,9 @@ namespace {
 
 using Eigen::Array3d;
 
-constexpr Color kGrey = {160, 160, 160};
+constexpr Color kGray = {160, 160, 160};
 
-/// What is known of the faces.
+/// The input of color_vertices().
 struct Known {
     const TriMesh& mesh;
     const std::vector<PhotosOfFace>& photos_of_faces;
@@ -29,7 +29,7 @@ struct Known {
     const Gains& gains;
 };
 
-/// What the photographs show at a vertex, each the mean over the faces it shows there.
+/// The color of each photograph at a vertex: the mean over the faces that it shows there.
 std::vector<Array3d> shown_at(std::uint32_t vertex, std::span<const std::uint32_t> faces,
                               const Known& known)
 {
@@ -77,7 +77,7 @@ Array3d robust_mean(const std::vector<Array3d>& shown)
     return mean;
 }
 
-/// Shows visit(other) the vertices of the faces at a vertex, itself too, some of them twice.
+/// Calls visit(other) for the vertices of the faces at a vertex, including itself; some repeat.
 template <typename Visit>
 void visit_around(std::uint32_t vertex, const VertexFaces& faces_at, const TriMesh& mesh,
                   const Visit& visit)
@@ -89,7 +89,7 @@ void visit_around(std::uint32_t vertex, const VertexFaces& faces_at, const TriMe
     }
 }
 
-/// Colours the vertices that have none by those beside them, ring by ring.
+/// Gives vertices without a color the mean color of their neighbors, ring by ring.
 void spread(const VertexFaces& faces_at, std::vector<std::optional<Array3d>>& colors,
             const TriMesh& mesh)
 {
@@ -139,7 +139,7 @@ std::size_t color_vertices(const std::vector<PhotosOfFace>& photos_of_faces,
     const std::size_t seen = static_cast<std::size_t>(
         std::ranges::count_if(found, [](const auto& color) { return color.has_value(); }));
     spread(faces_at, found, mesh);
-    mesh.colors.resize(mesh.positions.size(), kGrey);
+    mesh.colors.resize(mesh.positions.size(), kGray);
     for (std::size_t vertex = 0; vertex < found.size(); ++vertex) {
         if (found[vertex]) mesh.colors[vertex] = rounded_color(*found[vertex]);
     }

@@ -9,11 +9,11 @@
 
 namespace vcarve {
 
-/// Gives vertices the colours that photographs show around them: of each channel the mean over
-/// those photographs that are near the median of all, each averaged over the faces at the vertex.
-/// A vertex that none shows gets the mean colour of those beside it, and so on from vertex to
-/// vertex; pieces that no photograph shows keep the colours they have, or become grey. Returns how
-/// many vertices photographs show. Cost: O(faces).
+/// Colors vertices from the photographs of their faces. Averages each photograph over the faces at
+/// the vertex; each channel is the mean of the photographs near the median. A vertex without
+/// photographs gets the mean color of its neighbors, ring by ring. Connected components without
+/// photographs keep their colors, or become gray. Returns the number of vertices with photographs.
+/// Cost: O(faces).
 std::size_t color_vertices(const std::vector<PhotosOfFace>& photos_of_faces,
                            const FaceColors& colors, const Gains& gains, TriMesh& mesh);
 

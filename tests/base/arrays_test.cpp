@@ -10,7 +10,7 @@
 namespace vcarve::arrays_test {
 namespace {
 
-TEST(UnsetArray, HoldsWhatItIsGiven)
+TEST(UnsetArray, StoresAssignedValues)
 {
     UnsetArray<int> array(3, 7);
     array.resize(5, 8);
@@ -19,7 +19,7 @@ TEST(UnsetArray, HoldsWhatItIsGiven)
     EXPECT_EQ(copy, array);
 }
 
-TEST(UnsetArray, IsFilledToItsEnd)
+TEST(UnsetArray, IsFilledCompletely)
 {
     using Pair = std::array<std::int32_t, 2>;
     for (const std::size_t count : {0U, 1U, 65536U, 200001U}) {
@@ -29,9 +29,9 @@ TEST(UnsetArray, IsFilledToItsEnd)
     }
 }
 
-TEST(ParallelRows, HasTheItemsOfARowInTheOrderOfTheirSources)
+TEST(ParallelRows, OrdersItemsOfARowBySource)
 {
-    // Source i has item i in row i % 3, and source 4 nothing.
+    // Source i has item i in row i % 3; source 4 has no item.
     const RowTable table = gather_rows(7, 4, [](std::size_t i, const auto& visit) {
         if (i != 4) visit(static_cast<std::uint32_t>(i % 3), static_cast<std::uint32_t>(i));
     });
@@ -41,7 +41,7 @@ TEST(ParallelRows, HasTheItemsOfARowInTheOrderOfTheirSources)
     EXPECT_TRUE(table[3].empty());
 }
 
-TEST(ParallelRows, IsTheSameFromAnyNumberOfThreads)
+TEST(ParallelRows, DoesNotDependOnThreadCount)
 {
     constexpr std::size_t kSources = 300'000; // enough for several blocks
     constexpr std::size_t kRows = 1000;
@@ -61,7 +61,8 @@ TEST(ParallelRows, IsTheSameFromAnyNumberOfThreads)
             arena.execute([&] { return gather_rows(kSources, kRows, for_each); });
         for (std::size_t row = 0; row < kRows; ++row) {
             const auto found = table[row];
-            ASSERT_TRUE(std::ranges::equal(found, expected[row])) << threads << " threads, " << row;
+            ASSERT_TRUE(std::ranges::equal(found, expected[row]))
+                << threads << " threads, row " << row;
         }
     }
 }

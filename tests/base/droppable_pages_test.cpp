@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{4} << 20;
 
-/// A file mapped for writing, and how much of it is in this process's memory.
+/// A file that is mapped for writing, and its resident size in this process.
 class Mapping {
   public:
     Mapping(const std::filesystem::path& path, std::size_t bytes)
@@ -41,7 +41,7 @@ class Mapping {
     DroppablePages droppable() const { return {begin_, bytes_, file_}; }
     std::span<char> letters() const { return {static_cast<char*>(begin_), bytes_}; }
 
-    /// In kilobytes, as smaps tells of the mapping that begins here.
+    /// The resident size of this mapping in kilobytes, from smaps.
     long resident() const
     {
         char first[32];
@@ -63,7 +63,7 @@ class Mapping {
     void* begin_ = nullptr;
 };
 
-TEST(DroppablePages, AreDroppedInTurnAndReadBack)
+TEST(DroppablePages, AreDroppedInTurnAndReadBackOnAccess)
 {
     const TemporaryFolder folder;
     const Mapping one(folder / "one", kPiece);
@@ -71,15 +71,15 @@ TEST(DroppablePages, AreDroppedInTurnAndReadBack)
     const DroppablePages of_one = one.droppable();
     const DroppablePages of_other = other.droppable();
     EXPECT_EQ(drop_next_pages(kPiece, false), kPiece);
-    EXPECT_EQ(std::min(one.resident(), other.resident()), 0) << "one of them";
+    EXPECT_EQ(std::min(one.resident(), other.resident()), 0) << "one is dropped";
     EXPECT_GT(std::max(one.resident(), other.resident()), 0);
     EXPECT_EQ(drop_next_pages(kPiece, true), kPiece);
-    EXPECT_EQ(one.resident() + other.resident(), 0) << "then the other";
+    EXPECT_EQ(one.resident() + other.resident(), 0) << "then the other is dropped";
     EXPECT_EQ(one.letters().front(), 'a');
     EXPECT_EQ(other.letters().back(), 'a');
 }
 
-TEST(DroppablePages, AreLookedAtOnceAtMost)
+TEST(DroppablePages, AreVisitedAtMostOncePerCall)
 {
     EXPECT_EQ(drop_next_pages(kPiece, false), 0U);
     const TemporaryFolder folder;
@@ -89,30 +89,30 @@ TEST(DroppablePages, AreLookedAtOnceAtMost)
     EXPECT_EQ(file.resident(), 0);
 }
 
-TEST(DroppablePages, AreLeftAloneWhenTheyAreForgotten)
+TEST(DroppablePages, AreNotDroppedAfterDestruction)
 {
     const TemporaryFolder folder;
     const Mapping file(folder / "file", kPiece);
     {
         DroppablePages pages = file.droppable();
-        drop_next_pages(kPiece, false); // from where a drop before ended, to the end of this file
+        drop_next_pages(kPiece, false); // moves the drop position to the end of this file
         const DroppablePages moved = std::move(pages);
-        EXPECT_EQ(drop_next_pages(kPiece, false), kPiece) << "what was moved is still known";
+        EXPECT_EQ(drop_next_pages(kPiece, false), kPiece) << "moved pages stay registered";
     }
     std::ranges::fill(file.letters(), 'b');
     EXPECT_EQ(drop_next_pages(kPiece, false), 0U);
     EXPECT_GT(file.resident(), 0);
 }
 
-/// Of the mapping that begins where these letters do: whether only what is touched is read.
+/// Whether read-ahead is disabled for this mapping.
 bool reads_touched_only(const Mapping& file)
 {
     const std::string flags = mapping_flags(file.letters().data());
-    EXPECT_THAT(flags, ::testing::HasSubstr(" rd ")) << "flags are known";
+    EXPECT_THAT(flags, ::testing::HasSubstr(" rd ")) << "smaps lists the flags of the mapping";
     return flags.find(" rr ") != std::string::npos;
 }
 
-TEST(ScatteredUse, HasTheSystemReadWhatIsTouchedUntilTheLastIsGone)
+TEST(ScatteredUse, DisablesReadAheadUntilTheLastIsDestroyed)
 {
     const TemporaryFolder folder;
     const Mapping file(folder / "file", kPiece);
@@ -127,7 +127,7 @@ TEST(ScatteredUse, HasTheSystemReadWhatIsTouchedUntilTheLastIsGone)
         {
             const ScatteredUse another;
         }
-        EXPECT_TRUE(reads_touched_only(file)) << "one is left";
+        EXPECT_TRUE(reads_touched_only(file)) << "one object is left";
     }
     EXPECT_FALSE(reads_touched_only(file));
     EXPECT_FALSE(reads_touched_only(other));

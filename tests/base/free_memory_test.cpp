@@ -6,7 +6,7 @@
 namespace vcarve::free_memory_test {
 namespace {
 
-/// A machine with 8 MB free, and no groups.
+/// A machine with 8 MB of free memory and no control groups.
 class FreeMemory : public ::testing::Test {
   protected:
     FreeMemory()
@@ -15,7 +15,7 @@ class FreeMemory : public ::testing::Test {
                    "MemTotal:  16000 kB\nMemFree:  100 kB\nMemAvailable:  8000 kB\n");
     }
 
-    /// A group of version 1.
+    /// Creates a group of cgroup version 1.
     void write_v1(const std::string& group, const std::string& limit, const std::string& used)
     {
         const std::string folder = "sys/fs/cgroup/memory/" + group;
@@ -31,19 +31,19 @@ class FreeMemory : public ::testing::Test {
     TemporaryFolder root;
 };
 
-TEST_F(FreeMemory, IsTheMachinesWhereThereAreNoGroups)
+TEST_F(FreeMemory, IsThatOfTheMachineWithoutGroups)
 {
     EXPECT_EQ(free_memory(root.path()), 8000 * 1024);
     EXPECT_FALSE(cgroup_memory(root.path()));
 }
 
-TEST_F(FreeMemory, IsNotKnownWhereNothingIsSaid)
+TEST_F(FreeMemory, IsUnknownWithoutSystemFiles)
 {
     const TemporaryFolder nothing;
     EXPECT_FALSE(free_memory(nothing.path()));
 }
 
-TEST_F(FreeMemory, IsThatOfTheGroupWhereItIsLess)
+TEST_F(FreeMemory, IsThatOfTheGroupIfItIsLess)
 {
     root.write("proc/self/cgroup", "5:devices:/\n4:memory:/a/b\n0::/\n");
     write_v1("a/b/", "1000", "300");
@@ -52,7 +52,7 @@ TEST_F(FreeMemory, IsThatOfTheGroupWhereItIsLess)
     EXPECT_EQ(free_memory(root.path()), 8000 * 1024);
 }
 
-TEST_F(FreeMemory, CountsWhatTheSystemCanTakeBack)
+TEST_F(FreeMemory, IncludesReclaimableCache)
 {
     root.write("proc/self/cgroup", "4:memory:/a\n");
     write_v1("a/", "1000", "900");
@@ -64,7 +64,7 @@ TEST_F(FreeMemory, CountsWhatTheSystemCanTakeBack)
     EXPECT_EQ(free_memory(root.path()), 600);
 }
 
-TEST_F(FreeMemory, IsBoundByTheGroupsAboveAndTheRootOfAContainer)
+TEST_F(FreeMemory, IsLimitedByAncestorsAndTheRootOfAContainer)
 {
     root.write("proc/self/cgroup", "0::/a/b\n");
     write_v2("a/b/", "max", "10");
@@ -75,14 +75,14 @@ TEST_F(FreeMemory, IsBoundByTheGroupsAboveAndTheRootOfAContainer)
     EXPECT_EQ(free_memory(root.path()), 2000);
 }
 
-TEST_F(FreeMemory, IsNotBoundByTheNumberThatMeansNoLimit)
+TEST_F(FreeMemory, IgnoresTheNumberThatMeansNoLimit)
 {
     root.write("proc/self/cgroup", "4:memory:/\n");
     write_v1("", "9223372036854771712", "300");
     EXPECT_EQ(free_memory(root.path()), 8000 * 1024);
 }
 
-TEST_F(FreeMemory, IsNoneWhereAGroupIsOverItsLimit)
+TEST_F(FreeMemory, IsZeroIfAGroupExceedsItsLimit)
 {
     root.write("proc/self/cgroup", "0::/a\n");
     write_v2("a/", "1000", "1300");

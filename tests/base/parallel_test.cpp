@@ -9,7 +9,7 @@
 namespace vcarve::parallel_test {
 namespace {
 
-TEST(ParallelCollect, KeepsTheOrder)
+TEST(ParallelCollect, PreservesTheOrder)
 {
     const auto twice_the_odd = [](std::size_t i, std::vector<std::size_t>& items) {
         if (i % 2 == 1) items.insert(items.end(), {i, i});
@@ -24,7 +24,7 @@ TEST(ParallelCollect, KeepsTheOrder)
     EXPECT_TRUE(parallel_collect<std::size_t>(0, twice_the_odd).empty());
 }
 
-TEST(AvailableThreads, IsOneOnOneCore)
+TEST(AvailableThreads, ReturnsOneOnASingleCore)
 {
     cpu_set_t before;
     ASSERT_EQ(sched_getaffinity(0, sizeof(before), &before), 0);

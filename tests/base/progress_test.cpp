@@ -1,6 +1,6 @@
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "support/told_log.h"
+#include "support/recording_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,9 +19,9 @@ using ::testing::Pair;
 
 } // namespace
 
-TEST(Stage, TellsLargerSharesOnlyAndOneAtItsEnd)
+TEST(Stage, ReportsIncreasingSharesAndEndsWithOne)
 {
-    ToldLog log;
+    RecordingLog log;
     Stage stage(log, "work");
     for (const double share : {0.0, 0.25, 0.2, 0.2501, 0.5, 0.5, 0.75}) {
         stage.progress(share);
@@ -30,44 +30,44 @@ TEST(Stage, TellsLargerSharesOnlyAndOneAtItsEnd)
     EXPECT_THAT(log.shares(), ElementsAre(Pair("work", ElementsAre(0.25, 0.5, 0.75, 1.0))));
 }
 
-TEST(Stage, TellsNoShareThatNobodyCounted)
+TEST(Stage, ReportsNoShareWithoutProgress)
 {
-    ToldLog log;
+    RecordingLog log;
     Stage(log, "work").end({});
     EXPECT_THAT(log.shares(), ElementsAre(Pair("work", IsEmpty())));
 }
 
-TEST(Stage, TellsNoMoreThanAll)
+TEST(Stage, LimitsSharesToOne)
 {
-    ToldLog log;
+    RecordingLog log;
     Stage stage(log, "work");
     stage.progress(1.25);
     stage.end({});
     EXPECT_THAT(log.shares(), ElementsAre(Pair("work", ElementsAre(1.0))));
 }
 
-TEST(Progress, OfAPartOfAPartIsThatShareOfTheStage)
+TEST(Progress, ScalesNestedPartsToSharesOfTheStage)
 {
-    ToldLog log;
+    RecordingLog log;
     Stage stage(log, "work");
     const Progress half = Progress(stage).part(0.5, 1.0);
-    half.tell(0.5);
-    half.part(0.5, 0.75).tell(1.0, 2.0);
-    half.part(0.75, 1.0).tell(0.0, 0.0); // nothing to do is done
+    half.report(0.5);
+    half.part(0.5, 0.75).report(1.0, 2.0);
+    half.part(0.75, 1.0).report(0.0, 0.0); // 0 of 0 is complete
     EXPECT_THAT(log.shares(),
                 ElementsAre(Pair("work", ElementsAre(DoubleEq(0.75), DoubleEq(0.8125), 1.0))));
 }
 
-TEST(Progress, OfNothingTellsNobody)
+TEST(Progress, ReportsNothingWithoutStage)
 {
     const Progress none;
-    EXPECT_NO_THROW(none.tell(0.5));
-    EXPECT_NO_THROW(none.part(0.0, 0.5).tell(1.0, 2.0));
+    EXPECT_NO_THROW(none.report(0.5));
+    EXPECT_NO_THROW(none.part(0.0, 0.5).report(1.0, 2.0));
 }
 
-TEST(Progress, OfManyThreadsAscendsAndReachesTheEnd)
+TEST(Progress, IncreasesToOneWithSeveralThreads)
 {
-    ToldLog log;
+    RecordingLog log;
     Stage stage(log, "work");
     tbb::task_arena(4).execute([&] {
         parallel_for(
@@ -81,9 +81,9 @@ TEST(Progress, OfManyThreadsAscendsAndReachesTheEnd)
     EXPECT_TRUE(std::ranges::is_sorted(shares, std::less_equal()));
 }
 
-TEST(Progress, StopsALoopWhereTheLogWantsIt)
+TEST(Progress, StopsALoopIfTheLogRequestsIt)
 {
-    ToldLog log;
+    RecordingLog log;
     Stage stage(log, "work");
     std::atomic<int> done = 0;
     const auto loop = [&] {
@@ -101,7 +101,7 @@ TEST(Progress, StopsALoopWhereTheLogWantsIt)
 
 TEST(Progress, StopsAStageBeforeItBeginsAndBeforeItEnds)
 {
-    ToldLog log;
+    RecordingLog log;
     Stage stage(log, "work");
     log.stop();
     EXPECT_THROW(stage.end({}), Cancelled);
@@ -109,7 +109,7 @@ TEST(Progress, StopsAStageBeforeItBeginsAndBeforeItEnds)
         const Stage next(log, "more work");
         FAIL() << "the next stage began";
     } catch (const Cancelled& cancelled) {
-        EXPECT_STREQ(cancelled.what(), "stopped in stage more work, as was asked for");
+        EXPECT_STREQ(cancelled.what(), "stopped in stage more work, as requested");
     }
     EXPECT_THAT(log.ended(), IsEmpty());
 }

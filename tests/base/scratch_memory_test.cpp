@@ -38,7 +38,7 @@ std::span<std::uint64_t> numbers_at(void* memory, std::size_t bytes)
     return {static_cast<std::uint64_t*>(memory), bytes / sizeof(std::uint64_t)};
 }
 
-/// How often the maps of this process tell of a file in a folder.
+/// The number of mappings of files in a folder.
 int num_maps_in(const std::filesystem::path& folder)
 {
     std::ifstream maps("/proc/self/maps");
@@ -49,14 +49,14 @@ int num_maps_in(const std::filesystem::path& folder)
     return found;
 }
 
-TEST(ScratchMemory, TakesLargeArraysOnlyWhileItLives)
+TEST(ScratchMemory, StoresLargeArraysOnlyWhileItLives)
 {
     const TemporaryFolder folder;
     EXPECT_EQ(allocate_scratch(kLeast, 16), nullptr);
     {
         const ScratchMemory scratch(folder.path(), kNoLimit);
         EXPECT_EQ(allocate_scratch(kLeast - 1, 16), nullptr);
-        EXPECT_EQ(allocate_scratch(kLeast, 8192), nullptr) << "pages are aligned to less";
+        EXPECT_EQ(allocate_scratch(kLeast, 8192), nullptr) << "the alignment exceeds a page";
         void* const memory = allocate_scratch(kLeast, 4096);
         ASSERT_NE(memory, nullptr);
         EXPECT_EQ(num_maps_in(folder.path()), 1);
@@ -66,7 +66,7 @@ TEST(ScratchMemory, TakesLargeArraysOnlyWhileItLives)
     EXPECT_EQ(allocate_scratch(kLeast, 16), nullptr);
 }
 
-TEST(ScratchMemory, IsFilledWithZerosAndKeepsWhatIsWritten)
+TEST(ScratchMemory, IsZeroedAndKeepsWrittenValues)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
@@ -79,7 +79,7 @@ TEST(ScratchMemory, IsFilledWithZerosAndKeepsWhatIsWritten)
     free_scratch(memory);
 }
 
-TEST(ScratchMemory, IsNotMappedInHugePages)
+TEST(ScratchMemory, DoesNotUseHugePages)
 {
     if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) {
         GTEST_SKIP() << "/sys/kernel/mm/transparent_hugepage is missing: no huge pages, or /sys is "
@@ -92,7 +92,7 @@ TEST(ScratchMemory, IsNotMappedInHugePages)
     free_scratch(memory);
 }
 
-TEST(ScratchMemory, LeavesOtherMemoryToOthers)
+TEST(ScratchMemory, DoesNotFreeOtherMemory)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
@@ -102,12 +102,12 @@ TEST(ScratchMemory, LeavesOtherMemoryToOthers)
     ASSERT_EQ(posix_memalign(&page, 4096, 4096), 0);
     EXPECT_FALSE(free_scratch(page));
     std::free(page);
-    EXPECT_FALSE(free_scratch(static_cast<char*>(ours) + 4096)) << "not where it begins";
+    EXPECT_FALSE(free_scratch(static_cast<char*>(ours) + 4096)) << "not the first page";
     EXPECT_TRUE(free_scratch(ours));
-    EXPECT_FALSE(free_scratch(ours)) << "it is gone";
+    EXPECT_FALSE(free_scratch(ours)) << "already freed";
 }
 
-TEST(ScratchMemory, LeavesNothingInItsFolderAndCountsWhatWasThere)
+TEST(ScratchMemory, LeavesItsFolderEmptyAndCountsPeakBytes)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
@@ -119,7 +119,7 @@ TEST(ScratchMemory, LeavesNothingInItsFolderAndCountsWhatWasThere)
     EXPECT_GE(ScratchMemory::peak_bytes(), before + static_cast<std::int64_t>(kLeast));
 }
 
-TEST(ScratchMemory, FreesWhatOutlivesIt)
+TEST(ScratchMemory, FreesArraysThatOutliveIt)
 {
     const TemporaryFolder folder;
     void* memory = nullptr;
@@ -132,22 +132,22 @@ TEST(ScratchMemory, FreesWhatOutlivesIt)
     EXPECT_EQ(num_maps_in(folder.path()), 0);
 }
 
-TEST(ScratchMemory, IsThereOnce)
+TEST(ScratchMemory, ExistsOncePerProcess)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
     EXPECT_THROW(ScratchMemory(folder.path(), kNoLimit), std::logic_error);
 }
 
-TEST(ScratchMemory, RefusesAFolderThatTakesNoFiles)
+TEST(ScratchMemory, RejectsAMissingFolder)
 {
     const TemporaryFolder folder;
     EXPECT_THAT(refusal<ScratchError>([&] { ScratchMemory(folder / "none", kNoLimit); }),
-                HasSubstr("no file can be made in the work folder " + (folder / "none").string() +
+                HasSubstr("cannot create a file in the work folder " + (folder / "none").string() +
                           ": No such file or directory"));
 }
 
-TEST(ScratchMemory, SaysWhatIsMissingWhereTheDiskIsFull)
+TEST(ScratchMemory, ReportsMissingSpaceIfTheDiskIsFull)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
@@ -155,14 +155,14 @@ TEST(ScratchMemory, SaysWhatIsMissingWhereTheDiskIsFull)
     EXPECT_THAT(
         refusal<ScratchError>([&] { allocate_scratch(too_much, 16); }),
         MatchesRegex("the work folder " + folder.path().string() +
-                     " is full: [0-9.]+[KMG]? more are needed, and [0-9.]+[KMG]? are free"));
+                     " is full: [0-9.]+[KMG]? more are needed, but [0-9.]+[KMG]? are free"));
     EXPECT_EQ(folder.num_entries(), 0U);
     void* const memory = allocate_scratch(kLeast, 16);
-    EXPECT_NE(memory, nullptr) << "what is smaller still fits";
+    EXPECT_NE(memory, nullptr) << "smaller arrays still fit";
     free_scratch(memory);
 }
 
-TEST(ScratchMemory, GivesItsPlaceToAFile)
+TEST(ScratchMemory, IsReplacedByAMappedFile)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
@@ -176,13 +176,13 @@ TEST(ScratchMemory, GivesItsPlaceToAFile)
     EXPECT_EQ(letters[0], 'b');
     EXPECT_EQ(letters[kLeast - 2], 'b');
     EXPECT_GT(drop_next_pages(kLeast, false), 0U);
-    EXPECT_EQ(letters[kLeast - 2], 'b') << "it is read back";
-    EXPECT_EQ(num_maps_in(folder.path()), 1) << "what was there is gone";
+    EXPECT_EQ(letters[kLeast - 2], 'b') << "read back after the drop";
+    EXPECT_EQ(num_maps_in(folder.path()), 1) << "the old file is unmapped";
     EXPECT_TRUE(free_scratch(memory));
     EXPECT_EQ(num_maps_in(folder.path()), 0);
 }
 
-TEST(ScratchMemory, GivesNoOtherPlaceToAFile)
+TEST(ScratchMemory, DoesNotMapAFileOverOtherMemory)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
@@ -191,15 +191,15 @@ TEST(ScratchMemory, GivesNoOtherPlaceToAFile)
     std::vector<char> ours(2 * kLeast, 'a');
     EXPECT_FALSE(map_over_scratch(ours.data(), kLeast, {file, 0}));
     void* const memory = allocate_scratch(kLeast, 16);
-    EXPECT_FALSE(map_over_scratch(memory, kLeast + 1, {file, 0})) << "it is too long";
-    EXPECT_FALSE(map_over_scratch(memory, kLeast, {file, 1})) << "no page begins there";
+    EXPECT_FALSE(map_over_scratch(memory, kLeast + 1, {file, 0})) << "longer than the array";
+    EXPECT_FALSE(map_over_scratch(memory, kLeast, {file, 1})) << "the offset is not at a page";
     EXPECT_EQ(static_cast<const char*>(memory)[0], '\0');
     EXPECT_EQ(ours[0], 'a');
     ::close(file);
     EXPECT_TRUE(free_scratch(memory));
 }
 
-TEST(ScratchMemory, LeavesNumbersOfFilesToOthers)
+TEST(ScratchMemory, LeavesFileDescriptorsForOtherFiles)
 {
     rlimit limit = {};
     ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
@@ -218,14 +218,14 @@ TEST(ScratchMemory, LeavesNumbersOfFilesToOthers)
     ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-TEST(ScratchMemory, IsNotThereInAChildThatCouldWriteToTheParentsArrays)
+TEST(ScratchMemory, IsNotMappedInForkedChildren)
 {
     const TemporaryFolder folder;
     const ScratchMemory scratch(folder.path(), kNoLimit);
     void* const memory = allocate_scratch(kLeast, 16);
     const pid_t child = ::fork();
-    if (child == 0) { // no test may go on here
-        // mincore() fails where nothing is mapped.
+    if (child == 0) { // the child must not run other tests
+        // mincore() fails for unmapped addresses.
         unsigned char resident = 0;
         ::_exit(::mincore(memory, 1, &resident) != 0 ? 0 : 1);
     }
@@ -235,7 +235,7 @@ TEST(ScratchMemory, IsNotThereInAChildThatCouldWriteToTheParentsArrays)
     free_scratch(memory);
 }
 
-TEST(ScratchMemory, LetsAFileStandInMemoryThatIsNotInTheFolder)
+TEST(ScratchMemory, MapsAFileOverMemoryWithoutAFolder)
 {
     const TemporaryFolder folder;
     const std::string content(kLeast, 'x');
@@ -250,23 +250,24 @@ TEST(ScratchMemory, LetsAFileStandInMemoryThatIsNotInTheFolder)
     EXPECT_THAT(numbers, ::testing::Each(0U));
     std::ranges::fill(numbers, 5U);
     drop_next_pages(kAllPages, false);
-    EXPECT_EQ(numbers.front(), 5U) << "there is no file to read it back from";
+    EXPECT_EQ(numbers.front(), 5U) << "memory without a file is not dropped";
     EXPECT_EQ(num_maps_in(folder.path()), 0);
     EXPECT_TRUE(map_over_scratch(memory, kLeast, {file, 0}));
     ::close(file);
     EXPECT_EQ(num_maps_in(folder.path()), 1);
     drop_next_pages(kAllPages, false);
     EXPECT_EQ(static_cast<const char*>(memory)[kLeast - 1], 'x');
-    EXPECT_EQ(numbers.back(), 5U) << "what is beyond the file stays";
+    EXPECT_EQ(numbers.back(), 5U) << "memory beyond the file is unchanged";
     EXPECT_EQ(ScratchMemory::peak_bytes(), before);
     EXPECT_TRUE(free_scratch(memory));
     EXPECT_EQ(num_maps_in(folder.path()), 0);
 }
 
-TEST(ScratchMemory, ServesManyThreadsWhilePagesAreDropped)
+TEST(ScratchMemory, IsThreadSafeWhilePagesAreDropped)
 {
     const TemporaryFolder folder;
-    const ScratchMemory scratch(folder.path(), std::int64_t{16} << 20); // so some always are
+    const ScratchMemory scratch(folder.path(),
+                                std::int64_t{16} << 20); // so pages are dropped all the time
     const auto work = [](std::uint64_t seed) {
         std::size_t wrong = 0;
         for (std::uint64_t round = 0; round < 6; ++round) {
@@ -294,7 +295,7 @@ TEST(ScratchMemory, ServesManyThreadsWhilePagesAreDropped)
     EXPECT_THAT(wrong, ::testing::Each(0U));
 }
 
-#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
+#ifndef VCARVE_SANITIZED // sanitizers need additional memory
 TEST(ScratchMemory, KeepsLittleOfALargeArrayInMemory)
 {
     const TemporaryFolder folder;
@@ -309,7 +310,7 @@ TEST(ScratchMemory, KeepsLittleOfALargeArrayInMemory)
         for (std::size_t k = i; k < i + kStep; ++k) {
             numbers[k] = k * k;
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(2)); // as work does
+        std::this_thread::sleep_for(std::chrono::milliseconds(2)); // simulates computation
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_LE(resident_size()->all, before + kAllowed);

@@ -5,7 +5,7 @@
 namespace vcarve::statistics_test {
 namespace {
 
-TEST(Median, IsTheUpperMiddle)
+TEST(Median, ReturnsTheUpperMiddleValue)
 {
     EXPECT_EQ(median({}), 0.0);
     EXPECT_EQ(median({3, 1, 2}), 2.0);

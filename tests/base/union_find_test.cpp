@@ -7,7 +7,7 @@
 namespace vcarve::union_find_test {
 namespace {
 
-TEST(UnionFind, NamesASetByItsLeastMember)
+TEST(UnionFind, UsesTheLeastMemberAsRoot)
 {
     UnionFind sets(6);
     sets.join(5, 3);
@@ -20,10 +20,10 @@ TEST(UnionFind, NamesASetByItsLeastMember)
     EXPECT_EQ(sets.root(4), 1U);
 }
 
-TEST(UnionFind, JoinsFromManyThreadsAsFromOne)
+TEST(UnionFind, JoinsConcurrentlyWithTheSameResult)
 {
     constexpr std::uint32_t kSize = 100'000;
-    constexpr std::uint32_t kSets = 7; // the residues
+    constexpr std::uint32_t kSets = 7; // one per residue modulo 7
     tbb::task_arena(4).execute([&] {
         for (int round = 0; round < 20; ++round) {
             UnionFind sets(kSize);

@@ -17,7 +17,7 @@
 namespace vcarve::bench::write_colmap_model_test {
 namespace {
 
-/// A scene in parts of at most so many points.
+/// A scene in parts of at most `most` points.
 class SmallParts final : public SceneParts {
   public:
     SmallParts(const Scene& scene, std::size_t most) : parts_(scene), most_(most) {}
@@ -33,7 +33,7 @@ class SmallParts final : public SceneParts {
     std::size_t most_;
 };
 
-TEST(SampleParts, AreTheSceneMadeAtOnceForAnyPartAndThreads)
+TEST(SampleParts, EqualTheWholeSceneForAnyPartSizeAndThreadCount)
 {
     const SampleKind kind = {.shape = Shape::terrain, .views = 50};
     constexpr std::size_t kPoints = 3 * kSampleBlock + 1000;
@@ -59,13 +59,13 @@ TEST(SampleParts, AreTheSceneMadeAtOnceForAnyPartAndThreads)
     }
 }
 
-/// More sights than are written at once.
+/// A scene with more rays than one write contains.
 Scene some_scene()
 {
     return make_sample_scene({.shape = Shape::surface, .views = 40}, 50'000);
 }
 
-TEST(WriteColmapModel, WritesPartsAsItWritesTheScene)
+TEST(WriteColmapModel, WritesPartsLikeTheWholeScene)
 {
     const TemporaryFolder folder;
     const Scene scene = some_scene();
@@ -77,7 +77,7 @@ TEST(WriteColmapModel, WritesPartsAsItWritesTheScene)
     }
 }
 
-TEST(WriteColmapModel, IsReadBackPointForPoint)
+TEST(WriteColmapModel, RoundTripsEveryPoint)
 {
     const TemporaryFolder folder;
     const Scene scene = some_scene();
@@ -94,14 +94,14 @@ TEST(WriteColmapModel, IsReadBackPointForPoint)
     expect_equal_scenes(read, scene);
 }
 
-/// A 2D point of an image, as COLMAP has it.
+/// A 2D point of an image in COLMAP's format.
 struct Seen {
     double x;
     double y;
     std::uint64_t point_id;
 };
 
-/// The 2D points of every image, by its id.
+/// The 2D points of every image, by image id.
 std::map<std::uint32_t, std::vector<Seen>> seen_in_images(const std::filesystem::path& path)
 {
     const MappedFile file(path);
@@ -121,7 +121,7 @@ std::map<std::uint32_t, std::vector<Seen>> seen_in_images(const std::filesystem:
     return seen;
 }
 
-TEST(WriteColmapModel, ListsInEveryImageWhatTracksNameAndWhereItIsSeen)
+TEST(WriteColmapModel, ListsInEveryImageThePointsOfItsTracksAndTheirPixels)
 {
     const TemporaryFolder folder;
     const Scene scene = some_scene();
@@ -130,12 +130,12 @@ TEST(WriteColmapModel, ListsInEveryImageWhatTracksNameAndWhereItIsSeen)
     const MappedFile file(folder / "model/points3D.bin");
     ByteReader reader(file.bytes(), "points3D.bin");
     ASSERT_EQ(reader.read<std::uint64_t>("count"), scene.num_points());
-    std::size_t sights = 0;
+    std::size_t rays = 0;
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
         const auto id = reader.read<std::uint64_t>("id");
         reader.skip(1, 3 * 8 + 3 + 8);
         const auto length = reader.read<std::uint64_t>("track");
-        for (std::uint64_t sight = 0; sight < length; ++sight, ++sights) {
+        for (std::uint64_t ray = 0; ray < length; ++ray, ++rays) {
             const auto image = reader.read<std::uint32_t>("image");
             const Seen& point = seen.at(image).at(reader.read<std::uint32_t>("2D point"));
             ASSERT_EQ(point.point_id, id);
@@ -148,12 +148,12 @@ TEST(WriteColmapModel, ListsInEveryImageWhatTracksNameAndWhereItIsSeen)
     for (const auto& [image, points] : seen) {
         listed += points.size();
     }
-    EXPECT_EQ(listed, sights);
-    EXPECT_EQ(sights, scene.num_sights());
+    EXPECT_EQ(listed, rays);
+    EXPECT_EQ(rays, scene.num_rays());
 }
 
-#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
-/// As many points as there is no memory for, the same few again and again.
+#ifndef VCARVE_SANITIZED // sanitizers use extra memory
+/// More points than fit into memory: the same few, repeated.
 class ManyParts final : public SceneParts {
   public:
     explicit ManyParts(std::size_t count) : left_(count), count_(count) {}
@@ -171,7 +171,7 @@ class ManyParts final : public SceneParts {
     std::size_t count_;
 };
 
-TEST(WriteColmapModel, TakesNoMoreMemoryForMorePoints)
+TEST(WriteColmapModel, UsesNoMoreMemoryForMorePoints)
 {
     const TemporaryFolder folder;
     ManyParts parts(2'000'000); // 130 MB as a scene, 144 MB of 2D points
@@ -180,7 +180,7 @@ TEST(WriteColmapModel, TakesNoMoreMemoryForMorePoints)
               8 + 2'000'000 * (51 + 3 * 8));
 }
 
-TEST(SampleParts, TakeNoMoreMemoryForMorePoints)
+TEST(SampleParts, UseNoMoreMemoryForMorePoints)
 {
     const auto parts = sample_parts({.shape = Shape::terrain}, 1'000'000'000);
     EXPECT_LT(

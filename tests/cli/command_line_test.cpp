@@ -53,7 +53,7 @@ std::string refusal_of(const std::vector<std::string>& words)
     return "accepted";
 }
 
-TEST(OptionParser, TellsOperandsFromOptionsInAnyOrder)
+TEST(OptionParser, SeparatesOperandsFromOptionsInAnyOrder)
 {
     const ParsedArguments given =
         parsed({"in", "--angle", "7", "--closed", "out", "--stats=s.json"});
@@ -62,14 +62,14 @@ TEST(OptionParser, TellsOperandsFromOptionsInAnyOrder)
                                  {"angle", "7"}, {"closed", ""}, {"stats", "s.json"}}));
 }
 
-TEST(OptionParser, TakesEverythingAfterTwoDashesForOperands)
+TEST(OptionParser, TreatsWordsAfterTwoDashesAsOperands)
 {
     const ParsedArguments given = parsed({"--closed", "--", "--angle", "-x"});
     EXPECT_THAT(given.operands, ElementsAre("--angle", "-x"));
     EXPECT_EQ(given.options, (std::map<std::string, std::string>{{"closed", ""}}));
 }
 
-TEST(ReadOptions, WritesWhatWasGivenAndLeavesTheRest)
+TEST(ReadOptions, SetsOnlyGivenOptions)
 {
     const SampleOptions options = options_of(
         {"--angle=12.25", "--min-views=7", "--min-views", "5", "--closed", "--shape", "flat"});
@@ -81,7 +81,7 @@ TEST(ReadOptions, WritesWhatWasGivenAndLeavesTheRest)
     EXPECT_EQ(options.memory, 3 << 20);
 }
 
-TEST(ReadOptions, TakesSizesOfMemoryWithTheirSuffix)
+TEST(ReadOptions, ParsesMemorySizesWithSuffix)
 {
     EXPECT_EQ(options_of({"--memory", "8G"}).memory, std::int64_t{8} << 30);
     EXPECT_EQ(options_of({"--memory", "0"}).memory, 0);
@@ -89,7 +89,7 @@ TEST(ReadOptions, TakesSizesOfMemoryWithTheirSuffix)
               "--memory takes a size in bytes, or with K, M or G as in 8G, not \"8 apples\"");
 }
 
-TEST(ReadOptions, TakesAWordWhereTheOptionHasOne)
+TEST(ReadOptions, AcceptsTheWordOfAnOption)
 {
     EXPECT_EQ(options_of({}).factor, 7.0);
     EXPECT_EQ(options_of({"--factor=usual"}).factor, 1.0);
@@ -98,7 +98,7 @@ TEST(ReadOptions, TakesAWordWhereTheOptionHasOne)
               "--factor takes usual or a number, 0 or more, not \"unusual\"");
 }
 
-TEST(ReadOptions, TakesWordsOrThreeNumbers)
+TEST(ReadOptions, AcceptsWordsOrThreeNumbers)
 {
     EXPECT_EQ(options_of({}).place.word, 0);
     EXPECT_EQ(options_of({"--place", "there"}).place.word, 1);
@@ -110,7 +110,7 @@ TEST(ReadOptions, TakesWordsOrThreeNumbers)
     }
 }
 
-TEST(ReadOptions, RefusesWhatIsNeitherAWordNorThreeNumbers)
+TEST(ReadOptions, RejectsTextThatIsNeitherAWordNorThreeNumbers)
 {
     const std::string expected = "--place takes here, there or x,y,z from -10 to 10, not ";
     for (const std::string text :
@@ -122,7 +122,7 @@ TEST(ReadOptions, RefusesWhatIsNeitherAWordNorThreeNumbers)
     EXPECT_EQ(refusal_of({"--place", "1,2,10.5"}), expected + "10.5");
 }
 
-TEST(ReadOptions, TakesAWordABoxOrAFileForARegion)
+TEST(ReadOptions, AcceptsAWordABoxOrAFileForARegion)
 {
     using Kind = RegionChoice::Kind;
     EXPECT_EQ(options_of({}).part.kind, Kind::everything);
@@ -138,7 +138,7 @@ TEST(ReadOptions, TakesAWordABoxOrAFileForARegion)
     }
 }
 
-TEST(ReadOptions, RefusesListsThatAreNoBox)
+TEST(ReadOptions, RejectsListsThatAreNotABox)
 {
     const std::string expected = "--part takes none, auto, x0,y0,z0,x1,y1,z1 or a file, not ";
     for (const std::string text :
@@ -150,7 +150,7 @@ TEST(ReadOptions, RefusesListsThatAreNoBox)
               "0,0,0,1,-1,1");
 }
 
-TEST(ReadOptions, RefusesValuesOfTheWrongKind)
+TEST(ReadOptions, RejectsValuesOfTheWrongType)
 {
     EXPECT_EQ(refusal_of({"--angle", "wide"}),
               "--angle takes a number from 0 to 180 (deg), not \"wide\"");
@@ -165,7 +165,7 @@ TEST(ReadOptions, RefusesValuesOfTheWrongKind)
     EXPECT_EQ(refusal_of({"--angle="}), "--angle needs a value: a number from 0 to 180 (deg)");
 }
 
-TEST(OptionParser, RefusesAnOptionWithoutItsValue)
+TEST(OptionParser, RejectsAnOptionWithoutValue)
 {
     EXPECT_EQ(refusal_of({"--min-views"}),
               "--min-views needs a value: a whole number, 2 or more (views)");
@@ -174,7 +174,7 @@ TEST(OptionParser, RefusesAnOptionWithoutItsValue)
     EXPECT_EQ(refusal_of({"--shape", "--closed"}), "--shape needs a value: round or flat");
 }
 
-TEST(OptionParser, TakesOperandsByColmapsNames)
+TEST(OptionParser, AcceptsColmapsNamesOfOperands)
 {
     EXPECT_THAT(parsed({"-i", "in", "-o", "out"}).operands, ElementsAre("in", "out"));
     EXPECT_THAT(parsed({"--output_path=out", "--closed", "--input_path", "in"}).operands,
@@ -182,7 +182,7 @@ TEST(OptionParser, TakesOperandsByColmapsNames)
     EXPECT_THAT(parsed({"-o", "out", "in"}).operands, ElementsAre("in", "out"));
 }
 
-TEST(OptionParser, TakesColmapsTypeOfInputForTheChoiceOfPoints)
+TEST(OptionParser, AcceptsColmapsInputTypeAsPoints)
 {
     std::string points;
     const OptionList options = {{"Input", {.name = "points", .help = "Which."}, &points}};
@@ -190,7 +190,7 @@ TEST(OptionParser, TakesColmapsTypeOfInputForTheChoiceOfPoints)
     EXPECT_EQ(parse_arguments(words, options).options.at("points"), "dense");
 }
 
-TEST(OptionParser, NamesTheWordThatIsWrong)
+TEST(OptionParser, ReportsTheWrongWord)
 {
     EXPECT_EQ(refusal_of({"--closed=yes"}), "--closed takes no value; remove \"yes\"");
     EXPECT_EQ(refusal_of({"--closed", "no", "in"}), "--closed takes no value; remove \"no\"");
@@ -202,7 +202,7 @@ TEST(OptionParser, NamesTheWordThatIsWrong)
     EXPECT_EQ(refusal_of({"-x"}), "there is no option -x (see colmap-vcarve --help)");
 }
 
-TEST(Nearest, PrefersWhatTheWordIsAPartOf)
+TEST(Nearest, PrefersCandidatesThatContainTheWord)
 {
     EXPECT_EQ(nearest("--views", {"--view", "--min-views"}), "--min-views");
     EXPECT_EQ(nearest("--min", {"--in", "--min-views"}), "--min-views");
@@ -210,7 +210,7 @@ TEST(Nearest, PrefersWhatTheWordIsAPartOf)
 
 TEST(Nearest, CountsInsertedRemovedAndReplacedLetters)
 {
-    EXPECT_EQ(nearest("--colsed", {"--closed", "--coloured"}), "--closed");
+    EXPECT_EQ(nearest("--colsed", {"--closed", "--colored"}), "--closed");
     EXPECT_EQ(nearest("--quite", {"--quiet", "--ascii"}), "--quiet");
     EXPECT_EQ(nearest("--ascii", {"--quiet", "--help"}), "");
 }
@@ -230,7 +230,7 @@ Manual sample_manual()
     return manual;
 }
 
-TEST(HelpText, HasALinePerCommonOption)
+TEST(HelpText, ShowsOneLinePerCommonOption)
 {
     EXPECT_EQ(help_text(sample_manual(), false), R"(Carves.
 
@@ -260,7 +260,7 @@ Exit codes: 0.
 )");
 }
 
-TEST(HelpText, HasWholeTextsOfMoreOptionsOnRequest)
+TEST(HelpText, ShowsFullTextsOfAllOptionsOnRequest)
 {
     const std::string all = help_text(sample_manual(), true);
     EXPECT_THAT(all, HasSubstr("\n  IN                          Input. Any.\n"));
@@ -270,7 +270,7 @@ TEST(HelpText, HasWholeTextsOfMoreOptionsOnRequest)
     EXPECT_THAT(help_text(sample_manual(), false), Not(HasSubstr("--factor")));
 }
 
-TEST(MarkdownOptions, IsATablePerHeading)
+TEST(MarkdownOptions, ShowOneTablePerHeading)
 {
     EXPECT_EQ(markdown_options(sample_manual()), R"(## carve IN OUT
 

@@ -22,7 +22,7 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using Json = nlohmann::ordered_json;
 
-/// A model of a ball and its surface as this program makes it.
+/// A model of a ball, and the mesh that this program makes of it.
 class CompareOnBall : public ::testing::Test {
   protected:
     CompareOnBall()
@@ -46,13 +46,13 @@ class CompareOnBall : public ::testing::Test {
         return nlohmann::json::parse(bytes_of(json));
     }
 
-    /// Expects the command to fail with this code and no table, and gives its sentence.
+    /// Expects the command to fail with this code and no table. Returns its message.
     std::string refusal_of(int exit_code, const std::vector<std::string>& more) const
     {
         return sentence_of_run(exit_code, compare(more));
     }
 
-    /// A program that stands in for COLMAP.
+    /// A program that replaces COLMAP.
     std::string script(const std::string& body) const
     {
         const std::filesystem::path path = folder.write("mesher", "#!/bin/sh\n" + body + "\n");
@@ -66,15 +66,15 @@ class CompareOnBall : public ::testing::Test {
     std::string json = folder / "figures.json";
 };
 
-TEST_F(CompareOnBall, PrintsATableWithAColumnForEachMeshAndWhatItMeans)
+TEST_F(CompareOnBall, PrintsATableWithOneColumnPerMeshAndALegend)
 {
     const Outcome outcome = compare({mesh, mesh});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.out, StartsWith("| "));
     const std::string head = outcome.out.substr(0, outcome.out.find('\n'));
     EXPECT_EQ(head.substr(head.find("| /")), "| " + mesh + " | " + mesh + " |");
-    EXPECT_THAT(outcome.out, HasSubstr("| hidden sights "));
-    EXPECT_THAT(outcome.out, HasSubstr("\nhidden sights: share of lines"));
+    EXPECT_THAT(outcome.out, HasSubstr("| hidden rays "));
+    EXPECT_THAT(outcome.out, HasSubstr("\nhidden rays: fraction of rays"));
     EXPECT_THAT(outcome.out, Not(HasSubstr("seconds")));
     EXPECT_THAT(outcome.err, MatchesRegex("read +400 points, (.|\n)*"
                                           "reference +[0-9]+ points.* s\n"
@@ -83,7 +83,7 @@ TEST_F(CompareOnBall, PrintsATableWithAColumnForEachMeshAndWhatItMeans)
                                           "measure +[0-9]+ faces of .* s\n"));
 }
 
-TEST_F(CompareOnBall, NamesColumnsByTheirFiles)
+TEST_F(CompareOnBall, NamesColumnsAfterFiles)
 {
     const Outcome outcome = compare({"--quiet", mesh});
     EXPECT_THAT(outcome.out, MatchesRegex("\\| +\\| +mesh.ply \\|\n(.|\n)*"));
@@ -106,13 +106,13 @@ TEST_F(CompareOnBall, FindsAMeshEqualToItself)
     EXPECT_EQ(record["meshes"][0]["size"]["orientation_faults"], 0);
 }
 
-TEST_F(CompareOnBall, UnderstandsTheOffsetOfAFile)
+TEST_F(CompareOnBall, AppliesTheOffsetOfAFile)
 {
     const std::string far_ball = folder / "far";
     write_ball_model(far_ball, 400, {5e5, 4.6e6, 100.0});
     const auto figures_of = [&](const std::string& offset) {
         const std::string written = folder / (offset + ".ply");
-        // Where the points are, so that no coordinate is rounded when it is written.
+        // Vertices stay at the points, so that writing rounds no coordinate.
         const Outcome made =
             run_program({"--quiet", far_ball, written, "--offset", offset, "--denoise", "0"});
         EXPECT_EQ(made.exit_code, 0) << made.err;
@@ -134,7 +134,7 @@ TEST_F(CompareOnBall, UnderstandsTheOffsetOfAFile)
                 HasSubstr("comment offset 499000 4500000 -7\n"));
 }
 
-TEST_F(CompareOnBall, GivesTheSameFiguresForAnyNumberOfThreads)
+TEST_F(CompareOnBall, GivesTheSameFiguresForAnyThreadCount)
 {
     const Outcome one = compare({mesh, "--truth", mesh, "--threads", "1"});
     const Outcome three = compare({mesh, "--truth", mesh, "--threads", "3"});
@@ -142,7 +142,7 @@ TEST_F(CompareOnBall, GivesTheSameFiguresForAnyNumberOfThreads)
     EXPECT_EQ(one.out, three.out);
 }
 
-TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
+TEST_F(CompareOnBall, RejectsUnreadableAndUnwritableFilesBeforeTheWorkStarts)
 {
     const std::string nowhere = folder / "nowhere";
     EXPECT_EQ(refusal_of(3, {mesh, nowhere}),
@@ -158,7 +158,7 @@ TEST_F(CompareOnBall, RefusesFilesItCannotReadOrWriteBeforeItStarts)
               "colmap-vcarve: --json would replace the mesh " + mesh + "\n");
 }
 
-TEST_F(CompareOnBall, RecognisesAMeshInAnotherFrame)
+TEST_F(CompareOnBall, RejectsAMeshInAnotherFrame)
 {
     const std::string far = folder.write("far.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"
                                                     "property float x\nproperty float y\n"
@@ -173,7 +173,7 @@ TEST_F(CompareOnBall, RecognisesAMeshInAnotherFrame)
     EXPECT_THAT(outcome.err, HasSubstr("frame"));
 }
 
-TEST_F(CompareOnBall, PutsColmapsMeshBesideItsOwn)
+TEST_F(CompareOnBall, MeasuresColmapsMeshBesideItsOwn)
 {
     const std::string mesher = script("cp '" + mesh + "' \"$7\"");
     const nlohmann::json record = figures({"--colmap", mesher});
@@ -188,7 +188,7 @@ TEST_F(CompareOnBall, PutsColmapsMeshBesideItsOwn)
     }
 }
 
-TEST_F(CompareOnBall, RunsColmapsMesherOnTheModelItFound)
+TEST_F(CompareOnBall, RunsColmapsMesherOnTheFoundModel)
 {
     const std::string words = folder / "words";
     const Outcome outcome = compare({"--colmap", script("echo \"$@\" > '" + words + "'; exit 1")});
@@ -198,43 +198,43 @@ TEST_F(CompareOnBall, RunsColmapsMesherOnTheModelItFound)
     EXPECT_THAT(outcome.out, Not(HasSubstr("| COLMAP |")));
 }
 
-TEST_F(CompareOnBall, SaysThatColmapIsBuiltWithoutCgalAndGoesOn)
+TEST_F(CompareOnBall, NotesThatColmapLacksCgalAndContinues)
 {
     const std::string mesher =
         script("echo 'ERROR: Delaunay meshing requires CGAL, which is not available.'; exit 1");
     const Outcome outcome = compare({mesh, "--colmap", mesher});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("note: " + mesher +
-                                       " is built without CGAL, so it has no Delaunay mesher; "
-                                       "its column is left out\n"));
+                                       " was built without CGAL, so it has no Delaunay mesher; "
+                                       "its column is omitted\n"));
     EXPECT_THAT(outcome.out, MatchesRegex("\\| +\\| colmap-vcarve \\| +mesh.ply \\|\n(.|\n)*"));
 }
 
-TEST_F(CompareOnBall, SaysWhatColmapSaidLastWhereItFails)
+TEST_F(CompareOnBall, NotesTheLastOutputOfColmapIfItFails)
 {
     const std::string mesher = script("echo first; echo 'out of luck'; exit 4");
     EXPECT_THAT(compare({"--colmap", mesher}).err,
                 HasSubstr("note: " + mesher +
-                          " ended with exit code 4 and wrote no mesh, its last "
-                          "line: out of luck; its column is left out\n"));
+                          " exited with code 4 and wrote no mesh, its last "
+                          "output: out of luck; its column is omitted\n"));
     const std::string nowhere = folder / "nowhere";
     EXPECT_THAT(compare({"--colmap", nowhere}).err,
                 HasSubstr("note: " + nowhere +
-                          " could not be started and wrote no mesh; its column is left out\n"));
+                          " could not be started and wrote no mesh; its column is omitted\n"));
 }
 
-TEST_F(CompareOnBall, SeesThatColmapFailsWhereSignalsOfChildrenAreIgnored)
+TEST_F(CompareOnBall, DetectsThatColmapFailsEvenIfSigchldIsIgnored)
 {
     const std::string mesher = script("cp '" + mesh + "' \"$7\"; exit 4");
     const Outcome outcome = Subprocess({"/usr/bin/env", "--ignore-signal=CHLD", built_program(),
                                         "compare", model, "--samples", "2000", "--colmap", mesher})
                                 .wait();
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("ended with exit code 4"));
+    EXPECT_THAT(outcome.err, HasSubstr("exited with code 4"));
     EXPECT_THAT(outcome.out, Not(HasSubstr("| COLMAP |")));
 }
 
-TEST_F(CompareOnBall, KillsColmapWhenItsTimeIsUp)
+TEST_F(CompareOnBall, KillsColmapAfterTheTimeout)
 {
     const std::string pid = folder / "pid";
     const std::string mesher = script("sleep 600 & echo $! > '" + pid + "'; wait");
@@ -242,7 +242,7 @@ TEST_F(CompareOnBall, KillsColmapWhenItsTimeIsUp)
     EXPECT_EQ(record["meshes"][0],
               nlohmann::json({{"name", "COLMAP"}, {"failure", "timed out after 1 s"}}));
     EXPECT_EQ(record["meshes"][1]["name"], "colmap-vcarve");
-    // What it started is gone, too, or a zombie nobody has waited for yet.
+    // The program's child is gone, too, or a zombie.
     std::ifstream status("/proc/" + std::to_string(std::stoi(bytes_of(pid))) + "/stat");
     std::string number;
     std::string name;
@@ -277,7 +277,7 @@ TEST_F(CompareOnBall, LeavesNothingBehindWhenItIsInterrupted)
     EXPECT_EQ(temporary.num_entries(), 0U);
 }
 
-/// With a coarser mesh and a page.
+/// Adds a coarser mesh and a page.
 class CompareReportOfBall : public CompareOnBall {
   protected:
     CompareReportOfBall()
@@ -289,7 +289,7 @@ class CompareReportOfBall : public CompareOnBall {
     std::string page = folder / "out.html";
 };
 
-TEST_F(CompareReportOfBall, HoldsTheFiguresThatJsonWrites)
+TEST_F(CompareReportOfBall, ContainsTheFiguresOfJson)
 {
     ASSERT_EQ(compare({mesh, coarse, "--truth", mesh, "--report", page, "--json", json}).exit_code,
               0);
@@ -301,7 +301,7 @@ TEST_F(CompareReportOfBall, HoldsTheFiguresThatJsonWrites)
     EXPECT_EQ(record["program"]["name"], "colmap-vcarve");
 }
 
-TEST_F(CompareReportOfBall, HasTheRowsOfTheTable)
+TEST_F(CompareReportOfBall, ContainsTheRowsOfTheTable)
 {
     const Outcome outcome = compare({mesh, coarse, "--truth", mesh, "--report", page});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -332,7 +332,7 @@ TEST_F(CompareReportOfBall, HasTheRowsOfTheTable)
     EXPECT_EQ(record["rows"][5]["better"], "lower");
 }
 
-TEST_F(CompareReportOfBall, DrawsEverySurface)
+TEST_F(CompareReportOfBall, DrawsEveryMesh)
 {
     ASSERT_EQ(compare({mesh, coarse, "--truth", mesh, "--report", page}).exit_code, 0);
     const std::string written = bytes_of(page);
@@ -352,7 +352,7 @@ TEST_F(CompareReportOfBall, DrawsEverySurface)
     EXPECT_GE(scene["surfaces"][1]["missing"].size(), 3U);
 }
 
-TEST_F(CompareReportOfBall, ShowsTheSameForAnyNumberOfThreads)
+TEST_F(CompareReportOfBall, ShowsTheSameForAnyThreadCount)
 {
     std::vector<Json> scenes;
     for (const char* threads : {"1", "2", "3"}) {
@@ -363,7 +363,7 @@ TEST_F(CompareReportOfBall, ShowsTheSameForAnyNumberOfThreads)
     EXPECT_EQ(scenes[0], scenes[2]);
 }
 
-TEST_F(CompareReportOfBall, LetsNoNameBreakOut)
+TEST_F(CompareReportOfBall, EscapesNamesInHtml)
 {
     const std::string nasty = folder / "<img src=x onerror=y()>.ply";
     std::filesystem::copy(mesh, nasty);
@@ -373,7 +373,7 @@ TEST_F(CompareReportOfBall, LetsNoNameBreakOut)
               "<img src=x onerror=y()>.ply");
 }
 
-TEST_F(CompareReportOfBall, ShowsWhatIsLeftWhereAMeshCouldNotBeMade)
+TEST_F(CompareReportOfBall, ShowsTheOtherMeshesIfOneCouldNotBeMade)
 {
     const std::filesystem::path mesher = folder.write("mesher", "#!/bin/sh\nsleep 60\n");
     std::filesystem::permissions(mesher, std::filesystem::perms::owner_all);
@@ -387,7 +387,7 @@ TEST_F(CompareReportOfBall, ShowsWhatIsLeftWhereAMeshCouldNotBeMade)
     EXPECT_EQ(record["rows"][0]["cells"][0], record["comparison"]["meshes"][0]["failure"]);
 }
 
-TEST_F(CompareReportOfBall, IsNotLeftBehindByARunThatFails)
+TEST_F(CompareReportOfBall, IsNotWrittenByAFailedRun)
 {
     folder.write("empty.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty double x\n"
                               "property double y\nproperty double z\nelement face 0\n"

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 
-/// A file that is gone with the test, in the place of a terminal.
+/// A temporary file that replaces a terminal.
 class Screen {
   public:
     std::FILE* stream() const { return file_.get(); }
@@ -56,7 +56,7 @@ TEST(BarLine, IsNarrowerThanTheTerminal)
     EXPECT_EQ(bar_line("cut", 0.5, 12.3, 20), "cut          [=====");
 }
 
-TEST(ConsoleLog, PrintsALineAStageAndANoteAtOnce)
+TEST(ConsoleLog, PrintsOneLinePerStageAndNotesImmediately)
 {
     const Screen screen;
     {
@@ -69,7 +69,7 @@ TEST(ConsoleLog, PrintsALineAStageAndANoteAtOnce)
                 MatchesRegex("note: images.txt is ignored.\nread +12 points +[0-9.]+ s\n"));
 }
 
-TEST(ConsoleLog, ObeysNoName)
+TEST(ConsoleLog, RemovesControlCharactersFromNames)
 {
     const Screen screen;
     {
@@ -83,7 +83,7 @@ TEST(ConsoleLog, ObeysNoName)
     EXPECT_THAT(screen.text(), Not(HasSubstr("\x1b")));
 }
 
-TEST(ConsoleLog, DropsWhatCannotBeWritten)
+TEST(ConsoleLog, IgnoresWriteErrors)
 {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> full(std::fopen("/dev/full", "w"),
                                                                std::fclose);
@@ -95,7 +95,7 @@ TEST(ConsoleLog, DropsWhatCannotBeWritten)
     log.conclude("nor this");
 }
 
-TEST(ConsoleLog, MovesABarWhileAStageRunsAndRemovesItForTheLine)
+TEST(ConsoleLog, ShowsABarUntilTheStageEnds)
 {
     const Screen screen;
     ConsoleLog log({.stream = screen.stream(), .live = true, .bar_after_s = 0});
@@ -120,7 +120,7 @@ TEST(ConsoleLog, KeepsCountsAndPrintsNothingWhenQuiet)
     EXPECT_EQ(log.counts().at("read"), (Counts{{"points", 12}}));
 }
 
-TEST(ConsoleLog, EndsWithASentenceInBoldWhereThatIsWanted)
+TEST(ConsoleLog, PrintsTheConclusionInBoldOnRequest)
 {
     for (const bool emphasis : {false, true}) {
         const Screen screen;
@@ -130,7 +130,7 @@ TEST(ConsoleLog, EndsWithASentenceInBoldWhereThatIsWanted)
     }
 }
 
-TEST(CountsText, SaysTheResultThenWhatItWasTakenFromThenTheRest)
+TEST(CountsText, ShowsResultThenTotalThenOtherCounts)
 {
     EXPECT_EQ(
         counts_text({{"points", 24310}, {"of", 25784}, {"few views", 1102}, {"high error", 372}}),
@@ -147,19 +147,24 @@ TEST(CountsText, GroupsDigitsOfNegativeNumbers)
               "-123 a (-1,234 b, -123,456 c)");
 }
 
-TEST(StageWords, SayTheCountsInTheWordsOfTheField)
+TEST(StageWords, DescribeCountsInTermsOfTheField)
 {
     const StageWords cut = stage_words("cut", {{"inside", 11283}, {"of", 22611}, {"needles", 2}});
-    EXPECT_EQ(cut.name, "cut");
     EXPECT_EQ(cut.text, "11,283 of 22,611 cells are solid");
     EXPECT_TRUE(cut.is_shown);
-    const StageWords settle =
-        stage_words("settle", {{"vertices moved", 2920}, {"thousandths of a pixel of noise", 272}});
-    EXPECT_EQ(settle.name, "denoise");
-    EXPECT_EQ(settle.text, "2,920 vertices moved within their error (0.27 px)");
+    const StageWords adjust =
+        stage_words("adjust", {{"vertices moved", 2920}, {"thousandths of a pixel of noise", 272}});
+    EXPECT_EQ(adjust.text, "2,920 vertices moved within their error (0.27 px)");
 }
 
-TEST(StageWords, LeaveOutWhatDidNotHappenAndWhatHasNoRoom)
+TEST(StageWords, UsesTheSingularForOne)
+{
+    EXPECT_EQ(stage_words("texture", {{"charts", 1}, {"pages", 1}}).text, "1 chart on 1 page");
+    EXPECT_EQ(stage_words("read", {{"points", 1143}, {"views", 1}, {"rays", 0}}).text,
+              "1,143 points, 1 view, 0 rays");
+}
+
+TEST(StageWords, OmitZeroCountsAndPartsWithoutRoom)
 {
     Counts counts = {{"points", 3133}, {"of", 3243}, {"duplicate", 110}, {"few views", 0}};
     EXPECT_EQ(stage_words("filter", counts).text, "3,133 of 3,243 points kept, 110 duplicate");
@@ -169,16 +174,15 @@ TEST(StageWords, LeaveOutWhatDidNotHappenAndWhatHasNoRoom)
               "1,234,567 of 2,345,678 points kept, 100,000 duplicate");
 }
 
-TEST(StageWords, AreThereOnlyInDetailWhereTheyTellAUserNothing)
+TEST(StageWords, AreHiddenIfTheTextIsEmpty)
 {
     const StageWords open = stage_words("open", {{"rays of the views", 1}, {"of", 3960}});
     EXPECT_FALSE(open.is_shown);
 }
 
-TEST(StageWords, ShowAllCountsOfAStageThatIsNotKnown)
+TEST(StageWords, ShowAllCountsOfAnUnknownStage)
 {
     const StageWords words = stage_words("measure", {{"faces of a.ply", 12}, {"of", 13}});
-    EXPECT_EQ(words.name, "measure");
     EXPECT_EQ(words.text, "12 of 13 faces of a.ply");
     EXPECT_EQ(stage_words("cut", {{"insides", 3}}).text, "3 insides");
 }

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 const std::string kModel = fixtures_folder() / "desk_photos/sparse";
 
-TEST(DenseProgram, WritesTheSameForAnyThreadCountAndKeepsItsPoints)
+TEST(DenseProgram, WritesTheSameMeshForAnyThreadCountAndKeepsPoints)
 {
     const TemporaryFolder folder;
     const std::string one = folder / "one.ply";
@@ -41,10 +41,10 @@ TEST(DenseProgram, WritesTheSameForAnyThreadCountAndKeepsItsPoints)
     EXPECT_EQ(rows, read_ply_header(points).find("vertex")->count);
     const std::string again = folder / "again.ply";
     EXPECT_EQ(run_program({kModel, again, "--points", points, "--quiet"}).exit_code, 0)
-        << "other runs can use them";
+        << "other runs can use the points";
 }
 
-TEST(DenseProgram, RefusesOptionsThatNeedDense)
+TEST(DenseProgram, RejectsOptionsThatNeedDense)
 {
     const TemporaryFolder folder;
     const std::string out = folder / "out.ply";
@@ -56,10 +56,10 @@ TEST(DenseProgram, RefusesOptionsThatNeedDense)
               "colmap-vcarve: --dense and --points both supply dense points; remove one of them\n");
     const std::string obj = folder / "p.obj";
     EXPECT_EQ(sentence_of(2, {kModel, out, "--dense", "--keep-points", obj}),
-              "colmap-vcarve: cannot write " + obj + ": --keep-points writes .ply\n");
+              "colmap-vcarve: cannot write " + obj + ": --keep-points needs .ply\n");
 }
 
-TEST(DenseProgram, RefusesAModelWithoutPhotographs)
+TEST(DenseProgram, RejectsAModelWithoutPhotographs)
 {
     const TemporaryFolder folder;
     EXPECT_THAT(sentence_of(2, {fixtures_folder() / "air", folder / "out.ply", "--dense"}),
@@ -67,11 +67,11 @@ TEST(DenseProgram, RefusesAModelWithoutPhotographs)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(DenseProgram, RefusesMoreMemoryThanIsAllowed)
+TEST(DenseProgram, RejectsRunsAboveTheMemoryLimit)
 {
     const TemporaryFolder folder;
     EXPECT_THAT(sentence_of(3, {kModel, folder / "out.ply", "--dense", "--max-memory", "20M"}),
-                HasSubstr("may be used"));
+                HasSubstr("but the limit is"));
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 

@@ -15,8 +15,8 @@
 namespace vcarve::cli::exit_code_test {
 namespace {
 
-/// The exit code of a process that gets `signal` while it writes `part`; -1 where the signal killed
-/// it. It takes signals as usual but for `ignored`, as nohup ignores SIGHUP.
+/// The exit code of a process that gets `signal` while it writes `part`; -1 if the signal killed
+/// it. Signals have default handlers, except that `ignored` is ignored, as nohup ignores SIGHUP.
 int exit_code_of(int signal, const std::filesystem::path& part, int ignored = 0)
 {
     const pid_t child = ::fork();
@@ -32,7 +32,7 @@ int exit_code_of(int signal, const std::filesystem::path& part, int ignored = 0)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(EndCleanlyOnSignals, RemovesWhatIsUnfinishedAndExitsWithTheSignalsCode)
+TEST(EndCleanlyOnSignals, RemovesPartialFilesAndExitsWithTheSignalsCode)
 {
     const TemporaryFolder folder;
     for (const auto& [signal, code] : {std::pair(SIGINT, 130), {SIGTERM, 143}, {SIGHUP, 129}}) {
@@ -42,7 +42,7 @@ TEST(EndCleanlyOnSignals, RemovesWhatIsUnfinishedAndExitsWithTheSignalsCode)
     }
 }
 
-TEST(EndCleanlyOnSignals, GoesOnWhereASignalWasIgnoredFromTheStart)
+TEST(EndCleanlyOnSignals, KeepsIgnoringSignalsThatWereIgnoredAtTheStart)
 {
     const TemporaryFolder folder;
     const auto part = folder.write("out.ply.part", "half of it");
@@ -52,19 +52,19 @@ TEST(EndCleanlyOnSignals, GoesOnWhereASignalWasIgnoredFromTheStart)
     }
 }
 
-#ifndef VCARVE_WATCHES_MEMORY // which reports crashes itself
-TEST(EndCleanlyOnSignals, MakesACrashAnInternalError)
+#ifndef VCARVE_WATCHES_MEMORY // AddressSanitizer reports crashes itself
+TEST(EndCleanlyOnSignals, ReportsACrashAsAnInternalError)
 {
     const TemporaryFolder folder;
     const auto part = folder.write("out.ply.part", "half of it");
     testing::internal::CaptureStderr();
     EXPECT_EQ(exit_code_of(SIGSEGV, part), 1);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
-              "colmap-vcarve: internal error: stopped by signal 11, please report\n");
+              "colmap-vcarve: internal error: stopped by signal 11; please report it\n");
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-/// How a process ends that reads a mapped file which was shortened.
+/// The exit code of a process that reads a mapped file after it was truncated.
 int exit_code_of_reading(const std::filesystem::path& path)
 {
     const pid_t child = ::fork();
@@ -80,38 +80,38 @@ int exit_code_of_reading(const std::filesystem::path& path)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST(EndCleanlyOnSignals, SaysThatAFileWasShortenedWhileItWasRead)
+TEST(EndCleanlyOnSignals, ReportsAFileTruncatedWhileItIsRead)
 {
     const TemporaryFolder folder;
     const auto path = folder.write("points3D.bin", std::string(100'000, 'x'));
     testing::internal::CaptureStderr();
     EXPECT_EQ(exit_code_of_reading(path), 3);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
-              "colmap-vcarve: an input file was shortened while it was read, or a disk fails\n");
+              "colmap-vcarve: an input file was truncated while it was read, or a disk failed\n");
 }
 #endif
 
-TEST(EndCleanlyOnSignals, GoesOnWhereAPipeIsClosed)
+TEST(EndCleanlyOnSignals, IgnoresAClosedPipe)
 {
     const TemporaryFolder folder;
     EXPECT_EQ(exit_code_of(SIGPIPE, folder.write("out.ply.part", "half of it")), 0);
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST(EndCleanlyOnSignals, GoesOnWhereAFileMayNotGrow)
+TEST(EndCleanlyOnSignals, IgnoresTheSignalOfTheFileSizeLimit)
 {
     const TemporaryFolder folder;
     EXPECT_EQ(exit_code_of(SIGXFSZ, folder.write("out.ply.part", "half of it")), 0);
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST(HoldStandardStreams, LeavesTheirNumbersToNoFile)
+TEST(HoldStandardStreams, ReservesTheirDescriptors)
 {
     const pid_t child = ::fork();
     if (child == 0) {
         ::close(STDIN_FILENO);
         ::close(STDERR_FILENO);
-        hold_standard_streams();
+        open_standard_streams();
         const int opened = ::open("/dev/null", O_RDONLY);
         ::_exit(opened > STDERR_FILENO && ::write(STDERR_FILENO, "x", 1) < 0 ? 0 : 1);
     }

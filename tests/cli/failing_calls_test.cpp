@@ -1,6 +1,6 @@
-// Runs of the program in which one call of the system fails, whichever it is: the disk is full or
-// broken, the memory short, no file may be opened. Each ends with a sentence, and the surface is
-// the old one or the whole new one.
+// Runs of the program in which a system call fails: the disk is full or broken, memory is short, or
+// no file can be opened. Each run ends with one sentence, and the mesh file is the old one or the
+// complete new one.
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -16,14 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Which call fails, and how many of them are left out between one run and the next.
+/// The call that fails. From run to run, the number of the failing call increases by `step`.
 struct Failing {
     const char* call;
-    const char* goes_on; ///< "+" where all later ones fail, too
+    const char* continues; ///< "+" if all later calls fail, too
     int step;
     int points = 60;
-    const char* blocks = "auto"; ///< with two, and many points, arrays are in files
-    int least = 3;               ///< so many of these calls a run makes at least
+    const char* blocks = "auto"; ///< with 2 and many points, arrays are in files
+    int least = 3;               ///< minimum number of runs with a failing call
 };
 
 class ProgramWithFailing : public ::testing::TestWithParam<Failing> {
@@ -33,21 +33,21 @@ class ProgramWithFailing : public ::testing::TestWithParam<Failing> {
         write_ball_model(folder / "ball", GetParam().points, Eigen::Vector3d::Zero(), 0.05);
     }
 
-    /// All that a run writes goes into a folder of its own.
+    /// The command line of a run. It writes only into separate folders.
     std::vector<std::string> words() const
     {
         return program_with({folder / "ball", made / "out.ply", "--threads", "2", "--blocks",
                              GetParam().blocks, "--stats", made / "stats.json", "--report",
                              made / "page.html", "--work", folder / "work"});
     }
-    /// Of a run in which the n-th call fails; nothing where there are not so many.
+    /// The outcome of a run in which the n-th call fails; nothing if there are fewer calls.
     std::optional<Outcome> run(int n) const
     {
         fs::remove(mark);
         fs::remove_all(folder / "work");
         std::vector<std::string> all = {
             "/usr/bin/env", "LD_PRELOAD=" + failing_calls_library(), "VCARVE_FAILED=" + mark,
-            fmt::format("VCARVE_FAILS={}:{}{}", GetParam().call, n, GetParam().goes_on)};
+            fmt::format("VCARVE_FAILS={}:{}{}", GetParam().call, n, GetParam().continues)};
         const std::vector<std::string> program = words();
         all.insert(all.end(), program.begin(), program.end());
         const Outcome outcome = Subprocess(all).wait();
@@ -69,7 +69,7 @@ void expect_sentence(const Outcome& outcome)
 
 } // namespace
 
-TEST_P(ProgramWithFailing, EndsWithASentenceAndTheOldSurfaceOrTheNewOne)
+TEST_P(ProgramWithFailing, EndsWithASentenceAndTheOldOrTheNewMesh)
 {
     ASSERT_EQ(Subprocess(words()).wait().exit_code, 0);
     const std::string whole = bytes_of(made / "out.ply");
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Failing{"fsync", "", 1}, Failing{"mmap", "", 1}, Failing{"open", "", 3},
                       Failing{"malloc", "", 199}, Failing{"fallocate", "", 1, 60'000, "2", 2}),
     [](const auto& made) {
-        return std::string(made.param.call) + (*made.param.goes_on == '\0' ? "" : "AndAllLater");
+        return std::string(made.param.call) + (*made.param.continues == '\0' ? "" : "AndAllLater");
     });
 
 } // namespace vcarve::failing_calls_test

@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using ::testing::EndsWith;
 
-/// A project with a dense workspace in "p/dense", and a photograph that its model tells of.
+/// A project with a dense workspace in "p/dense", and a photograph that its model names.
 class KeepInputs : public ::testing::Test {
   protected:
     KeepInputs()
@@ -31,11 +31,10 @@ class KeepInputs : public ::testing::Test {
         fs::copy_file(dense / "fused.ply", folder / "p/other.ply");
     }
 
-    /// What is said of an output; empty where it may be written.
+    /// The error message for an output; empty if it may be written.
     std::string refused(const fs::path& out, const PointsOptions& options = {}) const
     {
-        const std::vector<Output> outputs = {{"--stats", folder / "new.json"},
-                                             {"the surface", out}};
+        const std::vector<Output> outputs = {{"--stats", folder / "new.json"}, {"the mesh", out}};
         const std::string said = refusal<UsageError>([&] {
             keep_inputs(outputs, {{.points = options, .scanner = {}}, dense}, {});
         });
@@ -46,20 +45,20 @@ class KeepInputs : public ::testing::Test {
     fs::path dense = folder / "p/dense";
 };
 
-TEST_F(KeepInputs, RefusesWhateverTheWorkspaceHolds)
+TEST_F(KeepInputs, RejectsAnyFileOfTheWorkspace)
 {
     for (const char* name : {"fused.ply", "fused.ply.vis", "images/a.png", "stereo/fusion.cfg",
                              "sparse/images.txt", "sparse/points3D.txt"}) {
         const std::string path = dense / name;
-        EXPECT_EQ(refused(path), "the surface would replace the input " + path);
+        EXPECT_EQ(refused(path), "the mesh would replace the input " + path);
     }
     EXPECT_THAT(refused(dense / "fused.ply", {.points = "sparse"}), EndsWith("fused.ply"));
     EXPECT_THAT(refused(folder / "p/database.db"), EndsWith("database.db"));
     EXPECT_EQ(refused(folder / "p/shots/+z.jpg"),
-              "the surface would replace the image " + (folder / "p/shots/+z.jpg").string());
+              "the mesh would replace the image " + (folder / "p/shots/+z.jpg").string());
 }
 
-TEST_F(KeepInputs, RefusesOtherPathsAndLinksToTheSameFile)
+TEST_F(KeepInputs, RejectsOtherPathsAndLinksToAnInput)
 {
     EXPECT_THAT(refused(dense / "sparse/.././fused.ply"), EndsWith("fused.ply"));
     fs::create_symlink(dense / "fused.ply", folder / "soft.ply");
@@ -70,24 +69,24 @@ TEST_F(KeepInputs, RefusesOtherPathsAndLinksToTheSameFile)
     EXPECT_THAT(refused(folder / "way/images/a.png"), EndsWith("a.png"));
 }
 
-TEST_F(KeepInputs, RefusesTheCloudThatIsNamed)
+TEST_F(KeepInputs, RejectsTheGivenCloud)
 {
     const fs::path other = folder / "p/other.ply";
     EXPECT_EQ(refused(other), "");
-    EXPECT_THAT(refused(other, {.points = other, .sights = SightsFrom::nearest}),
+    EXPECT_THAT(refused(other, {.points = other, .rays = RaysFrom::nearest}),
                 EndsWith("other.ply"));
     const fs::path mine = folder.write("mine.vis", "precious");
     EXPECT_THAT(refused(mine, {.points = other, .visibility = mine}), EndsWith("mine.vis"));
 }
 
-TEST_F(KeepInputs, LetsEarlierOutputsBeReplaced)
+TEST_F(KeepInputs, AllowsReplacingEarlierOutputs)
 {
     for (const char* name : {"sparse/mesh.ply", "mesh.ply", "sparse/preview.png"}) {
         EXPECT_EQ(refused(folder.write(std::string("p/dense/") + name, "")), "");
     }
 }
 
-TEST_F(KeepInputs, IsAskedOfEveryOutputOfARun)
+TEST_F(KeepInputs, ChecksEveryOutputOfARun)
 {
     const std::string model = dense / "sparse";
     const std::string points = dense / "sparse/points3D.txt";
@@ -113,7 +112,7 @@ TEST_F(KeepInputs, IsAskedOfEveryOutputOfARun)
     EXPECT_EQ(bytes_of(points), bytes);
 }
 
-TEST(RequireDistinct, KnowsAFileByAnotherPath)
+TEST(RequireDistinct, DetectsTheSameFileByAnotherPath)
 {
     const TemporaryFolder folder;
     const std::vector<Output> outputs = {{"a", folder / "x.ply"}, {"b", folder.path() / "./x.ply"}};
@@ -121,7 +120,7 @@ TEST(RequireDistinct, KnowsAFileByAnotherPath)
                 ::testing::StartsWith("b and a cannot both be written to "));
 }
 
-TEST(TransformOf, IsAScaleOrAFile)
+TEST(TransformOf, AcceptsAScaleOrAFile)
 {
     EXPECT_FALSE(transform_of("", {}));
     EXPECT_EQ(transform_of("0.25", {})->linear, 0.25 * Eigen::Matrix3d::Identity());
@@ -136,7 +135,7 @@ TEST(TransformOf, IsAScaleOrAFile)
     EXPECT_NE(refusal<InputError>([] { transform_of("2m", {}); }).find("2m"), std::string::npos);
 }
 
-TEST(TransformOf, LeadsFromTheFrameOfTheModelToThatOfNerfstudio)
+TEST(TransformOf, TransformsTheModelToTheFrameOfNerfstudio)
 {
     const TemporaryFolder folder;
     const std::string file =
@@ -153,7 +152,7 @@ TEST(TransformOf, LeadsFromTheFrameOfTheModelToThatOfNerfstudio)
     EXPECT_EQ(transform_of(file, model)->translation, Vector3d(0, 2, 4));
 }
 
-TEST(OffsetFor, IsRoundOnceTheModelIsTransformed)
+TEST(OffsetFor, RoundsTheOffsetAfterTheTransformation)
 {
     Scene scene;
     for (int i = 0; i < 27; ++i) {
@@ -174,10 +173,10 @@ WordOrVector word(UpWord up)
     return {.word = static_cast<int>(up)};
 }
 
-TEST(UpFor, IsOfTheFrameThatIsWritten)
+TEST(UpFor, ReturnsADirectionInTheOutputFrame)
 {
     Scene scene = make_scene({{0, 0, 0}}, {});
-    Similarity quarter; // around x: what was -y is -z
+    Similarity quarter; // around x: maps -y to -z
     quarter.scale = 2.0;
     quarter.linear << 2, 0, 0, 0, 0, -2, 0, 2, 0;
     EXPECT_EQ(up_for(scene, word(UpWord::automatic), std::nullopt), Vector3d(0, -1, 0));
@@ -192,7 +191,7 @@ TEST(UpFor, IsOfTheFrameThatIsWritten)
     EXPECT_THROW(up_for(scene, nowhere, quarter), UsageError);
 }
 
-TEST(TurnedUpright, TurnsUpToZAfterATransformation)
+TEST(TurnedUpright, RotatesUpToZAfterATransformation)
 {
     Similarity moved;
     moved.scale = 2.0;
@@ -204,10 +203,10 @@ TEST(TurnedUpright, TurnsUpToZAfterATransformation)
     EXPECT_EQ(turned.scale, 2.0);
     const Similarity alone = turned_upright(std::nullopt, -Vector3d::UnitZ());
     EXPECT_TRUE((alone.linear * Vector3d(0, 0, -1)).isApprox(Vector3d::UnitZ(), 1e-15));
-    EXPECT_NEAR(alone.linear.determinant(), 1.0, 1e-15) << "a rotation, no reflection";
+    EXPECT_NEAR(alone.linear.determinant(), 1.0, 1e-15) << "a rotation, not a reflection";
 }
 
-TEST(Transformed, TurnsNormalsWithoutScalingThem)
+TEST(Transformed, RotatesNormalsWithoutScalingThem)
 {
     TriMesh mesh;
     mesh.positions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -55,7 +55,7 @@ class ProgramOnDenseBall : public ::testing::Test {
         return bytes_of(out);
     }
 
-    /// What compare says the mesh is measured against, and no figures.
+    /// The beginning of the sentence that `compare` prints about its reference.
     std::string measured_against(const std::vector<std::string>& input) const
     {
         std::vector<std::string> arguments = {"compare", "--quiet"};
@@ -72,12 +72,12 @@ class ProgramOnDenseBall : public ::testing::Test {
     std::string out = folder / "out.ply";
 };
 
-TEST_F(ProgramOnDenseBall, MeshesTheDensePointsAndSaysSo)
+TEST_F(ProgramOnDenseBall, MeshesTheDensePointsWithANote)
 {
     const std::string stats = folder / "stats.json";
     const Outcome outcome = run_program({dense, out, "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + fused));
+    EXPECT_THAT(outcome.err, StartsWith("note: points are read from " + fused));
     EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points, 6 views, "));
     const auto input = nlohmann::json::parse(bytes_of(stats))["input"];
     EXPECT_EQ(input["cloud"], fused);
@@ -92,7 +92,7 @@ TEST_F(ProgramOnDenseBall, MeshesTheSparsePointsOnRequest)
     EXPECT_FALSE(bytes_made_of({dense}) == sparse);
 }
 
-TEST_F(ProgramOnDenseBall, MakesTheSameBytesOfTextAndOfTheCloudNamedAnyWay)
+TEST_F(ProgramOnDenseBall, WritesTheSameBytesForTextAndForAnyPathToTheCloud)
 {
     const std::string made = bytes_made_of({dense});
     EXPECT_TRUE(bytes_made_of({fused}) == made);
@@ -105,15 +105,15 @@ TEST_F(ProgramOnDenseBall, MakesTheSameBytesOfTextAndOfTheCloudNamedAnyWay)
     EXPECT_TRUE(bytes_made_of({dense}) == made);
 }
 
-TEST_F(ProgramOnDenseBall, MeshesACloudWithoutAFileByTheNearestViews)
+TEST_F(ProgramOnDenseBall, UsesTheNearestViewsForACloudWithoutVisibility)
 {
     std::filesystem::remove(fused + ".vis");
-    const Outcome outcome = run_program({dense, out, "--sights", "nearest"});
+    const Outcome outcome = run_program({dense, out, "--rays", "nearest"});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("no file tells which views saw them"));
+    EXPECT_THAT(outcome.err, HasSubstr("no file has their views"));
     EXPECT_THAT(outcome.err, HasSubstr("\nread         600 points, 6 views, "));
     EXPECT_EQ(run_program({fused, out}).exit_code, 3);
-    EXPECT_EQ(run_program({dense, out, "--sights", "nearest", "--points", "sparse"}).exit_code, 0);
+    EXPECT_EQ(run_program({dense, out, "--rays", "nearest", "--points", "sparse"}).exit_code, 0);
 }
 
 TEST_F(ProgramOnDenseBall, DropsAPointThatIsNotFinite)
@@ -121,22 +121,24 @@ TEST_F(ProgramOnDenseBall, DropsAPointThatIsNotFinite)
     cloud.positions[7].y() = std::numeric_limits<double>::quiet_NaN();
     write_cloud(CloudEncoding::binary);
     EXPECT_THAT(run_program({dense, out}).err,
-                HasSubstr("493 of 600 points kept, 106 of few views, 1 not finite"));
+                HasSubstr("493 of 600 points kept, 106 few views, 1 not finite"));
 }
 
-TEST_F(ProgramOnDenseBall, RefusesBrokenInputWithASentenceAndLeavesNothing)
+TEST_F(ProgramOnDenseBall, RejectsBrokenInputWithASentenceAndWritesNothing)
 {
     folder.write("dense/fused.ply.vis", std::string(8, '\0'));
     const Outcome outcome = run_program({dense, out});
     EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("colmap-vcarve: " + fused + ".vis: tells of 0 points, but " +
-                                       fused + " has 600; "));
-    EXPECT_THAT(outcome.err, ::testing::EndsWith("(--crop cuts a part out of the whole)\n"));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("colmap-vcarve: " + fused + ".vis: has the views of 0 points, but " +
+                          fused + " has 600 points; "));
+    EXPECT_THAT(outcome.err,
+                ::testing::EndsWith("(--crop reconstructs a region of the whole cloud)\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_EQ(run_program({fused, out, "--points", "sparse"}).exit_code, 2);
 }
 
-TEST_F(ProgramOnDenseBall, RefusesWhatNeedsTooMuchMemoryBeforeItIsRead)
+TEST_F(ProgramOnDenseBall, RejectsACloudThatNeedsTooMuchMemoryBeforeReadingIt)
 {
     const Outcome outcome = run_program({dense, out, "--max-memory", "1M"});
     EXPECT_EQ(outcome.exit_code, 3);
@@ -144,16 +146,16 @@ TEST_F(ProgramOnDenseBall, RefusesWhatNeedsTooMuchMemoryBeforeItIsRead)
     EXPECT_THAT(outcome.err, Not(HasSubstr("\nread ")));
 }
 
-TEST_F(ProgramOnDenseBall, IsMeasuredByTheDensePoints)
+TEST_F(ProgramOnDenseBall, MeasuresMeshesAgainstTheDensePoints)
 {
     bytes_made_of({dense});
-    // Of all points those that two views saw.
+    // The points that at least two views saw.
     EXPECT_THAT(measured_against({dense, out}), StartsWith("Measured against 493 points "));
     EXPECT_THAT(measured_against({dense, out, "--points", "sparse"}),
                 StartsWith("Measured against 247 points "));
 }
 
-TEST_F(ProgramOnDenseBall, IsComparedWithWhatColmapMakesOfTheWorkspace)
+TEST_F(ProgramOnDenseBall, ComparesWithColmapsMeshOfTheWorkspace)
 {
     const auto words = folder / "words.txt";
     const auto script =
@@ -173,19 +175,19 @@ TEST_F(ProgramOnDenseBall, IsComparedWithWhatColmapMakesOfTheWorkspace)
     EXPECT_THAT(other.out, HasSubstr("\nMeasured against 493 points "));
 }
 
-TEST_F(ProgramOnDenseBall, IsNotComparedWithColmapWhereThatCannotBeToldOfThePoints)
+TEST_F(ProgramOnDenseBall, RejectsPointsThatColmapCannotRead)
 {
     std::filesystem::rename(fused, folder / "dense/other.ply");
     const Outcome outcome = run_program({"compare", dense, "--points", folder / "dense/other.ply",
                                          "--visibility", fused + ".vis", "--colmap", "colmap"});
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_EQ(outcome.err, "colmap-vcarve: --colmap cannot be told to take the points of " + dense +
+    EXPECT_EQ(outcome.err, "colmap-vcarve: --colmap cannot use the points of " + dense +
                                "/other.ply: COLMAP's mesher reads fused.ply, fused.ply.vis and "
-                               "sparse in one folder\n");
+                               "sparse from one folder\n");
 }
 
-/// Points on the unit ball, which two scanners measured from 3 away on both sides; each is on the
-/// side of its scanner.
+/// Points on the unit ball, measured by two scanners on opposite sides at a distance of 3 from its
+/// center. Each point is on the side of its scanner.
 class ProgramOnScannedBall : public ::testing::Test {
   protected:
     ProgramOnScannedBall()
@@ -203,7 +205,7 @@ class ProgramOnScannedBall : public ::testing::Test {
         bare = folder.write("bare.ply", bytes_with({}));
     }
 
-    /// As text, with the place of the scanner if that has names.
+    /// The points as text, with scanner positions if `names` has their properties.
     std::string bytes_with(const std::vector<std::string>& names) const
     {
         std::string bytes = fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float "
@@ -224,19 +226,19 @@ class ProgramOnScannedBall : public ::testing::Test {
     TemporaryFolder folder;
     std::vector<Eigen::Vector3d> points;
     std::string scan;
-    std::string bare; ///< one half of them, and nothing of scanners
+    std::string bare; ///< half of the points, without scanner positions
     std::string out = folder / "out.ply";
 };
 
-TEST_F(ProgramOnScannedBall, MeshesAScanWithoutAModelAndDropsNoPointForItsOneView)
+TEST_F(ProgramOnScannedBall, MeshesAScanWithoutAModelAndKeepsPointsOfOneView)
 {
     const std::string stats = folder / "stats.json";
     const Outcome outcome =
         run_program({scan, out, "--merge-px", "0", "--simplify", "0", "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + scan +
-                                        ", measured by the scanners of which it tells at every "
-                                        "point\nread         650 points, 2 views, 650 rays "));
+    EXPECT_THAT(outcome.err, StartsWith("note: points are read from " + scan +
+                                        " with the scanner position of each point\n"
+                                        "read         650 points, 2 views, 650 rays "));
     EXPECT_THAT(outcome.err, HasSubstr("\nfilter       650 of 650 points kept"));
     const auto record = nlohmann::json::parse(bytes_of(stats));
     EXPECT_EQ(record["input"]["cloud"], scan);
@@ -244,36 +246,35 @@ TEST_F(ProgramOnScannedBall, MeshesAScanWithoutAModelAndDropsNoPointForItsOneVie
     EXPECT_GE(record["mesh"]["faces"], 1000);
 }
 
-TEST_F(ProgramOnScannedBall, TakesOnePlaceForAllPoints)
+TEST_F(ProgramOnScannedBall, AcceptsOneScannerPositionForAllPoints)
 {
     const Outcome outcome = run_program({bare, out, "--scanner", "0,0,3"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, StartsWith("note: the points are those of " + bare +
-                                        ", measured by a scanner at 0, 0, 3\nread         325 "
-                                        "points, 1 views, 325 rays"));
+    EXPECT_THAT(outcome.err, StartsWith("note: points are read from " + bare +
+                                        " with the scanner at 0, 0, 3\nread         325 "
+                                        "points, 1 view, 325 rays"));
     EXPECT_EQ(run_program({bare, out, "--scanner", "file"}).exit_code, 3);
 }
 
-TEST_F(ProgramOnScannedBall, SaysWhatACloudWithoutScannersNeeds)
+TEST_F(ProgramOnScannedBall, ReportsThatACloudWithoutScannersNeedsAModel)
 {
     const Outcome outcome = run_program({bare, out});
     EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("no COLMAP model, looked for "));
-    EXPECT_THAT(outcome.err, HasSubstr("; " + bare +
-                                       " tells of no scanner's places either, where it could do "
-                                       "without a model (--scanner x,y,z tells of one)\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("no COLMAP model found; searched "));
+    EXPECT_THAT(outcome.err, HasSubstr("; without a model, " + bare +
+                                       " needs scanner positions (--scanner x,y,z sets one)\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST_F(ProgramOnScannedBall, RefusesTwoOpinionsOnWhereTheScannerStood)
+TEST_F(ProgramOnScannedBall, RejectsContradictoryScannerPositions)
 {
     const Outcome outcome = run_program({scan, out, "--scanner", "0,0,3"});
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("--scanner 0,0,3 is one place for all points, but " + scan +
-                                       " tells itself where the scanner of each stood\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("--scanner 0,0,3 is one position for all points, but " +
+                                       scan + " has a scanner position for each point\n"));
 }
 
-TEST_F(ProgramOnScannedBall, MeasuresMeshesByTheScan)
+TEST_F(ProgramOnScannedBall, MeasuresMeshesAgainstTheScan)
 {
     EXPECT_EQ(run_program({scan, out, "--quiet"}).exit_code, 0);
     EXPECT_THAT(
@@ -282,8 +283,8 @@ TEST_F(ProgramOnScannedBall, MeasuresMeshesByTheScan)
                   "views; "));
     const Outcome colmap = run_program({"compare", "--quiet", scan, "--colmap", "colmap"});
     EXPECT_EQ(colmap.exit_code, 2);
-    EXPECT_EQ(colmap.err, "colmap-vcarve: --colmap cannot be told to take the points of " + scan +
-                              ": COLMAP's mesher knows no scanners\n");
+    EXPECT_EQ(colmap.err, "colmap-vcarve: --colmap cannot use the points of " + scan +
+                              ": COLMAP's mesher does not support laser scans\n");
 }
 
 class CropOfScene : public ::testing::Test {
@@ -294,8 +295,7 @@ class CropOfScene : public ::testing::Test {
         all.insert(all.end(), words.begin(), words.end());
         return run_program(all);
     }
-    /// Expects the program to fail with this code and to leave nothing behind, and gives its
-    /// sentence.
+    /// Expects the program to fail with this code and to write no mesh. Returns its message.
     std::string sentence_of(int exit_code, const std::string& crop) const
     {
         const Outcome outcome = run({"--quiet", "--crop", crop});
@@ -323,7 +323,7 @@ TEST_F(CropOfScene, IsCountedAndRecorded)
     EXPECT_GT(counts["points"].get<double>(), 0.85 * counts["of points"].get<double>());
 }
 
-TEST_F(CropOfScene, ToABoxLeavesWhatLiesInIt)
+TEST_F(CropOfScene, KeepsTheMeshInsideABox)
 {
     ASSERT_EQ(run({"--quiet"}).exit_code, 0);
     const TriMesh all = read_ply(out);
@@ -347,7 +347,7 @@ TEST_F(CropOfScene, ToABoxLeavesWhatLiesInIt)
     EXPECT_EQ(record["options"]["crop"][3], half.max().x());
 }
 
-TEST_F(CropOfScene, TakesASurfaceOrAPolygonOfAFile)
+TEST_F(CropOfScene, AcceptsASurfaceOrAPolygonFromAFile)
 {
     ASSERT_EQ(run({"--quiet", "--closed"}).exit_code, 0);
     const std::string region = folder / "Region.PLY";
@@ -361,7 +361,7 @@ TEST_F(CropOfScene, TakesASurfaceOrAPolygonOfAFile)
     EXPECT_EQ(nlohmann::json::parse(bytes_of(stats))["options"]["crop"], corners);
 }
 
-TEST_F(CropOfScene, IsRefusedWithOneSentence)
+TEST_F(CropOfScene, RejectsWrongRegionsWithOneSentence)
 {
     EXPECT_EQ(sentence_of(2, "0,0,0,1,1"), "colmap-vcarve: --crop takes none, auto, "
                                            "x0,y0,z0,x1,y1,z1 or a file, not \"0,0,0,1,1\"\n");
@@ -371,24 +371,24 @@ TEST_F(CropOfScene, IsRefusedWithOneSentence)
     EXPECT_EQ(sentence_of(3, "gone.txt"), "colmap-vcarve: gone.txt: the file does not exist\n");
     EXPECT_EQ(sentence_of(3, "gone.ply"), "colmap-vcarve: gone.ply: the file does not exist\n");
     const std::string corners = folder.write("corners.txt", "1 2\n3\n");
-    EXPECT_EQ(sentence_of(3, corners),
-              "colmap-vcarve: " + corners +
-                  ": line 2: the line ends where the y of a corner should stand\n");
+    EXPECT_EQ(sentence_of(3, corners), "colmap-vcarve: " + corners +
+                                           ": line 2: the line ends, expected the y of a corner\n");
 }
 
-TEST_F(CropOfScene, IsRefusedWhereNoPointLies)
+TEST_F(CropOfScene, RejectsARegionWithoutPoints)
 {
     scene = folder / "ball";
     write_ball_model(scene, 400);
     EXPECT_THAT(sentence_of(3, "5,5,5,6,6,6.5"),
                 ::testing::MatchesRegex(
                     "colmap-vcarve: " + scene +
-                    ": no point lies within the region of --crop \\(x 5 to 6, y 5 to 6, z 5 to "
-                    "6\\.5\\); the points lie in x -0\\.9[0-9]+ to 0\\.9[0-9]+, y "
-                    "-0\\.9[0-9]+ to 0\\.9[0-9]+, z -0\\.9425 to 0\\.9425\n"));
+                    ": no point is inside the region of --crop \\(x 5 to 6, y 5 to 6, z 5 to "
+                    "6\\.5\\); the points span x -0\\.9[0-9]+ to 0\\.9[0-9]+, y "
+                    "-0\\.9[0-9]+ to 0\\.9[0-9]+, z -0\\.9425 to 0\\.9425\\. Enlarge or move the "
+                    "region\n"));
 }
 
-/// A model with photographs beside it that are all of one colour.
+/// A model with photographs beside it, all in one color.
 class TextureOfProgram : public ::testing::Test {
   protected:
     TextureOfProgram()
@@ -427,24 +427,24 @@ class TextureOfProgram : public ::testing::Test {
     Scene scene;
 };
 
-TEST_F(TextureOfProgram, IsInTheGlb)
+TEST_F(TextureOfProgram, IsWrittenIntoTheGlb)
 {
     const std::string out = folder / "out.glb";
     const Outcome outcome = run({out, "--texture"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("photographs are taken from"));
+    EXPECT_THAT(outcome.err, HasSubstr("using the photographs in"));
     EXPECT_THAT(outcome.err, HasSubstr("charts on 1 page"));
     EXPECT_THAT(bytes_of(out), HasSubstr("\"mimeType\":\"image/jpeg\""));
 }
 
-TEST_F(TextureOfProgram, IsBesideTheObj)
+TEST_F(TextureOfProgram, IsWrittenBesideTheObj)
 {
     ASSERT_EQ(run({folder / "out.obj", "--texture", "--quiet"}).exit_code, 0);
     EXPECT_TRUE(fs::exists(folder / "out.mtl"));
     EXPECT_TRUE(fs::exists(folder / "out_0.jpg"));
 }
 
-TEST_F(TextureOfProgram, GivesVerticesTheColoursOfThePhotographs)
+TEST_F(TextureOfProgram, ColorsVerticesFromThePhotographs)
 {
     ASSERT_EQ(run({folder / "out.ply", "--images", images, "--quiet"}).exit_code, 0);
     EXPECT_FALSE(fs::exists(folder / "out_0.jpg"));
@@ -459,7 +459,7 @@ TEST_F(TextureOfProgram, GivesVerticesTheColoursOfThePhotographs)
     EXPECT_GT(same, mesh.colors.size() * 9 / 10);
 }
 
-TEST_F(TextureOfProgram, SaysWhichViewsHaveNoPhotograph)
+TEST_F(TextureOfProgram, NotesViewsWithoutPhotographs)
 {
     fs::remove(fs::path(images) / scene.views[0].name);
     folder.write("images/" + scene.views[1].name, "some text");
@@ -470,20 +470,24 @@ TEST_F(TextureOfProgram, SaysWhichViewsHaveNoPhotograph)
     EXPECT_THAT(outcome.err, HasSubstr(scene.views[1].name));
 }
 
-TEST_F(TextureOfProgram, IsRefusedWithoutPhotographs)
+TEST_F(TextureOfProgram, FailsWithoutPhotographs)
 {
     fs::remove_all(images);
     const Outcome outcome = run({folder / "out.glb", "--texture"});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("name the folder of the photographs with --images"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("points"))) << "the points were read before";
     EXPECT_FALSE(fs::exists(folder / "out.glb"));
-    EXPECT_EQ(run({folder / "out.glb", "--images", folder / "none"}).exit_code, 3);
+    const Outcome none = run({folder / "out.glb", "--images", folder / "none"});
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_EQ(none.err, "colmap-vcarve: " + (folder / "none").string() +
+                            ": the folder does not exist or cannot be opened; expected the "
+                            "folder of the photographs\n");
 }
 
-TEST_F(TextureOfProgram, ReplacesNoPhotograph)
+TEST_F(TextureOfProgram, NeverReplacesAPhotograph)
 {
-    // Photographs that were converted, one of which is called as the first page of scan.obj would
-    // be.
+    // Converted photographs; one has the name of the first texture page of scanx.obj.
     std::string bytes = bytes_of(model + "/images.bin");
     const std::string name = "view_00.png";
     bytes.replace(bytes.find(name), name.size(), "scanx_0.png");

@@ -39,7 +39,7 @@ class ProgramOnBall : public ::testing::Test {
     std::string stats = folder / "stats.json";
 };
 
-TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
+TEST_F(ProgramOnBall, WritesAMeshAndOneLinePerStage)
 {
     const Outcome outcome = run_program({ball, out});
     EXPECT_EQ(outcome.exit_code, 0);
@@ -53,7 +53,7 @@ TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
                                           "(.|\n)*"
                                           "wrote " +
                                           out + ": [0-9,]+ faces, closed\n.*\n"));
-    EXPECT_THAT(outcome.err, Not(ContainsRegex("[\r\x1b]"))) << "plain lines where piped";
+    EXPECT_THAT(outcome.err, Not(ContainsRegex("[\r\x1b]"))) << "plain lines in a pipe";
     std::istringstream lines(outcome.err);
     for (std::string line; std::getline(lines, line);) {
         if (line.find(out) == std::string::npos) {
@@ -64,16 +64,15 @@ TEST_F(ProgramOnBall, WritesASurfaceAndOneLineAStage)
     EXPECT_EQ(folder.num_entries(), 2U);
 }
 
-TEST_F(ProgramOnBall, TellsEveryStageAndAllItsCountsWhereItIsToBeVerbose)
+TEST_F(ProgramOnBall, PrintsAllStagesAndCountsIfVerbose)
 {
     const Outcome outcome = run_program({"-v", ball, out});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err,
-                MatchesRegex("read +400 points \\(6 views, [0-9]+ sights\\) +[0-9.]+ s\n"
-                             "(.|\n)*"
-                             "orient +[0-9,]+ of [0-9,]+ sights on the outside.* s\n"
-                             "write +[0-9,]+ faces \\([0-9,]+ vertices\\) +[0-9.]+ s\n"
-                             "wrote (.|\n)*"));
+    EXPECT_THAT(outcome.err, MatchesRegex("read +400 points \\(6 views, [0-9]+ rays\\) +[0-9.]+ s\n"
+                                          "(.|\n)*"
+                                          "orient +[0-9,]+ of [0-9,]+ rays on the outside.* s\n"
+                                          "write +[0-9,]+ faces \\([0-9,]+ vertices\\) +[0-9.]+ s\n"
+                                          "wrote (.|\n)*"));
 }
 
 /// Whether pseudo-terminals can be opened. A bare chroot has no /dev/pts.
@@ -87,7 +86,7 @@ bool has_pseudo_terminals()
     return has;
 }
 
-/// What the program writes to a terminal of this kind.
+/// The output of the program on a terminal with this environment.
 std::string shown_on_terminal(const std::string& environment,
                               const std::vector<std::string>& arguments)
 {
@@ -98,7 +97,7 @@ std::string shown_on_terminal(const std::string& environment,
     return Subprocess({"/usr/bin/script", "-qec", line, "/dev/null"}).wait().out;
 }
 
-TEST_F(ProgramOnBall, EmphasisesOnATerminalUnlessNoColorForbidsIt)
+TEST_F(ProgramOnBall, PrintsBoldOnATerminalUnlessNoColorIsSet)
 {
     if (!has_pseudo_terminals()) GTEST_SKIP() << "no pseudo-terminals: /dev/pts is not mounted";
     const auto shown = [&](const std::string& environment) {
@@ -106,13 +105,13 @@ TEST_F(ProgramOnBall, EmphasisesOnATerminalUnlessNoColorForbidsIt)
     };
     const std::string bold = "\x1b[1mwrote " + out + ": ";
     EXPECT_THAT(shown("TERM=xterm"), HasSubstr(bold));
-    EXPECT_THAT(shown("TERM=xterm NO_COLOR="), HasSubstr(bold)) << "empty is not set";
+    EXPECT_THAT(shown("TERM=xterm NO_COLOR="), HasSubstr(bold)) << "empty means unset";
     for (const char* plain : {"TERM=xterm NO_COLOR=1", "TERM=dumb"}) {
         EXPECT_THAT(shown(plain), AllOf(HasSubstr(out + ": "), Not(HasSubstr("\x1b["))));
     }
 }
 
-TEST_F(ProgramOnBall, CountsTheEdgesAtWhichItsSurfaceIsOpen)
+TEST_F(ProgramOnBall, CountsBoundaryEdges)
 {
     ASSERT_EQ(run_program({ball, out, "--stats", stats, "--crop=-2,-2,-2,2,2,0.3"}).exit_code, 0);
     const auto record = nlohmann::json::parse(bytes_of(stats));
@@ -124,7 +123,7 @@ TEST_F(ProgramOnBall, CountsTheEdgesAtWhichItsSurfaceIsOpen)
     EXPECT_EQ((*orient)["counts"]["boundary edges"], record["mesh"]["boundary_edges"]);
 }
 
-TEST_F(ProgramOnBall, GoesOnWhereNobodyTakesWhatItPrints)
+TEST_F(ProgramOnBall, ContinuesIfItsLogCannotBeWritten)
 {
     ASSERT_EQ(run_program({ball, out}).exit_code, 0);
     const std::string usual = bytes_of(out);
@@ -139,7 +138,7 @@ TEST_F(ProgramOnBall, GoesOnWhereNobodyTakesWhatItPrints)
     }
 }
 
-TEST_F(ProgramOnBall, TakesALimitOfTheSizeOfFilesForAFullDisk)
+TEST_F(ProgramOnBall, TreatsAFileSizeLimitAsAFullDisk)
 {
     std::vector<std::string> words = program_with({ball, out, "--quiet"});
     words.insert(words.begin(), {"/bin/bash", "-c", "ulimit -f 1; exec \"$@\"", "bash"});
@@ -148,7 +147,7 @@ TEST_F(ProgramOnBall, TakesALimitOfTheSizeOfFilesForAFullDisk)
     EXPECT_EQ(folder.num_entries(), 1U) << "the model only";
 }
 
-TEST_F(ProgramOnBall, DropsPointsThatAreTooFarOutWithANote)
+TEST_F(ProgramOnBall, DropsPointsWithExcessiveCoordinatesWithANote)
 {
     ASSERT_EQ(run_program({ball, out}).exit_code, 0);
     const std::string usual = bytes_of(out);
@@ -159,8 +158,8 @@ TEST_F(ProgramOnBall, DropsPointsThatAreTooFarOutWithANote)
     for (const char* method : {"cut", "strict"}) {
         const Outcome outcome = run_program({ball, out, "--method", method});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        EXPECT_THAT(outcome.err, HasSubstr("note: 3 of 403 points are left out: a coordinate is "
-                                           "no finite number, or beyond 1e+100\n"));
+        EXPECT_THAT(outcome.err, HasSubstr("note: 3 of 403 points are dropped: a coordinate is "
+                                           "not finite, or beyond 1e+100\n"));
         if (std::string(method) == "cut") {
             EXPECT_EQ(bytes_of(out), usual);
         }
@@ -173,7 +172,7 @@ TEST_F(ProgramOnBall, WritesTextOnRequest)
     EXPECT_THAT(bytes_of(out), HasSubstr("format ascii"));
 }
 
-TEST_F(ProgramOnBall, WritesTheSameBytesForAnyNumberOfThreads)
+TEST_F(ProgramOnBall, WritesTheSameBytesForAnyThreadCount)
 {
     std::vector<std::string> written;
     for (const char* threads : {"0", "1", "2", "3"}) {
@@ -199,6 +198,7 @@ TEST_F(ProgramOnBall, RecordsTheRun)
     EXPECT_EQ(record["options"]["min-views"], 1);
     EXPECT_EQ(record["options"]["method"], "strict");
     EXPECT_EQ(record["options"]["ascii"], false);
+    EXPECT_EQ(record["schema"], 2);
     EXPECT_EQ(record["program"]["name"], "colmap-vcarve");
     EXPECT_EQ(record["stages"].front()["name"], "read");
     EXPECT_EQ(record["stages"].back()["name"], "write");
@@ -211,24 +211,24 @@ TEST_F(ProgramOnBall, RecordsTheRun)
     }
 }
 
-TEST_F(ProgramOnBall, RefusesAModelThatNeedsTooMuchMemory)
+TEST_F(ProgramOnBall, RejectsAModelThatNeedsTooMuchMemory)
 {
     EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M", "--blocks", "0"}),
-                MatchesRegex("colmap-vcarve: .*ball: 400 points with [0-9]+ sights need about "
+                MatchesRegex("colmap-vcarve: .*ball: 400 points with [0-9]+ rays need about "
                              "[0-9.]+M of memory, and --max-memory allows 1M\n"));
     EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M"}),
                 HasSubstr("M of memory even in blocks, and --max-memory allows 1M\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-TEST_F(ProgramOnBall, KeepsToItsMemoryWherePointsHaveManyCells)
+TEST_F(ProgramOnBall, RespectsMaxMemoryIfPointsHaveManyCells)
 {
-    // Pages of libraries count, and their number depends on the system. A small run has them, too.
+    // Memory of libraries counts, too, and depends on the system. A small run measures it.
     ASSERT_EQ(run_program({ball, out, "--quiet", "--threads", "4", "--stats", stats}).exit_code, 0);
     [[maybe_unused]] const double program =
         nlohmann::json::parse(bytes_of(stats))["total"]["peak_memory_bytes"];
     std::filesystem::remove(out);
-    // On two lines that do not meet, which have 2,250,000 cells: some 160 MB of CGAL's alone.
+    // Points on two skew lines have 2,250,000 cells, which need about 160 MB in CGAL alone.
     std::string points;
     for (int i = 0; i < 3000; ++i) {
         const double along = (i / 2) / 1500.0 - 0.5;
@@ -243,28 +243,28 @@ TEST_F(ProgramOnBall, KeepsToItsMemoryWherePointsHaveManyCells)
             {"--quiet", ball, out, "--max-memory", "80M", "--blocks", blocks, "--threads", "4"});
         EXPECT_EQ(outcome.exit_code, 3) << blocks;
         EXPECT_THAT(outcome.err,
-                    MatchesRegex("colmap-vcarve: .*ball: the points have more than [0-9]+ cells "
-                                 "between them, all that --max-memory allows: many of them lie on "
-                                 "few lines or curves\n"));
-#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
+                    MatchesRegex("colmap-vcarve: .*ball: the points have more than [0-9]+ cells, "
+                                 "all that --max-memory allows, because many lie on few lines or "
+                                 "curves; raise --max-memory\n"));
+#ifndef VCARVE_SANITIZED // sanitizers need additional memory
         EXPECT_LT(outcome.peak_memory_bytes - program, kMost) << blocks;
 #endif
         EXPECT_FALSE(std::filesystem::exists(out));
     }
 }
 
-TEST_F(ProgramOnBall, RefusesABinaryModelForItsMemoryBeforeReadingIt)
+TEST_F(ProgramOnBall, RejectsABinaryModelThatNeedsTooMuchMemoryBeforeReadingIt)
 {
-    // A file that reading would refuse: its one point lacks the last byte of its track.
+    // Reading this file would fail: the last byte of its only track is missing.
     const std::string count = std::string("\1\0\0\0\0\0\0\0", 8);
     folder.write("cut/cameras.bin", count);
     folder.write("cut/images.bin", count);
     folder.write("cut/points3D.bin", count + std::string(51 + 7, '\0'));
     EXPECT_THAT(sentence_of(3, {"--quiet", folder / "cut", out, "--max-memory", "1M"}),
-                HasSubstr("1 points with 0 sights need about"));
+                HasSubstr("1 points with 0 rays need about"));
 }
 
-TEST_F(ProgramOnBall, ReplacesAnEarlierSurfaceOnlyWhenItSucceeds)
+TEST_F(ProgramOnBall, ReplacesAnEarlierMeshOnlyIfItSucceeds)
 {
     folder.write("out.ply", "earlier");
     const Outcome failed = run_program({folder / "nothing", out});
@@ -274,21 +274,20 @@ TEST_F(ProgramOnBall, ReplacesAnEarlierSurfaceOnlyWhenItSucceeds)
     EXPECT_THAT(bytes_of(out), HasSubstr("element face"));
 }
 
-TEST_F(ProgramOnBall, SaysWhichOffsetItSubtracts)
+TEST_F(ProgramOnBall, NotesTheSubtractedOffset)
 {
     write_ball_model(ball, 400, {5e5, 4.6e6, 1.0});
     const Outcome outcome = run_program({ball, out, "--offset", "auto", "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err,
-                HasSubstr("the coordinates written are those of the model minus 500000, 4600000, "
-                          "0\n"));
+                HasSubstr("output coordinates are those of the model minus 500000, 4600000, 0\n"));
     const auto record = nlohmann::json::parse(bytes_of(stats));
     EXPECT_EQ(record["offset"], nlohmann::json::parse("[500000.0, 4600000.0, 0.0]"));
     EXPECT_EQ(sentence_of(2, {ball, out, "--offset", "5e5,4.6e6"}),
               "colmap-vcarve: --offset takes none, auto or x,y,z, not \"5e5,4.6e6\"\n");
 }
 
-TEST_F(ProgramOnBall, TransformsWhatItWritesBeforeItSubtractsTheOffset)
+TEST_F(ProgramOnBall, TransformsCoordinatesBeforeSubtractingTheOffset)
 {
     EXPECT_EQ(run_program({ball, out}).exit_code, 0);
     const TriMesh plain = read_ply(out);
@@ -296,8 +295,7 @@ TEST_F(ProgramOnBall, TransformsWhatItWritesBeforeItSubtractsTheOffset)
     const Outcome outcome =
         run_program({ball, out, "--transform", file, "--offset", "auto", "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_THAT(outcome.err, HasSubstr("the coordinates written are those of the model transformed "
-                                       "by " +
+    EXPECT_THAT(outcome.err, HasSubstr("output coordinates are those of the model transformed by " +
                                        file + "\n"));
     EXPECT_THAT(outcome.err, HasSubstr("of the model, transformed, minus 500000, 0, 0\n"));
     EXPECT_THAT(bytes_of(out), HasSubstr("comment transform 2 0 0 0 1 500000 0 0\n"));
@@ -317,14 +315,14 @@ TEST_F(ProgramOnBall, TransformsWhatItWritesBeforeItSubtractsTheOffset)
     EXPECT_NEAR(record["mesh"]["area"], 4.0 * 4.0 * std::numbers::pi, 1.0);
 }
 
-TEST_F(ProgramOnBall, TurnsEveryFormatUpright)
+TEST_F(ProgramOnBall, RotatesCoordinatesUpright)
 {
     ASSERT_EQ(run_program({ball, out, "--quiet"}).exit_code, 0);
     const TriMesh plain = read_ply(out);
     const Outcome outcome =
         run_program({ball, out, "--upright", "--up", "0,-2,0", "--transform", "3"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("those of the model transformed by 3, turned so that z is "
+    EXPECT_THAT(outcome.err, HasSubstr("those of the model transformed by 3, rotated so that z is "
                                        "up\n"));
     const TriMesh turned = read_ply(out);
     ASSERT_EQ(turned.positions.size(), plain.positions.size());
@@ -334,10 +332,10 @@ TEST_F(ProgramOnBall, TurnsEveryFormatUpright)
     }
     EXPECT_THAT(bytes_of(out), HasSubstr("comment transform 3 "));
     EXPECT_EQ(sentence_of(2, {ball, out, "--upright", "--up", "none"}),
-              "colmap-vcarve: --upright needs a direction, and --up none gives none\n");
+              "colmap-vcarve: --upright needs an up direction, but --up is none\n");
 }
 
-/// Writes a model of three pictures of a floor 5 below, all taken straight down with one heading.
+/// Writes a model of a floor and three images from 5 above it, straight down with equal heading.
 void write_pictures_from_above(const TemporaryFolder& folder)
 {
     std::string images;
@@ -359,13 +357,13 @@ void write_pictures_from_above(const TemporaryFolder& folder)
     folder.write("above/points3D.txt", points);
 }
 
-TEST_F(ProgramOnBall, SaysWhatIsTakenForUpWhereAllCamerasLookOneWay)
+TEST_F(ProgramOnBall, NotesTheUpDirectionIfAllCamerasLookOneWay)
 {
     write_pictures_from_above(folder);
     const std::string above = folder / "above";
     const std::string glb = folder / "out.glb";
     EXPECT_THAT(run_program({above, glb}).err,
-                HasSubstr("all cameras look one way; the top of their images is taken for up, "
+                HasSubstr("all cameras look one way, so the top of their images is used as up, "
                           "direction 0.00, -1.00, 0.00; if they look straight down, use --up "
                           "back\n"));
     EXPECT_THAT(run_program({above, glb, "--up", "back"}).err, Not(HasSubstr("one way")));
@@ -374,7 +372,7 @@ TEST_F(ProgramOnBall, SaysWhatIsTakenForUpWhereAllCamerasLookOneWay)
     EXPECT_THAT(run_program({ball, glb}).err, Not(HasSubstr("one way")));
 }
 
-TEST_F(ProgramOnBall, RefusesAReflectionAndToReplaceTheTransformation)
+TEST_F(ProgramOnBall, RejectsAReflectionAndReplacingTheTransformation)
 {
     const std::string mirror = folder.write("mirror.ply", "1 0 0 0 0 1 0 0 0 0 -1 0");
     EXPECT_EQ(sentence_of(3, {ball, out, "--transform", mirror}),
@@ -382,7 +380,7 @@ TEST_F(ProgramOnBall, RefusesAReflectionAndToReplaceTheTransformation)
                   ": the transformation is a reflection, which turns "
                   "surfaces inside out, expected a rotation with a scale and a translation\n");
     EXPECT_EQ(sentence_of(2, {ball, mirror, "--transform", mirror}),
-              "colmap-vcarve: the surface would replace the transformation " + mirror + "\n");
+              "colmap-vcarve: the mesh would replace the transformation " + mirror + "\n");
 }
 
 TEST_F(ProgramOnBall, WarnsOfFloatsFarFromTheOrigin)
@@ -390,9 +388,9 @@ TEST_F(ProgramOnBall, WarnsOfFloatsFarFromTheOrigin)
     write_ball_model(ball, 400, {5e5, 4.6e6, 1.0});
     const std::string stl = folder / "out.stl";
     EXPECT_THAT(run_program({ball, stl}).err,
-                ContainsRegex("the floats of [^ ]*out.stl move vertices by up "
-                              "to [0-9.]+e-02 of the surface's size; "
-                              "--offset auto avoids that\n"));
+                ContainsRegex("32-bit floats in [^ ]*out.stl move vertices by up "
+                              "to [0-9.]+e-02 of the mesh's size; "
+                              "use --offset auto\n"));
     EXPECT_THAT(run_program({ball, stl, "--offset", "auto"}).err, Not(HasSubstr("floats")));
 }
 

@@ -25,7 +25,7 @@ using ::testing::Not;
 
 const std::string kSeeHelp = " (see colmap-vcarve --help)\n";
 
-TEST(Program, NamesTheCulpritOfAWrongCommandLine)
+TEST(Program, ReportsTheWrongArgument)
 {
     const auto sentence = [](const std::vector<std::string>& words) {
         const std::string text = sentence_of(2, words);
@@ -40,6 +40,10 @@ TEST(Program, NamesTheCulpritOfAWrongCommandLine)
     const std::string quote = "; quote paths that contain blanks" + kSeeHelp;
     EXPECT_EQ(sentence({"a", "b.ply", "c"}), "unexpected argument \"c\"" + quote);
     EXPECT_EQ(sentence({"my", "model", "b.ply"}), "unexpected argument \"model\"" + quote);
+    EXPECT_EQ(sentence({"delaunay_mesher", "--input_path", "a", "--output_path", "b.ply"}),
+              "delaunay_mesher is a command of COLMAP; type colmap-vcarve MODEL OUT.ply without "
+              "it\n");
+    EXPECT_EQ(sentence({"a", ""}), "argument 2 is empty\n");
     EXPECT_EQ(sentence({"--closed", "yes", "a", "b.ply"}),
               "--closed takes no value; remove \"yes\"\n");
     EXPECT_EQ(sentence({"a", "b.ply", "--quiet=no"}), "--quiet takes no value; remove \"no\"\n");
@@ -62,7 +66,7 @@ TEST(Program, NamesTheCulpritOfAWrongCommandLine)
     for (const std::string out : {"a/out.gltf", "a/out", "out.ply.gz"}) {
         EXPECT_EQ(sentence({"sparse", out}),
                   wrong + out +
-                      ": the name of a surface must end with .ply, .obj, .off, .stl or "
+                      ": the name of a mesh must end with .ply, .obj, .off, .stl or "
                       ".glb\n");
     }
     EXPECT_EQ(sentence({"a", "b.obj", "--ascii"}),
@@ -70,7 +74,7 @@ TEST(Program, NamesTheCulpritOfAWrongCommandLine)
     EXPECT_EQ(sentence({"a", "b.GLB", "--attributes"}),
               wrong + "b.GLB with --attributes, which is for PLY files only\n");
     EXPECT_EQ(sentence({"a", "b.stl", "--texture"}),
-              wrong + "b.stl with --texture: the name of a textured surface must end with .glb, "
+              wrong + "b.stl with --texture: the name of a textured mesh must end with .glb, "
                       ".obj or .ply\n");
     EXPECT_EQ(sentence({"a", "b.ply", "--preview", "c.jpg"}),
               wrong + "c.jpg: the name of a picture must end with .png\n");
@@ -85,12 +89,12 @@ TEST(Program, NamesTheCulpritOfAWrongCommandLine)
               "missing MODEL and meshes (see colmap-vcarve compare --help)\n");
 }
 
-TEST(Program, SaysBeforeItReadsAnythingThatAnOutputCannotBeWritten)
+TEST(Program, RejectsUnwritableOutputsBeforeReadingInput)
 {
     const TemporaryFolder folder;
     const std::string nowhere = folder / "nowhere";
     const std::string there = folder.path();
-    // There is no model either, which would be found out only later.
+    // The model is missing, too, but that would be detected later.
     EXPECT_EQ(sentence_of(2, {nowhere, nowhere + "/out.ply"}),
               "colmap-vcarve: cannot write " + nowhere + "/out.ply: the folder " + nowhere +
                   " does not exist\n");
@@ -106,21 +110,21 @@ TEST(Program, SaysBeforeItReadsAnythingThatAnOutputCannotBeWritten)
             std::vector<std::string> words = {nowhere, path};
             if (!option.empty()) words = {nowhere, folder / "out.ply", option, path};
             EXPECT_THAT(sentence_of(2, words),
-                        MatchesRegex("colmap-vcarve: cannot (write|make the work folder) [^:]+: "
-                                     "([^:]+: )?(Too many levels of symbolic links|File name too "
-                                     "long)\n"));
+                        MatchesRegex("colmap-vcarve: cannot (write|create the work folder) [^:]+: "
+                                     "([^:]+[(])?(Too many levels of symbolic links|File name too "
+                                     "long)[)]?\n"));
         }
     }
     EXPECT_THAT(sentence_of(2, {nowhere, endless, "--stats", endless + ".json"}),
                 HasSubstr("cannot write " + endless + ": "))
-        << "not: both to one file";
+        << "not the message about two outputs with one file";
     std::filesystem::remove(folder / "loop.ply");
     EXPECT_EQ(sentence_of(2, {nowhere, "out.ply", "--stats", "out.ply"}),
-              "colmap-vcarve: --stats and the surface cannot both be written to out.ply\n");
+              "colmap-vcarve: --stats and the mesh cannot both be written to out.ply\n");
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(Program, SaysThatNobodyTookWhatItWasToPrint)
+TEST(Program, ReportsThatStandardOutputCannotBeWritten)
 {
     for (const std::string words :
          {"--help", "--help-all", "--version", "help compare", "compare --help-all"}) {
@@ -131,7 +135,7 @@ TEST(Program, SaysThatNobodyTookWhatItWasToPrint)
     }
 }
 
-TEST(Program, ExitsWithThreeWhereTheInputIsWrong)
+TEST(Program, ExitsWithThreeIfTheInputIsWrong)
 {
     const TemporaryFolder folder;
     const std::string nowhere = folder / "nowhere";
@@ -140,14 +144,14 @@ TEST(Program, ExitsWithThreeWhereTheInputIsWrong)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(Program, FitsItsHelpOnAScreen)
+TEST(Program, FitsItsHelpOnOneScreen)
 {
     for (const std::string command : {"", "compare"}) {
         const Outcome help = run_program({command.empty() ? "--quiet" : command, "--help"});
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_THAT(help.err, IsEmpty());
         EXPECT_LE(std::ranges::count(help.out, '\n'), 60) << help.out;
-        EXPECT_THAT(help.out, Not(HasSubstr("\n" + std::string(30, ' ')))) << "one line each";
+        EXPECT_THAT(help.out, Not(HasSubstr("\n" + std::string(30, ' ')))) << "one line per option";
         const Outcome all = run_program({command.empty() ? "--quiet" : command, "--help-all"});
         std::istringstream lines(help.out + all.out);
         for (std::string line; std::getline(lines, line);) {
@@ -179,42 +183,42 @@ TEST(Program, ListsEachOptionAtItsLevel)
     }
 }
 
-TEST(Program, UnderstandsHelpAndVersionAsWords)
+TEST(Program, AcceptsHelpAndVersionAsWords)
 {
     EXPECT_EQ(run_program({"help"}).out, run_program({"--help"}).out);
     EXPECT_EQ(run_program({"help", "compare"}).out, run_program({"compare", "-h"}).out);
     EXPECT_EQ(run_program({"version"}).out, run_program({"--version"}).out);
 }
 
-TEST(Program, TakesOptionsBeforeACommand)
+TEST(Program, AcceptsOptionsBeforeACommand)
 {
     const std::string said = run_program({"compare", "--threads", "3", "--quiet", "m"}).err;
     EXPECT_THAT(said, HasSubstr("missing meshes after m"));
     EXPECT_EQ(run_program({"--threads", "3", "compare", "--quiet", "m"}).err, said);
     EXPECT_EQ(run_program({"--quiet", "--threads=3", "compare", "m"}).err, said);
     EXPECT_EQ(run_program({"--help", "compare"}).out, run_program({"compare", "--help"}).out);
-    // Behind an operand it is one, and no option of compare makes it one.
+    // After an operand, or an option that `compare` lacks, the word is an operand.
     EXPECT_THAT(run_program({"a", "compare"}).err, HasSubstr("compare: "));
     EXPECT_THAT(run_program({"--closed", "compare"}).err, HasSubstr("OUT.ply after compare"));
 }
 
-TEST(Program, TellsItsVersionAndThoseOfItsLibraries)
+TEST(Program, PrintsVersionsOfTheProgramAndItsLibraries)
 {
     const Outcome version = run_program({"--version"});
     EXPECT_EQ(version.exit_code, 0);
     EXPECT_THAT(version.out, MatchesRegex("colmap-vcarve [0-9.]+( \\([^)\n]+\\))?\n"
                                           "[A-Za-z]+ build, [A-Za-z]+ [0-9.]+\n"
                                           "CGAL [0-9.]+, OpenMesh [0-9.]+, Eigen [0-9.]+, oneTBB "
-                                          "[0-9.]+\nLicence: GPL-3.0-or-later\n"));
+                                          "[0-9.]+\nLicense: GPL-3.0-or-later\n"));
 }
 
-TEST(Program, LeavesNothingBehindWhenItIsInterrupted)
+TEST(Program, LeavesNoFilesWhenInterrupted)
 {
     for (const auto& [signal, code] : {std::pair(SIGINT, 130), {SIGTERM, 143}}) {
         const TemporaryFolder folder;
         write_ball_model(folder / "ball", 60'000);
         Subprocess program(program_with({folder / "ball", folder / "out.ply", "--threads", "1"}));
-        // "read" is over, so it works on the surface now.
+        // The stage "read" has ended, so the program makes the mesh now.
         while (program.err_so_far().empty() && program.is_running()) {
             ::usleep(1000);
         }
@@ -226,14 +230,14 @@ TEST(Program, LeavesNothingBehindWhenItIsInterrupted)
     }
 }
 
-#ifndef VCARVE_WATCHES_MEMORY // which reserves terabytes of address space
-TEST(Program, SaysThatMemoryIsShort)
+#ifndef VCARVE_WATCHES_MEMORY // AddressSanitizer reserves terabytes of address space
+TEST(Program, ReportsThatMemoryIsShort)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "ball", 200'000);
     const Outcome outcome =
         Subprocess(program_with({"--quiet", folder / "ball", folder / "out.ply", "--threads", "1"}),
-                   rlim_t{128} << 20) // of which the libraries' files take half
+                   rlim_t{128} << 20) // the mapped libraries use half of it
             .wait();
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_EQ(outcome.err, "colmap-vcarve: out of memory\n");
@@ -241,7 +245,7 @@ TEST(Program, SaysThatMemoryIsShort)
 }
 #endif
 
-TEST(RecordComments, TellOptionsThatCountAndDifferFromTheDefaults)
+TEST(RecordComments, ListRelevantOptionsThatDifferFromTheDefaults)
 {
     MeshArguments arguments;
     EXPECT_THAT(record_comments(arguments, {1, 2}),
@@ -250,7 +254,7 @@ TEST(RecordComments, TellOptionsThatCountAndDifferFromTheDefaults)
     arguments.options.surface.closed = true;
     arguments.options.refine.smooth.iterations = 2;
     arguments.options.threads = 3;
-    arguments.options.memory.most = 1 << 30;
+    arguments.options.memory.limit = 1 << 30;
     arguments.output.quiet = true;
     arguments.output.transform = "2.5";
     arguments.texture.texture = true;
@@ -260,7 +264,7 @@ TEST(RecordComments, TellOptionsThatCountAndDifferFromTheDefaults)
         ElementsAre("option closed", "option smooth=2", "option transform=2.5", "option texture"));
 }
 
-TEST(RecordComments, TellNoPaths)
+TEST(RecordComments, ContainNoPaths)
 {
     MeshArguments arguments;
     arguments.options.crop.region = {.kind = RegionChoice::Kind::file, .file = "my house.ply"};

@@ -1,4 +1,4 @@
-// colmap-vcarve --work DIR, as its users meet it.
+// Tests of colmap-vcarve --work DIR.
 #include "support/places.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -39,21 +39,21 @@ class WorkOfProgram : public ::testing::Test {
 
 } // namespace
 
-TEST_F(WorkOfProgram, ChangesNothingAndGoes)
+TEST_F(WorkOfProgram, DoesNotChangeTheMeshAndIsRemoved)
 {
     ASSERT_EQ(run_program({scene, out, "--quiet"}).exit_code, 0);
     const std::string expected = bytes_of(out);
     const Outcome outcome = run({});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, ContainsRegex("check +3 input files"));
+    EXPECT_THAT(outcome.err, ContainsRegex("digest +3 input files"));
     EXPECT_THAT(outcome.err, ContainsRegex("keep +[0-9]+ MiB of cells"));
     EXPECT_TRUE(bytes_of(out) == expected);
     EXPECT_FALSE(fs::exists(work));
 }
 
-TEST_F(WorkOfProgram, IsEmptyAfterARefusal)
+TEST_F(WorkOfProgram, IsEmptyAfterAnInputError)
 {
-    // Points of one plane pass the filter, and have no cells.
+    // Points in one plane pass the filter but have no cells.
     folder.write("plane/cameras.txt", "1 SIMPLE_PINHOLE 1000 1000 1000 500 500\n");
     folder.write("plane/images.txt", "1 1 0 0 0 1 0 5 1 a\n\n2 1 0 0 0 -1 0 5 1 b\n\n");
     std::string points;
@@ -70,7 +70,7 @@ TEST_F(WorkOfProgram, IsEmptyAfterARefusal)
     EXPECT_TRUE(fs::is_empty(work));
 }
 
-TEST_F(WorkOfProgram, IsKeptAndTakenWhereAsked)
+TEST_F(WorkOfProgram, IsKeptAndResumedOnRequest)
 {
     ASSERT_EQ(run({"--quiet", "--keep-work"}).exit_code, 0);
     EXPECT_TRUE(fs::exists(work + "/surface.stage"));
@@ -78,8 +78,8 @@ TEST_F(WorkOfProgram, IsKeptAndTakenWhereAsked)
     const std::string stats = folder / "stats.json";
     const Outcome outcome = run({"--threads=1", "--ascii", "--stats", stats});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("note: surface of the folder " + work +
-                                       " has what an earlier run made in triangulate, sights, "
+    EXPECT_THAT(outcome.err, HasSubstr("note: checkpoint surface in the folder " + work +
+                                       " replaces the stages triangulate, rays, "
                                        "cut, surface"));
     EXPECT_THAT(outcome.err, ContainsRegex("resume +[0-9]+ MiB of surface"));
     EXPECT_FALSE(fs::exists(work));
@@ -93,7 +93,7 @@ TEST_F(WorkOfProgram, IsKeptAndTakenWhereAsked)
     EXPECT_TRUE(bytes_of(out) == expected);
 }
 
-TEST_F(WorkOfProgram, TellsTheSameFiguresWhateverCheckpointARunGoesOnFrom)
+TEST_F(WorkOfProgram, GivesTheSameFiguresFromEveryCheckpoint)
 {
     const auto figures = [&](const std::vector<std::string>& words) {
         const std::string stats = folder / "stats.json";
@@ -110,8 +110,8 @@ TEST_F(WorkOfProgram, TellsTheSameFiguresWhateverCheckpointARunGoesOnFrom)
         });
         return counts;
     };
-    // So that holes are filled which views look through: they are told from the others by what a
-    // stage before made.
+    // These options fill holes that views look through. Whether views look through a hole follows
+    // from data of an earlier stage.
     const std::vector<std::string> torn = {"--hardly-seen=0.9", "--max-hole=60"};
     const auto alone = figures({scene, out, torn[0], torn[1]});
     const auto unfilled = figures({scene, out, torn[0], "--max-hole=0"});
@@ -119,36 +119,36 @@ TEST_F(WorkOfProgram, TellsTheSameFiguresWhateverCheckpointARunGoesOnFrom)
               unfilled.at("open").at("rays of the views"));
     const std::vector<std::string> kept_on = words({torn[0], torn[1], "--keep-work"});
     EXPECT_EQ(figures(kept_on), alone);
-    for (const char* const kept : {"surface", "sights", "cells", "points"}) {
+    for (const char* const kept : {"surface", "rays", "cells", "points"}) {
         EXPECT_EQ(figures(kept_on), alone) << "after " << kept;
-        // The next run goes on from the one before.
-        for (const char* const later : {"surface", "sights", "cells", "points"}) {
+        // The next run resumes from the checkpoint before this one.
+        for (const char* const later : {"surface", "rays", "cells", "points"}) {
             EXPECT_TRUE(fs::remove(work + "/" + later + ".stage"));
             if (std::string_view(later) == kept) break;
         }
     }
-    EXPECT_EQ(figures(words(torn)), alone) << "from nothing";
+    EXPECT_EQ(figures(words(torn)), alone) << "without checkpoints";
 }
 
-TEST_F(WorkOfProgram, OfOtherOptionsOrInputIsRefused)
+TEST_F(WorkOfProgram, IsRejectedForOtherOptionsOrInput)
 {
     ASSERT_EQ(run({"--quiet", "--keep-work"}).exit_code, 0);
     Outcome outcome = run({"--quiet", "--quality=2"});
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_EQ(outcome.err, "colmap-vcarve: the work folder " + work +
-                               " is of another run: --quality was 1 and is 2; name another folder "
-                               "with --work, or remove this one to begin anew\n");
+                               " belongs to another run: --quality was 1 and is now 2; choose "
+                               "another folder with --work, or remove this one to start over\n");
     scene = (fixtures_folder() / "room").string();
     outcome = run({"--quiet"});
     EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr(" is of another run: "));
-    EXPECT_THAT(outcome.err, EndsWith("to begin anew\n"));
+    EXPECT_THAT(outcome.err, HasSubstr(" belongs to another run: "));
+    EXPECT_THAT(outcome.err, EndsWith("to start over\n"));
     EXPECT_TRUE(fs::exists(work + "/surface.stage"));
 }
 
-TEST_F(WorkOfProgram, IsOneRunsAtATime)
+TEST_F(WorkOfProgram, IsUsedByOneRunAtATime)
 {
-    // So many views take their time.
+    // Many virtual viewpoints make the run slow.
     Subprocess first(program_with(words({"--virtual-views=300"})));
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (!fs::exists(work + "/points.stage") && std::chrono::steady_clock::now() < end) {
@@ -156,12 +156,12 @@ TEST_F(WorkOfProgram, IsOneRunsAtATime)
     }
     const Outcome second = run({"--quiet"});
     EXPECT_EQ(second.exit_code, 3);
-    EXPECT_EQ(second.err, "colmap-vcarve: another run works in the folder " + work +
-                              "; wait until it has ended, or name another folder with --work\n");
+    EXPECT_EQ(second.err, "colmap-vcarve: another run uses the work folder " + work +
+                              "; wait until it ends, or choose another folder with --work\n");
     EXPECT_EQ(first.wait().exit_code, 0);
 }
 
-TEST_F(WorkOfProgram, IsToBeAFolderOfItsOwn)
+TEST_F(WorkOfProgram, MustBeASeparateFolder)
 {
     Outcome outcome = run_program({scene, out, "--keep-work"});
     EXPECT_EQ(outcome.exit_code, 2);
@@ -172,11 +172,11 @@ TEST_F(WorkOfProgram, IsToBeAFolderOfItsOwn)
     folder.write("work/mine.txt", "mine");
     outcome = run({});
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("is no work folder, but holds mine.txt"));
+    EXPECT_THAT(outcome.err, HasSubstr("is not a work folder: it contains mine.txt"));
     EXPECT_FALSE(fs::exists(out));
 }
 
-TEST_F(WorkOfProgram, IsLeftByNoRunThatNeverWorked)
+TEST_F(WorkOfProgram, IsNotLeftBehindIfTheInputCannotBeRead)
 {
     for (const char* const model : {"/broken", "/nowhere"}) {
         scene = fixtures_folder().string() + model;

@@ -28,7 +28,7 @@ class ReportOfBall : public ::testing::Test {
     std::string stats = folder / "stats.json";
 };
 
-TEST_F(ReportOfBall, HoldsTheRecordThatStatsWrites)
+TEST_F(ReportOfBall, ContainsTheRecordOfStats)
 {
     ASSERT_EQ(run_program({ball, out, "--report", page, "--stats", stats}).exit_code, 0);
     const Json record = Json::parse(bytes_of(stats));
@@ -43,7 +43,7 @@ TEST_F(ReportOfBall, HoldsTheRecordThatStatsWrites)
     EXPECT_EQ(scene["views"].size(), 6U);
 }
 
-TEST_F(ReportOfBall, ShowsTheSameForAnyNumberOfThreads)
+TEST_F(ReportOfBall, ShowsTheSameForAnyThreadCount)
 {
     std::vector<Json> scenes;
     std::vector<Json> reports;
@@ -58,7 +58,7 @@ TEST_F(ReportOfBall, ShowsTheSameForAnyNumberOfThreads)
     EXPECT_EQ(reports[0], reports[2]);
 }
 
-TEST_F(ReportOfBall, LetsNoNameOfAnImageBreakOut)
+TEST_F(ReportOfBall, EscapesImageNamesInHtml)
 {
     std::string images = bytes_of(ball + "/images.txt");
     images.replace(images.find("+z"), 2, "</script><img/src=x/onerror=alert(1)>");
@@ -70,7 +70,7 @@ TEST_F(ReportOfBall, LetsNoNameOfAnImageBreakOut)
               "</script><img/src=x/onerror=alert(1)>.jpg");
 }
 
-TEST_F(ReportOfBall, QuotesTheCommandAsAShellNeedsIt)
+TEST_F(ReportOfBall, QuotesTheCommandForAShell)
 {
     const std::string odd = folder / "it's $ours.ply";
     ASSERT_EQ(run_program({ball, odd, "--stats", stats}).exit_code, 0);
@@ -87,7 +87,7 @@ TriMesh tetrahedron()
     return mesh;
 }
 
-/// What is said of a surface where a promise is broken; empty where none is.
+/// The error message for a mesh that breaks a promise; empty if it breaks none.
 std::string broken_promise(const TriMesh& mesh)
 {
     try {
@@ -99,7 +99,7 @@ std::string broken_promise(const TriMesh& mesh)
     }
 }
 
-TEST(Checked, CountsWhatASurfaceIs)
+TEST(Checked, CountsFacesAndSelfIntersections)
 {
     Log silent;
     const Json json = checked(tetrahedron(), {}, silent);
@@ -112,7 +112,7 @@ TEST(Checked, CountsWhatASurfaceIs)
     EXPECT_EQ(checked(crossed, {}, silent)["self_intersections"], 2);
 }
 
-TEST(RequirePromised, TakesSurfacesWithHolesAndThroughThemselves)
+TEST(RequirePromised, AcceptsHolesAndSelfIntersections)
 {
     EXPECT_EQ(broken_promise(tetrahedron()), "");
     TriMesh open = tetrahedron();
@@ -122,12 +122,12 @@ TEST(RequirePromised, TakesSurfacesWithHolesAndThroughThemselves)
     EXPECT_EQ(broken_promise(open), "");
 }
 
-TEST(RequirePromised, NamesWhatIsBrokenAndWhatRepeatsIt)
+TEST(RequirePromised, ReportsTheFaultAndTheCommand)
 {
     TriMesh turned = tetrahedron();
     turned.faces[0] = {0, 1, 2};
-    EXPECT_EQ(broken_promise(turned), "the surface has 3 orientation_faults and was not written; "
-                                      "colmap-vcarve a/model b.ply reproduces it with a/model");
+    EXPECT_EQ(broken_promise(turned), "the mesh has 3 orientation_faults and was not written; the "
+                                      "command was colmap-vcarve a/model b.ply, the model a/model");
     TriMesh thrice = tetrahedron();
     thrice.positions.emplace_back(5, 5, 5);
     thrice.faces.push_back({0, 1, 4});
@@ -141,7 +141,7 @@ TEST(RequirePromised, NamesWhatIsBrokenAndWhatRepeatsIt)
     EXPECT_THAT(broken_promise(touching), HasSubstr("1 nonmanifold_vertices"));
 }
 
-TEST(Program, ChecksTheSurfaceWhereAsked)
+TEST(Program, ChecksTheMeshOnRequest)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "ball", 200);
@@ -149,13 +149,13 @@ TEST(Program, ChecksTheSurfaceWhereAsked)
     const Outcome outcome = run_program({folder / "ball", out, "--check", "-v"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err,
-                ::testing::ContainsRegex("\ncheck +[0-9,]+ of [0-9,]+ sights from behind [^\n]*\n"
+                ::testing::ContainsRegex("\ncheck +[0-9,]+ of [0-9,]+ rays from behind [^\n]*\n"
                                          "write "));
     EXPECT_THAT(run_program({folder / "ball", out, "--check"}).err,
-                ::testing::ContainsRegex("\ncheck +0 open edges[^\n]*\nwrote "));
+                ::testing::ContainsRegex("\ncheck +0 boundary edges[^\n]*\nwrote "));
 }
 
-/// A surface of which nothing is to be said.
+/// The outcome of a run without proposals.
 RunOutcome usual()
 {
     return {.out = "out.ply",
@@ -179,10 +179,10 @@ std::string line(const RunOutcome& outcome, const Options& options = {})
     return closing_line(outcome, options);
 }
 
-TEST(ClosingLine, ShowsTheReportWhereNothingStandsOut)
+TEST(ClosingLine, SuggestsAReportIfThereAreNoProposals)
 {
     EXPECT_EQ(line(usual()),
-              "wrote out.ply: 22,268 faces, less than 1 % of what cameras see is open"
+              "wrote out.ply: 22,268 faces, holes in less than 1 % of the visible surface"
               "\nSee it: --report out.html");
     RunOutcome outcome = usual();
     outcome.open = 0.0;
@@ -194,71 +194,71 @@ TEST(ClosingLine, ShowsTheReportWhereNothingStandsOut)
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, no visible holes; 8 % of the pixels "
                              "show sky or surfaces without points");
     outcome.open.reset();
-    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 990 open edges");
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 990 boundary edges");
     outcome.boundary_edges = 0;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed");
 }
 
-TEST(ClosingLine, SaysWhatClosesWhatIsOpen)
+TEST(ClosingLine, NamesTheOptionThatClosesHoles)
 {
     RunOutcome outcome = usual();
     outcome.has_report = true;
     outcome.open = 0.035;
-    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, 4 % of what cameras see is open (to "
+    EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, holes in 4 % of the visible surface (to "
                              "close: --max-closing 0)");
     Options options;
     options.surface.rules.max_closing = 0.0;
-    EXPECT_EQ(line(outcome, options), "wrote out.ply: 22,268 faces, 4 % of what cameras see is "
-                                      "open (to close: --closed)");
+    EXPECT_EQ(line(outcome, options), "wrote out.ply: 22,268 faces, holes in 4 % of the visible "
+                                      "surface (to close: --closed)");
 }
 
-TEST(ClosingLine, ProposesToCropLargeFacesUnlessThatIsDone)
+TEST(ClosingLine, ProposesCroppingOfLargeFacesUnlessCropped)
 {
     RunOutcome outcome = closed();
     outcome.long_area = 0.7;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\n"
-                             "if its large faces are in the way, try --crop auto");
+                             "if large faces are in the way, try --crop auto");
     Options options;
     options.surface.closed = true;
     EXPECT_EQ(line(outcome, options), "wrote out.ply: 22,268 faces, closed\n"
-                                      "if its large faces are in the way, leave out --closed");
+                                      "if large faces are in the way, leave out --closed");
     options = {};
     options.crop.region.kind = RegionChoice::Kind::looked_at;
     EXPECT_EQ(line(outcome, options),
               "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
 }
 
-TEST(ClosingLine, NamesTheLimitThatManyPointsFellTo)
+TEST(ClosingLine, NamesTheLimitThatDroppedManyPoints)
 {
     const std::string begin = "wrote out.ply: 22,268 faces, closed\nif parts are missing, try a ";
     RunOutcome outcome = closed();
     outcome.low_angle = 11000;
-    EXPECT_EQ(line(outcome), begin + "smaller --min-angle: 50 % of the points fell to it");
+    EXPECT_EQ(line(outcome), begin + "smaller --min-angle: 50 % of the points were dropped");
     outcome.high_error = 4400;
     outcome.low_angle = 0;
-    EXPECT_EQ(line(outcome), begin + "larger --max-error: 20 % of the points fell to it");
+    EXPECT_EQ(line(outcome), begin + "larger --max-error: 20 % of the points were dropped");
     outcome.high_error = 0;
     outcome.stray = 6600;
-    EXPECT_EQ(line(outcome), begin + "larger --stray-spacing: 30 % of the points fell to it");
+    EXPECT_EQ(line(outcome), begin + "larger --stray-spacing: 30 % of the points were dropped");
 }
 
-TEST(ClosingLine, SaysAtTheDefaultsHowToKeepPointsOfOneView)
+TEST(ClosingLine, ProposesOptionsThatKeepPointsOfOneView)
 {
     RunOutcome outcome = closed();
     outcome.few_views = 11000;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\nif parts are missing, try "
-                             "--min-views 1 or --sights nearest: 50 % of the points fell to it");
+                             "--min-views 1 or --rays nearest: 50 % of the points were dropped");
     outcome.takes_nearest_views = true;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\nif parts are missing, try "
-                             "--min-views 1: 50 % of the points fell to it");
+                             "--min-views 1: 50 % of the points were dropped");
     Options one_view;
     one_view.points.min_views = 1;
     EXPECT_EQ(line(outcome, one_view),
               "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
     outcome.takes_nearest_views = false;
     EXPECT_EQ(line(outcome, one_view),
-              "wrote out.ply: 22,268 faces, closed\nif parts are missing, try --sights nearest: "
-              "50 % of the points fell to it");
+              "wrote out.ply: 22,268 faces, closed\nif parts are missing, try --rays nearest: "
+              "50 % of the points were dropped");
     outcome.few_views = 4000; // 18 %
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
     Options options;
@@ -266,14 +266,14 @@ TEST(ClosingLine, SaysAtTheDefaultsHowToKeepPointsOfOneView)
     outcome.few_views = 11000;
     EXPECT_EQ(line(outcome, options),
               "wrote out.ply: 22,268 faces, closed\nif parts are missing, try a smaller "
-              "--min-views: 50 % of the points fell to it");
+              "--min-views: 50 % of the points were dropped");
 }
 
-TEST(ClosingLine, NamesFirstWhereMostPointsWereLost)
+TEST(ClosingLine, SortsLimitsByTheNumberOfDroppedPoints)
 {
     const std::string begin = "\nif parts are missing, try ";
-    const std::string angle = "a smaller --min-angle: 23 % of the points fell to it";
-    const std::string stray = "a larger --stray-spacing: 25 % of the points fell to it";
+    const std::string angle = "a smaller --min-angle: 23 % of the points were dropped";
+    const std::string stray = "a larger --stray-spacing: 25 % of the points were dropped";
     RunOutcome outcome = closed();
     outcome.high_error = 4500;
     outcome.low_angle = 5000;
@@ -281,7 +281,7 @@ TEST(ClosingLine, NamesFirstWhereMostPointsWereLost)
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed" + begin + stray + begin + angle);
 }
 
-TEST(ClosingLine, ProposesAtMostTwoThings)
+TEST(ClosingLine, ShowsAtMostTwoProposals)
 {
     RunOutcome outcome = closed();
     outcome.high_error = outcome.low_angle = 8000;
@@ -290,18 +290,17 @@ TEST(ClosingLine, ProposesAtMostTwoThings)
     EXPECT_NE(line(outcome).find("--min-angle"), std::string::npos);
 }
 
-TEST(ClosingLine, SaysThatSparsePointsAreFew)
+TEST(ClosingLine, NotesThatSparsePointsAreFew)
 {
     RunOutcome outcome = closed();
     outcome.points = outcome.points_before = 114;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed\n"
-                             "114 points are few, more images or dense points (stereo_fusion) "
-                             "show more");
+                             "only 114 points; add images, or use a dense cloud");
     outcome.is_dense = true;
     EXPECT_EQ(line(outcome), "wrote out.ply: 22,268 faces, closed. See it: --report out.html");
 }
 
-TEST(ClosingLine, NamesThePageBesideTheSurface)
+TEST(ClosingLine, NamesThePageAfterTheMesh)
 {
     RunOutcome outcome = closed();
     outcome.out = "a b/mesh.v2.glb";
@@ -309,7 +308,7 @@ TEST(ClosingLine, NamesThePageBesideTheSurface)
               "wrote a b/mesh.v2.glb: 22,268 faces, closed. See it: --report a b/mesh.v2.html");
 }
 
-TEST(RunOutcome, IsMadeOfWhatTheStagesCount)
+TEST(RunOutcome, CollectsCountsOfTheStages)
 {
     const RunOutcome outcome =
         outcome_of({{"filter",
@@ -320,7 +319,7 @@ TEST(RunOutcome, IsMadeOfWhatTheStagesCount)
                       {"low angle", 5},
                       {"stray", 3}}},
                     {"open", {{"rays of the views", 40}, {"of", 4000}}},
-                    {"orient", {{"sights on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
+                    {"orient", {{"rays on the outside", 9}, {"of", 10}, {"boundary edges", 12}}},
                     {"write", {{"faces", 99}, {"vertices", 50}}}});
     EXPECT_EQ(outcome.points, 70);
     EXPECT_EQ(outcome.points_before, 100);

@@ -38,7 +38,7 @@ class PreviewOfBall : public ::testing::Test {
     std::string png = folder / "out.png";
 };
 
-TEST_F(PreviewOfBall, ShowsTheSurfaceBesideItsNormals)
+TEST_F(PreviewOfBall, ShowsTheMeshBesideItsNormals)
 {
     const Outcome outcome = run_program({ball, out, "--preview", png});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -50,7 +50,7 @@ TEST_F(PreviewOfBall, ShowsTheSurfaceBesideItsNormals)
 
     const int middle_y = kCaption + kPanel / 2;
     const Rgb ball_color = shown.at(kPanel / 2, middle_y);
-    // Of the points' 200, 100, 50, seen almost square.
+    // The points' color 200, 100, 50, viewed almost along the normal.
     EXPECT_NEAR(ball_color[0], 198, 3);
     EXPECT_NEAR(ball_color[1], 99, 2);
     EXPECT_NEAR(ball_color[2], 49, 2);
@@ -61,7 +61,7 @@ TEST_F(PreviewOfBall, ShowsTheSurfaceBesideItsNormals)
     EXPECT_GT(shown.colors(0, kCaption, kPanel, shown.height).size(), 50U);
 }
 
-TEST_F(PreviewOfBall, IsTheSameForAnyNumberOfThreads)
+TEST_F(PreviewOfBall, IsTheSameForAnyThreadCount)
 {
     std::vector<std::string> written;
     for (const char* threads : {"1", "2", "3"}) {
@@ -74,7 +74,7 @@ TEST_F(PreviewOfBall, IsTheSameForAnyNumberOfThreads)
     EXPECT_TRUE(written[1] == written[0] && written[2] == written[0]);
 }
 
-TEST_F(PreviewOfBall, LooksFromWhereItIsTold)
+TEST_F(PreviewOfBall, UsesTheChosenViewpoint)
 {
     const std::string stats = folder / "stats.json";
     std::vector<std::string> written;
@@ -94,7 +94,7 @@ TEST_F(PreviewOfBall, LooksFromWhereItIsTold)
     }
 }
 
-TEST_F(PreviewOfBall, HasARowAMeshInACompare)
+TEST_F(PreviewOfBall, HasOneRowPerMeshInAComparison)
 {
     ASSERT_EQ(run_program({"--quiet", ball, out}).exit_code, 0);
     const std::string inside_out = folder / "inside_out.ply";
@@ -114,15 +114,15 @@ TEST_F(PreviewOfBall, HasARowAMeshInACompare)
     EXPECT_EQ(shown.at(kPanel / 2, 2 * kCaption + kPanel + kPanel / 2), kBacks);
 }
 
-TEST_F(PreviewOfBall, RefusesAViewThatTheModelLacksBeforeTheSurfaceIsMade)
+TEST_F(PreviewOfBall, RejectsAnUnknownViewBeforePointsAreRead)
 {
-    EXPECT_EQ(sentence_of(2, {"--quiet", ball, out, "--preview", png, "--view", "x.jpg"}),
-              "colmap-vcarve: --view takes auto, top, orbit or the name of an image, but the model "
-              "has no image x.jpg: it has 6 (+z.jpg, -z.jpg, +y.jpg, ...)\n");
+    EXPECT_EQ(sentence_of(2, {ball, out, "--preview", png, "--view", "x.jpg"}),
+              "colmap-vcarve: --view must be auto, top, orbit or the name of an image, but "
+              "\"x.jpg\" is none of the 6 images (+z.jpg, -z.jpg, +y.jpg, ...)\n");
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST(RequirePhotoMemory, RefusesPhotographsThatNeedMoreThanHalfOfTheLimit)
+TEST(RequirePhotoMemory, RejectsPhotographsThatNeedMoreThanHalfOfTheLimit)
 {
     Photographs photographs;
     photographs.folder = "images";

@@ -22,24 +22,24 @@ struct Notes : Log {
     std::vector<std::string> heard;
 };
 
-constexpr SceneSize kSmall = {.points = 1000, .sights = 4000, .views = 3};
+constexpr SceneSize kSmall = {.points = 1000, .rays = 4000, .views = 3};
 const RunSize kRun = {.read = kSmall, .thinned = kSmall};
 
-TEST(ArrayFolder, IsBesideTheOutputAndGoneAfterwardsWhereNoneIsGiven)
+TEST(ArrayFolder, CreatesATemporaryFolderBesideTheOutputByDefault)
 {
     const TemporaryFolder folder;
     {
         const ArrayFolder work({}, folder / "out.ply");
         EXPECT_TRUE(work.is_temporary());
         EXPECT_THAT(work.path().string(), HasSubstr((folder / "out.ply.scratch-").string()));
-        EXPECT_FALSE(std::filesystem::exists(work.path())) << "only where it is needed";
+        EXPECT_FALSE(std::filesystem::exists(work.path())) << "not created before it is needed";
         work.prepare(0);
         EXPECT_TRUE(std::filesystem::is_directory(work.path()));
     }
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(ArrayFolder, StaysWhereItWasThereBefore)
+TEST(ArrayFolder, KeepsAGivenFolder)
 {
     const TemporaryFolder folder;
     {
@@ -50,12 +50,12 @@ TEST(ArrayFolder, StaysWhereItWasThereBefore)
     EXPECT_TRUE(std::filesystem::exists(folder.path()));
 }
 
-TEST(ArrayFolder, IsNotBesideADevice)
+TEST(ArrayFolder, AvoidsTheFolderOfADevice)
 {
     EXPECT_NE(ArrayFolder({}, "/dev/null").path().parent_path(), "/dev");
 }
 
-TEST(ArrayFolder, SaysWhyItCannotBeUsed)
+TEST(ArrayFolder, ReportsWhyAFolderCannotBeUsed)
 {
     const TemporaryFolder folder;
     const std::string file = folder.write("file", "").string();
@@ -66,30 +66,30 @@ TEST(ArrayFolder, SaysWhyItCannotBeUsed)
               "cannot use the work folder " + nowhere + ": No such file or directory");
     EXPECT_THAT(refusal<UsageError>(
                     [&] { ArrayFolder(folder.path(), "out.ply").prepare(std::int64_t{1} << 60); }),
-                MatchesRegex("cannot use the work folder .*: [0-9.]+[KMG]? are free there, and "
+                MatchesRegex("cannot use the work folder .*: [0-9.]+[KMG]? are free there, but "
                              "about 1.074e\\+09G are needed"));
 }
 
-TEST(RunMemory, StaysInMemoryWhereThatDoesAndMakesNoFolder)
+TEST(RunMemory, WorksInMemoryWithoutAFolderIfTheRunFits)
 {
     const TemporaryFolder folder;
     const ArrayFolder work({}, folder / "out.ply");
-    RunMemory memory({.most = std::int64_t{1} << 30}, 1, work);
+    RunMemory memory({.limit = std::int64_t{1} << 30}, 1, work);
     Notes notes;
     memory.fit(kRun, notes);
     EXPECT_EQ(memory.options().blocks, 0);
-    EXPECT_EQ(memory.options().most, std::int64_t{1} << 30);
+    EXPECT_EQ(memory.options().limit, std::int64_t{1} << 30);
     EXPECT_EQ(allocate_scratch(ScratchMemory::kLeastBytes, 16), nullptr);
     EXPECT_EQ(folder.num_entries(), 0U);
     EXPECT_THAT(notes.heard, IsEmpty());
 }
 
-TEST(RunMemory, KeepsArraysInFilesWhereItWorksInBlocksAndSaysWhyOnce)
+TEST(RunMemory, KeepsArraysOfBlocksInFilesAndNotesThePlanOnce)
 {
     const TemporaryFolder folder;
     const ArrayFolder work({}, folder / "out.ply");
     {
-        RunMemory memory({.most = 0, .blocks = 7}, 1, work);
+        RunMemory memory({.limit = 0, .blocks = 7}, 1, work);
         Notes notes;
         memory.fit(kRun, notes);
         memory.fit(kRun, notes);
@@ -105,30 +105,30 @@ TEST(RunMemory, KeepsArraysInFilesWhereItWorksInBlocksAndSaysWhyOnce)
     EXPECT_EQ(allocate_scratch(ScratchMemory::kLeastBytes, 16), nullptr);
 }
 
-TEST(RunMemory, CutsForRanksAndStaysInMemoryWhereEachCouldHaveAll)
+TEST(RunMemory, MakesBlocksForRanksAndUsesFilesOnlyIfTheRunExceedsTheLimit)
 {
     const TemporaryFolder folder;
     const ArrayFolder work(folder / "work", "out.ply");
     {
-        RunMemory memory({.most = std::int64_t{1} << 30}, 3, work, {.all = 4, .here = 2});
+        RunMemory memory({.limit = std::int64_t{1} << 30}, 3, work, {.all = 4, .here = 2});
         Notes notes;
         memory.fit(kRun, notes);
-        EXPECT_EQ(memory.options().blocks, 12) << "one for each thread";
+        EXPECT_EQ(memory.options().blocks, 12) << "one per thread";
         EXPECT_FALSE(memory.in_files());
         EXPECT_THAT(notes.heard, ElementsAre(MatchesRegex("about [0-9.]+M needed, 1G allowed: "
                                                           "12 blocks for 4 ranks, in memory")));
         void* const array = allocate_scratch(ScratchMemory::kLeastBytes, 16);
-        EXPECT_TRUE(free_scratch(array)) << "stage files can be mapped in its place";
+        EXPECT_TRUE(free_scratch(array)) << "stage files can be mapped over it";
         EXPECT_EQ(memory.record()["expected_scratch_bytes"], 0);
         EXPECT_TRUE(std::filesystem::is_empty(work.path()));
     }
     RunSize large = kRun;
     large.thinned.points = 10'000'000;
-    RunMemory memory({.most = std::int64_t{800} << 20}, 3, work, {.all = 4, .here = 2});
+    RunMemory memory({.limit = std::int64_t{800} << 20}, 3, work, {.all = 4, .here = 2});
     Notes notes;
     memory.fit(kRun, notes);
     EXPECT_FALSE(memory.in_files());
-    memory.fit(large, notes); // what is known at first may be too little
+    memory.fit(large, notes); // the first estimate of the size may be too small
     EXPECT_TRUE(memory.in_files());
     EXPECT_THAT(notes.heard.back(), HasSubstr("blocks for 4 ranks, scratch of about "));
     EXPECT_EQ(memory.record()["expected_scratch_bytes"],
@@ -137,14 +137,14 @@ TEST(RunMemory, CutsForRanksAndStaysInMemoryWhereEachCouldHaveAll)
     EXPECT_TRUE(memory.in_files());
 }
 
-TEST(RunMemory, StaysInFilesWhereWhatIsLeftOfACloudWouldFit)
+TEST(RunMemory, KeepsUsingFilesIfTheThinnedCloudWouldFit)
 {
     const TemporaryFolder folder;
     const ArrayFolder work({}, folder / "out.ply");
     RunSize read = kRun;
     read.read.points = 10'000'000;
     const std::int64_t most = std::int64_t{500} << 20;
-    RunMemory memory({.most = most}, 1, work);
+    RunMemory memory({.limit = most}, 1, work);
     Notes notes;
     memory.fit(read, notes);
     EXPECT_EQ(memory.options().blocks, 2);
@@ -153,7 +153,7 @@ TEST(RunMemory, StaysInFilesWhereWhatIsLeftOfACloudWouldFit)
     EXPECT_EQ(notes.heard.size(), 1U);
 }
 
-TEST(RunMemory, SaysThatAFolderCannotBeUsedBeforeItIsNeeded)
+TEST(RunMemory, RejectsAnUnusableFolderBeforeItIsNeeded)
 {
     const TemporaryFolder folder;
     const std::string file = folder.write("file", "").string();
@@ -162,10 +162,10 @@ TEST(RunMemory, SaysThatAFolderCannotBeUsedBeforeItIsNeeded)
                 HasSubstr("cannot use the work folder"));
 }
 
-TEST(RunMemory, SharesWhatIsFreeAmongTheRanksOfAMachine)
+TEST(RunMemory, DividesFreeMemoryAmongTheRanksOfAMachine)
 {
-    EXPECT_EQ(allowed_memory({.most = 1000}, 4), 1000) << "said for each rank";
-    EXPECT_EQ(allowed_memory({.most = 0}, 4), std::nullopt) << "no limit";
+    EXPECT_EQ(allowed_memory({.limit = 1000}, 4), 1000) << "a given limit is per rank";
+    EXPECT_EQ(allowed_memory({.limit = 0}, 4), std::nullopt) << "no limit";
     const auto alone = static_cast<double>(*allowed_memory({}, 1));
     EXPECT_NEAR(static_cast<double>(*allowed_memory({}, 4)), alone / 4.0, alone / 10.0);
 }

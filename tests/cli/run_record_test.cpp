@@ -17,7 +17,7 @@ Json recorded(SampleOptions options)
     return options_json(options_of(options));
 }
 
-TEST(OptionsJson, RecordsEveryOptionUnderItsNameOnTheCommandLine)
+TEST(OptionsJson, RecordsEveryOptionByItsName)
 {
     EXPECT_EQ(recorded({.spacing = kUnlimited}).dump(),
               R"({"angle":10.5,"spacing":"inf","min-views":3,"closed":false,)"
@@ -40,7 +40,7 @@ TEST(OptionsJson, RecordsRegionsAsWordsNumbersOrPaths)
     EXPECT_EQ(recorded_part({.kind = RegionChoice::Kind::file, .file = "a/b.ply"}), R"("a/b.ply")");
 }
 
-TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)
+TEST(StageRecorder, RecordsCountsOfEveryStageAndNotes)
 {
     Log nothing;
     StageRecorder recorder(nothing);
@@ -56,14 +56,14 @@ TEST(StageRecorder, RecordsCountsOfEveryStageAndTheNotes)
     EXPECT_EQ(json["notes"].dump(), R"(["a sentence"])");
 }
 
-TEST(StageRecorder, ChargesMemoryToTheStageThatHeldIt)
+TEST(StageRecorder, AssignsMemoryToTheStageThatHeldIt)
 {
     constexpr std::int64_t kBytes = 64 << 20;
-    reset_peak_memory(); // of tests before, in the same process
+    reset_peak_memory(); // of earlier tests in this process
     Log nothing;
     StageRecorder recorder(nothing);
     Stage large(recorder, "large");
-    // Mapped by hand: what is freed goes back to the system at once, whatever the allocator keeps.
+    // Mapped directly, because an allocator may not return freed memory to the system.
     void* memory =
         mmap(nullptr, kBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     ASSERT_NE(memory, MAP_FAILED);
@@ -73,7 +73,7 @@ TEST(StageRecorder, ChargesMemoryToTheStageThatHeldIt)
     Stage(recorder, "small").end({});
 
     const Json json = recorder.json();
-    if (!reset_peak_memory()) { // some systems do not let the peak be reset, and the record says so
+    if (!reset_peak_memory()) { // some systems do not permit it, and the record shows that
         EXPECT_FALSE(json["peak_memory_is_per_stage"]);
         return;
     }
@@ -84,7 +84,7 @@ TEST(StageRecorder, ChargesMemoryToTheStageThatHeldIt)
     EXPECT_TRUE(json["peak_memory_is_per_stage"]);
 }
 
-TEST(StageRecorder, ChargesProcessorTimeToTheStageThatSpentIt)
+TEST(StageRecorder, AssignsCpuTimeToTheStageThatUsedIt)
 {
     Log nothing;
     StageRecorder recorder(nothing);
@@ -96,7 +96,7 @@ TEST(StageRecorder, ChargesProcessorTimeToTheStageThatSpentIt)
     EXPECT_GE(recorder.json()["stages"][0]["cpu_seconds"], 0.02);
 }
 
-TEST(StageRecorder, HandsEverythingOn)
+TEST(StageRecorder, ForwardsEverything)
 {
     struct Listener : Log {
         std::string heard;
@@ -107,7 +107,7 @@ TEST(StageRecorder, HandsEverythingOn)
             heard += ", end " + std::string(name) + " " + counts.at(0).first;
         }
         void note(std::string_view sentence) override { heard += ", " + std::string(sentence); }
-        bool wants_stop() const override { return stops; }
+        bool should_stop() const override { return stops; }
         bool stops = false;
     } listener;
     StageRecorder recorder(listener);
@@ -116,9 +116,9 @@ TEST(StageRecorder, HandsEverythingOn)
     recorder.note("hm");
     stage.end({{"cells", 1}});
     EXPECT_EQ(listener.heard, "begin cut, half, hm, all, end cut cells");
-    EXPECT_FALSE(recorder.wants_stop());
+    EXPECT_FALSE(recorder.should_stop());
     listener.stops = true;
-    EXPECT_TRUE(recorder.wants_stop());
+    EXPECT_TRUE(recorder.should_stop());
 }
 
 TEST(JsonText, ReplacesBytesThatAreNotUtf8)

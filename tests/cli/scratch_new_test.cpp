@@ -1,4 +1,4 @@
-// The program's operator new, seen from outside.
+// Tests of the program's operator new through runs of the program.
 #include "support/ball_model.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -17,8 +17,8 @@ namespace {
 using ::testing::ContainsRegex;
 using ::testing::MatchesRegex;
 
-/// Large enough for arrays in files, and with lumps, since points of one sphere are not divided
-/// into blocks.
+/// A ball that is large enough for arrays in files. It has lumps, because points on one sphere are
+/// not divided into blocks.
 struct ProgramInBlocks : ::testing::Test {
     ProgramInBlocks() { write_ball_model(ball, 60'000, Eigen::Vector3d::Zero(), 0.05); }
 
@@ -40,7 +40,7 @@ struct ProgramInBlocks : ::testing::Test {
     std::string out = folder / "out.ply";
 };
 
-TEST_F(ProgramInBlocks, WritesTheSameSurface)
+TEST_F(ProgramInBlocks, WritesTheSameMesh)
 {
     EXPECT_EQ(memory_of({"--blocks", "0"})["scratch_bytes"], 0);
     const std::string in_memory = bytes_of(out);
@@ -52,16 +52,16 @@ TEST_F(ProgramInBlocks, WritesTheSameSurface)
     EXPECT_FALSE(std::filesystem::exists(folder / "work"));
 }
 
-TEST_F(ProgramInBlocks, TakesBlocksWhereMemoryDoesNotDoAndSaysSo)
+TEST_F(ProgramInBlocks, UsesBlocksWithANoteIfMemoryIsShort)
 {
     const Outcome outcome = run({"--max-memory", "30M", "--threads", "1"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, ContainsRegex("about [0-9.]+M needed, 30M allowed: [0-9]+ blocks, "
                                            "scratch of about [0-9.]+M in .*out.ply.scratch-"));
-    EXPECT_EQ(folder.num_entries(), 2U) << "the ball and the surface";
+    EXPECT_EQ(folder.num_entries(), 2U) << "the ball and the mesh";
 }
 
-TEST_F(ProgramInBlocks, LeavesNoFilesWhenItIsEnded)
+TEST_F(ProgramInBlocks, LeavesNoFilesWhenTerminated)
 {
     Subprocess program(program_with({ball, out, "--blocks", "2"}));
     while (program.err_so_far().find("triangulate ") == std::string::npos && program.is_running()) {
@@ -69,7 +69,7 @@ TEST_F(ProgramInBlocks, LeavesNoFilesWhenItIsEnded)
     }
     program.send(SIGTERM);
     EXPECT_EQ(program.wait().exit_code, 128 + SIGTERM);
-    EXPECT_EQ(folder.num_entries(), 1U) << "the ball";
+    EXPECT_EQ(folder.num_entries(), 1U) << "only the ball";
 }
 
 } // namespace

@@ -34,7 +34,7 @@ class TextureCommand : public ::testing::Test {
     TriMesh mesh;
 };
 
-TEST_F(TextureCommand, CoversAMeshOfAnyFormatAsTheRunThatMadeIt)
+TEST_F(TextureCommand, TexturesAMeshOfAnyFormatLikeTheRunThatMadeIt)
 {
     const std::string whole = folder / "whole.ply";
     ASSERT_EQ(run_program({kModel, whole, "--texture", "--quiet"}).exit_code, 0);
@@ -50,7 +50,7 @@ TEST_F(TextureCommand, CoversAMeshOfAnyFormatAsTheRunThatMadeIt)
     }
 }
 
-TEST_F(TextureCommand, TakesAMeshThatIsNotManifold)
+TEST_F(TextureCommand, AcceptsANonManifoldMesh)
 {
     mesh.faces.insert(mesh.faces.end(), {mesh.faces[0], mesh.faces[1]});
     mesh.faces.push_back({mesh.faces[0][0], mesh.faces[1][0], mesh.faces[2][1]});
@@ -61,7 +61,7 @@ TEST_F(TextureCommand, TakesAMeshThatIsNotManifold)
     EXPECT_THAT(bytes_of(out), HasSubstr("JFIF"));
 }
 
-TEST_F(TextureCommand, IsTheSameForAnyNumberOfThreads)
+TEST_F(TextureCommand, WritesTheSameBytesForAnyThreadCount)
 {
     const std::string given = folder / "mesh.ply";
     const std::string one = folder / "one.glb";
@@ -71,7 +71,7 @@ TEST_F(TextureCommand, IsTheSameForAnyNumberOfThreads)
     EXPECT_EQ(bytes_of(one), bytes_of(two));
 }
 
-TEST_F(TextureCommand, SaysWhatIsWrongBeforeTheWorkStarts)
+TEST_F(TextureCommand, ReportsErrorsBeforeTheWorkStarts)
 {
     const std::string given = folder / "mesh.ply";
     const std::string out = folder / "out.glb";
@@ -88,7 +88,7 @@ TEST_F(TextureCommand, SaysWhatIsWrongBeforeTheWorkStarts)
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-/// Masks for the photographs of the desk, black to the right of a share of the width.
+/// Writes masks for the photographs of the desk. They are black right of this share of the width.
 void write_masks(const TemporaryFolder& folder, double share)
 {
     Log log;
@@ -105,7 +105,7 @@ void write_masks(const TemporaryFolder& folder, double share)
     }
 }
 
-TEST_F(TextureCommand, LeavesFacesBareThatPhotographsShowInMaskedPixels)
+TEST_F(TextureCommand, LeavesFacesInMaskedPixelsUntextured)
 {
     const std::string given = folder / "mesh.ply";
     const std::string masks = folder / "masks";
@@ -122,7 +122,7 @@ TEST_F(TextureCommand, LeavesFacesBareThatPhotographsShowInMaskedPixels)
     EXPECT_GT(bare_with(0.3), whole + 100);
 }
 
-TEST_F(TextureCommand, RemovesMaskedFacesFromTheMeshOfARunWithOrWithoutPhotographs)
+TEST_F(TextureCommand, RemovesMaskedFacesWithAndWithoutPhotographs)
 {
     write_masks(folder, 0.5);
     const std::string masks = folder / "masks";
@@ -142,13 +142,13 @@ TEST_F(TextureCommand, RemovesMaskedFacesFromTheMeshOfARunWithOrWithoutPhotograp
     write_masks(folder, 0.0);
     EXPECT_EQ(sentence_of(3, {kModel, folder / "none.ply", "--masks", masks, "--quiet"}),
               "colmap-vcarve: " + kModel + ": the masks in " + masks +
-                  " leave no face of the surface; black pixels are excluded, so they may have to "
-                  "be inverted\n");
+                  " exclude all faces; black pixels are excluded, so the masks may need to be "
+                  "inverted\n");
     EXPECT_FALSE(std::filesystem::exists(folder / "none.ply"));
     EXPECT_EQ(sentence_of(3, {kModel, folder / "none.ply", "--masks", folder / "gone", "--quiet"}),
               "colmap-vcarve: " + (folder / "gone").string() +
-                  ": the folder does not exist or cannot be entered, but the folder of the masks "
-                  "is expected\n");
+                  ": the folder does not exist or cannot be opened; expected the folder of the "
+                  "masks\n");
 }
 
 } // namespace

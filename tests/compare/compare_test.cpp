@@ -1,9 +1,9 @@
 #include "compare/compare.h"
 #include "support/made_cells.h"
 #include "support/measured_scenes.h"
+#include "support/recording_log.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
-#include "support/told_log.h"
 #include "vcarve/error.h"
 #include "vcarve/reconstruct.h"
 
@@ -26,7 +26,7 @@ Comparison comparison_of(const TriMesh& mesh)
     return compare_mesh({"a.ply", mesh}, reference, log);
 }
 
-TEST(Comparison, CountsWhatTheMeshIsMadeOf)
+TEST(Comparison, CountsVerticesFacesAndComponents)
 {
     const Comparison comparison = comparison_of(cube());
     EXPECT_EQ(comparison.name, "a.ply");
@@ -48,38 +48,38 @@ TEST(Comparison, ReportsAFlippedFace)
     EXPECT_FALSE(comparison.genus.has_value());
 }
 
-TEST(Comparison, ReportsAMeshTurnedInsideOut)
+TEST(Comparison, ReportsAnInvertedMesh)
 {
-    // Nothing is wrong with the edges, but no view sees the upper side from its front any more.
+    // The edges are consistent, but no view sees the upper side from its front.
     TriMesh open = cube();
     open.faces.erase(open.faces.begin(), open.faces.begin() + 2);
     const Comparison right = comparison_of(testing::moved(open, {0.0, 0.0, -1.0}));
     const Comparison wrong =
         comparison_of(testing::flipped(testing::moved(cube(), {0.0, 0.0, -1.0})));
     EXPECT_EQ(wrong.size.orientation_faults, 0);
-    // The views within the square's outline see its top and no side.
+    // The views are above the square, so they see its top but no side.
     EXPECT_NEAR(right.evidence.unsupported_area, 0.8, 1e-3);
     EXPECT_EQ(wrong.evidence.unsupported_area, 1.0);
 }
 
-TEST(Genus, OfATorusIsOne)
+TEST(Genus, IsOneForATorus)
 {
     EXPECT_EQ(genus(check_mesh(torus(8))), 1);
 }
 
-TEST(Genus, AddsUpOverPieces)
+TEST(Genus, SumsOverComponents)
 {
     const TriMesh far_torus = testing::moved(torus(8), {9.0, 0.0, 0.0});
     EXPECT_EQ(genus(check_mesh(testing::together(torus(8), far_torus))), 2);
     EXPECT_EQ(genus(check_mesh(testing::together(far_torus, cube()))), 1);
 }
 
-TEST(Genus, IsNoneWhereTheSurfaceIsOpen)
+TEST(Genus, IsEmptyForAnOpenSurface)
 {
     EXPECT_FALSE(genus(check_mesh(testing::square())).has_value());
 }
 
-TEST(Genus, IsNoneWhereTwoCubesShareAVertex)
+TEST(Genus, IsEmptyIfTwoCubesShareAVertex)
 {
     TriMesh mesh = testing::together(cube(), testing::moved(cube(), {1.0, 1.0, 1.0}));
     for (Face& face : mesh.faces) {
@@ -90,10 +90,10 @@ TEST(Genus, IsNoneWhereTwoCubesShareAVertex)
     EXPECT_FALSE(genus(check_mesh(mesh)).has_value());
 }
 
-TEST(CompareCall, GivesTheFiguresOfItsJsonAndATable)
+TEST(CompareCall, ReturnsFiguresJsonAndATable)
 {
     const Scene scene = bumpy_sphere(2000, 1);
-    ToldLog log;
+    RecordingLog log;
     const NamedMesh mesh = {"made.ply", reconstruct(scene, {}, log).mesh};
     const ComparisonReport report =
         compare(scene, std::span(&mesh, 1), &mesh, {.samples = 2000}, log);
@@ -101,14 +101,14 @@ TEST(CompareCall, GivesTheFiguresOfItsJsonAndATable)
     const nlohmann::json record = nlohmann::json::parse(report.json).at("meshes").at(0);
     const std::map<std::string, double>& figures = report.figures[0];
     EXPECT_EQ(figures.at("/size/faces"), static_cast<double>(mesh.mesh.faces.size()));
-    EXPECT_EQ(figures.at("/views/hidden_sights"), record.at("views").at("hidden_sights"));
+    EXPECT_EQ(figures.at("/views/hidden_rays"), record.at("views").at("hidden_rays"));
     EXPECT_EQ(figures.at("/truth/blocked"), 0.0); // the mesh is its own truth
     EXPECT_THAT(report.table, ::testing::HasSubstr("made.ply"));
     EXPECT_THAT(log.ended(), ::testing::Contains("reference"));
     EXPECT_THAT(log.ended(), ::testing::Contains("measure"));
 }
 
-TEST(CompareCall, GivesTheSameFiguresForAnyNumberOfThreads)
+TEST(CompareCall, IsByteIdenticalForAnyThreadCount)
 {
     Log silent;
     Scene scene = bumpy_sphere(1000, 1);
@@ -128,7 +128,7 @@ TEST(CompareCall, GivesTheSameFiguresForAnyNumberOfThreads)
     EXPECT_GT(figures.at("views").at("back_faces_seen"), 0.0);
 }
 
-TEST(CompareCall, RefusesOptionsOutOfTheirRange)
+TEST(CompareCall, RejectsOptionsOutOfRange)
 {
     Log silent;
     EXPECT_EQ(refusal<UsageError>(

@@ -32,7 +32,7 @@ std::vector<Comparison> two_meshes()
     Comparison a;
     a.name = "a.ply";
     a.size = {.vertices = 12, .faces = 20, .components = 2, .boundary_edges = 3, .area = 1.5};
-    a.evidence = {.hidden_sights = 0.25,
+    a.evidence = {.hidden_rays = 0.25,
                   .missed_points = 0.5,
                   .unsupported_area = 0.125,
                   .median_distance = 2.0,
@@ -45,7 +45,7 @@ std::vector<Comparison> two_meshes()
     return {a, b};
 }
 
-TEST(ComparisonTable, HasAColumnAMesh)
+TEST(ComparisonTable, HasAColumnPerMesh)
 {
     const std::string table = comparison_table(two_meshes(), without_truth());
     EXPECT_THAT(table, StartsWith("|                            |  a.ply | longer_name.ply |\n"
@@ -61,7 +61,7 @@ TEST(ComparisonTable, HasAColumnAMesh)
                                   "| degenerate faces           |      0 |               0 |\n"
                                   "| unreferenced vertices      |      0 |               0 |\n"
                                   "| genus                      |   open |               3 |\n"
-                                  "| hidden sights              | 0.2500 |          0.2500 |\n"
+                                  "| hidden rays                | 0.2500 |          0.2500 |\n"
                                   "| missed points              | 0.5000 |          0.5000 |\n"
                                   "| unsupported area           | 0.1250 |          0.1250 |\n"
                                   "| median distance [spacings] | 2.0000 |          2.0000 |\n"
@@ -71,24 +71,25 @@ TEST(ComparisonTable, HasAColumnAMesh)
                                   "\n"));
 }
 
-TEST(ComparisonTable, SaysWhatTheFiguresMean)
+TEST(ComparisonTable, ExplainsTheFigures)
 {
     const std::string plain = comparison_table(two_meshes(), without_truth());
     EXPECT_THAT(plain, HasSubstr("\nMeasured against 121 points with at least 2 views and 4 views; "
                                  "spacing of a point = distance to its 6th nearest point.\n"));
     EXPECT_THAT(plain,
-                HasSubstr("\nmissed points: share of points farther than 3 spacings from the "
+                HasSubstr("\nmissed points: fraction of points more than 3 spacings from the "
                           "mesh.\n"));
-    EXPECT_THAT(plain, HasSubstr("\nback faces seen: share of 0 rays, "));
-    EXPECT_THAT(plain, HasSubstr("\nnothing seen: not known, "));
+    EXPECT_THAT(plain, HasSubstr("\nback faces seen: fraction of 0 rays, "));
+    EXPECT_THAT(plain, HasSubstr("\nnothing seen: unknown, "));
     EXPECT_THAT(plain, Not(HasSubstr("truth")));
     const std::string full = comparison_table(two_meshes(), square_reference());
-    EXPECT_THAT(full, HasSubstr("\ntruth: 20400 samples by area of what at least 3 views see "));
-    EXPECT_THAT(full, HasSubstr("\nblocked: share of the truth's samples whose line "));
-    EXPECT_THAT(full, HasSubstr("(one a sample, at random; 20400 of 20400 samples have one)"));
+    EXPECT_THAT(full, HasSubstr("\ntruth: 20400 area samples of the part visible from at least "
+                                "3 views "));
+    EXPECT_THAT(full, HasSubstr("\nblocked: fraction of the truth's samples whose line "));
+    EXPECT_THAT(full, HasSubstr("(20400 of 20400 samples have one)"));
 }
 
-TEST(ComparisonTable, HasNoRaysWhereNoViewHasOne)
+TEST(ComparisonTable, HasNoRayFiguresIfNoViewHasARay)
 {
     const Reference reference = without_truth();
     Log log;
@@ -102,7 +103,7 @@ TEST(ComparisonTable, HasNoRaysWhereNoViewHasOne)
     EXPECT_TRUE(report["meshes"][0]["views"]["nothing_seen"].is_null());
 }
 
-TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
+TEST(ComparisonTable, HasTheTruthIfItIsKnown)
 {
     const Reference reference = square_reference();
     Log log;
@@ -123,7 +124,7 @@ TEST(ComparisonTable, HasTheTruthWhereItIsKnown)
     }
 }
 
-TEST(ComparisonTable, HasNoLinesWhereNoImageHoldsTheTruth)
+TEST(ComparisonTable, HasNoCameraRaysIfNoImageContainsTheTruth)
 {
     Reference reference = square_reference();
     std::ranges::fill(reference.truth->image_views, kNoView);
@@ -132,13 +133,13 @@ TEST(ComparisonTable, HasNoLinesWhereNoImageHoldsTheTruth)
         compare_mesh({"self.ply", testing::square()}, reference, log)};
     const std::string table = comparison_table(one, reference);
     EXPECT_THAT(table, HasSubstr("| seen right                 |        - |\n"));
-    EXPECT_THAT(table, HasSubstr("(one a sample, at random; 0 of 20400 samples have one)"));
+    EXPECT_THAT(table, HasSubstr("(0 of 20400 samples have one)"));
     const auto report = nlohmann::json::parse(comparison_json(one, reference));
     EXPECT_EQ(report["truth"]["image_samples"], 0);
     EXPECT_TRUE(report["meshes"][0]["truth"]["open"].is_null());
 }
 
-/// a.ply was made for the comparison, the other one did not come to be.
+/// a.ply was made for the comparison; making the other mesh failed.
 std::vector<Comparison> a_run_and_a_failure()
 {
     std::vector<Comparison> meshes = two_meshes();
@@ -147,7 +148,7 @@ std::vector<Comparison> a_run_and_a_failure()
     return meshes;
 }
 
-TEST(ComparisonTable, HasWhatARunTookAndWhyThereIsNoMesh)
+TEST(ComparisonTable, ShowsCostsAndFailures)
 {
     const std::string table = comparison_table(a_run_and_a_failure(), without_truth());
     EXPECT_THAT(table,
@@ -161,7 +162,7 @@ TEST(ComparisonTable, HasWhatARunTookAndWhyThereIsNoMesh)
     EXPECT_THAT(comparison_table(two_meshes(), without_truth()), Not(HasSubstr("seconds")));
 }
 
-TEST(ComparisonJson, HoldsWhatARunTookAndWhyThereIsNoMesh)
+TEST(ComparisonJson, ContainsCostsAndFailures)
 {
     const auto json =
         nlohmann::json::parse(comparison_json(a_run_and_a_failure(), without_truth()));
@@ -172,14 +173,14 @@ TEST(ComparisonJson, HoldsWhatARunTookAndWhyThereIsNoMesh)
               nlohmann::json({{"name", "longer_name.ply"}, {"failure", "timed out after 300 s"}}));
 }
 
-TEST(ComparisonJson, HoldsTheFiguresOfEveryMesh)
+TEST(ComparisonJson, ContainsTheFiguresOfEveryMesh)
 {
     const auto report = nlohmann::json::parse(comparison_json(two_meshes(), without_truth()));
     EXPECT_EQ(report["options"],
               nlohmann::json::parse(R"({"samples": 20000, "seed": 1, "spacings": 3.0})"));
     EXPECT_EQ(report["model"]["points"], 121);
     EXPECT_EQ(report["model"]["views"], 4);
-    EXPECT_EQ(report["model"]["sights"], 484);
+    EXPECT_EQ(report["model"]["rays"], 484);
     EXPECT_TRUE(report["truth"].is_null());
     ASSERT_EQ(report["meshes"].size(), 2U);
     EXPECT_EQ(report["meshes"][1], nlohmann::json::parse(R"({
@@ -187,15 +188,16 @@ TEST(ComparisonJson, HoldsTheFiguresOfEveryMesh)
         "size": {"vertices": 12, "faces": 20, "area": 1.5, "components": 2, "boundary_edges": 3,
                  "nonmanifold_edges": 0, "nonmanifold_vertices": 0, "orientation_faults": 0,
                  "degenerate_faces": 0, "unreferenced_vertices": 0, "genus": 3},
-        "views": {"hidden_sights": 0.25, "missed_points": 0.5, "unsupported_area": 0.125,
+        "views": {"hidden_rays": 0.25, "missed_points": 0.5, "unsupported_area": 0.125,
                   "median_distance": 2.0, "seen_boundary_edges": 2, "back_faces_seen": 0.0625,
                   "nothing_seen": null}})"));
     EXPECT_EQ(report["meshes"][0]["views"]["nothing_seen"], 0.375);
-    EXPECT_EQ(report["model"]["rays"], 0);
+    EXPECT_EQ(report["schema"], 2);
+    EXPECT_EQ(report["model"]["view_rays"], 0);
     EXPECT_TRUE(report["meshes"][0]["size"]["genus"].is_null());
 }
 
-TEST(ComparisonJson, HoldsTheTruth)
+TEST(ComparisonJson, ContainsTheTruth)
 {
     const Reference reference = square_reference();
     std::vector<Comparison> meshes = two_meshes();

@@ -22,8 +22,8 @@ using testing::square;
 using testing::strip;
 using testing::together;
 
-/// 11 x 11 points at a step of 0.1. The 6th nearest of an inner point lies a diagonal step away, so
-/// the median spacing is sqrt(2) / 10.
+/// 11 x 11 points with a step of 0.1. The 6th nearest point of an inner point is a diagonal step
+/// away, so the median spacing is sqrt(2) / 10.
 Reference grid_reference()
 {
     return make_reference(scene_above_square(11, high_centers()), nullptr, few_samples());
@@ -37,26 +37,26 @@ EvidenceFigures figures_of(const TriMesh& mesh, const Reference& reference)
 TEST(Evidence, FindsNoFaultInTheTrueSurface)
 {
     const EvidenceFigures figures = figures_of(square(), grid_reference());
-    EXPECT_EQ(figures.hidden_sights, 0.0);
+    EXPECT_EQ(figures.hidden_rays, 0.0);
     EXPECT_EQ(figures.missed_points, 0.0);
     EXPECT_EQ(figures.unsupported_area, 0.0);
     EXPECT_NEAR(figures.median_distance, 0.0, 1e-12);
 }
 
-TEST(Evidence, CountsSightsBehindAScreen)
+TEST(Evidence, CountsRaysBehindAScreen)
 {
-    // The screen hangs half way up. A sight to a view at x = 0.2 meets it where x / 2 + 0.1 <=
-    // 0.26, for 4 of the 11 columns; one to a view at x = 0.8 where x / 2 + 0.4 <= 0.26, for none.
+    // The screen is halfway up. Rays to views at x = 0.2 hit it if x / 2 + 0.1 <= 0.26: in 4 of
+    // the 11 columns. Rays to views at x = 0.8 hit it if x / 2 + 0.4 <= 0.26: never.
     const TriMesh screened = together(square(), strip(-1.0, 0.26, 5.0));
     const EvidenceFigures figures = figures_of(screened, grid_reference());
-    EXPECT_DOUBLE_EQ(figures.hidden_sights, 0.5 * 4.0 / 11.0);
+    EXPECT_DOUBLE_EQ(figures.hidden_rays, 0.5 * 4.0 / 11.0);
 }
 
-TEST(Evidence, TakesWhatPassesNearAPointForItsSurface)
+TEST(Evidence, IgnoresHitsNearThePoint)
 {
-    // Spacings are 0.141 within the grid, 0.224 at its corners: 3 of them are 0.42 to 0.67.
-    EXPECT_EQ(figures_of(square(0.4), grid_reference()).hidden_sights, 0.0);
-    EXPECT_EQ(figures_of(square(1.0), grid_reference()).hidden_sights, 1.0);
+    // Spacings are 0.141 inside the grid and 0.224 at its corners, so 3 spacings are 0.42 to 0.67.
+    EXPECT_EQ(figures_of(square(0.4), grid_reference()).hidden_rays, 0.0);
+    EXPECT_EQ(figures_of(square(1.0), grid_reference()).hidden_rays, 1.0);
 }
 
 TEST(Evidence, CountsPointsFarFromTheMesh)
@@ -86,34 +86,34 @@ TEST(Evidence, FindsNoSupportForAFaceBehindAnother)
 
 TEST(Evidence, FindsNoSupportOutsideTheImages)
 {
-    // Cameras 10 above that show 0.5 to either side of what lies right under them. 2500 samples by
-    // area give a share to within 0.01, one standard deviation.
+    // Cameras at height 10 that show 0.5 to either side of the position below them. The fraction of
+    // 2500 samples has a standard deviation of 0.01.
     Scene scene = scene_above_square(11, {{0.5, 0.5, 10.0}, {0.5, 0.5, 10.0}});
     scene.cameras[0] = testing::square_camera(100, 0.05);
     const Reference reference = make_reference(scene, nullptr, few_samples());
     EXPECT_NEAR(figures_of(strip(0.0, 4.0, 0.0), reference).unsupported_area, 0.75, 0.02);
 }
 
-TEST(Evidence, CountsBoundaryEdgesInPlainSight)
+TEST(Evidence, CountsSeenBoundaryEdges)
 {
     const Reference reference = grid_reference();
-    // The diagonal is no boundary; from which side the rim is seen plays no part.
+    // The diagonal is no boundary. Boundary edges are seen from either side.
     EXPECT_EQ(figures_of(square(), reference).seen_boundary_edges, 4);
     EXPECT_EQ(figures_of(testing::flipped(square()), reference).seen_boundary_edges, 4);
     EXPECT_EQ(figures_of(testing::cube(), reference).seen_boundary_edges, 0);
-    // A screen hides the square from all views, whichever side it turns to them.
+    // A screen of either orientation hides the square from all views.
     const TriMesh screen = strip(-1.0, 2.0, 1.0);
     EXPECT_EQ(figures_of(together(square(), screen), reference).seen_boundary_edges, 4);
     const TriMesh turned = testing::flipped(screen);
     EXPECT_EQ(figures_of(together(square(), turned), reference).seen_boundary_edges, 4);
-    // Over more than half of the square it leaves one edge in sight.
+    // A screen over more than half of the square leaves one of its edges visible.
     const TriMesh half = strip(0.4, 2.0, 1.0);
     EXPECT_EQ(figures_of(together(square(), half), reference).seen_boundary_edges, 4 + 1);
 }
 
 TEST(Evidence, CountsNoBoundaryEdgesOutsideTheImages)
 {
-    // The images show 0.25 to either side of the middle.
+    // The images show 0.25 to either side of the center.
     Scene scene = scene_above_square(11, {{0.5, 0.5, 10.0}, {0.5, 0.5, 10.0}});
     scene.cameras[0] = testing::square_camera(100, 0.025);
     const Reference reference = make_reference(scene, nullptr, few_samples());
@@ -122,7 +122,7 @@ TEST(Evidence, CountsNoBoundaryEdgesOutsideTheImages)
     EXPECT_EQ(figures_of(strip(0.4, 0.6, 0.0), reference).seen_boundary_edges, 2);
 }
 
-TEST(Evidence, SamplesTheSightsWhereThereAreMore)
+TEST(Evidence, SubsamplesRays)
 {
     CompareOptions options;
     options.samples = 10000;
@@ -131,10 +131,10 @@ TEST(Evidence, SamplesTheSightsWhereThereAreMore)
         make_reference(scene_above_square(121, high_centers()), nullptr, options);
     const TriMesh screened = together(square(), strip(-1.0, 0.26, 5.0));
     // x / 2 + 0.1 <= 0.26 holds for 39 of 121 columns.
-    EXPECT_NEAR(figures_of(screened, reference).hidden_sights, 0.5 * 39.0 / 121.0, 0.005);
+    EXPECT_NEAR(figures_of(screened, reference).hidden_rays, 0.5 * 39.0 / 121.0, 0.005);
 }
 
-TEST(Evidence, DoesNotDependOnUnitOrPlace)
+TEST(Evidence, DoesNotDependOnScaleOrOffset)
 {
     const Scene scene = scene_above_square(11, high_centers());
     const TriMesh mesh = together(strip(0.0, 0.5, 0.31), strip(-1.0, 0.26, 5.0));
@@ -151,7 +151,7 @@ TEST(Evidence, DoesNotDependOnUnitOrPlace)
         const TriMesh same = testing::moved(testing::scaled(mesh, factor), shift);
         const EvidenceFigures there =
             figures_of(same, make_reference(other, nullptr, few_samples()));
-        EXPECT_DOUBLE_EQ(there.hidden_sights, figures.hidden_sights);
+        EXPECT_DOUBLE_EQ(there.hidden_rays, figures.hidden_rays);
         EXPECT_DOUBLE_EQ(there.missed_points, figures.missed_points);
         EXPECT_NEAR(there.unsupported_area, figures.unsupported_area, 2e-3);
         EXPECT_NEAR(there.median_distance, figures.median_distance, 1e-6);
@@ -168,8 +168,8 @@ CompareOptions with_samples(int samples)
     return options;
 }
 
-/// Two views at one place 2 above the top of the unit cube that look down at its middle: the top
-/// fills 50 of the 100 px of their images, each with 40 x 40 rays.
+/// Two views at the same position, 2 above the center of the unit cube's top, that look down. The
+/// top fills 50 of the 100 px of their images. Each has 40 x 40 rays.
 Reference reference_above_cube()
 {
     Scene scene = testing::scene_above_square(11, {{0.5, 0.5, 3.0}, {0.5, 0.5, 3.0}});
@@ -194,12 +194,12 @@ std::optional<RayFigures> ray_figures_of(const TriMesh& mesh, const Reference& r
     return measure_view_rays(place_mesh({"a.ply", mesh}, reference), reference);
 }
 
-TEST(ViewRays, AreTheMiddlesOfAGridInEveryImage)
+TEST(ViewRays, PassThroughTheCentersOfAGrid)
 {
     Scene scene = testing::scene_above_square(3, {{0.2, 0.3, 5.0}, {0.7, 0.1, 4.0}});
     scene.cameras[0] = {
         .id = 1, .model = 1, .width_px = 80, .height_px = 40, .params = {100, 50, 30, 25}};
-    // 36 cells an image at most: 8 columns and 4 rows of 10 px.
+    // At most 36 cells per image: 8 columns and 4 rows of 10 px.
     const std::vector<ViewRay> rays = view_rays(scene, with_samples(4 * 2 * 36));
     ASSERT_EQ(rays.size(), 64U);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -207,14 +207,14 @@ TEST(ViewRays, AreTheMiddlesOfAGridInEveryImage)
         EXPECT_EQ(rays[i].view, i / 32);
         const double x = (10.0 * static_cast<double>(cell % 8) + 5.0 - 30.0) / 100.0;
         const double y = (10.0 * static_cast<double>(cell / 8) + 5.0 - 25.0) / 50.0;
-        // The cameras look down: half a turn about x.
+        // The cameras look down: rotated by 180 degrees about x.
         const Eigen::Vector3d expected(x, -y, -1.0);
         const Eigen::Vector3d line = rays[i].towards - scene.views[rays[i].view].center;
         EXPECT_TRUE(line.normalized().isApprox(expected.normalized(), 1e-12)) << "ray " << i;
     }
 }
 
-TEST(ViewRays, AreSharedByTheViewsButSomeAreLeftForEach)
+TEST(ViewRays, AreDividedAmongViewsWithAMinimum)
 {
     Scene scene = testing::scene_above_square(3, std::vector<Eigen::Vector3d>(10, {0.5, 0.5, 1}));
     scene.cameras[0] = square_camera(1000, 1.0);
@@ -223,7 +223,7 @@ TEST(ViewRays, AreSharedByTheViewsButSomeAreLeftForEach)
     EXPECT_EQ(view_rays(scene, with_samples(1000)).size(), 360U);
 }
 
-TEST(ViewRays, AreNoneOfCamerasWithoutKnownLensOrSize)
+TEST(ViewRays, SkipCamerasWithoutKnownLensOrSize)
 {
     Scene scene = testing::scene_above_square(3, testing::high_centers());
     const Camera known = square_camera(100, 1.0);
@@ -247,16 +247,16 @@ TEST(ViewRays, AreNoneOfCamerasWithoutKnownLensOrSize)
     EXPECT_FALSE(ray_figures_of(square(), reference).has_value());
 }
 
-TEST(ViewRays, SeeTheInsideThroughAMissingFace)
+TEST(ViewRays, HitBackFacesThroughAMissingFace)
 {
     const Reference reference = reference_above_cube();
     EXPECT_EQ(ray_figures_of(cube(), reference)->back_faces_seen, 0.0);
-    // The opening is 50 px of 100 wide: 20 rays of 40.
+    // The opening is 50 of 100 px wide: 20 of 40 rays.
     EXPECT_EQ(ray_figures_of(without_top(cube()), reference)->back_faces_seen, 0.25);
     EXPECT_EQ(ray_figures_of(testing::flipped(cube()), reference)->back_faces_seen, 0.25);
 }
 
-TEST(ViewRays, SeeNothingWhereTheClosedSurfaceHasAFace)
+TEST(ViewRays, CountMissesOfTheClosedSurface)
 {
     Reference reference = reference_above_cube();
     EXPECT_FALSE(ray_figures_of(cube(), reference)->nothing_seen.has_value());
@@ -265,20 +265,20 @@ TEST(ViewRays, SeeNothingWhereTheClosedSurfaceHasAFace)
     use_closed_surface(reference, closed);
     EXPECT_EQ(ray_figures_of(cube(), reference)->nothing_seen, 0.0);
     EXPECT_EQ(ray_figures_of(without_top(cube()), reference)->nothing_seen, 0.0);
-    // Through the bottom, 33.3 px wide, go 14 rays of 40; the rest meet the sides from inside.
+    // 14 of 40 rays pass through the bottom, 33.3 px wide; the others hit the sides from inside.
     const auto tube = ray_figures_of(without_top_and_bottom(cube()), reference);
     EXPECT_DOUBLE_EQ(tube->nothing_seen.value(), 14.0 * 14.0 / 1600.0);
     EXPECT_DOUBLE_EQ(tube->back_faces_seen, 0.25 - 14.0 * 14.0 / 1600.0);
-    // Faces where the closed surface has none make up for nothing and are held against nobody.
+    // Faces beside the closed surface have no effect.
     const TriMesh beside = testing::moved(square(), {1.0, 0.0, 1.0});
     EXPECT_EQ(ray_figures_of(testing::together(cube(), beside), reference)->nothing_seen, 0.0);
     EXPECT_EQ(ray_figures_of(beside, reference)->nothing_seen, 0.25);
     EXPECT_EQ(ray_figures_of(square(1.0), reference)->nothing_seen, 0.0);
 }
 
-TEST(ViewRays, FindWhatEveryFaceTriedFinds)
+TEST(ViewRays, AgreeWithTestingEveryFace)
 {
-    // Two slanting views of a cube that lacks its top and a side.
+    // Two oblique views of a cube without its top and a side.
     Scene scene = testing::scene_above_square(11, {{2.5, 1.9, 2.7}, {-0.7, -1.3, 1.6}});
     scene.cameras[0] = square_camera(200, 0.4);
     for (View& view : scene.views) {
@@ -309,7 +309,7 @@ TEST(ViewRays, FindWhatEveryFaceTriedFinds)
     EXPECT_DOUBLE_EQ(figures->nothing_seen.value(), missing / 5000.0);
 }
 
-TEST(ViewRays, DoNotDependOnUnitOrPlace)
+TEST(ViewRays, DoNotDependOnScaleOrOffset)
 {
     Scene scene = testing::scene_above_square(11, {{0.5, 0.5, 3.0}, {0.5, 0.5, 3.0}});
     scene.cameras[0] = square_camera(100, 0.5);
@@ -337,7 +337,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-/// Keeps what it is told.
+/// Records stages and notes.
 class KeptLog : public Log {
   public:
     void stage_ends(std::string_view name, const Counts& /*counts*/) override
@@ -350,7 +350,7 @@ class KeptLog : public Log {
     std::vector<std::string> notes;
 };
 
-/// A bumpy ball and four views side by side that look at it: nobody sees its far side.
+/// A bumpy ball and four views side by side that look at it. No view sees its far side.
 Scene ball_seen_from_one_side()
 {
     Scene scene = bumpy_sphere(1500, 3);
@@ -375,7 +375,7 @@ double nothing_seen(const TriMesh& mesh, const Reference& reference)
     return measure_view_rays(measured, reference).value().nothing_seen.value();
 }
 
-TEST(ClosedSurface, IsWhatTheProgramMakesWithClosed)
+TEST(ClosedSurface, AgreesWithTheOptionClosed)
 {
     const Scene scene = ball_seen_from_one_side();
     Reference reference = make_reference(scene, nullptr, testing::few_samples());
@@ -394,9 +394,9 @@ TEST(ClosedSurface, IsWhatTheProgramMakesWithClosed)
     EXPECT_EQ(nothing_seen(reconstruct(scene, options, silent).mesh, reference), 0.0);
 }
 
-TEST(ClosedSurface, IsNoneWhereThePointsLeaveNone)
+TEST(ClosedSurface, IsMissingIfAllPointsAreCoplanar)
 {
-    // All points lie in a plane.
+    // All points are in a plane.
     Scene scene = testing::scene_above_square(3, testing::high_centers());
     scene.cameras[0] = testing::square_camera(100, 0.2);
     scene.colors.resize(scene.num_points());
@@ -413,7 +413,7 @@ TEST(ClosedSurface, IsNoneWhereThePointsLeaveNone)
     EXPECT_FALSE(figures.nothing_seen.has_value());
 }
 
-TEST(ClosedSurface, IsNotMadeWhereNoViewHasARay)
+TEST(ClosedSurface, IsNotMadeIfNoViewHasARay)
 {
     const Scene scene = testing::scene_above_square(3, testing::high_centers());
     Reference reference = make_reference(scene, nullptr, testing::few_samples());

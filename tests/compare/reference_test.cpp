@@ -22,7 +22,7 @@ Reference plain_reference()
     return make_reference(scene_above_square(21, high_centers()), nullptr, few_samples());
 }
 
-TEST(Reference, KeepsFinitePointsThatTwoViewsSaw)
+TEST(Reference, KeepsFinitePointsWithTwoViews)
 {
     Scene scene = scene_above_square(3, high_centers());
     scene.positions.emplace_back(0.0, std::numeric_limits<double>::infinity(), 0.0);
@@ -38,7 +38,7 @@ TEST(Reference, KeepsFinitePointsThatTwoViewsSaw)
     EXPECT_EQ(reference.spacings.size(), 10U);
 }
 
-TEST(Reference, PutsEverythingAroundTheMedianPoint)
+TEST(Reference, CentersAllDataOnTheMedianPoint)
 {
     Scene scene = scene_above_square(21, high_centers());
     scene.offset = {1000.0, 0.0, 0.0};
@@ -51,7 +51,7 @@ TEST(Reference, PutsEverythingAroundTheMedianPoint)
     EXPECT_TRUE(placed.mesh.positions[0].isApprox(Eigen::Vector3d(-0.5, -0.5, 0.0)));
 }
 
-TEST(Reference, RefusesAModelWithFewerThanTwoPoints)
+TEST(Reference, RejectsAModelWithFewerThanTwoPoints)
 {
     Scene scene = scene_above_square(2, high_centers());
     scene.tracks = {};
@@ -59,11 +59,11 @@ TEST(Reference, RefusesAModelWithFewerThanTwoPoints)
         scene.tracks.push_back(std::vector<std::uint32_t>{0});
     }
     EXPECT_THAT([&] { make_reference(scene, nullptr, few_samples()); },
-                ThrowsMessage<InputError>("the model has 0 points that at least two views saw, but "
-                                          "meshes can be measured only against two or more"));
+                ThrowsMessage<InputError>("the model has 0 points with two or more views, but a "
+                                          "comparison needs at least two such points"));
 }
 
-TEST(PlaceMesh, RefusesAMeshWithoutFaces)
+TEST(PlaceMesh, RejectsAMeshWithoutFaces)
 {
     TriMesh mesh = square();
     mesh.faces.clear();
@@ -75,7 +75,7 @@ TEST(PlaceMesh, RefusesAMeshWithoutFaces)
                                   "is no surface to measure"));
 }
 
-TEST(PlaceMesh, RefusesAMeshWithoutArea)
+TEST(PlaceMesh, RejectsAMeshWithoutArea)
 {
     TriMesh mesh = square();
     mesh.faces = {{0, 1, 1}, {2, 2, 2}};
@@ -87,7 +87,7 @@ TEST(PlaceMesh, RefusesAMeshWithoutArea)
                                   "surface to measure"));
 }
 
-TEST(PlaceMesh, RefusesAMeshThatLiesElsewhere)
+TEST(PlaceMesh, RejectsADistantMesh)
 {
     const TriMesh elsewhere = testing::moved(square(), {100.0, 0.0, 0.0});
     EXPECT_THAT(
@@ -95,22 +95,22 @@ TEST(PlaceMesh, RefusesAMeshThatLiesElsewhere)
             place_mesh({"utm.ply", elsewhere}, plain_reference());
         },
         ThrowsMessage<InputError>(
-            "utm.ply: the mesh lies in another frame than the model: it spans (100, 0, 0) to "
-            "(101, 1, 0), but most points of the model lie in (0.05, 0.05, 0) to (0.95, 0.95, "
+            "utm.ply: the mesh is in another frame than the model: its box is (100, 0, 0) to "
+            "(101, 1, 0), but most points of the model are in (0.05, 0.05, 0) to (0.95, 0.95, "
             "0)"));
 }
 
-TEST(PlaceMesh, RefusesAMeshOfAnotherUnit)
+TEST(PlaceMesh, RejectsAMeshInAnotherUnit)
 {
-    // Millimetres for metres and the reverse; both still overlap the model.
+    // Millimeters instead of meters, and vice versa; both overlap the model.
     const auto place = [](double factor) {
         place_mesh({"mm.ply", testing::scaled(square(), factor)}, plain_reference());
     };
     EXPECT_THAT(
         [&] { place(1000.0); },
         ThrowsMessage<InputError>(
-            "mm.ply: the mesh lies in another frame than the model: it spans (0, 0, 0) to "
-            "(1000, 1000, 0), but most points of the model lie in (0.05, 0.05, 0) to (0.95, "
+            "mm.ply: the mesh is in another frame than the model: its box is (0, 0, 0) to "
+            "(1000, 1000, 0), but most points of the model are in (0.05, 0.05, 0) to (0.95, "
             "0.95, 0)"));
     EXPECT_THROW(place(0.001), InputError);
     EXPECT_NO_THROW(place(40.0));
@@ -141,13 +141,13 @@ TEST(PointSpacings, AreDistancesToTheSixthNearest)
     EXPECT_THAT(point_spacings(line), ElementsAre(6, 5, 4, 3, 3, 3, 3, 4, 5, 6));
 }
 
-TEST(PointSpacings, TakeTheFarthestOfFewPoints)
+TEST(PointSpacings, UseTheFarthestOfFewPoints)
 {
     const std::vector<Eigen::Vector3d> points = {{0, 0, 0}, {3, 4, 0}};
     EXPECT_THAT(point_spacings(points), ElementsAre(5, 5));
 }
 
-TEST(PointSpacings, AreNeverLessThanAHundredthOfTheMedian)
+TEST(PointSpacings, AreAtLeastAHundredthOfTheMedian)
 {
     std::vector<Eigen::Vector3d> points(50, Eigen::Vector3d(-9, 0, 0));
     for (int i = 0; i < 60; ++i) {
@@ -157,7 +157,7 @@ TEST(PointSpacings, AreNeverLessThanAHundredthOfTheMedian)
     EXPECT_THAT(std::vector<double>(spacings.begin(), spacings.begin() + 50), Each(DoubleEq(0.03)));
 }
 
-TEST(PointSpacings, AreZeroWhereAllPointsCoincide)
+TEST(PointSpacings, AreZeroIfAllPointsCoincide)
 {
     const std::vector<Eigen::Vector3d> points(100, Eigen::Vector3d(1, 2, 3));
     EXPECT_THAT(point_spacings(points), Each(0.0));
@@ -165,9 +165,9 @@ TEST(PointSpacings, AreZeroWhereAllPointsCoincide)
 
 using testing::strip;
 
-TEST(SampleSurface, GivesEachFaceItsShareOfTheArea)
+TEST(SampleSurface, SamplesFacesInProportionToTheirArea)
 {
-    // Two faces of 1.5 and two of 0.5: three eighths and one eighth of the samples each.
+    // Two faces have an area of 1.5 and two of 0.5: 3/8 and 1/8 of the samples each.
     const TriMesh mesh = testing::together(strip(0.0, 3.0, 0.0), strip(4.0, 5.0, 0.0));
     const SurfaceSamples samples = sample_surface(mesh, 8000, 1);
     ASSERT_EQ(samples.positions.size(), 8000U);
@@ -180,7 +180,7 @@ TEST(SampleSurface, GivesEachFaceItsShareOfTheArea)
     }
 }
 
-TEST(SampleSurface, PutsSamplesOnTheirFaces)
+TEST(SampleSurface, PlacesSamplesOnTheirFaces)
 {
     const TriMesh mesh = testing::random_soup(50, 3);
     const SurfaceSamples samples = sample_surface(mesh, 2000, 1);
@@ -190,14 +190,14 @@ TEST(SampleSurface, PutsSamplesOnTheirFaces)
         const Eigen::Vector3d& b = mesh.positions[face[1]];
         const Eigen::Vector3d& c = mesh.positions[face[2]];
         const Eigen::Vector3d& x = samples.positions[i];
-        // The three triangles a sample makes with the sides fill the face.
+        // The three triangles of a sample and the sides fill the face.
         const double parts =
             (a - x).cross(b - x).norm() + (b - x).cross(c - x).norm() + (c - x).cross(a - x).norm();
         EXPECT_NEAR(parts, (b - a).cross(c - a).norm(), 1e-12);
     }
 }
 
-TEST(SampleSurface, SpreadsSamplesEvenlyOverAFace)
+TEST(SampleSurface, IsUniformOnAFace)
 {
     const SurfaceSamples samples = sample_surface(testing::square(), 40000, 1);
     std::array<int, 16> squares{};
@@ -225,7 +225,7 @@ TEST(SampleSurface, SkipsFacesWithoutArea)
     EXPECT_THAT(samples.faces, ::testing::Each(2U));
 }
 
-TEST(SampleSurface, IsEmptyWhereNothingHasArea)
+TEST(SampleSurface, IsEmptyIfNoFaceHasAnArea)
 {
     TriMesh mesh = testing::square();
     mesh.faces = {{0, 1, 1}};

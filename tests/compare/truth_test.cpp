@@ -18,7 +18,7 @@ using testing::scene_above_square;
 using testing::square;
 using testing::strip;
 
-/// Of a share of 20,000 random samples, at most.
+/// Four standard deviations of a fraction of 20,000 random samples, at most.
 constexpr double kFourDeviations = 0.0142;
 
 Reference reference_of(const TriMesh& truth, const std::vector<Eigen::Vector3d>& centers)
@@ -46,7 +46,7 @@ TEST(Truth, AgreesWithItself)
     EXPECT_EQ(figures.blocked, 0.0);
 }
 
-TEST(Truth, MeasuresAMoveAlongTheNormal)
+TEST(Truth, MeasuresAShiftAlongTheNormal)
 {
     const Reference reference = reference_of(square(), high_centers());
     const double height = 0.004 * std::numbers::sqrt2;
@@ -56,27 +56,27 @@ TEST(Truth, MeasuresAMoveAlongTheNormal)
     EXPECT_EQ(figures.agreements[1].f_score, 0.0);
     EXPECT_EQ(figures.agreements[2].precision, 1.0);
     EXPECT_EQ(figures.agreements[2].recall, 1.0);
-    // The samples do not quite reach the corners, so the diagonal is a little short.
+    // The samples do not quite reach the corners, so the diagonal is slightly short.
     EXPECT_NEAR(figures.mean_accuracy, 0.004, 4e-5);
     EXPECT_NEAR(figures.mean_completeness, 0.004, 4e-5);
 }
 
-TEST(Truth, MeasuresAMoveAlongTheSurface)
+TEST(Truth, MeasuresAShiftAlongTheSurface)
 {
     const Reference reference = reference_of(square(), high_centers());
     const TruthFigures figures = figures_of(strip(0.2, 1.2, 0.0), reference);
     for (std::size_t i = 0; i < kTolerances.size(); ++i) {
-        // Within tolerance of the other lies all but the strip beyond it.
+        // All but the strip beyond the other surface is within tolerance.
         const double overlap = 0.8 + kTolerances[i] * std::numbers::sqrt2;
         EXPECT_NEAR(figures.agreements[i].precision, overlap, kFourDeviations);
         EXPECT_NEAR(figures.agreements[i].recall, overlap, kFourDeviations);
         EXPECT_NEAR(figures.agreements[i].f_score, overlap, kFourDeviations);
     }
-    // 0.2 of the area is on average 0.1 away.
+    // 20 % of the area is 0.1 away on average.
     EXPECT_NEAR(figures.mean_accuracy, 0.02 / std::numbers::sqrt2, 3e-4);
 }
 
-TEST(Truth, TellsPrecisionFromRecall)
+TEST(Truth, DistinguishesPrecisionAndRecall)
 {
     const Reference reference = reference_of(square(), high_centers());
     const TruthFigures half = figures_of(strip(0.0, 0.5, 0.0), reference);
@@ -86,7 +86,7 @@ TEST(Truth, TellsPrecisionFromRecall)
     EXPECT_DOUBLE_EQ(half.agreements[3].f_score, 2.0 * recall / (1.0 + recall));
 }
 
-/// A roof of so many ridges over part of the square, each flank `rise` high.
+/// A roof with `count` ridges over a part of the square. Each flank rises by `rise`.
 TriMesh ridges(double from, double to, int count, double rise)
 {
     TriMesh mesh;
@@ -110,7 +110,7 @@ TEST(Truth, MeasuresAnglesBetweenNormals)
     const NormalFigures flat = *figures_of(square(0.004), reference).normals;
     EXPECT_EQ(flat.median_deg, 0.0);
     EXPECT_EQ(flat.most_deg, 0.0);
-    // Flanks that rise one in ten.
+    // The flanks have a slope of 1 in 10.
     const double slope = std::atan(0.1) * 180.0 / std::numbers::pi;
     const TriMesh third = testing::together(strip(0.0, 0.7, 0.0), ridges(0.7, 1.0, 3, 0.005));
     const NormalFigures some = *figures_of(third, reference).normals;
@@ -123,7 +123,7 @@ TEST(Truth, MeasuresAnglesBetweenNormals)
     EXPECT_NEAR(figures_of(inverted, reference).normals->median_deg, slope, 1e-9);
 }
 
-TEST(Truth, HasNormalsOnlyNearTheTruth)
+TEST(Truth, ComparesNormalsOnlyNearTheTruth)
 {
     const Reference reference = reference_of(square(), high_centers());
     // Two samples in three are too far away.
@@ -133,7 +133,7 @@ TEST(Truth, HasNormalsOnlyNearTheTruth)
     EXPECT_FALSE(figures_of(square(0.4), reference).normals);
 }
 
-/// Four views so high that their lines are upright.
+/// Four views so high that their lines are vertical.
 std::vector<Eigen::Vector3d> upright_centers()
 {
     std::vector<Eigen::Vector3d> centers = high_centers();
@@ -143,24 +143,24 @@ std::vector<Eigen::Vector3d> upright_centers()
     return centers;
 }
 
-TEST(Truth, CountsLinesTheMeshBlocks)
+TEST(Truth, CountsBlockedLines)
 {
-    // A screen hangs over a quarter of the square.
+    // A screen is above a quarter of the square.
     const Reference reference = reference_of(square(), upright_centers());
     const TriMesh screened = testing::together(square(), strip(0.0, 0.25, 0.5));
     EXPECT_NEAR(figures_of(screened, reference).blocked, 0.25, kFourDeviations);
-    // Nearer than 1 % of the diagonal it is taken for the surface itself.
+    // A screen nearer than 1 % of the diagonal is not a hit.
     const TriMesh skin = testing::together(square(), strip(0.0, 0.25, 0.01));
     EXPECT_EQ(figures_of(skin, reference).blocked, 0.0);
     const TriMesh farther = testing::together(square(), strip(0.0, 0.25, 0.015));
     EXPECT_NEAR(figures_of(farther, reference).blocked, 0.25, kFourDeviations);
 }
 
-TEST(Truth, CountsOnlyWhatThreeViewsSee)
+TEST(Truth, CountsOnlySamplesThatThreeViewsSee)
 {
     const TriMesh stacked = testing::together(square(), square(-0.5));
     const Reference reference = reference_of(stacked, high_centers());
-    // Every line from the lower square to a view passes the upper one.
+    // Every line from the lower square to a view passes through the upper one.
     EXPECT_NEAR(reference.truth->seen_share, 0.5, 1e-4);
     EXPECT_GE(reference.truth->samples.size(), 20000U);
     for (const Eigen::Vector3d& sample : reference.truth->samples) {
@@ -174,17 +174,17 @@ TEST(Truth, IsSeenFromEitherSide)
     EXPECT_EQ(reference.truth->seen_share, 1.0);
 }
 
-TEST(Truth, CountsNoGrazingViews)
+TEST(Truth, IgnoresGrazingViews)
 {
-    // Two views above, others 100 to 200 away at a height of 1: 89 degrees from the normal and
-    // more.
+    // Two views above, and two 100 to 200 away at a height of 1: at least 89 degrees from the
+    // normal.
     std::vector<Eigen::Vector3d> centers = {
         {0.2, 0.2, 10}, {0.8, 0.2, 10}, {100, 0, 1}, {0, 200, 1}};
     EXPECT_THAT(
         [&] { reference_of(square(), centers); },
         ::testing::ThrowsMessage<InputError>(
-            "gt.ply: less than a thousandth of its area is seen by at least 3 of the model's 4 "
-            "views, so it cannot tell how good a mesh is"));
+            "gt.ply: less than a thousandth of the true surface is visible from 3 or more of the "
+            "model's 4 views, so meshes cannot be compared with it"));
     centers[2] = {0.5, 0.5, 1.0};
     EXPECT_EQ(reference_of(square(), centers).truth->seen_share, 1.0);
 }
@@ -204,7 +204,7 @@ LineFigures lines_of(const TriMesh& mesh, const Reference& reference)
     return figures_of(mesh, reference).lines.value();
 }
 
-TEST(TruthLines, AreOpenWhereTheMeshHasAHole)
+TEST(TruthLines, AreOpenInAHole)
 {
     const Reference reference = reference_of(square(), high_centers());
     const TriMesh holed = testing::together(strip(0.0, 0.3, 0.0), strip(0.7, 1.0, 0.0));
@@ -222,7 +222,7 @@ TEST(TruthLines, AreOpenWhereTheMeshHasAHole)
     EXPECT_NEAR(share, 0.4, kFourDeviations);
 }
 
-TEST(TruthLines, AreNotOpenWhereTheMeshGoesOnBehind)
+TEST(TruthLines, AreNotOpenIfTheMeshContinuesBehind)
 {
     const TriMesh behind = testing::together(strip(0.0, 0.5, 0.0), strip(-1.0, 2.0, -0.5));
     const LineFigures lines = lines_of(behind, reference_of(square(), upright_centers()));
@@ -231,14 +231,14 @@ TEST(TruthLines, AreNotOpenWhereTheMeshGoesOnBehind)
     EXPECT_EQ(lines.torn, 0.0);
 }
 
-TEST(TruthLines, AreTornWhereTheBackIsMetFirst)
+TEST(TruthLines, AreTornIfTheyHitABackFirst)
 {
     const Reference reference = reference_of(square(), upright_centers());
     const LineFigures turned = lines_of(testing::flipped(square()), reference);
     EXPECT_EQ(turned.seen_right, 0.0);
     EXPECT_EQ(turned.torn, 1.0);
     EXPECT_EQ(turned.open, 0.0);
-    // However far in front or behind, but not behind a front.
+    // This holds at any distance in front or behind, but not behind a front.
     EXPECT_EQ(lines_of(testing::flipped(square(0.5)), reference).torn, 1.0);
     EXPECT_EQ(lines_of(testing::flipped(square(-0.5)), reference).torn, 1.0);
     const TriMesh wide = testing::moved(testing::scaled(square(), 10.0), {-4.0, -4.0, -1.3});
@@ -249,7 +249,7 @@ TEST(TruthLines, AreTornWhereTheBackIsMetFirst)
     EXPECT_EQ(lines_of(two, reference).seen_right, 1.0);
 }
 
-TEST(TruthLines, SeeRightWithinHalfAPercentOfTheDiagonalAlongTheLine)
+TEST(TruthLines, AllowHalfAPercentOfTheDiagonalAlongTheLine)
 {
     const Reference reference = reference_of(square(), upright_centers());
     const double diagonal = reference.truth->diagonal;
@@ -260,7 +260,7 @@ TEST(TruthLines, SeeRightWithinHalfAPercentOfTheDiagonalAlongTheLine)
         EXPECT_EQ(lines.torn, 0.0);
         EXPECT_EQ(lines.open, 0.0);
     }
-    // A line at 45 degrees runs 1.41 as far to the same height.
+    // A line at 45 degrees is 1.41 times as long.
     const Reference slanting =
         reference_of(square(), {{1e6, 0, 1e6}, {1e6, 1, 1e6}, {1e6, 2, 1e6}});
     const TriMesh low = strip(-1.0, 2.0, -0.0034 * diagonal);
@@ -269,7 +269,7 @@ TEST(TruthLines, SeeRightWithinHalfAPercentOfTheDiagonalAlongTheLine)
     EXPECT_EQ(lines_of(lower, slanting).seen_right, 0.0);
 }
 
-/// Cameras 10 above that show `half` to either side of what lies right under them.
+/// Cameras at height 10 that show `half` to either side of the position below them.
 Reference narrow_reference(const std::vector<Eigen::Vector3d>& centers, double half)
 {
     Scene scene = scene_above_square(11, centers);
@@ -278,10 +278,10 @@ Reference narrow_reference(const std::vector<Eigen::Vector3d>& centers, double h
     return make_reference(scene, &named, few_samples());
 }
 
-TEST(TruthLines, AreOfViewsWhoseImageHoldsTheSample)
+TEST(TruthLines, UseViewsWithTheSampleInTheirImage)
 {
-    // No two of the four images overlap, so which view it is can be told by hand, though three
-    // others see the sample as well.
+    // The four images do not overlap, so the view of each sample is known, although three others
+    // see the sample, too.
     const Reference reference = narrow_reference(high_centers(), 0.25);
     const Truth& truth = *reference.truth;
     ASSERT_EQ(truth.image_views.size(), truth.samples.size());
@@ -294,23 +294,23 @@ TEST(TruthLines, AreOfViewsWhoseImageHoldsTheSample)
         }
         ASSERT_EQ(truth.image_views[i], expected) << "sample " << i;
     }
-    // 0.05 of the middle in either direction lies in no image.
+    // A band of 0.05 to either side of the center is in no image.
     EXPECT_NEAR(static_cast<double>(truth.image_samples()) /
                     static_cast<double>(truth.samples.size()),
                 0.81, kFourDeviations);
 }
 
-TEST(TruthLines, LeaveOutWhatNoImageHolds)
+TEST(TruthLines, IgnoreSamplesOutsideAllImages)
 {
-    // The images end at 0.25 and 0.75, so nobody misses the rest; and a hole in half the image is
-    // half of what counts, though an eighth of the truth.
+    // The images end at 0.25 and 0.75, so the rest does not count. A hole in half of the image is
+    // half of the part that counts, but an eighth of the truth.
     const std::vector<Eigen::Vector3d> middle(3, Eigen::Vector3d(0.5, 0.5, 10.0));
     const Reference reference = narrow_reference(middle, 0.25);
     EXPECT_EQ(lines_of(strip(0.2, 0.8, 0.0), reference).seen_right, 1.0);
     EXPECT_NEAR(lines_of(strip(0.5, 0.8, 0.0), reference).open, 0.5, 2.0 * kFourDeviations);
 }
 
-TEST(TruthLines, AreNoneWhereNoImageHoldsATruth)
+TEST(TruthLines, AreMissingIfNoImageContainsTheTruth)
 {
     std::vector<Eigen::Vector3d> far = high_centers();
     for (Eigen::Vector3d& center : far) {

@@ -28,15 +28,15 @@ std::vector<Eigen::Vector3d> on_a_line(const std::vector<double>& x)
 
 constexpr WorstChoice kChoice{.cell = 1.0, .apart = 2.0, .least = 0.1, .count = 8};
 
-TEST(WorstSamples, AreTheFarthestOfCubesByAreaTimesDistance)
+TEST(WorstSamples, RankCubesByAreaTimesDistance)
 {
-    // Cubes 0, 1, 10 and 20 come to 2.5, 2, nothing and 3; cube 1 lies beside cube 0.
+    // The sums of cubes 0, 1, 10 and 20 are 2.5, 2, 0 and 3; cubes 0 and 1 are neighbors.
     const auto places = on_a_line({0.5, 0.6, 1.5, 10.5, 20.5});
     EXPECT_THAT(worst_samples(places, std::vector{1.0, 1.5, 2.0, 0.1, 3.0}, kChoice),
                 ElementsAre(4, 1));
 }
 
-TEST(WorstSamples, AreNoMoreThanWanted)
+TEST(WorstSamples, AreAtMostCount)
 {
     WorstChoice choice = kChoice;
     choice.count = 2;
@@ -44,27 +44,27 @@ TEST(WorstSamples, AreNoMoreThanWanted)
                 ElementsAre(1, 2));
 }
 
-TEST(WorstSamples, GoByTheirOrderWhereTheyAreAlike)
+TEST(WorstSamples, KeepTheirOrderInTies)
 {
     EXPECT_THAT(worst_samples(on_a_line({9.5, 0.5, 5.5}), std::vector{1.0, 1.0, 1.0}, kChoice),
                 ElementsAre(0, 1, 2));
 }
 
-TEST(WorstSamples, NameALumpFarOutOnceAndStillWhatLiesNearer)
+TEST(WorstSamples, NameADistantRegionOnce)
 {
-    // The second is nearer to the first than both lie from the other surface; the third is not.
+    // The distance of the first two is less than their distances to the surface; the third is far.
     EXPECT_THAT(
         worst_samples(on_a_line({100.5, 60.5, 0.5}), std::vector{100.0, 60.0, 1.0}, kChoice),
         ElementsAre(0, 2));
 }
 
-TEST(WorstSamples, AreNoneOfWhatIsNear)
+TEST(WorstSamples, ExcludeNearSamples)
 {
     EXPECT_THAT(worst_samples(on_a_line({0.5, 3.5}), std::vector{0.1, 0.0}, kChoice), IsEmpty());
     EXPECT_THAT(worst_samples({}, {}, kChoice), IsEmpty());
 }
 
-TEST(WorstSamples, AreSpreadApartAndLeaveNoOtherOut)
+TEST(WorstSamples, AreSpreadApartAndComplete)
 {
     std::vector<Eigen::Vector3d> places;
     std::vector<double> distances;
@@ -90,7 +90,7 @@ TEST(WorstSamples, AreSpreadApartAndLeaveNoOtherOut)
         const bool is_near =
             std::ranges::any_of(named, [&](std::size_t other) { return clash(i, other); });
         if (is_named && is_near) ++clashes;
-        // The farthest of its cube.
+        // Whether the sample is the farthest of its cube.
         const bool speaks = std::ranges::none_of(places, [&](const Eigen::Vector3d& place) {
             const auto k = static_cast<std::size_t>(&place - places.data());
             const bool same = std::floor(place.x()) == std::floor(places[i].x()) &&
@@ -104,7 +104,7 @@ TEST(WorstSamples, AreSpreadApartAndLeaveNoOtherOut)
     EXPECT_EQ(left_out, 0U);
 }
 
-/// Of a square at height 0, seen by four views above it.
+/// The reference of a square at height 0, seen by four views above it.
 Reference square_reference(bool with_truth)
 {
     const NamedMesh truth{"gt.ply", testing::square()};
@@ -112,22 +112,22 @@ Reference square_reference(bool with_truth)
                           with_truth ? &truth : nullptr, testing::few_samples());
 }
 
-TEST(DiagonalOf, IsTheTruthsOrThatOfThePoints)
+TEST(DiagonalOf, UsesTheTruthOrElseThePoints)
 {
     const Reference with_truth = square_reference(true);
     EXPECT_EQ(diagonal_of(with_truth), with_truth.truth->diagonal);
     EXPECT_NEAR(diagonal_of(square_reference(false)), std::sqrt(2.0), 1e-12);
 }
 
-/// Where a mesh lies farthest from the square.
+/// The positions where a mesh is farthest from the square.
 std::vector<WorstPlace> wrong(const TriMesh& mesh, const Reference& reference)
 {
     const MeasuredMesh placed = place_mesh({"a.ply", mesh}, reference);
     const TriangleTree& square = reference.truth->surface.tree;
-    return wrong_places(placed, surface_distances(placed, square, reference), reference, 4);
+    return largest_deviations(placed, surface_distances(placed, square, reference), reference, 4);
 }
 
-TEST(WrongPlaces, AreWhereAMeshLiesOffTheTruth)
+TEST(WrongPlaces, AreFarFromTheTruth)
 {
     const Reference reference = square_reference(true);
     const double diagonal = diagonal_of(reference);
@@ -140,7 +140,7 @@ TEST(WrongPlaces, AreWhereAMeshLiesOffTheTruth)
         EXPECT_NEAR(place.towards.norm(), 1.0, 1e-12);
         EXPECT_GT(place.towards.z(), 0.9);
         EXPECT_EQ(place.views, 4);
-        // From there a view looks.
+        // A view is at this viewpoint.
         const Eigen::Vector3d eye = place.position + place.reach * place.towards;
         EXPECT_TRUE(std::ranges::any_of(reference.scene.views, [&](const View& view) {
             return (view.center - eye).norm() < 1e-9;
@@ -149,7 +149,7 @@ TEST(WrongPlaces, AreWhereAMeshLiesOffTheTruth)
     EXPECT_GE((places[0].position - places[1].position).norm(), 0.3);
 }
 
-TEST(WrongPlaces, SayThatNoViewSeesThem)
+TEST(WrongPlaces, HaveNoViewsIfTheyAreHidden)
 {
     const Reference reference = square_reference(true);
     const auto places =
@@ -160,17 +160,17 @@ TEST(WrongPlaces, SayThatNoViewSeesThem)
     EXPECT_EQ(places[0].reach, 0.0);
 }
 
-TEST(WrongPlaces, AreNoneOfAMeshEqualToTheTruth)
+TEST(WrongPlaces, AreEmptyForTheTruth)
 {
     EXPECT_THAT(wrong(testing::square(), square_reference(true)), IsEmpty());
 }
 
-TEST(MissingPlaces, AreWhereTheTruthLiesOffTheMesh)
+TEST(MissingPlaces, AreFarFromTheMesh)
 {
     const Reference reference = square_reference(true);
     const double diagonal = diagonal_of(reference);
     const MeasuredMesh half = place_mesh({"a.ply", testing::strip(0.0, 0.5, 0.0)}, reference);
-    const auto places = missing_places(half, reference, 4);
+    const auto places = largest_gaps(half, reference, 4);
     ASSERT_GE(places.size(), 2U);
     EXPECT_GT(places[0].distance, 0.45 / diagonal);
     for (const WorstPlace& place : places) {
@@ -182,7 +182,7 @@ TEST(MissingPlaces, AreWhereTheTruthLiesOffTheMesh)
     EXPECT_GE((places[0].position - places[1].position).norm(), 0.08 * diagonal);
 }
 
-TEST(WorstPlaces, AreTheSameForAnyNumberOfThreads)
+TEST(WorstPlaces, AreIdenticalForAnyThreadCount)
 {
     const auto positions = [](std::size_t threads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

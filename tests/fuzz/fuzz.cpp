@@ -1,6 +1,6 @@
 // The targets of tools/ci/fuzz: every reader, and a whole run.
-// An input is the files of a model, one after the other, with kNext in between. What is refused is
-// well; what crashes, hangs, takes too much memory or throws anything else is a finding.
+// An input consists of the files of a model, separated by kNext. An input may be rejected.
+// Crashes, hangs, excessive memory and all other exceptions are findings.
 #include "io/colmap/sim3_text.h"
 #include "io/images/read_photograph.h"
 #include "pipeline/run_state.h"
@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kNext = "\n<next file>\n";
 
-/// Where the files of an input are put; memory, where the system has a file system there.
+/// The folder for the files of an input; in memory if the system has such a file system.
 const fs::path& folder()
 {
     static const fs::path made = [] {
@@ -42,7 +42,7 @@ const fs::path& folder()
     return made;
 }
 
-/// Writes the files, as many as the input has.
+/// Writes the files of the input; there may be fewer than names.
 void put(std::string_view input, const std::vector<const char*>& names)
 {
     fs::remove_all(folder());
@@ -119,7 +119,7 @@ void read_image(std::string_view input)
 {
     put(input, {"photo"});
     const PhotographSize size = photograph_size(folder() / "photo");
-    constexpr double kManyPixels = 1e6; // are a large array, and no fault
+    constexpr double kManyPixels = 1e6; // a larger array is no fault
     if (static_cast<double>(size.width_px) * size.height_px > kManyPixels) return;
     read_photograph(folder() / "photo");
 }
@@ -127,7 +127,7 @@ void read_image(std::string_view input)
 template <typename Noun>
 void read_stage_as(const fs::path& path)
 {
-    std::vector<ToldEvent> told;
+    std::vector<LogEvent> told;
     Noun noun{};
     StageReader reader(path, {"cells", {}}, {});
     reader.get(told);
@@ -135,8 +135,8 @@ void read_stage_as(const fs::path& path)
     reader.finish();
 }
 
-/// The input is the content of a stage file whose digests are right, or, from an odd byte on, all
-/// of the file; the byte before it says what is to be in there.
+/// The first byte selects the expected content, and whether the rest is the content of a stage file
+/// with correct digests (even) or the whole file (odd).
 void read_stage(std::string_view input)
 {
     if (input.empty()) return;
@@ -159,7 +159,7 @@ void read_stage(std::string_view input)
     case 1:
         return read_stage_as<CarvingPoints>(path);
     case 2:
-        return read_stage_as<SightEvidence>(path);
+        return read_stage_as<RayEvidence>(path);
     default:
         return read_stage_as<CarvedSurface>(path);
     }
@@ -171,7 +171,7 @@ void run(std::string_view input)
     Log silent;
     Options options;
     options.threads = 1;
-    // What the first camera is called says how it is carved.
+    // The first character of the input selects the options.
     options.surface.closed = input.starts_with("2");
     if (input.starts_with("3")) options.labels.method = Method::strict;
     if (input.starts_with("4")) options.refine.smooth.iterations = 2;

@@ -11,9 +11,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kVariance = 1e-4; // of every point, so that a pixel makes .01 of it
+constexpr double kVariance = 1e-4; // of every point: a standard deviation of .01 per pixel
 
-/// A point above the middle of four on a plane, which are its neighbours and alone themselves.
+/// A point above the center of four points on a plane. They are its neighbors and have none.
 struct Raised {
     std::vector<Vector3d> positions;
 
@@ -32,36 +32,36 @@ struct Raised {
     }
 };
 
-TEST(LogNearness, FallsByTheSquareOfTheDistance)
+TEST(LogNearness, FallsWithSquaredDistance)
 {
     EXPECT_EQ(log_nearness(0.0, 4.0), 0.0);
     EXPECT_DOUBLE_EQ(log_nearness(4.0, 4.0), -1.125);
     EXPECT_DOUBLE_EQ(log_nearness(1.0, 4.0), -1.125 / 4);
 }
 
-TEST(BilateralFilter, FindsTheHeightAboveAPlaneAndHowUncertainItIs)
+TEST(BilateralFilter, ReturnsHeightAndVarianceAbovePlane)
 {
     const Raised raised(0.01);
     const Height height = raised.filter().height(4, 2.0);
     EXPECT_DOUBLE_EQ(height.value, 0.01);
-    EXPECT_DOUBLE_EQ(height.variance, 2 * kVariance / 4); // both points', of four planes
+    EXPECT_DOUBLE_EQ(height.variance, 2 * kVariance / 4); // both points', mean of 4 planes
 }
 
-TEST(BilateralFilter, MovesAPointAsFarAsItIsTheLessCertainOne)
+TEST(BilateralFilter, MovesPointsInProportionToTheirVariance)
 {
     const Raised raised(0.01);
     const Vector3d estimate = raised.filter().estimate(4, 2.0);
-    EXPECT_NEAR(estimate.z(), 0.01 / 3, 1e-12); // variances 1 and 1 / 2
+    EXPECT_NEAR(estimate.z(), 0.01 / 3, 1e-12); // the ratio of variances is 1 to 1 / 2
     EXPECT_EQ(estimate.head<2>(), Eigen::Vector2d(0, 0));
 }
 
-TEST(BilateralFilter, MovesAPointNoFartherThanTheGate)
+TEST(BilateralFilter, LimitsMovesToGate)
 {
     const Raised raised(0.05);
     EXPECT_NEAR(raised.filter().estimate(4, 2.0).z(), 0.05 - 0.02, 1e-12);
 }
 
-TEST(BilateralFilter, LeavesWhatIsFarFromAllPlanesOrOfUnknownUncertainty)
+TEST(BilateralFilter, KeepsPointsFarFromAllPlanesOrOfUnknownVariance)
 {
     const Raised far(1.0);
     EXPECT_EQ(far.filter().height(4, 2.0).value, 0.0);
@@ -70,7 +70,7 @@ TEST(BilateralFilter, LeavesWhatIsFarFromAllPlanesOrOfUnknownUncertainty)
     EXPECT_EQ(unknown.filter(0.0).estimate(4, 2.0), unknown.positions[4]);
 }
 
-TEST(FilteredNormals, AreTheMeansOfThoseAlike)
+TEST(FilteredNormals, AverageSimilarNormals)
 {
     const std::vector<Vector3d> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     Neighborhoods neighborhoods(3, 2);
@@ -83,7 +83,7 @@ TEST(FilteredNormals, AreTheMeansOfThoseAlike)
     const double weight = std::exp(-1.125 - (1.0 - c) / (0.35 * 0.35));
     const Vector3d expected(weight * s, weight * s, 1.0 + 2.0 * weight * c);
     EXPECT_LT((filtered[0] - expected.normalized()).norm(), 1e-12);
-    EXPECT_LT((filtered[1] - normals[1]).norm(), 1e-15) << "it is alone";
+    EXPECT_LT((filtered[1] - normals[1]).norm(), 1e-15) << "it has no neighbors";
     const std::vector<Vector3d> none(3, Vector3d::Zero());
     EXPECT_EQ(filtered_normals(positions, none, neighborhoods), none);
 }

@@ -25,7 +25,7 @@ std::vector<Vector3d> random_points(std::uint64_t count)
     return points;
 }
 
-/// All points by their squared distances to a place.
+/// All points with their squared distances to `place`, sorted by distance.
 std::vector<std::pair<double, std::uint32_t>> sorted_from(const Vector3d& place,
                                                           const std::vector<Vector3d>& points)
 {
@@ -37,7 +37,7 @@ std::vector<std::pair<double, std::uint32_t>> sorted_from(const Vector3d& place,
     return sorted;
 }
 
-TEST(NearestNeighbors, AreThoseFoundBySorting)
+TEST(NearestNeighbors, MatchSortingByDistance)
 {
     const std::vector<Vector3d> points = random_points(500);
     const NearestNeighbors tree(points);
@@ -53,7 +53,7 @@ TEST(NearestNeighbors, AreThoseFoundBySorting)
     }
 }
 
-TEST(NearestNeighbors, AreAllWhereThereAreFewer)
+TEST(NearestNeighbors, IncludeAllPointsIfThereAreFewer)
 {
     std::vector<NearestNeighbors::Neighbor> nearest(3);
     NearestNeighbors({}).find(Vector3d::Zero(), 4, nearest);
@@ -64,7 +64,7 @@ TEST(NearestNeighbors, AreAllWhereThereAreFewer)
     EXPECT_EQ(nearest[1].point, 0U);
 }
 
-TEST(Neighborhoods, AreTheNearestOthers)
+TEST(Neighborhoods, ContainNearestOtherPoints)
 {
     const Neighborhoods near =
         nearest_neighborhoods({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {7, 0, 0}}, 2);
@@ -76,14 +76,14 @@ TEST(Neighborhoods, AreTheNearestOthers)
     EXPECT_EQ(near.spacing_sq(1), 2.0 * std::numbers::pi);
 }
 
-TEST(Neighborhoods, AreAllOthersWhereThereAreFewer)
+TEST(Neighborhoods, ContainAllOthersIfThereAreFewer)
 {
     const Neighborhoods near = nearest_neighborhoods({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, 10);
     EXPECT_THAT(near.around(2), ElementsAre(1, 0));
     EXPECT_EQ(near.reach_sq(2), 9.0);
 }
 
-TEST(Neighborhoods, AreWhatBruteForceFinds)
+TEST(Neighborhoods, MatchBruteForce)
 {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -22,7 +22,7 @@ std::vector<Vector3d> in_order(const std::vector<Vector3d>& places)
     return ordered;
 }
 
-TEST(HilbertOrder, NamesEachPlaceOnce)
+TEST(HilbertOrder, ContainsEachPositionOnce)
 {
     std::vector<std::uint32_t> order = hilbert_order(bumpy_sphere(1000, 3).positions);
     std::ranges::sort(order);
@@ -32,13 +32,13 @@ TEST(HilbertOrder, NamesEachPlaceOnce)
     EXPECT_TRUE(hilbert_order({}).empty());
 }
 
-TEST(HilbertOrder, DoesNotDependOnTheOrderOfTheInput)
+TEST(HilbertOrder, DoesNotDependOnInputOrder)
 {
     const Scene scene = bumpy_sphere(2000, 11);
     EXPECT_EQ(in_order(scene.positions), in_order(permuted(scene, 3).positions));
 }
 
-TEST(HilbertOrder, PutsNeighboursNextToEachOther)
+TEST(HilbertOrder, PutsNeighborsNextToEachOther)
 {
     const std::vector<Vector3d> places = bumpy_sphere(4000, 13).positions;
     const auto way = [](const std::vector<Vector3d>& along) {
@@ -51,7 +51,7 @@ TEST(HilbertOrder, PutsNeighboursNextToEachOther)
     EXPECT_LT(way(in_order(places)), 0.2 * way(places));
 }
 
-TEST(LexicographicSort, IsByCoordinatesAndThenByIndexWithoutWhatIsNotFinite)
+TEST(LexicographicSort, SortsFinitePointsByCoordinatesAndIndex)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();

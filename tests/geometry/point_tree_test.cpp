@@ -12,14 +12,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(PointTree, ShowsEachForeignPointOnceWhereAllIsWanted)
+TEST(PointTree, VisitsEachPointOutsideOwnRunOnceIfNothingIsSkipped)
 {
     for (const std::size_t count : {1, 15, 16, 17, 129, 1000, 5000}) {
         const Positions points = random_points(count, 61);
         const PointTree tree(points);
         const PointRun own{count / 3, count / 2};
         std::vector<int> shown(count, 0);
-        tree.visit_foreign(
+        tree.visit_excluding(
             own, 1.0, [](const Box&) { return 0.0; }, [&](std::size_t i) { ++shown[i]; });
         for (std::size_t i = 0; i < count; ++i) {
             ASSERT_EQ(shown[i], own.contains(i) ? 0 : 1) << i << " of " << count;
@@ -27,7 +27,7 @@ TEST(PointTree, ShowsEachForeignPointOnceWhereAllIsWanted)
     }
 }
 
-TEST(PointTree, ShowsAllPointsInABoxThatIsAskedFor)
+TEST(PointTree, VisitsAllPointsInQueryBox)
 {
     const Positions points = random_points(3000, 62);
     const PointTree tree(points);
@@ -36,7 +36,7 @@ TEST(PointTree, ShowsAllPointsInABoxThatIsAskedFor)
         return (p.array() >= wanted.low.array()).all() && (p.array() <= wanted.high.array()).all();
     };
     std::ptrdiff_t shown = 0;
-    tree.visit_foreign(
+    tree.visit_excluding(
         {0, 0}, 0.0,
         [&](const Box& box) {
             const bool meets = (box.low.array() <= wanted.high.array()).all() &&
@@ -48,7 +48,7 @@ TEST(PointTree, ShowsAllPointsInABoxThatIsAskedFor)
     EXPECT_GT(shown, 0);
 }
 
-/// The distances from a place to all points, ascending.
+/// The distances from `place` to all points, ascending.
 std::vector<double> distances_to(const Positions& points, const Vector3d& place)
 {
     std::vector<double> distances;
@@ -59,10 +59,10 @@ std::vector<double> distances_to(const Positions& points, const Vector3d& place)
     return distances;
 }
 
-/// The distances to those that the tree finds, of which each is the one it tells.
+/// The distances of the points that the tree finds. Checks the distances that it returns.
 std::vector<double> distances_found(const PointTree& tree, const Vector3d& place, std::size_t count)
 {
-    std::vector<PointTree::Near> nearest(3); // of a call before
+    std::vector<PointTree::Near> nearest(3); // as after an earlier call
     tree.find_nearest(place, count, nearest);
     std::vector<double> found;
     for (const auto& [distance, point] : nearest) {
@@ -72,7 +72,7 @@ std::vector<double> distances_found(const PointTree& tree, const Vector3d& place
     return found;
 }
 
-TEST(PointTree, FindsThePointsNearestToAPlace)
+TEST(PointTree, FindsNearestPoints)
 {
     for (const std::size_t count : {0, 1, 17, 2000}) {
         const Positions points = random_points(count, 64);
@@ -87,9 +87,9 @@ TEST(PointTree, FindsThePointsNearestToAPlace)
     }
 }
 
-TEST(PointTree, FindsTheFirstOfThoseAtOneDistanceFirst)
+TEST(PointTree, BreaksTiesByIndex)
 {
-    // Nothing but ties: six neighbours at distance 1, twelve at the root of 2.
+    // All are ties: six neighbors at distance 1, twelve at the square root of 2.
     const Positions points = lattice(5);
     const PointTree tree(points);
     std::vector<PointTree::Near> expected;
@@ -103,12 +103,12 @@ TEST(PointTree, FindsTheFirstOfThoseAtOneDistanceFirst)
     EXPECT_EQ(nearest, expected);
 }
 
-TEST(PointTree, KnowsTheDistancesToTheNearestForeignPoint)
+TEST(PointTree, ReturnsDistancesToNearestPointsOutsideOwnRun)
 {
     const Positions points = random_points(500, 63);
     const PointTree tree(points);
-    const PointRun own{100, 200}; // the leaves from 96 to 208
-    const std::vector<double> distances = tree.distances_to_foreign(own);
+    const PointRun own{100, 200}; // leaves from point 96 to 208
+    const std::vector<double> distances = tree.distances_to_others(own);
     ASSERT_EQ(distances.size(), 7U);
     for (std::size_t leaf = 0; leaf < 7; ++leaf) {
         Box box{points[96 + 16 * leaf], points[96 + 16 * leaf]};
@@ -124,7 +124,7 @@ TEST(PointTree, KnowsTheDistancesToTheNearestForeignPoint)
         }
         EXPECT_DOUBLE_EQ(distances[leaf], nearest) << leaf;
     }
-    EXPECT_EQ(tree.distances_to_foreign({0, 500})[3], std::numeric_limits<double>::infinity());
+    EXPECT_EQ(tree.distances_to_others({0, 500})[3], std::numeric_limits<double>::infinity());
 }
 
 } // namespace

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(Orientation, IsPositiveWhereTheFirstThreeRunCounterClockwiseSeenFromTheFourth)
+TEST(Orientation, IsPositiveIfFirstThreeAreCounterClockwiseSeenFromFourth)
 {
     const Vector3d a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
     EXPECT_EQ(orientation(a, b, c, Vector3d(0, 0, 1)), 1);
@@ -15,7 +15,7 @@ TEST(Orientation, IsPositiveWhereTheFirstThreeRunCounterClockwiseSeenFromTheFour
     EXPECT_EQ(orientation(a, b, c, Vector3d(5, 7, 0)), 0);
 }
 
-TEST(Orientation, IsExactBelowTheRoundingOfADeterminant)
+TEST(Orientation, IsExactIfDeterminantRoundsToZero)
 {
     const Vector3d a(0.1, 0.1, 0.1), b(0.2, 0.2, 0.2), c(0.3, 0.7, 0.1);
     const Vector3d on_plane = b; // a repeated point spans no volume
@@ -30,7 +30,7 @@ TEST(Collinear, HoldsOnlyForPointsOnOneLine)
     EXPECT_FALSE(collinear(Vector3d(0, 0, 0), Vector3d(1, 2, 3), Vector3d(2, 4, 6.0000000001)));
 }
 
-TEST(MeetsTriangle, CountsTheBorder)
+TEST(MeetsTriangle, IncludesTheBoundary)
 {
     const std::array<Vector3d, 3> triangle = {Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}};
     const auto meets_at = [&](double x, double y) {

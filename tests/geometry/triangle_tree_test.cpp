@@ -26,7 +26,7 @@ Eigen::Vector3d random_point(std::uint64_t seed, std::uint64_t index)
     return 2.0 * unit - Eigen::Vector3d::Constant(0.5);
 }
 
-/// Exact where nothing is degenerate: the ends lie on different sides and the line runs inside.
+/// Exact if nothing is degenerate: the ends are on different sides, and the line crosses the face.
 bool crosses_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& p,
                   const Eigen::Vector3d& q)
 {
@@ -38,7 +38,7 @@ bool crosses_face(const TriMesh& mesh, const Face& face, const Eigen::Vector3d& 
     return side == orientation(p, q, b, c) && side == orientation(p, q, c, a);
 }
 
-TEST(TriangleTree, KnowsTheNearestFace)
+TEST(TriangleTree, ReturnsTheNearestFace)
 {
     // A floor and a wall at its edge x = 1.
     TriMesh corner = testing::square();
@@ -54,7 +54,7 @@ TEST(TriangleTree, KnowsTheNearestFace)
     EXPECT_TRUE(wall.normal.isApprox(Eigen::Vector3d::UnitX()));
 }
 
-TEST(TriangleTree, MeasuresDistancesByHand)
+TEST(TriangleTree, ReturnsDistancesOfSquare)
 {
     const TriangleTree tree(testing::square());
     EXPECT_DOUBLE_EQ(tree.distance({0.3, 0.6, 2.0}), 2.0);
@@ -64,7 +64,7 @@ TEST(TriangleTree, MeasuresDistancesByHand)
     EXPECT_DOUBLE_EQ(tree.distance({0.5, 0.25, 0.0}), 0.0);
 }
 
-TEST(TriangleTree, DistancesEqualTheNearestOfAllFaces)
+TEST(TriangleTree, DistancesMatchBruteForce)
 {
     const TriMesh mesh = testing::random_soup(60, 11);
     const TriangleTree tree(mesh);
@@ -78,7 +78,7 @@ TEST(TriangleTree, DistancesEqualTheNearestOfAllFaces)
     }
 }
 
-TEST(TriangleTree, BlocksWhereAnyFaceIsCrossed)
+TEST(TriangleTree, SegmentIsMetIfItCrossesAnyFace)
 {
     const TriMesh mesh = testing::random_soup(12, 13);
     const TriangleTree tree(mesh);
@@ -91,12 +91,12 @@ TEST(TriangleTree, BlocksWhereAnyFaceIsCrossed)
         EXPECT_EQ(tree.is_met(p, q), crossed) << "segment " << i;
         blocked += crossed ? 1 : 0;
     }
-    // Both answers occurred, so the comparison meant something.
+    // Both results must occur often.
     EXPECT_GT(blocked, 100);
     EXPECT_LT(blocked, 900);
 }
 
-TEST(TriangleTree, BlocksFromEitherSideButNotBesideOrBefore)
+TEST(TriangleTree, SegmentIsMetFromEitherSide)
 {
     const TriangleTree tree(testing::square());
     EXPECT_TRUE(tree.is_met({0.3, 0.6, 1.0}, {0.3, 0.6, -1.0}));
@@ -105,7 +105,7 @@ TEST(TriangleTree, BlocksFromEitherSideButNotBesideOrBefore)
     EXPECT_FALSE(tree.is_met({0.3, 0.6, 1.0}, {0.3, 0.6, 1e-9}));
 }
 
-TEST(TriangleTree, FirstHitIsTheNearestOfAllFaces)
+TEST(TriangleTree, FirstHitMatchesBruteForce)
 {
     const TriMesh mesh = testing::random_soup(40, 21);
     const TriangleTree tree(mesh);
@@ -124,14 +124,14 @@ TEST(TriangleTree, FirstHitIsTheNearestOfAllFaces)
         (found->front ? fronts : backs) += 1;
         beyond += found->along > 1.0 ? 1 : 0;
     }
-    // Every kind of answer occurred, so the comparison meant something.
+    // Every kind of result must occur often.
     EXPECT_GT(fronts, 300);
     EXPECT_GT(backs, 300);
     EXPECT_GT(beyond, 20);
     EXPECT_LT(fronts + backs, 1900);
 }
 
-TEST(TriangleTree, FirstHitTellsTheSides)
+TEST(TriangleTree, FirstHitDistinguishesFrontAndBack)
 {
     const TriangleTree tree(together(testing::square(), testing::square(-1.0)));
     const auto above = tree.first_hit({0.3, 0.6, 2.0}, {0.3, 0.6, 1.5});
@@ -146,7 +146,7 @@ TEST(TriangleTree, FirstHitTellsTheSides)
     EXPECT_FALSE(tree.first_hit({0.3, 0.6, 2.0}, {0.3, 0.6, 3.0}).has_value());
 }
 
-TEST(TriangleTree, FirstHitCountsTheBorderOfAFace)
+TEST(TriangleTree, FirstHitIncludesBoundaryOfFaces)
 {
     const TriangleTree tree(testing::square());
     // The diagonal, a corner and the outer edges.
@@ -161,7 +161,7 @@ TEST(TriangleTree, FirstHitCountsTheBorderOfAFace)
     EXPECT_FALSE(tree.first_hit({1.0 + 1e-15, 0.5, 3.0}, {1.0 + 1e-15, 0.5, 2.0}).has_value());
 }
 
-/// A surface over [0, 1] x [0, 1] of n x n bumpy quads, no slope over 1.
+/// A bumpy surface of n x n quads over [0, 1] x [0, 1], with slopes of at most 1.
 TriMesh hills(std::uint32_t n)
 {
     TriMesh mesh;
@@ -176,7 +176,7 @@ TriMesh hills(std::uint32_t n)
     return mesh;
 }
 
-TEST(TriangleTree, FirstHitSlipsThroughNoEdgeOrVertex)
+TEST(TriangleTree, FirstHitMissesNoEdgeOrVertex)
 {
     const TriMesh mesh = hills(20);
     const TriangleTree tree(mesh);
@@ -201,11 +201,11 @@ TEST(TriangleTree, FirstHitSlipsThroughNoEdgeOrVertex)
     EXPECT_GT(rays, 6000);
 }
 
-TEST(TriangleTree, FirstHitPassesAFaceItRunsAlong)
+TEST(TriangleTree, FirstHitIgnoresFacesParallelToRay)
 {
     const TriangleTree tree(testing::square());
     EXPECT_FALSE(tree.first_hit({-1.0, 0.3, 0.0}, {0.0, 0.3, 0.0}).has_value());
-    // Of a cube it is the face at the end that counts, and its side's plane is no obstacle.
+    // The ray in the plane of a cube's side hits only the face at its end.
     const TriangleTree box(testing::cube());
     const auto hit = box.first_hit({-1.0, 0.3, 0.0}, {-0.5, 0.3, 0.0});
     ASSERT_TRUE(hit.has_value());
@@ -213,7 +213,7 @@ TEST(TriangleTree, FirstHitPassesAFaceItRunsAlong)
     EXPECT_TRUE(hit->front);
 }
 
-TEST(TriangleTree, WorksOnASingleFace)
+TEST(TriangleTree, AcceptsASingleFace)
 {
     TriMesh mesh = testing::square();
     mesh.faces.resize(1);
@@ -225,7 +225,7 @@ TEST(TriangleTree, WorksOnASingleFace)
     EXPECT_FALSE(tree.first_hit({0.25, 0.75, 3.0}, {0.25, 0.75, 2.0}).has_value());
 }
 
-TEST(TriangleTree, LeavesOutFacesWithoutArea)
+TEST(TriangleTree, IgnoresDegenerateFacesOfMeshes)
 {
     TriMesh mesh = testing::square();
     mesh.positions.emplace_back(0.5, 0.5, std::numeric_limits<double>::quiet_NaN());
@@ -240,7 +240,7 @@ using Triangle = std::array<Eigen::Vector3d, 3>;
 
 Eigen::Vector3d random_place(std::mt19937_64& engine)
 {
-    // On a grid, so that segments also meet edges and corners.
+    // Positions on a grid make segments meet edges and corners, too.
     std::uniform_int_distribution<int> coordinate(0, 6);
     const int x = coordinate(engine);
     const int y = coordinate(engine);
@@ -248,7 +248,7 @@ Eigen::Vector3d random_place(std::mt19937_64& engine)
             static_cast<double>(coordinate(engine))};
 }
 
-TEST(TriangleTree, SaysWhatEachTriangleSays)
+TEST(TriangleTree, SegmentIsMetIfItMeetsAnyTriangle)
 {
     std::mt19937_64 engine(7);
     std::vector<Triangle> triangles;
@@ -273,11 +273,11 @@ TEST(TriangleTree, SaysWhatEachTriangleSays)
     EXPECT_LT(met, 1900);
 }
 
-TEST(TriangleTree, ShowsEachTriangleThatIsMetOnce)
+TEST(TriangleTree, VisitsEachMetTriangleOnce)
 {
     std::mt19937_64 engine(8);
     std::vector<Triangle> triangles(40);
-    for (Triangle& triangle : triangles) { // some without area
+    for (Triangle& triangle : triangles) { // some are degenerate
         triangle = {random_place(engine), random_place(engine), random_place(engine)};
     }
     const TriangleTree tree(triangles);
@@ -304,7 +304,7 @@ TEST(TriangleTree, ShowsEachTriangleThatIsMetOnce)
     });
 }
 
-TEST(TriangleTree, LeavesOutTrianglesWithoutArea)
+TEST(TriangleTree, IgnoresDegenerateTriangles)
 {
     const std::vector<Triangle> flat = {
         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(2, 0, 0)}};

@@ -22,21 +22,21 @@ TetMesh one_cell(const Eigen::Vector3d& fourth)
     return cells;
 }
 
-TEST(Circumsphere, OfACornerHasItsCenterInTheMiddleOfTheCube)
+TEST(Circumsphere, OfACubeCornerIsCenteredInTheCube)
 {
     const Circumsphere sphere = circumsphere(one_cell({0, 0, 2}), 0);
     EXPECT_TRUE(sphere.center.isApprox(Eigen::Vector3d(1, 1, 1)));
     EXPECT_DOUBLE_EQ(sphere.radius, std::sqrt(3.0));
 }
 
-TEST(Circumsphere, OfFlatAndInfiniteCellsIsInfinite)
+TEST(Circumsphere, IsInfiniteForFlatAndInfiniteCells)
 {
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(circumsphere(one_cell({5, 3, 0}), 0).radius, infinity);
     EXPECT_EQ(circumsphere(one_cell({0, 0, 2}), 1).radius, infinity);
 }
 
-TEST(Circumsphere, PassesThroughTheCornersAndHoldsNoOtherPoint)
+TEST(Circumsphere, PassesThroughTheCornersAndContainsNoOtherPoint)
 {
     const TetMesh cells = triangulate(testing::random_points(60, 1));
     for (Index cell = 0; cell < cells.cells.size(); ++cell) {
@@ -53,7 +53,7 @@ TEST(Circumsphere, PassesThroughTheCornersAndHoldsNoOtherPoint)
     }
 }
 
-/// Whether every point is a corner of an inside cell and one flood fill reaches all inside cells.
+/// Whether every point is a corner of an inside cell and the inside cells are connected.
 bool is_whole(const TetMesh& cells, const Labels& labels)
 {
     std::set<Index> corners;
@@ -76,7 +76,7 @@ bool is_whole(const TetMesh& cells, const Labels& labels)
     return corners.size() == cells.positions.size() && reached.size() == inside;
 }
 
-TEST(AlphaShape, TakesCellsWithSmallCircumspheres)
+TEST(AlphaShape, ContainsCellsWithSmallCircumspheres)
 {
     const TetMesh cells = triangulate(testing::random_points(40, 2));
     const Labels labels = alpha_shape(cells, 0.3);
@@ -86,7 +86,7 @@ TEST(AlphaShape, TakesCellsWithSmallCircumspheres)
     EXPECT_GT(std::ranges::count(labels, Label::inside), 0);
 }
 
-TEST(AlphaShape, OfInfinityIsTheConvexHull)
+TEST(AlphaShape, IsTheConvexHullForInfiniteAlpha)
 {
     const TetMesh cells = triangulate(testing::random_points(40, 2));
     const Labels labels = alpha_shape(cells, std::numeric_limits<double>::infinity());
@@ -95,7 +95,7 @@ TEST(AlphaShape, OfInfinityIsTheConvexHull)
     }
 }
 
-TEST(SmallestWholeAlpha, IsTheFirstOfAllRadiiThatMakesAWholeShape)
+TEST(SmallestWholeAlpha, IsTheSmallestRadiusThatGivesAWholeShape)
 {
     for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
         const TetMesh cells = triangulate(testing::random_points(30, seed));
@@ -110,9 +110,9 @@ TEST(SmallestWholeAlpha, IsTheFirstOfAllRadiiThatMakesAWholeShape)
     }
 }
 
-TEST(SmallestWholeAlpha, ReachesAcrossTheGapBetweenTwoPieces)
+TEST(SmallestWholeAlpha, BridgesTheGapBetweenTwoClouds)
 {
-    // Two clouds of the size 1, 9 apart: a cell across the gap has a sphere wider than half of it.
+    // Two clouds of size 1, 9 apart: the sphere of a cell across the gap is wider than half of it.
     Scene scene = testing::random_points(30, 7);
     const Scene other = testing::random_points(30, 8);
     EXPECT_LT(smallest_whole_alpha(triangulate(scene)), 4.5);

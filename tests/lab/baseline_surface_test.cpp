@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The desk of the paper, of 178 points.
+/// The desk of the paper, with 178 points.
 Scene desk()
 {
     return read_colmap_model(fixtures_folder() / "paper/desk", ModelFormat::text);
@@ -33,7 +33,7 @@ TriMesh sculpture(Scene scene)
 TEST(BaselineSurface, KeepsEveryFaceOfASculpture)
 {
     const MeshCheck check = check_mesh(sculpture(desk()));
-    // All points lie on a surface of genus 0, which has 2 V - 4 faces.
+    // All points are on a surface of genus 0, which has 2 V - 4 faces.
     EXPECT_EQ(check.vertices, 178);
     EXPECT_EQ(check.faces, 352);
     EXPECT_TRUE(check.is_closed());
@@ -48,10 +48,10 @@ TEST(BaselineSurface, KeepsEveryFaceOfAnAlphaShape)
     EXPECT_EQ(check.components, 1);
 }
 
-TEST(BaselineSurface, GivesTheConvexHullForALargeAlpha)
+TEST(BaselineSurface, IsTheConvexHullForALargeAlpha)
 {
     const TriMesh mesh = alpha_shape(desk(), 1e6);
-    // No point of the mesh lies before any of its faces.
+    // No point of the mesh is in front of a face.
     for (const Face& face : mesh.faces) {
         const Vector3d& a = mesh.positions[face[0]];
         const Vector3d normal =
@@ -63,7 +63,7 @@ TEST(BaselineSurface, GivesTheConvexHullForALargeAlpha)
     EXPECT_TRUE(check_mesh(mesh).is_closed());
 }
 
-TEST(BaselineSurface, SaysThatAnAlphaIsTooSmall)
+TEST(BaselineSurface, ReportsAnAlphaThatIsTooSmall)
 {
     EXPECT_EQ(refusal<InputError>([] { alpha_shape(desk(), 0.001); }),
               "no cell is as small as the alpha 0.001 asks for: 1 is the smallest that keeps all "

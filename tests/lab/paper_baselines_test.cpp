@@ -1,5 +1,5 @@
-// The comparisons of the paper (Akgunduz, Zetu, Banerjee 2000, section 2) on its own objects:
-// strict carving gets the solid, no alpha shape does, and sculpting takes what it should keep.
+// The comparisons of the paper (Akgunduz, Zetu, Banerjee 2000, section 2) on the paper's objects:
+// strict carving finds the solid, no alpha shape does, and sculpting removes parts of it.
 #include "baselines/alpha_shape.h"
 #include "baselines/sculpt.h"
 #include "io/colmap/colmap_model.h"
@@ -31,7 +31,7 @@ std::array<Index, 3> sorted(std::array<Index, 3> corners)
     return corners;
 }
 
-/// The true solid's cells: those that cannot be reached from without but through its faces.
+/// Labels the cells of the true solid inside: a flood fill from outside stops at its faces.
 Labels true_labels(const TetMesh& cells, const TriMesh& solid)
 {
     std::set<std::array<Index, 3>> walls;
@@ -59,10 +59,10 @@ Labels true_labels(const TetMesh& cells, const TriMesh& solid)
     return labels;
 }
 
-/// Finite cells that a labelling gets wrong.
+/// Wrongly labeled finite cells.
 struct Mistakes {
-    std::size_t lost = 0; ///< cells of the solid called outside
-    std::size_t kept = 0; ///< cells of empty space called inside
+    std::size_t lost = 0; ///< cells of the solid labeled outside
+    std::size_t kept = 0; ///< cells of empty space labeled inside
     bool operator==(const Mistakes&) const = default;
 };
 
@@ -85,7 +85,7 @@ class PaperObject {
         return found;
     }
 
-    /// The fewest cells that an alpha shape gets wrong, whatever its alpha.
+    /// The minimum number of wrong cells of an alpha shape, over all values of alpha.
     std::size_t fewest_mistakes_of_alpha_shapes() const
     {
         std::size_t fewest = cells.cells.size();
@@ -134,7 +134,7 @@ TEST(PaperBaselines, SculptingDestroysTheSolid)
         const PaperObject object(name);
         return object.mistakes(sculpt(object.cells));
     };
-    // Of Boissonnat's counter-example more than half of the solid goes and all of the slot stays.
+    // Boissonnat's counter-example loses more than half of its solid, and its slot stays filled.
     EXPECT_EQ(mistakes("boissonnat"), (Mistakes{132, 154}));
     EXPECT_EQ(mistakes("cube_with_cavity"), (Mistakes{75, 41}));
     EXPECT_EQ(mistakes("cubicles"), (Mistakes{7, 12}));

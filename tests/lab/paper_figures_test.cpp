@@ -17,7 +17,7 @@ PaperCase paper_case(const std::string& name)
     return read_case(fixtures_folder() / "paper", name);
 }
 
-TEST(PaperFigures, ExactIsTheTrueSolidOnly)
+TEST(PaperFigures, OnlyTheTrueSolidIsExact)
 {
     const TriMesh solid = paper_case("desk").solid;
     EXPECT_TRUE(is_exact(solid, solid));
@@ -47,12 +47,12 @@ TEST(PaperFigures, SevenViewsOpenTheCubiclesAndFourDoNot)
     EXPECT_TRUE(figure["states"][1]["exact"]);
 }
 
-TEST(PaperFigures, SculptingBeginsWithASolidCell)
+TEST(PaperFigures, SculptingFirstRemovesASolidCell)
 {
     EXPECT_TRUE(sculpted(paper_case("boissonnat"))["first_is_solid"]);
 }
 
-TEST(PaperFigures, UnmetTrianglesAreNoPartOfTheSurface)
+TEST(PaperFigures, UncrossedTrianglesAreNotOnTheSurface)
 {
     const PaperCase cube = paper_case("cube_with_cavity");
     const Json figure = unmet_triangles(cube);
@@ -61,12 +61,12 @@ TEST(PaperFigures, UnmetTrianglesAreNoPartOfTheSurface)
     EXPECT_EQ(figure["tetrahedra"].size(), cube.solid.faces.size());
     EXPECT_EQ(figure["triangles"].size(),
               cube.solid.faces.size() + figure["unmet"].get<std::size_t>());
-    for (const Json& sights : figure["pair_sights"]) {
-        EXPECT_FALSE(sights.empty()); // so both of its cells are carved
+    for (const Json& rays : figure["pair_rays"]) {
+        EXPECT_FALSE(rays.empty()); // so both adjacent cells are carved
     }
 }
 
-TEST(PaperFigures, AWrongSightDrillsTheStrictSolidOnly)
+TEST(PaperFigures, AWrongRayDrillsATunnelWithTheStrictMethodOnly)
 {
     const Json figure = drilled(paper_case("boissonnat"));
     EXPECT_GT(figure["strict"]["lost"], 10);
@@ -74,7 +74,7 @@ TEST(PaperFigures, AWrongSightDrillsTheStrictSolidOnly)
     EXPECT_EQ(figure["cut"]["kept"], 0);
 }
 
-TEST(PaperFigures, FacetsOfTheHullHaveNoCellBeyond)
+TEST(PaperFigures, HullFacetsHaveNoCellBeyond)
 {
     const PaperCase cube = paper_case("cube_with_cavity");
     for (const Json& facet : panel(cube.cells, hull(cube.cells, "hull"))) {
@@ -84,7 +84,7 @@ TEST(PaperFigures, FacetsOfTheHullHaveNoCellBeyond)
     }
 }
 
-TEST(TimedObject, HasThePointsAndViewpointsThatAreAskedFor)
+TEST(TimedObject, HasTheRequestedPointsAndViewpoints)
 {
     for (const std::size_t points : {kPapersPoints, std::size_t{1000}}) {
         const Scene few = timed_object(points, 7);
@@ -92,7 +92,7 @@ TEST(TimedObject, HasThePointsAndViewpointsThatAreAskedFor)
         EXPECT_EQ(few.num_points(), points);
         EXPECT_EQ(few.views.size(), 7U);
         EXPECT_EQ(many.positions, few.positions);
-        EXPECT_GT(many.num_sights(), 2 * few.num_sights());
+        EXPECT_GT(many.num_rays(), 2 * few.num_rays());
         for (std::size_t view = 0; view < few.views.size(); ++view) {
             EXPECT_EQ(many.views[view].center, few.views[view].center);
         }

@@ -14,7 +14,7 @@ class EveryPaperObject : public ::testing::TestWithParam<Object> {};
 
 } // namespace
 
-TEST_P(EveryPaperObject, IsMadeAgainByteForByteAndCarvedExactly)
+TEST_P(EveryPaperObject, IsReproducedByteForByteAndCarvedExactly)
 {
     const Fixture fixture = make_fixture(GetParam());
     EXPECT_NO_THROW(check_carving(fixture));
@@ -31,10 +31,10 @@ TEST_P(EveryPaperObject, IsMadeAgainByteForByteAndCarvedExactly)
 INSTANTIATE_TEST_SUITE_P(All, EveryPaperObject, ::testing::ValuesIn(objects()),
                          [](const auto& object) { return object.param.name; });
 
-TEST(PaperObject, CarvingIsRefusedWhereTheTrueSolidIsAnother)
+TEST(PaperObject, CheckThrowsIfCarvingDiffersFromTheTrueSolid)
 {
     Fixture fixture = make_fixture(objects().front());
-    // A solid cell that is called empty is one that no sight crosses.
+    // No ray crosses a solid cell that is declared empty.
     fixture.cells.empty.push_back(fixture.cells.solid.back());
     fixture.cells.solid.pop_back();
     EXPECT_THROW(check_carving(fixture), std::logic_error);

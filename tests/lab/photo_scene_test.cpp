@@ -22,7 +22,7 @@ bool are_equal(const Picture& a, const Picture& b)
     });
 }
 
-/// A small picture of the first view of a scene.
+/// A small rendering of the first view of a scene.
 Picture small_picture(const PhotoScene& scene)
 {
     Pinhole view = scene.views.front();
@@ -33,8 +33,8 @@ Picture small_picture(const PhotoScene& scene)
     return photograph(scene.parts, view);
 }
 
-/// Of a closed surface the area vectors add up to nothing, also where faces of different sizes meet
-/// along an edge; the volume is positive where its fronts look outside.
+/// The area vectors of a closed surface add up to zero, even if faces of different sizes share an
+/// edge. The volume is positive if the faces are oriented outward.
 struct PartSums {
     Eigen::Vector3d area_vector = Eigen::Vector3d::Zero();
     double area = 0.0;
@@ -61,7 +61,7 @@ class EveryPhotoScene : public ::testing::TestWithParam<std::string> {};
 
 } // namespace
 
-TEST_P(EveryPhotoScene, IsMadeOfClosedPartsWithTheirFrontsOutside)
+TEST_P(EveryPhotoScene, ConsistsOfClosedPartsOrientedOutward)
 {
     const PhotoScene scene = photo_scene(GetParam());
     ASSERT_EQ(scene.parts.part_of_face.size(), scene.parts.mesh.faces.size());
@@ -73,7 +73,7 @@ TEST_P(EveryPhotoScene, IsMadeOfClosedPartsWithTheirFrontsOutside)
     }
 }
 
-TEST_P(EveryPhotoScene, IsTheSameEveryTime)
+TEST_P(EveryPhotoScene, IsReproducible)
 {
     const PhotoScene first = photo_scene(GetParam());
     const PhotoScene second = photo_scene(GetParam());
@@ -90,12 +90,12 @@ TEST_P(EveryPhotoScene, IsTheSameEveryTime)
 INSTANTIATE_TEST_SUITE_P(All, EveryPhotoScene, ::testing::ValuesIn(photo_scene_names()),
                          [](const auto& scene) { return scene.param; });
 
-TEST(PhotoScene, RefusesANameThatNoSceneHas)
+TEST(PhotoScene, RejectsUnknownNames)
 {
     EXPECT_THAT(refusal<UsageError>([] { photo_scene("nowhere"); }), HasSubstr("nowhere"));
 }
 
-TEST(Photograph, ShowsTextureWhereThereIsAThingAndGreyElsewhere)
+TEST(Photograph, ShowsTextureOnSurfacesAndGrayBackground)
 {
     PartBuilder builder;
     builder.begin_part({});
@@ -124,7 +124,7 @@ TEST(Photograph, ShowsTextureWhereThereIsAThingAndGreyElsewhere)
     EXPECT_GT(high - low, 20.0F);
 }
 
-TEST(Photograph, GrainOfOneSeedIsTheSameAndOfAnotherIsNot)
+TEST(Photograph, GrainDependsOnTheSeedOnly)
 {
     const Picture plain{4, 4, std::vector<Eigen::Array3f>(16, Eigen::Array3f::Constant(100.0F))};
     const Grain grain{.blur_px = 0.7, .noise = 3.0};
@@ -133,7 +133,7 @@ TEST(Photograph, GrainOfOneSeedIsTheSameAndOfAnotherIsNot)
     EXPECT_TRUE(are_equal(grainy(plain, {}, 1), plain));
 }
 
-TEST(RenderViews, ListsTheScenesAndRefusesOthers)
+TEST(RenderViews, ListsTheScenesAndRejectsUnknownNames)
 {
     Subprocess list({VCARVE_RENDER_VIEWS, "--list"});
     std::string expected;

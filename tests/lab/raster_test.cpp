@@ -12,7 +12,7 @@ namespace vcarve::render::raster_test {
 
 namespace {
 
-/// A box of edge 2 whose near side fills the middle 4 x 4 of 8 x 6 pixels of view_ahead().
+/// A box of edge 2. Its near side fills the central 4 x 4 of the 8 x 6 pixels of view_ahead().
 TriMesh box_ahead()
 {
     PartBuilder builder;
@@ -20,7 +20,7 @@ TriMesh box_ahead()
     return builder.take().mesh;
 }
 
-/// From the origin along z.
+/// A view from the origin along z.
 Pinhole view_ahead()
 {
     Pinhole view;
@@ -31,7 +31,7 @@ Pinhole view_ahead()
     return view;
 }
 
-/// The number of the face each pixel shows, '.' for none.
+/// The index of the face at each pixel, '.' for the background.
 std::vector<std::string> faces_shown(const std::vector<Hit>& hits, int width_px)
 {
     std::vector<std::string> rows;
@@ -42,7 +42,7 @@ std::vector<std::string> faces_shown(const std::vector<Hit>& hits, int width_px)
     return rows;
 }
 
-/// What a ray from the view's centre first meets, by trying every face.
+/// The first hit of a ray from the view's center; tries every face.
 Hit nearest_face(const TriMesh& mesh, const Pinhole& view, const Eigen::Vector3d& ray)
 {
     Hit nearest;
@@ -84,7 +84,7 @@ TEST(Raster, ShowsTheBackOfTheFarSideFromInsideTheBox)
     Pinhole view = view_ahead();
     view.center = {0.0, 0.0, 5.5};
     const std::vector<Hit> hits = rasterize(box_ahead(), view);
-    // The far side, half a unit ahead, is 32 pixels wide: nothing else is in the image.
+    // The far side, half a unit ahead, is 32 pixels wide and fills the image.
     ASSERT_EQ(hits.size(), 48U);
     for (const Hit& hit : hits) {
         EXPECT_EQ(hit.depth, 0.5);
@@ -93,7 +93,7 @@ TEST(Raster, ShowsTheBackOfTheFarSideFromInsideTheBox)
     }
 }
 
-TEST(Raster, AgreesWithTryingEveryFaceForEveryPixel)
+TEST(Raster, AgreesWithBruteForce)
 {
     PartBuilder builder;
     add_box(builder, {{0.2, 0.1, -0.3}, {1.0, 0.7, 1.3}, 24.0}, {});
@@ -115,9 +115,9 @@ TEST(Raster, AgreesWithTryingEveryFaceForEveryPixel)
     }
 }
 
-TEST(Raster, CutsFacesThatReachBehindTheCamera)
+TEST(Raster, ClipsFacesThatReachBehindTheCamera)
 {
-    // A floor one below the camera from far behind to far ahead: the horizon is the middle row.
+    // A floor 1 below the camera, from far behind to far ahead: the horizon is the middle row.
     TriMesh floor;
     floor.positions = {{-1e3, 1.0, -1e3}, {1e3, 1.0, -1e3}, {1e3, 1.0, 1e3}, {-1e3, 1.0, 1e3}};
     floor.faces = {{0, 1, 2}, {0, 2, 3}};

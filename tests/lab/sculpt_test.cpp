@@ -19,7 +19,7 @@ namespace {
 
 using Edge = std::pair<Index, Index>;
 
-/// The vertices and edges of the boundary, gathered anew from all facets.
+/// The vertices and edges of the boundary, collected from all facets.
 struct Boundary {
     std::set<Index> vertices;
     std::set<Edge> edges;
@@ -47,7 +47,7 @@ struct Boundary {
     }
 };
 
-/// How far the circumsphere bulges over the boundary facets, if the cell may go.
+/// The height of the circumsphere above the boundary facets, if the cell may be removed.
 std::optional<double> bulge(const TetMesh& cells, const Labels& labels, const Boundary& boundary,
                             Index index)
 {
@@ -58,7 +58,7 @@ std::optional<double> bulge(const TetMesh& cells, const Labels& labels, const Bo
     for (int slot = 0; slot < 4; ++slot) {
         if (labels[cell.neighbors[slot]] == Label::inside) continue;
         opposite.push_back(cell.vertices[slot]);
-        // The far side of the sphere: from its center away from the opposite vertex.
+        // The far side of the sphere, from its center away from the opposite vertex.
         const auto corner = [&](int i) { return cells.positions[cell.vertices[(slot + i) % 4]]; };
         Eigen::Vector3d normal = (corner(2) - corner(1)).cross(corner(3) - corner(1)).normalized();
         if (normal.dot(corner(0) - corner(1)) > 0.0) normal = -normal;
@@ -94,7 +94,7 @@ Labels sculpt_slowly(const TetMesh& cells)
     }
 }
 
-TEST(Sculpt, TakesTheCellsThatASearchOfAllWouldTake)
+TEST(Sculpt, RemovesTheSameCellsAsAnExhaustiveSearch)
 {
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
         const TetMesh cells = triangulate(testing::random_points(40, seed));
@@ -118,7 +118,7 @@ TEST(Sculpt, KeepsTheBoundaryASphere)
     EXPECT_EQ(check.euler_characteristic, 2);
 }
 
-TEST(Sculpt, LeavesAConvexCloudAsItIs)
+TEST(Sculpt, DoesNotChangeAConvexCloud)
 {
     Scene scene = testing::random_points(50, 6);
     for (Eigen::Vector3d& position : scene.positions) {
@@ -133,7 +133,7 @@ TEST(Sculpt, LeavesAConvexCloudAsItIs)
 
 TEST(Sculpt, OpensADent)
 {
-    // A cube and a point under the middle of its top: the cells between the two go.
+    // A cube and a point below the center of its top: the cells between the two are removed.
     Scene scene = testing::random_points(9, 1);
     for (std::size_t i = 0; i < 8; ++i) {
         const double tilt = 1e-3 * static_cast<double>(i);

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Positions do not matter to most checks; these span no face twice the same.
+/// A mesh of generic positions, which most checks do not use.
 TriMesh mesh_of(std::size_t num_vertices, std::vector<Face> faces)
 {
     TriMesh mesh;
@@ -29,7 +29,7 @@ TriMesh mesh_of(std::size_t num_vertices, std::vector<Face> faces)
 
 const std::vector<Face> kTetrahedron{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
-TEST(CheckMesh, FindsNothingInAnEmptyMesh)
+TEST(CheckMesh, ReturnsZeroCountsForEmptyMesh)
 {
     const MeshCheck check = check_mesh({});
     EXPECT_EQ(check.vertices, 0);
@@ -40,7 +40,7 @@ TEST(CheckMesh, FindsNothingInAnEmptyMesh)
     EXPECT_TRUE(check.is_manifold());
 }
 
-TEST(CheckMesh, FindsATetrahedronClosedAndSound)
+TEST(CheckMesh, FindsTetrahedronClosedAndManifold)
 {
     TriMesh mesh = mesh_of(4, kTetrahedron);
     mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
@@ -69,7 +69,7 @@ TEST(CheckMesh, CountsBoundaryEdges)
     EXPECT_FALSE(check.is_closed());
 }
 
-TEST(CheckMesh, CountsEdgesOfThreeFacesAndTheirEnds)
+TEST(CheckMesh, CountsEdgesOfThreeFacesAndTheirVertices)
 {
     const MeshCheck check = check_mesh(mesh_of(5, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
     EXPECT_EQ(check.nonmanifold_edges, 1);
@@ -80,7 +80,7 @@ TEST(CheckMesh, CountsEdgesOfThreeFacesAndTheirEnds)
     EXPECT_FALSE(check.is_manifold());
 }
 
-TEST(CheckMesh, CountsAVertexWhereTwoFansTouch)
+TEST(CheckMesh, CountsVertexOfTwoFans)
 {
     const MeshCheck check = check_mesh(mesh_of(5, {{0, 1, 2}, {0, 3, 4}}));
     EXPECT_EQ(check.nonmanifold_vertices, 1);
@@ -88,7 +88,7 @@ TEST(CheckMesh, CountsAVertexWhereTwoFansTouch)
     EXPECT_EQ(check.components, 2);
 }
 
-TEST(CheckMesh, CountsAVertexWhereTwoDisksTouch)
+TEST(CheckMesh, CountsVertexOfTwoDisks)
 {
     std::vector<Face> faces = kTetrahedron;
     for (const Face& face : kTetrahedron) {
@@ -101,20 +101,20 @@ TEST(CheckMesh, CountsAVertexWhereTwoDisksTouch)
     EXPECT_FALSE(check.is_manifold());
 }
 
-TEST(CheckMesh, CountsEdgesWhoseFacesRunTheSameWay)
+TEST(CheckMesh, CountsEdgesOfInconsistentOrientation)
 {
     std::vector<Face> faces = kTetrahedron;
     std::swap(faces[2][0], faces[2][1]);
     EXPECT_EQ(check_mesh(mesh_of(4, faces)).orientation_faults, 3);
 }
 
-TEST(CheckMesh, CountsVerticesOfNoFace)
+TEST(CheckMesh, CountsVerticesWithoutFaces)
 {
     EXPECT_EQ(check_mesh(mesh_of(9, kTetrahedron)).unreferenced_vertices, 5);
     EXPECT_EQ(check_mesh(mesh_of(9, kTetrahedron)).euler_characteristic, 2);
 }
 
-TEST(CheckMesh, CountsDegenerateFacesApart)
+TEST(CheckMesh, CountsDegenerateFacesSeparately)
 {
     std::vector<Face> faces = kTetrahedron;
     faces.push_back({0, 0, 1});
@@ -129,7 +129,7 @@ TEST(CheckMesh, CountsDegenerateFacesApart)
     EXPECT_TRUE(check.is_manifold());
 }
 
-/// The definitions of MeshCheck, word by word and without any table.
+/// Implements the definitions of MeshCheck literally, without an edge table.
 MeshCheck check_by_definition(const TriMesh& mesh)
 {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::size_t, bool>>>
@@ -153,7 +153,7 @@ MeshCheck check_by_definition(const TriMesh& mesh)
     check.euler_characteristic = static_cast<std::int64_t>(used.size()) -
                                  static_cast<std::int64_t>(edges.size()) +
                                  static_cast<std::int64_t>(mesh.faces.size());
-    // Number of pieces that flooding `members` over `edges_to_cross` finds.
+    // The number of components of `members` when connected by edges that satisfy `crosses`.
     const auto pieces = [&](std::set<std::size_t> members, auto crosses) {
         std::int64_t count = 0;
         while (!members.empty()) {
@@ -195,7 +195,7 @@ MeshCheck check_by_definition(const TriMesh& mesh)
     return check;
 }
 
-TEST(CheckMesh, AgreesWithTheDefinitionsOnRandomSoups)
+TEST(CheckMesh, MatchesDefinitionsOnRandomSoups)
 {
     std::mt19937 random(1);
     for (int round = 0; round < 200; ++round) {
@@ -233,7 +233,7 @@ TriMesh triangles(double leg)
     return mesh;
 }
 
-TEST(LongArea, IsTheShareOfFacesWithAnEdgeOverSoManyMedians)
+TEST(LongArea, IsTheFractionOfFacesWithEdgesLongerThanMultipleOfMedian)
 {
     // The edges are 1, 1 and 1.41 three times, and 4, 4 and 5.66: their median is 1.41.
     EXPECT_DOUBLE_EQ(long_area(triangles(4.0), 3.9), 8.0 / 9.5);
@@ -241,7 +241,7 @@ TEST(LongArea, IsTheShareOfFacesWithAnEdgeOverSoManyMedians)
     EXPECT_DOUBLE_EQ(long_area(triangles(4.0), 0.5), 1.0);
 }
 
-TEST(LongArea, IsNoneOfNoArea)
+TEST(LongArea, HandlesMeshesWithoutArea)
 {
     EXPECT_EQ(long_area(TriMesh(), 2.0), 0.0);
     EXPECT_EQ(long_area(triangles(0.0), 0.0), 1.0);
@@ -262,7 +262,7 @@ std::int64_t intersections(Positions positions, std::vector<Face> faces)
 
 const Positions kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
-TEST(CountSelfIntersections, FindsNothingWhereFacesAreOneAtEdgesAndCorners)
+TEST(CountSelfIntersections, IgnoresCommonEdgesAndCorners)
 {
     EXPECT_EQ(intersections(kSquare, {{0, 1, 2}, {0, 2, 3}}), 0);
     EXPECT_EQ(intersections({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, 1, 3}},
@@ -270,7 +270,7 @@ TEST(CountSelfIntersections, FindsNothingWhereFacesAreOneAtEdgesAndCorners)
               0);
 }
 
-TEST(CountSelfIntersections, TakesCopiesOfAVertexForOne)
+TEST(CountSelfIntersections, MergesCopiesOfVertices)
 {
     Positions positions = kSquare;
     positions.insert(positions.end(), {{0, 0, 0}, {-1, 0, 0}, {-1, 1, 3}});
@@ -280,41 +280,41 @@ TEST(CountSelfIntersections, TakesCopiesOfAVertexForOne)
     EXPECT_EQ(intersections(positions, {{0, 1, 2}, {4, 5, 6}}), 0) << "at an edge";
     EXPECT_EQ(intersections(positions, {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}}), 0);
     positions[6] = {1, 0, 0};
-    EXPECT_EQ(intersections(positions, {{0, 1, 2}, {4, 5, 6}}), 1) << "face on face";
+    EXPECT_EQ(intersections(positions, {{0, 1, 2}, {4, 5, 6}}), 1) << "overlapping";
     positions[6] = {0.5, -1, 0};
     EXPECT_EQ(intersections(positions, {{0, 1, 2}, {4, 5, 6}}), 1) << "folded back";
 }
 
-TEST(CountSelfIntersections, FindsFacesThatGoThroughEachOtherOrTouch)
+TEST(CountSelfIntersections, CountsFacesThatIntersectOrTouch)
 {
     const auto beside = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
         return intersections({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, a, b, c}, {{0, 1, 2}, {3, 4, 5}});
     };
-    EXPECT_EQ(beside({0.5, 0.5, -1}, {0.5, 0.5, 1}, {5, 5, 1}), 1) << "through";
+    EXPECT_EQ(beside({0.5, 0.5, -1}, {0.5, 0.5, 1}, {5, 5, 1}), 1) << "through the face";
     EXPECT_EQ(beside({0.5, 0.5, 0}, {0.5, 0.5, 1}, {5, 5, 1}), 1) << "with a corner";
-    EXPECT_EQ(beside({0.5, 0.5, 1e-300}, {0.5, 0.5, 1}, {5, 5, 1}), 0) << "just over it";
+    EXPECT_EQ(beside({0.5, 0.5, 1e-300}, {0.5, 0.5, 1}, {5, 5, 1}), 0) << "just above it";
     EXPECT_EQ(beside({0.2, 0.2, 0}, {0.4, 0.2, 0}, {0.2, 0.4, 0}), 1) << "within it";
-    EXPECT_EQ(beside({1, 0, 0}, {3, 0, 0}, {2, -1, 0}), 1) << "along a piece of an edge";
+    EXPECT_EQ(beside({1, 0, 0}, {3, 0, 0}, {2, -1, 0}), 1) << "along a part of an edge";
 }
 
-TEST(CountSelfIntersections, FindsFacesThatLieOnOneAnotherOrAreFoldedBack)
+TEST(CountSelfIntersections, CountsOverlappingAndFoldedFaces)
 {
     EXPECT_EQ(intersections(kSquare, {{0, 1, 2}, {0, 1, 3}}), 1) << "folded back at an edge";
-    EXPECT_EQ(intersections(kSquare, {{0, 1, 2}, {2, 1, 0}}), 1) << "twice";
+    EXPECT_EQ(intersections(kSquare, {{0, 1, 2}, {2, 1, 0}}), 1) << "the same face twice";
     EXPECT_EQ(intersections({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}},
                             {{0, 1, 2}, {0, 3, 4}}),
               1)
-        << "from a corner through the face";
+        << "through the face from a common corner";
 }
 
-TEST(CountSelfIntersections, LeavesOutFacesWithoutArea)
+TEST(CountSelfIntersections, IgnoresDegenerateFaces)
 {
     EXPECT_EQ(intersections({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}},
                             {{0, 1, 2}, {0, 1, 3}, {3, 3, 0}}),
               0);
 }
 
-TEST(CountSelfIntersections, CountsAsCgalDoesOfFacesWithoutCommonCorners)
+TEST(CountSelfIntersections, MatchesCgalForFacesWithoutCommonCorners)
 {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
     std::mt19937_64 random(5);

@@ -7,7 +7,7 @@
 namespace vcarve::collapse_edges_test {
 namespace {
 
-/// A flat square of 20 x 20 unit squares, of two faces each, whose vertices have points.
+/// A flat grid of 20 x 20 unit squares with two faces each, whose vertices have points.
 TriMesh flat()
 {
     TriMesh mesh;
@@ -28,7 +28,7 @@ TriMesh flat()
     return mesh;
 }
 
-TEST(CollapseEdges, LeavesFewFacesOfAFlatMeshAndKeepsItsPoints)
+TEST(CollapseEdges, SimplifiesFlatMeshAndKeepsItsPoints)
 {
     const TriMesh mesh = flat();
     const TriMesh coarse = collapse_edges(mesh, {.max_distance = 0.01});
@@ -39,10 +39,10 @@ TEST(CollapseEdges, LeavesFewFacesOfAFlatMeshAndKeepsItsPoints)
     }
 }
 
-TEST(CollapseEdges, KeepsBumpsThatAreHigherThanTheTolerance)
+TEST(CollapseEdges, KeepsBumpsAboveMaxDistance)
 {
     TriMesh mesh = flat();
-    mesh.positions[220].z() = 2.0; // in the middle
+    mesh.positions[220].z() = 2.0; // at the center
     const auto top = [](const TriMesh& each) {
         double height = 0.0;
         for (const Eigen::Vector3d& position : each.positions) {
@@ -54,24 +54,24 @@ TEST(CollapseEdges, KeepsBumpsThatAreHigherThanTheTolerance)
     EXPECT_EQ(top(collapse_edges(mesh, {.max_distance = 100.0})), 0.0);
 }
 
-TEST(CollapseEdges, StopsAtANumberOfFaces)
+TEST(CollapseEdges, StopsAtMinFaces)
 {
     const TriMesh coarse = collapse_edges(flat(), {.min_faces = 400});
     EXPECT_LE(coarse.faces.size(), 400U);
     EXPECT_GT(coarse.faces.size(), 350U);
 }
 
-TEST(RemoveFolds, RemovesFacesThatLieBackToBack)
+TEST(RemoveFolds, RemovesPairsOfOppositeFaces)
 {
     std::vector<Face> faces = {{0, 1, 2}, {5, 3, 4}, {1, 3, 2}, {3, 5, 4}};
     remove_folds(faces);
     EXPECT_EQ(faces, (std::vector<Face>{{0, 1, 2}, {1, 3, 2}}));
     std::vector<Face> all = {{0, 1, 2}, {0, 2, 1}};
     remove_folds(all);
-    EXPECT_EQ(all.size(), 2U) << "nothing would be left";
+    EXPECT_EQ(all.size(), 2U) << "no face would remain";
 }
 
-TEST(CollapseEdges, KeepsAMeshWithoutFaces)
+TEST(CollapseEdges, AcceptsAMeshWithoutFaces)
 {
     EXPECT_TRUE(collapse_edges({}, {.max_distance = 1.0}).faces.empty());
 }

@@ -25,7 +25,7 @@ using vcarve::testing::volume;
 constexpr auto kAlways = [](std::uint32_t, std::uint32_t) { return true; };
 constexpr auto kNever = [](std::uint32_t, std::uint32_t) { return false; };
 
-/// Colours and points that tell the vertices apart.
+/// Gives vertices distinct colors and points.
 void mark_vertices(TriMesh& mesh)
 {
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
@@ -35,7 +35,7 @@ void mark_vertices(TriMesh& mesh)
     }
 }
 
-/// A square of two faces, which share the edge 0 2.
+/// A square of two faces that share the edge 0 2.
 TriMesh square()
 {
     TriMesh mesh;
@@ -55,7 +55,7 @@ TriMesh octahedron()
     return mesh;
 }
 
-/// Two tetrahedra that share the edge 0 1 and nothing else: it has the first four faces.
+/// Two tetrahedra that share only the edge 0 1, an edge of the first four faces.
 TriMesh two_wedges()
 {
     TriMesh mesh;
@@ -89,7 +89,7 @@ pairs(const std::vector<EdgeHalving::HalvedFace>& halved)
     return found;
 }
 
-/// Halves so many edges one after another, chosen at random.
+/// Bisects `count` randomly chosen edges one after another.
 void halve_some(TriMesh& mesh, EdgeHalving& halving, int count, std::mt19937& random)
 {
     for (int i = 0; i < count; ++i) {
@@ -101,7 +101,7 @@ void halve_some(TriMesh& mesh, EdgeHalving& halving, int count, std::mt19937& ra
 
 // ---- longest_edge_of ----------------------------------------------------------------------------
 
-TEST(LongestEdge, IsFoundWhicheverCornerComesFirst)
+TEST(LongestEdge, DoesNotDependOnFirstCorner)
 {
     const std::vector<Vector3d> positions = {{0, 0, 0}, {3, 0, 0}, {3, 1, 0}};
     for (const Face& face : {Face{0, 1, 2}, Face{1, 2, 0}, Face{2, 0, 1}, Face{2, 1, 0}}) {
@@ -109,9 +109,9 @@ TEST(LongestEdge, IsFoundWhicheverCornerComesFirst)
     }
 }
 
-TEST(LongestEdge, OfSeveralAsLongIsThatWithTheLowestNumbers)
+TEST(LongestEdge, BreaksTiesByLowestVertices)
 {
-    // The first two sides are as long; the third, at the height, is shorter.
+    // The first two sides are equally long, the third is shorter.
     const std::vector<Vector3d> positions = {{1, 0, 0}, {0, 3, 0}, {-1, 0, 0}};
     EXPECT_THAT(longest_edge_of(positions, {0, 1, 2}), ElementsAre(0, 1));
     EXPECT_THAT(longest_edge_of(positions, {1, 2, 0}), ElementsAre(0, 1));
@@ -121,7 +121,7 @@ TEST(LongestEdge, OfSeveralAsLongIsThatWithTheLowestNumbers)
     EXPECT_THAT(longest_edge_of(even, {1, 2, 0}), ElementsAre(0, 1));
 }
 
-TEST(LongestEdge, TakesEdgesForAsLongWhereTheyDifferByRoundingOnly)
+TEST(LongestEdge, TreatsRoundingDifferencesAsTies)
 {
     std::vector<Vector3d> positions = {{1, 0, 0}, {0, 3, 0}, {-1 - 1e-12, 0, 0}};
     EXPECT_THAT(longest_edge_of(positions, {2, 0, 1}), ElementsAre(0, 1));
@@ -131,7 +131,7 @@ TEST(LongestEdge, TakesEdgesForAsLongWhereTheyDifferByRoundingOnly)
 
 // ---- halve --------------------------------------------------------------------------------------
 
-TEST(EdgeHalving, HalvesTheFacesOnBothSides)
+TEST(EdgeHalving, BisectsFacesOnBothSides)
 {
     TriMesh mesh = square();
     EdgeHalving halving(mesh, {});
@@ -142,7 +142,7 @@ TEST(EdgeHalving, HalvesTheFacesOnBothSides)
     EXPECT_EQ(mesh.points, (std::vector<std::uint32_t>{100, 101, 102, 103, kNoPoint}));
 }
 
-TEST(EdgeHalving, LeavesTheHalfAtTheFirstEndInPlace)
+TEST(EdgeHalving, KeepsTheHalfAtFirstVertexInPlace)
 {
     TriMesh mesh = square();
     EdgeHalving halving(mesh, {});
@@ -150,7 +150,7 @@ TEST(EdgeHalving, LeavesTheHalfAtTheFirstEndInPlace)
     EXPECT_EQ(mesh.faces, (std::vector<Face>{{4, 1, 2}, {2, 3, 4}, {0, 1, 4}, {4, 3, 0}}));
 }
 
-TEST(EdgeHalving, HalvesTheOneFaceAtARim)
+TEST(EdgeHalving, BisectsTheSingleFaceOfBoundaryEdge)
 {
     TriMesh mesh = square();
     EdgeHalving halving(mesh, {});
@@ -158,7 +158,7 @@ TEST(EdgeHalving, HalvesTheOneFaceAtARim)
     EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 4}, {2, 3, 0}, {0, 4, 2}}));
 }
 
-TEST(EdgeHalving, HalvesAllFacesAtANonManifoldEdge)
+TEST(EdgeHalving, BisectsAllFacesOfNonManifoldEdge)
 {
     TriMesh mesh = two_wedges();
     const MeshCheck before = check_mesh(mesh);
@@ -167,13 +167,13 @@ TEST(EdgeHalving, HalvesAllFacesAtANonManifoldEdge)
                                                         std::pair(2U, 10U), std::pair(3U, 11U)));
     const MeshCheck after = check_mesh(mesh);
     EXPECT_EQ(after.faces, 12);
-    EXPECT_EQ(after.nonmanifold_edges, 2) << "its halves";
+    EXPECT_EQ(after.nonmanifold_edges, 2) << "the halves of the edge";
     EXPECT_EQ(after.boundary_edges, 0);
     EXPECT_NEAR(after.area, before.area, 1e-12);
     EXPECT_NEAR(volume(mesh), volume(two_wedges()), 1e-12);
 }
 
-TEST(EdgeHalving, LeavesFacesWithoutAFlagAlone)
+TEST(EdgeHalving, IgnoresUnflaggedFaces)
 {
     TriMesh mesh = square();
     EdgeHalving halving(mesh, {0, 1});
@@ -181,7 +181,7 @@ TEST(EdgeHalving, LeavesFacesWithoutAFlagAlone)
     EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {4, 3, 0}, {2, 3, 4}}));
 }
 
-TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeHoweverOftenRepeated)
+TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeAfterManyBisections)
 {
     std::mt19937 random(5);
     for (int round = 0; round < 50; ++round) {
@@ -195,7 +195,7 @@ TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeHoweverOftenRepeated)
         ASSERT_EQ(after.orientation_faults, 0);
         ASSERT_EQ(after.degenerate_faces, 0);
         ASSERT_EQ(after.euler_characteristic, 2);
-        ASSERT_EQ(after.faces, before.faces + 80) << "two more for each";
+        ASSERT_EQ(after.faces, before.faces + 80) << "two more per bisection";
         ASSERT_EQ(after.vertices, before.vertices + 40);
         ASSERT_NEAR(after.area, before.area, 1e-9);
         ASSERT_NEAR(volume(mesh), volume(octahedron()), 1e-9);
@@ -205,7 +205,7 @@ TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeHoweverOftenRepeated)
     }
 }
 
-TEST(EdgeHalving, ReturnsTheHalvesInTheOrderInWhichTheyAreAdded)
+TEST(EdgeHalving, ReturnsHalvesInOrderOfAddition)
 {
     std::mt19937 random(6);
     TriMesh mesh = two_wedges();
@@ -232,7 +232,7 @@ TEST(EdgeHalving, ReturnsTheHalvesInTheOrderInWhichTheyAreAdded)
 
 // ---- take_back ----------------------------------------------------------------------------------
 
-TEST(EdgeHalving, TakesAllBackWhereAllMayJoin)
+TEST(EdgeHalving, RevertsAllBisectionsIfAllMayJoin)
 {
     std::mt19937 random(7);
     for (const TriMesh& original : {square(), octahedron(), two_wedges()}) {
@@ -251,7 +251,7 @@ TEST(EdgeHalving, TakesAllBackWhereAllMayJoin)
     }
 }
 
-TEST(EdgeHalving, TakesNothingBackWhereNoneMayJoin)
+TEST(EdgeHalving, RevertsNothingIfNoneMayJoin)
 {
     std::mt19937 random(8);
     TriMesh mesh = octahedron();
@@ -262,7 +262,7 @@ TEST(EdgeHalving, TakesNothingBackWhereNoneMayJoin)
     EXPECT_EQ(mesh.faces, halved);
 }
 
-TEST(EdgeHalving, TakesAHalvingBackOnlyIfAllItsHalvesMayJoin)
+TEST(EdgeHalving, RevertsABisectionOnlyIfAllItsHalvesMayJoin)
 {
     TriMesh mesh = square();
     EdgeHalving halving(mesh, {});
@@ -276,7 +276,7 @@ TEST(EdgeHalving, TakesAHalvingBackOnlyIfAllItsHalvesMayJoin)
     EXPECT_EQ(mesh.faces, halved);
 }
 
-TEST(EdgeHalving, KeepsAHalvingWhoseHalfWasHalvedAgainByOneThatStays)
+TEST(EdgeHalving, KeepsABisectionIfAHalfRemainsBisected)
 {
     const TriMesh original = square();
     TriMesh mesh = original;
@@ -287,13 +287,13 @@ TEST(EdgeHalving, KeepsAHalvingWhoseHalfWasHalvedAgainByOneThatStays)
     const std::vector<Face> halved = mesh.faces;
     const auto gone =
         halving.take_back([](std::uint32_t, std::uint32_t other_half) { return other_half != 4; });
-    EXPECT_THAT(gone, ElementsAre(5)) << "the last one does not hang on it";
+    EXPECT_THAT(gone, ElementsAre(5)) << "the last bisection is independent of it";
     std::vector<Face> expected = halved;
     expected[3] = {2, 3, 4};
     EXPECT_EQ(mesh.faces, expected);
 }
 
-TEST(EdgeHalving, KeepsAHalvingWhoseOtherHalfWasHalvedAgainByOneThatStays)
+TEST(EdgeHalving, KeepsABisectionIfTheOtherHalfRemainsBisected)
 {
     TriMesh mesh = square();
     EdgeHalving halving(mesh, {});
@@ -306,7 +306,7 @@ TEST(EdgeHalving, KeepsAHalvingWhoseOtherHalfWasHalvedAgainByOneThatStays)
     EXPECT_EQ(mesh.faces, halved);
 }
 
-TEST(EdgeHalving, TakesBackWhatCameAfterOneThatStays)
+TEST(EdgeHalving, RevertsBisectionsAfterOneThatRemains)
 {
     TriMesh mesh = square();
     EdgeHalving halving(mesh, {});
@@ -321,7 +321,7 @@ TEST(EdgeHalving, TakesBackWhatCameAfterOneThatStays)
     EXPECT_EQ(mesh.faces, first);
 }
 
-TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeWhenSomeIsTakenBack)
+TEST(EdgeHalving, LeavesNoVertexInsideAnEdgeAfterPartialRevert)
 {
     std::mt19937 random(9);
     for (int round = 0; round < 50; ++round) {

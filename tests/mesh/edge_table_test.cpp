@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(EdgeTable, GathersHalfEdgesByTheirEdgesInOrder)
+TEST(EdgeTable, GroupsHalfEdgesBySortedEdges)
 {
     const std::vector<Face> faces = {{0, 1, 2}, {2, 1, 3}, {3, 3, 0}, {1, 2, 4}};
     const EdgeTable edges = gather_edges(faces, 5);
@@ -30,7 +30,7 @@ TEST(EdgeTable, IsEmptyWithoutFaces)
     EXPECT_EQ(gather_edges({}, 7).size(), 0U);
 }
 
-TEST(HalfEdges, GoRoundTheirFace)
+TEST(HalfEdges, FollowEachOtherAroundTheirFace)
 {
     const std::vector<Face> faces = {{0, 1, 2}, {5, 6, 7}};
     EXPECT_EQ(next_half_edge(5), 3U);

@@ -17,7 +17,7 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 using testing::half_edges;
 
-/// A pyramid over a square without its base, and a vertex of no face; the top is vertex 0.
+/// A square pyramid without a base, whose apex is vertex 0, and a vertex without faces.
 TriMesh pyramid()
 {
     TriMesh mesh;
@@ -31,7 +31,7 @@ TriMesh pyramid()
     return mesh;
 }
 
-TEST(HalfEdgeMesh, KeepsEverythingInItsOrderButVerticesOfNoFace)
+TEST(HalfEdgeMesh, KeepsOrderAndDropsVerticesWithoutFaces)
 {
     const TriMesh mesh = pyramid();
     const TriMesh same = tri_mesh(half_edges(mesh));
@@ -42,7 +42,7 @@ TEST(HalfEdgeMesh, KeepsEverythingInItsOrderButVerticesOfNoFace)
     EXPECT_EQ(same.points, std::vector(mesh.points.begin(), mesh.points.end() - 1));
 }
 
-TEST(HalfEdgeMesh, HasNoColorsAndPointsWhereThereAreNone)
+TEST(HalfEdgeMesh, AddsNoColorsOrPoints)
 {
     TriMesh mesh = pyramid();
     mesh.colors.clear();
@@ -52,7 +52,7 @@ TEST(HalfEdgeMesh, HasNoColorsAndPointsWhereThereAreNone)
     EXPECT_TRUE(same.points.empty());
 }
 
-TEST(HalfEdgeMesh, LeavesOutWhatIsDeleted)
+TEST(HalfEdgeMesh, OmitsDeletedFacesAndVertices)
 {
     HalfEdgeMesh mesh = half_edges(pyramid());
     mesh.delete_face(FaceHandle(1));
@@ -65,7 +65,7 @@ TEST(HalfEdgeMesh, LeavesOutWhatIsDeleted)
     EXPECT_EQ(tri_mesh(mesh).points, (std::vector<std::uint32_t>{0, 10, 30, 40}));
 }
 
-/// Whether all handles of two meshes are the same.
+/// Expects equal handles of two meshes.
 void expect_same_connections(const HalfEdgeMesh& mesh, const HalfEdgeMesh::OpenMeshBase& expected)
 {
     ASSERT_EQ(mesh.n_vertices(), expected.n_vertices());
@@ -86,13 +86,13 @@ void expect_same_connections(const HalfEdgeMesh& mesh, const HalfEdgeMesh::OpenM
         const auto vertex = handle_at<VertexHandle>(v);
         ASSERT_EQ(mesh.is_isolated(vertex), expected.is_isolated(vertex));
         ASSERT_EQ(mesh.is_boundary(vertex), expected.is_boundary(vertex));
-        // OpenMesh may begin anywhere around a vertex that is on no border.
+        // For an interior vertex, OpenMesh may choose any half-edge.
         if (!mesh.is_boundary(vertex)) continue;
         ASSERT_EQ(mesh.halfedge_handle(vertex).idx(), expected.halfedge_handle(vertex).idx());
     }
 }
 
-TEST(HalfEdgeMesh, IsAsOpenMeshMakesItFaceByFace)
+TEST(HalfEdgeMesh, EqualsMeshBuiltFaceByFaceWithOpenMesh)
 {
     const testing::TetraGrid grid = testing::tetra_grid(4);
     std::mt19937 random(31);
@@ -110,9 +110,9 @@ TEST(HalfEdgeMesh, IsAsOpenMeshMakesItFaceByFace)
     }
 }
 
-TEST(VertexNormal, IsTheMeanOfTheFacesByArea)
+TEST(VertexNormal, IsTheAreaWeightedMeanOfFaceNormals)
 {
-    // Three faces of areas 1/2, 1 and 1 with normals z, x and y; open or not makes no difference.
+    // Three faces of areas 1/2, 1 and 1 with normals z, x and y; first a disk, then fans of two.
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 2}};
     mesh.faces = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
@@ -131,7 +131,7 @@ TEST(VertexNormal, IsTheMeanOfTheFacesByArea)
     }
 }
 
-TEST(VertexNormal, IsZeroWhereNoFaceHasAnArea)
+TEST(VertexNormal, IsZeroIfNoFaceHasAnArea)
 {
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {0, 0, 1}};

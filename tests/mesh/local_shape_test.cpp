@@ -19,13 +19,13 @@ struct Soup {
     std::vector<Face> faces;
 };
 
-/// Faces over random points, lengths from 1 to 1000, so that some are much larger than others.
+/// Faces of random points at scales from 1 to 1000, so that some are much larger than others.
 Soup random_soup(std::uint32_t seed)
 {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     Soup soup;
-    for (int i = 0; i < 60; ++i) { // the last ten are of no face
+    for (int i = 0; i < 60; ++i) { // the last ten have no face
         const double scale = std::pow(10.0, 3.0 * unit(random));
         soup.positions.push_back({scale * unit(random), scale * unit(random), unit(random)});
     }
@@ -50,7 +50,7 @@ double longest(const Soup& soup, std::size_t face)
     return std::max({side(soup, face, 0), side(soup, face, 1), side(soup, face, 2)});
 }
 
-/// By the words of the header.
+/// The median as defined in the header.
 double median_by_sorting(const Soup& soup, const FaceFlags& measured, std::uint32_t vertex)
 {
     std::vector<double> lengths;
@@ -63,7 +63,7 @@ double median_by_sorting(const Soup& soup, const FaceFlags& measured, std::uint3
     return lengths.empty() ? 0.0 : lengths[lengths.size() / 2];
 }
 
-TEST(LocalEdges, AreTheMediansOfWhatIsMeasuredAroundAVertex)
+TEST(LocalEdges, ReturnMediansOfMeasuredFacesAtEachVertex)
 {
     for (std::uint32_t seed = 0; seed < 10; ++seed) {
         const Soup soup = random_soup(seed);
@@ -74,12 +74,12 @@ TEST(LocalEdges, AreTheMediansOfWhatIsMeasuredAroundAVertex)
         const LocalEdges edges(soup.positions, soup.faces, measured);
         for (std::uint32_t v = 0; v < soup.positions.size(); ++v) {
             EXPECT_EQ(edges.median(v), median_by_sorting(soup, measured, v));
-            EXPECT_EQ(edges.median(v), edges.median(v)) << "asked again";
+            EXPECT_EQ(edges.median(v), edges.median(v)) << "a repeated call";
         }
     }
 }
 
-TEST(LocalEdges, AreComparedAtTheMiddleCorner)
+TEST(LocalEdges, CompareFacesWithSecondLargestMedianOfCorners)
 {
     for (std::uint32_t seed = 0; seed < 10; ++seed) {
         const Soup soup = random_soup(seed);
@@ -96,7 +96,7 @@ TEST(LocalEdges, AreComparedAtTheMiddleCorner)
     }
 }
 
-TEST(LocalEdges, OfOneFaceTakeItsMiddleEdge)
+TEST(LocalEdges, ReturnTheMiddleEdgeOfASingleFace)
 {
     const Soup soup = {{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {9, 9, 9}}, {{0, 1, 2}}};
     const LocalEdges edges(soup.positions, soup.faces);
@@ -107,7 +107,7 @@ TEST(LocalEdges, OfOneFaceTakeItsMiddleEdge)
 }
 
 /// Three faces around the origin, with the normals z, x and -y. The first two are small, the third
-/// has an edge of `reach`. Beside them a face without area.
+/// has an edge of length `reach`. A fourth face has no area.
 struct Corner {
     explicit Corner(double reach, const FaceFlags& measured = {})
         : positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-reach, 0, 0}},
@@ -133,7 +133,7 @@ TEST(SurfaceNormals, AreUnitAndPointOutside)
     EXPECT_EQ(corner.normals.of(3), Vector3d(0, 0, 0)) << "no area";
 }
 
-TEST(SurfaceNormals, AreTheMeanOfTheSmallFacesAtAVertex)
+TEST(SurfaceNormals, AverageSmallFacesAtVertices)
 {
     const Corner corner(7.0);
     EXPECT_TRUE(corner.normals.at(0).isApprox(Vector3d(kHalf, 0, kHalf), 1e-12));
@@ -142,23 +142,23 @@ TEST(SurfaceNormals, AreTheMeanOfTheSmallFacesAtAVertex)
     EXPECT_EQ(corner.normals.at(4), Vector3d(0, 0, 0)) << "no small face";
 }
 
-TEST(SurfaceNormals, CountFacesBelowTwoLocalEdges)
+TEST(SurfaceNormals, UseFacesBelowTwoLocalEdges)
 {
-    // The third face's longest edge is sqrt(1 + reach^2), the median at its middle corner sqrt(2).
+    // The longest edge of the third face is sqrt(1 + reach^2), its second largest median sqrt(2).
     const Corner below(std::sqrt(2 * 1.9 * 1.9 - 1));
     EXPECT_TRUE(below.normals.at(0).isApprox(Vector3d(1, -1, 1).normalized(), 1e-12));
     const Corner above(std::sqrt(2 * 2.1 * 2.1 - 1));
     EXPECT_TRUE(above.normals.at(0).isApprox(Vector3d(kHalf, 0, kHalf), 1e-12));
 }
 
-TEST(SurfaceNormals, CountMeasuredFacesOnly)
+TEST(SurfaceNormals, UseMeasuredFacesOnly)
 {
     const Corner corner(7.0, {0, 1, 1, 0});
     EXPECT_EQ(corner.normals.at(0), Vector3d(1, 0, 0));
     EXPECT_EQ(corner.normals.at(1), Vector3d(0, 0, 0));
 }
 
-TEST(SurfaceNormals, TellTheAnglesAtAFacesCornersInAscendingOrder)
+TEST(SurfaceNormals, ReturnCosinesAtCornersInAscendingOrder)
 {
     const Corner corner(7.0);
     const auto first = corner.normals.cosines(0, 0.0);

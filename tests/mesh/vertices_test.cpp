@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(VertexFaces, AreAscendingAndOnlyThoseWithAFlag)
+TEST(VertexFaces, ListFlaggedFacesInAscendingOrder)
 {
     const std::vector<Face> faces = {{2, 0, 1}, {0, 2, 3}, {3, 2, 1}};
     const auto row = [](const VertexFaces& at, std::size_t vertex) {
@@ -24,7 +24,7 @@ TEST(VertexFaces, AreAscendingAndOnlyThoseWithAFlag)
     EXPECT_EQ(row(some, 3), (std::vector<std::uint32_t>{2}));
 }
 
-TEST(UsedVertices, AreAscendingAndNumberFacesAnew)
+TEST(UsedVertices, AreAscendingAndRenumberFaces)
 {
     std::vector<Face> faces = {{4, 1, 2}, {2, 1, 7}};
     const std::vector<std::uint32_t> used = used_vertices(faces, 9);
@@ -33,12 +33,12 @@ TEST(UsedVertices, AreAscendingAndNumberFacesAnew)
     EXPECT_EQ(faces, (std::vector<Face>{{2, 0, 1}, {1, 0, 3}}));
 }
 
-TEST(UsedVertices, AreNoneWithoutFaces)
+TEST(UsedVertices, AreEmptyWithoutFaces)
 {
     EXPECT_TRUE(used_vertices({}, 5).empty());
 }
 
-/// A square of two faces, of points 100 to 103.
+/// A square of two faces, with the points 100 to 103.
 TriMesh square()
 {
     TriMesh mesh;
@@ -49,7 +49,7 @@ TriMesh square()
     return mesh;
 }
 
-TEST(AddMidpoint, HasTheMeanColourAndNoPoint)
+TEST(AddMidpoint, AddsVertexWithMeanColorAndNoPoint)
 {
     TriMesh mesh = square();
     mesh.colors[1] = {10, 0, 255};
@@ -61,7 +61,7 @@ TEST(AddMidpoint, HasTheMeanColourAndNoPoint)
     EXPECT_EQ(mesh.points[1], 101U);
 }
 
-TEST(AddCopy, IsTheSamePointInTheSameColour)
+TEST(AddCopy, CopiesPositionColorAndPoint)
 {
     TriMesh mesh = square();
     EXPECT_EQ(add_copy(mesh, 2), 4U);
@@ -70,7 +70,7 @@ TEST(AddCopy, IsTheSamePointInTheSameColour)
     EXPECT_EQ(mesh.points[4], 102U);
 }
 
-TEST(AddVertex, AddsNeitherColoursNorPointsWhereThereAreNone)
+TEST(AddVertex, AddsNoColorsOrPointsToMeshesWithoutThem)
 {
     TriMesh mesh = square();
     mesh.colors.clear();

@@ -19,14 +19,13 @@ Camera camera_of(int model, std::vector<double> params)
         .id = 1, .model = model, .width_px = 640, .height_px = 480, .params = std::move(params)};
 }
 
-/// The direction at an angle to the axis, towards (3, 4) in the image.
+/// The direction at an angle to the axis, towards (3, 4) in the image plane.
 Vector3d direction(double angle)
 {
     return {0.6 * std::sin(angle), 0.8 * std::sin(angle), std::cos(angle)};
 }
 
-// ---- the table
-// -------------------------------------------------------------------------------------
+// ---- the table ----------------------------------------------------------------------------------
 
 struct Listed {
     const char* name;
@@ -74,7 +73,7 @@ TEST(LensModel, IsFoundByNumberAndByName)
     EXPECT_EQ(lens_model(""), nullptr);
 }
 
-TEST(LensModel, TellsItsIntrinsics)
+TEST(LensModel, HasIntrinsics)
 {
     const auto one = intrinsics(camera_of(3, {100, 50, 40, 0.5, 0.25}));
     ASSERT_TRUE(one);
@@ -91,7 +90,7 @@ TEST(LensModel, TellsItsIntrinsics)
     EXPECT_FALSE(intrinsics(camera_of(-1, {100, 100, 50, 40})));
 }
 
-TEST(MeanFocals, AreTheMeansOrTheLargerSideOfTheImage)
+TEST(MeanFocals, AreMeansOrTheLargerSideOfTheImage)
 {
     const Camera simple = {.model = 0, .width_px = 8, .height_px = 6, .params = {100, 4, 3}};
     const Camera pinhole = {.model = 1, .width_px = 8, .height_px = 6, .params = {100, 200, 4, 3}};
@@ -101,8 +100,7 @@ TEST(MeanFocals, AreTheMeansOrTheLargerSideOfTheImage)
     EXPECT_EQ(mean_focals_px({panorama})[0], 400 / (2.0 * std::numbers::pi));
 }
 
-// ---- by hand
-// ---------------------------------------------------------------------------------------
+// ---- computed by hand ---------------------------------------------------------------------------
 
 struct ByHand {
     int model;
@@ -111,13 +109,14 @@ struct ByHand {
     Vector2d x_px;
 };
 
-/// Most have the point (1.2, 1.6) of the plane, so that s = 4, s^2 = 16, ...: a perspective lens
-/// for (1.2, 1.6, 1), a fisheye at an angle of 2. There p1 = 0.01 and p2 = 0.02 add (0.176, 0.168).
+/// Most use the point (1.2, 1.6) of the plane, so s = 4, s^2 = 16, ...: (1.2, 1.6, 1) for
+/// perspective lenses, an angle of 2 for fisheyes. There, p1 = 0.01 and p2 = 0.02 add (0.176,
+/// 0.168).
 const std::vector<ByHand> kByHand{
     {0, {100, 50, 40}, {1, 2, 4}, {75, 90}},
     {1, {100, 200, 50, 40}, {1, 2, 4}, {75, 140}},
     {18, {100, 200, 50, 40, 10}, {1.2, 1.6, 1}, {186, 360}},
-    // times 2, 4, 4, 6 / 2, 6
+    // radial factors 2, 4, 4, 6 / 2, 6
     {2, {100, 50, 40, 0.25}, {1.2, 1.6, 1}, {290, 360}},
     {3, {100, 50, 40, 0.5, 0.0625}, {2.4, 3.2, 2}, {530, 680}},
     {4, {100, 200, 50, 40, 0.5, 0.0625, 0.01, 0.02}, {1.2, 1.6, 1}, {547.6, 1353.6}},
@@ -126,7 +125,7 @@ const std::vector<ByHand> kByHand{
      {1.2, 1.6, 1},
      {427.6, 1033.6}},
     {19, {100, 50, 40, 0.5, 0.0625, 1.0 / 32, 0.01, 0.02}, {1.2, 1.6, 1}, {787.6, 1016.8}},
-    // times 1, 1, 2, 4, 7, 7
+    // radial factors 1, 1, 2, 4, 7, 7
     {14, {100, 50, 40}, direction(2), {170, 200}},
     {15, {100, 200, 50, 40}, direction(2), {170, 360}},
     {8, {100, 50, 40, 0.25}, direction(2), {290, 360}},
@@ -137,7 +136,7 @@ const std::vector<ByHand> kByHand{
      {100, 200, 50, 40, 0.5, 0.0625, 0.01, 0.02, 1.0 / 32, 1.0 / 256, 0.03, 0.05},
      direction(2),
      {919.6, 2353.6}},
-    // times 4 to (4.8, 6.4), to which p adds (0.23296, 0.35328) and s (0.10496, 0.20992)
+    // a radial factor of 4 gives (4.8, 6.4); p adds (0.23296, 0.35328), s adds (0.10496, 0.20992)
     {11,
      {100, 200, 50, 40, 0.25, 1.0 / 32, 1.0 / 64, 1.0 / 512, -1.0 / 2048, 1.0 / 8192, //
       0.001, 0.002, 0.001, 0.00001, 0.002, 0.00002},
@@ -148,18 +147,18 @@ const std::vector<ByHand> kByHand{
      {100, 200, 50, 40, pi / 2},
      {0.3 * std::sqrt(3.0), 0.4 * std::sqrt(3.0), 1},
      {90, 40 + 320.0 / 3}},
-    // (1.2, 1.6) is the image of itself divided by 1 + 4 k: 1.25, 0.5, -1
+    // (1.2, 1.6) is the image of (1.2, 1.6, 1 + 4 k), where 1 + 4 k is 1.25, 0.5 and -1
     {12, {100, 50, 40, 0.0625}, {1.2, 1.6, 1.25}, {170, 200}},
     {13, {100, 200, 50, 40, -0.125}, {2.4, 3.2, 1}, {170, 360}},
     {13, {100, 200, 50, 40, -0.5}, {1.2, 1.6, -1}, {170, 360}},
-    // d = 3, divided by 0.25 * 3 + 0.75
+    // d = 3, so the divisor is 0.25 * 3 + 0.75
     {16, {100, 200, 50, 40, 0.25, 2}, {1.2, 1.6, 1}, {130, 40 + 640.0 / 3}},
     {17, {400, 200}, {1, 0, 1}, {250, 100}},
     {17, {400, 200}, {0, 1, 1}, {200, 150}},
     {17, {400, 200}, {-1, -std::sqrt(2.0), -1}, {50, 50}},
 };
 
-TEST(Camera, ProjectsAsReckonedByHand)
+TEST(Camera, ProjectsAsComputedByHand)
 {
     for (const ByHand& hand : kByHand) {
         const auto x_px = project(camera_of(hand.model, hand.params), hand.x);
@@ -169,7 +168,7 @@ TEST(Camera, ProjectsAsReckonedByHand)
     }
 }
 
-TEST(Camera, FindsTheDirectionReckonedByHand)
+TEST(Camera, ReturnsDirectionsComputedByHand)
 {
     for (const ByHand& hand : kByHand) {
         const auto found = ray(camera_of(hand.model, hand.params), hand.x_px);
@@ -178,10 +177,9 @@ TEST(Camera, FindsTheDirectionReckonedByHand)
     }
 }
 
-// ---- every model over a whole image
-// ----------------------------------------------------------------
+// ---- every model over a whole image -------------------------------------------------------------
 
-/// As calibrations of real cameras give them, for images of 640 x 480.
+/// Typical calibrations of real cameras, for images of 640 x 480 px.
 const std::vector<Camera> kReal{
     camera_of(0, {500, 322, 238}),
     camera_of(1, {500, 505, 322, 238}),
@@ -206,7 +204,7 @@ const std::vector<Camera> kReal{
     camera_of(19, {500, 322, 238, -0.3, 0.12, -0.02, 1e-3, -7e-4}),
 };
 
-TEST(Camera, HasARayForEveryPixelThatProjectsBackToIt)
+TEST(Camera, RoundTripsEveryPixel)
 {
     ASSERT_EQ(kReal.size(), kListed.size());
     for (const Camera& camera : kReal) {
@@ -217,7 +215,7 @@ TEST(Camera, HasARayForEveryPixelThatProjectsBackToIt)
             EXPECT_NEAR(found->norm(), 1.0, 1e-12);
             const auto back_px = project(camera, 3.0 * *found);
             ASSERT_TRUE(back_px) << camera.model << " at " << x_px.transpose();
-            // The left edge, top and bottom of a panorama each hold directions more than once.
+            // Directions occur repeatedly on the left edge, top and bottom of a panorama.
             const bool twice = camera.model == 17 && (i % 33 == 0 || i / 33 == 0 || i / 33 == 24);
             EXPECT_TRUE(twice || (*back_px - x_px).norm() < 1e-6) << camera.model;
             const auto again = ray(camera, *back_px);
@@ -227,7 +225,7 @@ TEST(Camera, HasARayForEveryPixelThatProjectsBackToIt)
     }
 }
 
-/// docs.opencv.org, "Camera Calibration and 3D Reconstruction": of model 4.
+/// Model 4, as in docs.opencv.org, "Camera Calibration and 3D Reconstruction".
 Vector2d opencv_pixel(const std::vector<double>& p, const Vector3d& x)
 {
     const double a = x.x() / x.z();
@@ -239,7 +237,7 @@ Vector2d opencv_pixel(const std::vector<double>& p, const Vector3d& x)
     return {p[0] * a2 + p[2], p[1] * b2 + p[3]};
 }
 
-/// The same, "Fisheye camera model": of model 5.
+/// Model 5, as in docs.opencv.org, "Fisheye camera model".
 Vector2d opencv_fisheye_pixel(const std::vector<double>& p, const Vector3d& x)
 {
     const double a = x.x() / x.z();
@@ -253,7 +251,7 @@ Vector2d opencv_fisheye_pixel(const std::vector<double>& p, const Vector3d& x)
     return {p[0] * distorted / r * a + p[2], p[1] * distorted / r * b + p[3]};
 }
 
-TEST(Camera, AgreesWithThePublishedFormulasOfOpenCv)
+TEST(Camera, MatchesPublishedFormulasOfOpenCv)
 {
     for (int i = 0; i < 20 * 20; ++i) {
         const Vector3d x((i % 20 - 9.5) / 12, (i / 20 - 9.5) / 15, 1.2);
@@ -266,15 +264,14 @@ TEST(Camera, AgreesWithThePublishedFormulasOfOpenCv)
     }
 }
 
-// ---- what an image shows
-// ---------------------------------------------------------------------------
+// ---- image_shows and view_shows -----------------------------------------------------------------
 
 Camera pinhole()
 {
     return {.id = 1, .model = 1, .width_px = 200, .height_px = 100, .params = {100, 50, 100, 50}};
 }
 
-TEST(ImageShows, WhatAPinholeBringsIntoTheImageAndItsEdges)
+TEST(ImageShows, IncludesEdgesOfPinholeImages)
 {
     // u = 100 x / z + 100, v = 50 y / z + 50.
     EXPECT_TRUE(image_shows(pinhole(), {0, 0, 1}));
@@ -289,7 +286,7 @@ TEST(ImageShows, WhatAPinholeBringsIntoTheImageAndItsEdges)
     EXPECT_FALSE(image_shows(pinhole(), {0, 0, 0}));
 }
 
-TEST(ImageShows, TakesOneFocalLengthForBothAxesWhereTheModelHasOne)
+TEST(ImageShows, UsesASingleFocalLengthForBothAxes)
 {
     const Camera simple = {
         .id = 1, .model = 0, .width_px = 200, .height_px = 100, .params = {50, 100, 50}};
@@ -298,7 +295,7 @@ TEST(ImageShows, TakesOneFocalLengthForBothAxesWhereTheModelHasOne)
     EXPECT_FALSE(image_shows(simple, {0, 1.01, 1}));
 }
 
-TEST(ImageShows, FollowsTheDistortion)
+TEST(ImageShows, AppliesDistortion)
 {
     // 0.92 (1 + 0.1 * 0.92^2) = 0.998 of the half width, 0.93 (...) = 1.010.
     const Camera radial = {
@@ -307,20 +304,20 @@ TEST(ImageShows, FollowsTheDistortion)
     EXPECT_FALSE(image_shows(radial, {0.93, 0, 1}));
 }
 
-TEST(ImageShows, FollowsTheAngleOfAFisheyeBehindIt)
+TEST(ImageShows, AcceptsPointsBehindAFisheye)
 {
     const Camera fisheye = {.id = 1,
                             .model = 5,
                             .width_px = 200,
                             .height_px = 200,
                             .params = {50, 50, 100, 100, 0, 0, 0, 0}};
-    // The image ends at 100 px of 50 px a radian: 2 radians.
+    // The image ends at 100 px, and a radian is 50 px: 2 radians.
     EXPECT_TRUE(image_shows(fisheye, {std::sin(1.99), 0, std::cos(1.99)}));
     EXPECT_FALSE(image_shows(fisheye, {std::sin(2.01), 0, std::cos(2.01)}));
     EXPECT_TRUE(image_shows(fisheye, {0, 0, 1}));
 }
 
-TEST(ImageShows, AllThatLiesBeforeACameraThatIsNotKnown)
+TEST(ImageShows, AcceptsAllPointsInFrontOfUnknownCameras)
 {
     const Camera unknown = {.id = 1, .model = -1, .width_px = 9, .height_px = 9, .params = {1, 2}};
     Camera other = unknown;
@@ -338,7 +335,7 @@ TEST(ImageShows, AllThatLiesBeforeACameraThatIsNotKnown)
     }
 }
 
-TEST(ViewShows, WhatItsCameraShowsFromWhereItStands)
+TEST(ViewShows, AppliesPoseOfTheView)
 {
     View view;
     view.center = {10, 0, 0};

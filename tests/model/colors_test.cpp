@@ -5,7 +5,7 @@
 namespace vcarve::colors_test {
 namespace {
 
-TEST(RoundedColor, StaysWithinAByte)
+TEST(RoundedColor, ClampsToBytes)
 {
     const Eigen::Array3f gain(2.0F, 2.0F, 0.5F);
     EXPECT_EQ(rounded_color(channels_of({100, 200, 3}) * gain), (Color{200, 255, 2}));

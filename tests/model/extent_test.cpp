@@ -29,21 +29,21 @@ std::vector<Vector3d> row(int count)
     return positions;
 }
 
-TEST(MiddleBox, LeavesOutAShareAtEitherEnd)
+TEST(MiddleBox, ExcludesAFractionAtBothEnds)
 {
     const Eigen::AlignedBox3d box = middle_box(row(101), 0.02);
     EXPECT_EQ(box.min(), Vector3d(2, -98, 5));
     EXPECT_EQ(box.max(), Vector3d(98, -2, 5));
 }
 
-TEST(MiddleBox, IsTheWholeBoxWithoutTails)
+TEST(MiddleBox, IsTheBoundingBoxWithoutTails)
 {
     const Eigen::AlignedBox3d box = middle_box(row(101), 0.0);
     EXPECT_EQ(box.min(), Vector3d(0, -100, 5));
     EXPECT_EQ(box.max(), Vector3d(100, 0, 5));
 }
 
-TEST(MiddleBox, LeavesOutNoPartOfAPosition)
+TEST(MiddleBox, RoundsTheNumberOfExcludedPositionsDown)
 {
     EXPECT_EQ(middle_box(row(50), 0.02).max(), Vector3d(49, 0, 5));
     EXPECT_EQ(middle_box(row(51), 0.02).max(), Vector3d(49, -1, 5));
@@ -55,7 +55,7 @@ TEST(MiddleBox, IsEmptyWithoutPositions)
     EXPECT_TRUE(middle_box({}, 0.02).isEmpty());
 }
 
-/// A point that the first views see.
+/// A point with a track of the first `views` views.
 MadePoint seen_point(const Vector3d& position, std::uint32_t views)
 {
     MadePoint point{position, {}};
@@ -65,7 +65,7 @@ MadePoint seen_point(const Vector3d& position, std::uint32_t views)
     return point;
 }
 
-/// (i, 0, 5) for i from -50 to 50, shuffled, each seen by ten views: 1010 sights.
+/// (i, 0, 5) for i from -50 to 50, shuffled, each seen by ten views: 1010 rays.
 std::vector<MadePoint> seen_row()
 {
     std::vector<MadePoint> points;
@@ -81,16 +81,16 @@ Ball ball_of(const std::vector<MadePoint>& points)
     return region_of_interest(make_scene(std::vector<Vector3d>(100, Vector3d::Zero()), points));
 }
 
-TEST(RegionOfInterest, HoldsNineteenTwentiethsOfTheSightsOrSo)
+TEST(RegionOfInterest, ContainsTheEndsOf94PercentOfTheRays)
 {
-    // 94 % of 1010 sights are 949.4, so 95 points: one more than from -47 to 46.
+    // 94 % of 1010 rays are 949.4 rays of 95 points, which span -47 to 47.
     const Ball ball = ball_of(seen_row());
     EXPECT_NEAR(ball.center.x(), 0.0, 0.5);
     EXPECT_EQ(ball.center.tail<2>(), Eigen::Vector2d(0, 5));
     EXPECT_NEAR(ball.radius, 47.0, 0.5);
 }
 
-TEST(RegionOfInterest, IsWhereMostSightsEndWhateverLiesFarBehind)
+TEST(RegionOfInterest, ExcludesDistantBackground)
 {
     auto points = seen_row();
     for (int i = 0; i < 5; ++i) {
@@ -101,16 +101,16 @@ TEST(RegionOfInterest, IsWhereMostSightsEndWhateverLiesFarBehind)
     EXPECT_NEAR(ball.radius, 50.0, 1.0);
 }
 
-TEST(RegionOfInterest, CountsAPointOnceForEveryViewThatSawIt)
+TEST(RegionOfInterest, WeightsPointsByNumberOfViews)
 {
     auto points = seen_row();
-    points.push_back(seen_point({200, 0, 5}, 60)); // 60 of 1070 sights: left out
+    points.push_back(seen_point({200, 0, 5}, 60)); // 60 of 1070 rays: excluded
     EXPECT_LT(ball_of(points).radius, 60.0);
-    points.back() = seen_point({200, 0, 5}, 80); // 80 of 1090: more than may be left out
+    points.back() = seen_point({200, 0, 5}, 80); // 80 of 1090: too many to exclude
     EXPECT_GT(ball_of(points).radius, 150.0);
 }
 
-TEST(RegionOfInterest, CountsNoPointThatNobodySaw)
+TEST(RegionOfInterest, IgnoresPointsWithoutViews)
 {
     auto points = seen_row();
     const Ball ball = ball_of(points);
@@ -121,14 +121,14 @@ TEST(RegionOfInterest, CountsNoPointThatNobodySaw)
     EXPECT_EQ(ball_of(points).radius, ball.radius);
 }
 
-TEST(RegionOfInterest, HasNoRadiusWithoutSights)
+TEST(RegionOfInterest, HasZeroRadiusWithoutRays)
 {
     EXPECT_EQ(ball_of({}).radius, 0.0);
     EXPECT_EQ(ball_of({{{1, 2, 3}, {}}}).radius, 0.0);
 }
 
-/// Two points at either end of a line, each seen by both views, which make a ball of radius 1
-/// around the origin.
+/// Two points that both views see, at the ends of a line. Their region of interest is the ball of
+/// radius 1 around the origin.
 Scene ends_of_line()
 {
     return make_scene({{0, 0, 9}, {0, 9, 0}}, {{{-1, 0, 0}, {0, 1}}, {{1, 0, 0}, {0, 1}}});
@@ -143,11 +143,11 @@ void add_point(Scene& scene, const Vector3d& position, const std::vector<std::ui
     scene.tracks.push_back(track);
 }
 
-TEST(SeenPlaces, CountsCubesAndNotPoints)
+TEST(SeenPlaces, CountsCubesInsteadOfPoints)
 {
     Scene scene = ends_of_line();
-    // Ten points at one place for the first view, two at two places for the second. 32 cubes lie
-    // along the diameter.
+    // The first view sees ten equal points, the second one two points in different cubes. There are
+    // 32 cubes along the diameter.
     for (int i = 0; i < 10; ++i) {
         add_point(scene, {0.01, 0.01, 0.01}, {0});
     }
@@ -156,7 +156,7 @@ TEST(SeenPlaces, CountsCubesAndNotPoints)
     EXPECT_THAT(seen_places(scene), ElementsAre(3U, 4U));
 }
 
-TEST(SeenPlaces, LeavesOutWhatLiesFarBehindOrNowhere)
+TEST(SeenPlaces, IgnoresDistantAndNonFinitePoints)
 {
     Scene scene = ends_of_line();
     for (int i = 0; i < 40; ++i) {
@@ -168,19 +168,19 @@ TEST(SeenPlaces, LeavesOutWhatLiesFarBehindOrNowhere)
     EXPECT_EQ(places[1], places[0]);
 }
 
-TEST(SeenPlaces, AreNoneWhereNothingWasSeen)
+TEST(SeenPlaces, AreZeroWithoutPoints)
 {
     EXPECT_THAT(seen_places(make_scene({{0, 0, 9}, {0, 9, 0}}, {})), ElementsAre(0U, 0U));
     EXPECT_TRUE(seen_places({}).empty());
 }
 
-TEST(SeenPlaces, OfPointsAtOnePlaceAreOne)
+TEST(SeenPlaces, CountsEqualPositionsOnce)
 {
     const Scene scene = make_scene({{0, 0, 9}}, {{{1, 2, 3}, {0}}, {{1, 2, 3}, {0}}});
     EXPECT_THAT(seen_places(scene), ElementsAre(1U));
 }
 
-/// A cloud of `size` across around a place.
+/// A cloud with a diameter of `size` around a position.
 Scene cloud_at(const Vector3d& place, double size)
 {
     return moved(bumpy_sphere(500, 1), size / 2.0, Eigen::Quaterniond::Identity(), place);
@@ -188,14 +188,14 @@ Scene cloud_at(const Vector3d& place, double size)
 
 TEST(RoundOffset, IsRoundAndNearTheModel)
 {
-    // The middle nine tenths of a ball 40 across measure some 60 across their diagonal
+    // The diagonal of the middle nine tenths of a ball of diameter 40 is about 60.
     EXPECT_EQ(round_offset(cloud_at({500123.4, 4600987.6, 5270.0}, 40.0)),
               Vector3d(500100.0, 4601000.0, 5300.0));
     EXPECT_EQ(round_offset(cloud_at({-500123.4, 0.0, 0.0}, 4.0)), Vector3d(-500120.0, 0.0, 0.0));
     EXPECT_EQ(round_offset(cloud_at({12.3456, 0.0, 0.0}, 0.04)), Vector3d(12.3, 0.0, 0.0));
 }
 
-TEST(RoundOffset, IsNoneAlongAxesWhereTheModelLiesNearTheOrigin)
+TEST(RoundOffset, IsZeroAlongAxesWhereModelIsNearTheOrigin)
 {
     EXPECT_EQ(round_offset(cloud_at({0.0, 0.0, 0.0}, 4.0)), Vector3d(0, 0, 0));
     EXPECT_EQ(round_offset(cloud_at({5e5, 4.6e6, 100.0}, 40.0)), Vector3d(5e5, 4.6e6, 0.0));
@@ -219,7 +219,7 @@ TEST(RoundOffset, LeavesCoordinatesThatFitIntoFloats)
     }
 }
 
-TEST(RoundOffset, CountsFinitePointsInTheFrameOfTheFile)
+TEST(RoundOffset, UsesFinitePointsInTheFrameOfTheFile)
 {
     Scene scene = cloud_at({23.4, 0.0, 0.0}, 4.0);
     scene.positions[7].x() = std::numeric_limits<double>::quiet_NaN();
@@ -227,7 +227,7 @@ TEST(RoundOffset, CountsFinitePointsInTheFrameOfTheFile)
     EXPECT_EQ(round_offset(scene), Vector3d(500120.0, 0.0, 0.0));
 }
 
-TEST(RoundOffset, IsNoneWhereThereIsNoSize)
+TEST(RoundOffset, IsZeroForModelsWithoutExtent)
 {
     EXPECT_EQ(round_offset({}), Vector3d(0, 0, 0));
     EXPECT_EQ(round_offset(make_scene({}, {{{5e5, 0, 0}, {}}, {{5e5, 0, 0}, {}}})),

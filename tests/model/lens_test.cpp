@@ -14,10 +14,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-// How far off its axis a lens projects, and what it refuses.
+// The largest angles to the axis that lenses project, and the directions that they reject.
 
-/// Its image reaches from -1 to 1 of the plane at focal length 1 for all models but
-/// EQUIRECTANGULAR.
+/// The image spans -1 to 1 of the plane at focal length 1, except for EQUIRECTANGULAR.
 Camera camera_of(int model, std::vector<double> extra)
 {
     std::vector<double> params{100, 100, 100, 100};
@@ -26,7 +25,7 @@ Camera camera_of(int model, std::vector<double> extra)
     return {.id = 1, .model = model, .width_px = 200, .height_px = 200, .params = params};
 }
 
-/// At a tangent of the angle to the axis.
+/// The direction whose angle to the axis has this tangent.
 Vector3d aside(double tangent)
 {
     return {tangent, 0, 1};
@@ -49,7 +48,7 @@ const std::vector<Turn> kTurns{
     {"k < 0", camera_of(2, {-0.25}), aside(1.15), aside(1.16)},
     {"k < 0, far beyond", camera_of(2, {-0.25}), aside(1.15), aside(1e3)},
     {"k < 0, fisheye", camera_of(8, {-0.25}), at_angle(1.15), at_angle(1.16)},
-    // 1 - 1.5 s + 0.3 s^2 = 0 at s = 0.7923 and 4.2077: it falls between and then rises again
+    // 1 - 1.5 s + 0.3 s^2 = 0 at s = 0.7923 and 4.2077: the radius decreases only in between
     {"k1 < 0 < k2", camera_of(3, {-0.5, 0.06}), aside(0.889), aside(0.891)},
     {"k1 < 0 < k2, risen again", camera_of(3, {-0.5, 0.06}), aside(0.889), aside(3)},
     {"k1 < 0 < k2, fisheye", camera_of(9, {-0.5, 0.06}), at_angle(0.889), at_angle(2.5)},
@@ -67,9 +66,8 @@ const std::vector<Turn> kTurns{
      at_angle(1.72)},
     {"k0 < 0, in sequence", camera_of(11, {-0.25, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}), at_angle(1.15),
      at_angle(1.16)},
-    // r / D grows with D - 2 s D': for k4 = 0.5 it is 1 - 0.5 s; for k4 = -0.25 it is 1 + 0.25 s,
-    // but
-    // D is 0 at r = 2.
+    // r / D increases while D - 2 s D' > 0: 1 - 0.5 s for k4 = 0.5, and 1 + 0.25 s for k4 = -0.25,
+    // where D = 0 at r = 2.
     {"k4 > 0", camera_of(6, {0, 0, 0, 0, 0, 0.5, 0, 0}), aside(1.41), aside(1.42)},
     {"k4 < 0", camera_of(6, {0, 0, 0, 0, 0, -0.25, 0, 0}), aside(1.99), aside(2.01)},
     // 1 + 0.25 x^2 - 6 x (1 - 0.25 x^2)^2 = 0 at x = 0.1703
@@ -92,7 +90,7 @@ TEST(CameraReach, EndsWhereTheDistortionTurns)
     }
 }
 
-TEST(CameraReach, LeavesOutWhatThePolynomialAloneWouldBringIntoTheImage)
+TEST(CameraReach, ExcludesPointsThatAPolynomialMapsBackIntoTheImage)
 {
     // 1.9 (1 - 0.25 * 1.9^2) = 0.185 and 2.1 (1 - 0.25 * 2.1^2) = -0.215 of 1.
     const Camera radial = camera_of(2, {-0.25});
@@ -105,19 +103,19 @@ TEST(CameraReach, LeavesOutWhatThePolynomialAloneWouldBringIntoTheImage)
     EXPECT_FALSE(image_shows(camera_of(6, {0, 0, 0, 0, 0, -1, 0, 0}), aside(1.7)));
 }
 
-TEST(CameraReach, GoesOnWhereAPolynomialNeverTurns)
+TEST(CameraReach, IsUnlimitedIfAPolynomialNeverTurns)
 {
-    // 1 - 0.9 s + 0.5 s^2 is 0.595 at least: s = 0.9.
+    // The minimum of 1 - 0.9 s + 0.5 s^2 is 0.595, at s = 0.9.
     const Camera radial = camera_of(3, {-0.3, 0.1});
     const auto x_px = project(radial, aside(10));
     ASSERT_TRUE(x_px);
     EXPECT_NEAR(x_px->x(), 100 * 10 * (1 - 30 + 1000) + 100, 1e-6);
-    // 1 - 2 s + 1.05 s^2 is 0.048 at least, 1 - 2 s + 0.999 s^2 is -0.001.
+    // The minimum of 1 - 2 s + 1.05 s^2 is 0.048, that of 1 - 2 s + 0.999 s^2 is -0.001.
     EXPECT_TRUE(project(camera_of(3, {-2.0 / 3, 0.21}), aside(1.5)));
     EXPECT_FALSE(project(camera_of(3, {-2.0 / 3, 0.1998}), aside(1.5)));
 }
 
-TEST(CameraReach, OfAFisheyeIsAllButStraightBehind)
+TEST(CameraReach, ExcludesOnlyTheBackwardAxisOfAFisheye)
 {
     const Camera fisheye = camera_of(15, {});
     EXPECT_TRUE(project(fisheye, at_angle(3.1)));
@@ -128,7 +126,7 @@ TEST(CameraReach, OfAFisheyeIsAllButStraightBehind)
     EXPECT_FALSE(ray(fisheye, {100 + 314.2, 100}));
 }
 
-TEST(CameraReach, OfAPerspectiveLensEndsBesideIt)
+TEST(CameraReach, EndsBesideAPerspectiveLens)
 {
     const std::vector<Camera> perspective{
         camera_of(0, {}),           camera_of(1, {}),
@@ -146,23 +144,23 @@ TEST(CameraReach, OfAPerspectiveLensEndsBesideIt)
     }
 }
 
-TEST(CameraReach, HasNoRayWhereNothingProjects)
+TEST(CameraReach, HasNoRayForPixelsThatShowNothing)
 {
-    // The image of a k of -0.25 ends at 2 / 3 of 1.1547: 76.98 px from the middle.
+    // For k = -0.25 the image ends at 2 / 3 of 1.1547: 76.98 px from the center.
     EXPECT_TRUE(ray(camera_of(2, {-0.25}), {100 + 76.9, 100}));
     EXPECT_FALSE(ray(camera_of(2, {-0.25}), {100 + 77.1, 100}));
-    // Where radius times omega is pi / 2: 157.08 px.
+    // Ends where the radius times omega is pi / 2: 157.08 px.
     EXPECT_TRUE(ray(camera_of(7, {1}), {100 + 157, 100}));
     EXPECT_FALSE(ray(camera_of(7, {1}), {100 + 157.1, 100}));
-    // 1 / sqrt(k): 200 px.
+    // Ends at 1 / sqrt(k): 200 px.
     EXPECT_TRUE(ray(camera_of(13, {0.25}), {100 + 199, 100}));
     EXPECT_FALSE(ray(camera_of(13, {0.25}), {100 + 201, 100}));
-    // 1 / sqrt(2 alpha - 1) at beta 1: 141.4 px.
+    // Ends at 1 / sqrt(2 alpha - 1) for beta = 1: 141.4 px.
     EXPECT_TRUE(ray(camera_of(16, {0.75, 1}), {100 + 141, 100}));
     EXPECT_FALSE(ray(camera_of(16, {0.75, 1}), {100 + 142, 100}));
 }
 
-TEST(CameraReach, OfAPanoramaIsAllAround)
+TEST(CameraReach, IncludesAllDirectionsOfAPanorama)
 {
     const Camera panorama = {
         .id = 1, .model = 17, .width_px = 400, .height_px = 200, .params = {400, 200}};
@@ -174,7 +172,7 @@ TEST(CameraReach, OfAPanoramaIsAllAround)
     EXPECT_FALSE(ray(panorama, {100, -0.1}));
 }
 
-TEST(CameraReach, OfAFieldOfViewOfNothingIsThatOfAPinhole)
+TEST(CameraReach, MatchesPinholeForZeroFieldOfView)
 {
     EXPECT_EQ(project(camera_of(7, {0}), aside(0.5)), Vector2d(150, 100));
     EXPECT_EQ(ray(camera_of(7, {0}), {150, 100}), aside(0.5).normalized());
@@ -182,7 +180,7 @@ TEST(CameraReach, OfAFieldOfViewOfNothingIsThatOfAPinhole)
     EXPECT_FALSE(project(camera_of(7, {3.2}), aside(0.5)));
 }
 
-TEST(CameraReach, IsNoneForLensesThatAreNotKnownAndNumbersThatAreNone)
+TEST(CameraReach, IsEmptyForUnknownLensesAndNaN)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Camera unknown = camera_of(1, {});

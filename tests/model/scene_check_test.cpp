@@ -10,7 +10,7 @@ namespace vcarve::scene_check_test {
 
 namespace {
 
-/// Two views of one camera, three points; the last was seen by none.
+/// Two views of one camera, and three points, the last of which has no views.
 Scene small_scene()
 {
     Scene scene;
@@ -37,7 +37,7 @@ std::string refusal_after(const Change& change)
 
 } // namespace
 
-TEST(SceneCheck, AcceptsWhatFits)
+TEST(SceneCheck, AcceptsConsistentScenes)
 {
     EXPECT_NO_THROW(require_consistent(small_scene()));
     EXPECT_NO_THROW(require_consistent(Scene()));
@@ -46,39 +46,41 @@ TEST(SceneCheck, AcceptsWhatFits)
     EXPECT_NO_THROW(require_consistent(with_normals));
 }
 
-TEST(SceneCheck, NamesAnArrayThatHasNotAnEntryAPoint)
+TEST(SceneCheck, RejectsArraysWithoutOneEntryPerPoint)
 {
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.colors.resize(2); }),
-              "the scene's colors have 2 entries, not one for each of its 3 points");
+              "the scene's colors have 2 entries, expected 3 (one per point)");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.errors_px.clear(); }),
-              "the scene's errors_px have 0 entries, not one for each of its 3 points");
+              "the scene's errors_px have 0 entries, expected 3 (one per point)");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.point_ids.resize(4); }),
-              "the scene's point_ids have 4 entries, not one for each of its 3 points");
+              "the scene's point_ids have 4 entries, expected 3 (one per point)");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.push_back({}); }),
-              "the scene's tracks have 4 entries, not one for each of its 3 points");
+              "the scene's tracks have 4 entries, expected 3 (one per point)");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.kinds.resize(2); }),
-              "the scene's kinds have 2 entries, not one for each of its 3 points");
+              "the scene's kinds have 2 entries, expected 3 (one per point)");
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.normals.resize(2); }),
-              "the scene's normals have 2 entries, not one for each of its 3 points");
+              "the scene's normals have 2 entries, expected 3 (one per point)");
 }
 
-TEST(SceneCheck, NamesAViewWithoutItsCamera)
+TEST(SceneCheck, RejectsViewsWithoutCamera)
 {
-    EXPECT_EQ(refusal_after([](Scene& scene) { scene.views[1].camera = 1; }),
-              "view 7 of the scene has camera number 1, but there are 1 cameras, counted from 0");
+    EXPECT_EQ(
+        refusal_after([](Scene& scene) { scene.views[1].camera = 1; }),
+        "view 7 of the scene has camera index 1, expected an index below 1, the number of cameras");
 }
 
-TEST(SceneCheck, RefusesTracksThatAreNoRowsOfAscendingViews)
+TEST(SceneCheck, RejectsTracksWithoutAscendingViews)
 {
-    const std::string rows = "the scene's tracks do not begin at 0, ascend, and end where their "
-                             "views do";
+    const std::string rows =
+        "the scene's tracks.begins is invalid, expected ascending offsets from 0 "
+        "to the size of tracks.views";
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.begins.clear(); }), rows);
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.begins.front() = 1; }), rows);
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.begins[1] = 4; }), rows);
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views.push_back(0); }), rows);
     const auto of_point = [](int point) {
         return "the track of point " + std::to_string(point) +
-               " of the scene is not a row of ascending numbers of views below 2";
+               " of the scene is invalid, expected strictly ascending view indices below 2";
     };
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views = {1, 0, 1}; }), of_point(0));
     EXPECT_EQ(refusal_after([](Scene& scene) { scene.tracks.views = {1, 1, 1}; }), of_point(0));

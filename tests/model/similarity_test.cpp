@@ -33,29 +33,29 @@ TEST(Similarity, IsARotationTimesAScale)
     EXPECT_EQ(to.translation, Vector3d(5e5, 0, -7));
 }
 
-TEST(Similarity, ForgivesDigitsThatWereCutOff)
+TEST(Similarity, AcceptsRoundedDigits)
 {
     Matrix3d rounded = turn(0.7);
     rounded = (rounded * 1e4).array().round() / 1e4;
     EXPECT_EQ(fault_of_similarity(matrix(rounded)), "");
 }
 
-TEST(Similarity, IsNothingElse)
+TEST(Similarity, RejectsReflectionsShearAndSingularMatrices)
 {
     EXPECT_EQ(fault_of_similarity(matrix(Vector3d(1, 1, -1).asDiagonal() * turn(1.0))),
               "a reflection, which turns surfaces inside out");
     EXPECT_EQ(fault_of_similarity(matrix(Vector3d(1, 1, 1.01).asDiagonal())),
-              "no rotation times a scale");
+              "a matrix with shear or unequal scales");
     Matrix3d shear = Matrix3d::Identity();
     shear(0, 1) = 0.01;
-    EXPECT_EQ(fault_of_similarity(matrix(shear)), "no rotation times a scale");
-    EXPECT_EQ(fault_of_similarity(matrix(Matrix3d::Zero())), "no matrix that could be inverted");
+    EXPECT_EQ(fault_of_similarity(matrix(shear)), "a matrix with shear or unequal scales");
+    EXPECT_EQ(fault_of_similarity(matrix(Matrix3d::Zero())), "a singular or infinite matrix");
     const double infinity = std::numeric_limits<double>::infinity();
     EXPECT_EQ(fault_of_similarity(matrix(turn(1.0), Vector3d(0, infinity, 0))),
-              "no matrix that could be inverted");
+              "a singular or infinite matrix");
 }
 
-TEST(Similarity, MovesPositionsByTheirOffsetOnce)
+TEST(Similarity, AppliesTranslationOnlyToTheOffset)
 {
     const Similarity to = similarity_of(matrix(2.0 * Matrix3d::Identity(), Vector3d(1, 0, 0)));
     std::vector<Vector3d> positions = {Vector3d(1, 2, 3), Vector3d::Zero()};

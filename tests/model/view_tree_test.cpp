@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::aim;
 
-/// Evenly in a cube, in steps of a thousandth of its half.
+/// A random position in a cube, in steps of a thousandth of half its side.
 Vector3d anywhere(std::mt19937_64& random, double half)
 {
     const auto coordinate = [&] {
@@ -27,8 +27,8 @@ Vector3d anywhere(std::mt19937_64& random, double half)
     return {coordinate(), coordinate(), coordinate()};
 }
 
-/// So many views in a cube four wide: always four next to each other, as in a video, that look at
-/// the same place.
+/// `num_views` views in a cube of half side 4, in groups of four. The views of a group are close
+/// together and look at the same position, as in a video.
 Scene views_in_a_cube(std::size_t num_views, std::uint32_t seed)
 {
     Scene scene = make_scene(std::vector<Vector3d>(num_views, Vector3d::Zero()), {});
@@ -46,7 +46,7 @@ Scene views_in_a_cube(std::size_t num_views, std::uint32_t seed)
     return scene;
 }
 
-/// All that are asked, in turn, if all say no.
+/// All visited views in order, if none is accepted.
 std::vector<std::uint32_t> asked_about(const ViewTree& tree, const Vector3d& place,
                                        const Vector3d& normal)
 {
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> asked_about(const ViewTree& tree, const Vector3d& pla
     return asked;
 }
 
-/// The views that show a place and stand before a plane, the nearest first.
+/// The views that show a position and are in front of the plane, in ascending distance.
 std::vector<std::uint32_t> views_that_may_see(const Scene& scene, const Vector3d& place,
                                               const Vector3d& normal)
 {
@@ -78,7 +78,7 @@ struct Asked {
     std::size_t may_see = 0;
 };
 
-/// Of those asked the ones that may see the place must be all of them in order.
+/// Expects that the visited views include all views that may see the position, in order.
 Asked expect_asked_in_order(const Scene& scene, const ViewTree& tree, const Vector3d& place,
                             const Vector3d& normal)
 {
@@ -92,7 +92,7 @@ Asked expect_asked_in_order(const Scene& scene, const ViewTree& tree, const Vect
     return {count, may_see.size()};
 }
 
-TEST(ViewTree, AsksAllThatMaySeeAPlaceFromTheNearestOnAndFewOthers)
+TEST(ViewTree, VisitsViewsThatMaySeeAPositionInAscendingDistance)
 {
     const Scene scene = views_in_a_cube(512, 3);
     const ViewTree tree(scene);
@@ -108,7 +108,7 @@ TEST(ViewTree, AsksAllThatMaySeeAPlaceFromTheNearestOnAndFewOthers)
     EXPECT_LT(sum.all, 2 * sum.may_see);
 }
 
-TEST(ViewTree, AsksThoseEquallyNearInTheirOrder)
+TEST(ViewTree, BreaksTiesByIndex)
 {
     const Vector3d side(1.0, 0.0, -5.0);
     Scene scene = make_scene({-side, side, {0.0, 0.0, -4.0}, side, {0.0, 0.0, -9.0}, side}, {});
@@ -117,14 +117,14 @@ TEST(ViewTree, AsksThoseEquallyNearInTheirOrder)
                 ::testing::ElementsAre(2, 0, 1, 3, 5, 4));
 }
 
-TEST(ViewTree, AsksViewsWhoseLensIsNotKnownWhereverTheyLook)
+TEST(ViewTree, SkipsNoViewsOfUnknownLenses)
 {
     Scene scene = views_in_a_cube(50, 9);
     scene.cameras.front().model = -1;
     EXPECT_EQ(asked_about(ViewTree(scene), Vector3d::Zero(), Vector3d::Zero()).size(), 50U);
 }
 
-TEST(ViewTree, StopsAtTheFirstYesAndAsksNobodyWhereThereAreNoViews)
+TEST(ViewTree, StopsAtTheFirstAcceptedViewAndHandlesMissingViews)
 {
     Scene scene = views_in_a_cube(1, 11);
     aim(scene.views.front(), Vector3d::Zero());

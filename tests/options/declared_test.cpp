@@ -8,13 +8,13 @@
 namespace vcarve::declared_test {
 namespace {
 
-/// Turns into whatever a field is.
+/// Converts to the type of any field.
 struct Anything {
     template <typename T>
-    operator T() const; // NOLINT(google-explicit-constructor): it is to be turned into a T silently
+    operator T() const; // NOLINT(google-explicit-constructor): converts implicitly
 };
 
-/// How many fields a plain struct has.
+/// The number of fields of an aggregate.
 template <typename T, typename... Fields>
 constexpr std::size_t num_fields()
 {
@@ -25,7 +25,7 @@ constexpr std::size_t num_fields()
     }
 }
 
-TEST(DeclaredOptions, AreAllFieldsOfTheOptions)
+TEST(DeclaredOptions, CoverAllFieldsOfOptions)
 {
     constexpr std::size_t kParts = num_fields<FilterOptions>() + num_fields<AddedPointOptions>() +
                                    num_fields<ThinOptions>() + num_fields<CropOptions>() +
@@ -42,7 +42,7 @@ TEST(DeclaredOptions, AreAllFieldsOfTheOptions)
     EXPECT_EQ(options_of(options).size(), kParts + kLabels + kSurface + kRun);
 }
 
-TEST(DeclaredOptions, HaveNamesAndPlacesOfTheirOwn)
+TEST(DeclaredOptions, HaveUniqueNamesAndHelp)
 {
     Options options;
     std::set<std::string> names;
@@ -53,17 +53,17 @@ TEST(DeclaredOptions, HaveNamesAndPlacesOfTheirOwn)
     EXPECT_NO_THROW(validate(options));
 }
 
-TEST(PointsArguments, NameEveryFieldOfThePointsOptions)
+TEST(PointsArguments, DeclareEveryFieldOfPointsOptions)
 {
     PointsArguments arguments;
     std::string names;
     for (const Option& option : options_of(arguments)) {
         names += option.info.name + " ";
     }
-    EXPECT_EQ(names, "points visibility sights scanner ");
+    EXPECT_EQ(names, "points visibility rays scanner ");
 }
 
-TEST(PointsArguments, HaveAScannerOnlyWherePlaceIsTyped)
+TEST(PointsArguments, SetAScannerOnlyIfAPositionIsTyped)
 {
     PointsArguments arguments;
     const Option scanner = options_of(arguments).back();

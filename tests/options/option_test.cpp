@@ -33,19 +33,19 @@ std::string refusal_of(SampleOptions options)
     return "accepted";
 }
 
-TEST(Option, HasItsPresentValueAsOneWouldTypeIt)
+TEST(Option, FormatsItsValueAsTyped)
 {
     EXPECT_THAT(texts(value_text),
                 ElementsAre("10.5", "2", "3", "no", "round", "3M", "here", "none", "7", "1"));
 }
 
-TEST(Option, HasARangeOnlyWhereMoreThanTheSignIsRestricted)
+TEST(Option, ShowsARangeIfMoreThanTheSignIsRestricted)
 {
     EXPECT_THAT(texts(range_text),
                 ElementsAre("max: 180", "", "min: 2", "", "", "", "min: -10, max: 10", "", "", ""));
 }
 
-TEST(Option, ShowsAWordForItsValue)
+TEST(Option, ShowsAPlaceholderForItsValue)
 {
     EXPECT_THAT(texts(placeholder),
                 ElementsAre("N", "N", "N", "", "round|flat", "SIZE", "here|there|X,Y,Z",
@@ -57,13 +57,13 @@ TEST(CheckValues, AcceptsTheDefaults)
     EXPECT_EQ(refusal_of({}), "accepted");
 }
 
-TEST(CheckValues, AcceptsTheEndsOfARange)
+TEST(CheckValues, AcceptsTheBoundsOfARange)
 {
     EXPECT_EQ(refusal_of({.angle_deg = 0.0, .views = 2}), "accepted");
     EXPECT_EQ(refusal_of({.angle_deg = 180.0, .spacing = kUnlimited}), "accepted");
 }
 
-TEST(CheckValues, NamesTheOptionTheRangeAndTheValue)
+TEST(CheckValues, ReportsOptionRangeAndValue)
 {
     EXPECT_EQ(refusal_of({.angle_deg = 200.0}),
               "--angle takes a number from 0 to 180 (deg), not 200");
@@ -73,13 +73,13 @@ TEST(CheckValues, NamesTheOptionTheRangeAndTheValue)
     EXPECT_EQ(refusal_of({.memory = -1}),
               "--memory takes a size in bytes, or with K, M or G as in 8G, not -1");
     EXPECT_EQ(refusal_of({.shape = static_cast<Shape>(3)}),
-              "--shape has 2 choices, and 3 is none of them");
-    EXPECT_EQ(refusal_of({.place = {.word = 2}}), "--place has 2 choices, and 2 is none of them");
+              "--shape has 2 choices; 3 is not one of them");
+    EXPECT_EQ(refusal_of({.place = {.word = 2}}), "--place has 2 choices; 2 is not one of them");
     EXPECT_EQ(refusal_of({.place = {.word = WordOrVector::kNoWord, .vector = {0, 0, -11}}}),
               "--place takes here, there or x,y,z from -10 to 10, not -11");
 }
 
-TEST(CheckValues, RefusesRegionsThatHoldNothing)
+TEST(CheckValues, RejectsEmptyRegions)
 {
     const double nan = std::nan("");
     const auto refusal_of_box = [](const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
@@ -96,7 +96,7 @@ TEST(CheckValues, RefusesRegionsThatHoldNothing)
               "--part takes none, auto, x0,y0,z0,x1,y1,z1 or a file, not \"\"");
 }
 
-TEST(CheckValues, RefusesWhatIsNotANumber)
+TEST(CheckValues, RejectsNaN)
 {
     EXPECT_EQ(refusal_of({.spacing = std::nan("")}),
               "--spacing takes a number, 0 or more, not nan");

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Points in colour on a square, seen by four views, in a frame of its own.
+/// Colored points on a square, seen by four views.
 Scene square_scene()
 {
     Scene scene = testing::scene_above_square(11, testing::high_centers());
@@ -35,13 +35,13 @@ Json scene_of(const std::vector<NamedMesh>& meshes, bool with_truth)
 const NamedMesh kLow{"low.ply", testing::square(0.0)};
 const NamedMesh kHigh{"high.ply", testing::square(0.25)};
 
-/// Packed distances of so many places that all lie so far away, in percent of a diagonal.
+/// `count` packed distances, all equal to `percent` of the diagonal.
 std::string all_at(std::size_t count, double percent)
 {
     return pack_errors(std::vector<double>(count, percent));
 }
 
-TEST(ComparisonScene, HasTheTruthBehindTheMeshesThatAreMeasuredAgainstIt)
+TEST(ComparisonScene, ListsTheTruthAfterTheMeshes)
 {
     const Json scene = scene_of({kLow, kHigh}, true);
     const Json& surfaces = scene["surfaces"];
@@ -57,7 +57,7 @@ TEST(ComparisonScene, HasTheTruthBehindTheMeshesThatAreMeasuredAgainstIt)
     EXPECT_EQ(scene["diagonal_of"], "truth");
 }
 
-TEST(ComparisonScene, TellsDistancesOfVerticesAndOfPlacesBetween)
+TEST(ComparisonScene, ContainsDistancesOfVerticesAndBetween)
 {
     const Json scene = scene_of({kLow, kHigh}, true);
     const double diagonal = scene["diagonal"];
@@ -69,17 +69,17 @@ TEST(ComparisonScene, TellsDistancesOfVerticesAndOfPlacesBetween)
     EXPECT_EQ(high["between"],
               all_at(grid_places(testing::square(), parts).size(), 25.0 / diagonal));
     EXPECT_EQ(scene["surfaces"][0]["distances"]["vertices"], all_at(4, 0.0));
-    // No round distance is as long, so colours end at 5 %.
+    // The distance is above all round ones, so colors end at 5 %.
     EXPECT_EQ(scene["scale"], 0.05);
 }
 
-TEST(ComparisonScene, EndsColoursWhereNearlyAllAreaIs)
+TEST(ComparisonScene, EndsColorsAbove90PercentOfTheArea)
 {
     EXPECT_EQ(scene_of({kLow}, true)["scale"], 0.001);
     EXPECT_EQ(scene_of({kLow, {"a.ply", testing::square(0.01)}}, true)["scale"], 0.01);
 }
 
-TEST(ComparisonScene, ListsFourPlacesThatAreWrongAndFourThatAreMissing)
+TEST(ComparisonScene, ListsAtMostFourWrongAndFourMissingPositions)
 {
     const Json scene = scene_of({{"half.ply", testing::strip(0.0, 0.5, 0.0)}, kHigh}, true);
     const Json& half = scene["surfaces"][0];
@@ -111,7 +111,7 @@ TEST(ComparisonScene, MeasuresMeshesAgainstEachOtherWithoutATruth)
     EXPECT_GE(surfaces[0]["wrong"].size(), 4U);
 }
 
-TEST(ComparisonScene, HasNoDistancesOfOneMeshAlone)
+TEST(ComparisonScene, HasNoDistancesForASingleMesh)
 {
     const Json surface = scene_of({kLow}, false)["surfaces"][0];
     EXPECT_EQ(surface["measured_to"], nullptr);
@@ -119,9 +119,9 @@ TEST(ComparisonScene, HasNoDistancesOfOneMeshAlone)
     EXPECT_EQ(surface["wrong"], nullptr);
 }
 
-TEST(ComparisonScene, StandsInTheFrameOfTheReference)
+TEST(ComparisonScene, IsInTheFrameOfTheReference)
 {
-    // Far from zero, where floats would tear what is drawn.
+    // Far from zero, floats would distort the drawing.
     Scene scene = square_scene();
     const Eigen::Vector3d far(5e5, 4e6, 100.0);
     scene.offset = far;

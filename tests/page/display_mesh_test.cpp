@@ -21,7 +21,7 @@ TriMesh colored_torus(std::uint32_t n)
     return mesh;
 }
 
-TEST(DisplayMesh, NeedsNeitherColoursNorPoints)
+TEST(DisplayMesh, NeedsNeitherColorsNorPoints)
 {
     const TriMesh shown = display_mesh(testing::torus(20), 300);
     EXPECT_GT(shown.faces.size(), 250U);
@@ -30,7 +30,7 @@ TEST(DisplayMesh, NeedsNeitherColoursNorPoints)
     EXPECT_TRUE(shown.points.empty());
 }
 
-TEST(DisplayMesh, LeavesASmallSurfaceAsItIs)
+TEST(DisplayMesh, KeepsASmallSurface)
 {
     const TriMesh mesh = colored_torus(10);
     const TriMesh shown = display_mesh(mesh, static_cast<std::int64_t>(mesh.faces.size()));
@@ -38,7 +38,7 @@ TEST(DisplayMesh, LeavesASmallSurfaceAsItIs)
     EXPECT_EQ(shown.positions, mesh.positions);
 }
 
-TEST(DisplayMesh, HasNoMoreFacesThanAskedAndTheSameShape)
+TEST(DisplayMesh, KeepsTheShapeWithinTheLimit)
 {
     const TriMesh mesh = colored_torus(40);
     const TriMesh shown = display_mesh(mesh, 800);
@@ -49,7 +49,7 @@ TEST(DisplayMesh, HasNoMoreFacesThanAskedAndTheSameShape)
     EXPECT_NEAR(check.area, check_mesh(mesh).area, 0.05 * check_mesh(mesh).area);
 }
 
-TEST(DisplayMesh, KeepsWhatBelongsToAVertex)
+TEST(DisplayMesh, KeepsVertexAttributes)
 {
     const TriMesh mesh = colored_torus(40);
     const TriMesh shown = display_mesh(mesh, 500);
@@ -62,7 +62,7 @@ TEST(DisplayMesh, KeepsWhatBelongsToAVertex)
     }
 }
 
-/// Pieces of one face each, which nothing can be collapsed in.
+/// Components of one face each, which cannot be collapsed.
 TriMesh confetti(std::uint32_t count)
 {
     TriMesh mesh;
@@ -74,7 +74,7 @@ TriMesh confetti(std::uint32_t count)
     return mesh;
 }
 
-TEST(DisplayMesh, ChoosesPiecesThatCannotBeCollapsed)
+TEST(DisplayMesh, ChoosesComponentsThatCannotBeCollapsed)
 {
     const TriMesh mesh = confetti(1000);
     const TriMesh shown = display_mesh(mesh, 100);
@@ -89,12 +89,12 @@ TEST(DisplayMesh, ChoosesPiecesThatCannotBeCollapsed)
     }
 }
 
-TEST(DisplayMesh, TakesAnyTriangles)
+TEST(DisplayMesh, AcceptsAnyTriangles)
 {
     EXPECT_LE(display_mesh(testing::random_soup(3000, 5), 300).faces.size(), 300U);
 }
 
-TEST(DisplayMesh, IsTheSameForAnyNumberOfThreads)
+TEST(DisplayMesh, IsByteIdenticalForAnyThreadCount)
 {
     for (const TriMesh& mesh : {colored_torus(90), confetti(9000)}) {
         TriMesh one;
@@ -119,9 +119,9 @@ TriMesh triangle()
     return mesh;
 }
 
-TEST(EdgeParts, AreSoManyThatNoPartIsTooLong)
+TEST(EdgeParts, LimitTheLengthOfParts)
 {
-    // The longest edges are 1 and the square root of 2 long.
+    // The longest edges of the square's faces are the square root of 2 long.
     const TriMesh square = testing::square();
     EXPECT_THAT(edge_parts(square, 1.5, 1000), ElementsAre(1, 1));
     EXPECT_THAT(edge_parts(square, 1.0, 1000), ElementsAre(2, 2));
@@ -130,7 +130,7 @@ TEST(EdgeParts, AreSoManyThatNoPartIsTooLong)
                 ElementsAre(4, 4, 1, 1));
 }
 
-TEST(EdgeParts, AreFewerWhereThereWouldBeTooManyFaces)
+TEST(EdgeParts, AreReducedIfThereAreTooManyFaces)
 {
     EXPECT_THAT(edge_parts(testing::square(), 0.5, 32), ElementsAre(4, 4));
     EXPECT_THAT(edge_parts(testing::square(), 0.5, 31), ElementsAre(2, 2));
@@ -142,7 +142,7 @@ TEST(EdgeParts, AreAtMost64)
     EXPECT_THAT(edge_parts(testing::square(), 1e-3, 1'000'000), Each(64));
 }
 
-TEST(GridPlaces, LieBetweenTheCornersRowByRow)
+TEST(GridPlaces, AreBetweenTheCornersRowByRow)
 {
     const std::vector<std::int32_t> two = {2};
     EXPECT_THAT(
@@ -157,7 +157,7 @@ TEST(GridPlaces, LieBetweenTheCornersRowByRow)
                     Eigen::Vector3d(2, 4, 0), Eigen::Vector3d(3, 0, 0), Eigen::Vector3d(3, 2, 0)));
 }
 
-TEST(GridPlaces, AreNoneOfFacesThatAreNotCut)
+TEST(GridPlaces, AreEmptyForFacesThatAreNotSplit)
 {
     const std::vector<std::int32_t> one = {1};
     EXPECT_THAT(grid_places(triangle(), one), IsEmpty());

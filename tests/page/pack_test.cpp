@@ -46,7 +46,7 @@ std::string base64_of(std::string_view text)
     return base64(std::vector<std::uint8_t>(text.begin(), text.end()));
 }
 
-TEST(Base64, IsThatOfTheStandard)
+TEST(Base64, FollowsTheStandard)
 {
     EXPECT_EQ(base64_of(""), "");
     EXPECT_EQ(base64_of("f"), "Zg==");
@@ -56,7 +56,7 @@ TEST(Base64, IsThatOfTheStandard)
     EXPECT_EQ(base64(std::vector<std::uint8_t>{0xfb, 0xff, 0xfe}), "+//+");
 }
 
-TEST(PackPositions, KeepsPlacesToHalfAQuantumBesideOnesFarOut)
+TEST(PackPositions, RoundsToHalfAQuantumBesideDistantPoints)
 {
     std::vector<Vector3d> positions = {{1e4, -3e3, 7e5}};
     for (std::uint64_t i = 0; i < 500; ++i) {
@@ -76,7 +76,7 @@ TEST(PackPositions, KeepsPlacesToHalfAQuantumBesideOnesFarOut)
     EXPECT_NEAR(packed.quantum.x(), 1e4 / 16777215.0, 1e-6);
 }
 
-TEST(PackPositions, HoldsABoxWithoutThickness)
+TEST(PackPositions, AcceptsABoxWithoutThickness)
 {
     const std::vector<Vector3d> positions = {{1, 5, 2}, {3, 5, 2}};
     const PackedPositions packed = pack_positions(positions);
@@ -86,7 +86,7 @@ TEST(PackPositions, HoldsABoxWithoutThickness)
     EXPECT_EQ(packed.quantum.y(), 0.0);
 }
 
-TEST(PackPositions, GivesNothingOfNothing)
+TEST(PackPositions, IsEmptyWithoutPositions)
 {
     EXPECT_EQ(pack_positions({}).data, "");
 }
@@ -104,13 +104,13 @@ TEST(PackColors, IsExact)
     EXPECT_EQ(decoded(pack_colors(colors)), (std::vector<std::uint8_t>{1, 2, 3, 255, 0, 128}));
 }
 
-TEST(PackBytes, KeepsWhatAByteHolds)
+TEST(PackBytes, ClampsToAByte)
 {
     EXPECT_EQ(decoded(pack_bytes(std::vector<std::int32_t>{0, 7, 255, 256, 70000})),
               (std::vector<std::uint8_t>{0, 7, 255, 255, 255}));
 }
 
-TEST(PackErrors, CountsThousandthsOfAPixelAndKnowsTheUnknown)
+TEST(PackErrors, UsesThousandthsOfAPixelAndMarksUnknownErrors)
 {
     const std::vector<std::uint8_t> bytes =
         decoded(pack_errors(std::vector<double>{0.0, 0.2561, 1e9, -1.0}));

@@ -19,18 +19,18 @@ Scene two_points()
     return scene;
 }
 
-TEST(PackedScene, TurnsTheMeanOfTheImagesUpAndStartsFromTheBestView)
+TEST(PackedScene, UsesTheMeanUpDirectionAndTheBestView)
 {
     const auto json = packed_scene(two_points());
-    // The views of make_scene are not turned: y is down, z forward.
+    // The views of make_scene are not rotated: y is down, z is forward.
     EXPECT_EQ(json["up"], (std::vector<double>{0, -1, 0}));
-    EXPECT_EQ(json["start"]["view"], 1); // the only one that saw all points
+    EXPECT_EQ(json["start"]["view"], 1); // the only view that sees all points
     EXPECT_EQ(json["start"]["depth"], -5.0);
     EXPECT_EQ(json["views"].size(), 3U);
     EXPECT_EQ(json["views"][1]["forward"], (std::vector<double>{0, 0, 1}));
 }
 
-TEST(PackedScene, TellsTheSizeOfAnImageAtDistanceOne)
+TEST(PackedScene, ContainsTheImageSizeAtDistanceOne)
 {
     Scene scene = two_points();
     for (Camera& camera : scene.cameras) {
@@ -39,13 +39,13 @@ TEST(PackedScene, TellsTheSizeOfAnImageAtDistanceOne)
     }
     const auto json = packed_scene(scene);
     EXPECT_EQ(json["views"][0]["half_size"], (std::vector<double>{1.0, 0.6}));
-    scene.cameras[0].params = {100, 100, 400, 300}; // far too wide to be looked through
+    scene.cameras[0].params = {100, 100, 400, 300}; // too wide to look through
     EXPECT_EQ(packed_scene(scene)["views"][0]["half_size"], (std::vector<double>{1.5, 1.125}));
     scene.cameras[0].model = -1;
     EXPECT_TRUE(packed_scene(scene)["views"][0]["half_size"].is_null());
 }
 
-TEST(PackedScene, ShowsNoMoreThanItsLimits)
+TEST(PackedScene, RespectsItsLimits)
 {
     const auto json = packed_scene(bumpy_sphere(500, 1), {.points = 50, .views = 3});
     EXPECT_EQ(json["points"]["of"], 500);
@@ -54,14 +54,14 @@ TEST(PackedScene, ShowsNoMoreThanItsLimits)
     EXPECT_GT(json["views_of"], 3);
 }
 
-TEST(PackedScene, HoldsNothingOfNothing)
+TEST(PackedScene, IsEmptyForAnEmptyScene)
 {
     const auto json = packed_scene({});
     EXPECT_TRUE(json["start"].is_null());
     EXPECT_EQ(json["views"].size(), 0U);
 }
 
-TEST(PackedDepth, HasBothPicturesAndTheNameOfTheView)
+TEST(PackedDepth, ContainsBothImagesAndTheNameOfTheView)
 {
     Scene scene;
     scene.views.resize(2);
@@ -75,7 +75,7 @@ TEST(PackedDepth, HasBothPicturesAndTheNameOfTheView)
     EXPECT_TRUE(packed_depth({}, scene).is_null());
 }
 
-TEST(PackedTexture, IsSmallerThanItsLimit)
+TEST(PackedTexture, RespectsItsLimit)
 {
     Texture texture;
     texture.pages = {Photograph{64, 32, std::vector<std::uint8_t>(3 * 64 * 32, 100)}};

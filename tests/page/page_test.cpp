@@ -18,7 +18,7 @@ using ::testing::Not;
 
 const std::string kNasty = "a</script><script>x()</script><img src=x onerror=y()>&amp;{{three}}";
 
-TEST(PageName, EndsAsHtml)
+TEST(PageName, MustEndWithHtml)
 {
     EXPECT_NO_THROW(require_page_name("a/out.html"));
     EXPECT_NO_THROW(require_page_name("OUT.HTM"));
@@ -27,14 +27,14 @@ TEST(PageName, EndsAsHtml)
     EXPECT_NE(refusal<UsageError>([] { require_page_name("html"); }), "");
 }
 
-TEST(JsonForHtml, HoldsNothingThatHtmlReads)
+TEST(JsonForHtml, ContainsNoHtmlSyntax)
 {
     const std::string text = json_for_html({{"name", kNasty}, {kNasty, 1}});
     EXPECT_EQ(text.find_first_of("<>&"), std::string::npos);
     EXPECT_EQ(Json::parse(text), Json({{"name", kNasty}, {kNasty, 1}}));
 }
 
-TEST(JsonForHtml, ReplacesWhatIsNoUtf8)
+TEST(JsonForHtml, ReplacesInvalidUtf8)
 {
     EXPECT_EQ(json_for_html({{"name", "a\xff"}}), "{\"name\":\"a\xef\xbf\xbd\"}");
 }
@@ -46,7 +46,7 @@ std::string page_of(const Json& record)
     return out.str();
 }
 
-TEST(Page, HoldsItsPartsOnceAndNoMarks)
+TEST(Page, ContainsEachPartOnceAndNoPlaceholders)
 {
     const std::string page = page_of({{"output", "mesh.ply"}});
     const std::string bare = page_of({{"output", ""}});
@@ -61,14 +61,14 @@ TEST(Page, HoldsItsPartsOnceAndNoMarks)
     EXPECT_EQ(page.size(), bare.size() + 8);
 }
 
-TEST(Page, LetsNoNameFromAFileBreakOut)
+TEST(Page, EscapesNamesFromFiles)
 {
     const std::string page = page_of({{"output", kNasty}, {"command", kNasty}});
     EXPECT_THAT(page, Not(HasSubstr("<img src")));
     EXPECT_THAT(page, Not(HasSubstr("<script>x()")));
 }
 
-TEST(Page, AsksTheNetworkForNothing)
+TEST(Page, RequestsNothingFromTheNetwork)
 {
     std::string own;
     for (const std::string_view part :

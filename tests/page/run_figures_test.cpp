@@ -9,8 +9,7 @@
 namespace vcarve::run_figures_test {
 namespace {
 
-/// Nine right triangles with sides of 1, and one of 40 x 1, from points seen by two and three
-/// views.
+/// Nine right triangles with legs of 1, and one with legs of 40 and 1.
 TriMesh triangles()
 {
     TriMesh mesh;
@@ -48,7 +47,7 @@ TEST(SurfaceFigures, MeasureAreasAndPoints)
     EXPECT_EQ(figures.errors_px.median, 0.75);
 }
 
-TEST(SurfaceFigures, CountMeasuredPointsAlone)
+TEST(SurfaceFigures, CountOnlyMeasuredPoints)
 {
     Scene scene = two_points();
     scene.kinds = {PointKind::measured, PointKind::measured, PointKind::border};
@@ -60,7 +59,7 @@ TEST(SurfaceFigures, CountMeasuredPointsAlone)
     EXPECT_EQ(figures.errors_px.median, 0.25);
 }
 
-TEST(SurfaceFigures, AreNoneOfNothing)
+TEST(SurfaceFigures, AreEmptyForAnEmptyMesh)
 {
     const SurfaceFigures figures = surface_figures({}, {}, {});
     EXPECT_EQ(figures.unsupported_area, 0.0);
@@ -72,7 +71,7 @@ TEST(SurfaceFigures, AreNoneOfNothing)
 using Counts = std::vector<std::int64_t>;
 using Bounds = std::vector<double>;
 
-TEST(HistogramOfCounts, CountsWholeNumbersOneByOne)
+TEST(HistogramOfCounts, CountsEachInteger)
 {
     const Histogram histogram = histogram_of_counts({2, 3, 2, 5, 2}, 10);
     EXPECT_EQ(histogram.bounds, (Bounds{2, 3, 4, 5, 6}));
@@ -83,7 +82,7 @@ TEST(HistogramOfCounts, CountsWholeNumbersOneByOne)
     EXPECT_EQ(histogram.largest, 5.0);
 }
 
-TEST(HistogramOfCounts, CountsALongTailTogether)
+TEST(HistogramOfCounts, CountsALongTailAsBeyond)
 {
     const Histogram histogram = histogram_of_counts({2, 3, 4, 99, 1000}, 3);
     EXPECT_EQ(histogram.bounds, (Bounds{2, 3, 4, 5}));
@@ -92,7 +91,7 @@ TEST(HistogramOfCounts, CountsALongTailTogether)
     EXPECT_EQ(histogram.largest, 1000.0);
 }
 
-TEST(HistogramOfLengths, HasRoundSteps)
+TEST(HistogramOfLengths, HasRoundBounds)
 {
     const Histogram histogram = histogram_of_lengths({0.0, 0.1, 0.9, 1.0, 1.9, 3.7}, 4);
     EXPECT_EQ(histogram.bounds, (Bounds{0, 1, 2, 3, 4}));
@@ -100,7 +99,7 @@ TEST(HistogramOfLengths, HasRoundSteps)
     EXPECT_EQ(histogram.beyond, 0);
 }
 
-TEST(HistogramOfLengths, LeavesOutliersToOneColumn)
+TEST(HistogramOfLengths, CountsOutliersAsBeyond)
 {
     std::vector<double> lengths(1000, 1.0);
     lengths[7] = 1e6;
@@ -112,7 +111,7 @@ TEST(HistogramOfLengths, LeavesOutliersToOneColumn)
     EXPECT_LT(histogram.bounds.back(), 2.0);
 }
 
-TEST(HistogramOfLengths, TakesZerosAndNothing)
+TEST(HistogramOfLengths, AcceptsZerosAndNoValues)
 {
     EXPECT_EQ(histogram_of_lengths({0.0, 0.0}, 10).counts, (Counts{2}));
     EXPECT_EQ(histogram_of_lengths({}, 10).values, 0);

@@ -9,7 +9,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Sentences = std::vector<std::string>;
 
-/// Figures that nobody needs to be warned of.
+/// Figures that cause no warning.
 SurfaceFigures good_figures()
 {
     SurfaceFigures figures;
@@ -41,31 +41,32 @@ Sentences about(const SurfaceFigures& figures)
     return warnings_of(figures, Json::object());
 }
 
-TEST(Warnings, AreNoneOfGoodFigures)
+TEST(Warnings, AreEmptyForGoodFigures)
 {
     const Json record = record_with(
         {{"points", 5}, {"of points", 10}, {"low angle", 1}, {"few views", 1}, {"duplicate", 1}},
-        {{"sights on the outside", 90}, {"of sights on the outside", 100}});
+        {{"rays on the outside", 90}, {"of rays on the outside", 100}});
     EXPECT_EQ(warnings_of(good_figures(), record), Sentences());
     EXPECT_EQ(about(good_figures()), Sentences());
 }
 
-TEST(Warnings, NameTheOptionThatManyPointsFellTo)
+TEST(Warnings, NameTheOptionThatDroppedManyPoints)
 {
     EXPECT_EQ(warnings_of(good_figures(), filtered("low angle", 334)),
-              Sentences{"33 % of the points fell to --min-angle: their sights meet at too small an "
-                        "angle to tell how far they are."});
+              Sentences{"33 % of the points were dropped by --min-angle: the angle between their "
+                        "rays is too small to fix their depth."});
     EXPECT_EQ(warnings_of(good_figures(), filtered("few views", 200)),
-              Sentences{"20 % of the points fell to --min-views: too few views saw them."});
+              Sentences{"20 % of the points were dropped by --min-views: too few views see them."});
     EXPECT_EQ(warnings_of(good_figures(), filtered("high error", 500)),
-              Sentences{"50 % of the points fell to --max-error: they were measured too badly."});
+              Sentences{"50 % of the points were dropped by --max-error: their reprojection errors "
+                        "are too large."});
     EXPECT_EQ(warnings_of(good_figures(), filtered("duplicate", 201)),
-              Sentences{"20 % of the points lie where another point lies and became one with it."});
+              Sentences{"20 % of the points coincide with another point and were merged with it."});
     EXPECT_EQ(warnings_of(good_figures(), filtered("non-finite", 1000)),
-              Sentences{"100 % of the points have no finite coordinates."});
+              Sentences{"100 % of the points have non-finite coordinates."});
 }
 
-TEST(Warnings, SayNothingOfFewDroppedPoints)
+TEST(Warnings, IgnoreFewDroppedPoints)
 {
     for (const char* reason :
          {"low angle", "few views", "high error", "duplicate", "non-finite", "stray"}) {
@@ -73,42 +74,42 @@ TEST(Warnings, SayNothingOfFewDroppedPoints)
     }
 }
 
-TEST(Warnings, TellOfAreaThatNobodySaw)
+TEST(Warnings, ReportUnsupportedArea)
 {
     SurfaceFigures figures = good_figures();
     figures.unsupported_area = 0.12;
     EXPECT_EQ(
         about(figures),
-        Sentences{"12 % of the surface has a corner that no camera saw from its front; colour "
-                  "by support to see where."});
+        Sentences{"12 % of the surface is unsupported: these faces have a corner that no view "
+                  "sees from the front. Color by support to see them."});
 }
 
-TEST(Warnings, TellOfLongFaces)
+TEST(Warnings, ReportLongFaces)
 {
     SurfaceFigures figures = good_figures();
     figures.long_area = 0.75;
     EXPECT_EQ(about(figures),
-              Sentences{"75 % of the surface is in faces with an edge over 10 times the median "
-                        "edge: they span places where points are few."});
+              Sentences{"75 % of the surface is in faces with an edge above 10 times the median "
+                        "edge: they span regions with few points."});
 }
 
-TEST(Warnings, TellOfWeakPoints)
+TEST(Warnings, ReportWeakPoints)
 {
     SurfaceFigures figures = good_figures();
     figures.track_lengths.median = 2.0;
     EXPECT_EQ(
         about(figures),
-        Sentences{"At least half of the points were seen by no more than two views, so that a "
-                  "wrong match is hard to tell from a point."});
+        Sentences{"At least half of the points have no more than two views, so wrong matches are "
+                  "hard to detect."});
     figures = good_figures();
     figures.errors_px.median = 1.72;
     EXPECT_EQ(
         about(figures),
-        Sentences{"Half of the points lie 1.7 px or more from where the images show them; the "
-                  "cameras may not be calibrated well."});
+        Sentences{"Half of the points have a reprojection error of 1.7 px or more; the calibration "
+                  "of the cameras may be inaccurate."});
 }
 
-TEST(Warnings, SayNothingOfFiguresThatAreNotKnown)
+TEST(Warnings, IgnoreUnknownFigures)
 {
     SurfaceFigures figures = good_figures();
     figures.track_lengths = {};
@@ -116,19 +117,19 @@ TEST(Warnings, SayNothingOfFiguresThatAreNotKnown)
     EXPECT_EQ(about(figures), Sentences());
 }
 
-TEST(Warnings, TellOfATinySurface)
+TEST(Warnings, ReportATinySurface)
 {
     SurfaceFigures figures = good_figures();
     figures.faces = 199;
     EXPECT_EQ(about(figures), Sentences{"The surface has only 199 faces."});
 }
 
-TEST(Warnings, TellOfSightsFromBehind)
+TEST(Warnings, ReportRaysFromBehind)
 {
-    const Json record = record_with(
-        Json::object(), {{"sights on the outside", 89}, {"of sights on the outside", 100}});
+    const Json record =
+        record_with(Json::object(), {{"rays on the outside", 89}, {"of rays on the outside", 100}});
     EXPECT_EQ(warnings_of(good_figures(), record),
-              Sentences{"11 % of the sights meet the surface from behind."});
+              Sentences{"11 % of the rays hit the surface from behind."});
 }
 
 } // namespace

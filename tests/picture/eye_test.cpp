@@ -24,8 +24,8 @@ View view_of(std::uint32_t id, const Vector3d& center)
     return view;
 }
 
-/// Three views beside each other, 10 before four points, which look along z; -y is up. Views 0 and
-/// 2 see three points, view 1 one.
+/// Three views side by side, which look along z at four points at z = 10; -y is up. Views 0 and 2
+/// see three points, view 1 sees one.
 Scene scene_ahead()
 {
     Scene scene;
@@ -41,13 +41,13 @@ Scene scene_ahead()
     return scene;
 }
 
-/// Where a place of the model's frame is in the picture.
+/// Projects a point of the model's frame to a pixel.
 Eigen::Vector2d pixel_of(const Eye& eye, const Vector3d& place)
 {
     return project(eye.camera, eye.cam_from_world * (place - eye.center)).value();
 }
 
-TEST(ChooseEye, IsTheFirstOfTheViewsThatSeeMost)
+TEST(ChooseEye, SelectsTheFirstViewThatSeesMost)
 {
     const Eye eye = choose_eye(scene_ahead(), "auto");
     EXPECT_EQ(eye.name, "a.jpg");
@@ -59,7 +59,7 @@ TEST(ChooseEye, IsTheFirstOfTheViewsThatSeeMost)
     EXPECT_EQ(choose_eye(scene, "auto").name, "c.jpg");
 }
 
-TEST(ChooseEye, PassesOverViewsWhoseLensIsNotKnown)
+TEST(ChooseEye, SkipsViewsWithUnknownLenses)
 {
     Scene scene = scene_ahead();
     scene.cameras.push_back({.id = 5, .model = -1, .width_px = 40, .height_px = 30, .params = {}});
@@ -69,53 +69,55 @@ TEST(ChooseEye, PassesOverViewsWhoseLensIsNotKnown)
     scene.views[1].camera = 1;
     EXPECT_EQ(choose_eye(scene, "auto").name, "orbit");
     EXPECT_EQ(refusal<UsageError>([&] { choose_eye(scene, "b.jpg"); }),
-              "--view b.jpg: nothing can be shown through that image's camera 5, because its lens "
-              "is not known");
+              "--view b.jpg: the view through camera 5 cannot be drawn, because its lens model is "
+              "unknown");
 }
 
-TEST(ChooseEye, IsTheViewOfTheName)
+TEST(ChooseEye, SelectsAViewByName)
 {
     EXPECT_EQ(choose_eye(scene_ahead(), "b.jpg").center, Vector3d(100, 200, 300));
 }
 
-TEST(ChooseEye, RefusesANameThatNoImageHas)
+TEST(ChooseEye, RefusesUnknownNames)
 {
     Scene scene = scene_ahead();
-    EXPECT_EQ(refusal<UsageError>([&] { choose_eye(scene, "x.jpg"); }),
-              "--view takes auto, top, orbit or the name of an image, but the model has no image "
-              "x.jpg: it has 3 (a.jpg, b.jpg, c.jpg)");
+    EXPECT_EQ(
+        refusal<UsageError>([&] { choose_eye(scene, "x.jpg"); }),
+        "--view must be auto, top, orbit or the name of an image, but \"x.jpg\" is none of the 3 "
+        "images (a.jpg, b.jpg, c.jpg)");
     scene.views.push_back(view_of(3, {0, 0, 0}));
     EXPECT_EQ(refusal<UsageError>([&] { choose_eye(scene, ""); }),
-              "--view takes auto, top, orbit or the name of an image, but the model has no image "
-              ": it has 4 (a.jpg, b.jpg, c.jpg, ...)");
+              "--view must be auto, top, orbit or the name of an image, but \"\" is none of the 4 "
+              "images (a.jpg, b.jpg, c.jpg, ...)");
     scene.views[0].name = "a\x1b[2J";
-    EXPECT_THAT(refusal<UsageError>([&] { choose_eye(scene, "x"); }),
-                ::testing::HasSubstr("x: it has 4 (a?[2J, b.jpg, c.jpg, ...)"));
+    EXPECT_THAT(
+        refusal<UsageError>([&] { choose_eye(scene, "x"); }),
+        ::testing::HasSubstr("but \"x\" is none of the 4 images (a?[2J, b.jpg, c.jpg, ...)"));
 }
 
-TEST(ChooseEye, LooksDownFromTheTopWithTheCamerasBelow)
+TEST(ChooseEye, LooksDownFromTopWithCamerasAtTheBottom)
 {
     const Eye eye = choose_eye(scene_ahead(), "top");
     EXPECT_TRUE(eye.through_backs);
     EXPECT_EQ(picture_size(eye.camera, 1280.0 * 960.0).x(), 1280);
-    // Straight above the middle of the ball, which is that of the sights: up is -y.
+    // Straight above the center of the ball; up is -y.
     const Vector3d down = eye.cam_from_world.conjugate() * Vector3d::UnitZ();
     EXPECT_TRUE(down.isApprox(Vector3d::UnitY(), 1e-12)) << down.transpose();
     const Vector3d middle = eye.center + down * 5.0;
     EXPECT_TRUE(pixel_of(eye, middle).isApprox(Eigen::Vector2d(640, 480), 1e-9));
-    // Nearer to the cameras is lower in the picture.
+    // Points nearer to the cameras are lower in the picture.
     EXPECT_GT(pixel_of(eye, middle - Vector3d::UnitZ()).y(), 480.0);
     EXPECT_GT(pixel_of(eye, middle + Vector3d::UnitX()).x(), 640.0);
 }
 
-TEST(ChooseEye, LooksFromTheSideOfTheCamerasInOrbit)
+TEST(ChooseEye, LooksFromTheSideOfTheCamerasFromOrbit)
 {
     const Eye eye = choose_eye(scene_ahead(), "orbit");
     EXPECT_EQ(eye.name, "orbit");
     const Vector3d ahead = eye.cam_from_world.conjugate() * Vector3d::UnitZ();
     EXPECT_NEAR(ahead.y(), std::sin(35.0 * EIGEN_PI / 180.0), 1e-12);
     EXPECT_GT(ahead.z(), 0.8);
-    // What is up is up in the picture, and the points are all in it.
+    // Up is up in the picture, and all points are in it.
     const Vector3d middle(100, 200, 310);
     EXPECT_LT(pixel_of(eye, middle - 0.1 * Vector3d::UnitY()).y(), pixel_of(eye, middle).y());
     for (const Vector3d& position : scene_ahead().positions) {
@@ -124,9 +126,9 @@ TEST(ChooseEye, LooksFromTheSideOfTheCamerasInOrbit)
     }
 }
 
-TEST(ChooseEye, TakesBackwardsForUpWhereTheCamerasUpsCancelOut)
+TEST(ChooseEye, UsesBackwardAsUpIfUpDirectionsCancelOut)
 {
-    // A drone looks straight down, once on its way there and once on its way back.
+    // A drone looks straight down on its way out and on its way back.
     Scene scene = scene_ahead();
     scene.views.resize(2);
     scene.tracks = {};
@@ -139,7 +141,7 @@ TEST(ChooseEye, TakesBackwardsForUpWhereTheCamerasUpsCancelOut)
     EXPECT_TRUE(ahead.isApprox(Vector3d::UnitZ(), 1e-9)) << ahead.transpose();
 }
 
-TEST(ChooseEye, TakesZForUpInALaserScan)
+TEST(ChooseEye, UsesZAsUpForLaserScans)
 {
     Scene scene = scene_ahead();
     scene.cameras[0] = {.id = 4, .model = -1, .params = {}, .measures_range = true};
@@ -148,7 +150,7 @@ TEST(ChooseEye, TakesZForUpInALaserScan)
     EXPECT_TRUE(ahead.isApprox(-Vector3d::UnitZ(), 1e-9)) << ahead.transpose();
 }
 
-TEST(ChooseEye, StandsSomewhereEvenWithoutSightsOrViews)
+TEST(ChooseEye, ReturnsFiniteValuesWithoutRaysOrViews)
 {
     Scene scene = scene_ahead();
     scene.views.clear();
@@ -161,7 +163,7 @@ TEST(ChooseEye, StandsSomewhereEvenWithoutSightsOrViews)
     }
 }
 
-TEST(PictureSize, HasTheProportionsOfTheImageAndAtMostSoManyPixels)
+TEST(PictureSize, KeepsTheAspectRatioWithinThePixelLimit)
 {
     const auto size = [](std::uint64_t width_px, std::uint64_t height_px) -> Eigen::Array2i {
         return picture_size({.width_px = width_px, .height_px = height_px, .params = {}},
@@ -180,7 +182,7 @@ Camera camera_of(int model, std::vector<double> params)
         .id = 1, .model = model, .width_px = 1000, .height_px = 750, .params = std::move(params)};
 }
 
-TEST(LensRays, AreTheLensesOwnWithinAHundredthOfAPixel)
+TEST(LensRays, AreExactToAHundredthOfAPixel)
 {
     const std::vector<Camera> cameras = {
         camera_of(0, {900, 500, 375}),                                  // SIMPLE_PINHOLE
@@ -208,10 +210,10 @@ TEST(LensRays, AreTheLensesOwnWithinAHundredthOfAPixel)
     }
 }
 
-TEST(LensRays, HaveNoneWhereTheLensHasNone)
+TEST(LensRays, AreEmptyWhereTheLensHasNoDirection)
 {
-    // From where this distortion turns back on, there are no directions; it does so at a radius of
-    // 1 / sqrt(3 * 0.5) focal lengths, which it brings to 2 / 3 of that, 0.544 or 436 px.
+    // This distortion is not invertible beyond a radius of 1 / sqrt(3 * 0.5) focal lengths. It maps
+    // this radius to 2 / 3 of it, which is 0.544 focal lengths or 436 px.
     const Camera camera = camera_of(2, {800, 500, 375, -0.5});
     const LensRays rays(camera, {200, 150});
     const Eigen::Array2d middle(0.5, 0.5);

@@ -19,7 +19,7 @@ Vector3d any_place(std::mt19937& random)
     return {share(), share(), share()};
 }
 
-/// Triangles about the origin, moved by `offset`.
+/// Random triangles around `offset`.
 TriMesh any_triangles(int count, const Vector3d& offset)
 {
     std::mt19937 random(3);
@@ -35,7 +35,7 @@ TriMesh any_triangles(int count, const Vector3d& offset)
     return mesh;
 }
 
-/// What a ray from the eye first meets, by trying every face; `is_close` where rounding may decide.
+/// The first hit of a ray by brute force; `is_close` if it depends on rounding.
 struct Tried {
     std::uint32_t any = FirstFace::kNone;
     std::uint32_t front = FirstFace::kNone;
@@ -70,7 +70,7 @@ Tried try_all(const TriMesh& mesh, const Vector3d& eye, const Vector3d& towards)
     return tried;
 }
 
-/// How many of 3000 rays meet a back before a front, after all were compared.
+/// Compares 3000 rays with brute force. Returns how many hit a back side before a front side.
 int compare_rays(const Vector3d& offset)
 {
     const TriMesh mesh = any_triangles(300, offset);
@@ -89,17 +89,17 @@ int compare_rays(const Vector3d& offset)
     return backs;
 }
 
-TEST(FirstFaces, AreThoseFoundByTryingAll)
+TEST(FirstFaces, MatchBruteForce)
 {
     EXPECT_GT(compare_rays(Vector3d::Zero()), 100);
 }
 
-TEST(FirstFaces, AreTheSameAMillionSizesFromZero)
+TEST(FirstFaces, MatchBruteForceFarFromTheOrigin)
 {
     EXPECT_GT(compare_rays({3e6, -5e6, 1e6}), 100);
 }
 
-TEST(FirstFaces, TellTheSharesOfTheCorners)
+TEST(FirstFaces, ReturnBarycentricCoordinates)
 {
     TriMesh mesh;
     mesh.positions = {{-1, -1, 4}, {3, -1, 4}, {-1, 3, 4}};
@@ -114,9 +114,9 @@ TEST(FirstFaces, TellTheSharesOfTheCorners)
     EXPECT_NEAR(right.third, 0.25, 1e-6);
 }
 
-TEST(FirstFaces, LeaveNoCracksBetweenNeighbours)
+TEST(FirstFaces, LeaveNoCracksBetweenNeighbors)
 {
-    // A fan of needles around the axis: rays in its plane go through edges and the middle.
+    // A fan of thin triangles around the axis. Rays hit its edges and its center.
     TriMesh mesh;
     mesh.positions = {{0, 0, 1}};
     constexpr std::uint32_t kCorners = 1000;
@@ -136,7 +136,7 @@ TEST(FirstFaces, LeaveNoCracksBetweenNeighbours)
     }
 }
 
-TEST(FirstFaces, AreNoneOfAMeshWithoutFacesOrArea)
+TEST(FirstFaces, IgnoreFacesWithoutArea)
 {
     TriMesh mesh;
     EXPECT_EQ(FirstFaces(mesh, Vector3d::Zero()).along(Vector3d::UnitZ()).face, FirstFace::kNone);
@@ -145,7 +145,7 @@ TEST(FirstFaces, AreNoneOfAMeshWithoutFacesOrArea)
     EXPECT_EQ(FirstFaces(mesh, Vector3d::Zero()).along(Vector3d::UnitZ()).face, FirstFace::kNone);
 }
 
-TEST(FirstFaces, FindsFromAnotherPlaceWhatItFindsFromThere)
+TEST(FirstFaces, FindTheSameFacesFromAnotherPoint)
 {
     const TriMesh mesh = any_triangles(300, {3, 4, 5});
     const FirstFaces faces(mesh, {3, 4, 5});
@@ -161,7 +161,7 @@ TEST(FirstFaces, FindsFromAnotherPlaceWhatItFindsFromThere)
         same += faces.from(place, towards).face == expected ? 1 : 0;
     }
     EXPECT_GT(met, 500);
-    EXPECT_GE(same, 1998); // but for rays through an edge
+    EXPECT_GE(same, 1998); // rays through edges may differ
 }
 
 } // namespace

@@ -25,7 +25,7 @@ Picture numbered(int width_px, int height_px)
     return picture;
 }
 
-TEST(Picture, ShrunkHoldsTheMeanOfEachSquareAndLeavesOutTheRest)
+TEST(Picture, ShrinksToTheMeansOfCompleteSquares)
 {
     const Picture half = shrunk(numbered(5, 3), 2);
     EXPECT_EQ(half.width_px, 2);
@@ -35,7 +35,7 @@ TEST(Picture, ShrunkHoldsTheMeanOfEachSquareAndLeavesOutTheRest)
     EXPECT_TRUE((half.pixels[1] == Eigen::Array3f(5.0F, 10.0F, 4.0F)).all());
 }
 
-TEST(Picture, TakesAPartAtItsPlace)
+TEST(Picture, PastesAPartAtAPixel)
 {
     Picture whole = even_picture(4, 3, Eigen::Array3f::Constant(9.0F));
     paste(numbered(2, 2), 1, 1, whole);
@@ -46,7 +46,7 @@ TEST(Picture, TakesAPartAtItsPlace)
     EXPECT_THAT(reds, ElementsAre(9, 9, 9, 9, 9, 0, 1, 9, 9, 2, 3, 9));
 }
 
-TEST(Picture, IsWrittenWithEightBitsAChannelRoundedAndClamped)
+TEST(Picture, WritesRoundedAndClampedBytes)
 {
     const TemporaryFolder folder;
     const auto path = folder / "two.png";
@@ -58,7 +58,7 @@ TEST(Picture, IsWrittenWithEightBitsAChannelRoundedAndClamped)
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST(Picture, RefusesAPlaceItCannotWriteTo)
+TEST(Picture, ReportsMissingOutputFolders)
 {
     const TemporaryFolder folder;
     const auto path = folder / "no_folder/one.png";
@@ -70,7 +70,7 @@ TEST(Picture, RefusesAPlaceItCannotWriteTo)
 const Eigen::Array3f kPaper = Eigen::Array3f::Constant(255.0F);
 const Eigen::Array3f kInk = Eigen::Array3f::Zero();
 
-/// '#' where there is ink, row by row.
+/// Returns the rows of a drawn text with '#' for ink.
 std::string drawn(const std::string& text, int scale, int width_px, int height_px,
                   const Eigen::Array2i& at_px = {0, 0})
 {
@@ -96,7 +96,7 @@ TEST(Caption, DrawsALetterDotByDot)
                                    "......");
 }
 
-TEST(Caption, DrawsAsManyPixelsADotAsItsScale)
+TEST(Caption, ScalesDots)
 {
     const std::string small = drawn("a/B9.ply", 1, 60, 14);
     const std::string large = drawn("a/B9.ply", 3, 180, 42);
@@ -108,14 +108,14 @@ TEST(Caption, DrawsAsManyPixelsADotAsItsScale)
     EXPECT_GT(std::ranges::count(small, '#'), 50);
 }
 
-TEST(Caption, ShowsLettersThatItsFontLacksAsOneQuestionMarkEach)
+TEST(Caption, ReplacesMissingLettersByOneQuestionMarkEach)
 {
     EXPECT_EQ(drawn("T\u00e9\u4e2d\tT", 1, 60, 14), drawn("T???T", 1, 60, 14));
     EXPECT_EQ(text_width("\u4e2d"), text_width("?"));
     EXPECT_EQ(text_width(""), 0);
 }
 
-TEST(Caption, IsCutOffAtThePicturesEdges)
+TEST(Caption, IsClippedAtTheEdges)
 {
     const std::string whole = drawn("Town", 1, 40, 20, {10, 5});
     const std::string cut = drawn("Town", 1, 10, 5, {-4, -2});
@@ -126,7 +126,7 @@ TEST(Caption, IsCutOffAtThePicturesEdges)
     }
 }
 
-TEST(Caption, DrawsNoMoreThanFourHundredLetters)
+TEST(Caption, DrawsAtMost400Letters)
 {
     EXPECT_EQ(text_width(std::string(1000, 'T')), text_width(std::string(400, 'T')));
     const std::string dots = drawn(std::string(1000, 'T'), 1, 8000, 9);

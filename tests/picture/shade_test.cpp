@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr int kWidth = 8;
 constexpr int kHeight = 6;
 
-/// From the origin along z, through a lens of 8 x 6 pixels that sees half a unit a pixel at z = 4.
+/// An eye at the origin that looks along z. A pixel of 8 x 6 is half a unit wide at z = 4.
 Eye eye_ahead()
 {
     Eye eye;
@@ -27,7 +27,7 @@ Eye eye_ahead()
     return eye;
 }
 
-/// At z = 4: on the left a face that shows its front, on the upper right one that shows its back.
+/// Two faces at z = 4: one on the left shows its front, one on the upper right its back.
 TriMesh front_and_back()
 {
     TriMesh mesh;
@@ -37,7 +37,7 @@ TriMesh front_and_back()
     return mesh;
 }
 
-/// How bright a wall square to the axis is at a pixel: the mean of four rays.
+/// The brightness at a pixel of a wall perpendicular to the axis: the mean of four rays.
 float light_at(int x, int y)
 {
     double sum = 0.0;
@@ -49,7 +49,7 @@ float light_at(int x, int y)
     return static_cast<float>(sum / 4.0);
 }
 
-/// Expects what front_and_back() shows where its front has this colour.
+/// Expects the picture of front_and_back() with a front of this color.
 void expect_front_and_back(const Looks& looks, const Array3f& color)
 {
     ASSERT_EQ(looks.shaded.width_px, kWidth);
@@ -63,7 +63,7 @@ void expect_front_and_back(const Looks& looks, const Array3f& color)
                 normal = {127.5F, 127.5F, 127.5F * 1.75F}; // towards the eye
             }
             const std::size_t pixel = static_cast<std::size_t>(y) * kWidth + x;
-            // Rays within a pixel are blended: off by 0.01 px of it at most, and so the light.
+            // Rays are interpolated within pixels with an error of at most 0.01 px.
             EXPECT_LT((looks.shaded.pixels[pixel] - shaded).abs().maxCoeff(), 0.1F)
                 << x << ", " << y;
             EXPECT_LT((looks.normals.pixels[pixel] - normal).abs().maxCoeff(), 1e-3F)
@@ -72,7 +72,7 @@ void expect_front_and_back(const Looks& looks, const Array3f& color)
     }
 }
 
-/// A mesh of faces strewn before the eye, each of one colour.
+/// A mesh of random faces in front of the eye, each of one color.
 TriMesh strewn(int count)
 {
     std::mt19937 random(7);
@@ -92,7 +92,7 @@ TriMesh strewn(int count)
     return mesh;
 }
 
-/// The colour a ray from the origin meets, by trying every face.
+/// The color of a ray from the origin, by brute force.
 Array3f tried(const TriMesh& mesh, const Vector3d& towards)
 {
     double nearest = std::numeric_limits<double>::infinity();
@@ -117,34 +117,33 @@ Array3f tried(const TriMesh& mesh, const Vector3d& towards)
     return color;
 }
 
-TEST(LookAt, ShowsFrontsInPlainGreyWithoutColorsAndBacksFlat)
+TEST(LookAt, DrawsUncoloredFrontsGrayAndBacksFlat)
 {
     expect_front_and_back(look_at(front_and_back(), {}, eye_ahead(), 48), kUncolored);
 }
 
-TEST(LookAt, ShowsFrontsInTheirColors)
+TEST(LookAt, DrawsVertexColors)
 {
     TriMesh mesh = front_and_back();
     mesh.colors.assign(mesh.positions.size(), Color{10, 200, 30});
     expect_front_and_back(look_at(mesh, {}, eye_ahead(), 48), {10.0F, 200.0F, 30.0F});
 }
 
-TEST(LookAt, BlendsTheColorsOfCorners)
+TEST(LookAt, InterpolatesVertexColors)
 {
     TriMesh mesh;
     mesh.positions = {{-2, -50, 4}, {-2, 50, 4}, {2, 0, 4}};
     mesh.faces = {{0, 1, 2}};
     mesh.colors = {{0, 80, 0}, {0, 80, 0}, {240, 80, 0}};
     const Looks looks = look_at(mesh, {}, eye_ahead(), 48);
-    // The middle of the pixel in column 2, two units from the left edge of the face, of eight.
+    // The center of a pixel in column 2 is 2.5 of 8 pixels from the left edge of the face.
     EXPECT_NEAR(looks.shaded.pixels[3 * kWidth + 2][0] / light_at(2, 3), 240.0 * 2.5 / 8.0, 0.5);
     EXPECT_NEAR(looks.shaded.pixels[3 * kWidth + 2][1] / light_at(2, 3), 80.0, 0.1);
 }
 
-TEST(LookAt, ColorsNormalsByTheAxesOfTheCamera)
+TEST(LookAt, ColorsNormalsByCameraAxes)
 {
-    // A floor below the camera, which is turned to look along -x, so that its right is -y; world z
-    // is up.
+    // A floor below a camera that looks along -x; world z is up.
     TriMesh mesh;
     mesh.positions = {{5, -50, -1}, {5, 50, -1}, {-90, 0, -1}};
     mesh.faces = {{0, 1, 2}};
@@ -158,13 +157,13 @@ TEST(LookAt, ColorsNormalsByTheAxesOfTheCamera)
     EXPECT_TRUE((looks.normals.pixels[0] == kNothing).all());
 }
 
-TEST(LookAt, LooksThroughBacksIfItIsToUnlessNoFrontIsBehind)
+TEST(LookAt, LooksThroughBacksOnlyToFronts)
 {
     TriMesh mesh = front_and_back();
     for (const double x : {-100.0, 0.0, 100.0}) {
         mesh.positions.emplace_back(x, x == 0.0 ? -200.0 : 100.0, 2.0);
     }
-    mesh.faces.push_back({6, 7, 8}); // a back before all
+    mesh.faces.push_back({6, 7, 8}); // a back side in front of all
     Eye eye = eye_ahead();
     const auto is_back = [&](int x, int y) {
         const Looks looks = look_at(mesh, {}, eye, 48);
@@ -177,7 +176,7 @@ TEST(LookAt, LooksThroughBacksIfItIsToUnlessNoFrontIsBehind)
     EXPECT_TRUE(is_back(6, 5));
 }
 
-TEST(LookAt, AgreesWithARayAPixelThroughADistortedLens)
+TEST(LookAt, MatchesBruteForceWithADistortedLens)
 {
     const TriMesh mesh = strewn(150);
     Eye eye;
@@ -200,14 +199,14 @@ TEST(LookAt, AgreesWithARayAPixelThroughADistortedLens)
         fronts += (mean - kNothing).abs().maxCoeff() > 1.0F ? 1 : 0;
     }
     EXPECT_GT(fronts, 400);
-    // Blended rays may pass an edge on its other side.
+    // Interpolated rays may pass an edge on the other side.
     EXPECT_LE(different, 6);
 }
 
-TEST(LookAt, MarksWhereTheLensHasNoDirection)
+TEST(LookAt, MarksPixelsWithoutADirection)
 {
     Eye eye = eye_ahead();
-    eye.camera.model = 2; // SIMPLE_RADIAL, which turns back within the image
+    eye.camera.model = 2; // SIMPLE_RADIAL, not invertible in the whole image
     eye.camera.params = {2, 4, 3, -0.5};
     const Looks looks = look_at(front_and_back(), {}, eye, 48);
     EXPECT_TRUE((looks.shaded.pixels[0] == kNoRay).all());
@@ -216,7 +215,7 @@ TEST(LookAt, MarksWhereTheLensHasNoDirection)
     EXPECT_FALSE((looks.shaded.pixels[3 * kWidth + 3] == kNoRay).all());
 }
 
-TEST(LookAt, ShowsTheSameForAnyNumberOfThreadsAndOffset)
+TEST(LookAt, IsIndependentOfThreadCountAndOffset)
 {
     TriMesh mesh = strewn(30000);
     const Looks first = look_at(mesh, {}, eye_ahead(), 40000);
@@ -236,7 +235,7 @@ TEST(LookAt, ShowsTheSameForAnyNumberOfThreadsAndOffset)
     EXPECT_TRUE(std::ranges::equal(looks.shaded.pixels, first.shaded.pixels, same));
 }
 
-TEST(LookAt, ShowsNothingOfAMeshWithoutFaces)
+TEST(LookAt, DrawsEmptyMeshes)
 {
     const Looks looks = look_at({}, {}, eye_ahead(), 48);
     for (const Picture& picture : {looks.shaded, looks.normals}) {
@@ -247,7 +246,7 @@ TEST(LookAt, ShowsNothingOfAMeshWithoutFaces)
     }
 }
 
-TEST(LookAt, ShowsATextureInItsOwnLight)
+TEST(LookAt, DrawsTexturesUnlit)
 {
     const TriMesh mesh = front_and_back();
     Texture texture;

@@ -26,18 +26,18 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr SceneSize kMillion = {.points = 1'000'000, .sights = 3'700'000, .views = 300};
+constexpr SceneSize kMillion = {.points = 1'000'000, .rays = 3'700'000, .views = 300};
 
-/// Of points that a matcher found one by one, which are not merged.
+/// The size of a run on a sparse model, whose points are not merged.
 RunSize size_of_run(const SceneSize& size)
 {
     return {.read = size, .thinned = size};
 }
 
-TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
+TEST(PredictedMemory, NamesStagesInTheOrderOfTheLog)
 {
     struct Names : Log {
-        std::vector<std::string> heard = {"read"}; // before reconstruct
+        std::vector<std::string> heard = {"read"}; // before reconstruct()
         void stage_begins(std::string_view name) override { heard.emplace_back(name); }
     } log;
     const Scene scene = bumpy_sphere(300, 1);
@@ -57,44 +57,44 @@ TEST(PredictedMemory, NamesStagesOfTheLogInTheirOrder)
     }
 }
 
-TEST(PredictedMemory, GrowsWithPointsAndSightsAndThreads)
+TEST(PredictedMemory, GrowsWithPointsAndRaysAndThreads)
 {
     const std::int64_t peak = predicted_peak(size_of_run(kMillion), 1);
     SceneSize more = kMillion;
     more.points += 1000;
     EXPECT_GT(predicted_peak(size_of_run(more), 1), peak);
     more = kMillion;
-    more.sights += 1000;
+    more.rays += 1000;
     EXPECT_GT(predicted_peak(size_of_run(more), 1), peak);
     EXPECT_GT(predicted_peak(size_of_run(kMillion), 4), predicted_peak(size_of_run(kMillion), 2));
     more = kMillion;
     more.has_normals = true;
     EXPECT_GE(predicted_peak(size_of_run(more), 1), peak + 12'000'000);
-    // Ten times the model takes ten times what a run takes beside the program itself.
-    const SceneSize ten = {.points = 10'000'000, .sights = 37'000'000, .views = 3'000};
+    // Except for the program itself, a model of ten times the size needs ten times the memory.
+    const SceneSize ten = {.points = 10'000'000, .rays = 37'000'000, .views = 3'000};
     const std::int64_t program = predicted_peak({}, 1);
     EXPECT_NEAR(static_cast<double>(predicted_peak(size_of_run(ten), 1) - program),
                 10.0 * static_cast<double>(peak - program), 1e3);
 }
 
-TEST(PredictedMemory, OfReadingHoldsASightInTheSceneOnly)
+TEST(PredictedMemory, CountsRaysOnceWhileReading)
 {
     SceneSize more = kMillion;
-    more.sights += 1000;
+    more.rays += 1000;
     const StageMemory before = predicted_memory(size_of_run(kMillion), 1).front();
     const StageMemory after = predicted_memory(size_of_run(more), 1).front();
     EXPECT_STREQ(before.stage, "read");
     EXPECT_EQ(after.bytes - before.bytes, 1000 * 4);
 }
 
-TEST(PredictedMemory, StaysInRangeForSizesNobodyHas)
+TEST(PredictedMemory, StaysInRangeForHugeSizes)
 {
-    const SceneSize most = {.points = ~0ULL, .sights = ~0ULL, .views = ~0ULL};
+    const SceneSize most = {.points = ~0ULL, .rays = ~0ULL, .views = ~0ULL};
     EXPECT_GT(predicted_peak(size_of_run(most), 2), std::int64_t{1} << 60);
 }
 
-#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
-/// What a run of the program took, stage by stage, and what was foretold.
+#ifndef VCARVE_SANITIZED // sanitizers need additional memory
+/// The measured and the predicted memory of each stage of a run of the program.
 struct MeasuredRun {
     std::map<std::string, double> measured; ///< bytes
     std::vector<StageMemory> predicted;
@@ -121,7 +121,7 @@ MeasuredRun run_on(const std::filesystem::path& model, int threads)
         run.measured[stage["name"]] = stage["peak_memory_bytes"];
     }
     const SceneSize read = {.points = record["input"]["points"],
-                            .sights = record["input"]["sights"],
+                            .rays = record["input"]["rays"],
                             .views = record["input"]["views"],
                             .has_normals = !record["input"]["cloud"].is_null(),
                             .is_dense = !record["input"]["cloud"].is_null()};
@@ -129,7 +129,7 @@ MeasuredRun run_on(const std::filesystem::path& model, int threads)
     if (read.is_dense) {
         size.thinned = read;
         size.thinned.points = record["stages"][0]["counts"]["points"];
-        size.thinned.sights = read.sights * size.thinned.points / read.points;
+        size.thinned.rays = read.rays * size.thinned.points / read.points;
     }
     run.predicted = predicted_memory(size, threads);
     run.peak = record["total"]["peak_memory_bytes"];
@@ -143,8 +143,8 @@ MeasuredRun run_on_ball(int points, int threads)
     return run_on(folder / "ball", threads);
 }
 
-/// What a larger ball takes beyond a smaller one, foretold over measured, stage by stage. How many
-/// pages of the program and its libraries are resident depends on the machine, and cancels out.
+/// The memory of a larger ball minus that of a smaller one: predicted over measured, per stage. The
+/// resident pages of the program and its libraries depend on the machine, and cancel out.
 std::map<std::string, double> growth_ratios(int fewer, int more, int threads)
 {
     const MeasuredRun small = run_on_ball(fewer, threads);
@@ -158,20 +158,20 @@ std::map<std::string, double> growth_ratios(int fewer, int more, int threads)
     return ratios;
 }
 
-TEST(PredictedMemory, GrowsAsMuchAsTheProgramNeeds)
+TEST(PredictedMemory, GrowsLikeTheMemoryOfTheProgram)
 {
     const std::map<std::string, double> expected = {
-        {"read", 0.85}, {"filter", 1.02},  {"fill", 0.80},  {"triangulate", 1.42}, {"sights", 1.06},
-        {"cut", 1.40},  {"surface", 1.12}, {"clean", 1.08}, {"settle", 1.10}}; // as measured
+        {"read", 0.85}, {"filter", 1.02},  {"fill", 0.80},  {"triangulate", 1.42}, {"rays", 1.06},
+        {"cut", 1.40},  {"surface", 1.12}, {"clean", 1.08}, {"adjust", 1.10}}; // as measured
     for (const auto& [stage, ratio] : growth_ratios(20'000, 80'000, 1)) {
         EXPECT_NEAR(ratio, expected.at(stage), 0.2) << stage;
     }
     for (const auto& [stage, ratio] : growth_ratios(20'000, 80'000, 2)) {
-        EXPECT_GE(ratio, 0.65) << stage << ": memory that CGAL freed must be given back before";
+        EXPECT_GE(ratio, 0.65) << stage << ": memory that CGAL freed must be returned before";
     }
 }
 
-/// A dense workspace with the points of a fixture so many times over.
+/// Writes a dense workspace that repeats the points of a fixture `times` times.
 void repeat_cloud(const std::filesystem::path& folder, std::size_t times)
 {
     const std::filesystem::path from = fixtures_folder() / "dense_room";
@@ -198,7 +198,7 @@ void repeat_cloud(const std::filesystem::path& folder, std::size_t times)
     }
 }
 
-TEST(Program, LeavesThePeakOfTheProcessToTheSystemUnlessStagesAreAskedFor)
+TEST(Program, DoesNotResetThePeakOfTheProcessWithoutStats)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "ball", 30'000);
@@ -207,7 +207,7 @@ TEST(Program, LeavesThePeakOfTheProcessToTheSystemUnlessStagesAreAskedFor)
     EXPECT_GE(plain.peak_memory_bytes, 0.9 * run_on(folder / "ball", 1).peak);
 }
 
-TEST(PredictedMemory, OfACloudIsWhatIsLeftOfItAndAPart)
+TEST(PredictedMemory, HoldsOnlyMergedPointsAndAPartOfACloud)
 {
     const TemporaryFolder folder;
     std::map<std::size_t, double> peaks;
@@ -221,109 +221,109 @@ TEST(PredictedMemory, OfACloudIsWhatIsLeftOfItAndAPart)
         peaks[times] = run.measured.at("read");
         std::filesystem::remove_all(workspace);
     }
-    // Peaks move by a tenth from run to run; points kept in memory would take 2.7 times as much.
-    EXPECT_LE(peaks[400], 1.3 * peaks[150]) << "points that are merged away are forgotten";
+    // Peaks vary by 10 % between runs; keeping all points would need 2.7 times the memory.
+    EXPECT_LE(peaks[400], 1.3 * peaks[150]) << "merged points must be freed";
 }
 #endif
 
 constexpr std::int64_t kGiB = std::int64_t{1} << 30;
 
-TEST(PlanBlocks, WorksInMemoryWhereThatDoes)
+TEST(PlanBlocks, RunsInMemoryIfItFits)
 {
     const RunSize million = size_of_run(kMillion);
     const std::int64_t peak = predicted_peak(million, 2);
-    const BlockPlan plan = plan_blocks(million, 2, {.most = peak}, std::nullopt);
+    const BlockPlan plan = plan_blocks(million, 2, {.limit = peak}, std::nullopt);
     EXPECT_FALSE(plan.in_blocks());
     EXPECT_EQ(plan.needed, peak);
     EXPECT_EQ(plan.scratch, 0);
-    EXPECT_TRUE(plan_blocks(million, 2, {.most = peak - 1}, std::nullopt).in_blocks());
-    EXPECT_FALSE(plan_blocks(million, 2, {.most = 0}, std::nullopt).in_blocks()) << "no limit";
+    EXPECT_TRUE(plan_blocks(million, 2, {.limit = peak - 1}, std::nullopt).in_blocks());
+    EXPECT_FALSE(plan_blocks(million, 2, {.limit = 0}, std::nullopt).in_blocks()) << "no limit";
 }
 
-TEST(PlanBlocks, AllowsFourFifthsOfWhatIsFreeWhereNothingIsSaid)
+TEST(PlanBlocks, AllowsFourFifthsOfFreeMemoryByDefault)
 {
     const RunSize million = size_of_run(kMillion);
     const std::int64_t peak = predicted_peak(million, 1);
     EXPECT_FALSE(plan_blocks(million, 1, {}, peak / 4 * 5 + 5).in_blocks());
     const BlockPlan plan = plan_blocks(million, 1, {}, peak);
     EXPECT_TRUE(plan.in_blocks());
-    EXPECT_EQ(plan.most, peak / 5 * 4);
-    EXPECT_FALSE(plan_blocks(million, 1, {}, std::nullopt).in_blocks()) << "nothing is known";
-    EXPECT_FALSE(plan_blocks(million, 1, {.blocks = 0}, peak).in_blocks()) << "none are wanted";
+    EXPECT_EQ(plan.limit, peak / 5 * 4);
+    EXPECT_FALSE(plan_blocks(million, 1, {}, std::nullopt).in_blocks()) << "free memory is unknown";
+    EXPECT_FALSE(plan_blocks(million, 1, {.blocks = 0}, peak).in_blocks()) << "blocks are disabled";
 }
 
-TEST(PlanBlocks, TakesSoManyThatThoseAtATimeTakeHalfOfTheMemory)
+TEST(PlanBlocks, LimitsConcurrentBlocksToHalfOfTheMemory)
 {
     // As in docs/performance.md: 20 million points in 4 GiB.
-    const SceneSize twenty = {.points = 20'000'000, .sights = 74'000'000, .views = 4'000};
+    const SceneSize twenty = {.points = 20'000'000, .rays = 74'000'000, .views = 4'000};
     const RunSize run = size_of_run(twenty);
-    const BlockPlan plan = plan_blocks(run, 2, {.most = 4 * kGiB}, std::nullopt);
+    const BlockPlan plan = plan_blocks(run, 2, {.limit = 4 * kGiB}, std::nullopt);
     const double left = static_cast<double>(4 * kGiB - least_memory(run, 2));
     EXPECT_LE(2 * 600.0 * 20e6 / plan.blocks, left / 2);
     EXPECT_GT(2 * 600.0 * 20e6 / (plan.blocks - 1), left / 2);
-    EXPECT_EQ(plan_blocks(run, 2, {.most = 12 * kGiB}, std::nullopt).blocks, 5);
-    EXPECT_EQ(plan_blocks(run, 1, {.most = 12 * kGiB}, std::nullopt).blocks, 3);
-    EXPECT_EQ(plan_blocks(run, 2, {.most = 4 * kGiB, .blocks = 7}, std::nullopt).blocks, 7);
+    EXPECT_EQ(plan_blocks(run, 2, {.limit = 12 * kGiB}, std::nullopt).blocks, 5);
+    EXPECT_EQ(plan_blocks(run, 1, {.limit = 12 * kGiB}, std::nullopt).blocks, 3);
+    EXPECT_EQ(plan_blocks(run, 2, {.limit = 4 * kGiB, .blocks = 7}, std::nullopt).blocks, 7);
 }
 
-TEST(PlanBlocks, RefusesWhatEvenBlocksDoNotFitInto)
+TEST(PlanBlocks, RejectsModelsTooLargeEvenForBlocks)
 {
     const RunSize run = size_of_run(kMillion);
     const std::int64_t least = least_memory(run, 1);
-    EXPECT_THAT(refusal<InputError>([&] { plan_blocks(run, 1, {.most = least}, std::nullopt); }),
-                ::testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
+    EXPECT_THAT(refusal<InputError>([&] { plan_blocks(run, 1, {.limit = least}, std::nullopt); }),
+                ::testing::MatchesRegex("1000000 points with 3700000 rays need about [0-9.]+M of "
                                         "memory even in blocks, and --max-memory allows [0-9.]+M"));
-    EXPECT_NO_THROW(plan_blocks(run, 1, {.most = least + (1 << 20)}, std::nullopt));
+    EXPECT_NO_THROW(plan_blocks(run, 1, {.limit = least + (1 << 20)}, std::nullopt));
     EXPECT_THAT(refusal<InputError>(
-                    [&] { plan_blocks(run, 1, {.most = least, .blocks = 0}, std::nullopt); }),
+                    [&] { plan_blocks(run, 1, {.limit = least, .blocks = 0}, std::nullopt); }),
                 ::testing::Not(HasSubstr("in blocks")));
 }
 
-TEST(RequireMemory, AllowsWhatIsNeededAndRefusesAByteLess)
+TEST(RequireMemory, AcceptsThePredictedPeakAndRejectsAByteLess)
 {
     const std::int64_t peak = predicted_peak(size_of_run(kMillion), 1);
     EXPECT_NO_THROW(require_memory(size_of_run(kMillion), 1, peak));
     EXPECT_NO_THROW(require_memory(size_of_run(kMillion), 1, 0));
     EXPECT_THROW(require_memory(size_of_run(kMillion), 1, peak - 1), InputError);
     EXPECT_THAT(refusal<InputError>([] { require_memory(size_of_run(kMillion), 1, 4 << 20); }),
-                ::testing::MatchesRegex("1000000 points with 3700000 sights need about [0-9.]+M of "
+                ::testing::MatchesRegex("1000000 points with 3700000 rays need about [0-9.]+M of "
                                         "memory, and --max-memory allows 4M"));
 }
 
-TEST(LimitOfCells, IsWhatTheMemoryHolds)
+TEST(LimitOfCells, IsTheNumberThatFitsIntoMemory)
 {
     RunSize run = size_of_run(kMillion);
-    run.options.memory = {.most = 0, .blocks = 0};
-    EXPECT_EQ(limit_of_cells(run, 1).most, CellLimit().most);
-    run.options.memory.most = 2 * predicted_peak(run, 1);
-    const auto in_memory = static_cast<double>(limit_of_cells(run, 1).most);
+    run.options.memory = {.limit = 0, .blocks = 0};
+    EXPECT_EQ(limit_of_cells(run, 1).limit, CellLimit().limit);
+    run.options.memory.limit = 2 * predicted_peak(run, 1);
+    const auto in_memory = static_cast<double>(limit_of_cells(run, 1).limit);
     EXPECT_GT(in_memory, 2 * 6.8e6);
     EXPECT_LT(in_memory, 3 * 6.8e6);
     EXPECT_TRUE(limit_of_cells(run, 1).counts_made);
-    run.options.memory = {.most = 2 * kGiB, .blocks = 100};
+    run.options.memory = {.limit = 2 * kGiB, .blocks = 100};
     const CellLimit in_blocks = limit_of_cells(run, 1);
-    EXPECT_LT(73.0 * static_cast<double>(in_blocks.most), 1.9 * kGiB);
-    EXPECT_GT(73.0 * static_cast<double>(in_blocks.most), 1.6 * kGiB);
+    EXPECT_LT(73.0 * static_cast<double>(in_blocks.limit), 1.9 * kGiB);
+    EXPECT_GT(73.0 * static_cast<double>(in_blocks.limit), 1.6 * kGiB);
     EXPECT_FALSE(in_blocks.counts_made);
 }
 
-TEST(LimitOfCells, LeavesPointsWhatTheyUsuallyHave)
+TEST(LimitOfCells, IsAtLeastTheUsualNumber)
 {
     RunSize run = size_of_run(kMillion);
     for (const int blocks : {0, 100}) {
-        run.options.memory = {.most = predicted_peak(run, 1) / 2, .blocks = blocks};
-        EXPECT_GE(limit_of_cells(run, 1).most, 8'000'000U) << blocks;
+        run.options.memory = {.limit = predicted_peak(run, 1) / 2, .blocks = blocks};
+        EXPECT_GE(limit_of_cells(run, 1).limit, 8'000'000U) << blocks;
     }
 }
 
-TEST(Reconstruct, RefusesAModelThatNeedsTooMuchMemoryBeforeAnyWork)
+TEST(Reconstruct, RejectsAModelThatNeedsTooMuchMemoryBeforeAnyWork)
 {
     struct Stages : Log {
         int ended = 0;
         void stage_ends(std::string_view, const Counts&) override { ++ended; }
     } log;
     Options options;
-    options.memory.most = 1000;
+    options.memory.limit = 1000;
     EXPECT_THAT(refusal<InputError>([&] { reconstruct(bumpy_sphere(300, 1), options, log); }),
                 HasSubstr("--max-memory allows 1000"));
     EXPECT_EQ(log.ended, 0);

@@ -1,4 +1,4 @@
-// A run that several ranks work on, which share a work folder.
+// Runs on several ranks that share a work folder.
 #include "pipeline/rank_shares.h"
 #include "pipeline/run_state.h"
 #include "pipeline/thinned_scene.h"
@@ -83,14 +83,14 @@ class RanksOfARun : public ::testing::Test {
     Scene scene = bumpy_sphere(1500, 3);
 };
 
-TEST_F(RanksOfARun, MakeTheSameSurface)
+TEST_F(RanksOfARun, MakeTheSameSurfaceAsOneProcess)
 {
     expect_the_same_of_all(in_blocks(8));
     expect_the_same_of_all(in_blocks(2)); // fewer than ranks
     expect_the_same_of_all(in_blocks(0));
 }
 
-TEST_F(RanksOfARun, MakeTheSameWithVirtualViewsAndByCounting)
+TEST_F(RanksOfARun, MakeTheSameSurfaceWithVirtualViewsAndMethodStrict)
 {
     Options options = in_blocks(4);
     options.labels.virtual_views.count = 20;
@@ -99,82 +99,82 @@ TEST_F(RanksOfARun, MakeTheSameWithVirtualViewsAndByCounting)
     expect_the_same_of_all(options);
 }
 
-TEST_F(RanksOfARun, MakeTheSameOfBundledSights)
+TEST_F(RanksOfARun, MakeTheSameSurfaceWithBundledRays)
 {
     scene.is_dense = true;
     expect_the_same_of_all(in_blocks(4));
 }
 
-TEST_F(RanksOfARun, ShareTheBlocksAndTheSightsOfThePhotographs)
+TEST_F(RanksOfARun, ShareTheBlocksAndTheRaysOfThePhotographs)
 {
     Options options = in_blocks(4);
     options.labels.virtual_views.count = 20;
-    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kBlocksTask, kSightsTask));
-    EXPECT_THAT(made_by(1, options).tasks, IsEmpty()) << "nobody to share with";
+    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kBlocksTask, kRaysTask));
+    EXPECT_THAT(made_by(1, options).tasks, IsEmpty()) << "no other ranks";
     options.memory.blocks = 0;
-    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kSightsTask));
+    EXPECT_THAT(made_by(3, options).tasks, ElementsAre(kRaysTask));
 }
 
-TEST_F(RanksOfARun, LeaveTheirSharesWhereRankZeroFindsThem)
+TEST_F(RanksOfARun, SaveTheirSharesInTheFolderForRankZero)
 {
     std::vector<std::string> found;
     made_by(3, in_blocks(5), [&](const std::string& task) {
         for (const auto* const name : {"cells-0-of-5", "cells-1-of-5", "cells-4-of-5",
-                                       "sights-0-of-3", "sights-1-of-3", "sights-2-of-3"}) {
+                                       "rays-0-of-3", "rays-1-of-3", "rays-2-of-3"}) {
             if (std::filesystem::exists(file_of(name))) found.push_back(task + ": " + name);
         }
     });
     EXPECT_THAT(found, ElementsAre("task-blocks: cells-0-of-5", "task-blocks: cells-1-of-5",
-                                   "task-blocks: cells-4-of-5", "task-sights: sights-1-of-3",
-                                   "task-sights: sights-2-of-3"));
-    EXPECT_FALSE(std::filesystem::exists(folder / "work")) << "nothing is left at the end";
+                                   "task-blocks: cells-4-of-5", "task-rays: rays-1-of-3",
+                                   "task-rays: rays-2-of-3"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "work")) << "the folder is removed at the end";
 }
 
-TEST_F(RanksOfARun, MakeAShareAgainThatIsCutOffOrMissing)
+TEST_F(RanksOfARun, RecomputeTruncatedAndMissingShares)
 {
     const TriMesh whole = made_by(1, in_blocks(4)).mesh;
-    const Made mended = made_by(3, in_blocks(4), [&](const std::string& task) {
-        const auto path = file_of(task == kBlocksTask ? "cells-1-of-4" : "sights-2-of-3");
+    const Made repaired = made_by(3, in_blocks(4), [&](const std::string& task) {
+        const auto path = file_of(task == kBlocksTask ? "cells-1-of-4" : "rays-2-of-3");
         std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
-        std::filesystem::remove(file_of("sights-1-of-3"));
+        std::filesystem::remove(file_of("rays-1-of-3"));
     });
-    EXPECT_EQ(mended.mesh.faces, whole.faces);
-    EXPECT_EQ(mended.mesh.positions, whole.positions);
-    EXPECT_THAT(mended.notes, ::testing::Contains(HasSubstr("cells-1-of-4.stage: it has ")));
-    EXPECT_THAT(mended.notes, ::testing::Contains(HasSubstr("sights-2-of-3.stage: it has ")));
+    EXPECT_EQ(repaired.mesh.faces, whole.faces);
+    EXPECT_EQ(repaired.mesh.positions, whole.positions);
+    EXPECT_THAT(repaired.notes, ::testing::Contains(HasSubstr("cells-1-of-4.stage: it has ")));
+    EXPECT_THAT(repaired.notes, ::testing::Contains(HasSubstr("rays-2-of-3.stage: it has ")));
 }
 
-TEST_F(RanksOfARun, GoOnWithTheSharesOfARunThatEnded)
+TEST_F(RanksOfARun, ReuseTheSharesOfAFailedRun)
 {
     const auto end = [](const std::string& task) {
-        if (task == kSightsTask) throw std::runtime_error("a rank died");
+        if (task == kRaysTask) throw std::runtime_error("a rank died");
     };
     EXPECT_EQ(refusal<std::runtime_error>([&] { made_by(3, in_blocks(4), end); }), "a rank died");
-    const auto written = std::filesystem::last_write_time(file_of("sights-1-of-3"));
+    const auto written = std::filesystem::last_write_time(file_of("rays-1-of-3"));
     std::filesystem::file_time_type found;
     const Made mesh = made_by(3, in_blocks(4), [&](const std::string& /*task*/) {
-        found = std::filesystem::last_write_time(file_of("sights-1-of-3"));
+        found = std::filesystem::last_write_time(file_of("rays-1-of-3"));
     });
-    EXPECT_EQ(found, written) << "it was not walked again";
-    EXPECT_THAT(mesh.tasks, ElementsAre(kSightsTask)) << "the cells were kept";
+    EXPECT_EQ(found, written) << "its rays were not followed again";
+    EXPECT_THAT(mesh.tasks, ElementsAre(kRaysTask)) << "the cells were saved";
     EXPECT_EQ(mesh.mesh.faces, made_by(1, in_blocks(4)).mesh.faces);
 }
 
-TEST_F(RanksOfARun, AreRefusedStagesOfAnotherJob)
+TEST_F(RanksOfARun, RejectStagesOfAnotherJob)
 {
     WorkFolder work(folder / "work");
     work.begin(kJob);
-    work.save("points", {}, std::vector<ToldEvent>(), CarvingPoints{scene, {}});
+    work.save("points", {}, std::vector<LogEvent>(), CarvingPoints{scene, {}});
     work.save(kBlocksTask, {}, BlocksTask{4});
     WorkFolder joined(work.path(), digest_of(Job{{"points3D.bin", "13 bytes"}}));
     const Options options = in_blocks(4);
     RankShares shares(joined, options, {1, 2});
     Log silent;
     EXPECT_THAT(refusal<InputError>([&] { shares.work(kBlocksTask, silent); }),
-                HasSubstr("task-blocks.stage: it is of another input or other options"));
+                HasSubstr("task-blocks.stage: it was made from other input or options"));
 }
 
-TEST(SharesOfSights, AreAllSightsOnceAndAboutAsMany)
+TEST(SharesOfRays, CoverAllRaysOnceInSimilarNumbers)
 {
     const Scene scene = bumpy_sphere(500, 3);
     for (const std::size_t count : {1U, 2U, 5U, 600U}) {
@@ -183,17 +183,17 @@ TEST(SharesOfSights, AreAllSightsOnceAndAboutAsMany)
             const VertexRun run = share_of(scene.tracks, {number, count});
             EXPECT_EQ(run.first, next);
             next = run.last;
-            const std::uint64_t sights =
+            const std::uint64_t rays =
                 scene.tracks.begins[run.last] - scene.tracks.begins[run.first];
-            EXPECT_NEAR(static_cast<double>(sights),
-                        static_cast<double>(scene.num_sights()) / static_cast<double>(count), 60.0);
+            EXPECT_NEAR(static_cast<double>(rays),
+                        static_cast<double>(scene.num_rays()) / static_cast<double>(count), 60.0);
         }
         EXPECT_EQ(next, scene.num_points());
     }
     EXPECT_EQ(share_of({}, {1, 2}).last, 0U);
 }
 
-TEST(SharesOfSights, SkipRunsOfCellsOfWhichNothingIsSaid)
+TEST(SharesOfRays, SkipRunsOfCellsWithoutVotes)
 {
     constexpr std::size_t kRun = kSumsOfRun;
     std::vector<std::int32_t> sums(3 * kRun + kRun / 2, 0);

@@ -1,4 +1,4 @@
-// A run that ended after any of its stages, and what the next one makes of it.
+// Runs that are stopped after each of their stages, and resumed.
 #include "pipeline/thinned_scene.h"
 #include "support/scene_checks.h"
 #include "support/scenes.h"
@@ -16,8 +16,8 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// What was told, a line each, but for what keeping itself tells; ends the run when it has kept so
-/// many stages.
+/// Records ends of stages, except the checkpoints' own, one line each. Ends the run when it has
+/// saved `most` stages.
 class EndingLog final : public Log {
   public:
     explicit EndingLog(std::size_t most) : most_(most) {}
@@ -58,7 +58,7 @@ struct Case {
     Options options = {};
     bool is_dense = false;
     bool wants_removed = false;
-    std::vector<std::string> kept = {}; ///< the stages that are
+    std::vector<std::string> kept = {}; ///< the saved stages
 };
 
 Scene scene_of(const Case& some)
@@ -100,7 +100,7 @@ void expect_equal(const Trial& a, const Trial& b)
 
 std::vector<Case> cases()
 {
-    Case usual{.name = "Usual", .kept = {"points", "cells", "sights", "surface"}};
+    Case usual{.name = "Usual", .kept = {"points", "cells", "rays", "surface"}};
     Case looked_around{.name = "VirtualViews", .kept = usual.kept};
     looked_around.options.labels.virtual_views.count = 20;
     Case strict{.name = "Strict", .kept = usual.kept};
@@ -111,7 +111,7 @@ std::vector<Case> cases()
     Case cropped{.name = "CroppedDenseWithRemoved",
                  .is_dense = true,
                  .wants_removed = true,
-                 .kept = {"points", "cells", "sights", "surface-and-removed"}};
+                 .kept = {"points", "cells", "rays", "surface-and-removed"}};
     cropped.options.crop.region.kind = RegionChoice::Kind::looked_at;
     Case refined{.name = "ClosedAndRefined", .kept = usual.kept};
     refined.options.surface.closed = true;
@@ -122,7 +122,7 @@ std::vector<Case> cases()
 
 class Resumed : public ::testing::TestWithParam<Case> {
   protected:
-    /// A run in the folder that ends after so many stages.
+    /// Starts a run in the folder that ends after `stages` saved stages.
     void end_after(std::size_t stages) const
     {
         WorkFolder work(folder.path());
@@ -149,7 +149,7 @@ std::string name_of(const ::testing::TestParamInfo<Case>& info)
 
 } // namespace
 
-TEST_P(Resumed, MakesTheSameAfterAnyStage)
+TEST_P(Resumed, MakesTheSameSurfaceAfterAnyStage)
 {
     const Trial alone = run(GetParam(), nullptr);
     ASSERT_FALSE(alone.made.mesh.faces.empty());
@@ -173,7 +173,7 @@ TEST_P(Resumed, MakesTheSameAfterAnyStage)
 
 INSTANTIATE_TEST_SUITE_P(Runs, Resumed, ::testing::ValuesIn(cases()), name_of);
 
-TEST(ResumedRun, WithAReportWantedOnlyNowMakesTheSurfaceAgain)
+TEST(ResumedRun, RecomputesTheSurfaceIfRemovedFacesAreRequestedLater)
 {
     const TemporaryFolder folder;
     Case some = cases()[0];

@@ -54,7 +54,7 @@ void expect_same_mesh(const TriMesh& a, const TriMesh& b)
     EXPECT_EQ(a.offset, b.offset);
 }
 
-TEST(Reconstruct, GivesAManifoldColouredSurfaceThatFacesItsViews)
+TEST(Reconstruct, MakesAManifoldColoredSurfaceThatFacesItsViews)
 {
     const Reconstruction result = run(bumpy_sphere(kPoints, 1));
     const MeshCheck check = check_mesh(result.mesh);
@@ -64,12 +64,12 @@ TEST(Reconstruct, GivesAManifoldColouredSurfaceThatFacesItsViews)
     EXPECT_EQ(check.degenerate_faces, 0);
     EXPECT_EQ(result.mesh.colors.size(), result.mesh.positions.size());
     const ViewAgreement agreement = view_agreement(testing::half_edges(result.mesh), result.scene);
-    EXPECT_GT(agreement.facing, 0.95 * static_cast<double>(agreement.sights));
+    EXPECT_GT(agreement.facing, 0.95 * static_cast<double>(agreement.rays));
     // A sphere has about twice as many faces as vertices, and most points lie on it.
     EXPECT_GT(check.faces, static_cast<std::int64_t>(1.6 * kPoints));
 }
 
-TEST(Reconstruct, GivesTheSameMeshForAnyNumberOfThreads)
+TEST(Reconstruct, MakesTheSameMeshForAnyThreadCount)
 {
     const Scene scene = bumpy_sphere(kPoints, 2);
     for (const Method method : {Method::cut, Method::strict}) {
@@ -82,7 +82,7 @@ TEST(Reconstruct, GivesTheSameMeshForAnyNumberOfThreads)
     }
 }
 
-TEST(Reconstruct, GivesTheSameMeshWithVirtualViewsToo)
+TEST(Reconstruct, MakesTheSameMeshWithVirtualViewsForAnyThreadCountAndOrder)
 {
     const Scene scene = bumpy_sphere(kPoints, 2);
     for (const Method method : {Method::cut, Method::strict}) {
@@ -99,7 +99,7 @@ TEST(Reconstruct, GivesTheSameMeshWithVirtualViewsToo)
     }
 }
 
-TEST(Reconstruct, GivesTheSameMeshForAnyOrderOfPointsAndViews)
+TEST(Reconstruct, MakesTheSameMeshForAnyOrderOfPointsAndViews)
 {
     const Scene scene = bumpy_sphere(kPoints, 3);
     expect_same_mesh(run(scene).mesh, run(permuted(scene, 7)).mesh);
@@ -120,7 +120,7 @@ TEST(Reconstruct, ScalesExactlyByPowersOfTwo)
     }
 }
 
-TEST(Reconstruct, KeepsItsFacesInOtherUnitsTurnedAndFarFromTheOrigin)
+TEST(Reconstruct, MakesTheSameFacesAfterScalingRotationAndTranslation)
 {
     const Scene scene = bumpy_sphere(kPoints, 5);
     const auto faces = faces_by_id(run(scene));
@@ -133,7 +133,7 @@ TEST(Reconstruct, KeepsItsFacesInOtherUnitsTurnedAndFarFromTheOrigin)
     EXPECT_EQ(faces_by_id(run(moved(scene, 1.0, none, utm))), faces);
 }
 
-/// The same mesh, vertex for vertex, but for the rounding of coordinates far from the origin.
+/// Expects the same mesh, vertex by vertex, up to the rounding of coordinates far from the origin.
 void expect_moved(const TriMesh& far, const TriMesh& near, double scale, const Vector3d& shift)
 {
     ASSERT_EQ(far.faces, near.faces);
@@ -146,7 +146,7 @@ void expect_moved(const TriMesh& far, const TriMesh& near, double scale, const V
     }
 }
 
-TEST(Reconstruct, GivesTheSameMeshVertexForVertexInMapCoordinates)
+TEST(Reconstruct, MakesTheSameMeshInMapCoordinates)
 {
     const Vector3d utm(5e5, 4.6e6, 100.0);
     const double metres = 37.3;
@@ -156,11 +156,11 @@ TEST(Reconstruct, GivesTheSameMeshVertexForVertexInMapCoordinates)
         const Quaterniond none = Quaterniond::Identity();
         const Scene far = moved(near, metres, none, utm);
         const TriMesh mesh = run(far).mesh;
-        // What doubles so large can tell apart, near the origin again
+        // The rounded coordinates, moved back near the origin
         const Scene back = moved(moved(far, 1.0, none, -utm), 1.0 / metres, none, Vector3d::Zero());
         expect_moved(mesh, run(back).mesh, metres, utm);
 
-        // Written and read back, as it is and with the offset taken off
+        // Written and read back, without and with an offset
         const TemporaryFolder folder;
         for (const Vector3d& offset : {Vector3d(0, 0, 0), round_offset(far)}) {
             write_mesh(folder / "out.ply", mesh, {.offset = offset});
@@ -186,7 +186,7 @@ void expect_watertight(const Scene& scene, const Options& options, const std::st
     EXPECT_EQ(check.degenerate_faces, 0) << name;
 }
 
-TEST(Reconstruct, ClosedGivesAWatertightManifold)
+TEST(Reconstruct, MakesAWatertightManifoldWithClosed)
 {
     using std::filesystem::path;
     const path fixtures(fixtures_folder());
@@ -208,7 +208,7 @@ TEST(Reconstruct, ClosedGivesAWatertightManifold)
     expect_watertight(bumpy_sphere(kPoints, 6), options, "smooth and simple sphere");
 }
 
-TEST(Reconstruct, SmoothsAndSimplifiesTheSameForAnyNumberOfThreads)
+TEST(Reconstruct, SmoothsAndSimplifiesIdenticallyForAnyThreadCount)
 {
     const Scene scene = bumpy_sphere(kPoints, 2);
     Options one;
@@ -222,7 +222,7 @@ TEST(Reconstruct, SmoothsAndSimplifiesTheSameForAnyNumberOfThreads)
     expect_same_mesh(mesh, run(scene, two).mesh);
 }
 
-TEST(Reconstruct, RefusesWhatHoldsTooLittle)
+TEST(Reconstruct, RejectsASceneWithTooFewPoints)
 {
     const Scene scene = make_scene({{0, 0, 5}, {1, 0, 5}}, {{{0, 0, 0}, {0, 1}}});
     try {
@@ -234,7 +234,7 @@ TEST(Reconstruct, RefusesWhatHoldsTooLittle)
     }
 }
 
-TEST(Reconstruct, NamesTheFilterThatLeftTooFewPoints)
+TEST(Reconstruct, NamesTheFilterThatDroppedMostPoints)
 {
     const auto refused = [](const auto& change) {
         Scene scene = bumpy_sphere(200, 1);
@@ -247,22 +247,23 @@ TEST(Reconstruct, NamesTheFilterThatLeftTooFewPoints)
     EXPECT_EQ(
         refused([](Scene& /*scene*/, Options& options) { options.points.min_views = 1000; }),
         begin +
-            "200 of 200 points fell to --min-views 1000; try a smaller one, or --sights nearest");
+            "200 of 200 points were dropped by --min-views 1000; try a smaller value, or --rays "
+            "nearest");
     // 23 points have one view or none.
     EXPECT_EQ(
         refused([](Scene& /*scene*/, Options& options) { options.points.min_angle_deg = 180.0; }),
-        begin + "177 of 200 points fell to --min-angle 180; try a smaller one");
+        begin + "177 of 200 points were dropped by --min-angle 180; try a smaller value");
     EXPECT_EQ(refused([](Scene& scene, Options& /*options*/) { scene.errors_px.assign(200, 9.0); }),
-              begin + "177 of 200 points fell to --max-error 4; try a larger one");
+              begin + "177 of 200 points were dropped by --max-error 4; try a larger value");
     EXPECT_EQ(refused([](Scene& scene, Options& options) {
                   scene.tracks = {};
                   scene.tracks.begins.assign(201, 0);
                   options.points.min_views = 1;
               }),
-              begin + "200 of 200 points fell to --min-views 1; try --sights nearest");
+              begin + "200 of 200 points were dropped by --min-views 1; try --rays nearest");
 }
 
-TEST(Reconstruct, WarnsOfACameraThatHardlyMoved)
+TEST(Reconstruct, WarnsIfTheCameraHardlyMoved)
 {
     class Notes : public Log {
       public:
@@ -273,9 +274,9 @@ TEST(Reconstruct, WarnsOfACameraThatHardlyMoved)
     Notes moved;
     reconstruct(scene, {}, moved);
     EXPECT_THAT(moved.all, ::testing::IsEmpty());
-    const Eigen::Vector3d stand(0, 0, 50);
+    const Eigen::Vector3d tripod(0, 0, 50);
     for (View& view : scene.views) {
-        view.center = stand + 0.2 * view.center;
+        view.center = tripod + 0.2 * view.center;
     }
     Notes still;
     reconstruct(scene, {}, still);
@@ -283,7 +284,7 @@ TEST(Reconstruct, WarnsOfACameraThatHardlyMoved)
                                "the rays of half of the points meet at less than 1.")));
 }
 
-TEST(Reconstruct, TellsTheLogEveryStageOnce)
+TEST(Reconstruct, LogsEveryStageOnce)
 {
     class Recorder : public Log {
       public:
@@ -295,8 +296,8 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     Recorder log;
     reconstruct(bumpy_sphere(500, 8), {}, log);
     const std::vector<std::string> expected = {"memory", "filter", "fill",    "triangulate",
-                                               "sights", "cut",    "surface", "clean",
-                                               "open",   "settle", "orient"};
+                                               "rays",   "cut",    "surface", "clean",
+                                               "open",   "adjust", "orient"};
     EXPECT_EQ(log.begun, expected);
     EXPECT_EQ(log.ended, expected);
 
@@ -304,14 +305,14 @@ TEST(Reconstruct, TellsTheLogEveryStageOnce)
     Options with_virtual_views;
     with_virtual_views.labels.virtual_views.count = 10;
     reconstruct(bumpy_sphere(500, 8), with_virtual_views, twice);
-    const std::vector<std::string> labelled_twice = {
-        "memory", "filter", "fill",    "triangulate", "sights", "cut",    "virtual",
-        "sights", "cut",    "surface", "clean",       "open",   "settle", "orient"};
-    EXPECT_EQ(twice.begun, labelled_twice);
-    EXPECT_EQ(twice.ended, labelled_twice);
+    const std::vector<std::string> labeled_twice = {
+        "memory", "filter", "fill",    "triangulate", "rays", "cut",    "viewpoints",
+        "rays",   "cut",    "surface", "clean",       "open", "adjust", "orient"};
+    EXPECT_EQ(twice.begun, labeled_twice);
+    EXPECT_EQ(twice.ended, labeled_twice);
 }
 
-/// How many vertices are not where the points of theirs are.
+/// The number of vertices whose positions differ from their points.
 std::int64_t num_moved(const Reconstruction& made)
 {
     std::int64_t moved = 0;
@@ -323,7 +324,7 @@ std::int64_t num_moved(const Reconstruction& made)
     return moved;
 }
 
-TEST(Reconstruct, SettlesVerticesUnlessThePapersOwnMethodIsWantedOrPointsWereMovedBefore)
+TEST(Reconstruct, DenoisesVerticesExceptWithMethodStrictOrDenseClouds)
 {
     const Scene scene = bumpy_sphere(kPoints, 9);
     const Reconstruction settled = run(scene);
@@ -332,7 +333,7 @@ TEST(Reconstruct, SettlesVerticesUnlessThePapersOwnMethodIsWantedOrPointsWereMov
     options.denoise.denoise = 0.0;
     const Reconstruction unsettled = run(scene, options);
     EXPECT_EQ(num_moved(unsettled), 0);
-    EXPECT_EQ(unsettled.mesh.points, settled.mesh.points) << "labels know nothing of it";
+    EXPECT_EQ(unsettled.mesh.points, settled.mesh.points) << "labels are unaffected";
     EXPECT_EQ(unsettled.mesh.faces, settled.mesh.faces);
     options = {};
     options.labels.method = Method::strict;
@@ -342,7 +343,7 @@ TEST(Reconstruct, SettlesVerticesUnlessThePapersOwnMethodIsWantedOrPointsWereMov
     EXPECT_EQ(num_moved(run(dense)), 0);
 }
 
-/// How many vertices of a mesh are no points of the model but were added to them.
+/// The number of vertices that are points added on creases.
 std::int64_t num_added(const Reconstruction& made)
 {
     return std::ranges::count_if(made.mesh.points, [&](std::uint32_t point) {
@@ -350,7 +351,7 @@ std::int64_t num_added(const Reconstruction& made)
     });
 }
 
-TEST(Reconstruct, AddsPointsAlongCreasesUnlessThePapersOwnMethodIsWanted)
+TEST(Reconstruct, AddsPointsAlongCreasesExceptWithMethodStrict)
 {
     const Scene scene =
         read_colmap_model(fixtures_folder() / "scene/sparse/0", ModelFormat::binary);

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Adds the surface of a box, looking out.
+/// Adds the surface of a box, with normals pointing out.
 void add_box(TriMesh& mesh, const Vector3d& low, const Vector3d& high)
 {
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
@@ -61,12 +61,12 @@ class MeshFile : public ::testing::Test {
     std::string path = folder / "region.ply";
 };
 
-TEST_F(MeshFile, OfACubeIsTheBox)
+TEST_F(MeshFile, GivesABoxForACube)
 {
     expect_same_region(*read(cube()), *box_region({-2, -2, -2}, {2, 2, 2}), 4);
 }
 
-TEST_F(MeshFile, MayHaveVerticesOfTheirOwnForEveryFaceAndFacesThatLookIn)
+TEST_F(MeshFile, MayHaveUnsharedVerticesAndInvertedFaces)
 {
     TriMesh loose;
     const TriMesh shared = cube();
@@ -81,7 +81,7 @@ TEST_F(MeshFile, MayHaveVerticesOfTheirOwnForEveryFaceAndFacesThatLookIn)
     expect_same_region(*read(loose), *box_region({-2, -2, -2}, {2, 2, 2}), 4);
 }
 
-TEST_F(MeshFile, MayConsistOfBoxesThatTouchInAnEdge)
+TEST_F(MeshFile, MayHaveBoxesThatTouchAtAnEdge)
 {
     TriMesh two = cube();
     add_box(two, {2, 2, -2}, {4, 4, 2});
@@ -90,7 +90,7 @@ TEST_F(MeshFile, MayConsistOfBoxesThatTouchInAnEdge)
     expect_same_region(*read(two), boxes, 5);
 }
 
-TEST_F(MeshFile, HasACavityWhereASurfaceLiesWithinAnother)
+TEST_F(MeshFile, HasACavityInsideANestedSurface)
 {
     TriMesh hollow = cube();
     add_box(hollow, {-1, -1, -1}, {1, 1, 1});
@@ -101,18 +101,18 @@ TEST_F(MeshFile, HasACavityWhereASurfaceLiesWithinAnother)
     EXPECT_TRUE(region->meets({0, 0, 0}, {9, 0, 0}));
 }
 
-TEST_F(MeshFile, MayHaveFacesWithoutArea)
+TEST_F(MeshFile, MayHaveFacesWithZeroArea)
 {
-    TriMesh mesh = cube(); // the diagonal 1-2 of the bottom gets a vertex in its middle
+    TriMesh mesh = cube(); // the diagonal 1-2 of the bottom gets a vertex at its midpoint
     mesh.positions.emplace_back(0, 0, -2);
     mesh.faces[0] = {0, 2, 8};
     mesh.faces.push_back({0, 8, 1});
-    mesh.faces.push_back({1, 8, 2}); // of no area
+    mesh.faces.push_back({1, 8, 2}); // without area
     mesh.faces[1] = {1, 2, 3};
     expect_same_region(*read(mesh), *box_region({-2, -2, -2}, {2, 2, 2}), 4);
 }
 
-TEST_F(MeshFile, StandsInTheFrameOfTheFile)
+TEST_F(MeshFile, IsReadInTheFrameOfTheFile)
 {
     TriMesh far = cube();
     far.offset = {5e5, 4.6e6, 100};
@@ -122,7 +122,7 @@ TEST_F(MeshFile, StandsInTheFrameOfTheFile)
     EXPECT_FALSE(region->contains({1.5, 0, 0}));
 }
 
-TEST_F(MeshFile, IsRefusedWhereItIsNotClosed)
+TEST_F(MeshFile, IsRejectedIfItIsNotClosed)
 {
     TriMesh open = cube();
     open.faces.pop_back();
@@ -144,7 +144,7 @@ TEST_F(MeshFile, MayBeTinyAndFarAway)
     EXPECT_FALSE(region->contains({1e6 - step, 1e6 + 2 * step, 1e6 + 2 * step}));
 }
 
-TEST_F(MeshFile, IsRefusedWhereItIsTooFarAway)
+TEST_F(MeshFile, IsRejectedIfItIsTooFarAway)
 {
     TriMesh far = cube();
     far.positions[0].x() = -1e101;

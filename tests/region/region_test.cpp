@@ -14,12 +14,12 @@ RegionChoice box(const Vector3d& low, const Vector3d& high)
     return {.kind = RegionChoice::Kind::box, .low = low, .high = high};
 }
 
-TEST(Region, IsNoneWhereEverythingIsChosen)
+TEST(Region, IsNullIfEverythingIsChosen)
 {
     EXPECT_EQ(make_region({}, Scene()), nullptr);
 }
 
-TEST(BoxRegion, HoldsItsBorder)
+TEST(BoxRegion, ContainsItsBoundary)
 {
     const auto region = make_region(box({0, 0, 0}, {1, 2, 3}), Scene());
     EXPECT_TRUE(region->contains({0.5, 1.0, 1.5}));
@@ -29,21 +29,21 @@ TEST(BoxRegion, HoldsItsBorder)
     EXPECT_FALSE(region->contains({0.5, 2.5, 1}));
 }
 
-TEST(BoxRegion, IsMetByWhatPassesThroughOrTouches)
+TEST(BoxRegion, MeetsSegmentsThatCrossOrTouchIt)
 {
     const auto region = make_region(box({0, 0, 0}, {1, 1, 1}), Scene());
-    EXPECT_TRUE(region->meets({-1, 0.5, 0.5}, {2, 0.5, 0.5}));    // through it
-    EXPECT_TRUE(region->meets({0.5, 0.5, 0.5}, {9, 9, 9}));       // out of it
-    EXPECT_TRUE(region->meets({0.2, 0.5, 0.5}, {0.3, 0.5, 0.5})); // within it
+    EXPECT_TRUE(region->meets({-1, 0.5, 0.5}, {2, 0.5, 0.5}));    // across
+    EXPECT_TRUE(region->meets({0.5, 0.5, 0.5}, {9, 9, 9}));       // leaves
+    EXPECT_TRUE(region->meets({0.2, 0.5, 0.5}, {0.3, 0.5, 0.5})); // inside
     EXPECT_TRUE(region->meets({-1, 1, 0}, {1, -1, 0}));           // touches an edge
-    EXPECT_TRUE(region->meets({1, 1, 1}, {1, 1, 1}));             // a corner, no segment
+    EXPECT_TRUE(region->meets({1, 1, 1}, {1, 1, 1}));             // a corner, zero length
     EXPECT_FALSE(region->meets({2, 1, 1}, {2, 1, 1}));
-    EXPECT_FALSE(region->meets({-2, 0.5, 0.5}, {-1, 0.5, 0.5})); // ends before it
+    EXPECT_FALSE(region->meets({-2, 0.5, 0.5}, {-1, 0.5, 0.5})); // ends in front
     EXPECT_TRUE(region->meets({0, 2, 0.5}, {2, 0, 0.5}));
     EXPECT_FALSE(region->meets({0, 2, 0.5}, {2, 1e-15, 0.5})); // past an edge
 }
 
-TEST(BoxRegion, IsGivenInTheFrameOfTheFile)
+TEST(BoxRegion, IsInTheFrameOfTheFile)
 {
     Scene scene;
     scene.offset = {5e5, 4.6e6, 100};
@@ -53,8 +53,8 @@ TEST(BoxRegion, IsGivenInTheFrameOfTheFile)
     EXPECT_TRUE(region->contains({1.5, 2.5, 3.5}));
 }
 
-/// A scene of which the ball of what was looked at is known: points on the axis of x from -1 to 1,
-/// and a far one.
+/// A scene with a known region of interest: points on the x axis from -1 to 1, and a distant
+/// point.
 Scene row_and_far_point()
 {
     std::vector<MadePoint> points = {{{1000, 0, 0}, {0, 1}}};
@@ -64,7 +64,7 @@ Scene row_and_far_point()
     return make_scene({{0, 0, 10}, {1, 0, 10}}, points);
 }
 
-TEST(BallRegion, IsWhatWasLookedAt)
+TEST(BallRegion, IsTheRegionOfInterest)
 {
     const Scene scene = row_and_far_point();
     const Ball ball = region_of_interest(scene);
@@ -79,10 +79,10 @@ TEST(BallRegion, IsWhatWasLookedAt)
     for (const Vector3d& position : scene.positions) {
         held += region->contains(position) ? 1 : 0;
     }
-    EXPECT_EQ(held, 190U); // the first that are 94 % of 202 or more, the one at its border too
+    EXPECT_EQ(held, 190U); // at least 94 % of 202, including the point on the boundary
 }
 
-TEST(BallRegion, IsMetByWhatPassesNearerThanItsRadius)
+TEST(BallRegion, MeetsSegmentsCloserThanItsRadius)
 {
     const Scene scene = row_and_far_point();
     const Ball ball = region_of_interest(scene);
@@ -92,8 +92,8 @@ TEST(BallRegion, IsMetByWhatPassesNearerThanItsRadius)
     };
     EXPECT_TRUE(region->meets(at(-3, 0.999), at(2, 0.999)));
     EXPECT_FALSE(region->meets(at(-3, 1.001), at(2, 1.001)));
-    EXPECT_FALSE(region->meets(at(-3, 0), at(-1.001, 0))); // ends before it
-    EXPECT_FALSE(region->meets(at(1.001, 0), at(3, 0)));   // begins behind it
+    EXPECT_FALSE(region->meets(at(-3, 0), at(-1.001, 0))); // ends in front
+    EXPECT_FALSE(region->meets(at(1.001, 0), at(3, 0)));   // begins behind
     EXPECT_TRUE(region->meets(at(0.5, 0), at(0.5, 0)));
 }
 

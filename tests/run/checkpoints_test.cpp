@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// What was told, a line each, without what keeping itself tells.
+/// Records ends of stages and notes, except the checkpoints' own stages.
 class Lines final : public Log {
   public:
     void stage_ends(std::string_view name, const Counts& counts) override
@@ -37,10 +37,10 @@ class Lines final : public Log {
     std::vector<std::string> notes;
 };
 
-/// One run after the other in the same folder.
+/// Consecutive runs in the same folder.
 class CheckpointsOfRuns : public ::testing::Test {
   protected:
-    /// A run: what it told, and how often the stages were made, stand in the members after it.
+    /// Runs once. Members record the messages, and how often stages were computed.
     template <typename Run>
     auto run(const Run& run)
     {
@@ -51,24 +51,24 @@ class CheckpointsOfRuns : public ::testing::Test {
         Checkpoints keeper(&work, log);
         return run(keeper);
     }
-    /// A stage that another is made within.
+    /// A stage that contains another stage.
     Numbers outer(Checkpoints& keeper)
     {
         Numbers numbers;
         keeper.keep("outer", numbers, [&] {
             keeper.keep("inner", numbers, [&] {
                 ++inner_made;
-                tell(keeper.log(), "first");
+                report(keeper.log(), "first");
                 numbers = {1, 2, 3};
             });
             ++outer_made;
             keeper.log().note("a note");
-            tell(keeper.log(), "second");
+            report(keeper.log(), "second");
             numbers.push_back(4);
         });
         return numbers;
     }
-    static void tell(Log& log, std::string_view name)
+    static void report(Log& log, std::string_view name)
     {
         Stage stage(log, name);
         stage.end({{"numbers", 3}});
@@ -88,7 +88,7 @@ class CheckpointsOfRuns : public ::testing::Test {
 
 } // namespace
 
-TEST_F(CheckpointsOfRuns, WithoutAFolderMakesEveryStageAndTellsNothingElse)
+TEST_F(CheckpointsOfRuns, ComputesEveryStageWithoutAFolder)
 {
     Checkpoints keeper(nullptr, log);
     EXPECT_EQ(&keeper.log(), &log);
@@ -98,33 +98,33 @@ TEST_F(CheckpointsOfRuns, WithoutAFolderMakesEveryStageAndTellsNothingElse)
     EXPECT_THAT(log.notes, ElementsAre("a note", "a note"));
 }
 
-TEST_F(CheckpointsOfRuns, TakesAStageThatWasKeptAndTellsWhatItTold)
+TEST_F(CheckpointsOfRuns, LoadsASavedStageAndReplaysItsLog)
 {
     EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
     EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
     EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
     EXPECT_EQ(inner_made + outer_made, 0);
     EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
-    EXPECT_THAT(log.notes, ElementsAre("outer of the folder " + folder.path().string() +
-                                           " has what an earlier run made in first, second",
+    EXPECT_THAT(log.notes, ElementsAre("checkpoint outer in the folder " + folder.path().string() +
+                                           " replaces the stages first, second",
                                        "a note"));
 }
 
-TEST_F(CheckpointsOfRuns, GoesOnAfterTheLastStageThatWasKept)
+TEST_F(CheckpointsOfRuns, ResumesAfterTheLastSavedStage)
 {
     run([&](auto& keeper) { return outer(keeper); });
     remove("outer.stage");
     EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
     EXPECT_EQ(inner_made, 0);
     EXPECT_EQ(outer_made, 1);
-    // What was taken is a part of what the stage around it tells.
+    // The enclosing stage also records the messages of a loaded stage.
     remove("inner.stage");
     EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
     EXPECT_EQ(outer_made, 0);
     EXPECT_THAT(log.lines, ElementsAre("first 3 numbers", "second 3 numbers"));
 }
 
-TEST_F(CheckpointsOfRuns, MakesADamagedStageAgainAndSaysSo)
+TEST_F(CheckpointsOfRuns, RecomputesADamagedStageWithANote)
 {
     run([&](auto& keeper) { return outer(keeper); });
     damage("outer.stage");
@@ -133,15 +133,15 @@ TEST_F(CheckpointsOfRuns, MakesADamagedStageAgainAndSaysSo)
     EXPECT_EQ(outer_made, 1);
     ASSERT_FALSE(log.notes.empty());
     EXPECT_THAT(log.notes[0], HasSubstr("outer.stage: its content is damaged"));
-    EXPECT_THAT(log.notes[0], HasSubstr("; it is made again"));
+    EXPECT_THAT(log.notes[0], HasSubstr("; it is computed again"));
     run([&](auto& keeper) { return outer(keeper); });
-    EXPECT_EQ(outer_made, 0); // it is whole again
+    EXPECT_EQ(outer_made, 0); // the file is valid again
 }
 
-TEST_F(CheckpointsOfRuns, GoesOnWhereAStageCannotBeWrittenAndSaysSo)
+TEST_F(CheckpointsOfRuns, ContinuesWithANoteIfAStageCannotBeWritten)
 {
     const auto once_unwritable = [&](Checkpoints& keeper) {
-        // Nobody writes where a folder stands.
+        // A folder in place of the file prevents writing.
         std::filesystem::create_directory(folder /
                                           ("outer.stage.part-" + std::to_string(::getpid())));
         return outer(keeper);
@@ -149,14 +149,14 @@ TEST_F(CheckpointsOfRuns, GoesOnWhereAStageCannotBeWrittenAndSaysSo)
     EXPECT_EQ(run(once_unwritable), expected);
     ASSERT_EQ(log.notes.size(), 2U);
     EXPECT_THAT(log.notes[1], HasSubstr("cannot write " + (folder / "outer.stage").string()));
-    EXPECT_THAT(log.notes[1], HasSubstr("; the run goes on, but outer would have to be made "
-                                        "again"));
+    EXPECT_THAT(log.notes[1], HasSubstr("; the run continues without a checkpoint of "
+                                        "outer"));
     EXPECT_EQ(run([&](auto& keeper) { return outer(keeper); }), expected);
     EXPECT_EQ(inner_made, 0);
     EXPECT_EQ(outer_made, 1);
 }
 
-TEST_F(CheckpointsOfRuns, KeepsNothingOfAStageThatFails)
+TEST_F(CheckpointsOfRuns, SavesNothingOfAFailedStage)
 {
     const auto fail = [](Checkpoints& keeper) {
         Numbers numbers;
@@ -167,7 +167,7 @@ TEST_F(CheckpointsOfRuns, KeepsNothingOfAStageThatFails)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-/// A stage of 20 parts, made on all threads; those after `most` fail.
+/// A stage in parts, computed on all threads; parts from `most` on fail.
 class PiecesOfCheckpoints : public CheckpointsOfRuns {
   protected:
     Numbers squares(Checkpoints& keeper, std::size_t of, std::size_t most)
@@ -194,7 +194,7 @@ class PiecesOfCheckpoints : public CheckpointsOfRuns {
         made = 0;
         return run([&](Checkpoints& keeper) { return squares(keeper, of, most); });
     }
-    /// Leaves all parts of a stage that did not end.
+    /// Leaves all parts of an unfinished stage.
     void leave_parts()
     {
         const auto all_parts = [&](Checkpoints& keeper) {
@@ -210,7 +210,7 @@ class PiecesOfCheckpoints : public CheckpointsOfRuns {
     std::atomic<int> made = 0;
 };
 
-TEST_F(PiecesOfCheckpoints, AreBelievedWhereRanksOfThisRunHaveMadeThem)
+TEST_F(PiecesOfCheckpoints, AreNotCheckedIfARankOfThisRunMadeThem)
 {
     const auto numbers = [](Checkpoints& keeper) {
         return keeper.piece({"numbers", 0, 1}, [] { return Numbers(50, 7); });
@@ -218,16 +218,16 @@ TEST_F(PiecesOfCheckpoints, AreBelievedWhereRanksOfThisRunHaveMadeThem)
     const auto shared = [](Checkpoints& keeper) {
         return keeper.shared_piece({"numbers", 0, 1}, [] { return Numbers(50, 8); });
     };
-    EXPECT_EQ(run(shared), Numbers(50, 8)) << "one that is not there is made";
+    EXPECT_EQ(run(shared), Numbers(50, 8)) << "a missing part is computed";
     EXPECT_EQ(run(numbers), Numbers(50, 8));
     damage("numbers-0-of-1.stage");
     const Numbers believed = run(shared);
     EXPECT_EQ(believed.size(), 50U);
     EXPECT_NE(believed, Numbers(50, 8));
-    EXPECT_EQ(run(numbers), Numbers(50, 7)) << "others are looked at";
+    EXPECT_EQ(run(numbers), Numbers(50, 7)) << "other parts are checked";
 }
 
-TEST_F(PiecesOfCheckpoints, AreNotMadeAgain)
+TEST_F(PiecesOfCheckpoints, AreNotRecomputed)
 {
     EXPECT_EQ(refusal<InputError>([&] { squares(20, 15); }), "killed");
     const int before = made;
@@ -237,7 +237,7 @@ TEST_F(PiecesOfCheckpoints, AreNotMadeAgain)
     EXPECT_THAT(log.notes, IsEmpty());
 }
 
-TEST_F(PiecesOfCheckpoints, GoWhenTheirStageIsKept)
+TEST_F(PiecesOfCheckpoints, AreRemovedWhenTheirStageIsSaved)
 {
     leave_parts();
     EXPECT_EQ(folder.num_entries(), 22U);
@@ -246,14 +246,14 @@ TEST_F(PiecesOfCheckpoints, GoWhenTheirStageIsKept)
     EXPECT_EQ(folder.num_entries(), 3U); // lock, job, squares
 }
 
-TEST_F(PiecesOfCheckpoints, OfAnotherNumberAreOthers)
+TEST_F(PiecesOfCheckpoints, DependOnTheNumberOfParts)
 {
     leave_parts();
     EXPECT_EQ(squares(10, 10).size(), 10U);
     EXPECT_EQ(made, 10);
 }
 
-TEST_F(PiecesOfCheckpoints, ThatAreDamagedAreMadeAgainAndToldOfAtTheEnd)
+TEST_F(PiecesOfCheckpoints, AreRecomputedIfDamagedWithANoteAtTheEnd)
 {
     leave_parts();
     damage("squares-3-of-20.stage");
@@ -261,7 +261,7 @@ TEST_F(PiecesOfCheckpoints, ThatAreDamagedAreMadeAgainAndToldOfAtTheEnd)
     EXPECT_EQ(made, 1);
     ASSERT_EQ(log.notes.size(), 1U);
     EXPECT_THAT(log.notes[0], HasSubstr("squares-3-of-20.stage: it"));
-    EXPECT_THAT(log.notes[0], HasSubstr("; it is made again"));
+    EXPECT_THAT(log.notes[0], HasSubstr("; it is computed again"));
 }
 
 } // namespace vcarve::checkpoints_test

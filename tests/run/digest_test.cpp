@@ -23,15 +23,15 @@ std::string long_text()
 
 } // namespace
 
-// The expected digests are from Python's hashlib: work folders outlive programs, so they stay.
-TEST(Digest, IsTheChainOfTheMd5OfWholeMebibytes)
+// The expected digests are from Python's hashlib. They must not change, as work folders persist.
+TEST(Digest, ChainsTheMd5OfWholeMebibytes)
 {
     EXPECT_EQ(digest_text(digest_of(std::string())), "4ae71336e44b39bfb9d2752e234818a5");
     EXPECT_EQ(digest_text(digest_of(std::string("abc"))), "522ec739ca633ec5b08208ce08ad65e2");
     EXPECT_EQ(digest_text(digest_of(long_text())), "b9e93c4968153d3f8956e75c0c78da4d");
 }
 
-TEST(Digest, DoesNotDependOnThePieces)
+TEST(Digest, DoesNotDependOnTheSizesOfPieces)
 {
     const std::string text = long_text();
     for (const std::size_t most : {1000UL, (1UL << 20) - 1, 1UL << 20, 3UL << 19}) {
@@ -43,7 +43,7 @@ TEST(Digest, DoesNotDependOnThePieces)
     }
 }
 
-TEST(Digest, DiffersWhereAnyByteDoes)
+TEST(Digest, DiffersIfAnyByteDiffers)
 {
     const std::string text = long_text();
     const Digest whole = digest_of(text);
@@ -55,7 +55,7 @@ TEST(Digest, DiffersWhereAnyByteDoes)
     EXPECT_NE(digest_of(text.substr(0, text.size() - 1)), whole);
 }
 
-TEST(Digest, OfAFileIsThatOfItsBytes)
+TEST(Digest, IsTheSameForAFileAndItsBytes)
 {
     const TemporaryFolder folder;
     const std::string text = long_text();

@@ -58,7 +58,7 @@ void write_model(const TemporaryFolder& folder, const std::string& points)
 
 } // namespace
 
-TEST(Job, DependsOnEveryOptionButThoseOfTheRun)
+TEST(Job, DependsOnEveryOptionExceptThoseOfTheRun)
 {
     const Job usual = option_facts(Options());
     std::vector<std::string> without;
@@ -72,14 +72,14 @@ TEST(Job, DependsOnEveryOptionButThoseOfTheRun)
     EXPECT_THAT(without, ElementsAre("threads", "max-memory", "blocks"));
 }
 
-TEST(Job, TellsNumbersApartToTheLastDigit)
+TEST(Job, DistinguishesNumbersToTheLastBit)
 {
     Options options;
     options.labels.cut.quality = std::nextafter(1.0, 2.0);
     EXPECT_NE(option_facts(options), option_facts(Options()));
 }
 
-TEST(Job, DependsOnTheContentOfFilesNotOnPlaceOrTime)
+TEST(Job, DependsOnTheContentOfFilesButNotOnPathOrTime)
 {
     const TemporaryFolder here;
     const TemporaryFolder there;
@@ -98,7 +98,7 @@ TEST(Job, DependsOnTheContentOfFilesNotOnPlaceOrTime)
     EXPECT_NE(before[2], after[2]);
 }
 
-TEST(Job, DependsOnTheCloudAndNotOnPointsThatAreNotRead)
+TEST(Job, DependsOnTheCloudButNotOnUnreadPoints)
 {
     const TemporaryFolder folder;
     write_model(folder, "some points");
@@ -106,19 +106,19 @@ TEST(Job, DependsOnTheCloudAndNotOnPointsThatAreNotRead)
     input.dense = DenseFiles{.model = folder.path(),
                              .format = ModelFormat::binary,
                              .cloud = folder.write("a.ply", "a cloud"),
-                             .visibility = folder.write("a.ply.vis", "sights")};
+                             .visibility = folder.write("a.ply.vis", "rays")};
     const Job before = input_facts(input);
     write_model(folder, "other points");
     EXPECT_EQ(input_facts(input), before);
-    folder.write("a.ply.vis", "Sights");
+    folder.write("a.ply.vis", "Rays");
     EXPECT_NE(input_facts(input), before);
     input.dense->visibility.clear();
-    EXPECT_THAT(input_facts(input), Contains(JobFact{"--sights", "nearest"}));
+    EXPECT_THAT(input_facts(input), Contains(JobFact{"--rays", "nearest"}));
     folder.write("a.ply", "A cloud");
     EXPECT_THAT(input_facts(input), Not(IsSupersetOf({before[2]})));
 }
 
-TEST(Job, DependsOnWhereTheScannerStood)
+TEST(Job, DependsOnThePositionOfTheScanner)
 {
     const TemporaryFolder folder;
     FoundInput input;
@@ -145,7 +145,7 @@ TEST(Job, NamesTheProgram)
     EXPECT_THAT(program_fact().value, HasSubstr(program_version()));
 }
 
-TEST(Job, HasALineAFact)
+TEST(Job, HasOneLinePerFact)
 {
     EXPECT_EQ(job_text({{"--quality", "1"}, {"--closed", "no"}}), "--quality\t1\n--closed\tno\n");
     EXPECT_NE(digest_of(Job{{"--quality", "1"}}), digest_of(Job{{"--quality", "2"}}));
@@ -196,7 +196,7 @@ TEST(DigestOfScene, DoesNotDependOnTheOrderOfThePoints)
     turned.tracks = Tracks();
     turned.tracks.push_back(scene.tracks[1]);
     turned.tracks.push_back(scene.tracks[0]);
-    EXPECT_NE(digest_of(turned), digest_of(scene)) << "other numbers of the points";
+    EXPECT_NE(digest_of(turned), digest_of(scene)) << "the points have other ids";
     std::swap(turned.point_ids[0], turned.point_ids[1]);
     EXPECT_EQ(digest_of(turned), digest_of(scene));
 }

@@ -49,7 +49,7 @@ class StageFile : public ::testing::Test {
         write(value);
         return read<T>();
     }
-    /// What is said of the file when it has these bytes.
+    /// The error for a file with these bytes.
     std::string refusal_of(std::string_view bytes) const
     {
         folder.write("some.stage", bytes);
@@ -85,9 +85,9 @@ std::string replaced(std::string bytes, std::size_t at, char mask)
 
 } // namespace
 
-TEST_F(StageFile, BeginsLargeArraysWithAPage)
+TEST_F(StageFile, AlignsLargeArraysToPages)
 {
-    EXPECT_EQ(stage_padding(0, 100), 0) << "a small one";
+    EXPECT_EQ(stage_padding(0, 100), 0) << "a small array";
     EXPECT_EQ(stage_padding(3, 1 << 20), 4096 - kContentBegin - 3);
     EXPECT_EQ(stage_padding(4096 - kContentBegin, 1 << 20), 0);
     std::vector<std::uint64_t> numbers(1 << 18);
@@ -103,9 +103,9 @@ TEST_F(StageFile, BeginsLargeArraysWithAPage)
     EXPECT_THAT(places, ::testing::ElementsAre(4096, 4096 + (2 << 20) + 4096));
 }
 
-TEST_F(StageFile, IsMappedWhereArraysAreInScratchMemory)
+TEST_F(StageFile, IsMappedIfArraysAreInScratchMemory)
 {
-    // This program's operator new gives no such memory, so an allocator does.
+    // This program's operator new does not allocate scratch memory, so an allocator does.
     const std::vector<std::uint64_t> numbers(2 << 20, 5);
     const std::uint64_t last = 7;
     StageWriter counter;
@@ -128,21 +128,21 @@ TEST_F(StageFile, IsMappedWhereArraysAreInScratchMemory)
     };
     EXPECT_TRUE(std::ranges::equal(mapped(), numbers));
 
-    // What is damaged is found where it is read, and believed where it is mapped.
+    // Damage is detected in arrays that are read, but not in mapped arrays.
     std::string bytes = bytes_of(path);
     bytes[bytes.size() - 100] ^= 1;
     folder.write("some.stage", bytes);
     EXPECT_THAT(refusal<InputError>([&] { read<std::vector<std::uint64_t>>(); }),
                 HasSubstr("its content is damaged"));
     EXPECT_FALSE(std::ranges::equal(mapped(), numbers));
-    // A file that is cut off is no more believed than any.
+    // A truncated file is always rejected.
     folder.write("some.stage", bytes.substr(0, bytes.size() - 4096));
-    EXPECT_THAT(refusal<InputError>(mapped), HasSubstr("but its header tells of"));
+    EXPECT_THAT(refusal<InputError>(mapped), HasSubstr("but its header records"));
 }
 
-TEST_F(StageFile, GivesBackAScene)
+TEST_F(StageFile, PreservesAScene)
 {
-    scene.views[0].name = std::string("with \n and \0 in it", 17); // as a model may have it
+    scene.views[0].name = std::string("with \n and \0 in it", 17); // models may have such names
     scene.cameras[0].params = {1.0, 0.1, -2.0};
     scene.cameras[0].measures_range = true;
     scene.normals.assign(scene.num_points(), Eigen::Vector3f(0.5F, 1.0F, -1.0F));
@@ -152,7 +152,7 @@ TEST_F(StageFile, GivesBackAScene)
     expect_equal_scenes(through_file(Scene()), Scene());
 }
 
-TEST_F(StageFile, GivesBackCells)
+TEST_F(StageFile, PreservesCells)
 {
     const TetMesh cells = triangulate(scene);
     const TetMesh same = through_file(cells);
@@ -166,7 +166,7 @@ TEST_F(StageFile, GivesBackCells)
     }
 }
 
-TEST_F(StageFile, GivesBackAnEnergy)
+TEST_F(StageFile, PreservesAnEnergy)
 {
     VisibilityEnergy energy;
     energy.network.arc_capacities = {{1, 2, 3, 4}, {5, 6, 7, 8}};
@@ -180,7 +180,7 @@ TEST_F(StageFile, GivesBackAnEnergy)
     EXPECT_EQ(same.unit, energy.unit);
 }
 
-TEST_F(StageFile, GivesBackASurfaceAndWhatWasTakenAway)
+TEST_F(StageFile, PreservesASurfaceAndItsRemovedFaces)
 {
     CarvedSurface carved;
     carved.faces = sample_sheet();
@@ -208,7 +208,7 @@ TEST_F(StageFile, GivesBackASurfaceAndWhatWasTakenAway)
     EXPECT_FALSE(through_file(carved).openness.has_value());
 }
 
-TEST_F(StageFile, IsRefusedWhereverAByteIsAnother)
+TEST_F(StageFile, IsRejectedIfAnyByteIsChanged)
 {
     write(scene);
     const std::string bytes = bytes_of(path);
@@ -216,7 +216,7 @@ TEST_F(StageFile, IsRefusedWhereverAByteIsAnother)
     std::mt19937 random(7);
     std::uniform_int_distribution<std::size_t> place(0, bytes.size() - 1);
     for (std::size_t i = 0; i < 400; ++i) {
-        // The header, the first counts, the end, and anywhere.
+        // The header, the first counts, the end, and random positions.
         const std::size_t at = i < 200 ? i : i < 220 ? bytes.size() - 220 + i : place(random);
         const char mask = static_cast<char>(1 << (i % 8));
         EXPECT_THAT(refusal_of(replaced(bytes, at, mask)), StartsWith(path.string() + ": it"))
@@ -226,52 +226,52 @@ TEST_F(StageFile, IsRefusedWhereverAByteIsAnother)
     expect_equal_scenes(read<Scene>(), scene);
 }
 
-TEST_F(StageFile, IsRefusedWhereverItIsCutOff)
+TEST_F(StageFile, IsRejectedIfItIsTruncatedAnywhere)
 {
     write(scene);
     const std::string bytes = bytes_of(path);
     for (std::size_t length = 0; length < bytes.size(); length += length < 300 ? 1 : 97) {
         EXPECT_THAT(
             refusal_of(bytes.substr(0, length)),
-            AnyOf(HasSubstr("it is cut off: it has " + std::to_string(length) + " bytes"),
-                  HasSubstr("it has " + std::to_string(length) +
-                            " bytes, but its header tells of " + std::to_string(bytes.size()))));
+            AnyOf(HasSubstr("it is truncated: it has " + std::to_string(length) + " bytes"),
+                  HasSubstr("it has " + std::to_string(length) + " bytes, but its header records " +
+                            std::to_string(bytes.size()))));
     }
-    EXPECT_THAT(refusal_of(bytes + "x"), HasSubstr("but its header tells of"));
+    EXPECT_THAT(refusal_of(bytes + "x"), HasSubstr("but its header records"));
 }
 
-TEST_F(StageFile, SaysWhatIsWrong)
+TEST_F(StageFile, ExplainsWhyItIsRejected)
 {
     EXPECT_EQ(refusal<InputError>([&] { read<Scene>(); }),
               path.string() + ": it cannot be opened: No such file or directory");
     std::filesystem::create_directory(path);
     EXPECT_THAT(refusal<InputError>([&] { read<Scene>(); }), StartsWith(path.string() + ": it"));
     std::filesystem::remove(path);
-    EXPECT_EQ(refusal_of(std::string(1000, 'x')),
-              path.string() + ": it does not begin as a stage file does");
+    EXPECT_EQ(refusal_of(std::string(1000, 'x')), path.string() + ": it is not a stage file");
     write(scene);
     label.name = "other";
     EXPECT_EQ(refusal<InputError>([&] { read<Scene>(); }),
-              path.string() + ": it is of stage some, not other");
+              path.string() + ": it contains stage some, expected other");
     label = {"some", Digest{}};
     EXPECT_EQ(refusal<InputError>([&] { read<Scene>(); }),
-              path.string() + ": it is of another input or other options");
+              path.string() + ": it was made from other input or options");
 }
 
-TEST_F(StageFile, RefusesAYesOrNoThatIsNeither)
+TEST_F(StageFile, RejectsInvalidBooleans)
 {
     write(std::uint8_t{2});
-    EXPECT_THAT(refusal<InputError>([&] { read<bool>(); }), HasSubstr("a yes or no is neither"));
+    EXPECT_THAT(refusal<InputError>([&] { read<bool>(); }),
+                HasSubstr("a boolean is neither 0 nor 1"));
 }
 
-TEST_F(StageFile, OfMoreThanItsReaderAsksForIsRefused)
+TEST_F(StageFile, IsRejectedIfItHasMoreThanTheReaderExpects)
 {
     write(scene);
     EXPECT_THAT(refusal<InputError>([&] { read<std::vector<Camera>>(); }),
                 HasSubstr("its content is damaged"));
 }
 
-TEST_F(StageFile, IsNotThereBeforeItIsCommitted)
+TEST_F(StageFile, DoesNotExistBeforeItIsCommitted)
 {
     StageWriter counter;
     counter.put(scene);
@@ -282,7 +282,7 @@ TEST_F(StageFile, IsNotThereBeforeItIsCommitted)
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST_F(StageFile, IsAsLargeAsWasCounted)
+TEST_F(StageFile, HasTheCountedSize)
 {
     write(scene);
     StageWriter counter;

@@ -25,7 +25,7 @@ using Numbers = std::vector<std::uint32_t>;
 
 class Work : public ::testing::Test {
   protected:
-    /// A folder with what one stage made.
+    /// Leaves a folder with one finished stage.
     void leave_a_stage() const
     {
         WorkFolder work(path);
@@ -49,7 +49,7 @@ class Work : public ::testing::Test {
     fs::path path = folder / "work";
 };
 
-/// No file may grow beyond so many bytes while it lives.
+/// Limits the size of files to `bytes` while the object exists.
 class LimitedFiles {
   public:
     explicit LimitedFiles(rlim_t bytes)
@@ -74,7 +74,7 @@ class LimitedFiles {
 
 } // namespace
 
-TEST_F(Work, IsJoinedByOthersThatNeitherLockNorRemoveIt)
+TEST_F(Work, CanBeJoinedByProcessesThatNeitherLockNorRemoveIt)
 {
     WorkFolder work(path);
     work.begin(kJob);
@@ -82,7 +82,7 @@ TEST_F(Work, IsJoinedByOthersThatNeitherLockNorRemoveIt)
         const WorkFolder joined(path, work.job());
         joined.save("part-1-of-2", {}, Numbers{4});
         WorkFolder another(path, work.job());
-        another.clear(); // is not for it to do
+        another.clear(); // does nothing
     }
     Numbers numbers;
     work.load("part-1-of-2", {}, numbers);
@@ -93,31 +93,31 @@ TEST_F(Work, IsJoinedByOthersThatNeitherLockNorRemoveIt)
     EXPECT_FALSE(work.has("part-1-of-2"));
 }
 
-TEST_F(Work, IsThereForTheNextRunOfTheSameJob)
+TEST_F(Work, IsReusedByTheNextRunOfTheSameJob)
 {
     leave_a_stage();
     EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
     EXPECT_FALSE(WorkFolder(path).has("others"));
 }
 
-TEST_F(Work, OfAnotherJobIsRefusedAndLeftAsItIs)
+TEST_F(Work, IsRejectedUnchangedIfItBelongsToAnotherJob)
 {
     leave_a_stage();
     const std::string job = bytes_of(path / "job");
-    const std::string end = "; name another folder with --work, or remove this one to begin anew";
-    const std::string begin = "the work folder " + path.string() + " is of another run: ";
+    const std::string end = "; choose another folder with --work, or remove this one to start over";
+    const std::string begin = "the work folder " + path.string() + " belongs to another run: ";
     EXPECT_EQ(refusal_to_begin({kJob[0], {"--quality", "2"}}),
-              begin + "--quality was 1 and is 2" + end);
+              begin + "--quality was 1 and is now 2" + end);
     EXPECT_EQ(refusal_to_begin({{"points3D.bin", "13 bytes"}, kJob[1]}),
-              begin + "points3D.bin was 12 bytes and is 13 bytes" + end);
-    EXPECT_EQ(refusal_to_begin({kJob[0]}), begin + "--quality was 1 and is not there" + end);
+              begin + "points3D.bin was 12 bytes and is now 13 bytes" + end);
+    EXPECT_EQ(refusal_to_begin({kJob[0]}), begin + "--quality was 1 and is now missing" + end);
     EXPECT_EQ(refusal_to_begin({kJob[1], kJob[0]}),
-              begin + "the order of what is read differs" + end);
+              begin + "the order of the input files differs" + end);
     EXPECT_EQ(bytes_of(path / "job"), job);
     EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
 }
 
-TEST_F(Work, WhoseJobIsDamagedIsRefused)
+TEST_F(Work, IsRejectedIfItsJobIsDamaged)
 {
     leave_a_stage();
     const std::string job = bytes_of(path / "job");
@@ -125,33 +125,33 @@ TEST_F(Work, WhoseJobIsDamagedIsRefused)
         std::string other = job;
         other[at] = static_cast<char>(other[at] ^ 1);
         std::ofstream(path / "job") << other;
-        EXPECT_THAT(refusal_to_begin(kJob), HasSubstr("/job: the file that says what the folder is "
-                                                      "of is damaged"))
+        EXPECT_THAT(refusal_to_begin(kJob), HasSubstr("/job: the job record of the work folder is "
+                                                      "damaged"))
             << at;
     }
     fs::resize_file(path / "job", job.size() / 2);
     EXPECT_THAT(refusal_to_begin(kJob), HasSubstr("is damaged"));
 }
 
-TEST_F(Work, WithNothingToGoOnWithIsTakenByAnyJobAndGoes)
+TEST_F(Work, AcceptsAnyJobIfItHasNoStagesAndIsRemoved)
 {
     WorkFolder(path).begin(kJob);
     EXPECT_FALSE(fs::exists(path));
     fs::create_directory(path);
     WorkFolder(path).begin(kJob);
-    EXPECT_TRUE(fs::is_empty(path)); // it was there before
+    EXPECT_TRUE(fs::is_empty(path)); // it existed before
     folder.write("work/job", "damaged");
     WorkFolder(path).begin(kJob);
     EXPECT_TRUE(fs::is_empty(path));
 }
 
-TEST_F(Work, IsOneRunsAtATime)
+TEST_F(Work, IsUsedByOneRunAtATime)
 {
     WorkFolder work(path);
     EXPECT_EQ(refusal<InputError>([&] { WorkFolder other(path); }),
-              "another run works in the folder " + path.string() +
-                  "; wait until it has ended, or name another folder with --work");
-    work.begin(kJob); // nothing was lost
+              "another run uses the work folder " + path.string() +
+                  "; wait until it ends, or choose another folder with --work");
+    work.begin(kJob); // the first run is unaffected
     work.save("numbers", {}, Numbers{1});
     EXPECT_TRUE(work.has("numbers"));
 }
@@ -159,23 +159,23 @@ TEST_F(Work, IsOneRunsAtATime)
 TEST_F(Work, IsLockedBeforeItIsChecked)
 {
     const WorkFolder work(path);
-    folder.write("work/notes.txt", "mine"); // would be refused, were the folder free
+    folder.write("work/notes.txt", "mine"); // would be rejected in an unlocked folder
     EXPECT_THAT(refusal<InputError>([&] { WorkFolder other(path); }),
-                StartsWith("another run works in the folder"));
+                StartsWith("another run uses the work folder"));
 }
 
-TEST_F(Work, LeavesForeignLockFiles)
+TEST_F(Work, KeepsLockFilesOfOtherPrograms)
 {
     folder.write("work/lock", "mine");
     folder.write("work/notes.txt", "mine");
-    for (int i = 0; i < 2; ++i) { // unlocked after the first
+    for (int i = 0; i < 2; ++i) { // the first call unlocks the folder
         EXPECT_THAT(refusal<UsageError>([&] { WorkFolder other(path); }),
-                    HasSubstr("is no work folder"));
+                    HasSubstr("is not a work folder"));
     }
     EXPECT_EQ(bytes_of(path / "lock"), "mine");
 }
 
-TEST_F(Work, IsFreeWhenItsProcessWasKilled)
+TEST_F(Work, IsUnlockedWhenItsProcessIsKilled)
 {
     int ready[2] = {};
     ASSERT_EQ(::pipe(ready), 0);
@@ -192,7 +192,7 @@ TEST_F(Work, IsFreeWhenItsProcessWasKilled)
     char letter = 0;
     ASSERT_EQ(::read(ready[0], &letter, 1), 1);
     EXPECT_THAT(refusal<InputError>([&] { WorkFolder other(path); }),
-                StartsWith("another run works in the folder"));
+                StartsWith("another run uses the work folder"));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     ::close(ready[0]);
@@ -200,33 +200,33 @@ TEST_F(Work, IsFreeWhenItsProcessWasKilled)
     EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
 }
 
-TEST_F(Work, IsNoFolderOfSomethingElse)
+TEST_F(Work, RejectsFoldersWithOtherFiles)
 {
     folder.write("work/notes.txt", "mine");
     EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(path); }),
               path.string() +
-                  " is no work folder, but holds notes.txt; --work takes a folder that is empty or "
-                  "does not exist, or one that an earlier run left");
+                  " is not a work folder: it contains notes.txt; --work needs a new or empty "
+                  "folder, or the work folder of an earlier run");
     EXPECT_EQ(std::distance(fs::directory_iterator(path), {}), 1);
     folder.write("file", "mine");
     EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(folder / "file"); }),
-              "cannot make the work folder " + (folder / "file").string() +
-                  ": there is a file of that name");
+              "cannot create the work folder " + (folder / "file").string() +
+                  ": a file with this name exists");
     EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(folder / "no/work"); }),
-              "cannot make the work folder " + (folder / "no/work").string() +
+              "cannot create the work folder " + (folder / "no/work").string() +
                   ": No such file or directory");
     fs::create_symlink("loop", folder / "loop");
     for (const char* loop : {"loop", "loop/work"}) {
         EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(folder / loop); }),
-                  "cannot make the work folder " + (folder / loop).string() +
+                  "cannot create the work folder " + (folder / loop).string() +
                       ": Too many levels of symbolic links");
     }
     const fs::path endless = folder / std::string(300, 'n');
     EXPECT_EQ(refusal<UsageError>([&] { WorkFolder other(endless); }),
-              "cannot make the work folder " + endless.string() + ": File name too long");
+              "cannot create the work folder " + endless.string() + ": File name too long");
 }
 
-TEST_F(Work, IsClearedOfWhatIsOurs)
+TEST_F(Work, RemovesOnlyItsFilesWhenCleared)
 {
     leave_a_stage();
     {
@@ -234,7 +234,7 @@ TEST_F(Work, IsClearedOfWhatIsOurs)
         work.begin(kJob);
         work.clear();
     }
-    EXPECT_FALSE(fs::exists(path)); // by whoever made it
+    EXPECT_FALSE(fs::exists(path)); // WorkFolder created it
     leave_a_stage();
     folder.write("work/notes.txt", "mine");
     WorkFolder work(path);
@@ -244,7 +244,7 @@ TEST_F(Work, IsClearedOfWhatIsOurs)
     EXPECT_TRUE(fs::exists(path / "notes.txt"));
 }
 
-TEST_F(Work, GoesAlsoWhereItsMakerWasKilledBeforeItBegan)
+TEST_F(Work, IsRemovedIfItsCreatorWasKilledBeforeItBegan)
 {
     const pid_t child = ::fork();
     if (child == 0) {
@@ -257,7 +257,7 @@ TEST_F(Work, GoesAlsoWhereItsMakerWasKilledBeforeItBegan)
     EXPECT_FALSE(fs::exists(path));
 }
 
-TEST_F(Work, LosesWhatAKilledRunHalfWrote)
+TEST_F(Work, RemovesIncompleteFilesOfAKilledRun)
 {
     leave_a_stage();
     folder.write("work/others.stage.part-123", "half");
@@ -269,7 +269,7 @@ TEST_F(Work, LosesWhatAKilledRunHalfWrote)
     EXPECT_TRUE(fs::exists(path / "my.part-123"));
 }
 
-TEST_F(Work, OnAFullDiskSaysSoAndLosesNothing)
+TEST_F(Work, ReportsAFullDiskAndLosesNothing)
 {
     leave_a_stage();
     WorkFolder work(path);
@@ -284,7 +284,7 @@ TEST_F(Work, OnAFullDiskSaysSoAndLosesNothing)
     EXPECT_EQ(std::distance(fs::directory_iterator(path), {}), 4); // lock, job, numbers, few
 }
 
-TEST_F(Work, KeepsPartsUnderNamesOfTheirOwn)
+TEST_F(Work, SavesPartsUnderDistinctNames)
 {
     EXPECT_EQ(piece_name({"cells", 3, 8}), "cells-3-of-8");
     WorkFolder work(path);

@@ -24,7 +24,7 @@ struct Input {
     std::vector<StereoView> views;
 };
 
-/// Views at these angles, which all see the same `count` points near the origin.
+/// Views at these angles, all of which see the same `count` points near the origin.
 Input views_at(const std::vector<double>& angles, int count)
 {
     Input input;
@@ -54,7 +54,7 @@ TEST(ChooseSources, PrefersAnglesOfThreeTo25Degrees)
     EXPECT_EQ(choose_sources(input.scene, input.views, 2)[0], (Sources{3, 2}));
 }
 
-TEST(ChooseSources, LeavesOutViewsThatShareTooFewPoints)
+TEST(ChooseSources, SkipsViewsWithFewCommonPoints)
 {
     const Input five = views_at({0.0, 10.0}, 5);
     EXPECT_EQ(choose_sources(five.scene, five.views, 10)[0], Sources());

@@ -1,10 +1,10 @@
 #include "stereo/dense_points.h"
 #include "support/made_cells.h"
 #include "support/photographed_wall.h"
+#include "support/recording_log.h"
 #include "support/scenes.h"
 #include "support/stereo_scene.h"
 #include "support/temporary_folder.h"
-#include "support/told_log.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Photographs of a textured wall, z = 2 - 0.3 x, from seven places, and a sparse surface of it
-/// that is 1 % too far away. Each photograph has the wall at other depths.
+/// Photographs of a textured wall, z = 2 - 0.3 x, from seven viewpoints, and a sparse surface 1 %
+/// behind it. The depth of the wall differs between photographs.
 struct PhotographedRoom {
     TemporaryFolder folder;
     Reconstruction sparse;
@@ -71,7 +71,7 @@ struct PhotographedRoom {
         const auto make_anew = [](std::size_t, const std::function<DepthMap()>& make) {
             return make();
         };
-        ToldLog log;
+        RecordingLog log;
         return dense_points(sparse, photos, {size_px}, make_anew, log);
     }
     Scene dense() const { return measured().scene; }
@@ -97,7 +97,7 @@ TEST(DensePoints, IncludeTheSparsePoints)
     EXPECT_EQ(dense.tracks.size(), dense.num_points());
 }
 
-TEST(DensePoints, LeaveOutPhotographsThatCannotBeReadAndTransparentPixels)
+TEST(DensePoints, SkipUnreadablePhotographsAndTransparentPixels)
 {
     const PhotographedRoom room;
     Photograph cut = {160, 120, std::vector<std::uint8_t>(3 * 160 * 120, 90)};
@@ -111,10 +111,10 @@ TEST(DensePoints, LeaveOutPhotographsThatCannotBeReadAndTransparentPixels)
     room.folder.write("3.png", "no image");
     EXPECT_THAT(stereo_view(room.photos[3], 160).problem,
                 ::testing::HasSubstr("3.png: found an unknown format"));
-    EXPECT_GT(room.dense().num_points(), 1000U) << "the others suffice";
+    EXPECT_GT(room.dense().num_points(), 1000U) << "the other photographs suffice";
 }
 
-TEST(DensePoints, AreTheSameForAnyThreadCount)
+TEST(DensePoints, AreIdenticalForAnyThreadCount)
 {
     const PhotographedRoom room;
     const auto by = [&](int threads) {
@@ -127,11 +127,11 @@ TEST(DensePoints, AreTheSameForAnyThreadCount)
     EXPECT_EQ(one.colors, three.colors);
 }
 
-TEST(DensePoints, AreThoseOfKeptDepthMaps)
+TEST(DensePoints, ReuseKeptDepthMaps)
 {
     const PhotographedRoom room;
     std::vector<DepthMap> kept(room.photos.size());
-    ToldLog log;
+    RecordingLog log;
     const DensePoints first = dense_points(
         room.sparse, room.photos, {160},
         [&](std::size_t i, const auto& make) { return kept[i] = make(); }, log);
@@ -141,7 +141,7 @@ TEST(DensePoints, AreThoseOfKeptDepthMaps)
     EXPECT_EQ(first.picture.depth.rgb, second.picture.depth.rgb);
 }
 
-TEST(DensePoints, ComeWithThePictureOfADepthMap)
+TEST(DensePoints, IncludeThePictureOfADepthMap)
 {
     const DepthPicture picture = PhotographedRoom().measured().picture;
     EXPECT_EQ(picture.photograph.width_px, 80);
@@ -150,7 +150,7 @@ TEST(DensePoints, ComeWithThePictureOfADepthMap)
     EXPECT_EQ(picture.photograph.rgb.size(), picture.depth.rgb.size());
 }
 
-TEST(DensePoints, AreOnlyTheSparseOnesIfNoViewsHaveNeighbors)
+TEST(DensePoints, AreTheSparsePointsIfNoViewHasNeighbors)
 {
     PhotographedRoom room;
     Scene& scene = room.sparse.scene;
@@ -161,7 +161,7 @@ TEST(DensePoints, AreOnlyTheSparseOnesIfNoViewsHaveNeighbors)
     EXPECT_EQ(room.dense().positions, scene.positions);
 }
 
-TEST(PredictedStereoMemory, GrowsWithPhotographsSizeAndThreads)
+TEST(PredictedStereoMemory, GrowsWithPhotographCountSizeAndThreads)
 {
     const PhotographedRoom room;
     const auto bytes = predicted_stereo_memory(room.photos, {160}, 1);

@@ -7,7 +7,7 @@
 namespace vcarve::depth_picture_test {
 namespace {
 
-/// A row of pixels at these depths; 0 for none.
+/// A row of pixels with these depths; 0: not measured.
 DepthMap row_of(const std::vector<float>& depths)
 {
     DepthMap map;
@@ -22,7 +22,7 @@ DepthMap row_of(const std::vector<float>& depths)
     return map;
 }
 
-TEST(DepthPicture, IsLightWhereTheSurfaceIsNear)
+TEST(DepthPicture, IsLightForNearSurfaces)
 {
     StereoView view;
     view.view = 7;
@@ -30,12 +30,12 @@ TEST(DepthPicture, IsLightWhereTheSurfaceIsNear)
     const DepthPicture picture = depth_picture(view, row_of({1.0F, 2.0F, 4.0F, 0.0F}));
     EXPECT_EQ(picture.view, 7U);
     EXPECT_EQ(picture.photograph.rgb[1], 20);
-    // Inverse depths 1, 1/2 and 1/4: white, a third of the way, and the darkest gray.
+    // Inverse depths 1, 1/2 and 1/4: white, a third between, and the darkest gray.
     EXPECT_EQ(picture.depth.rgb,
               (std::vector<std::uint8_t>{255, 255, 255, 105, 105, 105, 30, 30, 30, 40, 50, 110}));
 }
 
-TEST(DepthPicture, OfAnEmptyMapShowsNoDepth)
+TEST(DepthPicture, ShowsNoDepthForAnEmptyMap)
 {
     StereoView view;
     view.colors = {{}, {}};
@@ -43,7 +43,7 @@ TEST(DepthPicture, OfAnEmptyMapShowsNoDepth)
               (std::vector<std::uint8_t>{40, 50, 110, 40, 50, 110}));
 }
 
-TEST(Fullest, IsTheMapWithTheMostMeasuredPixels)
+TEST(Fullest, ReturnsTheMapWithTheMostMeasuredPixels)
 {
     EXPECT_EQ(fullest({row_of({0.0F, 1.0F}), row_of({1.0F, 1.0F}), row_of({2.0F, 2.0F})}), 1U);
     EXPECT_EQ(fullest({}), 0U);

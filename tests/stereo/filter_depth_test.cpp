@@ -10,7 +10,7 @@ namespace {
 
 const Pinhole kCamera = {20.0F, {19.0F, 19.0F}};
 
-/// The plane z = 2, seen by the pixels of a depth map.
+/// A depth map of the plane z = 2.
 DepthMap wall(int width_px = 20)
 {
     const auto pixels = static_cast<std::size_t>(width_px) * 20;
@@ -31,7 +31,7 @@ void make_plain(DepthMap& map, int from, int to)
     }
 }
 
-TEST(DropSpeckles, DropsRegionsThatAreTooSmall)
+TEST(DropSpeckles, DropsRegionsBelowTheMinimumSize)
 {
     DepthMap map = wall();
     for (const int x : {4, 5, 6}) {
@@ -63,7 +63,7 @@ TEST(FillPlainRegions, LeavesTheSkyEmpty)
     EXPECT_EQ(std::ranges::count(map.costs, DepthMap::kFilled), 0);
 }
 
-TEST(FillPlainRegions, LeavesARegionEmptyWhosePixelsAroundDisagree)
+TEST(FillPlainRegions, SkipsARegionIfThePixelsAroundItDisagree)
 {
     DepthMap map = wall();
     for (int y = 0; y < 20; ++y) {
@@ -78,7 +78,7 @@ TEST(FillPlainRegions, LeavesARegionEmptyWhosePixelsAroundDisagree)
     EXPECT_EQ(std::ranges::count(map.costs, DepthMap::kFilled), 0);
 }
 
-TEST(FillPlainRegions, LeavesARegionEmptyThatIsMeasuredAlongALineOnly)
+TEST(FillPlainRegions, SkipsARegionMeasuredAlongALine)
 {
     DepthMap map = wall();
     std::ranges::fill(map.costs, DepthMap::kPlain);
@@ -90,7 +90,7 @@ TEST(FillPlainRegions, LeavesARegionEmptyThatIsMeasuredAlongALineOnly)
     EXPECT_EQ(std::ranges::count(map.costs, DepthMap::kFilled), 0);
 }
 
-TEST(FillPlainRegions, EndsWhereTheMeasuredPixelsEnd)
+TEST(FillPlainRegions, StaysBetweenTheMeasuredPixels)
 {
     DepthMap map = wall();
     const std::vector<PixelPlane> surface = map.planes;
@@ -104,7 +104,7 @@ TEST(FillPlainRegions, EndsWhereTheMeasuredPixelsEnd)
     EXPECT_EQ(map.costs[map.index(19, 2)], DepthMap::kPlain);
 }
 
-TEST(FillPlainRegions, LeavesARegionEmptyThatIsMeasuredAlongANarrowBandOnly)
+TEST(FillPlainRegions, SkipsARegionMeasuredAlongANarrowBand)
 {
     DepthMap map = wall(200);
     const std::vector<PixelPlane> surface = map.planes;

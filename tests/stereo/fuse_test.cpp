@@ -8,8 +8,8 @@ namespace {
 using Eigen::Vector3d;
 using Views = std::vector<std::uint32_t>;
 
-/// Three cameras side by side, whose baselines are whole pixels at depth 2, and the depth maps of
-/// the plane z = 2.
+/// Three cameras side by side and their depth maps of the plane z = 2. Their baselines are whole
+/// pixels at this depth.
 struct ThreeMaps {
     Scene scene;
     std::vector<StereoView> views;
@@ -39,10 +39,10 @@ struct ThreeMaps {
     Scene fused() const { return fuse(scene, {views, maps, neighbors}, {}); }
 };
 
-TEST(Fuse, MakesOnePointOfEachPixelThatThreeMapsAgreeOn)
+TEST(Fuse, MakesOnePointOfPixelsThatThreeMapsAgreeOn)
 {
-    // A baseline of 0.2 moves the plane by one of ten pixels of a depth map: eight columns of the
-    // first map are in both others.
+    // A baseline of 0.2 shifts the plane by one of ten pixels of a depth map, so both other maps
+    // show eight columns of the first map.
     const Scene fused = ThreeMaps().fused();
     ASSERT_EQ(fused.num_points(), 80U);
     EXPECT_TRUE(fused.is_dense);
@@ -55,7 +55,7 @@ TEST(Fuse, MakesOnePointOfEachPixelThatThreeMapsAgreeOn)
     }
 }
 
-TEST(Fuse, TakesTheMeanOfWhatAgrees)
+TEST(Fuse, AveragesAgreeingPixels)
 {
     ThreeMaps input;
     for (PixelPlane& plane : input.maps[1].planes) {
@@ -66,7 +66,7 @@ TEST(Fuse, TakesTheMeanOfWhatAgrees)
     EXPECT_NEAR(fused.positions[0].z(), 2.002, 1e-6);
 }
 
-TEST(Fuse, NeedsThreeMaps)
+TEST(Fuse, RequiresThreeMaps)
 {
     ThreeMaps input;
     for (PixelPlane& plane : input.maps[1].planes) {
@@ -75,7 +75,7 @@ TEST(Fuse, NeedsThreeMaps)
     EXPECT_EQ(input.fused().num_points(), 0U);
 }
 
-TEST(Fuse, NeedsNormalsThatAgree)
+TEST(Fuse, RequiresNormalsToAgree)
 {
     ThreeMaps input;
     for (PixelPlane& plane : input.maps[1].planes) {
@@ -84,7 +84,7 @@ TEST(Fuse, NeedsNormalsThatAgree)
     EXPECT_EQ(input.fused().num_points(), 0U);
 }
 
-TEST(Fuse, IgnoresPixelsThatWereNotMeasured)
+TEST(Fuse, IgnoresUnmeasuredPixels)
 {
     ThreeMaps input;
     input.maps[0].costs.assign(100, DepthMap::kNoCost);

@@ -21,10 +21,10 @@ DepthMap matched(const std::vector<StereoView>& views, const DepthPrior& prior)
     return match_view(views[0], sources, prior);
 }
 
-/// How much of a surface was measured, and how well.
+/// Completeness and accuracy of a depth map.
 struct Quality {
-    double measured = 0.0; ///< share of the pixels
-    double right = 0.0;    ///< share of these that are within 0.5 % of the depth
+    double measured = 0.0; ///< fraction of the pixels
+    double right = 0.0;    ///< fraction of the measured pixels within 0.5 % of the depth
 };
 
 Quality quality(const DepthMap& map, const StereoView& view, const SurfaceAlong& surface)
@@ -99,7 +99,7 @@ TEST(MatchView, StartsFromTheSurfaceOfThePrior)
     EXPECT_GT(found.right, 0.95);
 }
 
-TEST(MatchView, CallsPixelsWithoutTexturePlain)
+TEST(MatchView, MarksPixelsWithoutTextureAsPlain)
 {
     const SurfaceAlong nothing = [](const Vector3d&, const Vector3d&) { return 0.0; };
     const std::vector<StereoView> views = five_views(nothing);

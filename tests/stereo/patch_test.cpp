@@ -22,7 +22,7 @@ float bilinear(const GrayImage& image, double x, double y)
         down * ((1 - right) * image.at(column, row + 1) + right * image.at(column + 1, row + 1)));
 }
 
-/// The definition: every sample is carried to the plane and to the source by itself.
+/// The cost by its definition: projects every sample to the plane and to the source.
 double exact_cost(const StereoView& reference, const StereoView& source, const Patch& patch,
                   const Eigen::Vector2d& center, const PixelPlane& plane)
 {
@@ -53,7 +53,7 @@ double exact_cost(const StereoView& reference, const StereoView& source, const P
 
 const SurfaceAlong kSlope = plane_along(Vector3d(0.3, -0.2, 1.0).normalized(), 3.0);
 
-TEST(MatchedView, CostsWhatSampleBySampleWarpingGives)
+TEST(MatchedView, AgreesWithWarpingEachSample)
 {
     const std::vector<StereoView> views = five_views(kSlope);
     const MatchedView matched(views[0], views[1], views[1].image, views[1].camera);
@@ -70,7 +70,7 @@ TEST(MatchedView, CostsWhatSampleBySampleWarpingGives)
     }
 }
 
-TEST(MatchedView, CostsLeastOnTheTruePlane)
+TEST(MatchedView, HasTheLeastCostOnTheTruePlane)
 {
     const std::vector<StereoView> views = five_views(kSlope);
     const MatchedView matched(views[0], views[1], views[1].image, views[1].camera);
@@ -87,7 +87,7 @@ TEST(MatchedView, CostsLeastOnTheTruePlane)
     EXPECT_GT(cost(0.8F), 0.3F);
 }
 
-TEST(MatchedView, HasNoCostWhereTheSourceDoesNotShowThePatch)
+TEST(MatchedView, HasANegativeCostIfTheSourceDoesNotShowThePatch)
 {
     const std::vector<StereoView> views = five_views(kSlope);
     const MatchedView matched(views[0], views[1], views[1].image, views[1].camera);
@@ -97,7 +97,7 @@ TEST(MatchedView, HasNoCostWhereTheSourceDoesNotShowThePatch)
     EXPECT_LT(matched.cost(patch, ray, 150.0F, {0.4F, -Vector3f::UnitZ()}), 0.0F);
 }
 
-TEST(Patch, LeavesTheImageNearItsEdge)
+TEST(Patch, IsRejectedAtTheImageBorder)
 {
     const StereoView view = five_views(kSlope)[0];
     Patch patch;
@@ -105,7 +105,7 @@ TEST(Patch, LeavesTheImageNearItsEdge)
     EXPECT_TRUE(patch.set(view.image, 5, 60));
 }
 
-TEST(Patch, ShowsNothingBesideAnEdgeThatItsCenterDoesNotTouch)
+TEST(Patch, HasNoDeviationIfItsCenterIsBesideAnEdge)
 {
     GrayImage image{40, 40, std::vector<float>(1600, 100.0F)};
     for (int y = 0; y < 40; ++y) {

@@ -14,16 +14,16 @@
 
 namespace vcarve {
 
-/// Writes a COLMAP model in text into `folder`: points on the unit ball around `middle`, along a
-/// spiral and so without chance, each seen by those of six views, four away along the axes, that
-/// face it. With lumps the radius varies by up to such a share of it: points of one sphere are not
-/// triangulated in blocks (TooManyTies). Who sees a point is told as without them.
+/// Writes a COLMAP text model into `folder`: points along a spiral on the unit sphere around
+/// `middle`. Six views, at distance 4 along the axes, see the points that face them. `lumps` varies
+/// the radius by up to this fraction, because points of one sphere are not triangulated in blocks
+/// (TooManyTies). It does not change the tracks.
 inline void write_ball_model(const std::filesystem::path& folder, int num_points,
                              const Eigen::Vector3d& middle = Eigen::Vector3d::Zero(),
                              double lumps = 0.0)
 {
-    // Rotations that take the axis of a view to the camera's z, as w x y z; the centre is -4 times
-    // it.
+    // Rotations (w x y z) of the axis of a view to the camera's z axis. The center is -4 times the
+    // axis.
     constexpr double kHalf = 0.5 * std::numbers::sqrt2;
     static const std::array<const char*, 6> kNames = {"+z", "-z", "+y", "-y", "+x", "-x"};
     const std::array<Eigen::Vector4d, 6> rotations = {
@@ -54,7 +54,7 @@ inline void write_ball_model(const std::filesystem::path& folder, int num_points
         const Eigen::Vector3d place = (1.0 + lumps * waves.prod()) * p + middle;
         fmt::format_to(std::back_inserter(points), "{} {} 200 100 50 0.5", i + 1,
                        fmt::join(place, " "));
-        // The face towards an axis is seen from there: unit ball, view at 4, so from 1/4 on.
+        // A view at distance 4 sees the points of the unit sphere with a cosine above 1/4.
         for (std::size_t view = 0; view < axes.size(); ++view) {
             if (p.dot(axes[view]) > 0.3)
                 fmt::format_to(std::back_inserter(points), " {} 0", view + 1);

@@ -9,7 +9,7 @@
 
 namespace vcarve {
 
-/// The bytes of a number of a little-endian machine.
+/// The bytes of a number on a little-endian machine.
 template <typename Number>
 std::string raw(Number value)
 {
@@ -18,7 +18,7 @@ std::string raw(Number value)
     return bytes;
 }
 
-/// The bytes of a .vis file with these rows, written by the format's description.
+/// The bytes of a .vis file with these rows, written from the description of the format.
 template <typename Rows>
 std::string visibility_bytes(const Rows& rows)
 {
@@ -34,8 +34,8 @@ std::string visibility_bytes(const Rows& rows)
 
 enum class CloudEncoding { binary, ascii };
 
-/// The points of a scene as stereo_fusion writes them, in floats, as text with all their digits;
-/// without normals where the scene has none.
+/// The points of a scene as stereo_fusion writes them, in floats. Text has all digits. Normals are
+/// written if the scene has them.
 inline std::string cloud_bytes(const Scene& scene, CloudEncoding encoding)
 {
     const bool is_ascii = encoding == CloudEncoding::ascii;

@@ -1,7 +1,6 @@
-// A library to be loaded before a program's own (LD_PRELOAD): from main() on it lets one call of
-// the system fail, or all from that one on. VCARVE_FAILS says which: "write:3" is the third call of
-// write, "write:3+" all from there on. A file of the name VCARVE_FAILED is there once one has
-// failed, so a test knows when there are no more calls.
+// An LD_PRELOAD library that makes system calls fail after main() has begun. VCARVE_FAILS selects
+// them: "write:3" is the third call of write, "write:3+" the third and all later ones. The first
+// failure creates the file VCARVE_FAILED. If the file is missing, the program made fewer calls.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -26,7 +25,7 @@ struct Wanted {
     const char* call = "";
     std::size_t length = 0;
     long number = 0;
-    bool goes_on = false;
+    bool continues = false;
 };
 Wanted wanted;
 
@@ -37,16 +36,16 @@ void read_wanted()
     if (colon == nullptr) return;
     char* end = nullptr;
     wanted = {text, static_cast<std::size_t>(colon - text), std::strtol(colon + 1, &end, 10)};
-    wanted.goes_on = *end == '+';
+    wanted.continues = *end == '+';
 }
 
-/// Whether this call is to fail, with that error.
+/// Counts a call, and returns whether it must fail; then sets errno to `error`.
 bool fails(const char* call, int error)
 {
     if (!has_begun || std::strlen(call) != wanted.length) return false;
     if (std::memcmp(call, wanted.call, wanted.length) != 0) return false;
     const long number = ++count;
-    if (number < wanted.number || (number > wanted.number && !wanted.goes_on)) return false;
+    if (number < wanted.number || (number > wanted.number && !wanted.continues)) return false;
     if (const char* const mark = std::getenv("VCARVE_FAILED")) {
         ::syscall(SYS_close, ::syscall(SYS_open, mark, O_CREAT | O_WRONLY, 0600));
     }
@@ -60,7 +59,7 @@ Function next(Function, const char* name)
     return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
 }
 
-/// Whether glibc notes the destructor of a thread's variable: it aborts where it cannot.
+/// Whether glibc registers the destructor of a thread-local variable; it aborts if that fails.
 bool notes_destructor(const void* caller)
 {
     Dl_info info;

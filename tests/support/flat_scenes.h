@@ -25,8 +25,8 @@ inline const Views kAll = {0, 1, 2};
 
 inline constexpr double kSpacing = 0.1;
 
-/// Points about so far apart on a rectangle, a little off rows and columns: `at(u, v)` with u and v
-/// from `low` to `high`.
+/// Points on a rectangle, about kSpacing apart, slightly off rows and columns: `at(u, v)` with u
+/// and v from `low` to `high`.
 template <typename At>
 std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& high,
                             const Views& views, const At& at)
@@ -36,21 +36,21 @@ std::vector<MadePoint> flat(const Eigen::Array2d& low, const Eigen::Array2d& hig
     std::vector<MadePoint> points;
     for (double u = low[0]; u <= high[0]; u += kSpacing) {
         for (double v = low[1]; v <= high[1]; v += kSpacing) {
-            const double off_u = off(random); // in this order with any compiler
+            const double off_u = off(random); // a fixed order for all compilers
             points.push_back({at(u + off_u, v + off(random)), views});
         }
     }
     return points;
 }
 
-/// The wall z = 0, from so far above the floor y = 1 on.
+/// The wall z = 0, which begins `gap` above the floor y = 1.
 inline std::vector<MadePoint> wall(double gap, const Views& views = kAll)
 {
     return flat({-1.0, -0.6}, {1.0, 1.0 - gap}, views,
                 [](double u, double v) { return Eigen::Vector3d(u, v, 0.0); });
 }
 
-/// The floor, from so far before the wall on.
+/// The floor, which begins `gap` in front of the wall.
 inline std::vector<MadePoint> ground(double gap, const Views& views = kAll)
 {
     return flat({-1.0, gap}, {1.0, 1.6}, views,
@@ -67,7 +67,7 @@ inline Scene together(const std::vector<std::vector<MadePoint>>& parts,
     return spatial_sort(make_scene(centers, points));
 }
 
-/// The points of a scene of a kind.
+/// The indices of the points of a kind.
 inline std::vector<std::size_t> points_of_kind(const Scene& scene, PointKind kind)
 {
     std::vector<std::size_t> found;
@@ -82,8 +82,8 @@ inline Views track_of(const Scene& scene, std::size_t point)
     return {scene.tracks[point].begin(), scene.tracks[point].end()};
 }
 
-/// Points of a ball of radius 1 around the origin, so many on all of it, along a spiral; those
-/// with a z below so much alone.
+/// Points along a spiral on the unit sphere around the origin, `count` on the whole sphere. Only
+/// points with z below `most_z` are returned.
 inline std::vector<MadePoint> ball(int count, double most_z)
 {
     std::vector<MadePoint> points;
@@ -97,8 +97,8 @@ inline std::vector<MadePoint> ball(int count, double most_z)
     return points;
 }
 
-/// Expects the points that are of a kind added to a scene to be the same in other units and
-/// elsewhere, up to so much of a unit. How they follow each other is up to rounding.
+/// Expects the same added points of a kind, up to `off` units, after scaling and moving the scene.
+/// Their order may differ because of rounding.
 inline void expect_same_elsewhere(const Scene& scene, const AddedPointOptions& options,
                                   PointKind kind, const std::vector<double>& scales, double off)
 {

@@ -7,8 +7,8 @@
 
 namespace vcarve::testing {
 
-/// The faces of a grid of side x side vertices, x after x and within it y after y: two a square,
-/// seen from above.
+/// The faces of a grid of side x side vertices, two per square, counterclockwise from above. The
+/// vertex at (x, y) has the index x * side + y.
 inline std::vector<Face> grid_faces(std::uint32_t side)
 {
     std::vector<Face> faces;

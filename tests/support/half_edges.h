@@ -4,11 +4,11 @@
 
 namespace vcarve::testing {
 
-/// A surface as half-edges, taken apart before where it is not manifold.
+/// A surface as half-edges. Non-manifold edges and vertices are split first.
 HalfEdgeMesh half_edges(const TriMesh& mesh);
 
-/// The same made face by face by OpenMesh, which looks for every edge: what a fast way must agree
-/// with. The mesh must be manifold.
+/// The same, built by OpenMesh face by face, which searches for every edge. The fast construction
+/// must agree with it. The mesh must be manifold.
 HalfEdgeMesh::OpenMeshBase half_edges_face_by_face(const TriMesh& mesh);
 
 } // namespace vcarve::testing

@@ -17,10 +17,10 @@ inline std::string_view text_of(const Bytes& bytes)
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// A file's path for messages, and its bytes.
+/// The path of a file, for messages.
 inline const std::filesystem::path kImagePath = "a folder/photo";
 
-/// Colours that change slowly, so that JPEG keeps them well.
+/// Colors that change slowly, so that JPEG preserves them well.
 inline Photograph gradient(int width_px, int height_px)
 {
     Photograph photo{width_px, height_px, {}};
@@ -34,7 +34,7 @@ inline Photograph gradient(int width_px, int height_px)
     return photo;
 }
 
-/// The colour of a pixel.
+/// The color of a pixel.
 inline Bytes pixel(const Photograph& photo, int x, int y)
 {
     const auto at = photo.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * photo.width_px + x);

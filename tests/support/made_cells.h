@@ -28,20 +28,20 @@ Index cell_of(const TetMesh& mesh, const std::array<Index, 4>& corners);
 /// The facet of a cell across from one of its corners.
 CellFacet facet_across(const TetMesh& mesh, Index cell, Index corner);
 
-/// Inside are the finite cells for which `is_inside` holds.
+/// Labels the finite cells inside for which `is_inside` returns true.
 Labels labels_where(const TetMesh& mesh, const std::function<bool(Index)>& is_inside);
-/// All finite cells inside: the boundary is the convex hull.
+/// Labels all finite cells inside, so the boundary is the convex hull.
 Labels solid(const TetMesh& mesh);
 
-/// Turns a view so that the middle of its image shows a place.
+/// Turns a view so that the center of its image shows a position.
 void aim(View& view, const Eigen::Vector3d& place);
-/// The same tracks, but nobody saw some of the points.
+/// Empties the tracks of some points.
 void forget(Scene& scene, const std::set<Index>& points);
 
-/// columns x rows points of a triangular lattice at height 0 with edges of length 1 along the rows
-/// and 1.008 between them, exact, so that the outer ones lie on lines. The first is at the origin,
-/// rows one after another along x, each half a step further than the one before. A point has the
-/// neighbours +-1, +-columns and +-(columns - 1).
+/// columns x rows points of a triangular lattice at height 0, row by row along x from the origin.
+/// Edges have the length 1 along rows and 1.008 between rows. Coordinates are exact, so border
+/// points are collinear. Each row is shifted by half a step from the previous one. A point has the
+/// neighbors +-1, +-columns and +-(columns - 1).
 Positions triangular_lattice(int columns, int rows);
 
 template <typename Action>
@@ -51,9 +51,9 @@ auto with_threads(int threads, const Action& action)
     return arena.execute(action);
 }
 
-/// A scene with labelled cells, their boundary and what the views see of it.
-struct LabelledScene {
-    LabelledScene(Scene made, const std::function<Labels(const TetMesh&)>& label)
+/// A scene with labeled cells, their boundary, and its visibility from the views.
+struct LabeledScene {
+    LabeledScene(Scene made, const std::function<Labels(const TetMesh&)>& label)
         : scene(std::move(made)),
           mesh(triangulate(scene)),
           labels(label(mesh)),
@@ -68,7 +68,7 @@ struct LabelledScene {
     TetMesh mesh;
     Labels labels;
     std::vector<CellFacet> facets;
-    std::vector<Face> corners; ///< of each facet, as points of the scene
+    std::vector<Face> corners; ///< of each facet, as indices of points of the scene
     TriMesh surface;
     FaceVisibility visibility;
 };

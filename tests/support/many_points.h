@@ -19,8 +19,8 @@
 
 namespace vcarve {
 
-/// Points in a thin layer, made quickly so that there can be many of them, each seen by three of
-/// six views above it.
+/// Points in a thin layer, each seen by three of six views above it. They are made fast, so that
+/// tests can have many.
 inline Scene many_points(std::size_t count)
 {
     Scene scene;
@@ -54,24 +54,24 @@ inline Scene many_points(std::size_t count)
     return scene;
 }
 
-/// What the points of a scene take, in bytes.
+/// The memory of the points and tracks of a scene, in bytes.
 inline double bytes_of_points(const Scene& scene)
 {
     constexpr double kPoint = 24 + 3 + 8 + 8 + 8;
     return kPoint * static_cast<double>(scene.num_points()) +
-           4.0 * static_cast<double>(scene.num_sights());
+           4.0 * static_cast<double>(scene.num_rays());
 }
 
-/// The most memory that an action holds beside what was held before it, in bytes.
+/// The peak memory of an action in bytes, beyond the memory in use before it.
 template <typename Action>
 double memory_taken(const Action& action)
 {
 #ifdef __GLIBC__
-    // Arrays that are freed go back to the system at once, as they do of larger models.
+    // Return freed arrays to the system at once, as happens with larger models.
     mallopt(M_MMAP_THRESHOLD, 1 << 17);
 #endif
     return_freed_memory();
-    if (!cli::reset_peak_memory()) throw std::runtime_error("peaks of memory cannot be told apart");
+    if (!cli::reset_peak_memory()) throw std::runtime_error("cannot reset the peak of memory");
     const std::int64_t before = cli::peak_memory_bytes();
     action();
     return static_cast<double>(cli::peak_memory_bytes() - before);

@@ -7,8 +7,8 @@
 
 namespace vcarve {
 
-/// What the system was told of the mapping that begins here, as two letters each, with a blank
-/// before and after (proc(5), VmFlags); empty where there is no such mapping.
+/// The flags of the mapping that begins at `begin` (proc(5), VmFlags): two letters each, with a
+/// blank before and after. Empty if there is no such mapping.
 inline std::string mapping_flags(const void* begin)
 {
     char first[32];

@@ -139,7 +139,7 @@ Scene scene_above_square(std::size_t n, const std::vector<Eigen::Vector3d>& cent
     std::vector<std::uint32_t> all;
     for (const Eigen::Vector3d& center : centers) {
         View view;
-        view.cam_from_world = Eigen::Quaterniond(0, 1, 0, 0); // half a turn about x: looks down
+        view.cam_from_world = Eigen::Quaterniond(0, 1, 0, 0); // half a turn about x: look down
         view.center = center;
         all.push_back(static_cast<std::uint32_t>(scene.views.size()));
         scene.views.push_back(view);

@@ -14,9 +14,9 @@ namespace vcarve::testing {
 
 inline constexpr double kFocalPx = 1000.0;
 inline constexpr double kHeight = 10.0;      ///< of the views above the ground
-inline constexpr double kHalfBaseline = 2.0; ///< between them
+inline constexpr double kHalfBaseline = 2.0; ///< half the distance between the views
 
-/// Two views beside each other that look down.
+/// Two views side by side, which look down.
 inline Scene two_views()
 {
     Scene scene;
@@ -40,21 +40,21 @@ inline void add(Scene& scene, const Eigen::Vector3d& position)
     scene.tracks.push_back(std::array<std::uint32_t, 2>{0, 1});
 }
 
-/// How far up a point is off at the middle between the views if its places in the two images are
-/// off by a pixel: what of a pixel's way goes up at the angle of the sights, over both.
+/// The height error of a point midway between the views if both image positions have an error of
+/// one pixel: the vertical part of a pixel at the angle of the rays, for both views.
 inline const double kUpOfAPixel = std::hypot(kHeight, kHalfBaseline) / kFocalPx *
                                   std::hypot(kHeight, kHalfBaseline) / kHalfBaseline /
                                   std::sqrt(2.0);
 
-/// Numbers of a normal distribution (Box and Muller).
+/// Normally distributed numbers (Box and Muller).
 inline double normal_number(std::uint64_t index)
 {
     return std::sqrt(-2.0 * std::log(1.0 - random_number(5, 2 * index))) *
            std::cos(2.0 * std::numbers::pi * random_number(5, 2 * index + 1));
 }
 
-/// A square of ground between the views with points a fiftieth apart, which lie `rise(x, y)` up
-/// and are in error by so many pixels.
+/// A square of ground between the views. Points are .02 apart, at height `rise(x, y)` plus the
+/// noise of `noise_px` pixels.
 inline Scene ground(double noise_px, const std::function<double(double, double)>& rise)
 {
     Scene scene = two_views();
@@ -75,7 +75,7 @@ inline double flat(double /*x*/, double /*y*/)
     return 0.0;
 }
 
-/// Root of the mean square height of places above the ground.
+/// The root mean square height of positions above the ground.
 inline double rms(const std::vector<Eigen::Vector3d>& positions,
                   const std::function<double(double, double)>& rise = flat)
 {

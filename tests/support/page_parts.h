@@ -6,7 +6,7 @@
 
 namespace vcarve {
 
-/// The JSON that a page holds in the script element of that name.
+/// The JSON in the script element `name` of a page.
 inline nlohmann::ordered_json part_of(const std::string& page, const std::string& name)
 {
     const std::string begin = "<script type=\"application/json\" id=\"" + name + "\">";

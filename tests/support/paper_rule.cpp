@@ -16,7 +16,7 @@ using SolidTriangle = std::array<Vector3d, 3>;
 
 constexpr double kTolerance = 0.01;
 
-/// A triangle and a point of its plane, seen along the axis nearest its normal.
+/// A triangle and a point of its plane, projected along the axis nearest its normal.
 struct Projected {
     std::array<Vector2d, 3> corners;
     Vector2d hit;
@@ -40,7 +40,7 @@ double angle_between(const Vector2d& a, const Vector2d& b)
     return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
 }
 
-/// What the angles say about a point of a triangle's plane.
+/// Marks a point of a triangle's plane by the angles at it.
 Mark mark_by_angles(const Projected& seen)
 {
     double sum = 0.0;
@@ -51,7 +51,7 @@ Mark mark_by_angles(const Projected& seen)
         sum += angle;
         largest = std::max(largest, angle);
     }
-    // On an edge, and only there, it is seen under half a turn.
+    // An edge subtends half a turn only at points on it.
     if (largest > std::numbers::pi - kTolerance) {
         return Mark::unclear;
     }
@@ -62,10 +62,10 @@ Mark mark(const SolidTriangle& triangle, const Vector3d& point, const Vector3d& 
 {
     const Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
     const double share =
-        normal.dot(triangle[0] - point) / normal.dot(center - point); // of the way to the plane
+        normal.dot(triangle[0] - point) / normal.dot(center - point); // 0 at point, 1 at center
     constexpr double kClose = 1e-9;
     if (std::isnan(share)) {
-        return Mark::unclear; // the sight runs in the plane
+        return Mark::unclear; // the ray lies in the plane
     }
     if (share < -kClose || share > 1.0 + kClose) {
         return Mark::none;

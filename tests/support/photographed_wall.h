@@ -18,14 +18,14 @@
 
 namespace vcarve {
 
-/// The colour of a wall at x and y, from 0 to 255.
+/// The color of a wall at x and y, from 0 to 255.
 inline Eigen::Array3d wall_color(double x, double y)
 {
     return {120.0 + 60.0 * std::sin(5.0 * x), 120.0 + 60.0 * std::sin(4.0 * y),
             100.0 + 40.0 * std::cos(3.0 * (x + y))};
 }
 
-/// The square from -1 to 1 at z = 0, in so many squares a side of two faces, looking to -z.
+/// The square from -1 to 1 at z = 0, facing -z: squares x squares cells of two faces.
 inline TriMesh wall_mesh(std::uint32_t squares)
 {
     TriMesh mesh;
@@ -46,7 +46,7 @@ inline TriMesh wall_mesh(std::uint32_t squares)
     return mesh;
 }
 
-/// A camera that looks along z, of 160 x 120 pixels, a hundred a unit at distance 1.
+/// A camera of 160 x 120 pixels that looks along z; 100 pixels per unit at distance 1.
 inline CalibratedPhoto photo_from(const Eigen::Vector3d& center)
 {
     CalibratedPhoto photo;
@@ -58,8 +58,8 @@ inline CalibratedPhoto photo_from(const Eigen::Vector3d& center)
     return photo;
 }
 
-/// What such a camera takes of the wall: wherever it looks, the wall goes on. A pixel may be
-/// changed by what is painted over it.
+/// The photograph of an unbounded wall by such a camera. `paint_over` may change the color of any
+/// pixel.
 inline Photograph
 photograph_of_wall(const CalibratedPhoto& photo, const Eigen::Array3d& exposure = {1.0, 1.0, 1.0},
                    const std::function<void(int, int, Eigen::Array3d&)>& paint_over = {})
@@ -83,7 +83,7 @@ photograph_of_wall(const CalibratedPhoto& photo, const Eigen::Array3d& exposure 
 
 using IsBlack = std::function<bool(int, int)>; ///< of x and y
 
-/// A mask of any size, black and white.
+/// A black and white mask of any size.
 inline Photograph mask_image(int width_px, int height_px, const IsBlack& is_black)
 {
     constexpr std::uint8_t kWhite = 255;
@@ -104,7 +104,7 @@ inline void write_photograph(const std::filesystem::path& path, const Photograph
                static_cast<std::streamsize>(bytes.size()));
 }
 
-/// Writes a PNG with the alpha of the image.
+/// Writes a PNG with an alpha channel.
 inline void write_cutout(const std::filesystem::path& path, const Photograph& image)
 {
     std::vector<std::uint8_t> pixels;

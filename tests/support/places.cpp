@@ -1,5 +1,5 @@
-// Only this file knows where it was built, so that a cache of compiled files serves the others
-// elsewhere.
+// Only this file contains paths of the build folder, so a compiler cache can serve all other files
+// in another folder.
 #include "support/places.h"
 
 namespace vcarve {

@@ -7,10 +7,10 @@ namespace vcarve {
 
 std::filesystem::path fixtures_folder();
 
-/// colmap-vcarve as it was built beside the tests.
+/// The colmap-vcarve that was built with the tests.
 std::string built_program();
 
-/// The library of failing_calls.cpp; empty in sanitized builds, which load one of their own first.
+/// The library of failing_calls.cpp; empty in sanitized builds, which preload another library.
 std::string failing_calls_library();
 
 } // namespace vcarve

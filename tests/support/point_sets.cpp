@@ -20,8 +20,8 @@ Index any_cell(const TetMesh& mesh, std::mt19937_64& random)
     return cell;
 }
 
-/// A point in, on the border of, or at a vertex of a cell: a mean of its corners with weights that
-/// are quarters, so that it is exact on a lattice.
+/// A point in a cell, on its border or at a vertex: the mean of four random corners, which is exact
+/// on a lattice.
 Vector3d any_quarter_point(const TetMesh& mesh, std::mt19937_64& random)
 {
     const Cell& cell = mesh.cells[any_cell(mesh, random)];
@@ -175,7 +175,7 @@ std::vector<NamedCells> meshes_to_walk()
         {"random", random_points(80, 1), 0.2},
         {"flat", flat, 0.1},
         {"lattice", lattice(4), 1.0},
-        {"body-centred lattice", body_centered_lattice(3), 0.5},
+        {"body-centered lattice", body_centered_lattice(3), 0.5},
         {"sphere", on_sphere, 1.0},
         {"lattice jittered by 1e-15", jittered(lattice(4), 1e-15, 3), 1.0},
         {"sphere jittered by 1e-15", jittered(on_sphere, 1e-15, 4), 1.0},
@@ -215,9 +215,9 @@ Vector3d any_target(const NamedCells& named, Index vertex, std::mt19937_64& rand
     case 4:
     case 5:
         return point + reach * (quarter - point);
-    case 6: // on half steps of a lattice
+    case 6: // half steps of a lattice
         return point + 0.5 * named.step * (step / named.step).array().round().matrix();
-    case 7: // a hair beside a point that is hard to pass
+    case 7: // just beside a point that is hard to pass
         return quarter + 1e-15 * step;
     default:
         return point + step;

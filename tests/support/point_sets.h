@@ -14,36 +14,35 @@ namespace vcarve {
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-/// Evenly spread in [low, high), the same numbers with every standard library.
+/// Uniformly distributed in [low, high); the same numbers with every standard library.
 double even(std::mt19937_64& random, double low, double high);
 Eigen::Vector3d even_in_cube(std::mt19937_64& random, double low, double high);
 /// An index below `count`.
 std::size_t pick(std::mt19937_64& random, std::size_t count);
 
-/// Points spread evenly in the unit cube.
+/// Uniformly distributed points in the unit cube.
 Positions random_points(std::size_t count, std::uint64_t seed);
-/// n^3 points with whole coordinates from 0 to n - 1.
+/// n^3 points with integer coordinates from 0 to n - 1.
 Positions lattice(int n);
-/// The lattice and the centres of its cubes.
+/// The lattice and the centers of its cubes.
 Positions body_centered_lattice(int n);
-/// So many points on each of two lines that do not meet: every two neighbours on one make a cell
-/// with every two on the other.
+/// Points on two skew lines. Any two neighbors on one line form a cell with any two neighbors on
+/// the other.
 Positions two_skew_lines(int points_of_line);
-/// 30 points with whole coordinates on the sphere of radius 3 around the origin.
+/// 30 points with integer coordinates on the sphere of radius 3 around the origin.
 Positions points_on_sphere();
-/// Off one sphere by as much as `noise`, of its radius, so that the tetrahedra amid them are all
-/// slivers.
+/// Points on the unit sphere, off by up to `noise`, so that all tetrahedra inside are slivers.
 Positions nearly_on_a_sphere(std::size_t count, double noise);
-/// Every coordinate moved by up to `reach` at random.
+/// Moves every coordinate randomly by up to `reach`.
 Positions jittered(Positions points, double reach, std::uint64_t seed);
 /// x -> factor * x + shift
 Positions mapped(Positions points, double factor, const Eigen::Vector3d& shift);
 
-/// A scene of points alone: no views, no sights.
+/// A scene of points without views and rays.
 Scene scene_of(const Positions& positions);
 TetMesh triangulation_of(const Positions& positions);
 
-/// The points seen from the centres, each by about `share` of the views, chosen at random.
+/// A scene of views at `centers`. A random fraction `share` of them sees each point.
 Scene scene_seen_from(const Positions& centers, const Positions& points, double share,
                       std::uint64_t seed);
 
@@ -51,14 +50,14 @@ Scene scene_seen_from(const Positions& centers, const Positions& points, double 
 struct NamedCells {
     std::string name;
     TetMesh mesh;
-    double step; ///< how far apart its points are, for choosing targets
+    double step; ///< the distance between its points, for choosing targets
 };
-/// Triangulations on which walks are hard: general, regular, nearly regular, flat, far from the
+/// Triangulations that are hard to walk: random, regular, nearly regular, flat, far from the
 /// origin, tiny, huge.
 std::vector<NamedCells> meshes_to_walk();
 
-/// A target for a sight from a vertex, of one of many sorts: anywhere in the hull or out of it, at
-/// and beyond vertices, edges and facets, on half steps of a lattice, at the vertex itself.
+/// A random target for a ray from a vertex: anywhere inside or outside the hull, at or beyond
+/// vertices, edges and facets, at half steps of a lattice, or at the vertex itself.
 Eigen::Vector3d any_target(const NamedCells& named, Index vertex, std::mt19937_64& random);
 
 } // namespace vcarve

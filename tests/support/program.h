@@ -10,7 +10,7 @@
 
 namespace vcarve {
 
-/// The words that run colmap-vcarve with these arguments.
+/// The command line of colmap-vcarve with these arguments.
 inline std::vector<std::string> program_with(std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), built_program());
@@ -22,7 +22,7 @@ inline Outcome run_program(const std::vector<std::string>& arguments)
     return Subprocess(program_with(arguments)).wait();
 }
 
-/// Expects that a run failed with this code and nothing on stdout, and gives its sentence.
+/// Expects this exit code and nothing on stdout. Returns the error message.
 inline std::string sentence_of_run(int exit_code, const Outcome& outcome)
 {
     EXPECT_EQ(outcome.exit_code, exit_code);
@@ -30,7 +30,7 @@ inline std::string sentence_of_run(int exit_code, const Outcome& outcome)
     return outcome.err;
 }
 
-/// The same of a run of the program.
+/// Runs the program, and does the same.
 inline std::string sentence_of(int exit_code, const std::vector<std::string>& arguments)
 {
     return sentence_of_run(exit_code, run_program(arguments));

@@ -12,8 +12,8 @@
 
 namespace vcarve {
 
-/// Ranks of a run without MPI: each does its share when rank 0 has done its own, in this process,
-/// and knows of the others what is in the work folder.
+/// Ranks of a run without MPI, in one process. Each does its share after rank 0. They communicate
+/// through the work folder only.
 class RanksInTurn final : public Ranks {
   public:
     RanksInTurn(const WorkFolder& work, const Options& options, std::size_t count)
@@ -27,7 +27,7 @@ class RanksInTurn final : public Ranks {
     std::size_t count() const override { return others_.size() + 1; }
     void share(const std::string& task, const std::function<void()>& own) override
     {
-        const std::string kind(task.starts_with(kBlocksTask) ? kBlocksTask : kSightsTask);
+        const std::string kind(task.starts_with(kBlocksTask) ? kBlocksTask : kRaysTask);
         tasks.push_back(kind);
         files.push_back(task);
         own();
@@ -38,8 +38,8 @@ class RanksInTurn final : public Ranks {
         after_share(kind);
     }
 
-    std::vector<std::string> tasks; ///< of what kind they were
-    std::vector<std::string> files; ///< what they were called
+    std::vector<std::string> tasks; ///< kinds of the shared tasks
+    std::vector<std::string> files; ///< names of the shared tasks
     std::function<void(const std::string& kind)> after_share = [](const std::string&) {};
 
   private:

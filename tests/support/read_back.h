@@ -7,21 +7,22 @@
 
 namespace vcarve {
 
-/// A bumpy sheet of 9 x 7 vertices with normals and colours, no two the same; manifold, so that
-/// every reader takes it.
+/// A bumpy surface of 9 x 7 vertices, all with different normals and colors. It is manifold, so
+/// every reader accepts it.
 TriMesh sample_sheet();
 
-/// What a corner of a face looks like, whichever vertices a reader makes of it.
+/// The attributes of a face corner, independent of how a reader splits or merges vertices.
 struct Corner {
     Eigen::Vector3d position;
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< zero where there is none
-    Color color{};                                    ///< black where there is none
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero(); ///< zero if missing
+    Color color{};                                    ///< black if missing
 };
 
-/// The corners of all faces in their order; `offset` is added.
+/// The corners of all faces in order; `offset` is added.
 std::vector<Corner> corners_of(const TriMesh& mesh);
 
-/// What assimp reads from a file, with the moves of glTF's nodes. Its positions are floats.
+/// The mesh that assimp reads from a file, with the transforms of glTF nodes applied. Positions
+/// have the precision of floats.
 TriMesh read_by_assimp(const std::filesystem::path& path);
 
 } // namespace vcarve

@@ -12,11 +12,11 @@ namespace vcarve {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// What a PNG shows; of size 0 where it is none.
+/// The decoded pixels of a PNG; size 0 if the file is not a PNG.
 struct ReadPng {
     int width = 0;
     int height = 0;
-    std::vector<std::uint8_t> bytes; ///< three a pixel
+    std::vector<std::uint8_t> bytes; ///< three per pixel
 
     Rgb at(int x, int y) const
     {
@@ -24,7 +24,7 @@ struct ReadPng {
         return {bytes[first], bytes[first + 1], bytes[first + 2]};
     }
 
-    /// The colours in a rectangle, which ends before `right` and `bottom`.
+    /// The colors in a rectangle; `right` and `bottom` are excluded.
     std::set<Rgb> colors(int left, int top, int right, int bottom) const
     {
         std::set<Rgb> found;

@@ -8,14 +8,14 @@
 
 namespace vcarve {
 
-/// A region that is a box.
+/// A box-shaped region.
 inline std::unique_ptr<Region> box_region(const Eigen::Vector3d& low, const Eigen::Vector3d& high)
 {
     return make_region({.kind = RegionChoice::Kind::box, .low = low, .high = high}, Scene());
 }
 
-/// Asks both regions about 2000 places and segments in a box around the origin with this half side,
-/// on a grid, so that many touch borders, and expects the same answers.
+/// Expects two regions to agree on 2000 positions and segments in a box around the origin with this
+/// half side. They are on a grid, so that many touch borders.
 inline void expect_same_region(const Region& region, const Region& other, int half_side)
 {
     std::mt19937 random(7);
@@ -37,7 +37,7 @@ inline void expect_same_region(const Region& region, const Region& other, int ha
     EXPECT_LT(met, 1950);
 }
 
-/// What lies in one of two regions.
+/// The union of two regions.
 class EitherRegion final : public Region {
   public:
     EitherRegion(std::unique_ptr<Region> a, std::unique_ptr<Region> b)

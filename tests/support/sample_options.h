@@ -8,7 +8,7 @@ namespace vcarve {
 
 enum class Shape { round, flat };
 
-/// Options with one of every kind, for tests of what is made from declarations.
+/// Options of every kind, for tests of the code that reads declarations.
 struct SampleOptions {
     double angle_deg = 10.5;
     double spacing = 2.0;

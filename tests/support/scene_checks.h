@@ -10,7 +10,7 @@
 
 namespace vcarve {
 
-/// Fails the test where two scenes differ in anything, down to the last bit.
+/// Fails the test if two scenes are not equal to the last bit.
 inline void expect_equal_scenes(const Scene& a, const Scene& b)
 {
     ASSERT_EQ(a.cameras.size(), b.cameras.size());
@@ -42,7 +42,7 @@ inline void expect_equal_scenes(const Scene& a, const Scene& b)
     EXPECT_EQ(a.offset, b.offset);
 }
 
-/// Fails the test where a scene breaks what model/scene.h promises.
+/// Fails the test if a scene violates a guarantee of model/scene.h.
 inline void expect_well_formed(const Scene& scene)
 {
     for (const View& view : scene.views) {

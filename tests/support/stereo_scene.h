@@ -13,11 +13,11 @@
 
 namespace vcarve {
 
-/// The depth of a surface along a ray from a viewpoint, in lengths of the direction; 0 for none.
+/// The depth of a surface along a ray, in lengths of the direction; 0 if the ray misses it.
 using SurfaceAlong =
     std::function<double(const Eigen::Vector3d& from, const Eigen::Vector3d& along)>;
 
-/// A random gray level per corner of a grid of cubes.
+/// A random gray level for each corner of a grid of cubes.
 inline double level_at(std::int64_t x, std::int64_t y, std::int64_t z)
 {
     auto bits = static_cast<std::uint64_t>(x * 73856093 ^ y * 19349663 ^ z * 83492791);
@@ -25,7 +25,7 @@ inline double level_at(std::int64_t x, std::int64_t y, std::int64_t z)
     return 40.0 + static_cast<double>((bits >> 40U) % 176U);
 }
 
-/// A texture in space: random levels 0.05 apart, blended in between.
+/// A texture in space: random gray levels at a step of 0.05, interpolated in between.
 inline double texture_at(const Eigen::Vector3d& place)
 {
     const Eigen::Vector3d scaled = place / 0.05;
@@ -44,8 +44,8 @@ inline double texture_at(const Eigen::Vector3d& place)
     return level;
 }
 
-/// What a camera that looks along z sees of a textured surface, 160 x 120 pixels; gray 30 where
-/// there is none.
+/// The image of a textured surface from a camera that looks along z, 160 x 120 pixels. The
+/// background is gray 30.
 inline StereoView stereo_view_of(const SurfaceAlong& surface, std::uint32_t number,
                                  const Eigen::Vector3d& center)
 {
@@ -69,7 +69,7 @@ inline StereoView stereo_view_of(const SurfaceAlong& surface, std::uint32_t numb
     return view;
 }
 
-/// Five cameras around (0, 0, 0), the first there.
+/// Five cameras around (0, 0, 0); the first is at this position.
 inline std::vector<StereoView> five_views(const SurfaceAlong& surface)
 {
     std::vector<StereoView> views;
@@ -81,7 +81,7 @@ inline std::vector<StereoView> five_views(const SurfaceAlong& surface)
     return views;
 }
 
-/// A plane, normal . x = distance.
+/// The plane normal . x = distance.
 inline SurfaceAlong plane_along(const Eigen::Vector3d& normal, double distance)
 {
     return [=](const Eigen::Vector3d& from, const Eigen::Vector3d& along) {

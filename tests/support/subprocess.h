@@ -14,18 +14,19 @@
 
 namespace vcarve {
 
-/// How a program ended, and all it printed.
+/// The exit code and the output of a program.
 struct Outcome {
-    int exit_code = -1; ///< -1 where a signal killed it
+    int exit_code = -1; ///< -1 if a signal killed it
     std::string out;
     std::string err;
-    double peak_memory_bytes = 0.0; ///< as the system tells when it has ended
+    double peak_memory_bytes = 0.0; ///< from the system, after the program ended
 };
 
-/// A program that runs beside the test, with no terminal. Killed if the test gives up on it.
+/// A program that runs in parallel to the test, without a terminal. The destructor kills it if it
+/// still runs.
 class Subprocess {
   public:
-    /// `memory_limit` bounds its address space, in bytes; 0 leaves it free.
+    /// `memory_limit` limits the address space, in bytes; 0 disables it.
     explicit Subprocess(std::vector<std::string> words, rlim_t memory_limit = 0)
     {
         std::vector<char*> pointers;

@@ -10,7 +10,7 @@
 
 namespace vcarve {
 
-/// A folder of a test's own, gone with all that is in it when the test ends.
+/// A new folder for one test. The destructor removes it and its content.
 class TemporaryFolder {
   public:
     TemporaryFolder()
@@ -27,19 +27,19 @@ class TemporaryFolder {
 
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-    /// Writes a file, with the folders on its way; returns its path.
+    /// Writes a file and creates its parent folders; returns its path.
     std::filesystem::path write(const std::string& name, std::string_view bytes) const
     {
         const std::filesystem::path path = path_ / name;
         std::filesystem::create_directories(path.parent_path());
-        // Not written over: file systems wait for the disk where a file is cut and written anew
+        // Remove first: some file systems wait for the disk when a file is truncated and rewritten.
         std::filesystem::remove(path);
         std::ofstream file(path, std::ios::binary);
         file << bytes;
         return path;
     }
 
-    /// Copies a folder and what is in it.
+    /// Copies a folder and its content.
     void copy(const std::filesystem::path& from, const std::string& name) const
     {
         std::filesystem::create_directories((path_ / name).parent_path());
@@ -62,7 +62,7 @@ inline std::string bytes_of(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The message of the Expected that `action` throws; what happened instead otherwise.
+/// The message of the Expected that `action` throws, or a description of what it did instead.
 template <typename Expected, typename Action>
 std::string refusal(const Action& action)
 {

@@ -19,24 +19,24 @@
 
 namespace vcarve {
 
-/// Three corners of a base at height 0, which faces down, and an apex above it. The first two are
-/// the ends of the longest edge.
+/// Three corners of a base at height 0, which faces down, and an apex above it. The first two
+/// corners are the ends of the longest edge.
 inline const std::array<Eigen::Vector3d, 4> kTent = {
     Eigen::Vector3d(-4, -3, 0), Eigen::Vector3d(5, -2, 0), Eigen::Vector3d(-1, 4, 0),
     Eigen::Vector3d(0.1, -0.2, 3)};
-inline const double kLongest = std::sqrt(82.0); ///< of the edges of a tent
-inline const Eigen::Vector3d kAside{40, 3, 0};  ///< where the second tent stands
+inline const double kLongest = std::sqrt(82.0); ///< the longest edge of a tent
+inline const Eigen::Vector3d kAside{40, 3, 0};  ///< position of the second tent
 
-/// A view that looks straight up. At focal length 500 an image reaches 0.64 times the distance to
-/// the sides, and 0.48 times up and down.
+/// A view that looks straight up. At focal length 500 the image reaches 0.64 times the distance to
+/// the left and right, and 0.48 times up and down.
 struct Eye {
     Eigen::Vector3d center;
     double focal = 500.0;
 };
 
-/// Two tents far from each other, and a smaller one below the first if wanted. A view above sees
-/// the sides of both whole. Only this one saw their points, so that of the bases nothing tells but
-/// the images of the other views, which come after it. Of the third nobody saw a point.
+/// Two tents far from each other, and optionally a smaller one below the first. View 0, above, sees
+/// all sides of both tents, and is the only view that saw their points. So only the images of the
+/// other views show the bases. No view saw a point of the third tent.
 inline Scene tents(const std::vector<Eye>& eyes, bool has_third)
 {
     std::vector<MadePoint> points;
@@ -71,14 +71,14 @@ inline Scene tents(const std::vector<Eye>& eyes, bool has_third)
     return scene;
 }
 
-/// A piece of a face after trimming.
+/// A part of a face after trimming.
 struct Piece {
     std::size_t origin;
     std::array<Eigen::Vector3d, 3> corners;
     bool is_kept;
 };
 
-/// Whether a place on the plane of a triangle lies on the triangle, but for rounding.
+/// Whether a position in the plane of a triangle is on the triangle, up to rounding.
 inline bool lies_on(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& place,
                     double slack = 1e-9)
 {
@@ -97,7 +97,7 @@ inline Eigen::Vector3d middle_of(const std::array<Eigen::Vector3d, 3>& corners)
     return (corners[0] + corners[1] + corners[2]) / 3.0;
 }
 
-/// Tents whose cells alone are inside, what the views see of them, and how they are trimmed.
+/// Tents as the only inside cells, their visibility, and the result of trimming.
 struct Tents {
     explicit Tents(const std::vector<Eye>& eyes, bool has_third = false)
         : Tents(tents(eyes, has_third), has_third)
@@ -120,7 +120,7 @@ struct Tents {
     {
     }
 
-    /// The face over these points of the scene.
+    /// The face with these points of the scene as corners.
     std::size_t face_of(const std::array<Index, 3>& points) const
     {
         const auto face = std::ranges::find_if(made.corners, [&](const Face& corners) {
@@ -132,7 +132,7 @@ struct Tents {
     std::size_t base() const { return face_of({0, 1, 2}); }
     std::size_t base_aside() const { return face_of({4, 5, 6}); }
 
-    /// Trims where the length that max_closing stands for is this one.
+    /// Trims with `max_closing` set so that faces with an edge above `long_edge` are long.
     std::int64_t trim(double long_edge)
     {
         FaceRules rules;
@@ -154,7 +154,7 @@ struct Tents {
         return made.visibility.corners_of(made.facets[face]);
     }
     TriMesh kept() const { return with_faces(boundary, keep); }
-    /// All faces with the ones they are pieces of.
+    /// All parts of faces, with the faces that they come from.
     std::vector<Piece> pieces() const
     {
         std::vector<Piece> found;
@@ -182,13 +182,13 @@ struct Tents {
         const auto [a, b, c] = whole(face);
         return triangle_area(a, b, c);
     }
-    /// Whether a view sees a place on a face, with what was kept before in between.
+    /// Whether a view sees a position on a face; the faces kept before trimming occlude.
     bool is_seen(std::size_t face, const Eigen::Vector3d& place) const
     {
         return vcarve::is_seen({made.surface, made.facets, made.visibility}, kept_before,
                                made.facets[face], place, 0.0);
     }
-    /// The share of a piece that views see.
+    /// The fraction of a part that views see.
     double share_seen(const Piece& piece) const
     {
         const std::vector<Eigen::Vector3d> places = grid_on(piece.corners, 20);
@@ -197,7 +197,7 @@ struct Tents {
         return static_cast<double>(count) / static_cast<double>(places.size());
     }
 
-    testing::LabelledScene made;
+    testing::LabeledScene made;
     TriMesh boundary;
     FaceFlags keep;
     FaceFlags seen;

@@ -33,7 +33,7 @@ inline TetraGrid tetra_grid(std::uint32_t n)
     for (std::uint32_t cube = 0; cube < n * n * n; ++cube) {
         std::array<int, 3> axes{0, 1, 2};
         do {
-            // Each order of the axes is a way along edges from one end of the diagonal to the
+            // Each order of the axes is a path along edges from one end of the diagonal to the
             // other.
             std::array<std::uint32_t, 3> p{cube % n, cube / n % n, cube / n / n};
             Cell cell{vertex(p), 0, 0, 0};
@@ -51,7 +51,7 @@ inline TetraGrid tetra_grid(std::uint32_t n)
     return grid;
 }
 
-/// The boundary of the cells that are inside, normals outward, each facet once.
+/// The boundary of the inside cells, oriented outward, each facet once.
 inline TriMesh boundary_of(const TetraGrid& grid, const std::vector<bool>& inside)
 {
     std::map<std::set<std::uint32_t>, std::vector<Face>> facets;
@@ -80,7 +80,7 @@ inline std::vector<bool> random_labels(std::size_t count, double share, std::mt1
     return inside;
 }
 
-/// What a closed surface encloses; of an open one, seen from the origin.
+/// The volume of a closed surface; of an open surface, the volume of the cone to the origin.
 inline double volume(const TriMesh& mesh)
 {
     double sum = 0.0;

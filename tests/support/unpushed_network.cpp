@@ -1,8 +1,8 @@
 #include "support/unpushed_network.h"
 
-#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/ray_weights.h"
 #include "steps/4_visibility/walk.h"
-#include "support/exact_sight.h"
+#include "support/exact_ray.h"
 
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSteps = 256.0; // of a sight of full weight
+constexpr double kSteps = 256.0; // capacity of a ray of full weight
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
 struct Node {
@@ -39,20 +39,20 @@ void add_arc(Graph& graph, std::size_t from, std::size_t to, std::int64_t capaci
     graph[backward] = {0, 0, forward};
 }
 
-/// b(d) = 1 - exp(-d^2 / 2 s^2); a step where s is 0.
+/// b(d) = 1 - exp(-d^2 / 2 s^2); a step if s is 0.
 double softened(double distance, double sigma)
 {
     return sigma == 0.0 ? 1.0 : 1.0 - std::exp(-distance * distance / (2.0 * sigma * sigma));
 }
 
-/// 1 - exp(-n^2 / 2 s^2); the same for all where s is 0.
+/// 1 - exp(-n^2 / 2 s^2); 1 for all points if s is 0.
 double weight(std::size_t views, double sigma)
 {
     const auto n = static_cast<double>(views);
     return sigma == 0.0 ? 1.0 : 1.0 - std::exp(-n * n / (2.0 * sigma * sigma));
 }
 
-/// Of the points that are seen at all; of an even number the larger of the middle two.
+/// The median number of views of points that have views; the larger of the middle two if even.
 std::size_t median_views(const Scene& scene)
 {
     std::vector<std::size_t> views;
@@ -64,15 +64,15 @@ std::size_t median_views(const Scene& scene)
     return views[views.size() / 2];
 }
 
-/// One sight, from a vertex to a view.
-class SightTerms {
+/// The terms of one ray from a vertex to a view.
+class RayTerms {
   public:
-    SightTerms(const TetMesh& mesh, Index vertex, double weight, double sigma)
+    RayTerms(const TetMesh& mesh, Index vertex, double weight, double sigma)
         : mesh_(mesh), vertex_(vertex), full_(std::lround(kSteps * weight)), sigma_(sigma)
     {
     }
 
-    /// Arcs towards the point; a source in the cell of the view and at the end of each stretch.
+    /// Adds arcs towards the point, and a source in the view's cell and at the end of each segment.
     void add_outside(const Vector3d& center, UnpushedNetwork& network) const
     {
         const double length = (center - mesh_.positions[vertex_]).norm();
@@ -87,7 +87,7 @@ class SightTerms {
         add_at_end(network.sources, entered, center);
     }
 
-    /// Arcs away from the view; a sink in the last cell and at the end of each stretch.
+    /// Adds arcs away from the view, and a sink in the last cell and at the end of each segment.
     void add_inside(const Vector3d& center, double depth, UnpushedNetwork& network) const
     {
         const Vector3d& point = mesh_.positions[vertex_];
@@ -117,8 +117,8 @@ class SightTerms {
         }
     }
 
-    /// Where the sight left another cell than it had entered it met an edge or a vertex, and no arc
-    /// leads across: the stretch before ends there in a terminal of its own.
+    /// If the ray leaves another cell than it entered, it met an edge or a vertex, and no arc
+    /// connects the cells. The segment before then ends in a terminal.
     static void add_at_gap(Capacities& terminals, Index entered, Index left, std::int64_t flow)
     {
         if (entered != kInfinite && entered != left) {
@@ -128,7 +128,7 @@ class SightTerms {
 
     void add_at_end(Capacities& terminals, Index entered, const Vector3d& target) const
     {
-        SightWalk walk(mesh_, vertex_);
+        RayWalk walk(mesh_, vertex_);
         const Index last = walk.to(target, [](Index, int) {}).last;
         add_at_gap(terminals, entered, last, full_);
         add(terminals, last, full_);
@@ -147,8 +147,8 @@ class SightTerms {
 
 } // namespace
 
-UnpushedNetwork network_of_sights(const TetMesh& mesh, const Scene& scene,
-                                  const TraceOptions& options)
+UnpushedNetwork network_of_rays(const TetMesh& mesh, const Scene& scene,
+                                const TraceOptions& options)
 {
     const std::size_t count = mesh.cells.size();
     UnpushedNetwork network{std::vector<std::int64_t>(count, 0),
@@ -158,10 +158,10 @@ UnpushedNetwork network_of_sights(const TetMesh& mesh, const Scene& scene,
     const double usual = weight(median_views(scene), options.views_sigma);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
         const double share = weight(scene.tracks[vertex].size(), options.views_sigma) / usual;
-        const SightTerms sight(mesh, vertex, share, sigma);
+        const RayTerms ray(mesh, vertex, share, sigma);
         for (const std::uint32_t view : scene.tracks[vertex]) {
-            sight.add_outside(scene.views[view].center, network);
-            sight.add_inside(scene.views[view].center, options.sink_depth * sigma, network);
+            ray.add_outside(scene.views[view].center, network);
+            ray.add_inside(scene.views[view].center, options.sink_depth * sigma, network);
         }
     }
     return network;
@@ -200,7 +200,7 @@ Labels boost_minimum_cut(const TetMesh& mesh, const UnpushedNetwork& network)
         boost::get(&Node::color, graph), boost::get(&Node::distance, graph),
         boost::get(boost::vertex_index, graph), count, count + 1);
 
-    // Inside are the nodes from which the sink is still reached.
+    // The nodes that can still reach the sink are inside.
     Labels labels(count + 2, Label::outside);
     std::vector<std::size_t> open = {count + 1};
     while (!open.empty()) {

@@ -10,20 +10,20 @@
 
 namespace vcarve {
 
-/// The network of all sights as the definitions have it, nothing pushed, nothing netted.
+/// The network of all rays as defined: no flow is pushed, and opposite capacities do not cancel.
 struct UnpushedNetwork {
-    std::vector<std::int64_t> sources;             ///< a cell, the capacity from the source
-    std::vector<std::int64_t> sinks;               ///< a cell, the capacity to the sink
-    std::vector<std::array<std::int64_t, 4>> arcs; ///< of the arc leaving the cell by a slot
+    std::vector<std::int64_t> sources;             ///< capacity from the source, per cell
+    std::vector<std::int64_t> sinks;               ///< capacity to the sink, per cell
+    std::vector<std::array<std::int64_t, 4>> arcs; ///< capacity through each facet of a cell
 };
 
-/// Every sight of a scene: from the cell of the view through the facets it crosses, found by brute
-/// force, towards the point, and behind that to the cell that is called inside. A sight that meets
-/// edges or vertices falls into stretches, each with a terminal at its end.
-UnpushedNetwork network_of_sights(const TetMesh& mesh, const Scene& scene,
-                                  const TraceOptions& options);
+/// Adds every ray of a scene: from the view's cell through the crossed facets to the point, and
+/// behind it to the cell that gets the vote for inside. Facets are found by brute force. A ray that
+/// meets edges or vertices is split into segments, each with a terminal at its end.
+UnpushedNetwork network_of_rays(const TetMesh& mesh, const Scene& scene,
+                                const TraceOptions& options);
 
-/// Binds to the source the infinite cells and `cells_of_views`.
+/// Binds the infinite cells and `cells_of_views` to the source.
 void pin_outside(const TetMesh& mesh, const std::vector<Index>& cells_of_views,
                  UnpushedNetwork& network);
 

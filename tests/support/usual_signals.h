@@ -5,11 +5,11 @@
 
 namespace vcarve {
 
-/// The signals that ask a process to end.
+/// The signals that request a process to end.
 inline constexpr std::array kEndingSignals = {SIGINT, SIGTERM, SIGHUP};
 
-/// To be called in a child: undoes what it inherits where the tests themselves run in the
-/// background or under nohup, both of which ignore signals. Safe between fork and exec.
+/// Restores default signal handling in a child process: in the background or under nohup the tests
+/// ignore signals, and children inherit this. Safe between fork and exec.
 inline void take_signals_as_usual()
 {
     sigset_t signals;

@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(CalibratedPhoto, ShowsAPlaceAtThePixelOfItsCamera)
+TEST(CalibratedPhoto, ProjectsLikeItsCamera)
 {
     const CalibratedPhoto photo = photo_from({0, 0, -2});
     const auto pixel = pixel_of(photo, {0.5, -0.25, 0.0});
@@ -17,7 +17,7 @@ TEST(CalibratedPhoto, ShowsAPlaceAtThePixelOfItsCamera)
     EXPECT_TRUE(pixel->isApprox(Eigen::Vector2d(105.0, 47.5), 1e-12)) << pixel->transpose();
 }
 
-TEST(CalibratedPhoto, ThatWasMadeSmallerShowsItAsMuchNearerToItsCorner)
+TEST(CalibratedPhoto, ScalesPixelsIfThePhotographIsSmaller)
 {
     CalibratedPhoto photo = photo_from({0, 0, -2});
     photo.size = {80, 40};
@@ -27,7 +27,7 @@ TEST(CalibratedPhoto, ThatWasMadeSmallerShowsItAsMuchNearerToItsCorner)
     EXPECT_TRUE(pixel->isApprox(Eigen::Vector2d(52.5, 47.5 / 3.0), 1e-12)) << pixel->transpose();
 }
 
-TEST(CalibratedPhoto, ShowsNothingBeyondItsEdgesAndBehindIt)
+TEST(CalibratedPhoto, ShowsNothingBeyondItsEdgesOrBehindIt)
 {
     const CalibratedPhoto photo = photo_from({0, 0, -2});
     EXPECT_FALSE(pixel_of(photo, {1.7, 0.0, 0.0}));
@@ -35,7 +35,7 @@ TEST(CalibratedPhoto, ShowsNothingBeyondItsEdgesAndBehindIt)
     EXPECT_TRUE(pixel_beyond(photo, {1.7, 0.0, 0.0}));
 }
 
-/// Red grows to the right by 2 a pixel, green downwards by 3.
+/// Red increases by 2 per pixel to the right, green by 3 per pixel downwards.
 Photograph ramp(int width_px, int height_px)
 {
     Photograph image{width_px, height_px, {}};
@@ -48,14 +48,14 @@ Photograph ramp(int width_px, int height_px)
     return image;
 }
 
-TEST(PhotoPyramid, GoesEvenlyFromTheMiddleOfAPixelToTheNext)
+TEST(PhotoPyramid, InterpolatesBetweenPixelCenters)
 {
     const PhotoPyramid pyramid(ramp(64, 48));
     EXPECT_TRUE(pyramid.at({10.5, 20.5}).isApprox(Eigen::Array3f(20, 60, 7)));
     EXPECT_TRUE(pyramid.at({10.75, 20.75}).isApprox(Eigen::Array3f(20.5F, 60.75F, 7)));
 }
 
-TEST(PhotoPyramid, AveragesOverAsManyPixelsAsAreAskedFor)
+TEST(PhotoPyramid, AveragesOverTheGivenWidth)
 {
     Photograph stripes{64, 64, {}};
     for (int i = 0; i < 64 * 64; ++i) {
@@ -69,34 +69,34 @@ TEST(PhotoPyramid, AveragesOverAsManyPixelsAsAreAskedFor)
     EXPECT_EQ(pyramid.at({20.5, 20.5}, 1e9)[0], 100.0F);
 }
 
-TEST(PhotoPyramid, GoesOnBeyondTheEdges)
+TEST(PhotoPyramid, ExtendsTheColorsAtTheEdges)
 {
     const PhotoPyramid pyramid(ramp(64, 48));
     EXPECT_TRUE(pyramid.at({-9.0, 500.0}).isApprox(Eigen::Array3f(0, 141, 7)));
     EXPECT_TRUE(pyramid.at({500.0, -9.0}, 4.0).isApprox(Eigen::Array3f(123, 5, 7), 0.02F));
 }
 
-TEST(PhotoPyramid, ShowsNothingWhereAPixelIsTransparent)
+TEST(PhotoPyramid, ShowsNothingIfABlendedPixelIsTransparent)
 {
     Photograph image = ramp(8, 8);
     image.alpha.assign(64, 255);
     image.alpha[3 * 8 + 5] = 0; // column 5, row 3
     const PhotoPyramid pyramid(image);
     EXPECT_FALSE(pyramid.shows({5.5, 3.5}));
-    EXPECT_FALSE(pyramid.shows({4.6, 3.5})) << "the pixel is blended in";
+    EXPECT_FALSE(pyramid.shows({4.6, 3.5})) << "the transparent pixel is blended in";
     EXPECT_TRUE(pyramid.shows({4.4, 3.5}));
     EXPECT_FALSE(pyramid.shows({5.0, 3.0}, 2.0));
     EXPECT_TRUE(pyramid.shows({1.0, 7.0}, 2.0));
     EXPECT_TRUE(PhotoPyramid(ramp(8, 8)).shows({5.5, 3.5}));
 }
 
-TEST(PhotoPyramid, OfOnePixelIsThatPixel)
+TEST(PhotoPyramid, ReturnsTheOnlyPixelForAnyWidth)
 {
     const PhotoPyramid pyramid(Photograph{1, 1, {9, 8, 7}});
     EXPECT_TRUE(pyramid.at({0.5, 0.5}, 16.0).isApprox(Eigen::Array3f(9, 8, 7)));
 }
 
-TEST(ExcludeMasked, MakesBlackPixelsTransparentWhateverTheSizeOfTheMask)
+TEST(ExcludeMasked, MakesBlackPixelsTransparentForAnyMaskSize)
 {
     const TemporaryFolder folder;
     for (const int size : {2, 4, 8}) {
@@ -107,11 +107,11 @@ TEST(ExcludeMasked, MakesBlackPixelsTransparentWhateverTheSizeOfTheMask)
         EXPECT_THAT(photo.alpha, ElementsAre(255, 255, 0, 0, 255, 255, 0, 0)) << size;
         photo.alpha[0] = 0;
         exclude_masked(folder / "mask.png", photo);
-        EXPECT_EQ(photo.alpha[0], 0) << "transparent before";
+        EXPECT_EQ(photo.alpha[0], 0) << "it was transparent before";
     }
 }
 
-TEST(ExcludeMasked, TakesOnlyBlackForExcluded)
+TEST(ExcludeMasked, IgnoresPixelsThatAreNotBlack)
 {
     const TemporaryFolder folder;
     Photograph mask = mask_image(2, 1, [](int, int) { return true; });

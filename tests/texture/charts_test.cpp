@@ -9,8 +9,8 @@
 namespace vcarve::charts_test {
 namespace {
 
-/// The wall before one photograph, covered in stripes by this one and by another from the same
-/// place; the last face is shown by none.
+/// The wall in two photographs from the same position, assigned in stripes. The last face has no
+/// photograph.
 struct Laid {
     TriMesh mesh = wall_mesh(8);
     std::vector<CalibratedPhoto> photos = {photo_from({0, 0, -2}), photo_from({0, 0, -2})};
@@ -32,12 +32,12 @@ struct Laid {
     }
 };
 
-TEST(Charts, AreOneAPhotographWhereFacesHangTogether)
+TEST(Charts, JoinConnectedFacesOfAPhotograph)
 {
     EXPECT_EQ(Laid().atlas().num_charts, 2U);
 }
 
-TEST(Charts, LieAsInThePhotograph)
+TEST(Charts, KeepTheLayoutOfThePhotograph)
 {
     const Laid laid;
     const Atlas atlas = laid.atlas();
@@ -47,12 +47,12 @@ TEST(Charts, LieAsInThePhotograph)
                                          laid.mesh.positions[laid.mesh.faces[face][i]];
             const Eigen::Vector2d texels =
                 atlas.corners[face][(i + 1) % 3] - atlas.corners[face][i];
-            EXPECT_TRUE(texels.isApprox(50.0 * edge.head<2>(), 1e-9)); // 100 px a unit at 1
+            EXPECT_TRUE(texels.isApprox(50.0 * edge.head<2>(), 1e-9)); // 100 px at distance 1
         }
     }
 }
 
-TEST(Charts, HaveRoomAround)
+TEST(Charts, ArePaddedOnAllSides)
 {
     const Laid laid;
     const Atlas atlas = laid.atlas();
@@ -75,7 +75,7 @@ TEST(Charts, HaveRoomAround)
     }
 }
 
-TEST(Charts, ThatDoNotFitIntoOnePageGoOnToTheNext)
+TEST(Charts, ContinueOnASecondPage)
 {
     const Laid laid;
     const Atlas atlas = laid.atlas({.scale = 1.0, .most_page_px = 120});
@@ -85,7 +85,7 @@ TEST(Charts, ThatDoNotFitIntoOnePageGoOnToTheNext)
     }
 }
 
-TEST(Charts, ThatAreLargerThanAPageAreMadeSmaller)
+TEST(Charts, ShrinkToFitIntoAPage)
 {
     const Laid laid;
     const Atlas atlas = laid.atlas({.scale = 10.0, .most_page_px = 256});
@@ -95,7 +95,7 @@ TEST(Charts, ThatAreLargerThanAPageAreMadeSmaller)
     EXPECT_GT((atlas.corners[0][1] - atlas.corners[0][0]).norm(), 10.0);
 }
 
-TEST(Charts, ScaleWithTheTexelsAPixel)
+TEST(Charts, FollowTheScale)
 {
     const Laid laid;
     const Eigen::Vector2d whole = laid.atlas().corners[0][1] - laid.atlas().corners[0][0];

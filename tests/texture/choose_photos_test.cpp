@@ -8,7 +8,7 @@
 namespace vcarve::choose_photos_test {
 namespace {
 
-/// Of each face two photographs with so many pixels each, the larger first.
+/// Two photographs per face with these areas, the larger first.
 std::vector<PhotosOfFace> two_photos(const std::vector<std::array<float, 2>>& areas_px2)
 {
     std::vector<PhotosOfFace> photos(areas_px2.size());
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> chosen(const TriMesh& mesh, const std::vector<PhotosO
                          find_faces_beside(mesh), {});
 }
 
-TEST(FacesBeside, AreThoseAcrossTheEdgesFromEachCornerToTheNext)
+TEST(FacesBeside, FollowTheOrderOfTheEdges)
 {
     const TriMesh mesh = wall_mesh(1);
     const FacesBeside beside = find_faces_beside(mesh);
@@ -37,7 +37,7 @@ TEST(FacesBeside, AreThoseAcrossTheEdgesFromEachCornerToTheNext)
     EXPECT_EQ(beside[1], (std::array<std::uint32_t, 3>{0, kNoFace, kNoFace}));
 }
 
-TEST(FacesBeside, AreNoneAcrossAnEdgeOfThreeFaces)
+TEST(FacesBeside, EndAtAnEdgeOfThreeFaces)
 {
     TriMesh mesh = wall_mesh(1);
     mesh.positions.emplace_back(0, 0, 5);
@@ -46,7 +46,7 @@ TEST(FacesBeside, AreNoneAcrossAnEdgeOfThreeFaces)
     EXPECT_EQ(beside[0], (std::array<std::uint32_t, 3>{kNoFace, kNoFace, kNoFace}));
 }
 
-TEST(ChoosePhotos, TakesTheLargestOfEachFaceWhereSeamsAreWorthIt)
+TEST(ChoosePhotos, ChoosesTheLargestIfItIsWorthASeam)
 {
     const TriMesh mesh = wall_mesh(8);
     std::vector<std::array<float, 2>> areas;
@@ -62,7 +62,7 @@ TEST(ChoosePhotos, TakesTheLargestOfEachFaceWhereSeamsAreWorthIt)
     }
 }
 
-TEST(ChoosePhotos, MakesNoSeamsAroundAFaceThatGainsLittle)
+TEST(ChoosePhotos, AvoidsSeamsForSmallGains)
 {
     const TriMesh mesh = wall_mesh(8);
     std::vector<std::array<float, 2>> areas(mesh.faces.size(), {2000.0F, 1900.0F});
@@ -72,10 +72,10 @@ TEST(ChoosePhotos, MakesNoSeamsAroundAFaceThatGainsLittle)
     EXPECT_EQ(std::ranges::count(photos, 0U), static_cast<std::ptrdiff_t>(photos.size()));
 }
 
-TEST(ChoosePhotos, FindsNothingCheaperByAnyOneExpansion)
+TEST(ChoosePhotos, LeavesNoCheaperChangeOfOneOrTwoFaces)
 {
-    // What an expansion move would change, tried face by face and pair by pair: no single face and
-    // no two beside each other may change and cost less.
+    // Changing one face, or two neighbors, must not lower the cost: an expansion move would have
+    // found this.
     const TriMesh mesh = wall_mesh(5);
     std::vector<std::array<float, 2>> areas;
     for (std::size_t face = 0; face < mesh.faces.size(); ++face) {
@@ -95,7 +95,7 @@ TEST(ChoosePhotos, FindsNothingCheaperByAnyOneExpansion)
                 const double length = (mesh.positions[mesh.faces[face][side]] -
                                        mesh.positions[mesh.faces[face][(side + 1) % 3]])
                                           .norm();
-                // All faces have one size, so pixels a unit are the root of their areas' quotient.
+                // All faces have the same area, so pixels per unit are the root of the area ratio.
                 const double area = 2.0 / 25.0;
                 const double pixels =
                     0.5 * (std::sqrt(best / area) +
@@ -120,7 +120,7 @@ TEST(ChoosePhotos, FindsNothingCheaperByAnyOneExpansion)
     }
 }
 
-TEST(ChoosePhotos, LeavesFacesThatNoneShows)
+TEST(ChoosePhotos, SkipsUnseenFaces)
 {
     const TriMesh mesh = wall_mesh(2);
     std::vector<PhotosOfFace> photos =

@@ -6,7 +6,7 @@
 namespace vcarve::face_colors_test {
 namespace {
 
-/// Faces that all photographs show, each as the even colour of the face times the photograph's
+/// Faces that all photographs show: the constant color of each face times the photograph's
 /// exposure.
 struct Shown {
     std::vector<PhotosOfFace> photos;
@@ -40,7 +40,7 @@ TEST(Gains, MakeExposuresAgree)
     EXPECT_NEAR(mean, 1.0, 0.02);
 }
 
-TEST(Gains, StayOneWherePhotographsShowNothingInCommon)
+TEST(Gains, AreOneForPhotographsWithoutCommonFaces)
 {
     Shown shown(10, {0.5});
     shown.photos[3].best[0].photo = 1;
@@ -49,7 +49,7 @@ TEST(Gains, StayOneWherePhotographsShowNothingInCommon)
     EXPECT_NEAR(gains[1][0], 1.0, 1e-6);
 }
 
-TEST(DropOutliers, TakesOutThePhotographThatShowsSomethingElse)
+TEST(DropOutliers, DropsThePhotographWithAnotherColor)
 {
     Shown shown(5, {1.0, 1.0, 1.0, 1.0});
     shown.colors[2][1].fill({250, 0, 250});
@@ -60,7 +60,7 @@ TEST(DropOutliers, TakesOutThePhotographThatShowsSomethingElse)
     EXPECT_EQ(shown.photos[1].count, 4);
 }
 
-TEST(DropOutliers, LeavesTwoThatDiffer)
+TEST(DropOutliers, KeepsBothOfTwoPhotographs)
 {
     Shown shown(1, {1.0, 1.0});
     shown.colors[0][1].fill({250, 0, 250});

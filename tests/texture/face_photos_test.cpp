@@ -7,7 +7,7 @@
 namespace vcarve::face_photos_test {
 namespace {
 
-/// A square before the wall that hides a part of it, looking to -z.
+/// Adds a rectangle in front of the wall that hides a part of it. It faces -z.
 void add_screen(TriMesh& mesh, double left, double right, double z)
 {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -17,7 +17,7 @@ void add_screen(TriMesh& mesh, double left, double right, double z)
     mesh.faces.push_back({first + 1, first + 2, first + 3});
 }
 
-TEST(PhotosOfFaces, AreThoseThatShowThemTheLargestFirst)
+TEST(PhotosOfFaces, AreSortedByDecreasingArea)
 {
     TriMesh mesh = wall_mesh(2);
     const std::vector<CalibratedPhoto> photos = {photo_from({0, 0, -4}), photo_from({0, 0, -2})};
@@ -30,7 +30,7 @@ TEST(PhotosOfFaces, AreThoseThatShowThemTheLargestFirst)
     }
 }
 
-TEST(PhotosOfFaces, AreNoneFromBehind)
+TEST(PhotosOfFaces, ExcludeViewsFromBehind)
 {
     TriMesh mesh = wall_mesh(2);
     CalibratedPhoto behind = photo_from({0, 0, 3});
@@ -41,7 +41,7 @@ TEST(PhotosOfFaces, AreNoneFromBehind)
     }
 }
 
-TEST(PhotosOfFaces, AreNotThoseFromWhichAnotherFaceHidesThem)
+TEST(PhotosOfFaces, ExcludeViewsBehindAnOccluder)
 {
     TriMesh mesh = wall_mesh(8);
     add_screen(mesh, -0.6, 0.6, -1.0);
@@ -61,7 +61,7 @@ TEST(PhotosOfFaces, AreNotThoseFromWhichAnotherFaceHidesThem)
     EXPECT_GT(shown, 0U);
 }
 
-TEST(PhotosOfFaces, OfAFaceThatIsHalfHiddenAreThoseOfItsParts)
+TEST(PhotosOfFaces, BisectPartlyHiddenFaces)
 {
     TriMesh mesh = wall_mesh(1);
     add_screen(mesh, -0.2, 1.2, -0.5);
@@ -87,7 +87,7 @@ TEST(PhotosOfFaces, OfAFaceThatIsHalfHiddenAreThoseOfItsParts)
     }
 }
 
-TEST(PhotosOfFaces, KeepNormalsOfVerticesThatAreAdded)
+TEST(PhotosOfFaces, InterpolateTheNormalsOfAddedVertices)
 {
     TriMesh mesh = wall_mesh(1);
     mesh.normals.assign(mesh.positions.size(), {0, 0, -1});
@@ -97,36 +97,36 @@ TEST(PhotosOfFaces, KeepNormalsOfVerticesThatAreAdded)
     EXPECT_TRUE(mesh.normals.back().isApprox(Eigen::Vector3f(0, 0, -1)));
 }
 
-TEST(CornerPixels, AreNoneWhereThePhotographBendsAFace)
+TEST(CornerPixels, AreEmptyIfThePhotographBendsTheFace)
 {
     CalibratedPhoto panorama = photo_from({0, 0, 0});
     panorama.camera = {.id = 1, .model = 17, .width_px = 160, .height_px = 80, .params = {160, 80}};
     panorama.size = {160, 80};
-    // Behind it, across the seam at which the panorama begins and ends.
+    // Behind the camera, across the seam between the panorama's left and right border.
     const std::array<Eigen::Vector3d, 3> across = {
         {{-0.1, 0.0, -1.0}, {0.1, 0.0, -1.0}, {0.0, 0.1, -1.0}}};
     ASSERT_TRUE(pixel_of(panorama, {0.1, 0.0, -1.0}));
     EXPECT_FALSE(corner_pixels(panorama, across));
 }
 
-TEST(PhotosOfFaces, AreNotThoseThatShowTheBackgroundBesideTheFaceIfOthersDoNot)
+TEST(PhotosOfFaces, AvoidViewsOfTheFaceBesideTheBackground)
 {
-    TriMesh corner = wall_mesh(6); // 6 squares a side, in two faces each
+    TriMesh corner = wall_mesh(6); // 6 x 6 squares of two faces
     const auto first = static_cast<std::uint32_t>(corner.positions.size());
     corner.positions.insert(corner.positions.end(), {{1, -1, 0}, {1, 1, 0}, {1, -1, 2}, {1, 1, 2}});
     corner.faces.push_back({first, first + 1, first + 2});
     corner.faces.push_back({first + 1, first + 3, first + 2});
-    // The first camera sees the wall's right edge before nothing, the second before the side wall.
+    // Behind the wall's right edge the first camera sees nothing, the second the side wall.
     const std::vector<CalibratedPhoto> photos = {photo_from({0, 0, -2.5}),
                                                  photo_from({1.7, 0, -2.5})};
     const auto found = find_photos_of_faces(corner, photos, Progress());
-    const std::size_t middle = 2 * (2 * 6 + 3); // a face amid the wall
+    const std::size_t middle = 2 * (2 * 6 + 3); // a face inside the wall
     const std::size_t edge = 2 * (2 * 6 + 5) + 1;
     EXPECT_EQ(found[middle].count, 2);
     ASSERT_EQ(found[edge].count, 1);
     EXPECT_EQ(found[edge].best[0].photo, 1U);
     const auto alone = find_photos_of_faces(corner, {photos[0]}, Progress());
-    EXPECT_EQ(alone[edge].count, 1) << "better than none";
+    EXPECT_EQ(alone[edge].count, 1) << "better than no photograph";
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "mesh/check.h"
 #include "support/photographed_wall.h"
-#include "support/told_log.h"
+#include "support/recording_log.h"
 #include "texture/masked_faces.h"
 
 #include <gmock/gmock.h>
@@ -12,10 +12,10 @@ namespace {
 
 using ::testing::Each;
 
-/// The masks of cameras before the wall.
+/// Masks of cameras in front of the wall.
 class MaskedWall : public ::testing::Test {
   public:
-    /// The camera sees all of the wall, which fills the middle 80 x 80 of 160 x 120 pixels.
+    /// By default the wall fills the central 80 x 80 of 160 x 120 pixels.
     void add(const IsBlack& is_black, const Eigen::Vector3d& center = {0, 0, -2.5})
     {
         CalibratedPhoto mask = photo_from(center);
@@ -36,7 +36,7 @@ bool is_right_half(int x, int /*y*/)
     return x >= 80;
 }
 
-TEST_F(MaskedWall, LosesTheFacesInMaskedPixels)
+TEST_F(MaskedWall, LosesFacesInMaskedPixels)
 {
     add(is_right_half);
     const TriMesh kept = kept_of(wall);
@@ -47,7 +47,7 @@ TEST_F(MaskedWall, LosesTheFacesInMaskedPixels)
     EXPECT_EQ(kept.normals.size(), kept.positions.size());
 }
 
-TEST_F(MaskedWall, KeepsFacesThatAsManyViewsSeeInOtherPixels)
+TEST_F(MaskedWall, KeepsFacesInATieOfMaskedAndUnmaskedViews)
 {
     add(is_right_half);
     add([](int, int) { return false; }, {0.2, 0, -2.5});
@@ -56,14 +56,14 @@ TEST_F(MaskedWall, KeepsFacesThatAsManyViewsSeeInOtherPixels)
     EXPECT_EQ(kept_of(wall).faces.size(), wall.faces.size() / 2);
 }
 
-TEST_F(MaskedWall, KeepsFacesThatReachOutOfTheMask)
+TEST_F(MaskedWall, KeepsFacesPartlyOutsideTheMask)
 {
-    // A square of the wall is 13 pixels wide, so the mask's edge runs through a column of them.
+    // A square of the wall is 13 pixels wide, so the edge of the mask crosses a column of squares.
     add([](int x, int) { return x >= 87; });
     EXPECT_EQ(kept_of(wall).faces.size(), 4U * 12U);
 }
 
-TEST_F(MaskedWall, LosesPiecesThatAreSeenInMaskedPixelsOrNotAtAll)
+TEST_F(MaskedWall, LosesComponentsThatNoViewSeesUnmasked)
 {
     TriMesh both = wall;
     for (const Face& face : wall.faces) {
@@ -80,9 +80,9 @@ TEST_F(MaskedWall, LosesPiecesThatAreSeenInMaskedPixelsOrNotAtAll)
                 Each(testing::Property(&Eigen::Vector3d::z, testing::DoubleEq(0.0))));
 }
 
-TEST_F(MaskedWall, StaysManifoldWhereKeptFacesTouchInVertices)
+TEST_F(MaskedWall, StaysManifoldIfKeptFacesTouchInVertices)
 {
-    wall = wall_mesh(8); // four by four squares of a checkerboard have eight faces each
+    wall = wall_mesh(8); // the checkerboard has 4 x 4 squares of eight faces
     add([](int x, int y) { return ((x / 20) + (y / 20)) % 2 == 0; });
     const TriMesh kept = kept_of(wall);
     EXPECT_EQ(kept.faces.size(), wall.faces.size() / 2);
@@ -91,7 +91,7 @@ TEST_F(MaskedWall, StaysManifoldWhereKeptFacesTouchInVertices)
     EXPECT_EQ(check.components, 8);
 }
 
-TEST_F(MaskedWall, IsTheSameForAnyThreadCount)
+TEST_F(MaskedWall, IsByteIdenticalForAnyThreadCount)
 {
     add(is_right_half);
     add([](int x, int y) { return (x * y) % 7 < 4; }, {0.2, 0, -2.5});
@@ -103,7 +103,7 @@ TEST_F(MaskedWall, IsTheSameForAnyThreadCount)
     EXPECT_EQ(kept_of(wall).positions, kept.positions);
 }
 
-TEST_F(MaskedWall, IgnoresAMaskThatCannotBeRead)
+TEST_F(MaskedWall, IgnoresAnUnreadableMask)
 {
     add(is_right_half);
     add([](int, int) { return false; });

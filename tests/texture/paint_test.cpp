@@ -6,7 +6,7 @@
 namespace vcarve::paint_test {
 namespace {
 
-/// Two faces before one photograph, and a third that none shows.
+/// Two faces in one photograph, and a third without a photograph.
 struct Painted {
     TemporaryFolder folder;
     TriMesh mesh = wall_mesh(1);
@@ -43,20 +43,20 @@ Eigen::Array3d texel(const Photograph& page, const Eigen::Vector2d& place)
     return {rgb[0] * 1.0, rgb[1] * 1.0, rgb[2] * 1.0};
 }
 
-TEST(PaintPages, ShowsThePhotographOnTheFacesItCovers)
+TEST(PaintPages, ShowsThePhotographOnItsFaces)
 {
     const Painted painted;
     const Photograph page = painted.pages()[0];
     const auto& corners = painted.atlas.corners[0];
     const Eigen::Vector2d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-    // 50 texels a unit; the texel's middle is where the wall was asked.
+    // 50 texels per unit; the wall is sampled at the texel's center.
     const Eigen::Vector2d off = (middle.array().floor() + 0.5 - middle.array()).matrix() / 50.0;
     const double third = -1.0 / 3.0;
     EXPECT_LT((texel(page, middle) - wall_color(third + off.x(), third + off.y())).abs().maxCoeff(),
               2.0);
 }
 
-TEST(PaintPages, PaintsFacesThatNoneShowsInTheColoursOfTheirVertices)
+TEST(PaintPages, PaintsUnseenFacesWithVertexColors)
 {
     const Painted painted;
     const auto& corners = painted.atlas.corners[2];
@@ -64,7 +64,7 @@ TEST(PaintPages, PaintsFacesThatNoneShowsInTheColoursOfTheirVertices)
                     .isApprox(Eigen::Array3d(10, 200, 30)));
 }
 
-TEST(PaintPages, AddsTheLevelsOfTheCorners)
+TEST(PaintPages, AddsTheLevelsAtCorners)
 {
     Painted painted;
     const auto& corners = painted.atlas.corners[0];
@@ -74,7 +74,7 @@ TEST(PaintPages, AddsTheLevelsOfTheCorners)
     EXPECT_TRUE((texel(painted.pages()[0], middle) - before).isApprox(Eigen::Array3d(12, 0, -12)));
 }
 
-TEST(PaintPages, MixesWhatShowsThroughHalfAndHalfAtASeam)
+TEST(PaintPages, BlendsBothPhotographsEquallyAtASeam)
 {
     Painted painted;
     const auto& corners = painted.atlas.corners[0];
@@ -88,11 +88,11 @@ TEST(PaintPages, MixesWhatShowsThroughHalfAndHalfAtASeam)
     EXPECT_NEAR((texel(painted.pages()[0], middle) - before).mean(), 0.0, 0.1);
 }
 
-TEST(PaintPages, LetsColoursGoOnAroundCharts)
+TEST(PaintPages, ExtendsColorsAroundCharts)
 {
     const Painted painted;
     const Photograph page = painted.pages()[0];
-    const auto& corners = painted.atlas.corners[0]; // its first is the chart's corner
+    const auto& corners = painted.atlas.corners[0]; // its first corner is the chart's
     const Eigen::Array3d inside = texel(page, corners[0] + Eigen::Vector2d(1.0, 1.0));
     const Eigen::Array3d outside = texel(page, corners[0] - Eigen::Vector2d(2.0, -1.0));
     EXPECT_LT((inside - outside).abs().maxCoeff(), 12.0);

@@ -9,7 +9,7 @@
 namespace vcarve::seams_test {
 namespace {
 
-/// The wall of 16 squares a side, 12.5 texels each, halves covered with two photographs.
+/// The wall with 16 x 16 squares of 12.5 texels. Each half has a photograph.
 struct HalfAndHalf {
     TriMesh mesh = wall_mesh(16);
     std::vector<CalibratedPhoto> photos = {photo_from({0, 0, -1}), photo_from({0, 0, -1})};
@@ -52,7 +52,7 @@ struct HalfAndHalf {
     }
 };
 
-TEST(SeamBlends, LieWithinSixteenTexelsOfASeam)
+TEST(SeamBlends, ReachSixteenTexelsFromASeam)
 {
     const HalfAndHalf wall;
     const auto blends = wall.blends();
@@ -65,7 +65,7 @@ TEST(SeamBlends, LieWithinSixteenTexelsOfASeam)
     }
 }
 
-TEST(SeamBlends, AreWholeAtTheSeamAndEndWhereItIsSixteenTexelsAway)
+TEST(SeamBlends, FadeWithTheDistanceToTheSeam)
 {
     const HalfAndHalf wall;
     const auto blends = wall.blends();
@@ -78,7 +78,7 @@ TEST(SeamBlends, AreWholeAtTheSeamAndEndWhereItIsSixteenTexelsAway)
             } else {
                 EXPECT_GT(blend.far[i], 0.5F);
             }
-            // 40 pixels a unit, times what the photograph is larger.
+            // 40 camera pixels per unit, 2.5 photograph pixels per camera pixel.
             if (x > 16.0 / 100.0) {
                 EXPECT_GE(blend.far[i], 1.0F);
             }
@@ -86,7 +86,7 @@ TEST(SeamBlends, AreWholeAtTheSeamAndEndWhereItIsSixteenTexelsAway)
     }
 }
 
-TEST(SeamBlends, BringTheLevelsOfThePhotographFromBeyond)
+TEST(SeamBlends, UseTheLevelsOfThePhotographFromBeyond)
 {
     const auto blends = HalfAndHalf().blends();
     for (const Blend& blend : blends[1]) {
@@ -94,18 +94,18 @@ TEST(SeamBlends, BringTheLevelsOfThePhotographFromBeyond)
     }
 }
 
-TEST(SeamBlends, AreNoneOfAPhotographThatDoesNotShowTheFace)
+TEST(SeamBlends, SkipPhotographsThatDoNotShowTheFace)
 {
     HalfAndHalf wall;
     for (PhotosOfFace& photos : wall.photos_of_faces) {
-        photos.count = 1; // only photograph 0 is left in the lists
+        photos.count = 1; // only photograph 0 remains in the lists
     }
     EXPECT_TRUE(wall.blends()[1].empty());
     EXPECT_FALSE(wall.blends()[0].empty());
 }
 
-/// The wall, left of the middle covered with photograph 0, right of it with photograph 1, which
-/// shows everything brighter by so many levels.
+/// The wall with photograph 0 on the left half and photograph 1 on the right half. Photograph 1 is
+/// brighter by `brighter` levels.
 struct BrighterHalf {
     TriMesh mesh = wall_mesh(8);
     std::vector<PhotosOfFace> photos;
@@ -130,12 +130,12 @@ struct BrighterHalf {
     }
 };
 
-TEST(SeamLevels, LeaveNoStepAtASeam)
+TEST(SeamLevels, RemoveTheStepAtASeam)
 {
     const BrighterHalf wall(30);
     const CornerLevels levels = level_seams(wall.mesh, wall.photos, wall.colors,
                                             Gains(2, Eigen::Array3f::Ones()), wall.photo_of_face);
-    std::map<std::uint32_t, std::array<double, 2>> at_vertex; // of each photograph, 0 for none
+    std::map<std::uint32_t, std::array<double, 2>> at_vertex; // levels; 0: not shown
     for (std::size_t face = 0; face < wall.mesh.faces.size(); ++face) {
         const std::uint32_t photo = wall.photo_of_face[face];
         for (int i = 0; i < 3; ++i) {
@@ -152,7 +152,7 @@ TEST(SeamLevels, LeaveNoStepAtASeam)
     EXPECT_EQ(seams, 9);
 }
 
-TEST(SeamLevels, AreNothingWherePhotographsAgree)
+TEST(SeamLevels, AreZeroIfPhotographsAgree)
 {
     const BrighterHalf wall(0);
     const CornerLevels levels = level_seams(wall.mesh, wall.photos, wall.colors,
@@ -162,7 +162,7 @@ TEST(SeamLevels, AreNothingWherePhotographsAgree)
     }
 }
 
-TEST(SeamLevels, TakeExposuresAsTheyAreAfterTheGains)
+TEST(SeamLevels, CompareColorsAfterTheGains)
 {
     const BrighterHalf wall(25);
     const Gains gains = {Eigen::Array3f::Constant(1.25F), Eigen::Array3f::Ones()};

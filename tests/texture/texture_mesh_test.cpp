@@ -1,6 +1,6 @@
 #include "geometry/triangle.h"
 #include "support/photographed_wall.h"
-#include "support/told_log.h"
+#include "support/recording_log.h"
 #include "texture/texture_mesh.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using Eigen::Array3d;
 using Eigen::Vector3d;
 
-/// Photographs of the wall, written where they are read from.
+/// Writes photographs of the wall to a folder.
 class PhotographedWall {
   public:
     void add(const Vector3d& center, const Array3d& exposure = {1.0, 1.0, 1.0},
@@ -31,7 +31,7 @@ class PhotographedWall {
     std::vector<CalibratedPhoto> photos;
 };
 
-/// The texel in which a place of a page lies.
+/// The texel at a position of a page, in texture coordinates.
 Array3d texel_at(const Photograph& page, const Eigen::Vector2f& place)
 {
     const int x = std::min(static_cast<int>(place.x() * static_cast<float>(page.width_px)),
@@ -43,8 +43,8 @@ Array3d texel_at(const Photograph& page, const Eigen::Vector2f& place)
     return {rgb[0] * 1.0, rgb[1] * 1.0, rgb[2] * 1.0};
 }
 
-/// Compares the texture with the wall at places spread over all faces: the largest difference of a
-/// channel, in levels of 255, but for the gain that all photographs share.
+/// The largest difference of a channel between the texture and the wall times `gain`, in levels of
+/// 255, over samples of all faces.
 double worst_difference(const TexturedMesh& made, const Array3d& gain = {1.0, 1.0, 1.0})
 {
     double worst = 0.0;
@@ -65,34 +65,34 @@ double worst_difference(const TexturedMesh& made, const Array3d& gain = {1.0, 1.
     return worst;
 }
 
-TEST(TextureMesh, ShowsTheWallAsItIs)
+TEST(TextureMesh, ReproducesTheColorsOfTheWall)
 {
     PhotographedWall wall;
     wall.add({-0.5, 0, -2.5});
     wall.add({0.5, 0, -2.5});
     wall.add({0.0, 0.3, -2.6});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
-    EXPECT_LT(worst_difference(made), 6.0); // half a texel of the steepest colour is 3 levels
+    EXPECT_LT(worst_difference(made), 6.0); // half a texel of the steepest color is 3 levels
 }
 
-TEST(TextureMesh, AgreesWhereExposuresDiffer)
+TEST(TextureMesh, EqualizesExposures)
 {
     PhotographedWall wall;
     wall.add({-0.5, 0, -2.5}, {0.8, 0.8, 0.85});
     wall.add({0.5, 0, -2.5}, {1.2, 1.2, 1.15});
     wall.add({0.0, 0.3, -2.6});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
-    EXPECT_LT(worst_difference(made), 20.0); // up to 40 levels apart without
+    EXPECT_LT(worst_difference(made), 20.0); // 40 levels without gains
 }
 
-TEST(TextureMesh, LeavesHardlyAStepWhereChartsMeet)
+TEST(TextureMesh, HidesTheSeamsBetweenCharts)
 {
     PhotographedWall wall;
     wall.add({-0.5, 0, -1.2}, {0.8, 0.8, 0.85});
     wall.add({0.5, 0, -1.2}, {1.2, 1.2, 1.15});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(20), wall.photos, {}, log);
     std::map<std::array<std::uint32_t, 2>, std::size_t> face_of_edge;
     std::vector<double> steps;
@@ -118,28 +118,28 @@ TEST(TextureMesh, LeavesHardlyAStepWhereChartsMeet)
     EXPECT_LE(steps[steps.size() / 2], 2.0);
 }
 
-TEST(TextureMesh, IsMadeCoarserWhereItHasTooManyTexels)
+TEST(TextureMesh, ReducesTheScaleIfThereAreTooManyTexels)
 {
     PhotographedWall wall;
     wall.add({0, 0, -2.2});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh whole = texture_mesh(wall_mesh(4), wall.photos, {}, log);
     const TexturedMesh small = texture_mesh(wall_mesh(4), wall.photos, {.most_texels = 2000}, log);
     EXPECT_LT(small.texture.pages[0].rgb.size(), whole.texture.pages[0].rgb.size() / 2);
     EXPECT_LT(worst_difference(small), 25.0);
 }
 
-TEST(TextureMesh, LeavesOutWhatStandsBeforeTheWallInOnePhotograph)
+TEST(TextureMesh, IgnoresAnOccluderInOnePhotograph)
 {
     const auto passer_by = [](int x, int y, Array3d& color) {
         if (x > 60 && x < 110 && y > 20) color = {255.0, 0.0, 255.0};
     };
     PhotographedWall wall;
-    wall.add({0.0, 0.0, -2.4}, {1.0, 1.0, 1.0}, passer_by); // the nearest
+    wall.add({0.0, 0.0, -2.4}, {1.0, 1.0, 1.0}, passer_by); // the nearest photograph
     wall.add({-0.3, 0, -2.5});
     wall.add({0.3, 0, -2.5});
     wall.add({0.0, 0.2, -2.5});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(20), wall.photos, {}, log);
     std::size_t magenta = 0;
     for (const Photograph& page : made.texture.pages) {
@@ -147,14 +147,14 @@ TEST(TextureMesh, LeavesOutWhatStandsBeforeTheWallInOnePhotograph)
             magenta += page.rgb[i] > 200 && page.rgb[i + 1] < 60 && page.rgb[i + 2] > 200 ? 1 : 0;
         }
     }
-    EXPECT_LT(magenta, 200U); // of 2,200 that the passer-by takes; the rest lies within faces
+    EXPECT_LT(magenta, 200U); // the passer-by has 2,200 pixels, and some lie within faces
 }
 
-TEST(TextureMesh, FillsFacesThatNoPhotographShowsFromAround)
+TEST(TextureMesh, FillsUnseenFacesWithTheColorsAroundThem)
 {
     PhotographedWall wall;
     wall.add({0.9, 0, -1.0});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(12), wall.photos, {}, log);
     std::size_t unseen = 0;
     for (std::size_t face = 0; face < made.mesh.faces.size(); ++face) {
@@ -170,12 +170,12 @@ TEST(TextureMesh, FillsFacesThatNoPhotographShowsFromAround)
     EXPECT_LT(unseen, made.mesh.faces.size());
 }
 
-TEST(TextureMesh, ColorsVerticesByThePhotographs)
+TEST(TextureMesh, ColorsVerticesFromThePhotographs)
 {
     PhotographedWall wall;
     wall.add({-0.2, 0, -2.5});
     wall.add({0.2, 0, -2.5});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(16), wall.photos, {.only_colors = true}, log);
     EXPECT_TRUE(made.texture.is_empty());
     for (std::size_t vertex = 0; vertex < made.mesh.positions.size(); ++vertex) {
@@ -187,7 +187,7 @@ TEST(TextureMesh, ColorsVerticesByThePhotographs)
     }
 }
 
-TEST(TextureMesh, GivesTheSameBytesForAnyNumberOfThreads)
+TEST(TextureMesh, IsByteIdenticalForAnyThreadCount)
 {
     PhotographedWall wall;
     for (int i = 0; i < 7; ++i) {
@@ -198,7 +198,7 @@ TEST(TextureMesh, GivesTheSameBytesForAnyNumberOfThreads)
     for (const int threads : {1, 2, 5}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(threads));
-        ToldLog log;
+        RecordingLog log;
         made[threads] = texture_mesh(wall_mesh(10), wall.photos, {}, log);
     }
     for (const int threads : {2, 5}) {
@@ -213,34 +213,34 @@ TEST(TextureMesh, GivesTheSameBytesForAnyNumberOfThreads)
     }
 }
 
-TEST(TextureMesh, OfASurfaceWithoutFacesIsEmpty)
+TEST(TextureMesh, IsEmptyForASurfaceWithoutFaces)
 {
     PhotographedWall wall;
     wall.add({0, 0, -2.5});
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh({}, wall.photos, {}, log);
     EXPECT_TRUE(made.mesh.faces.empty());
     EXPECT_TRUE(made.texture.is_empty());
 }
 
-TEST(TextureMesh, LeavesOutAPhotographThatCannotBeReadAndNamesIt)
+TEST(TextureMesh, SkipsAnUnreadablePhotographAndNamesIt)
 {
     PhotographedWall wall;
     wall.add({0, 0, -2.5});
     wall.add({0.1, 0, -2.0});
     wall.folder.write("1.png", bytes_of(wall.photos[1].file).substr(0, 900));
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(4), wall.photos, {}, log);
-    EXPECT_LT(worst_difference(made), 12.0) << "the other photograph covers all";
+    EXPECT_LT(worst_difference(made), 12.0) << "the other photograph shows all faces";
     ASSERT_EQ(log.notes().size(), 1U);
     EXPECT_NE(log.notes()[0].find("1.png: found a PNG that cannot be read"), std::string::npos);
 }
 
-TEST(TextureMesh, ShowsNoColorsOfTransparentPixels)
+TEST(TextureMesh, IgnoresTransparentPixels)
 {
     const auto made_over = [](const Array3d& hidden) {
         PhotographedWall wall;
-        wall.add({-0.6, 0, -1.7}); // not the right edge
+        wall.add({-0.6, 0, -1.7}); // does not show the right edge
         wall.add({0.1, 0, -2.0});
         const auto cut = [&](int x, int /*y*/, Array3d& color) {
             if (x < 80) color = hidden;
@@ -250,7 +250,7 @@ TEST(TextureMesh, ShowsNoColorsOfTransparentPixels)
             image.alpha.push_back(i % image.width_px < 80 ? 0 : 255);
         }
         write_cutout(wall.photos[1].file, image);
-        ToldLog log;
+        RecordingLog log;
         return texture_mesh(wall_mesh(8), wall.photos, {}, log);
     };
     const TexturedMesh green = made_over({0, 255, 0});
@@ -260,16 +260,16 @@ TEST(TextureMesh, ShowsNoColorsOfTransparentPixels)
     ASSERT_EQ(green.texture.pages.size(), red.texture.pages.size());
     EXPECT_EQ(green.texture.pages[0].rgb, red.texture.pages[0].rgb);
     EXPECT_EQ(std::ranges::count(green.view_of_face, -1), 0);
-    EXPECT_GT(std::ranges::count(green.view_of_face, 1), 0) << "the other half is used";
+    EXPECT_GT(std::ranges::count(green.view_of_face, 1), 0) << "the opaque half is used";
 }
 
-TEST(TextureMesh, IsTheSameWithFewerPhotographsInMemory)
+TEST(TextureMesh, DoesNotDependOnThePhotographsInMemory)
 {
     PhotographedWall wall;
     for (int i = 0; i < 5; ++i) {
         wall.add({0.2 * i - 0.4, 0, -2.5});
     }
-    ToldLog log;
+    RecordingLog log;
     const TexturedMesh made = texture_mesh(wall_mesh(6), wall.photos, {}, log);
     const TexturedMesh one = texture_mesh(wall_mesh(6), wall.photos, {.photos_at_a_time = 1}, log);
     EXPECT_EQ(one.texture.pages[0].rgb, made.texture.pages[0].rgb);

@@ -6,7 +6,7 @@
 namespace vcarve::vertex_colors_test {
 namespace {
 
-/// A strip of faces, of which the first so many are shown by three photographs.
+/// A strip of faces. Three photographs show the first `shown` of them.
 struct Strip {
     TriMesh mesh;
     std::vector<PhotosOfFace> photos;
@@ -27,14 +27,14 @@ struct Strip {
             }
             colors[face][0].fill({100, 50, 20});
             colors[face][1].fill({104, 54, 20});
-            colors[face][2].fill({250, 250, 250}); // something before it
+            colors[face][2].fill({250, 250, 250}); // an occluder
         }
     }
 };
 
 const Gains kNoGains(3, Eigen::Array3f::Ones());
 
-TEST(ColorVertices, TakesTheMeanOfWhatMostAgreeOn)
+TEST(ColorVertices, AveragesPhotographsNearTheMedian)
 {
     Strip strip(8);
     EXPECT_EQ(color_vertices(strip.photos, strip.colors, kNoGains, strip.mesh), 10U);
@@ -43,7 +43,7 @@ TEST(ColorVertices, TakesTheMeanOfWhatMostAgreeOn)
     }
 }
 
-TEST(ColorVertices, TakesTheGainsInto)
+TEST(ColorVertices, AppliesGains)
 {
     Strip strip(8);
     const Gains gains(3, Eigen::Array3f(0.5F, 1.0F, 2.0F));
@@ -51,14 +51,14 @@ TEST(ColorVertices, TakesTheGainsInto)
     EXPECT_EQ(strip.mesh.colors[0], (Color{51, 52, 40}));
 }
 
-TEST(ColorVertices, SpreadsColorsToVerticesThatAreNotShown)
+TEST(ColorVertices, SpreadsColorsToUnseenVertices)
 {
     Strip strip(2);
     EXPECT_EQ(color_vertices(strip.photos, strip.colors, kNoGains, strip.mesh), 4U);
     EXPECT_EQ(strip.mesh.colors.back(), (Color{102, 52, 20}));
 }
 
-TEST(ColorVertices, LeavesPiecesThatNoneShowsAsTheyAre)
+TEST(ColorVertices, KeepsTheColorsOfUnseenComponents)
 {
     Strip strip(0);
     strip.mesh.colors.assign(10, {1, 2, 3});

@@ -1,5 +1,5 @@
-// Shows that ThreadSanitizer sees what our loops do: called with "race" it plants a race between
-// two bodies, which must be reported, called with "none" nothing must be.
+// Shows that ThreadSanitizer observes our parallel loops. With the argument "race", two bodies race
+// and ThreadSanitizer must report them. With "none" it must report nothing.
 #include "base/parallel.h"
 
 #include <tbb/task_arena.h>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kCount = 1U << 18U;
 
-/// Loops within loops, each of which reads what the one before wrote.
+/// Nested loops, each of which reads the results of the previous one.
 std::int64_t without_a_race()
 {
     std::vector<std::int64_t> values(kCount);
@@ -41,8 +41,8 @@ std::int64_t without_a_race()
     return halves[0] + halves[1] + sorted.front() + sums.back();
 }
 
-/// Two bodies, which wait for each other so that one thread cannot run both, add to the same number
-/// without an atomic.
+/// Two bodies add to the same non-atomic number. They wait for each other, so one thread cannot run
+/// both.
 std::int64_t with_a_race()
 {
     std::int64_t sum = 0;

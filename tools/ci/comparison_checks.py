@@ -16,13 +16,13 @@ ROOM = ROOT / "fixtures" / "room"
 
 
 def pictures(browser):
-    """The hashes of what all views show."""
+    """The hashes of the images of all views."""
     count = browser.execute_script("return window.report.panes.length")
     return [browser.execute_script(PIXELS, i)[0] for i in range(count)]
 
 
 def check_all_change(browser, what, action, views=None):
-    """Views are those that must change, all unless told otherwise."""
+    """Checks that an action changes these views, by default all."""
     before = pictures(browser)
     action()
     after = pictures(browser)
@@ -35,7 +35,7 @@ def canvases(browser):
 
 
 def check_views(browser, count):
-    """As many views as wanted, each with a picture of its own."""
+    """Checks that there are `count` views with different images."""
     expect(len(canvases(browser)), count, "canvases")
     for i in range(count):
         expect_that(browser.execute_script(PIXELS, i)[1] > 5, f"canvas {i} is blank")
@@ -54,24 +54,24 @@ def check_linked(browser):
         By.CSS_SELECTOR, "[data-go=overview]").click)
 
 
-def check_colours(browser, scale, title):
-    colour = Select(browser.find_element(By.ID, "colour"))
+def check_colors(browser, scale, title):
+    color = Select(browser.find_element(By.ID, "color"))
     legend = browser.find_element(By.ID, "legend")
-    expect(colour.first_selected_option.get_attribute("value"), "distance", "the first colour")
+    expect(color.first_selected_option.get_attribute("value"), "distance", "the first color")
     expect_that(title in legend.text, f"the legend is {legend.text!r}, expected {title!r}")
     expect(texts(browser, "#legend .ends span"),
            ["0", f"{50 * scale:g} %", f"{100 * scale:g} % or more"], "the ends of the legend")
-    # The truth has no distance and no colours of images.
+    # The truth has no distance to itself, and no colors.
     meshes = (0, 1)
     for option in ("plain", "rgb", "normal", "distance"):
-        check_all_change(browser, f"colour {option}", lambda o=option: colour.select_by_value(o),
+        check_all_change(browser, f"color {option}", lambda o=option: color.select_by_value(o),
                          meshes)
         expect(legend.is_displayed(), option in ("normal", "distance"), f"a legend of {option}")
 
 
 def check_layers(browser):
     for button in browser.find_elements(By.CSS_SELECTOR, "[data-layer]"):
-        # The truth is of solids: it shows no backs, and hides the cameras within.
+        # The truth is closed: it shows no backs, and hides the cameras inside.
         views = {"backs": (0,), "cameras": (0, 1)}.get(button.get_attribute("data-layer"))
         check_all_change(browser, button.text, button.click, views)
         check_all_change(browser, f"{button.text} again", button.click, views)
@@ -92,7 +92,7 @@ def check_places(browser, scene):
     listed = [place for surface in scene["surfaces"] for kind in ("missing", "wrong")
               for place in surface[kind] or []]
     buttons = browser.find_elements(By.CSS_SELECTOR, "#places button")
-    expect_that(len(listed) > 4, "hardly any worst place")
+    expect_that(len(listed) > 4, "too few worst places")
     expect(len(buttons), len(listed), "worst places")
     shares = [float(button.text.split()[0]) for button in buttons]
     for share, place in zip(shares, listed):
@@ -105,7 +105,7 @@ def check_places(browser, scene):
         rings = browser.find_elements(By.CSS_SELECTOR, "#panes .ring")
         expect([ring.is_displayed() for ring in rings], [True] * len(rings), "rings around it")
         expect_that(button.text.split()[0] in browser.find_element(By.ID, "place-text").text,
-                    "the sentence about a place lacks its distance")
+                    "the text of a place does not have its distance")
     expect(len(browser.find_elements(By.CSS_SELECTOR, "#places [aria-pressed=true]")), 1,
            "chosen places")
 
@@ -117,7 +117,7 @@ def at_place(mesh, place):
 
 
 def check_numbers(browser, figures, table):
-    """The words of the terminal's table, and the numbers of the file of --json."""
+    """Checks the table: words as in the terminal, numbers as in the file of --json."""
     lines = [[cell.strip() for cell in line.strip("|\n").split("|")]
              for line in table.splitlines() if line.startswith("|")]
     rows = browser.execute_script(
@@ -132,7 +132,7 @@ def check_numbers(browser, figures, table):
         expect([float(title) if title else None for title in titles],
                [at_place(mesh, place) for mesh in figures["meshes"]], place)
     expect(texts(browser, "#definitions li"), figures["definitions"], "definitions")
-    expect_that("\n".join(figures["definitions"]) in table, "the terminal says something else")
+    expect_that("\n".join(figures["definitions"]) in table, "the definitions differ from the terminal")
 
 
 def check_layout(browser, width, scheme):
@@ -152,7 +152,7 @@ def make_comparison(folder, name, meshes, *options):
 
 
 def check(browser, folder):
-    """A wide page with a truth, and one on a phone of three meshes without."""
+    """Checks a wide page with ground truth, and a page on a phone with three meshes."""
     ours, strict, odd = (folder / name for name in ("ours.ply", "strict.ply",
                                                     "<img src=x onerror=broken()>&lt;.ply"))
     for mesh, *options in ((ours,), (strict, "--method", "strict"), (odd, "--simplify", "300")):
@@ -165,7 +165,7 @@ def check(browser, folder):
     check_numbers(browser, figures, table)
     expect_that(str(page) in texts(browser, "#command")[0], "the command does not name the page")
     check_layout(browser, 1400, "light")
-    check_colours(browser, scene["scale"], "Distance to the truth, in % of its diagonal")
+    check_colors(browser, scene["scale"], "Distance to the truth, in % of its diagonal")
     check_linked(browser)
     check_layers(browser)
     check_surfaces(browser, 3)

@@ -1,11 +1,11 @@
-"""What the checks of pages share: a browser without a window, and what every page must be."""
+"""Common checks of pages, in a headless browser."""
 import json
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 
-# A hash of what a view shows, and how many colours that has. Drawn and read in one task, since WebGL
-# forgets a picture once it is shown. A comparison has several views, numbered from 0.
+# A hash of the image of a view, and its number of colors. Draws and reads in one task, because
+# WebGL discards an image after it is shown. A comparison has several views, numbered from 0.
 PIXELS = """
 const pane = window.report.panes[arguments[0] || 0];
 pane.view.draw();
@@ -15,13 +15,13 @@ to.width = from.width; to.height = from.height;
 to.getContext('2d').drawImage(from, 0, 0);
 const bytes = to.getContext('2d').getImageData(0, 0, to.width, to.height).data;
 let hash = 0;
-const colours = new Set();
+const colors = new Set();
 for (let i = 0; i < bytes.length; i += 4) {
-  const colour = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
-  hash = hash * 31 + colour | 0;
-  colours.add(colour);
+  const color = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
+  hash = hash * 31 + color | 0;
+  colors.add(color);
 }
-return [hash, colours.size];
+return [hash, colors.size];
 """
 
 faults = []
@@ -58,7 +58,7 @@ def visit(browser, page, width, height, scheme):
 
 
 def check_quiet(browser, page):
-    """No messages of any kind, and nothing asked for but the page itself."""
+    """Checks that there are no console messages and no requests other than the page."""
     expect([entry["message"] for entry in browser.get_log("browser")], [],
            f"{page.name}: messages of the console")
     messages = [json.loads(entry["message"])["message"] for entry in
@@ -66,7 +66,7 @@ def check_quiet(browser, page):
     asked = {message["params"]["request"]["url"] for message in messages
              if message["method"] == "Network.requestWillBeSent"}
     asked = {url for url in asked if not url.startswith("data:")}
-    expect(asked, {page.as_uri()}, f"{page.name}: what was asked for")
+    expect(asked, {page.as_uri()}, f"{page.name}: requests")
 
 
 def check_changes(browser, what, action):
@@ -82,9 +82,9 @@ def texts(browser, selector):
 
 
 def check_paper(browser, width, scheme):
-    """The page is as wide as the screen, and light or dark as wanted."""
+    """Checks that the page fits the screen, and that it is light or dark as requested."""
     expect_that(browser.execute_script("return document.documentElement.scrollWidth") <= width,
                 f"the page is wider than {width}")
     paper = browser.execute_script("return getComputedStyle(document.body).backgroundColor")
     light = sum(int(part) for part in paper[4:-1].split(",")) > 384
-    expect(light, scheme == "light", f"paper is light where {scheme} is wanted")
+    expect(light, scheme == "light", f"the paper is light with the scheme {scheme}")

@@ -1,7 +1,7 @@
 """Draws the figures of docs/paper.md as SVG: facets of a triangulation, and logarithmic plots.
 
 A Delaunay triangulation has no cycles in depth from any place: along a direction its cells are in
-the order of the centres of their spheres (Edelsbrunner, "An acyclicity theorem for cell complexes
+the order of the centers of their spheres (Edelsbrunner, "An acyclicity theorem for cell complexes
 in d dimensions", Combinatorica 10, 1990). So painting facets in the order of the cells behind them
 hides exactly what is hidden.
 """
@@ -10,7 +10,7 @@ import math
 PANEL_PX = 300
 LINE_PX = 16
 MARGIN_PX = 14
-FINE = 10  # units of the drawing per pixel, so that whole numbers do
+FINE = 10  # units of the drawing per pixel, so that integers suffice
 
 COLORS = {"right": (205, 213, 226), "wrong": (236, 122, 92), "hull": (205, 213, 226),
           "unmet": (250, 190, 60), "cell": (120, 170, 220), "ghost": (238, 240, 244)}
@@ -36,12 +36,12 @@ def minus(a, b):
 
 
 class Eye:
-    """Looks from far away: azimuth from the x axis and height above the horizon, in degrees."""
+    """A distant eye: azimuth from the x axis and height above the horizon, in degrees."""
 
     def __init__(self, azimuth_deg, height_deg):
         turn, height = math.radians(azimuth_deg), math.radians(height_deg)
         self.towards = (math.cos(height) * math.cos(turn), math.cos(height) * math.sin(turn),
-                        math.sin(height))  # from the things to the eye
+                        math.sin(height))  # from the objects to the eye
         self.right = unit(cross((0, 0, 1), self.towards))
         self.up = cross(self.towards, self.right)
         self.light = unit(tuple(d + 0.9 * u - 0.6 * r for d, u, r in
@@ -52,7 +52,7 @@ class Eye:
 
 
 class Frame:
-    """Where places lie in a panel that these places fit into."""
+    """Maps positions into a panel that contains given positions."""
 
     def __init__(self, eye, places):
         self.eye = eye
@@ -63,14 +63,14 @@ class Frame:
         self.pad = [(PANEL_PX - self.scale * size[k]) / 2 for k in (0, 1)]
 
     def at(self, place):
-        """In fine units."""
+        """The position in fine units."""
         flat = self.eye.flat(place)
         x, y = ((flat[k] - self.low[k]) * self.scale + self.pad[k] for k in (0, 1))
         return round(FINE * x), round(FINE * y)
 
 
 def shaded(kind, normal, eye):
-    """The colour of a facet, in few steps."""
+    """The color of a facet, in few steps."""
     if kind in TWO_SIDED:
         bright = 0.85 + 0.15 * round(abs(dot(normal, eye.light)) * 16) / 16
     else:
@@ -79,7 +79,7 @@ def shaded(kind, normal, eye):
 
 
 def depth_behind(facet, faces_eye, scenery, eye):
-    """How near the cell is on whose front the facet is painted."""
+    """The depth of the cell in front of which the facet is painted."""
     a, b, c, _, cell, beyond = facet
     behind = cell if faces_eye else beyond
     center = scenery["centers"][behind] if behind >= 0 else None
@@ -89,7 +89,7 @@ def depth_behind(facet, faces_eye, scenery, eye):
 
 
 def facets(scenery, drawn, frame):
-    """The paths of facets as they are painted, one after another."""
+    """The paths of facets in painting order."""
     eye, painted = frame.eye, []
     for number, facet in enumerate(drawn):
         corners = [scenery["points"][i] for i in facet[:3]]
@@ -115,7 +115,7 @@ def wires(scenery, frame):
     return [f'<path fill="none" stroke="#7f8ba0" stroke-width="{0.4 * FINE:g}" d="{path}"/>']
 
 
-def sights(lines, frame, reach):
+def rays(lines, frame, reach):
     """Lines from points towards their views, as far as `reach`."""
     made = []
     for begin, end in lines:
@@ -138,7 +138,7 @@ def caption(lines, left_px, top_px=PANEL_PX):
 
 
 def picture(width_px, height_px, parts):
-    """A whole file."""
+    """A complete file."""
     return "\n".join([
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width_px}" height="{height_px}" '
         f'viewBox="0 0 {FINE * width_px} {FINE * height_px}" font-family="sans-serif">',
@@ -147,20 +147,20 @@ def picture(width_px, height_px, parts):
 
 
 def row_of_panels(scenery, eye, panels):
-    """A picture of an object in several states, side by side. A panel has its caption, and any of
-    layers of facets, wires, sights and their reach, and facets that it is to fit."""
+    """A picture of an object in several states, side by side. A panel has a caption, and optionally
+    layers of facets, wires, rays and their reach, and facets that define its extent."""
     parts = []
     for i, panel in enumerate(panels):
         places = [scenery["points"][corner] for facet in panel.get("fit", [])
                   for corner in facet[:3]] or scenery["points"]
         frame = Frame(eye, places)
         parts.append(f'<svg x="{FINE * i * PANEL_PX}" width="{FINE * PANEL_PX}" '
-                     f'height="{FINE * PANEL_PX}">')  # what lies outside is cut off
+                     f'height="{FINE * PANEL_PX}">')  # clips everything outside
         if panel.get("wires"):
             parts += wires(scenery, frame)
         for layer in panel.get("layers", []):
             parts += facets(scenery, layer, frame)
-        parts += sights(panel.get("sights", []), frame, panel.get("reach", 1.0))
+        parts += rays(panel.get("rays", []), frame, panel.get("reach", 1.0))
         parts += ["</svg>", *caption(panel["caption"], i * PANEL_PX)]
     lines = max(len(panel["caption"]) for panel in panels)
     return picture(PANEL_PX * len(panels), PANEL_PX + LINE_PX * lines + LINE_PX // 2, parts)
@@ -174,7 +174,7 @@ LEFT_PX, BOTTOM_PX, TOP_PX, RIGHT_PX = 62, 46, 28, 14
 
 
 def fitted(points):
-    """Factor and exponent of the power law that fits best in logarithms: y = factor * x^exponent."""
+    """The factor and exponent of the best fit in logarithms: y = factor * x^exponent."""
     logs = [(math.log(x), math.log(y)) for x, y in points]
     mean_x = sum(x for x, _ in logs) / len(logs)
     mean_y = sum(y for _, y in logs) / len(logs)
@@ -191,7 +191,7 @@ def seconds_text(seconds):
 
 
 class Plot:
-    """Logarithmic axes. `across` are the ticks below, with what is written there."""
+    """Logarithmic axes. `across` are the ticks of the horizontal axis, with their labels."""
 
     def __init__(self, left_px, title, across, values):
         self.left_px = left_px
@@ -228,7 +228,7 @@ class Plot:
                           f'font-size="{FINE * 12}" fill="#202020">{text}</text>')
 
     def line(self, points, law, color):
-        """Measured points, and the law through them."""
+        """Draws measured points, and the law through them."""
         factor, exponent = law
         ends = [(x, factor * x ** exponent) for x in (points[0][0], points[-1][0])]
         (ax, ay), (bx, by) = (self._at(math.log10(x), math.log10(y)) for x, y in ends)
@@ -240,7 +240,7 @@ class Plot:
 
 
 def legend(names, top_px):
-    """Names of the series in their colours, in a row."""
+    """A legend: the names of the series in their colors, in a row."""
     parts = []
     for i, name in enumerate(names):
         x = FINE * (20 + 240 * i)

@@ -1,10 +1,10 @@
-"""The pictures of docs/paper.md: what is on each, drawn by paper_drawing from what
-tools/lab/make_paper_figures counted."""
+"""The contents of the pictures of docs/paper.md. paper_drawing draws them from the data of
+tools/lab/make_paper_figures."""
 import paper_tables
 from paper_drawing import (PLOT_PX, SERIES, Eye, Plot, fitted, legend, picture,
                            row_of_panels)
 
-# From where each object is looked at: what is carved out of it must show.
+# The eye of each object; the carved parts must be visible.
 EYES = {"cube_with_cavity": Eye(-60, 55), "boissonnat": Eye(-70, 30), "cubicles": Eye(-60, 45),
         "desk": Eye(-65, 25)}
 
@@ -66,11 +66,11 @@ def unmet(figure):
                          f"yellow: {figure['unmet']} that no virtual line meets"]},
             {"layers": [figure["tetrahedra"]],
              "caption": [f"{views}: tetrahedra removed", "the true solid"]},
-            {"layers": [figure["pair"]], "sights": sum(figure["pair_sights"], []), "reach": 2.2,
+            {"layers": [figure["pair"]], "rays": sum(figure["pair_rays"], []), "reach": 2.2,
              "fit": figure["pair"],
              "caption": ["one of the triangles, and its tetrahedra",
-                         f"virtual lines cross these: {len(figure['pair_sights'][0])} the one, "
-                         f"{len(figure['pair_sights'][1])} the other"]}]
+                         f"virtual lines cross these: {len(figure['pair_rays'][0])} the one, "
+                         f"{len(figure['pair_rays'][1])} the other"]}]
 
 
 def artificial(figure):
@@ -90,8 +90,8 @@ def drilled(figure):
         return f"{tetrahedra(made['lost'])} of the solid lost (red)"
 
     seen_through = [facet[:3] + ["hull"] + facet[4:] for facet in figure["truth"]]
-    return [{"layers": [seen_through], "sights": [figure["line"]], "reach": 7.0,
-             "caption": [f"{figure['sights']} right sights and a wrong one",
+    return [{"layers": [seen_through], "rays": [figure["line"]], "reach": 7.0,
+             "caption": [f"{figure['rays']} right rays and a wrong one",
                          "(red), of a point behind the block"]},
             {"layers": [figure["strict"]["panel"]],
              "caption": ["--method strict", verdict(figure["strict"])]},
@@ -100,7 +100,7 @@ def drilled(figure):
 
 
 def laws(kept):
-    """Table 1 of the paper and ours against the viewpoints, and ours against the points."""
+    """Plots table 1 of the paper and ours over the viewpoints, and ours over the points."""
     panels = paper_tables.series_of(kept)
     parts = []
     for i, (title, below, across, series) in enumerate(panels):

@@ -1,13 +1,13 @@
-"""The tables of docs/paper.md, and the laws that times follow."""
+"""The tables of docs/paper.md, and the power laws of times."""
 import sys
 
 from paper_drawing import fitted
 
 PAPERS_POINTS = 29
 VIEWPOINTS = (7, 10, 15, 23)
-LAW_FROM_POINTS = 1000  # below, what does not grow with the points shows
+LAW_FROM_POINTS = 1000  # below, constant costs are visible
 
-# Key in measured.json -> what table 1 of the paper calls it, and its seconds there for VIEWPOINTS:
+# Key in measured.json -> its name in table 1 of the paper, and the paper's seconds for VIEWPOINTS:
 # 29 points, an SGI O2 at 200 MHz.
 OPERATIONS = {
     "delaunay": ("Delaunay triangulation", (.641, .641, .641, .641)),
@@ -16,7 +16,7 @@ OPERATIONS = {
     "hidden": ("removal of hidden triangles", (.05, .057, .055, .062)),
     "normals": ("correcting face normals", (.1, .11, .12, .12)),
 }
-PAPERS_SHARES = ("39 %", "45 %", "4.8 %", "3.4 %", "7.8 %")  # as it prints them
+PAPERS_SHARES = ("39 %", "45 %", "4.8 %", "3.4 %", "7.8 %")  # as printed
 
 
 def rows_at(kept, points):
@@ -41,8 +41,8 @@ def by_points(kept, operation):
 
 
 def exponents_of(kept):
-    """Operation -> exponents of viewpoints in the paper, at its points and at the most, and of
-    points."""
+    """Operation -> exponents of viewpoints (in the paper, at the paper's number of points, at the
+    largest number) and of points."""
     most = sizes_of(kept)[-1]
     return {name: (fitted(list(zip(VIEWPOINTS, papers)))[1],
                    fitted(by_viewpoints(kept, PAPERS_POINTS, name))[1],
@@ -52,7 +52,7 @@ def exponents_of(kept):
 
 
 def series_of(kept):
-    """What is plotted: title, axis, ticks, and points of each operation with where its law begins."""
+    """The plots: title, axis, ticks, and the points of each operation with the start of its law."""
     viewpoints = [(v, str(v)) for v in VIEWPOINTS]
     sizes = [(n, f"{n:,}") for n in sizes_of(kept)]
     return [
@@ -88,7 +88,7 @@ def duration(seconds):
 
 
 def share_of(name, columns):
-    """Of an operation in the time of all, over all columns."""
+    """The share of an operation in the time of all, over all columns."""
     return sum(columns[name]) / sum(sum(column) for column in columns.values())
 
 
@@ -104,7 +104,7 @@ def table_beside_paper(kept):
     rows.append(["all five", *(three_digits(sum(c)) for c in zip(*papers.values())), "",
                  *(three_digits(sum(c)) for c in zip(*ours.values())), ""])
     rows.append(["rays"] + [""] * 5 +
-                [f"{row['sights']:,}" for row in rows_at(kept, PAPERS_POINTS)] + [""])
+                [f"{row['rays']:,}" for row in rows_at(kept, PAPERS_POINTS)] + [""])
     return markdown(head, rows)
 
 
@@ -113,7 +113,7 @@ def table_of_sizes(kept):
     for points in sizes_of(kept):
         row = rows_at(kept, points)[-1]
         every = {name: [seconds_of(row, name)] for name in OPERATIONS}
-        rows.append([f"{points:,}", f"{row['sights']:,}",
+        rows.append([f"{points:,}", f"{row['rays']:,}",
                      *(f"{duration(every[name][0])}, {percent(share_of(name, every))}"
                        for name in OPERATIONS)])
     return markdown(["points", "rays", *(title for title, _ in OPERATIONS.values())], rows, 0)
@@ -137,7 +137,7 @@ def table_of_scenes(rows):
 
 
 def require_claims(kept):
-    """What the text says of table 1 must be so."""
+    """Checks the statements of the text about table 1."""
     exponents = exponents_of(kept)
     most = sizes_of(kept)[-1]
     still = max(abs(exponents[name][column]) for name in ("delaunay", "tetrahedra", "hidden")
@@ -181,6 +181,6 @@ def tables_of(kept):
         "paper_check": f"{exponents['check'][0]:.2f}",
         "our_check": f"{exponents['check'][1]:.2f}",
         "our_normals": f"{exponents['normals'][1]:.2f}",
-        "sight_small": duration(seconds_of(small, "check") / small["sights"]),
-        "sight_most": duration(seconds_of(most, "check") / most["sights"]),
+        "ray_small": duration(seconds_of(small, "check") / small["rays"]),
+        "ray_most": duration(seconds_of(most, "check") / most["rays"]),
     }

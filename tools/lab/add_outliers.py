@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Adds gross outliers to a COLMAP text model of PINHOLE cameras: points at random depths along a
-sight of a true point, seen by that view and one or two others they fall into the picture of, as a
+ray of a true point, seen by that view and one or two others they fall into the picture of, as a
 false match that passed the geometric tests would be.
 
 usage: add_outliers.py IN_FOLDER OUT_FOLDER [SHARE, 0.03 unless given]
@@ -12,11 +12,11 @@ import random
 import shutil
 import sys
 
-DEPTHS = (0.3, 3.0)  # of the true depth; spread evenly in their logarithm
+DEPTHS = (0.3, 3.0)  # factors of the true depth; uniform in the logarithm
 
 
 def read_lines(path):
-    """Comments, and the other lines."""
+    """Returns the comments and the other lines."""
     lines = path.read_text(encoding="utf-8").splitlines()
     return ([line for line in lines if line.startswith("#")],
             [line for line in lines if not line.startswith("#")])
@@ -29,7 +29,7 @@ def rotation(qw, qx, qy, qz):
 
 
 class Image:
-    """A pose, a camera and the keypoints' line, to which false keypoints are added."""
+    """The pose, camera and keypoints of an image. False keypoints are added to the latter."""
 
     def __init__(self, head, keypoints, cameras):
         fields = head.split()
@@ -42,7 +42,7 @@ class Image:
         return tuple(-sum(self.turn[i][k] * self.shift[i] for i in range(3)) for k in range(3))
 
     def project(self, place):
-        """The place in the picture, or None outside."""
+        """The pixel of a position, or None outside of the image."""
         x, y, z = (sum(row[k] * place[k] for k in range(3)) + shift
                    for row, shift in zip(self.turn, self.shift))
         width, height, fx, fy, cx, cy = self.camera
@@ -52,7 +52,7 @@ class Image:
         return (u, v) if 0 <= u < width and 0 <= v < height else None
 
     def add_keypoint(self, pixel, point):
-        """Its index."""
+        """Adds a keypoint and returns its index."""
         self.keypoints += [f"{pixel[0]:.6f}", f"{pixel[1]:.6f}", str(point)]
         return len(self.keypoints) // 3 - 1
 
@@ -68,8 +68,8 @@ def read_cameras(path):
 
 
 def outlier(point, images, dice):
-    """A false place along the true point's first sight, and the pixels of the 2 or 3 views that
-    claim it; None if too few can."""
+    """A false position on the true point's first ray, and the pixels of the 2 or 3 views in its
+    track; None if too few views show it."""
     first = images[point[8]]
     low, high = map(math.log, DEPTHS)
     depth = math.exp(dice.uniform(low, high))
@@ -84,7 +84,7 @@ def outlier(point, images, dice):
 
 
 def add_outliers(points, images, share):
-    """The lines of the outliers. The images gain their keypoints."""
+    """Returns the lines of the outliers, and adds their keypoints to the images."""
     dice = random.Random(1)
     next_id = 1 + max(int(point[0]) for point in points)
     lines = []

@@ -1,6 +1,6 @@
-// Makes what strict carving is held against: the alpha shape and the sculpture of a model's points.
-// Usage: make_baselines MODEL FOLDER [ALPHA], where ALPHA is a multiple of the smallest alpha that
-// keeps all points and one piece, by default 1. Writes FOLDER/alpha_shape.ply and
+// Makes the baselines of strict carving: the alpha shape and the sculpture of a model's points.
+// Usage: make_baselines MODEL FOLDER [ALPHA]. ALPHA is a multiple of the smallest alpha that keeps
+// all points and one component, by default 1. Writes FOLDER/alpha_shape.ply and
 // FOLDER/sculpture.ply; FOLDER must exist.
 #include "baselines/baseline_surface.h"
 #include "run_program.h"

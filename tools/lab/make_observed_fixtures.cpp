@@ -1,6 +1,6 @@
-// Makes fixtures/air and fixtures/room: models of scenes whose geometry is known, as COLMAP would
-// reconstruct them, without pictures; fixtures/dense_room, the room as dense stereo would see it;
-// and fixtures/scanned_room, as laser scanners would. Usage: make_observed_fixtures FOLDER
+// Makes models of scenes with known geometry: fixtures/air and fixtures/room, like COLMAP's models
+// without photographs; fixtures/dense_room, the room from dense stereo; and fixtures/scanned_room,
+// the room from laser scanners. Usage: make_observed_fixtures FOLDER
 #include "observed/observe.h"
 #include "observed/scan.h"
 #include "observed/write_model.h"
@@ -21,22 +21,22 @@ void make(const std::filesystem::path& folder, const ObservedScene& observed)
     const ObservedModel model = vcarve::observed::observe(observed);
     write_model(folder, model);
     write_truth(folder, observed);
-    fmt::print("{}: {} points, {} views, {} sights, {} true faces\n", observed.name,
-               model.scene.num_points(), model.scene.views.size(), model.scene.num_sights(),
+    fmt::print("{}: {} points, {} views, {} rays, {} true faces\n", observed.name,
+               model.scene.num_points(), model.scene.views.size(), model.scene.num_rays(),
                observed.parts.mesh.faces.size());
 }
 
 void make_dense(const std::filesystem::path& folder, const ObservedScene& observed)
 {
     constexpr std::size_t kPoints = 8000;
-    constexpr double kStep = 1e-4; // so that the last bits of sine and cosine do not show
+    constexpr double kStep = 1e-4; // hides differences in the last bits of sine and cosine
     const vcarve::Scene scene = vcarve::observed::observe_densely(observed, kPoints);
     vcarve::observed::write_workspace(folder, scene, kStep);
-    fmt::print("dense_{}: {} points, {} views, {} sights\n", observed.name, scene.num_points(),
-               scene.views.size(), scene.num_sights());
+    fmt::print("dense_{}: {} points, {} views, {} rays\n", observed.name, scene.num_points(),
+               scene.views.size(), scene.num_rays());
 }
 
-/// Four tripods about the middle of the room.
+/// Scans the room from four tripods around its center.
 void make_scan(const std::filesystem::path& folder, const ObservedScene& observed)
 {
     constexpr std::size_t kPointsAScan = 2500;

@@ -1,4 +1,4 @@
-// Computes what docs/paper.md pictures: the figures of Akgunduz, Zetu, Banerjee,
+// Computes the figures of docs/paper.md, which are those of Akgunduz, Zetu, Banerjee,
 // "Viewpoint-centered shape recovery from multiple views" (2000). Usage: make_paper_figures
 // FIXTURES, the folder fixtures/paper. Writes JSON to standard output for tools/docs/paper.
 #include "figures/figures.h"

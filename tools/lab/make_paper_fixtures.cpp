@@ -10,7 +10,7 @@ namespace vcarve::paper {
 
 namespace {
 
-std::size_t count_sights(const Fixture& fixture)
+std::size_t count_rays(const Fixture& fixture)
 {
     std::size_t sum = 0;
     for (const ExactView& view : fixture.views) {
@@ -19,7 +19,7 @@ std::size_t count_sights(const Fixture& fixture)
     return sum;
 }
 
-/// Handles of a closed surface in one piece, from Euler's formula.
+/// The genus of a closed connected surface, from Euler's formula.
 long genus(const Fixture& fixture)
 {
     const long faces = static_cast<long>(fixture.cells.boundary.size());
@@ -33,9 +33,9 @@ void make_all(const std::filesystem::path& folder)
         const Fixture fixture = make_fixture(object);
         check_carving(fixture);
         write_fixture(folder / object.name, fixture);
-        fmt::print("{}: {} points, {} views, {} sights, {} solid and {} empty cells, {} faces, "
+        fmt::print("{}: {} points, {} views, {} rays, {} solid and {} empty cells, {} faces, "
                    "genus {}\n",
-                   object.name, fixture.samples.size(), fixture.views.size(), count_sights(fixture),
+                   object.name, fixture.samples.size(), fixture.views.size(), count_rays(fixture),
                    fixture.cells.solid.size(), fixture.cells.empty.size(),
                    fixture.cells.boundary.size(), genus(fixture));
     }

@@ -1,6 +1,6 @@
-// Draws the directions of surfaces side by side, through the camera of a model that sees most, or
-// of a named image. Usage: picture_surfaces OUT.png WIDTH_PX MODEL VIEW MESH...: VIEW is auto or an
-// image's name, a panel is about WIDTH_PX wide, half of what is drawn at first.
+// Draws the normals of surfaces side by side, from a camera of a model. Usage: picture_surfaces
+// OUT.png WIDTH_PX MODEL VIEW MESH... VIEW is the name of an image, or auto for the camera that
+// sees most. A panel is about WIDTH_PX wide; it is drawn at twice this size and reduced.
 #include "picture/eye.h"
 #include "picture/picture.h"
 #include "picture/shade.h"

@@ -1,7 +1,7 @@
-// Makes the dense workspace that stereo would leave of a scene whose geometry is known. Usage:
-// render_dense FOLDER SCENE [SIZE], where SIZE scales the sides of the images, by default 1;
-// render_views --list prints the scenes' names. Writes FOLDER/fused.ply, FOLDER/fused.ply.vis,
-// FOLDER/sparse and FOLDER/gt.ply, the truth.
+// Simulates the dense workspace of a scene with known geometry. Usage: render_dense FOLDER SCENE
+// [SIZE]. SIZE scales the sides of the images, by default 1. render_views --list prints the names
+// of scenes. Writes FOLDER/fused.ply, FOLDER/fused.ply.vis, FOLDER/sparse and the truth,
+// FOLDER/gt.ply.
 #include "dense/stereo.h"
 #include "observed/write_model.h"
 #include "run_program.h"
@@ -27,7 +27,7 @@ render::Pinhole scaled(const render::Pinhole& view, double size)
     return result;
 }
 
-/// A view that stands within something, or close before it, would never have been matched.
+/// Whether a view shows enough. Views inside of objects or close to them would not be matched.
 bool shows_much(const DepthMap& map)
 {
     constexpr double kLeastShare = 0.1;
@@ -35,7 +35,7 @@ bool shows_much(const DepthMap& map)
     return without < (1.0 - kLeastShare) * static_cast<double>(map.depths.size());
 }
 
-/// The views and the cloud in the frame of the truth.
+/// Transforms the views and the cloud to the frame of the truth.
 Scene in_frame(const render::PhotoScene& scene, const FusedCloud& cloud)
 {
     const render::Pinhole& lens = scene.views.front();

@@ -1,10 +1,10 @@
-// Renders the views that a scene is reconstructed from, with a texture of solid noise. Usage:
-// render_views FOLDER [SCENE], by default the still life behind fixtures/scene; render_views --list
-// prints the scenes' names. Writes FOLDER/images/*.png, FOLDER/truth.ply, FOLDER/cams.txt (name and
-// true centre of each view), FOLDER/camera.txt (COLMAP's PINHOLE parameters), FOLDER/features.txt
-// (how many to find in a view, at most), FOLDER/pairs.txt (names of views that look in similar
-// directions from places not too far apart, a pair a line) and FOLDER/max_error.txt (how far from
-// its true place, in the truth's units, a reconstructed centre may lie).
+// Renders the views of a scene, with a texture of solid noise. Usage: render_views FOLDER [SCENE],
+// by default the still life of fixtures/scene. render_views --list prints the names of scenes.
+// Writes FOLDER/images/*.png, FOLDER/truth.ply, FOLDER/cams.txt (name and true center of each
+// view), FOLDER/camera.txt (COLMAP's PINHOLE parameters), FOLDER/features.txt (maximum number of
+// features per view), FOLDER/pairs.txt (names of two views with similar directions and near
+// centers per line) and FOLDER/max_error.txt (the maximum error of a reconstructed center, in the
+// truth's units).
 #include "picture/picture.h"
 #include "render/photo_scene.h"
 #include "render/photograph.h"
@@ -23,9 +23,9 @@ namespace vcarve::render {
 
 namespace {
 
-/// Of the frame the scenes are built in, where a view is some metres off.
+/// In the frame of the scenes, where views are at a distance of some meters.
 constexpr double kMaxError = 0.02;
-/// Cosine of 50 degrees: beyond it SIFT finds next to nothing again.
+/// Cosine of 50 degrees; beyond this angle SIFT finds almost no matches.
 constexpr double kLeastPairCosine = 0.64;
 
 std::string name_of(std::size_t view)
@@ -48,7 +48,7 @@ void write_truth(const std::filesystem::path& folder, const PhotoScene& scene,
     }
 }
 
-/// What COLMAP is told.
+/// Writes the settings for COLMAP.
 void write_settings(const std::filesystem::path& folder, const PhotoScene& scene)
 {
     const Pinhole& view = scene.views.front();

@@ -9,9 +9,9 @@
 
 namespace vcarve {
 
-/// What main() of a lab program does: `work` gets the words after the program's name, of which
-/// there must be from `least` to `most`. Prints the usage, which begins with the program's name, or
-/// the message of an exception.
+/// The body of main() of a lab program. Calls `work` with the arguments, if there are `least` to
+/// `most` of them; else prints the usage, which begins with the program's name. Prints the message
+/// of an exception.
 template <typename Work>
 int run_program(std::span<char*> words, const std::string& usage, std::size_t least,
                 std::size_t most, const Work& work)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Makes a COLMAP text model small: drops the keypoints that belong to no point, and rounds the
-places of the others in their images to 1/64 px. Poses, cameras, points, colours and errors stay.
+places of the others in their images to 1/64 px. Poses, cameras, points, colors and errors stay.
 
 usage: slim_model.py IN_FOLDER OUT_FOLDER
 """
@@ -18,7 +18,7 @@ def rounded(coordinate):
 
 
 def slim_keypoints(line):
-    """The line without keypoints of no point, and old index -> new index of the rest."""
+    """The line with keypoints of points only, and old index -> new index."""
     fields = line.split()
     kept, new_index = [], {}
     for old, (x, y, point) in enumerate(zip(fields[0::3], fields[1::3], fields[2::3])):
@@ -29,7 +29,7 @@ def slim_keypoints(line):
 
 
 def slim_images(lines):
-    """The lines of images.txt made small, and image id -> (old index -> new index)."""
+    """The reduced lines of images.txt, and image id -> (old index -> new index)."""
     result, indices, image = [], {}, None
     for line in lines:
         if line.startswith("#"):

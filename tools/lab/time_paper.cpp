@@ -1,6 +1,6 @@
 // Times the five operations of table 1 of Akgunduz, Zetu, Banerjee, "Viewpoint-centered shape
-// recovery from multiple views" (2000), on one thread. Usage: time_paper MOST_POINTS: on the object
-// of the paper's number of points, and on 100, 1000, ... up to so many. Writes JSON to standard
+// recovery from multiple views" (2000), on one thread. Usage: time_paper MOST_POINTS. The object
+// has the paper's number of points, and 100, 1000, ... up to MOST_POINTS. Writes JSON to standard
 // output: medians and minima over runs, in seconds.
 #include "figures/paper_case.h"
 #include "figures/timed_object.h"
@@ -31,9 +31,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t kViewpoints[] = {7, 10, 15, 23}; // as the paper's table
+constexpr std::size_t kViewpoints[] = {7, 10, 15, 23}; // as in the paper's table
 
-/// The object as so many viewpoints see it, and what each operation starts from.
+/// The object with a number of viewpoints, and the inputs of each operation.
 struct Case {
     Scene scene;
     const TetMesh* cells = nullptr; ///< the same for all viewpoints
@@ -67,7 +67,7 @@ Case make_case(Scene scene, const TetMesh& cells)
     made.crossings = crossings_of(cells, scene);
     made.labels = carve(cells, made.crossings, 1);
     made.surface = clean_surface(extract_surface(cells, made.labels, scene),
-                                 {.min_component_faces = 0, .max_hole_edges = 0});
+                                 {.min_component = 0, .max_hole = 0});
     made.scene = std::move(scene);
     return made;
 }
@@ -80,8 +80,8 @@ double seconds_of(const Operation& operation, const Case& on)
     return taken.count();
 }
 
-/// Seconds of each operation on each case, in rounds that go over all of them, so that what
-/// disturbs the machine disturbs all alike.
+/// The seconds of each operation on each case. Each round runs all of them, so other load on the
+/// machine affects all equally.
 std::vector<std::vector<std::vector<double>>> timed(const std::vector<Case>& cases)
 {
     constexpr std::size_t kLeastRounds = 5;
@@ -90,7 +90,7 @@ std::vector<std::vector<std::vector<double>>> timed(const std::vector<Case>& cas
     std::vector<std::vector<std::vector<double>>> all(
         cases.size(), std::vector<std::vector<double>>(std::size(kOperations)));
     double sum = 0.0;
-    for (std::size_t round = 0; // the first meets cold caches and does not count
+    for (std::size_t round = 0; // the first round has cold caches and is ignored
          round <= kLeastRounds || (sum < kEnoughSeconds && round <= kMostRounds); ++round) {
         for (std::size_t i = 0; i < cases.size(); ++i) {
             for (std::size_t k = 0; k < std::size(kOperations); ++k) {
@@ -116,7 +116,7 @@ Json row_of(const Case& measured, const std::vector<std::vector<double>>& second
 {
     Json row = {{"points", measured.scene.num_points()},
                 {"viewpoints", measured.scene.views.size()},
-                {"sights", measured.scene.num_sights()},
+                {"rays", measured.scene.num_rays()},
                 {"cells", measured.cells->cells.size()},
                 {"inside", std::ranges::count(measured.labels, Label::inside)},
                 {"faces", measured.surface.counts.faces}};
@@ -136,7 +136,7 @@ void measure(std::size_t points, Json& rows)
         fmt::print(stderr, "time_paper: {} points, {} viewpoints\n", points, viewpoints);
     }
     for (Case& made : cases) {
-        made.source = photographs(made.scene); // refers to the scene where it stays
+        made.source = photographs(made.scene); // keeps a reference to this scene
     }
     const auto seconds = timed(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {

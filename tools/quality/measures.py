@@ -34,7 +34,7 @@ def figures_of(mesh):
         "blocked": truth["blocked"] if truth else None,
         "seen right": truth["seen_right"] if truth else None,
         "torn": truth["torn"] if truth else None, "open": truth["open"] if truth else None,
-        "hidden sights": views["hidden_sights"], "missed points": views["missed_points"],
+        "hidden rays": views["hidden_rays"], "missed points": views["missed_points"],
         "unsupported area": views["unsupported_area"],
         "back faces seen": views["back_faces_seen"], "nothing seen": views["nothing_seen"],
         "seen boundary edges": views["seen_boundary_edges"],

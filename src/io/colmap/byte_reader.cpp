@@ -36,8 +36,9 @@ std::string_view ByteReader::read_zero_terminated(const char* what)
     const char* begin = bytes_.data() + offset_;
     const void* end = left() == 0 ? nullptr : std::memchr(begin, 0, left());
     if (end == nullptr) {
-        throw InputError(fmt::format(
-            "{}: byte {}: the file ends inside {} (no zero byte closes it)", name_, offset_, what));
+        throw InputError(
+            fmt::format("{}: byte {}: the file ends inside {} (no terminating zero byte)", name_,
+                        offset_, what));
     }
     const std::string_view text(begin, static_cast<const char*>(end));
     offset_ += text.size() + 1;

@@ -10,19 +10,19 @@
 
 namespace vcarve {
 
-/// A cursor over the bytes of a little-endian binary file that never reads past their end.
-/// All that fails throws InputError naming the file and the offset of the byte; `what` is how the
-/// message calls the thing that was to be read, with its article: "the pose of an image".
+/// A cursor over a little-endian binary file that never reads past its end. Errors throw InputError
+/// with the file and the byte offset. `what` names the expected data in the message, with its
+/// article: "the pose of an image".
 class ByteReader {
   public:
-    /// `bytes` must outlive the reader; `name` is how messages call the file.
+    /// `bytes` must outlive the reader. `name` is the file name in messages.
     ByteReader(std::span<const char> bytes, std::string name)
         : bytes_(bytes), name_(std::move(name))
     {
     }
 
     std::size_t offset() const { return offset_; }
-    /// How much of the file is read, 0 to 1.
+    /// The fraction of the file that was read, 0 to 1.
     double share_read() const
     {
         return static_cast<double>(offset_) / static_cast<double>(bytes_.size());
@@ -40,17 +40,17 @@ class ByteReader {
         return value;
     }
 
-    /// Reads a count of records of at least `record_bytes` each, and refuses one that the bytes
-    /// left cannot hold: what it returns is safe to size an allocation from. `what` is a plural.
+    /// Reads a count of records of at least `record_bytes` each. Throws if the remaining bytes
+    /// cannot hold them, so the count is a safe allocation size. `what` is a plural.
     std::uint64_t read_count(std::size_t record_bytes, const char* what);
 
-    /// Characters up to the next zero byte, which is skipped; they point into the file.
+    /// Reads up to the next zero byte, and skips that byte. The result points into the file.
     std::string_view read_zero_terminated(const char* what);
 
-    /// Goes `count` records of `record_bytes` ahead; `count` must come from read_count.
+    /// Skips `count` records of `record_bytes`. Precondition: `count` comes from read_count().
     void skip(std::uint64_t count, std::size_t record_bytes) { offset_ += count * record_bytes; }
 
-    /// Refuses bytes after the end; `what` is what should have come last.
+    /// Throws if bytes remain. `what` names the last data of the file.
     void expect_end(const char* what) const;
 
   private:

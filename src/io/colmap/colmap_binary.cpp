@@ -1,5 +1,5 @@
-// The layout is documented at https://colmap.github.io/format.html and has not changed since 2016:
-// every file is a count (uint64) and that many records, without padding.
+// Layout: https://colmap.github.io/format.html, unchanged since 2016. Each file has a count
+// (uint64) and that many records, without padding.
 
 #include "io/colmap/byte_reader.h"
 #include "io/colmap/colmap_formats.h"
@@ -14,7 +14,7 @@ namespace vcarve {
 
 namespace {
 
-constexpr std::size_t kCameraBytes = 4 + 4 + 8 + 8;        // without its parameters
+constexpr std::size_t kCameraBytes = 4 + 4 + 8 + 8;        // without parameters
 constexpr std::size_t kImageBytes = 4 + 7 * 8 + 4 + 1 + 8; // with an empty name and no 2D points
 constexpr std::size_t kPoint2dBytes = 2 * 8 + 8;           // x, y, point id
 constexpr std::size_t kTrackElementBytes = 4 + 4;          // image id, index of the 2D point
@@ -27,8 +27,8 @@ Camera read_camera(ByteReader& reader, const std::string& name)
     const LensModel* model = lens_model(camera.model);
     if (model == nullptr) {
         throw InputError(
-            fmt::format("{}: camera {} is of model {}, which is not known, and neither "
-                        "is the number of its parameters (a model as text can be read)",
+            fmt::format("{}: camera {} has the unknown model {}, so its number of parameters is "
+                        "unknown; convert the COLMAP model to text",
                         name, camera.id, camera.model));
     }
     camera.width_px = reader.read<std::uint64_t>("the width of a camera");
@@ -51,7 +51,7 @@ void read_binary_cameras(const std::filesystem::path& path, SceneBuilder& builde
     builder.close_cameras();
 }
 
-/// All but the 2D points.
+/// Reads an image without its 2D points.
 ImageRecord read_image(ByteReader& reader)
 {
     ImageRecord image;
@@ -67,7 +67,7 @@ ImageRecord read_image(ByteReader& reader)
     return image;
 }
 
-/// take(reader, image, count) reads the 2D points of an image, which are so many.
+/// Calls take(reader, image, count) for each image, which must read or skip its `count` 2D points.
 template <typename Take>
 void read_each_binary_image(const std::filesystem::path& path, const Progress& progress,
                             const Take& take)
@@ -80,7 +80,7 @@ void read_each_binary_image(const std::filesystem::path& path, const Progress& p
         const ImageRecord image = read_image(reader);
         take(reader, image, reader.read_count(kPoint2dBytes, "2D points"));
         pages.read_up_to(reader.offset());
-        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
+        if (i % kRecordsBetweenReports == 0) progress.report(reader.share_read());
     }
     reader.expect_end("the last image");
 }
@@ -96,14 +96,14 @@ void read_binary_images(const std::filesystem::path& path, SceneBuilder& builder
     builder.close_images();
 }
 
-void read_binary_sights(const std::filesystem::path& path, const TakeSight& told,
-                        const Progress& progress)
+void read_binary_rays(const std::filesystem::path& path, const TakeRay& told,
+                      const Progress& progress)
 {
     const auto take = [&](ByteReader& reader, const ImageRecord& image, std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) {
-            const auto x_px = reader.read<double>("the place of a 2D point");
-            const auto y_px = reader.read<double>("the place of a 2D point");
-            told(image.id, reader.read<std::uint64_t>("the point of a 2D point"), {x_px, y_px});
+            const auto x_px = reader.read<double>("the position of a 2D point");
+            const auto y_px = reader.read<double>("the position of a 2D point");
+            told(image.id, reader.read<std::uint64_t>("the point id of a 2D point"), {x_px, y_px});
         }
     };
     read_each_binary_image(path, progress, take);
@@ -116,7 +116,7 @@ PointRecord read_point(ByteReader& reader)
     for (double& coordinate : point.position) {
         coordinate = reader.read<double>("the position of a point");
     }
-    point.color = reader.read<Color>("the colour of a point");
+    point.color = reader.read<Color>("the color of a point");
     point.error_px = reader.read<double>("the error of a point");
     return point;
 }
@@ -127,7 +127,7 @@ void read_binary_points(const std::filesystem::path& path, SceneBuilder& builder
     const MappedFile file(path);
     ByteReader reader(file.bytes(), path.string());
     const std::uint64_t count = reader.read_count(kPointBytes, "points");
-    // What is no point is tracks
+    // Bytes that are not points are tracks
     builder.reserve_points(count, (reader.left() - count * kPointBytes) / kTrackElementBytes);
     ReadOnce pages(file);
     std::vector<std::uint32_t> image_ids;
@@ -140,7 +140,7 @@ void read_binary_points(const std::filesystem::path& path, SceneBuilder& builder
         }
         builder.add_point(point, image_ids);
         pages.read_up_to(reader.offset());
-        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
+        if (i % kRecordsBetweenReports == 0) progress.report(reader.share_read());
     }
     reader.expect_end("the last point");
 }
@@ -148,6 +148,6 @@ void read_binary_points(const std::filesystem::path& path, SceneBuilder& builder
 } // namespace
 
 const FormatReader kBinaryReader = {read_binary_cameras, read_binary_images, read_binary_points,
-                                    read_binary_sights};
+                                    read_binary_rays};
 
 } // namespace vcarve

@@ -15,7 +15,7 @@
 namespace vcarve {
 namespace {
 
-/// 0 for a file that is not there: reading it will say so.
+/// The size in bytes; 0 if the file is missing, which reading it reports.
 double size_of_file(const std::filesystem::path& path)
 {
     std::error_code none;
@@ -39,7 +39,7 @@ SceneBuilder read_views(const std::filesystem::path& folder, ModelFormat format,
     return builder;
 }
 
-/// Calls take(point, view, place_px) for the 2D points that are of a point of the scene.
+/// Calls take(point, view, place_px) for each 2D point that belongs to a point of the scene.
 template <typename Take>
 void visit_points2d(const std::filesystem::path& folder, ModelFormat format, const Scene& scene,
                     const Progress& progress, const Take& take)
@@ -55,12 +55,12 @@ void visit_points2d(const std::filesystem::path& folder, ModelFormat format, con
         const auto view = std::ranges::lower_bound(scene.views, image_id, {}, &View::id);
         take(*point, static_cast<std::uint32_t>(view - scene.views.begin()), place_px);
     };
-    reader_of(format).read_sights(model_path(folder, "images", format), find, progress);
+    reader_of(format).read_rays(model_path(folder, "images", format), find, progress);
 }
 
 constexpr std::uint64_t kCountBytes = 8;
 
-/// The count a binary file begins with.
+/// The count at the start of a binary file.
 std::optional<std::uint64_t> first_count(const std::filesystem::path& path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -72,12 +72,12 @@ std::optional<std::uint64_t> first_count(const std::filesystem::path& path)
 } // namespace
 
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
-                        const Progress& progress, DroppedSights* dropped)
+                        const Progress& progress, DroppedRays* dropped)
 {
     const std::filesystem::path points_file = model_path(folder, "points3D", format);
     const double images = size_of_file(model_path(folder, "images", format));
     const double points = size_of_file(points_file);
-    const double middle = images / (images + points + 1.0); // the same time for all bytes
+    const double middle = images / (images + points + 1.0); // progress is proportional to bytes
     SceneBuilder builder = read_views(folder, format, progress.part(0.0, middle));
     reader_of(format).read_points(points_file, builder, progress.part(middle, 1.0));
     if (dropped != nullptr) *dropped = builder.dropped();
@@ -87,17 +87,17 @@ Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
 Tracks read_tracks_of_images(const std::filesystem::path& folder, ModelFormat format,
                              const Scene& scene, const Progress& progress)
 {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> sights; // point, view
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> rays; // point, view
     visit_points2d(folder, format, scene, progress,
                    [&](std::uint32_t point, std::uint32_t view, const Eigen::Vector2d& /*px*/) {
-                       sights.emplace_back(point, view);
+                       rays.emplace_back(point, view);
                    });
-    sort_unique(sights);
+    sort_unique(rays);
     Tracks tracks;
-    auto sight = sights.begin();
+    auto ray = rays.begin();
     for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
-        for (; sight != sights.end() && sight->first == point; ++sight) {
-            tracks.views.push_back(sight->second);
+        for (; ray != rays.end() && ray->first == point; ++ray) {
+            tracks.views.push_back(ray->second);
         }
         tracks.begins.push_back(tracks.views.size());
     }
@@ -136,12 +136,12 @@ std::optional<SceneSize> size_before_reading(const std::filesystem::path& folder
     const auto views = first_count(folder / model_file("images", format));
     std::error_code error;
     const std::uint64_t bytes = std::filesystem::file_size(points_file, error);
-    // What is no point is tracks: an image id and the index of a 2D point for each sight.
-    constexpr std::uint64_t kSightBytes = 8;
+    // Bytes that are not points are tracks: an image id and the index of a 2D point per ray.
+    constexpr std::uint64_t kRayBytes = 8;
     if (!points || !views || error || *points > bytes / kPointBytes) return std::nullopt;
     const std::uint64_t others = kCountBytes + *points * kPointBytes;
     if (others > bytes) return std::nullopt;
-    return SceneSize{.points = *points, .sights = (bytes - others) / kSightBytes, .views = *views};
+    return SceneSize{.points = *points, .rays = (bytes - others) / kRayBytes, .views = *views};
 }
 
 } // namespace vcarve

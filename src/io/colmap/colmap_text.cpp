@@ -1,5 +1,5 @@
-// The layout is documented at https://colmap.github.io/format.html: a line per camera and point,
-// two lines per image, of which the second, the 2D points, may be empty.
+// Layout: https://colmap.github.io/format.html. One line per camera and point, and two lines per
+// image. The second line has the 2D points and may be empty.
 
 #include "io/colmap/colmap_formats.h"
 #include "io/colmap/text_reader.h"
@@ -27,8 +27,8 @@ Camera read_camera(TextReader& reader)
         camera.params.push_back(reader.read_double("a parameter of the camera"));
     }
     if (model != nullptr && camera.params.size() != model->num_params) {
-        reader.fail(fmt::format("found {} parameters of a {} camera, which has {}",
-                                camera.params.size(), model_name, model->num_params));
+        reader.fail(fmt::format("found {} parameters, but a {} camera has {}", camera.params.size(),
+                                model_name, model->num_params));
     }
     return camera;
 }
@@ -43,8 +43,8 @@ void read_text_cameras(const std::filesystem::path& path, SceneBuilder& builder)
     builder.close_cameras();
 }
 
-/// Refuses a line that cannot be 2D points, as where the second line of an image was left out: the
-/// last word has to be the id of a point.
+/// Throws if a line cannot be 2D points, for example if the second line of an image is missing. The
+/// last word must be a point id.
 void check_points2d(TextReader& reader)
 {
     const std::string_view line = reader.rest();
@@ -55,8 +55,8 @@ void check_points2d(TextReader& reader)
         std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (!is_id || digits.empty()) {
         reader.fail(
-            fmt::format("found '{}' at the end of the line, which should hold the 2D points "
-                        "of the image on the line before, as x, y and point id, or nothing",
+            fmt::format("found '{}' at the end of the line, expected the 2D points of the image "
+                        "on the previous line (x, y and point id each), or an empty line",
                         printable(word)));
     }
 }
@@ -72,14 +72,14 @@ ImageRecord read_image(TextReader& reader)
         component = reader.read_double("the translation of the image");
     }
     image.camera_id = reader.read_uint32("the camera of the image");
-    // A name may hold blanks, but a line without one has lost a field
+    // A name may contain blanks. A line without a name lacks a field.
     if (reader.at_line_end()) reader.read_word("the name of the image");
     image.name = reader.rest();
     if (reader.next_line()) check_points2d(reader);
     return image;
 }
 
-/// take(reader, image) reads the 2D points of an image, or leaves them.
+/// Calls take(reader, image) for each image. It may read the 2D points, or ignore them.
 template <typename Take>
 void read_each_text_image(const std::filesystem::path& path, const Progress& progress,
                           const Take& take)
@@ -91,7 +91,7 @@ void read_each_text_image(const std::filesystem::path& path, const Progress& pro
         const ImageRecord image = read_image(reader);
         take(reader, image);
         pages.read_up_to(reader.offset());
-        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
+        if (i % kRecordsBetweenReports == 0) progress.report(reader.share_read());
     }
 }
 
@@ -104,14 +104,14 @@ void read_text_images(const std::filesystem::path& path, SceneBuilder& builder,
     builder.close_images();
 }
 
-void read_text_sights(const std::filesystem::path& path, const TakeSight& told,
-                      const Progress& progress)
+void read_text_rays(const std::filesystem::path& path, const TakeRay& told,
+                    const Progress& progress)
 {
     read_each_text_image(path, progress, [&](TextReader& reader, const ImageRecord& image) {
         while (!reader.at_line_end()) {
-            const double x_px = reader.read_double("the place of a 2D point");
-            const double y_px = reader.read_double("the place of a 2D point");
-            told(image.id, reader.read_uint64_or_none("the point of a 2D point"), {x_px, y_px});
+            const double x_px = reader.read_double("the position of a 2D point");
+            const double y_px = reader.read_double("the position of a 2D point");
+            told(image.id, reader.read_uint64_or_none("the point id of a 2D point"), {x_px, y_px});
         }
     });
 }
@@ -124,7 +124,7 @@ PointRecord read_point(TextReader& reader)
         coordinate = reader.read_double("the position of the point");
     }
     for (std::uint8_t& channel : point.color) {
-        channel = reader.read_uint8("the colour of the point");
+        channel = reader.read_uint8("the color of the point");
     }
     point.error_px = reader.read_double("the error of the point");
     return point;
@@ -146,13 +146,13 @@ void read_text_points(const std::filesystem::path& path, SceneBuilder& builder,
         }
         builder.add_point(point, image_ids);
         pages.read_up_to(reader.offset());
-        if (i % kRecordsBetweenTells == 0) progress.tell(reader.share_read());
+        if (i % kRecordsBetweenReports == 0) progress.report(reader.share_read());
     }
 }
 
 } // namespace
 
 const FormatReader kTextReader = {read_text_cameras, read_text_images, read_text_points,
-                                  read_text_sights};
+                                  read_text_rays};
 
 } // namespace vcarve

@@ -1,5 +1,6 @@
 #include "io/colmap/find_model.h"
 
+#include "base/text.h"
 #include "io/colmap/byte_reader.h"
 #include "io/colmap/model_files.h"
 #include "io/colmap/text_reader.h"
@@ -25,12 +26,18 @@ namespace {
 constexpr const char* kWhatAModelIs =
     "a COLMAP model is a folder with cameras, images and points3D as .bin or .txt";
 
-/// A folder that holds a whole model, and how many points it has.
+/// A folder with a complete model, and its number of points.
 struct Component {
     fs::path folder;
     ModelFormat format = ModelFormat::binary;
     std::uint64_t num_points = 0;
 };
+
+/// " (3,550 points)"
+std::string size_in_brackets(const Component& component)
+{
+    return " (" + counted(static_cast<std::int64_t>(component.num_points), "points") + ")";
+}
 
 std::vector<std::string> missing_files(const fs::path& folder, ModelFormat format)
 {
@@ -42,8 +49,8 @@ std::vector<std::string> missing_files(const fs::path& folder, ModelFormat forma
     return missing;
 }
 
-/// The format to read `folder` in, or none where it does not hold a whole model, or at least its
-/// views and points in another file.
+/// The format of the model in `folder`. Empty if the model is not complete; points3D may be missing
+/// if `points` is `another`, or if there is a points3D.ply.
 std::optional<ModelFormat> format_of(const fs::path& folder, PointsFile points)
 {
     constexpr std::array kFormats = {ModelFormat::binary, ModelFormat::text};
@@ -58,7 +65,7 @@ std::optional<ModelFormat> format_of(const fs::path& folder, PointsFile points)
     return std::nullopt;
 }
 
-/// The names of what is in a folder, short before long so that 2 comes before 10.
+/// The names of all entries of a folder, short names first so that 2 precedes 10.
 std::vector<std::string> names_in(const fs::path& folder)
 {
     std::vector<std::string> names;
@@ -111,7 +118,7 @@ std::uint64_t count_points(const fs::path& folder, ModelFormat format, std::stri
 
 namespace {
 
-/// The models in the folders of a folder, and of those so many levels down.
+/// The models in the subfolders of a folder, down to `levels` levels.
 std::vector<Component> components_in(const fs::path& folder, PointsFile points, int levels = 1)
 {
     std::vector<Component> components;
@@ -124,7 +131,7 @@ std::vector<Component> components_in(const fs::path& folder, PointsFile points, 
         try {
             std::ranges::move(components_in(path, points, levels - 1),
                               std::back_inserter(components));
-        } catch (const InputError&) { // nobody asked for a folder that cannot be read
+        } catch (const InputError&) { // skip subfolders that cannot be listed
         }
     }
     return components;
@@ -138,18 +145,18 @@ FoundModel model_in(const fs::path& folder, ModelFormat format)
     };
     if (format == ModelFormat::binary && has_other(ModelFormat::text)) {
         found.notes.push_back(
-            fmt::format("{} holds .bin and .txt files: the .bin are read", folder.string()));
+            fmt::format("{} has .bin and .txt files; reading the .bin files", folder.string()));
     }
     const std::vector<std::string> missing = missing_files(folder, ModelFormat::binary);
     if (format == ModelFormat::text && has_other(ModelFormat::binary) && !missing.empty()) {
         found.notes.push_back(
-            fmt::format("{} holds .bin and .txt files: the .txt are read, for {} is missing",
-                        folder.string(), fmt::join(missing, " and ")));
+            fmt::format("{} has .bin and .txt files; reading the .txt files, because it has no {}",
+                        folder.string(), fmt::join(missing, " and no ")));
     }
     return found;
 }
 
-/// The component with most points, the first of them where several have as many.
+/// The component with most points; the first one if several tie.
 FoundModel largest_of(const std::vector<Component>& components)
 {
     constexpr std::size_t kMostNamed = 8;
@@ -158,7 +165,7 @@ FoundModel largest_of(const std::vector<Component>& components)
     std::vector<std::string> others;
     for (const Component& component : components) {
         if (component.folder == largest->folder) continue;
-        others.push_back(fmt::format("{} ({})", component.folder.string(), component.num_points));
+        others.push_back(component.folder.string() + size_in_brackets(component));
     }
     if (others.size() > kMostNamed) {
         const std::string more = fmt::format("{} more", others.size() - kMostNamed);
@@ -166,26 +173,27 @@ FoundModel largest_of(const std::vector<Component>& components)
         others.push_back(more);
     }
     if (!others.empty()) {
-        found.notes.push_back(fmt::format("{} has most points ({}) and is taken; left out: {}",
-                                          largest->folder.string(), largest->num_points,
-                                          fmt::join(others, ", ")));
+        found.notes.push_back(fmt::format("the model has {} components; using the first one with "
+                                          "the most points, {}{}; ignored: {}",
+                                          components.size(), largest->folder.string(),
+                                          size_in_brackets(*largest), fmt::join(others, ", ")));
     }
     return found;
 }
 
-/// Whether a name is a number, as those of the components that COLMAP's mapper writes.
+/// Whether a name is a number, like the components that COLMAP's mapper writes.
 bool is_number(const std::string& name)
 {
     return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The model that is `folder` itself. Where another component of it is larger, that is mentioned.
+/// The model in `folder` itself, with a note if a sibling component is larger.
 FoundModel model_itself(const fs::path& folder, ModelFormat format, PointsFile points)
 {
     FoundModel found = model_in(folder, format);
     std::error_code error;
     const fs::path real = fs::absolute(folder / "", error).lexically_normal().parent_path();
-    if (error) return found; // nobody knows where it lies
+    if (error) return found; // its parent is unknown
     const std::string own_name = real.filename().string();
     const std::vector<std::string> names = names_in(real.parent_path());
     const auto is_other = [&](const std::string& name) {
@@ -198,14 +206,15 @@ FoundModel model_itself(const fs::path& folder, ModelFormat format, PointsFile p
     const auto own = std::ranges::find(parts, own_name, name_of);
     const auto largest = std::ranges::max_element(parts, {}, &Component::num_points);
     if (own != parts.end() && largest->num_points > own->num_points) {
-        found.notes.push_back(fmt::format(
-            "{} has {} points; the largest part of the model is {} ({})", folder.string(),
-            own->num_points, largest->folder.string(), largest->num_points));
+        found.notes.push_back(
+            fmt::format("{} has {}; the largest component of the model is {}{}", folder.string(),
+                        counted(static_cast<std::int64_t>(own->num_points), "points"),
+                        largest->folder.string(), size_in_brackets(*largest)));
     }
     return found;
 }
 
-/// The model that is `folder` itself, or the largest of those in it.
+/// The model in `folder` itself, or the largest model in its subfolders.
 std::optional<FoundModel> model_at(const fs::path& folder, PointsFile points, int levels = 1)
 {
     if (!is_folder(folder)) return std::nullopt;
@@ -216,7 +225,7 @@ std::optional<FoundModel> model_at(const fs::path& folder, PointsFile points, in
     return std::nullopt;
 }
 
-/// A part of a model in `folder`, told as a sentence's part; empty where there is none.
+/// A phrase for the message about an incomplete model in `folder`; empty if there is none.
 std::string incomplete_model(const fs::path& folder)
 {
     std::vector<std::string> parts;
@@ -229,7 +238,7 @@ std::string incomplete_model(const fs::path& folder)
     return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Files that tell what else a folder may be: COLMAP's own, and clouds or meshes.
+/// Files that indicate the purpose of a folder: COLMAP's other files, and clouds or meshes.
 std::vector<std::string> telling_files(const fs::path& folder)
 {
     std::vector<std::string> telling;
@@ -243,7 +252,7 @@ std::vector<std::string> telling_files(const fs::path& folder)
     return telling;
 }
 
-/// The folder of images is beside the model that was made of them.
+/// Throws if `input` is a folder of images. Searches the folder beside it for the model.
 void refuse_images(const fs::path& input)
 {
     const std::vector<std::string> names = names_in(input);
@@ -253,8 +262,8 @@ void refuse_images(const fs::path& input)
     if (!model) model = model_at(beside, PointsFile::of_model);
     throw InputError(model ? fmt::format("{} is a folder of images; the model is in {}",
                                          input.string(), model->folder.lexically_normal().string())
-                           : fmt::format("{} is a folder of images; the model is what COLMAP's "
-                                         "mapper made of them, often sparse/0",
+                           : fmt::format("{} is a folder of images; give the model that "
+                                         "COLMAP's mapper made of them, often sparse/0",
                                          input.string()));
 }
 
@@ -264,7 +273,7 @@ void refuse_images(const fs::path& input)
     std::vector<fs::path> looked_in{input};
     if (is_folder(input / "sparse")) looked_in.push_back(input / "sparse");
 
-    // What was there instead
+    // Incomplete models and other files, for the message
     std::vector<std::string> found;
     for (const fs::path& folder : looked_in) {
         const std::string own = incomplete_model(folder);
@@ -278,34 +287,34 @@ void refuse_images(const fs::path& input)
         found.push_back(name);
     }
     const std::string instead =
-        found.empty() ? "nothing of the kind" : fmt::format("{}", fmt::join(found, ", "));
+        found.empty() ? "none of these files" : fmt::format("{}", fmt::join(found, ", "));
     const bool lacks_points = instead.find(" without points3D.") != std::string::npos;
     throw InputError(
-        fmt::format("{}: no COLMAP model, looked for cameras, images and points3D, all "
-                    ".bin or all .txt, in this folder, in sparse and in the folders "
-                    "they hold, found {}{}",
+        fmt::format("{}: no COLMAP model found; searched this folder, sparse and their subfolders "
+                    "for cameras, images and points3D (all .bin or all .txt); found {}{}",
                     input.string(), instead,
-                    lacks_points ? "; colmap point_triangulator makes points where "
-                                   "poses are known, and --points FILE --sights "
-                                   "nearest takes those of a cloud"
+                    lacks_points ? "; run colmap point_triangulator to compute points from the "
+                                   "poses, or give a cloud with --points FILE --rays nearest"
                                  : ""));
 }
 
-/// The model in the folder of one of its files, in the format of the file where the folder has all
-/// of that; nothing where the file has no name of a model's, or its folder no model.
+/// The model in the folder of one of its files, in the format of that file if the folder has all
+/// files of it. Empty if it is no model file. Throws InputError if the folder has no complete
+/// model.
 std::optional<FoundModel> model_of_file(const fs::path& file, PointsFile points)
 {
     constexpr std::array kStems = {"cameras", "images", "points3D", "rigs", "frames"};
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    const auto in_folder = format_of(folder, points);
     for (const ModelFormat format : {ModelFormat::binary, ModelFormat::text}) {
         const auto is_it = [&](const char* stem) {
             return file.filename() == model_file(stem, format);
         };
-        if (!in_folder || std::ranges::none_of(kStems, is_it)) continue;
+        if (std::ranges::none_of(kStems, is_it)) continue;
+        const auto in_folder = format_of(folder, points);
+        if (!in_folder) fail_not_found(folder);
         FoundModel found =
             model_in(folder, missing_files(folder, format).empty() ? format : *in_folder);
-        found.notes.push_back(fmt::format("{} is a file of the model in {}, which is read",
+        found.notes.push_back(fmt::format("{} is a file of the model in {}; reading that model",
                                           file.string(), folder.string()));
         return found;
     }
@@ -331,7 +340,7 @@ FoundModel find_model(const fs::path& input, PointsFile points)
         const MappedFile file(input); // refuses pages and archives
         throw InputError(fmt::format("{}: is not a folder; {}", input.string(), kWhatAModelIs));
     }
-    // The folder itself first, then the workspace's, then what lies below it, near things first
+    // First the folder itself, then the workspace's, then subfolders, nearest levels first
     const auto format = format_of(input, points);
     if (format) return model_itself(input, *format, points);
     if (auto found = model_at(input / "sparse", points)) return *found;

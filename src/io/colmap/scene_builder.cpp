@@ -17,7 +17,7 @@ namespace vcarve {
 
 namespace {
 
-/// Sorts by id and returns the first element whose id is also its neighbour's, or the end.
+/// Sorts by id. Returns the first element whose successor has the same id, or the end.
 template <typename Record>
 auto sort_and_find_twice(std::vector<Record>& records)
 {
@@ -60,7 +60,7 @@ void SceneBuilder::add_image(const ImageRecord& image)
         std::lower_bound(scene_.cameras.begin(), scene_.cameras.end(), image.camera_id,
                          [](const Camera& a, std::uint32_t id) { return a.id < id; });
     if (camera == scene_.cameras.end() || camera->id != image.camera_id) {
-        fail(fmt::format("uses camera {}, which {} does not have", image.camera_id,
+        fail(fmt::format("uses camera {}, which is missing in {}", image.camera_id,
                          model_file("cameras", format_)));
     }
     if (!image.rotation_wxyz.allFinite() || !image.translation.allFinite()) {
@@ -76,7 +76,7 @@ void SceneBuilder::add_image(const ImageRecord& image)
     view.name = image.name;
     view.cam_from_world = {rotation[0], rotation[1], rotation[2], rotation[3]};
     view.center = -(view.cam_from_world.conjugate() * image.translation);
-    if (!is_place(view.center)) fail("has a centre too far out to be a number");
+    if (!is_valid_position(view.center)) fail("has a camera center too far from the origin");
     scene_.views.push_back(std::move(view));
 }
 
@@ -84,7 +84,7 @@ void SceneBuilder::close_images()
 {
     const auto twice = sort_and_find_twice(scene_.views);
     if (twice != scene_.views.end()) {
-        throw InputError(fmt::format("{}: {} has the id of {}",
+        throw InputError(fmt::format("{}: {} has the same id as {}",
                                      model_path(folder_, "images", format_).string(),
                                      image_label(std::next(twice)->id, std::next(twice)->name),
                                      image_label(twice->id, twice->name)));
@@ -95,19 +95,19 @@ void SceneBuilder::close_images()
     }
 }
 
-void SceneBuilder::reserve_points(std::size_t count, std::size_t sights)
+void SceneBuilder::reserve_points(std::size_t count, std::size_t rays)
 {
     scene_.positions.reserve(count);
     scene_.colors.reserve(count);
     scene_.errors_px.reserve(count);
     scene_.point_ids.reserve(count);
     scene_.tracks.begins.reserve(count + 1);
-    scene_.tracks.views.reserve(sights);
+    scene_.tracks.views.reserve(rays);
 }
 
 std::uint32_t SceneBuilder::view_index(std::uint32_t image_id) const
 {
-    // Most often the ids have no gaps.
+    // Ids rarely have gaps.
     const std::size_t guess = image_ids_.empty() ? 0 : image_id - image_ids_.front();
     if (guess < image_ids_.size() && image_ids_[guess] == image_id) {
         return static_cast<std::uint32_t>(guess);
@@ -125,7 +125,7 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
         if (view != kNoView) {
             row_.push_back(view);
         } else if (image_id != 0 && image_id != kInvalidImageId) {
-            ++dropped_.sights;
+            ++dropped_.rays;
             dropped_.images.insert(image_id);
         }
     }
@@ -133,7 +133,7 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
 
     const std::vector<std::uint64_t>& ids = scene_.point_ids;
     point_ids_ascend_ = point_ids_ascend_ && (ids.empty() || ids.back() < point.id);
-    scene_.positions.push_back(place_or_none(point.position));
+    scene_.positions.push_back(position_or_nan(point.position));
     scene_.colors.push_back(point.color);
     scene_.errors_px.push_back(std::isnan(point.error_px) ? -1.0 : point.error_px);
     scene_.point_ids.push_back(point.id);

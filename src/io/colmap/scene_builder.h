@@ -14,7 +14,7 @@
 
 namespace vcarve {
 
-/// An image as COLMAP's files hold it, without its 2D points.
+/// An image record of COLMAP's files, without its 2D points.
 struct ImageRecord {
     std::uint32_t id = 0;
     Eigen::Vector4d rotation_wxyz = Eigen::Vector4d::Zero(); ///< quaternion, camera from world
@@ -23,7 +23,7 @@ struct ImageRecord {
     std::string_view name;
 };
 
-/// A point as COLMAP's files hold it, without its track.
+/// A point record of COLMAP's files, without its track.
 struct PointRecord {
     std::uint64_t id = 0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -31,49 +31,48 @@ struct PointRecord {
     double error_px = -1.0;
 };
 
-/// Puts a Scene together from the records of a model, whatever the format of its files, and checks
-/// that they agree: ids occur once, cameras that are named exist, poses are poses. Sights of images
-/// that do not exist are dropped and counted, but for placeholders: converters that know of no
-/// sight write a track of image 0 or -1. To be given all cameras, then all images, then all points.
-/// Throws InputError.
+/// Builds a Scene from the records of a model in any format. Throws InputError if records disagree:
+/// if ids repeat, an image uses a missing camera, or a pose is not valid. Rays of missing images
+/// are dropped and counted. Image ids 0 and -1 are dropped without counting: some converters write
+/// them as placeholders for points without rays. Add all cameras, then all images, then all points.
 class SceneBuilder {
   public:
-    /// Folder and format are for messages only.
+    /// `folder` and `format` are for messages only.
     SceneBuilder(const std::filesystem::path& folder, ModelFormat format);
 
     void add_camera(Camera camera) { scene_.cameras.push_back(std::move(camera)); }
-    /// To be called between the last camera and the first image.
+    /// Call it between the last camera and the first image.
     void close_cameras();
 
     void add_image(const ImageRecord& image);
-    /// To be called between the last image and the first point.
+    /// Call it between the last image and the first point.
     void close_images();
 
-    /// So many points and sights will come, or a few less.
-    void reserve_points(std::size_t count, std::size_t sights);
-    /// `image_ids` may be in any order and name an image more than once.
+    /// Reserves memory for this number of points and rays, or slightly fewer.
+    void reserve_points(std::size_t count, std::size_t rays);
+    /// `image_ids` may be in any order and may repeat.
     void add_point(const PointRecord& point, std::span<const std::uint32_t> image_ids);
 
-    /// What was dropped up to now.
-    const DroppedSights& dropped() const { return dropped_; }
-    /// The scene, its cameras and views sorted by COLMAP's ids; the builder is spent.
+    /// The rays dropped so far.
+    const DroppedRays& dropped() const { return dropped_; }
+    /// The scene, with cameras and views sorted by COLMAP's ids. Empties the builder.
     Scene finish();
-    /// Only what belongs to the images; the builder is spent.
+    /// Cameras and views only. Empties the builder.
     ColmapViews finish_views();
 
   private:
-    /// kNoView where no image has that id.
+    /// kNoView if no image has that id.
     std::uint32_t view_index(std::uint32_t image_id) const;
     void refuse_point_ids_twice() const;
 
     std::filesystem::path folder_;
     ModelFormat format_;
     Scene scene_;
-    std::vector<std::uint32_t> file_ids_;  ///< of the images, as they were added
+    std::vector<std::uint32_t> file_ids_;  ///< of the images, in the order added
     std::vector<std::uint32_t> image_ids_; ///< ascending, parallel to the views
     std::vector<std::uint32_t> row_;       ///< view indices of the point being added
-    DroppedSights dropped_;
-    bool point_ids_ascend_ = true; ///< of the points so far, so that none occurs twice
+    DroppedRays dropped_;
+    bool point_ids_ascend_ = true; ///< of the points so far; then none repeats
 };
 
 } // namespace vcarve

@@ -24,7 +24,7 @@ std::vector<double> numbers_in(const std::filesystem::path& path)
     std::vector<double> numbers;
     while (numbers.size() <= kMost && reader.next_record()) {
         while (!reader.at_line_end()) {
-            numbers.push_back(reader.read_double("a number of the transformation"));
+            numbers.push_back(reader.read_double("an entry of the transformation"));
         }
     }
     return numbers;
@@ -36,7 +36,7 @@ Matrix34 matrix_of_sim3(std::span<const double> numbers)
     const Eigen::Vector4d unit = wxyz.stableNormalized();
     const Eigen::Quaterniond rotation(unit[0], unit[1], unit[2], unit[3]);
     Matrix34 matrix;
-    const double scale = unit.isZero() ? 0.0 : numbers[0]; // Eigen takes zero for no rotation
+    const double scale = unit.isZero() ? 0.0 : numbers[0]; // Eigen treats zero as the identity
     matrix << scale * rotation.toRotationMatrix(),
         Eigen::Vector3d(numbers[5], numbers[6], numbers[7]);
     return matrix;

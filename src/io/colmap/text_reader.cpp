@@ -33,7 +33,7 @@ std::string printable(std::string_view text)
     constexpr std::size_t kMost = 60;
     std::string shown(text.substr(0, kMost));
     if (text.size() > kMost) {
-        // Cut between characters, not inside one
+        // Cut between UTF-8 characters
         std::size_t end = kMost;
         while (end > 0 && continues_utf8(text[end])) {
             --end;
@@ -87,7 +87,7 @@ std::string_view TextReader::rest()
 
 std::string_view TextReader::read_word(const char* what)
 {
-    if (at_line_end()) fail(fmt::format("the line ends where {} should stand", what));
+    if (at_line_end()) fail(fmt::format("the line ends, expected {}", what));
     const auto end = std::find_if(line_.begin(), line_.end(), is_blank);
     const std::string_view word(line_.begin(), end);
     line_.remove_prefix(word.size());
@@ -99,12 +99,12 @@ T TextReader::read_number(const char* what, const char* kind)
 {
     const std::string_view word = read_word(what);
     std::string_view digits = word;
-    // std::from_chars knows no plus sign
+    // std::from_chars rejects a plus sign
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     T value{};
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error != std::errc{} || end != digits.data() + digits.size()) {
-        fail(fmt::format("found '{}' where {}, {}, should stand", printable(word), what, kind));
+        fail(fmt::format("found '{}', expected {} ({})", printable(word), what, kind));
     }
     return value;
 }
@@ -116,20 +116,20 @@ double TextReader::read_double(const char* what)
 
 std::uint8_t TextReader::read_uint8(const char* what)
 {
-    return read_number<std::uint8_t>(what, "a whole number from 0 to 255");
+    return read_number<std::uint8_t>(what, "an integer from 0 to 255");
 }
 
 std::uint32_t TextReader::read_uint32(const char* what)
 {
-    return read_number<std::uint32_t>(what, "a whole number of 32 bits");
+    return read_number<std::uint32_t>(what, "an unsigned 32-bit integer");
 }
 
 std::uint64_t TextReader::read_uint64(const char* what)
 {
-    return read_number<std::uint64_t>(what, "a whole number of 64 bits");
+    return read_number<std::uint64_t>(what, "an unsigned 64-bit integer");
 }
 
-/// Whether the next word is a negative whole number, which is read then.
+/// Reads the next word if it is a negative integer. Returns whether it is.
 bool TextReader::take_none()
 {
     if (at_line_end() || line_.front() != '-') return false;

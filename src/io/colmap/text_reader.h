@@ -7,34 +7,33 @@
 
 namespace vcarve {
 
-/// `text`, fit to stand in a message: cut where it is long, control characters replaced.
+/// Makes `text` safe for messages: truncates it to 60 bytes and replaces control characters.
 std::string printable(std::string_view text);
 
-/// A cursor over the words of a text file, line by line. Lines end in LF or CR LF, words are set
-/// apart by blanks and tabs, a line that begins with # is a comment. Numbers are read in the C
-/// locale, whatever the user's. All that fails throws InputError naming the file and the line;
-/// `what` is how the message calls what was to be read.
+/// A cursor over the words of a text file, line by line. Lines end in LF or CR LF. Blanks and tabs
+/// separate words. Lines that begin with # are comments. Numbers are parsed in the C locale. Errors
+/// throw InputError with the file and the line; `what` names the expected data in the message.
 class TextReader {
   public:
-    /// `bytes` must outlive the reader; `name` is how messages call the file.
+    /// `bytes` must outlive the reader. `name` is the file name in messages.
     TextReader(std::span<const char> bytes, std::string name);
 
-    /// Goes to the next line that is not a comment, though it may be blank. False: there is none.
+    /// Advances to the next line that is not a comment; it may be blank. Returns false at the end.
     bool next_line();
-    /// Goes to the next line that is neither a comment nor blank. False: there is none.
+    /// Advances to the next line that is neither comment nor blank. Returns false at the end.
     bool next_record();
 
-    /// How many bytes of the file are read, with all of the current line.
+    /// The number of bytes read so far, including all of the current line.
     std::size_t offset() const { return size_ - unread_.size(); }
-    /// How much of the file is read, 0 to 1.
+    /// The fraction of the file that was read, 0 to 1.
     double share_read() const
     {
         return 1.0 - static_cast<double>(unread_.size()) / static_cast<double>(size_);
     }
 
-    /// Whether all words of the line are read.
+    /// Skips blanks; returns whether no word of the line remains.
     bool at_line_end();
-    /// The words of the line not read yet, as they stand, without the blanks around them.
+    /// The rest of the line, without leading and trailing blanks.
     std::string_view rest();
 
     std::string_view read_word(const char* what);
@@ -42,11 +41,11 @@ class TextReader {
     std::uint8_t read_uint8(const char* what);
     std::uint32_t read_uint32(const char* what);
     std::uint64_t read_uint64(const char* what);
-    /// The same; a negative one, which stands for none, is the largest number of the type.
+    /// The same, but a negative number means none and becomes the maximum of the type.
     std::uint32_t read_uint32_or_none(const char* what);
     std::uint64_t read_uint64_or_none(const char* what);
 
-    /// Throws: "NAME: line N: sentence".
+    /// Throws InputError with "NAME: line N: sentence".
     [[noreturn]] void fail(const std::string& sentence) const;
 
   private:
@@ -55,7 +54,7 @@ class TextReader {
     bool take_none();
 
     std::string_view unread_; ///< the file after the current line
-    std::string_view line_;   ///< what is left of the current line
+    std::string_view line_;   ///< the rest of the current line
     std::size_t size_;
     std::size_t line_number_ = 0;
     std::string name_;

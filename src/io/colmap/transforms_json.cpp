@@ -1,7 +1,6 @@
-// The format is described at https://docs.nerf.studio/quickstart/data_conventions.html: poses lead
-// from the camera to the world, x right, y up, z backwards; what is said of the lens counts for all
-// images unless an image says otherwise. `applied_transform` is what has been done to the poses and
-// the points alike, so nothing is left to do.
+// Format: https://docs.nerf.studio/quickstart/data_conventions.html. Poses map from the camera (x
+// right, y up, z backwards) to the world. Lens parameters of the file apply to all images that have
+// none. `applied_transform` is already part of poses and points, so readers of both ignore it.
 
 #include "io/colmap/transforms_json.h"
 
@@ -33,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// A value, or none, and where it stands.
+/// A JSON value, or null if it is missing, and its path for messages.
 struct Place {
     const fs::path& file;
     std::string name;
@@ -49,7 +48,7 @@ struct Place {
         if (value == nullptr) refuse("nothing", expected);
         const bool is_short = value->is_primitive();
         refuse(is_short ? printable(value->dump(-1, ' ', false, Json::error_handler_t::replace))
-                        : fmt::format("an {} of {}", value->type_name(), value->size()),
+                        : fmt::format("an {} of size {}", value->type_name(), value->size()),
                expected);
     }
     Place member(const std::string& key) const
@@ -75,7 +74,7 @@ struct Place {
     }
 };
 
-/// Says where a text stops being JSON.
+/// Throws an error with the position of the first invalid JSON.
 [[noreturn]] void refuse_text(const fs::path& path, std::string_view text, std::size_t byte)
 {
     const std::size_t at = std::min(byte, text.size());
@@ -84,9 +83,10 @@ struct Place {
     const std::size_t begin = before.find_last_of('\n') + 1; // npos + 1 is 0
     constexpr std::size_t kShown = 40;
     const std::size_t from = std::max(begin, at > kShown ? at - kShown : 0);
-    throw InputError(fmt::format("{}: line {}: no JSON after '{}', expected a transforms.json as "
-                                 "nerfstudio and instant-ngp write it",
-                                 path.string(), line, printable(text.substr(from, at - from))));
+    throw InputError(
+        fmt::format("{}: line {}: invalid JSON after '{}', expected a transforms.json as "
+                    "nerfstudio and instant-ngp write it",
+                    path.string(), line, printable(text.substr(from, at - from))));
 }
 
 Json parse(const fs::path& path)
@@ -96,35 +96,34 @@ Json parse(const fs::path& path)
     const std::string_view text(file.bytes().data(), file.bytes().size());
     const auto is_shallow = [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
         if (depth <= kDeepest) return true;
-        throw InputError(fmt::format("{}: its values stand more than {} deep in each other, "
-                                     "expected a transforms.json as nerfstudio and instant-ngp "
-                                     "write it",
+        throw InputError(fmt::format("{}: its values are nested more than {} levels deep, expected "
+                                     "a transforms.json as nerfstudio and instant-ngp write it",
                                      path.string(), kDeepest));
     };
     try {
         return Json::parse(text, is_shallow);
     } catch (const Json::parse_error& error) {
         refuse_text(path, text, error.byte);
-    } catch (const Json::exception&) { // a number that no double holds
-        throw InputError(fmt::format("{}: holds a number too large to be one", path.string()));
+    } catch (const Json::exception&) { // a number outside the range of double
+        throw InputError(fmt::format("{}: contains a number that is too large", path.string()));
     }
 }
 
-/// JSON of other programs, by a key of it or of its first entry.
+/// JSON files of other programs, recognized by a key of the file or of its first entry.
 constexpr struct {
     const char* key;
     const char* sentence;
 } kOthers[] = {
     {"img_name",
-     "is the list of cameras of 3D Gaussian splatting, which is not read: give the COLMAP model "
-     "that it was trained on (source_path in cfg_args), with --points "
-     "point_cloud/iteration_30000/point_cloud.ply for its Gaussians"},
-    {"shots", "is a reconstruction of OpenSfM, which is not read: opensfm export_colmap DATASET "
-              "makes a folder that is"},
-    {"sfm_data_version", "is a scene of OpenMVG, which is not read: openMVG_main_openMVG2Colmap -i "
-                         "{} -o FOLDER makes a folder that is"}};
+     "camera lists of 3D Gaussian splatting are not supported; give the COLMAP model that was "
+     "used for training (source_path in cfg_args), and its Gaussians as --points "
+     "point_cloud/iteration_30000/point_cloud.ply"},
+    {"shots", "reconstructions of OpenSfM are not supported; run: opensfm export_colmap DATASET, "
+              "and give the exported folder"},
+    {"sfm_data_version", "scenes of OpenMVG are not supported; run: openMVG_main_openMVG2Colmap -i "
+                         "{} -o FOLDER, and give FOLDER"}};
 
-/// The entries of `frames`, of which there is at least one.
+/// The value of `frames`. Throws if it is not an array with at least one entry.
 Place frames_of(const Json& json, const fs::path& path)
 {
     const Json& first = json.is_array() && !json.empty() ? json.front() : json;
@@ -144,7 +143,7 @@ std::string name_of(const Place& frame)
     return frame.member("file_path").text("the name of the image");
 }
 
-/// What is said of the lens of an image, by the image or for all.
+/// The lens parameters of an image: its own, or else those for all images.
 class Lens {
   public:
     Lens(const Place& all, const Place& frame) : all_(all), frame_(frame) {}
@@ -178,7 +177,7 @@ class Lens {
         return place.value == nullptr ? other : place.number("a number");
     }
 
-    /// Of the picture of the frame, whose name may lack its end, as in scenes of Blender.
+    /// The size of the frame's photograph. Its name may lack the extension, as in Blender's scenes.
     PhotographSize picture_size(const Place& missing) const
     {
         for (const char* const end : {"", ".png", ".jpg", ".jpeg"}) {
@@ -198,7 +197,7 @@ class Lens {
         return static_cast<std::uint64_t>(size);
     }
 
-    /// From the angle that the image spans where it is not given.
+    /// The focal length in px: given, or computed from the angle of view, or `other` if above 0.
     double focal_px(const char* key, const char* angle, double size_px, double other) const
     {
         const Place focal = at(key);
@@ -234,7 +233,7 @@ class Lens {
         return false;
     }
 
-    /// nerfstudio's k4 of a perspective lens is left out: COLMAP's lenses have none such.
+    /// Ignores nerfstudio's k4 of perspective lenses, because COLMAP's lenses lack it.
     void add_distortion(Camera& camera) const
     {
         const auto take = [&](std::initializer_list<const char*> keys) {
@@ -266,7 +265,7 @@ bool are_same(const Camera& a, const Camera& b)
            a.params == b.params;
 }
 
-/// The camera of each frame; images in a row that say the same of it share one.
+/// The camera of each frame. Consecutive frames with equal parameters share one.
 std::vector<Camera> cameras_of(const Json& json, const Place& frames)
 {
     const Place all{frames.file, "", &json};
@@ -283,7 +282,7 @@ std::vector<Camera> cameras_of(const Json& json, const Place& frames)
     return cameras;
 }
 
-/// A similarity in 3 or 4 rows of 4 numbers.
+/// Reads a similarity from 3 or 4 rows of 4 numbers.
 Matrix34 matrix_in(const Place& rows, const char* expected)
 {
     if (!rows.is_array() || rows.value->size() < 3 || rows.value->size() > 4) {
@@ -324,7 +323,7 @@ void read_frame_images(const fs::path& path, SceneBuilder& builder, const Progre
         const Similarity pose =
             similarity_of(matrix_in(frame.member("transform_matrix"),
                                     "a pose: 4 rows of 4 numbers, from the camera to the world"));
-        // From axes with y up and z backwards
+        // The axes of transforms.json have y up and z backwards
         const Eigen::Matrix3d world_from_cam =
             pose.linear / pose.scale * Eigen::Vector3d(1, -1, -1).asDiagonal();
         const Eigen::Quaterniond rotation(Eigen::Matrix3d(world_from_cam.transpose()));
@@ -346,7 +345,7 @@ const FormatReader kTransformsReader = {read_frame_cameras, read_frame_images, n
 fs::path points_of_transforms(const fs::path& file)
 {
     const Json json = parse(file);
-    frames_of(json, file); // says of any other file what it is not
+    frames_of(json, file); // throws for any other file
     const Place named = Place{file, "", &json}.member("ply_file_path");
     const fs::path folder = file.parent_path();
     if (named.value != nullptr) return folder / named.text("the path of a PLY file");

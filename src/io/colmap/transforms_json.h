@@ -6,15 +6,15 @@
 
 namespace vcarve {
 
-/// The points that a transforms.json of nerfstudio names as `ply_file_path`, or those that lie
-/// beside it under a name of nerfstudio's or COLMAP's; empty where there are none. Throws
-/// InputError where the file is no such file.
+/// The file of points of a transforms.json: its `ply_file_path`, or else sparse_pc.ply (nerfstudio)
+/// or points3D.ply in the same folder. Empty if there is none. Throws InputError if `file` is not a
+/// transforms.json.
 std::filesystem::path points_of_transforms(const std::filesystem::path& file);
 
-/// Reads nerfstudio's dataparser_transforms.json: x' = scale * transform * x leads from the frame
-/// of the COLMAP model to that of training. With `poses`, a transforms.json, it leads from the
-/// frame of that, so its `applied_transform` is undone. Throws InputError where a file is no such
-/// file.
+/// Reads nerfstudio's dataparser_transforms.json: x' = scale * transform * x maps the frame of the
+/// COLMAP model to the frame of training. If `poses` is given, a transforms.json, the result maps
+/// from the frame of that file, so its `applied_transform` is undone. Throws InputError if a file
+/// has another format.
 Similarity read_nerfstudio_transform(const std::filesystem::path& file,
                                      const std::filesystem::path& poses);
 

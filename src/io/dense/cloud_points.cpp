@@ -14,7 +14,7 @@
 namespace vcarve {
 namespace {
 
-/// Of unit length, or zero where it is no direction.
+/// Scales a normal to unit length, or sets it to zero if it has no direction.
 void make_unit(Eigen::Vector3f& normal)
 {
     const Eigen::Vector3d exact = normal.cast<double>();
@@ -23,7 +23,7 @@ void make_unit(Eigen::Vector3f& normal)
     if (length > 0.0 && std::isfinite(length)) normal = (exact / length).cast<float>();
 }
 
-/// The sigmoid of it is a half.
+/// The logit of half opacity.
 constexpr float kLeastLogit = 0.0F;
 constexpr double kHuge = 10.0; ///< times the median
 
@@ -32,7 +32,7 @@ bool is_solid(const Splat& splat)
     return splat.opacity_logit >= kLeastLogit;
 }
 
-/// The logarithm of the largest half-axis that is not huge.
+/// The logarithm of the half-axis above which a Gaussian is huge.
 float largest_log_axis(const std::vector<Splat>& splats)
 {
     std::vector<double> logs;
@@ -77,8 +77,8 @@ KeptSplats keep_solid_splats(PointCloud& cloud)
     cloud.normals = values_at(kept.places, cloud.normals);
     cloud.colors = values_at(kept.places, cloud.colors);
     kept.note =
-        fmt::format("of {} Gaussians {} are left out for less than half the opacity, {} for "
-                    "being {} times as large as the median",
+        fmt::format("of {} Gaussians, {} are dropped because their opacity is below one half, "
+                    "and {} because they are over {} times as large as the median",
                     grouped_digits(static_cast<std::int64_t>(cloud.splats.size())),
                     grouped_digits(faint), grouped_digits(huge), kHuge);
     return kept;

@@ -9,23 +9,21 @@
 
 namespace vcarve {
 
-/// Gives the points of a scene, whose positions were taken from a cloud, what else is known of
-/// them: point_ids are places in the file, from `first`, errors are unknown, colours that the file
-/// lacks are black, normals are of unit length, or zero where the file's is no direction. Cost:
-/// O(points), in parallel.
+/// Moves the attributes of a cloud into a scene that already has its positions. point_ids count the
+/// vertices of the file from `first`, and errors are unknown (-1). Missing colors are black.
+/// Normals get unit length, or zero if they have no direction. Cost: O(points), in parallel.
 void take_attributes(PointCloud cloud, std::uint64_t first, Scene& scene);
 
-/// Where the Gaussians that were kept stood in their file, and a sentence on the others.
+/// The file indices of the kept Gaussians, and a note about the dropped ones.
 struct KeptSplats {
     std::vector<std::uint64_t> places;
-    std::string note; ///< empty where all were kept
+    std::string note; ///< empty if all were kept
 };
 
-/// Leaves of a cloud of Gaussians those whose middle is likely on a surface. Faint ones go, of less
-/// than half the opacity: more of what lies behind than of them would be seen through their
-/// middles, so they are haze or made to tint others. Of the others those go whose largest half-axis
-/// is ten times the median: they stand for sky, or for what training saw from afar, and where in
-/// them a surface is, nobody knows. Cost: O(points).
+/// Keeps the Gaussians of a cloud whose centers are likely on a surface. Gaussians of less than
+/// half opacity are dropped: their centers show more background than Gaussian, so they are haze or
+/// tint others. Solid Gaussians are dropped if their largest half-axis exceeds ten times the median
+/// of the solid ones: they are sky or distant scenery without a clear surface. Cost: O(points).
 KeptSplats keep_solid_splats(PointCloud& cloud);
 
 } // namespace vcarve

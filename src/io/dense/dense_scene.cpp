@@ -3,7 +3,7 @@
 #include "base/numbers.h"
 #include "io/colmap/colmap_model.h"
 #include "io/dense/cloud_points.h"
-#include "io/dense/nearest_sights.h"
+#include "io/dense/nearest_rays.h"
 #include "io/dense/visibility.h"
 #include "vcarve/error.h"
 
@@ -17,9 +17,9 @@ namespace vcarve {
 
 namespace {
 
-/// How many sights a file has room for beside the lengths of so many rows.
-std::optional<std::uint64_t> sights_in(const std::filesystem::path& visibility,
-                                       std::uint64_t num_points)
+/// The number of rays that fit into the file beside the row lengths of `num_points` points.
+std::optional<std::uint64_t> rays_in(const std::filesystem::path& visibility,
+                                     std::uint64_t num_points)
 {
     constexpr std::uint64_t kCountBytes = 8;
     constexpr std::uint64_t kNumberBytes = 4;
@@ -31,9 +31,9 @@ std::optional<std::uint64_t> sights_in(const std::filesystem::path& visibility,
     return numbers - num_points;
 }
 
-/// A scene of a cloud whose views no file of their own tells.
+/// The scene of a cloud without a visibility file.
 Scene scene_of_bare_cloud(const DenseFiles& files, const Progress& progress,
-                          const std::function<void(const std::string&)>& tell)
+                          const std::function<void(const std::string&)>& note_that)
 {
     ColmapViews model = read_colmap_views(files.model, files.format, progress.part(0.0, 0.1));
     PointCloud cloud = read_ply_cloud(files.cloud, progress.part(0.1, 0.5));
@@ -41,21 +41,21 @@ Scene scene_of_bare_cloud(const DenseFiles& files, const Progress& progress,
     scene.cameras = std::move(model.cameras);
     scene.views = std::move(model.views);
     const KeptSplats kept = keep_solid_splats(cloud);
-    tell(kept.note);
+    note_that(kept.note);
     if (!kept.note.empty() && kept.places.empty()) {
-        throw InputError(fmt::format("{}: {}, so none is left", files.cloud.string(), kept.note));
+        throw InputError(fmt::format("{}: {}, so none remains", files.cloud.string(), kept.note));
     }
     scene.positions = std::move(cloud.positions);
     std::optional<Tracks> tracks;
     if (files.takes_lists && cloud.splats.empty()) {
         std::string note;
         tracks = tracks_of_lists(cloud.images, model.file_order, scene, note);
-        tell(note);
+        note_that(note);
     }
     take_attributes(std::move(cloud), 0, scene);
     scene.is_dense = !files.are_sparse;
     if (!kept.note.empty()) scene.point_ids = kept.places;
-    scene.tracks = tracks ? std::move(*tracks) : nearest_sights(scene, progress.part(0.5, 1.0));
+    scene.tracks = tracks ? std::move(*tracks) : nearest_rays(scene, progress.part(0.5, 1.0));
     return scene;
 }
 
@@ -103,15 +103,15 @@ std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files)
     const PlyHeader header = read_ply_header(files.cloud);
     const PlyElement* const vertices = header.find("vertex");
     if (vertices == nullptr || vertices->count > kMostIndices) return std::nullopt;
-    // A number of a list takes a byte at least
-    const auto sights = files.takes_lists ? sights_in(files.cloud, vertices->count)
-                        : files.visibility.empty()
-                            ? std::optional(kMostNearestViews * vertices->count)
-                            : sights_in(files.visibility, vertices->count);
-    if (!sights) return std::nullopt;
+    // A list entry has at least one byte
+    const auto rays = files.takes_lists ? rays_in(files.cloud, vertices->count)
+                      : files.visibility.empty()
+                          ? std::optional(kMostNearestViews * vertices->count)
+                          : rays_in(files.visibility, vertices->count);
+    if (!rays) return std::nullopt;
     const auto model = size_before_reading(files.model, files.format);
     return SceneSize{.points = vertices->count,
-                     .sights = *sights,
+                     .rays = *rays,
                      .views = model ? model->views : 0,
                      .has_normals = PlyVertexLayout(*vertices).has_normals(),
                      .is_dense = !files.are_sparse};

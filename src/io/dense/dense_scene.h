@@ -17,28 +17,27 @@
 
 namespace vcarve {
 
-/// Where a cloud and its views are.
+/// The files of a cloud and its views.
 struct DenseFiles {
     std::filesystem::path model; ///< the folder with cameras and images
     ModelFormat format = ModelFormat::binary;
     std::filesystem::path cloud; ///< PLY
-    /// Which views saw its points, as stereo_fusion writes it; empty: the nearest ones that can.
+    /// The views of each point, written by stereo_fusion. If empty, nearest_rays() finds the views.
     std::filesystem::path visibility;
-    bool takes_lists = false; ///< but the lists of its points tell, where they fit the model
-    bool are_sparse = false;  ///< the points are features of images, though they come as a cloud
+    bool takes_lists = false; ///< use the points' own view lists, if they fit the model
+    bool are_sparse = false;  ///< the points of the cloud are image features
 };
 
-/// A scene of the views of a model and the points of a cloud in its frame, all of them and in their
-/// order: point_ids are places in the file from 0, errors are unknown, colours that the file lacks
-/// are black, normals are of unit length, or zero where the file's is no direction. Of Gaussians
-/// the solid ones are left (keep_solid_splats). Views and cameras are sorted by COLMAP's ids. Where
-/// `notes` is not null, what was left out and which lists did not fit is added to it. Throws
-/// InputError naming file and place, and Cancelled. Cost: as read_ply_cloud and VisibilityReader,
-/// or nearest_sights.
+/// Reads the views of a model, and all points of a cloud in the model's frame, in file order.
+/// point_ids count the vertices of the file from 0; take_attributes() describes the attributes.
+/// Without a visibility file, only solid Gaussians are kept (keep_solid_splats). Views and cameras
+/// are sorted by COLMAP's ids. If `notes` is not null, it receives notes about dropped Gaussians
+/// and lists that do not fit the model. Throws InputError with file and position, and Cancelled.
+/// Cost: as read_ply_cloud and VisibilityReader, or nearest_rays.
 Scene read_dense_scene(const DenseFiles& files, const Progress& progress = {},
                        std::vector<std::string>* notes = nullptr);
 
-/// The same part by part, as it stands in its files, which must have a visibility.
+/// Reads that scene part by part, in file order. Precondition: it has a visibility file.
 class DenseSceneReader final : public SceneParts {
   public:
     /// Reads the views, and opens the other files.
@@ -56,10 +55,9 @@ class DenseSceneReader final : public SceneParts {
     std::uint64_t done_ = 0; ///< points
 };
 
-/// How large the scene will be, by the cloud's header and the bytes of the files, at most where
-/// these do not tell the number of sights; nothing where
-/// these contradict each other, which reading will tell of. Throws InputError where the header is
-/// broken. Cost: none.
+/// The size of the scene, from the header of the cloud and the sizes of the files. If these do not
+/// determine the number of rays, it is an upper bound. Empty if they contradict each other, which
+/// read_dense_scene() reports. Throws InputError if the header is broken. Cost: constant.
 std::optional<SceneSize> dense_size_before_reading(const DenseFiles& files);
 
 } // namespace vcarve

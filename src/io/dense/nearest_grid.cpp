@@ -13,17 +13,17 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-/// How steep a surface may stand before a view: by how much more the distance of its points differs
-/// than they lie apart across the sights.
+/// The steepest surface that does not hide its own points: the difference of their distances to the
+/// view, divided by their separation across the rays.
 constexpr double kSteepest = 2.0;
-/// The same of sparse points, whose squares are wider and hold more of what is not one surface.
+/// The same for sparse points, whose wider squares mix more surfaces.
 constexpr double kSparseSteepest = 1.0;
-/// What depths are off by, as a share of the distance, where squares are small.
+/// The tolerance for errors of depth, as a fraction of the distance; it applies to small squares.
 constexpr double kLeastNearer = 0.01;
-/// Squares of the grid are so many times as wide as points stand apart in the image on average.
+/// Width of the squares, in mean point spacings in the image.
 constexpr double kSquareWidth = 2.0;
-/// The same of sparse points, in the part of the image that has any: they gather where there is
-/// texture, and leave gaps elsewhere.
+/// The same for sparse points, in spacings of the part of the image that has points: they cluster
+/// on texture and leave gaps elsewhere.
 constexpr double kSparseSquareWidth = 4.0;
 
 } // namespace
@@ -78,21 +78,21 @@ bool NearestGrid::sees(const Vector3d& position) const
     return least_[squares_.of(projected->place_px)] >= projected->distance * hides_from_;
 }
 
-/// Empty ones, see ImageSquares.
+/// Makes empty squares; see ImageSquares.
 void NearestGrid::lay_squares(double width, double share, double count)
 {
     squares_ = {camera_, width, share, count};
     least_.assign(squares_.count(), kNothing);
 }
 
-/// By how much nearer a point must be to hide another in its square.
+/// Sets how much nearer a point must be to hide another one in its square.
 void NearestGrid::set_depth(double steepest)
 {
     square_angle_ = squares_.side_px() * radians_a_pixel();
     hides_from_ = static_cast<float>(1.0 - std::max(kLeastNearer, steepest * square_angle_));
 }
 
-/// In the middle of the image; zero where its camera shows no direction there.
+/// At the center of the image; zero if the lens has no ray there.
 double NearestGrid::radians_a_pixel() const
 {
     const Vector2d middle(0.5 * static_cast<double>(camera_.width_px),

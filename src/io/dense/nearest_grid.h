@@ -17,8 +17,8 @@ class ImageSquares {
   public:
     ImageSquares() = default;
 
-    /// So many times as wide as so many points stand apart in a share of the image; but at most as
-    /// many along an edge as points, whatever size an image claims to have.
+    /// Squares of `width` point spacings, if `count` points cover the fraction `share` of the
+    /// image. An image edge has at most `count` + 1 squares, however large the image.
     ImageSquares(const Camera& camera, double width, double share, double count)
     {
         const auto width_px = static_cast<double>(camera.width_px);
@@ -37,7 +37,7 @@ class ImageSquares {
         return index(place_px.y(), rows_) * columns_ + index(place_px.x(), columns_);
     }
 
-    /// Whether is_so(square) of a square or one of the eight around it.
+    /// Whether is_so(square) is true for `square` or one of the eight around it.
     template <typename IsSo>
     bool any_around(std::size_t square, const IsSo& is_so) const
     {
@@ -65,29 +65,29 @@ class ImageSquares {
     std::size_t rows_ = 1;
 };
 
-/// Where a point is in an image, and how far from its view.
+/// The pixel of a point in an image, and its distance to the camera center.
 struct Projected {
     Eigen::Vector2d place_px;
     float distance = 0.0F;
 };
 
-/// Where a view shows a place; nothing where it is not in its image.
+/// Projects a position into a view. Empty if it is outside the image.
 std::optional<Projected> project_into(const View& view, const Camera& camera,
                                       const Eigen::Vector3d& place);
 
-/// What a view finds nearest in the squares of a grid over its image.
+/// A coarse z-buffer of a view: each square of its image keeps the distance of its nearest point.
 class NearestGrid {
   public:
-    /// An empty one. How far apart the points of `scene` stand in the image is told by every
-    /// `stride`th of `places`, which are all of them. The camera has a size.
+    /// Makes an empty grid. The point spacing in the image is estimated from every `stride`th of
+    /// `places`, the positions of all points of `scene`. Precondition: the image size is known.
     NearestGrid(const View& view, const Scene& scene, const std::vector<Eigen::Vector3d>& places,
                 std::size_t stride);
 
-    /// Takes in a point, which may hide others, if it is in the image.
+    /// Adds a point if it is in the image; it may hide others.
     void add(const Eigen::Vector3d& position);
-    /// Whether a point is in the image, and no other that was added is clearly before it.
+    /// Whether a point is in the image, and no added point is clearly in front of it.
     bool sees(const Eigen::Vector3d& position) const;
-    /// By how much the directions of points in one square may differ, about.
+    /// About the largest angle between two rays in one square, in radians.
     double square_angle() const { return square_angle_; }
 
   private:
@@ -99,8 +99,8 @@ class NearestGrid {
     const Camera& camera_;
     ImageSquares squares_;
     double square_angle_ = 0.0;
-    float hides_from_ = 1.0F;  ///< of a point's distance: what is nearer hides it
-    std::vector<float> least_; ///< of each square, row by row
+    float hides_from_ = 1.0F;  ///< points nearer than this fraction of a point's distance hide it
+    std::vector<float> least_; ///< distance of the nearest point per square, row by row
 };
 
 } // namespace vcarve

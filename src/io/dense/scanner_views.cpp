@@ -24,13 +24,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStationShare = 0.02; ///< of the median range, the side of a station's cube
-/// A scan shows detail finer than its points stand apart on average, where they stand closer.
+constexpr double kStationShare = 0.02; ///< side of a station's cube / median range
+/// Pixels are finer than the typical point spacing, because some regions are denser.
 constexpr double kPixelsBetweenPoints = 4.0;
 constexpr std::uint32_t kNoStation = 0xffffffffU;
 constexpr int kEquirectangular = 17;
 
-/// Three numbers that tell places apart.
+/// Three numbers that identify a position.
 using Key = std::array<std::uint64_t, 3>;
 
 struct HashOfKey {
@@ -45,7 +45,7 @@ struct HashOfKey {
     }
 };
 
-/// The bits of a place.
+/// The bits of a position; -0 equals 0.
 Key exact_key(const Vector3d& place)
 {
     const Vector3d no_minus_zero = place + Vector3d::Zero();
@@ -54,26 +54,26 @@ Key exact_key(const Vector3d& place)
     return key;
 }
 
-/// The cube that holds a place, by its distance from a corner.
+/// The cube that contains a position, given relative to a corner of the grid.
 Key cube_key(const Vector3d& from_corner, double side)
 {
     const Vector3d cube = (from_corner / side).array().floor();
     return exact_key(cube);
 }
 
-/// Where the scanner of a point stood: one for all, or one a point.
+/// The scanner position of a point. `scanners` has one position per point, or one for all.
 const Vector3d& scanner_of(std::size_t point, const std::vector<Vector3d>& scanners)
 {
     return scanners[scanners.size() == 1 ? 0 : point];
 }
 
-/// Where scanners stood, and which of the points each measured.
+/// Scanner positions, and the station of each point.
 struct Stations {
     std::vector<Vector3d> places;
-    std::vector<std::uint32_t> of_point; ///< kNoStation for a point that is not finite
+    std::vector<std::uint32_t> of_point; ///< kNoStation if the point is not finite
 };
 
-/// The stations by the keys of the places; none where there are more than may be.
+/// One station per key of the scanner positions. Empty if there are more than kMostStations.
 template <typename KeyOf>
 Stations stations_by(const std::vector<Vector3d>& scanners, const std::vector<Vector3d>& points,
                      const KeyOf& key_of)
@@ -113,12 +113,12 @@ Stations find_stations(const std::vector<Vector3d>& scanners, const std::vector<
                        double range)
 {
     Stations stations = stations_by(scanners, points, exact_key);
-    // The first place that counts: cubes do not depend on where the scene is.
+    // The grid starts at the first position used, so cubes do not depend on the scene's offset.
     Vector3d corner = Vector3d::Zero();
     for (std::size_t i = points.size(); i-- > 0;) {
         if (points[i].allFinite()) corner = scanner_of(i, scanners);
     }
-    constexpr double kLeastSide = 1e-300; // where all ranges are zero
+    constexpr double kLeastSide = 1e-300; // if all ranges are zero
     for (double side = std::max(kStationShare * range, kLeastSide); is_too_many(stations, points);
          side *= 2.0) {
         stations = stations_by(scanners, points, [&](const Vector3d& place) {
@@ -128,11 +128,11 @@ Stations find_stations(const std::vector<Vector3d>& scanners, const std::vector<
     return stations;
 }
 
-/// How far apart the points around one stand, if they lie on a surface there and evenly.
+/// The point spacing around `place`, assuming points spread evenly on a surface.
 double spacing_at(const std::vector<Vector3d>& points, const Vector3d& place)
 {
     constexpr std::size_t kAround = 8;
-    std::array<double, kAround + 1> least; // itself, and those around
+    std::array<double, kAround + 1> least; // the point itself and its neighbors
     least.fill(std::numeric_limits<double>::infinity());
     for (const Vector3d& point : points) {
         const double distance_sq = (point - place).squaredNorm();
@@ -146,7 +146,7 @@ double spacing_at(const std::vector<Vector3d>& points, const Vector3d& place)
     return std::sqrt(std::numbers::pi * least.back() / static_cast<double>(kAround));
 }
 
-/// The angle at which points stand apart that are next to each other, seen from their stations.
+/// The median angle between neighboring points, seen from their stations, in radians.
 double angle_between_points(const Stations& stations, const std::vector<Vector3d>& points)
 {
     constexpr std::size_t kSamples = 200;
@@ -166,7 +166,7 @@ double angle_between_points(const Stations& stations, const std::vector<Vector3d
     return angles.empty() ? evenly : median_in_place(angles);
 }
 
-/// Looks all round, with pixels so wide at the horizon.
+/// An equirectangular camera whose pixels span `pixel_rad` at the horizon.
 Camera panorama(double pixel_rad)
 {
     constexpr double kMost = 1e6;
@@ -213,14 +213,14 @@ Scene read_scan_scene(const ScanFile& file, const Progress& progress)
                        file.scanner ? PlyContent::points : PlyContent::points_and_scanners);
     if (file.scanner) cloud.scanners = {*file.scanner + read_ply_header(file.cloud).offset};
     if (cloud.scanners.empty() && !cloud.positions.empty()) {
-        throw InputError(fmt::format("{}: the file does not tell where the scanner of its points "
-                                     "stood",
+        throw InputError(fmt::format("{}: the file has no scanner position; give it with --scanner "
+                                     "x,y,z",
                                      file.cloud.string()));
     }
     Scene scene;
     scene.positions = std::move(cloud.positions);
     add_scanner_views(cloud.scanners, scene);
-    progress.tell(0.95);
+    progress.report(0.95);
     take_attributes(std::move(cloud), 0, scene);
     return scene;
 }
@@ -231,7 +231,7 @@ std::optional<SceneSize> scan_size_before_reading(const ScanFile& file)
     const PlyElement* const vertices = header.find("vertex");
     if (vertices == nullptr || vertices->count > kMostIndices) return std::nullopt;
     return SceneSize{.points = vertices->count,
-                     .sights = vertices->count,
+                     .rays = vertices->count,
                      .views = 1,
                      .has_normals = PlyVertexLayout(*vertices).has_normals(),
                      .is_dense = true};

@@ -18,15 +18,15 @@
 namespace vcarve {
 namespace {
 
-constexpr std::size_t kNumberBytes = 4; ///< of a point's count of views, and of each view
+constexpr std::size_t kNumberBytes = 4; ///< size of each view count and each image index
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-/// So many points are found between two calls of Progress::tell.
+/// Number of points between two calls of Progress::report.
 constexpr std::uint64_t kPointsBetweenTells = 65536;
 
-/// Fills the rows of tracks, whose begins are known, in parallel.
+/// Fills the rows of tracks in parallel. Precondition: `begins` is complete.
 class RowFiller {
   public:
-    /// `bytes` begin with the first row.
+    /// `bytes` starts at the first row.
     RowFiller(std::span<const char> bytes, std::span<const std::uint32_t> file_order,
               Tracks& tracks)
         : bytes_(bytes), file_order_(file_order), tracks_(tracks)
@@ -38,11 +38,11 @@ class RowFiller {
         parallel_for(tracks_.size(), progress, [&](std::size_t point) { fill_row(point); });
     }
 
-    /// The first point with an image that is not there, or kNone.
+    /// The first point with an invalid image index, or kNone.
     std::size_t first_wrong() const { return first_wrong_; }
     bool has_repeated_views() const { return repeats_; }
 
-    /// The first number of an image that is not there, of the first point that has one.
+    /// The first invalid image index of that point.
     std::uint32_t wrong_image() const
     {
         const std::uint64_t first = tracks_.begins[first_wrong_];
@@ -53,8 +53,8 @@ class RowFiller {
     }
 
   private:
-    /// What the file has for entry `i` of all rows, which is one of `point`'s: before it stand the
-    /// lengths of the rows so far, and the entries so far.
+    /// The image index `i`, counted over all rows and belonging to `point`. It follows the lengths
+    /// of the rows up to `point` and the earlier `i` indices.
     std::uint32_t image_at(std::size_t point, std::uint64_t i) const
     {
         std::uint32_t image = 0;
@@ -83,11 +83,11 @@ class RowFiller {
     std::span<const char> bytes_;
     std::span<const std::uint32_t> file_order_;
     Tracks& tracks_;
-    std::size_t first_wrong_ = kNone; ///< lowered by many threads
+    std::size_t first_wrong_ = kNone; ///< threads lower it atomically
     std::atomic<bool> repeats_ = false;
 };
 
-/// Leaves each view of a sorted row once, and moves the rows together.
+/// Removes repeated views from sorted rows, and closes the gaps between rows.
 void merge_repeated_views(Tracks& tracks)
 {
     std::uint64_t begin = 0; // of the row in the file
@@ -101,22 +101,22 @@ void merge_repeated_views(Tracks& tracks)
     tracks.views.erase(end, tracks.views.end());
 }
 
-/// Of the sights of some thousand points.
+/// The fraction of rays whose view shows the point, from a sample of about a thousand points.
 double share_shown(const Tracks& tracks, const Scene& scene)
 {
     constexpr std::size_t kPoints = 1000;
     const std::size_t step = tracks.size() / kPoints + 1;
-    double sights = 0.0;
+    double rays = 0.0;
     double shown = 0.0;
     for (std::size_t point = 0; point < tracks.size(); point += step) {
         for (const std::uint32_t index : tracks[point]) {
             const View& view = scene.views[index];
             const Camera& camera = scene.cameras[view.camera];
-            sights += 1.0;
+            rays += 1.0;
             shown += view_shows(view, camera, scene.positions[point]) ? 1.0 : 0.0;
         }
     }
-    return sights > 0.0 ? shown / sights : 1.0;
+    return rays > 0.0 ? shown / rays : 1.0;
 }
 
 } // namespace
@@ -130,15 +130,15 @@ VisibilityReader::VisibilityReader(const std::filesystem::path& path, const Clou
       num_points_(reader_.read_count(kNumberBytes, "points"))
 {
     if (num_points_ != cloud.num_points) {
-        throw InputError(fmt::format("{}: tells of {} points, but {} has {}; of a cloud that was "
-                                     "cropped or thinned, --sights nearest takes the nearest views "
-                                     "(--crop cuts a part out of the whole)",
+        throw InputError(fmt::format("{}: has the views of {} points, but {} has {} points; for a "
+                                     "cropped or thinned cloud, use --rays nearest (--crop "
+                                     "reconstructs a region of the whole cloud)",
                                      path.string(), num_points_, cloud.path.string(),
                                      cloud.num_points));
     }
 }
 
-/// Where the next rows begin, by their lengths.
+/// The offsets of the next rows, from the row lengths.
 std::vector<std::uint64_t> VisibilityReader::begins_of_rows(std::size_t count,
                                                             const Progress& progress)
 {
@@ -156,7 +156,7 @@ std::vector<std::uint64_t> VisibilityReader::begins_of_rows(std::size_t count,
         reader_.skip(length, kNumberBytes);
         begins.push_back(begins.back() + length);
         if (i % kPointsBetweenTells == 0) {
-            progress.tell(static_cast<double>(i), static_cast<double>(count));
+            progress.report(static_cast<double>(i), static_cast<double>(count));
         }
     }
     if (done_ + count == num_points_) reader_.expect_end("the views of the last point");
@@ -173,8 +173,8 @@ Tracks VisibilityReader::next(std::size_t most, const Progress& progress)
     RowFiller rows(file_.bytes().subspan(first_byte), file_order_, tracks);
     rows.fill(progress.part(0.5, 1.0));
     if (rows.first_wrong() != kNone) {
-        throw InputError(fmt::format("{}: point {} of {} was seen by image {}, but the model has "
-                                     "{} images, counted from 0",
+        throw InputError(fmt::format("{}: point {} of {} has image {}, but the model has {} "
+                                     "images, counted from 0",
                                      path_.string(), done_ + rows.first_wrong(), num_points_,
                                      rows.wrong_image(), file_order_.size()));
     }
@@ -189,11 +189,11 @@ std::optional<Tracks> tracks_of_lists(const Tracks& lists,
                                       std::string& note)
 {
     constexpr double kMost = 0.9;
-    constexpr const char* kInstead = "so the nearest views are taken instead";
+    constexpr const char* kInstead = "so the nearest views are used instead";
     const auto last = std::ranges::max_element(lists.views);
     if (last != lists.views.end() && *last >= file_order.size()) {
-        note = fmt::format("its lists view_indices name image {}, but the model has {}, counted "
-                           "from 0, {}",
+        note = fmt::format("its lists view_indices contain image {}, but the model has {} images, "
+                           "counted from 0, {}",
                            *last, file_order.size(), kInstead);
         return std::nullopt;
     }
@@ -209,8 +209,8 @@ std::optional<Tracks> tracks_of_lists(const Tracks& lists,
     }
     const double shown = share_shown(tracks, scene);
     if (shown >= kMost) return tracks;
-    note = fmt::format("{:.0f} % of the points do not show in the images that its lists "
-                       "view_indices name, which seem to be those of another model, {}",
+    note = fmt::format("{:.0f} % of the images in its lists view_indices do not show the point, "
+                       "and they seem to belong to another model, {}",
                        100.0 * (1.0 - shown), kInstead);
     return std::nullopt;
 }

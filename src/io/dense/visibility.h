@@ -15,28 +15,27 @@
 
 namespace vcarve {
 
-/// A cloud whose visibility is read: how many points it has, and its path for the messages.
+/// The number of points of the cloud that a visibility file belongs to, and its path for messages.
 struct CloudSize {
     std::uint64_t num_points = 0;
     std::filesystem::path path;
 };
 
-/// Reads part by part which views saw which point of a cloud from the file COLMAP's stereo_fusion
-/// writes beside it: how many points there are (uint64), then for each of them a count and as many
-/// numbers of images (uint32), which count the images as they stand in their file. The parts of the
-/// file that have been read are no longer in memory.
+/// Reads the visibility file of COLMAP's stereo_fusion (fused.ply.vis) part by part. It has the
+/// number of points (uint64), then for each point a count and that many image indices (uint32).
+/// Indices follow the order of the images file. The memory of parts that were read is released.
 class VisibilityReader {
   public:
-    /// `file_order` turns numbers of images into numbers of views. Throws InputError where the file
-    /// is missing, or tells of more or fewer points than the cloud has.
+    /// `file_order` maps image indices to view indices. Throws InputError if the file is missing,
+    /// or if its number of points differs from that of the cloud.
     VisibilityReader(const std::filesystem::path& path, const CloudSize& cloud,
                      std::vector<std::uint32_t> file_order);
 
-    /// The tracks of the next points, at most so many; none after the last. A view that a point
-    /// names twice counts once. Throws InputError naming the place: the file is cut off, has bytes
-    /// left over, or tells of an image that is not there; and Cancelled. Cost: linear in the size
-    /// of the part, in parallel but for one pass that finds where points begin; what it allocates
-    /// is sized by the bytes that are there.
+    /// The tracks of the next points, at most `most`; empty after the last point. Repeated views of
+    /// a point count once. Throws InputError with the position if the file is truncated, has
+    /// trailing bytes, or contains an invalid image index. Throws Cancelled. Cost: linear in the
+    /// size of the part, in parallel except for one pass over the row lengths. Allocations are
+    /// limited by the bytes in the file.
     Tracks next(std::size_t most, const Progress& progress = {});
 
   private:
@@ -50,12 +49,11 @@ class VisibilityReader {
     std::uint64_t done_ = 0; ///< points
 };
 
-/// The tracks of points, by lists of the images that saw each, as OpenMVS writes them into its
-/// clouds. It counts images as they stood in the file it imported, so `file_order` turns their
-/// numbers into views; of `scene` the views and positions are looked at. Nothing, and why in
-/// `note`, where the lists are those of another model: they name images that are not there, or in
-/// fewer than nine of ten the point does not show. Cost: linear, and looking at some thousand
-/// points.
+/// Converts the image lists of points, as in clouds of OpenMVS, to tracks. OpenMVS numbers images
+/// in the order of the images file, and `file_order` maps these indices to views. Of `scene`, only
+/// views and positions are used. Returns nothing, with the reason in `note`, if the lists seem to
+/// belong to another model: they contain invalid indices, or fewer than 90 % of the listed images
+/// show the point. Cost: linear, plus projecting about a thousand points.
 std::optional<Tracks> tracks_of_lists(const Tracks& lists,
                                       std::span<const std::uint32_t> file_order, const Scene& scene,
                                       std::string& note);

@@ -14,11 +14,11 @@
 
 namespace vcarve {
 
-/// Begins the comment that says what was subtracted from the positions of a file.
+/// The first word of the comment with the vector that was subtracted from all positions.
 inline constexpr const char* kOffsetWord = "offset";
 
-/// What is said in a file, one line each: the offset, which read_ply() understands again, where
-/// there is one, and the comments. What would break a line becomes a blank.
+/// The comment lines of a file: the offset unless it is zero, in the form that read_ply() parses,
+/// then the comments. Line breaks become blanks.
 inline std::vector<std::string> comment_lines(const MeshFormat& format)
 {
     std::vector<std::string> lines;
@@ -34,7 +34,7 @@ inline std::vector<std::string> comment_lines(const MeshFormat& format)
     return lines;
 }
 
-/// Gathers bytes and hands them to the stream in large blocks.
+/// Buffers bytes and writes them to the stream in large blocks.
 class BlockWriter {
   public:
     explicit BlockWriter(std::ostream& out) : out_(out) {}
@@ -42,7 +42,7 @@ class BlockWriter {
     BlockWriter(const BlockWriter&) = delete;
     BlockWriter& operator=(const BlockWriter&) = delete;
 
-    /// What bytes are added to, a few at a time.
+    /// The buffer to append to. Each call first writes a full buffer to the stream.
     fmt::memory_buffer& block()
     {
         if (block_.size() > kBlockBytes) {
@@ -59,7 +59,7 @@ class BlockWriter {
     fmt::memory_buffer block_;
 };
 
-/// A number as it lies in the memory of a machine that puts the lowest byte first.
+/// The bytes of a number, lowest byte first on any machine.
 template <typename Number>
 std::array<char, sizeof(Number)> little_endian(Number number)
 {

@@ -13,7 +13,7 @@ namespace vcarve {
 
 namespace {
 
-/// What begins a file that is not what it should be, lower case, and what to say of it.
+/// The lower-case beginning or extensions of files to refuse, and the message after the path.
 struct Foreign {
     std::string_view begin;
     const char* sentence;
@@ -21,35 +21,35 @@ struct Foreign {
 
 constexpr Foreign kForeign[] = {
     {"version https://git-lfs", "is a Git LFS pointer, not the file: run git lfs pull"},
-    {"<!doctype html", "is a web page, not the file: the download failed"},
-    {"<html", "is a web page, not the file: the download failed"},
+    {"<!doctype html", "is a web page, not the file: download it again"},
+    {"<html", "is a web page, not the file: download it again"},
     {"pk\x03\x04", "is a zip archive: unpack it first"},
     {"\x1f\x8b", "is a gzip archive: unpack it first"},
 };
 
-/// The same by the ends of names, each between blanks.
+/// File extensions, each between blanks. {0} is the path.
 constexpr Foreign kForeignNames[] = {
-    {" .las .laz .e57 ", "is a scan, which is not read: pdal translate {0} {0}.ply converts it"},
-    {" .pcd ", "is a cloud of PCL, which is not read: pcl_pcd2ply {0} {0}.ply converts it"},
-    {" .xyz ", "is a cloud as text, which is not read: pdal translate --reader readers.text "
-               "--readers.text.header=\"X Y Z\" {0} {0}.ply converts it (the header names all of "
-               "its columns)"},
-    {" .splat .spz ", "is a packed splat, which is not read: splat-transform {0} {0}.ply converts "
-                      "it to a cloud for --points, beside a COLMAP model"},
+    {" .las .laz .e57 ", "scans of this format are not supported; run: pdal translate {0} {0}.ply"},
+    {" .pcd ", "clouds of PCL are not supported; run: pcl_pcd2ply {0} {0}.ply"},
+    {" .xyz ", "text clouds are not supported; run: pdal translate --reader readers.text "
+               "--readers.text.header=\"X Y Z\" {0} {0}.ply (list all columns in the header)"},
+    {" .splat .spz ", "packed splats are not supported; run: splat-transform {0} {0}.ply, and give "
+                      "the result as --points with a COLMAP model"},
     {" .nvm ",
-     "is a model of VisualSFM, which is not read: kapture_import_nvm.py -i {0} -im IMAGES "
-     "-o KAPTURE --add-reconstruction, then kapture_export_colmap.py -i KAPTURE -db "
-     "KAPTURE/colmap.db -txt FOLDER make a folder that is"},
-    {" .out ", "is a model of Bundler, which is not read: kapture_import_bundler.py -i {0} -l "
-               "LIST.txt -im IMAGES -o KAPTURE --add-reconstruction, then kapture_export_colmap.py "
-               "-i KAPTURE -db KAPTURE/colmap.db -txt FOLDER make a folder that is"},
-    {" .mvs ", "is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i {0} -o FOLDER brings "
-               "it into a folder that is"},
-    {" .sfm ", "is a scene of Meshroom, which is not read: aliceVision_exportColmap -i {0} -o "
-               "FOLDER makes a folder that is"},
-    {" .xml ", "is no model that is read; if it is of Metashape, its Export Cameras makes a folder "
-               "that is, with the format Colmap"},
-    {" .obj .off .stl .glb ", "is a mesh, but a model or a cloud is wanted"},
+     "models of VisualSFM are not supported; run: kapture_import_nvm.py -i {0} -im IMAGES "
+     "-o KAPTURE --add-reconstruction, then: kapture_export_colmap.py -i KAPTURE -db "
+     "KAPTURE/colmap.db -txt FOLDER, and give FOLDER"},
+    {" .out ", "models of Bundler are not supported; run: kapture_import_bundler.py -i {0} -l "
+               "LIST.txt -im IMAGES -o KAPTURE --add-reconstruction, then: "
+               "kapture_export_colmap.py -i KAPTURE -db KAPTURE/colmap.db -txt FOLDER, and give "
+               "FOLDER"},
+    {" .mvs ", "scenes of OpenMVS are not supported; run: InterfaceCOLMAP -i {0} -o FOLDER, and "
+               "give FOLDER"},
+    {" .sfm ", "scenes of Meshroom are not supported; run: aliceVision_exportColmap -i {0} -o "
+               "FOLDER, and give FOLDER"},
+    {" .xml ", "models of this format are not supported; in Metashape, use Export Cameras with the "
+               "format Colmap, and give the exported folder"},
+    {" .obj .off .stl .glb ", "is a mesh; expected a model or a point cloud"},
 };
 
 } // namespace

@@ -5,14 +5,14 @@
 
 namespace vcarve {
 
-/// Throws InputError where the beginning of a file shows that something else lies in its place: a
-/// Git LFS pointer, a web page, an archive. The sentence says what to do.
+/// Throws InputError if the first bytes show that the file is a Git LFS pointer, a web page or an
+/// archive. The message names the remedy.
 void refuse_foreign_file(const std::filesystem::path& path, std::span<const char> bytes);
 
-/// The same by the end of the name: files of points or meshes that are not read, such as .las.
+/// Throws InputError if the extension is that of an unsupported model, cloud or mesh (.las, .nvm).
 void refuse_foreign_name(const std::filesystem::path& path);
 
-/// Whether a name ends as those of photographs do.
+/// Whether the extension is that of a photograph, in any case.
 bool has_image_name(const std::filesystem::path& path);
 
 } // namespace vcarve

@@ -14,7 +14,7 @@
 
 namespace vcarve {
 
-std::string why_no_file(const std::filesystem::path& path)
+std::string file_problem(const std::filesystem::path& path)
 {
     std::error_code error;
     const auto type = std::filesystem::status(path, error).type();
@@ -31,7 +31,7 @@ void MappedFile::Unmap::operator()(char* begin) const
 
 MappedFile::Mapping MappedFile::map(const std::filesystem::path& path)
 {
-    const std::string reason = why_no_file(path);
+    const std::string reason = file_problem(path);
     if (!reason.empty()) throw InputError(fmt::format("{}: {}", path.string(), reason));
     const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
     struct stat status = {};
@@ -39,7 +39,7 @@ MappedFile::Mapping MappedFile::map(const std::filesystem::path& path)
     int error = 0;
     if (file < 0 || fstat(file, &status) != 0) {
         error = errno;
-    } else if (status.st_size > 0) { // no system maps zero bytes
+    } else if (status.st_size > 0) { // mmap fails for zero bytes
         begin =
             mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ, MAP_SHARED, file, 0);
         if (begin == MAP_FAILED) error = errno;
@@ -63,7 +63,7 @@ void MappedFile::release(std::size_t count) const
 {
     const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
     const std::size_t whole = count / page * page;
-    // It only costs memory where the system will not.
+    // If madvise fails, the memory is just not released.
     if (whole > 0) static_cast<void>(madvise(mapping_.get(), whole, MADV_DONTNEED));
 }
 

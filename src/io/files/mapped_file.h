@@ -11,11 +11,11 @@
 
 namespace vcarve {
 
-/// Files with the poses of nerfstudio, and of Blender's scripts for NeRF.
+/// Pose files of nerfstudio, and of Blender's scripts for NeRF.
 inline constexpr const char* kTransforms = "transforms.json";
 inline constexpr const char* kTransformsTrain = "transforms_train.json";
 
-/// Whether there is a file, or a folder, that links lead to; what cannot be asked is none.
+/// Whether `path` is a file (is_folder: a folder). Follows links; false if the status is unknown.
 inline bool is_file(const std::filesystem::path& path)
 {
     std::error_code error;
@@ -28,23 +28,23 @@ inline bool is_folder(const std::filesystem::path& path)
     return std::filesystem::is_directory(path, error);
 }
 
-/// Why there is no file of that path, as a clause; empty where there is one.
-std::string why_no_file(const std::filesystem::path& path);
+/// A clause that explains why `path` is not a file; empty if it is one.
+std::string file_problem(const std::filesystem::path& path);
 
-/// The bytes of a file, read-only and mapped into memory for as long as the object lives; an empty
-/// file gives an empty span. The file must not be shortened by somebody else in the meantime.
+/// Maps a file into memory, read-only, while the object lives. An empty file gives an empty span.
+/// Precondition: no other process truncates the file in the meantime.
 class MappedFile {
   public:
-    /// Throws InputError where `path` is not a file that can be read.
+    /// Throws InputError if `path` is not a readable file, or if refuse_foreign_file() throws.
     explicit MappedFile(const std::filesystem::path& path);
     MappedFile(MappedFile&&) = default;
-    MappedFile& operator=(MappedFile&&) = delete; // pages are forgotten before they are unmapped
+    MappedFile& operator=(MappedFile&&) = delete; // pages_ must be released before mapping_
     ~MappedFile() = default;
 
     std::span<const char> bytes() const { return {mapping_.get(), mapping_.get_deleter().size}; }
 
-    /// Gives back the memory of the first so many bytes, about, which are read from the file again
-    /// where they are asked for again.
+    /// Releases the memory of the first `count` bytes, rounded down to whole pages. A later access
+    /// reads them from the file again.
     void release(std::size_t count) const;
 
   private:
@@ -59,13 +59,13 @@ class MappedFile {
     DroppablePages pages_;
 };
 
-/// Gives the memory of a file back while it is read from its begin to its end, so that what is read
-/// of a large one does not stay beside what is made of it.
+/// Releases the memory of a file while it is read from start to end, so that a large file is not in
+/// memory together with the data made from it.
 class ReadOnce {
   public:
     explicit ReadOnce(const MappedFile& file) : file_(file) {}
 
-    /// The bytes before this one will not be read again. Cost: most often none.
+    /// Promises that the bytes before `offset` are not read again. Cost: none for most calls.
     void read_up_to(std::size_t offset)
     {
         constexpr std::size_t kAtOnce = std::size_t{1} << 20U;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
     throw UsageError(fmt::format("cannot write {}: {}", path.string(), reason));
 }
 
-/// The file that writing to `path` replaces: a symbolic link stays, what it points to is replaced.
+/// The file that a write to `path` replaces: the target if `path` is a symbolic link, which stays.
 fs::path followed(const fs::path& path)
 {
     std::error_code error;
@@ -36,8 +36,7 @@ fs::path folder_of(const fs::path& path)
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Says in the user's words why `target` cannot be written; the system is asked last, by opening
-/// it.
+/// Throws UsageError if `target` cannot be written for a reason that shows before it is opened.
 void require_sound_target(const fs::path& path, const fs::path& target)
 {
     if (path.empty()) refuse("the output", "its path is empty");
@@ -60,7 +59,7 @@ void require_sound_target(const fs::path& path, const fs::path& target)
     if (type != fs::file_type::none && type != fs::file_type::directory) {
         refuse(path, fmt::format("{} is not a folder", folder.string()));
     }
-    // Such as links in a circle
+    // For example circular links
     if (!fs::status_known(status) && fs::is_symlink(target, error)) refuse(path, reason);
 }
 
@@ -70,8 +69,8 @@ bool is_device(const fs::path& target)
     return fs::is_character_file(target, error);
 }
 
-/// Opens the part, or the target itself where there is no part. A part that is already there was
-/// left by a dead process with our number: it goes.
+/// Opens the temporary file `part`, or the target if `part` is empty. Deletes an existing temporary
+/// file: it belongs to a dead process with the same PID.
 int open_for_writing(const fs::path& path, const fs::path& target, const fs::path& part)
 {
     require_sound_target(path, target);
@@ -86,10 +85,10 @@ int open_for_writing(const fs::path& path, const fs::path& target, const fs::pat
     const int descriptor =
         ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, exists ? 0600 : 0666);
     if (descriptor < 0) {
-        refuse(path, fmt::format("no file can be created in the folder {}: {}",
+        refuse(path, fmt::format("the system allows no new file in the folder {} ({})",
                                  folder_of(target).string(), std::strerror(errno)));
     }
-    // File systems without permissions refuse; the file then has the mode of all their files.
+    // This fails on file systems without permissions, where all files have the same mode.
     if (exists) static_cast<void>(::fchmod(descriptor, replaced.st_mode & 0777));
     return descriptor;
 }
@@ -133,7 +132,7 @@ OutputFile::Sink::int_type OutputFile::Sink::overflow(int_type byte)
 
 std::streamsize OutputFile::Sink::xsputn(const char* bytes, std::streamsize count)
 {
-    // Large blocks pass by the buffer, small ones gather in it.
+    // Large blocks bypass the buffer.
     if (count < static_cast<std::streamsize>(buffer_.size() / 4)) {
         return std::streambuf::xsputn(bytes, count);
     }
@@ -160,7 +159,7 @@ void OutputFile::commit()
 {
     sink_.flush();
     int error = sink_.error();
-    // Some file systems find out that they are full only here or on closing; a device cannot sync.
+    // Some file systems report that they are full only here or on closing. A device cannot sync.
     if (error == 0 && !part_.empty() && ::fsync(descriptor_) != 0) error = errno;
     if (::close(std::exchange(descriptor_, -1)) != 0 && error == 0) error = errno;
     if (error == 0 && !part_.empty() && ::rename(part_.c_str(), target_.c_str()) != 0) {
@@ -185,7 +184,7 @@ void require_writable(const std::filesystem::path& path)
 void print(std::string_view text)
 {
     const std::size_t written = std::fwrite(text.data(), 1, text.size(), stdout);
-    // What was written may wait in a buffer; what was flushed before is forgotten there.
+    // fflush() reports errors of buffered bytes, ferror() those of earlier flushes.
     if (std::fflush(stdout) == 0 && written == text.size() && std::ferror(stdout) == 0) return;
     throw UsageError("cannot write to the standard output");
 }

@@ -9,25 +9,25 @@
 
 namespace vcarve {
 
-/// Where the file `path` is written until it is whole: "OUT.ply.part-PID" beside it, so that the
-/// final rename stays within one file system. The name does not change while the process lives, so
-/// a signal handler can be told in advance what to unlink.
+/// The temporary file for `path`: "OUT.ply.part-PID" in the same folder, so that the final rename
+/// stays within one file system. The name is constant while the process lives, so a signal handler
+/// can receive it in advance for unlinking.
 std::filesystem::path part_path(const std::filesystem::path& path);
 
-/// Throws UsageError, one sentence, where `path` could not be written: an empty path, a folder, a
-/// folder that does not exist or takes no new file, a protected file. Leaves nothing behind.
+/// Throws UsageError with one sentence if `path` cannot be written: it is empty, a folder or a
+/// write-protected file, or its folder is missing or accepts no new file. Leaves no file behind.
 void require_writable(const std::filesystem::path& path);
 
-/// Writes to the standard output. Throws UsageError where that takes not all of it.
+/// Writes to the standard output. Throws UsageError if it cannot write all of `text`.
 void print(std::string_view text);
 
-/// A file that appears whole or not at all: what is streamed goes to part_path(path), commit()
-/// renames it, and without a commit the destructor removes it. A file that is replaced passes on
-/// its permissions. A character device (/dev/null, /dev/stdout) cannot be replaced and is written
-/// straight. One object a path at a time.
+/// Writes a file completely or not at all. The stream writes to part_path(path), commit() renames
+/// that file, and the destructor removes it if commit() was not called. The permissions of a
+/// replaced file are kept. A character device (/dev/null, /dev/stdout) cannot be replaced, so it is
+/// written directly. Precondition: at most one object per path at a time.
 class OutputFile {
   public:
-    /// Throws UsageError as require_writable does.
+    /// Throws UsageError like require_writable().
     explicit OutputFile(std::filesystem::path path);
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -35,12 +35,12 @@ class OutputFile {
 
     std::ostream& stream() { return stream_; }
 
-    /// Makes sure that every byte is on the disk, then renames. Throws UsageError where the disk is
-    /// full or anything went wrong while writing; nothing is left behind then. Call it once, last.
+    /// Syncs the file to the disk, then renames it. Throws UsageError if the disk is full or any
+    /// write failed; then no new file is left behind. Call it once, last.
     void commit();
 
   private:
-    /// Bytes on their way to a file descriptor; remembers the first error.
+    /// A buffer in front of a file descriptor; stores the first error.
     class Sink : public std::streambuf {
       public:
         Sink();
@@ -62,11 +62,11 @@ class OutputFile {
     };
 
     std::filesystem::path path_;   ///< as the user wrote it, for messages
-    std::filesystem::path target_; ///< what is replaced: symbolic links followed
-    std::filesystem::path part_;   ///< empty where the target is written straight
+    std::filesystem::path target_; ///< the file to replace, symbolic links resolved
+    std::filesystem::path part_;   ///< empty if the target is written directly
     Sink sink_;
     std::ostream stream_;
-    int descriptor_; ///< opened last, so that memory which runs out before leaves no part
+    int descriptor_; ///< opened last, so that an earlier std::bad_alloc leaves no temporary file
 };
 
 } // namespace vcarve

@@ -1,4 +1,4 @@
-// glTF 2.0: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+// Specification of glTF 2.0: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 #include "io/files/block_writer.h"
 #include "io/formats/mesh_file.h"
 #include "io/formats/textured_files.h"
@@ -26,43 +26,43 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using nlohmann::json;
 
-constexpr std::uint64_t kMostGlbBytes = 0xffffffffU - 0x10000U; ///< the rest is left to the JSON
+constexpr std::uint64_t kMostGlbBytes = 0xffffffffU - 0x10000U; ///< leaves room for the JSON
 
-/// The type of an accessor's elements, and what they are for.
+/// The type of an accessor's elements, and the target of their buffer view.
 struct ElementType {
     const char* type;
     int component_type; ///< as in OpenGL: 5123 uint16, 5125 uint32, 5126 float
     std::size_t bytes;
-    int target; ///< 34962: vertices, 34963: indices
+    int target; ///< 34962 for vertices, 34963 for indices
 };
 constexpr ElementType kVector3f = {"VEC3", 5126, 12, 34962};
 constexpr ElementType kVector2f = {"VEC2", 5126, 8, 34962};
 constexpr ElementType kColor16 = {"VEC4", 5123, 8, 34962};
 constexpr ElementType kIndex = {"SCALAR", 5125, 4, 34963};
 
-/// Numbers of any range, as JSON holds them.
+/// Converts a range of numbers to a JSON array.
 template <typename Range>
 json list_of(const Range& numbers)
 {
     return std::vector(numbers.begin(), numbers.end());
 }
 
-/// The JSON chunk, and the binary chunk that accessors and images are appended to. All elements
-/// fill multiples of four bytes, so each accessor is aligned.
+/// Builds the JSON chunk and the binary chunk, to which accessors and images are appended. Element
+/// sizes are multiples of four bytes, so all accessors are aligned.
 class GlbBuilder {
   public:
     explicit GlbBuilder(std::size_t expected_bytes) { bytes_.reserve(expected_bytes); }
 
     json text = {{"asset", {{"version", "2.0"}}}};
 
-    /// Appends an item to a list of the JSON and returns its index.
+    /// Appends an item to a list of the JSON. Returns its index.
     std::size_t add(const char* list, json item)
     {
         text[list].push_back(std::move(item));
         return text[list].size() - 1;
     }
 
-    /// Appends the numbers that numbers_of(item) gives of each item; returns the accessor's index.
+    /// Appends the numbers numbers_of(item) of each item. Returns the accessor's index.
     template <typename Items, typename NumbersOf = std::identity>
     std::size_t add_accessor(const ElementType& element, const Items& items,
                              const NumbersOf& numbers_of = {})
@@ -82,7 +82,7 @@ class GlbBuilder {
                                  {"type", element.type}});
     }
 
-    /// Embeds a file; returns the index of its view of the binary chunk.
+    /// Embeds a file. Returns the index of its buffer view.
     std::size_t add_file(const std::vector<std::uint8_t>& file)
     {
         const std::size_t begin = bytes_.size();
@@ -96,7 +96,7 @@ class GlbBuilder {
     {
         require_glb_room(bytes_.size());
         if (!bytes_.empty()) add("buffers", {{"byteLength", bytes_.size()}});
-        // Comments may hold any bytes, JSON only UTF-8.
+        // Comments may have any bytes, but JSON must be UTF-8.
         std::string chunk = text.dump(-1, ' ', false, json::error_handler_t::replace);
         chunk.resize((chunk.size() + 3) / 4 * 4, ' ');
         const auto put_words = [&](std::initializer_list<std::size_t> words) {
@@ -114,7 +114,7 @@ class GlbBuilder {
     }
 
   private:
-    /// Of all bytes from `begin`.
+    /// Adds a buffer view of all bytes from `begin`.
     std::size_t add_view(std::size_t begin)
     {
         return add("bufferViews",
@@ -124,8 +124,8 @@ class GlbBuilder {
     std::vector<char> bytes_;
 };
 
-/// Colors of photographs are sRGB, those of vertices in glTF are linear. With 16 bits all 256
-/// values of a channel stay apart.
+/// The linear value of each sRGB value. Photographs have sRGB colors, but vertex colors of glTF are
+/// linear. 16 bits keep all 256 values of a channel distinct.
 std::array<std::uint16_t, 256> linear_values()
 {
     std::array<std::uint16_t, 256> values{};
@@ -138,10 +138,10 @@ std::array<std::uint16_t, 256> linear_values()
     return values;
 }
 
-/// The attributes of all vertices, with positions relative to `center`.
+/// Adds the attributes of all vertices. Positions are relative to `center`.
 json add_attributes(GlbBuilder& glb, const TriMesh& mesh, const Vector3d& center)
 {
-    Eigen::AlignedBox3f box; // which glTF requires
+    Eigen::AlignedBox3f box; // required by glTF
     const auto rounded = [&](const Vector3d& position) {
         Vector3f result = (position - center).cast<float>();
         box.extend(result);
@@ -150,7 +150,7 @@ json add_attributes(GlbBuilder& glb, const TriMesh& mesh, const Vector3d& center
     json attributes = {{"POSITION", glb.add_accessor(kVector3f, mesh.positions, rounded)}};
     glb.text["accessors"].back()["min"] = list_of(box.min());
     glb.text["accessors"].back()["max"] = list_of(box.max());
-    const auto unit = [](const Vector3f& normal) { // the length that glTF requires
+    const auto unit = [](const Vector3f& normal) { // glTF requires unit length
         return normal.isZero() ? Vector3f::UnitZ().eval() : normal;
     };
     if (!mesh.normals.empty()) {
@@ -166,8 +166,8 @@ json add_attributes(GlbBuilder& glb, const TriMesh& mesh, const Vector3d& center
     return attributes;
 }
 
-/// Adds a matt material that is visible from both sides (the default is metal, front only), and
-/// the page that it shows, if any.
+/// Adds a matt material that is visible from both sides, and its page unless null. The default
+/// material is metallic and visible only from the front.
 std::size_t add_material(GlbBuilder& glb, const Photograph* page)
 {
     json surface = {{"metallicFactor", 0.0}};
@@ -185,8 +185,8 @@ std::size_t add_material(GlbBuilder& glb, const Photograph* page)
     return glb.add("materials", {{"doubleSided", true}, {"pbrMetallicRoughness", surface}});
 }
 
-/// One mesh with a primitive per page, and one node, which moves the mesh back to where it was,
-/// minus the offset, and turns it upright.
+/// Adds a mesh with one primitive per page, and a node. The node moves the mesh to its original
+/// position minus the offset, and rotates it upright.
 void add_mesh(GlbBuilder& glb, const TriMesh& mesh, const MeshFormat& format,
               const UnwrappedMesh* unwrapped)
 {
@@ -228,8 +228,8 @@ void add_mesh(GlbBuilder& glb, const TriMesh& mesh, const MeshFormat& format,
 void require_glb_room(std::uint64_t bytes)
 {
     if (bytes <= kMostGlbBytes) return;
-    throw UsageError(fmt::format("the surface takes {} bytes, and binary glTF holds at most {}; "
-                                 "PLY holds more",
+    throw UsageError(fmt::format("the mesh needs {} bytes, but binary glTF holds at most {}; "
+                                 "write PLY instead",
                                  bytes, kMostGlbBytes));
 }
 
@@ -248,7 +248,7 @@ void write_glb(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
     if (!format.up.isZero(0.0)) asset["extras"]["up"] = list_of(format.up);
     std::optional<UnwrappedMesh> unwrapped;
     if (format.texture != nullptr) unwrapped = unwrap(mesh, *format.texture);
-    if (!mesh.faces.empty()) { // glTF has no empty meshes
+    if (!mesh.faces.empty()) { // glTF does not allow empty meshes
         add_mesh(glb, unwrapped ? unwrapped->mesh : mesh, format,
                  unwrapped ? &*unwrapped : nullptr);
     }

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A format and the end of its files' names.
+/// A format and its file extension.
 struct Kind {
     std::string_view end;
     void (*write)(std::ostream&, const TriMesh&, const MeshFormat&); ///< null for PLY
@@ -30,7 +30,7 @@ constexpr std::array<Kind, 5> kFormats = {{{".ply", nullptr},
                                            {".stl", write_stl},
                                            {".glb", write_glb}}};
 
-/// Null where there is no such format.
+/// Returns null if no format has the file extension.
 const Kind* find_kind(const fs::path& path)
 {
     const auto* const kind = std::ranges::find(kFormats, lower_case_end(path), &Kind::end);
@@ -41,7 +41,7 @@ const Kind& kind_of(const fs::path& path)
 {
     const Kind* const kind = find_kind(path);
     if (kind != nullptr) return *kind;
-    throw UsageError(fmt::format("cannot write {}: the name of a surface must end with .ply, "
+    throw UsageError(fmt::format("cannot write {}: the name of a mesh must end with .ply, "
                                  ".obj, .off, .stl or .glb",
                                  path.string()));
 }

@@ -40,7 +40,7 @@ bool read_polygons(const fs::path& path, Polygons& polygons)
         if (end == ".off") return CGAL::IO::read_OFF(name, points, corners);
         return CGAL::IO::read_STL(name, points, corners);
     } catch (const std::length_error&) {
-        return false; // a header that promises more than any memory holds
+        return false; // the header declares more elements than fit into memory
     } catch (const std::bad_alloc&) {
         return false;
     }
@@ -60,7 +60,7 @@ TriMesh triangles(const Polygons& polygons, const fs::path& path)
         const auto& corners = polygons.corners[i];
         for (const std::size_t corner : corners) {
             if (corner >= mesh.positions.size())
-                throw InputError(fmt::format("{}: face {} names vertex {} of {}", path.string(),
+                throw InputError(fmt::format("{}: face {} uses vertex {} of {}", path.string(),
                                              i + 1, corner + 1, mesh.positions.size()));
         }
         for (std::size_t k = 2; k < corners.size(); ++k) {
@@ -78,8 +78,8 @@ void require_readable_mesh_name(const fs::path& path)
 {
     const std::string end = lower_case_end(path);
     if (end == ".ply" || end == ".obj" || end == ".off" || end == ".stl") return;
-    throw UsageError(fmt::format("cannot read {}: the name of a mesh must end with .ply, .obj, "
-                                 ".off or .stl",
+    throw UsageError(fmt::format("cannot read {}: the name of a mesh must end with .ply, "
+                                 ".obj, .off or .stl",
                                  path.string()));
 }
 
@@ -90,13 +90,13 @@ TriMesh read_mesh(const fs::path& path)
     if (lower_case_end(path) == ".ply") {
         mesh = read_ply(path);
     } else {
-        const std::string fault = why_no_file(path);
+        const std::string fault = file_problem(path);
         if (!fault.empty()) throw InputError(fmt::format("{}: {}", path.string(), fault));
         Polygons polygons;
         if (!read_polygons(path, polygons))
             throw InputError(
-                fmt::format("{}: not a mesh in the format of its name, without faces, or cut "
-                            "off; export it again as .ply or .obj",
+                fmt::format("{}: does not match the format of its extension, is truncated, "
+                            "or has no faces; export it again as .ply or .obj",
                             path.string()));
         mesh = triangles(polygons, path);
     }

@@ -6,14 +6,14 @@
 
 namespace vcarve {
 
-/// Throws UsageError if the name of a file has another end than those read_mesh() reads.
+/// Throws UsageError if read_mesh() does not support the file extension.
 void require_readable_mesh_name(const std::filesystem::path& path);
 
-/// Reads a triangle mesh from .ply (as read_ply), .obj, .off or .stl, in large or small letters.
-/// Polygons become fans of triangles; faces that name a vertex twice are left out. Only positions
-/// and faces are read of .obj, .off and .stl; equal corners in .stl are one vertex. Throws
-/// InputError if the file is missing, broken or without faces, or has a coordinate that is not
-/// finite. Cost: linear in the size of the file.
+/// Reads a triangle mesh from .ply (like read_ply), .obj, .off or .stl, in lower or upper case.
+/// Polygons become triangle fans. Faces that use a vertex twice are dropped. Only positions and
+/// faces are read from .obj, .off and .stl. Equal corners in .stl become one vertex. Throws
+/// InputError if the file is missing, broken or without faces, or if a coordinate is not finite.
+/// Cost: linear in the file size.
 TriMesh read_mesh(const std::filesystem::path& path);
 
 } // namespace vcarve

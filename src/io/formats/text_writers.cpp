@@ -23,8 +23,8 @@ void put_comments(fmt::memory_buffer& block, const MeshFormat& format)
     }
 }
 
-/// A colour from 0 to 1. Rounded up in the fourth decimal, so that a reader finds the same byte
-/// again whether it rounds or cuts off.
+/// Appends a color from 0 to 1, rounded up to four decimals. Readers get the original byte, whether
+/// they round or truncate.
 void put_color(fmt::memory_buffer& block, const Color& color)
 {
     constexpr int kOne = 10000;
@@ -43,7 +43,7 @@ void put_corner(fmt::memory_buffer& block, std::uint32_t vertex, bool has_normal
 
 constexpr std::size_t kHeaderBytes = 80;
 
-/// Free text, which must not begin with "solid", the first word of an STL file that is text.
+/// The STL header. It must not begin with "solid", the first word of a text STL file.
 std::string header_of(const MeshFormat& format)
 {
     std::string header = fmt::format("STL, {}", fmt::join(comment_lines(format), ", "));
@@ -108,7 +108,7 @@ void write_off(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
         put_triple(block, "3 ", face);
         block.push_back('\n');
     }
-    put_comments(writer.block(), format); // at the end, since some readers know no comments
+    put_comments(writer.block(), format); // last, because some readers reject comments
 }
 
 void write_stl(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
@@ -123,7 +123,7 @@ void write_stl(std::ostream& out, const TriMesh& mesh, const MeshFormat& format)
         for (const std::uint32_t vertex : face) {
             put_floats(block, mesh.positions[vertex] + shift);
         }
-        put_little_endian(block, std::uint16_t{0}); // what follows a triangle has no meaning
+        put_little_endian(block, std::uint16_t{0}); // attribute byte count
     }
 }
 

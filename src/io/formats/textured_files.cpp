@@ -27,7 +27,7 @@ fs::path materials_path(const fs::path& surface)
     return fs::path(surface).replace_extension(".mtl");
 }
 
-/// Encodes the pages into files that do not appear yet.
+/// Writes the pages to temporary files; commit() makes them appear.
 void write_pages(const fs::path& path, const Texture& texture, std::deque<OutputFile>& files)
 {
     for (std::size_t page = 0; page < texture.pages.size(); ++page) {
@@ -39,7 +39,7 @@ void write_pages(const fs::path& path, const Texture& texture, std::deque<Output
     }
 }
 
-/// Files appear in order, so the surface is the last.
+/// Makes the files appear in order, so the mesh is last.
 void commit(std::deque<OutputFile>& files)
 {
     for (OutputFile& file : files) {
@@ -47,7 +47,7 @@ void commit(std::deque<OutputFile>& files)
     }
 }
 
-/// A matt material a page.
+/// Writes a matt material per page.
 void write_materials(std::ostream& out, const fs::path& path, const Texture& texture)
 {
     for (std::size_t page = 0; page < texture.pages.size(); ++page) {
@@ -56,7 +56,7 @@ void write_materials(std::ostream& out, const fs::path& path, const Texture& tex
     }
 }
 
-/// Three places a face, v upwards as OBJ has it.
+/// Appends three texture coordinates per face, with v upward as OBJ defines it.
 void put_places(BlockWriter& writer, const Texture& texture)
 {
     for (const auto& corners : texture.places) {
@@ -138,7 +138,7 @@ void write_textured_obj(const fs::path& path, const TriMesh& mesh, const MeshFor
     write_materials(files.emplace_back(materials_path(path)).stream(), path, *format.texture);
     std::ostream& out = files.emplace_back(path).stream();
     TriMesh uncolored = mesh;
-    uncolored.colors.clear(); // would darken the texture in some viewers
+    uncolored.colors.clear(); // some viewers multiply the texture by them
     uncolored.faces.clear();
     write_obj(out, uncolored, format);
     out << "mtllib " << materials_path(path).filename().string() << '\n';

@@ -12,33 +12,33 @@
 
 namespace vcarve {
 
-/// A textured surface in which every vertex has one place in one page, as formats want it whose
-/// corners share vertices: where charts meet there are several vertices in one place. Vertices and
-/// faces go page by page, and else keep their order.
+/// A textured mesh whose vertices have one texture coordinate each, for formats without texture
+/// coordinates per corner. Vertices on seams are duplicated. Faces are grouped by page in
+/// their order, and vertices are in the order of their first use.
 struct UnwrappedMesh {
-    TriMesh mesh;                        ///< without colours, which would darken the texture
-    std::vector<Eigen::Vector2f> places; ///< of the vertices in their page, see Texture
-    std::vector<std::size_t> begins{0};  ///< page i has the faces begins[i] up to begins[i + 1]
+    TriMesh mesh;                        ///< without colors, because they darken the texture
+    std::vector<Eigen::Vector2f> places; ///< texture coordinate per vertex, see Texture
+    std::vector<std::size_t> begins{0};  ///< page i has faces begins[i] to begins[i + 1] - 1
 };
 
-/// Cost: O(faces log(faces)).
+/// Duplicates the vertices on seams. Cost: O(faces log(faces)).
 UnwrappedMesh unwrap(const TriMesh& mesh, const Texture& texture);
 
-/// The file that a page of a texture is written to, beside the surface: OUT_0.jpg beside OUT.obj.
+/// The path of a texture page, in the mesh's folder: OUT_0.jpg for OUT.obj.
 std::filesystem::path page_path(const std::filesystem::path& surface, std::size_t page);
 
-/// The files that are written beside a surface that has so many pages: the pages, and of OBJ the
-/// library of materials, OUT.mtl. None beside glTF, which holds them.
+/// The additional files of a mesh with `pages` pages: the pages, and OUT.mtl, the material library,
+/// for OBJ. There are none for glTF, because it embeds the pages.
 std::vector<std::filesystem::path> files_beside(const std::filesystem::path& surface,
                                                 std::size_t pages);
 
-/// Writes a surface with `format.texture` as OBJ, and the files beside it; all appear or none.
-/// Corners share positions, as `vt` tells where each lies in its page. Throws UsageError where a
-/// file cannot be written.
+/// Writes a mesh with `format.texture` as OBJ, and its additional files. Either all files appear or
+/// none. Corners share positions, because `vt` has their texture coordinates. Throws UsageError if
+/// a file cannot be written.
 void write_textured_obj(const std::filesystem::path& path, const TriMesh& mesh,
                         const MeshFormat& format);
-/// The same as PLY, as MeshLab and COLMAP write and read it: a comment TextureFile a page, and of
-/// each face the list texcoord, of its corners u and v upwards, and the number texnumber.
+/// Writes the same as PLY, in the layout of MeshLab and COLMAP. Pages have comments TextureFile,
+/// faces have a list texcoord (u and v of the corners, v upward) and an integer texnumber.
 void write_textured_ply(const std::filesystem::path& path, const TriMesh& mesh,
                         const MeshFormat& format);
 

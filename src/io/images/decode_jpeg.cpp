@@ -5,13 +5,13 @@ namespace vcarve {
 
 namespace {
 
-/// A JPEG whose header is read.
+/// Decodes a JPEG. The constructor reads its header.
 class JpegReader {
   public:
     explicit JpegReader(const ImageFile& file) : file_(file)
     {
         jpeg_.err = manager_of(errors_);
-        const bool is_read = libjpeg_does(errors_, [&] {
+        const bool is_read = run_libjpeg(errors_, [&] {
             jpeg_create_decompress(&jpeg_);
             jpeg_mem_src(&jpeg_, file_.bytes.data(), file_.bytes.size());
             jpeg_read_header(&jpeg_, TRUE);
@@ -37,7 +37,7 @@ class JpegReader {
         jpeg_.out_color_space = has_inks ? JCS_CMYK : JCS_RGB;
         const std::size_t row_bytes = std::size_t{3} * photo.width_px;
         std::vector<std::uint8_t> inks(has_inks ? std::size_t{4} * photo.width_px : 0);
-        const bool is_whole = libjpeg_does(errors_, [&] {
+        const bool is_whole = run_libjpeg(errors_, [&] {
             jpeg_start_decompress(&jpeg_);
             while (jpeg_.output_scanline < jpeg_.output_height) {
                 std::uint8_t* const row = photo.rgb.data() + jpeg_.output_scanline * row_bytes;
@@ -51,8 +51,7 @@ class JpegReader {
     }
 
   private:
-    /// A row of cyan, magenta, yellow and black as light. Adobe's programs, which leave a marker,
-    /// write how much light an ink leaves.
+    /// Converts a row of CMYK to RGB. Adobe's programs write a marker and store inverted values.
     void mix(const std::vector<std::uint8_t>& inks, std::uint8_t* row) const
     {
         const int full = jpeg_.saw_Adobe_marker != 0 ? 0 : 255;

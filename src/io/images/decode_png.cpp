@@ -11,7 +11,7 @@ namespace vcarve {
 
 namespace {
 
-/// What libpng is given: the bytes that it has not read yet, and where to go with an error.
+/// The state of libpng calls: unread bytes, and the jump target and message of an error.
 struct PngState {
     std::span<const std::uint8_t> rest;
     std::jmp_buf jump{};
@@ -30,12 +30,12 @@ void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 void give_bytes(png_structp png, png_bytep to, std::size_t count)
 {
     auto* const state = static_cast<PngState*>(png_get_io_ptr(png));
-    if (count > state->rest.size()) leave_libpng(png, "the file ends too early");
+    if (count > state->rest.size()) leave_libpng(png, "the file is truncated");
     std::memcpy(to, state->rest.data(), count);
     state->rest = state->rest.subspan(count);
 }
 
-/// A PNG whose header is read.
+/// Decodes a PNG. The constructor reads its header.
 class PngReader {
   public:
     explicit PngReader(const ImageFile& file)
@@ -87,8 +87,8 @@ class PngReader {
     }
 
   private:
-    /// Calls action(), which calls libpng and owns nothing, for it is left by a jump where libpng
-    /// fails: then the result is false.
+    /// Calls action(), which calls libpng. Returns false if libpng fails. action() must own
+    /// nothing, because an error leaves it by longjmp.
     template <typename Action>
     bool libpng_does(const Action& action)
     {

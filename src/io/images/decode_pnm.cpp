@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kPortableMap = "PPM or PGM";
 
-/// The numbers after P5 or P6, with comments between them (netpbm's formats pgm and ppm).
+/// Reads the numbers after P5 or P6, between which comments are allowed (netpbm's pgm and ppm).
 class PnmHeader {
   public:
     explicit PnmHeader(const ImageFile& file) : file_(file)
@@ -21,8 +21,8 @@ class PnmHeader {
         const std::uint64_t height_px = number();
         size = checked_size(file, width_px, height_px);
         largest = number();
-        if (largest < 1 || largest > 0xffff) refuse_image(file, kPortableMap, "no largest value");
-        ++begin; // a blank
+        if (largest < 1 || largest > 0xffff) refuse_image(file, kPortableMap, "no maximum value");
+        ++begin; // white space
         samples = std::size_t{1} * size.width_px * size.height_px * (file.bytes[1] == '6' ? 3 : 1);
         const std::size_t needed = samples * (largest > 0xff ? 2 : 1);
         if (begin > file.bytes.size() || file.bytes.size() - begin < needed) {
@@ -32,7 +32,7 @@ class PnmHeader {
 
     PhotographSize size;
     std::uint64_t largest = 0;
-    std::size_t begin = 2; ///< of the pixels
+    std::size_t begin = 2; ///< offset of the pixels
     std::size_t samples = 0;
 
   private:
@@ -48,7 +48,7 @@ class PnmHeader {
             ++begin;
         }
         std::uint64_t value = 0;
-        if (std::isdigit(at()) == 0) refuse_image(file_, kPortableMap, "no width, height or range");
+        if (std::isdigit(at()) == 0) refuse_image(file_, kPortableMap, "no size or maximum value");
         for (; std::isdigit(at()) != 0 && value < (std::uint64_t{1} << 32U); ++begin) {
             value = 10 * value + (at() - '0');
         }
@@ -70,7 +70,7 @@ Photograph decode_pnm(const ImageFile& file)
     const PnmHeader header(file);
     Photograph photograph = blank_photograph(header.size);
     const std::size_t bytes = header.largest > 0xff ? 2 : 1;
-    const std::size_t copies = photograph.rgb.size() / header.samples; // of a gray value
+    const std::size_t copies = photograph.rgb.size() / header.samples; // 3 for a gray value
     for (std::size_t i = 0; i < header.samples; ++i) {
         const std::uint8_t* const at = file.bytes.data() + header.begin + bytes * i;
         const std::uint64_t value = bytes == 2 ? 256U * at[0] + at[1] : at[0];

@@ -19,15 +19,15 @@ namespace vcarve {
 
 namespace {
 
-/// stb_image takes missing bytes for zeros, unless they are noticed here.
+/// Feeds stb_image and detects truncated files, because stb_image replaces missing bytes by zeros.
 struct Source {
     std::span<const std::uint8_t> rest;
-    const char* buffer = nullptr; ///< stb_image's, which is filled ahead as far as possible
+    const char* buffer = nullptr; ///< stb_image's buffer, to which it reads ahead
     bool is_cut_off = false;
 
     int read(char* to, std::size_t count)
     {
-        if (buffer == nullptr) buffer = to; // filled first
+        if (buffer == nullptr) buffer = to; // the first read fills it
         const std::size_t given = std::min(rest.size(), count);
         is_cut_off = is_cut_off || given < (to == buffer ? 1 : count);
         std::copy_n(rest.data(), given, to);
@@ -44,14 +44,14 @@ constexpr stbi_io_callbacks kCallbacks = {
         auto& rest = static_cast<Source*>(user)->rest;
         rest = rest.subspan(std::min(rest.size(), static_cast<std::size_t>(count)));
     },
-    nullptr}; // the end matters to other formats only
+    nullptr}; // only other formats need end of file
 
 void require(bool is_read, const ImageFile& file, const Source& source)
 {
     if (is_read && !source.is_cut_off) return;
     refuse_image(file, file.bytes[0] == 'B' ? "BMP" : "TGA",
-                 source.is_cut_off ? "it is cut off"
-                                   : "it is damaged, or compressed in a way that is not read");
+                 source.is_cut_off ? "it is truncated"
+                                   : "it is damaged, or its compression is not supported");
 }
 
 } // namespace
@@ -69,7 +69,7 @@ PhotographSize stb_size(const ImageFile& file)
 
 Photograph decode_stb(const ImageFile& file)
 {
-    Photograph photo = blank_photograph(stb_size(file)); // refuses too many pixels
+    Photograph photo = blank_photograph(stb_size(file)); // rejects too many pixels
     Source source{file.bytes};
     int channels = 0;
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> rgba(

@@ -12,7 +12,7 @@ namespace vcarve {
 
 namespace {
 
-using Message = std::array<char, 1024>; ///< as TIFFRGBAImageBegin() requires
+using Message = std::array<char, 1024>; ///< size required by TIFFRGBAImageBegin()
 
 /// Keeps the first error.
 int on_error(TIFF* /*tiff*/, void* handle, const char* /*module*/, const char* format,
@@ -40,7 +40,7 @@ OpenTiff open_tiff(const char* path, Message& message)
     return {TIFFOpenExt(path, "r", options.get()), TIFFClose};
 }
 
-/// A TIFF whose header is read.
+/// Decodes a TIFF. The constructor reads its header.
 class TiffReader {
   public:
     explicit TiffReader(const ImageFile& file)
@@ -76,13 +76,13 @@ class TiffReader {
             *to++ = static_cast<std::uint8_t>(TIFFGetB(pixel));
             if (has_alpha) photo.alpha.push_back(static_cast<std::uint8_t>(TIFFGetA(pixel)));
         }
-        forget_opaque(photo);
+        drop_opaque_alpha(photo);
         return photo;
     }
 
   private:
-    /// Marks all extra channels as premultiplied alpha, so that libtiff leaves the colors alone.
-    /// Returns whether the first is alpha.
+    /// Marks all extra channels as premultiplied alpha, so that libtiff does not change colors.
+    /// Returns whether the first one is alpha.
     bool keep_from_multiplying_by_alpha()
     {
         std::uint16_t count = 0;

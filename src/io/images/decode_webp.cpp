@@ -22,7 +22,7 @@ Photograph decode_webp(const ImageFile& file)
     Photograph photo = blank_photograph(webp_size(file));
     const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> rgba(
         WebPDecodeRGBA(file.bytes.data(), file.bytes.size(), nullptr, nullptr), WebPFree);
-    if (!rgba) refuse_image(file, "WebP", "it is animated, cut off or damaged");
+    if (!rgba) refuse_image(file, "WebP", "it is animated, truncated or damaged");
     split_alpha(rgba.get(), photo);
     return photo;
 }

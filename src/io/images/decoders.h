@@ -9,7 +9,7 @@
 
 namespace vcarve {
 
-/// A file that a decoder is given, and its path, for what is said of it.
+/// The input of a decoder: a file, and its path for error messages.
 struct ImageFile {
     const std::filesystem::path& path;
     std::span<const std::uint8_t> bytes;
@@ -25,23 +25,23 @@ PhotographSize webp_size(const ImageFile& file);
 Photograph decode_jpeg(const ImageFile& file);
 Photograph decode_png(const ImageFile& file);
 Photograph decode_pnm(const ImageFile& file); ///< binary PPM and PGM
-Photograph decode_stb(const ImageFile& file); ///< BMP and TGA; without RLE the former
+Photograph decode_stb(const ImageFile& file); ///< BMP without RLE, and TGA
 Photograph decode_tiff(const ImageFile& file);
 Photograph decode_webp(const ImageFile& file);
 
-/// Throws InputError with the library's reason.
+/// Throws InputError with the reason that the library reports.
 [[noreturn]] void refuse_image(const ImageFile& file, const char* kind, std::string_view reason);
 
-/// The size that a header declares. Throws InputError where it is zero or too large.
+/// Converts the size that a header declares. Throws InputError if it is zero or too large.
 PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::uint64_t height_px);
 
 /// Empties the alpha channel if no pixel is transparent.
-void forget_opaque(Photograph& photo);
+void drop_opaque_alpha(Photograph& photo);
 
-/// Fills a photograph with the pixels of a file with alpha.
+/// Copies RGBA pixels to the colors and the alpha channel of a photograph.
 void split_alpha(const std::uint8_t* rgba, Photograph& photo);
 
-/// One of that size, to be filled.
+/// Returns a black photograph of this size.
 Photograph blank_photograph(const PhotographSize& size);
 
 } // namespace vcarve

@@ -26,21 +26,21 @@ class JpegWriter {
     std::vector<std::uint8_t> encode(const Photograph& photo, int quality)
     {
         jpeg_.err = manager_of(errors_);
-        const bool is_made = libjpeg_does(errors_, [&] {
+        const bool is_made = run_libjpeg(errors_, [&] {
             jpeg_create_compress(&jpeg_);
             jpeg_mem_dest(&jpeg_, &bytes_, &size_);
             declare(photo, quality);
             jpeg_start_compress(&jpeg_, TRUE);
             while (jpeg_.next_scanline < jpeg_.image_height) {
                 const std::size_t begin = std::size_t{3} * photo.width_px * jpeg_.next_scanline;
-                auto* row = const_cast<std::uint8_t*>(photo.rgb.data() + begin); // it only reads
+                auto* row = const_cast<std::uint8_t*>(photo.rgb.data() + begin); // only read
                 jpeg_write_scanlines(&jpeg_, &row, 1);
             }
             jpeg_finish_compress(&jpeg_);
         });
         if (!is_made) {
             throw std::runtime_error(
-                fmt::format("libjpeg makes no JPEG: {}", errors_.message.data()));
+                fmt::format("libjpeg cannot write a JPEG: {}", errors_.message.data()));
         }
         return {bytes_, bytes_ + size_};
     }
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> encode_png(const Photograph& photo)
     std::vector<std::uint8_t> file(size);
     if (png_image_write_to_memory(&image, file.data(), &size, 0, photo.rgb.data(), 0, nullptr) ==
         0) {
-        throw std::runtime_error(fmt::format("libpng makes no PNG: {}", image.message));
+        throw std::runtime_error(fmt::format("libpng cannot write a PNG: {}", image.message));
     }
     file.resize(size);
     return file;

@@ -7,12 +7,12 @@
 
 namespace vcarve {
 
-/// A JPEG file of it, at a quality from 1 to 100, always the same bytes. Colours are kept at full
-/// resolution, so that those of one chart do not run into its neighbour's. At most 65500 pixels a
-/// side.
+/// Encodes a JPEG file with a quality from 1 to 100. The bytes depend only on the arguments. Chroma
+/// is not subsampled, so the colors of a chart do not bleed into its neighbor. Throws
+/// std::runtime_error if a side is longer than 65500 pixels.
 std::vector<std::uint8_t> encode_jpeg(const Photograph& photo, int quality);
 
-/// A PNG file of it, always the same bytes. Little time is taken to make it small.
+/// Encodes a PNG file. The bytes depend only on the photograph. Prefers speed to size.
 std::vector<std::uint8_t> encode_png(const Photograph& photo);
 
 } // namespace vcarve

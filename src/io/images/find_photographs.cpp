@@ -25,7 +25,7 @@ bool leads_out(const fs::path& name)
     return name.empty() || name.has_root_path() || std::ranges::count(name, fs::path("..")) > 0;
 }
 
-/// The paths below `folder` that the name of a view may mean, the likeliest first.
+/// The possible paths of a view's name in `folder`, the most likely first.
 std::vector<fs::path> readings_of(const std::string& name, const fs::path& folder)
 {
     std::vector<fs::path> readings = {name};
@@ -34,7 +34,7 @@ std::vector<fs::path> readings_of(const std::string& name, const fs::path& folde
         std::ranges::replace(with_slashes, '\\', '/');
         readings.emplace_back(with_slashes);
     }
-    // transforms.json names images/a.png relative to itself.
+    // Paths such as images/a.png in transforms.json are relative to its folder.
     const std::size_t count = readings.size();
     for (std::size_t i = 0; i < count; ++i) {
         const fs::path reading = readings[i].lexically_normal();
@@ -47,10 +47,10 @@ std::vector<fs::path> readings_of(const std::string& name, const fs::path& folde
     return readings;
 }
 
-/// The photographs in a folder, found by names that differ in case or in their ends.
+/// Finds photographs in a folder by names that differ in case or file extension.
 class SimilarNames {
   public:
-    /// `taken`, sorted, belong to views that they are named after. Cost: lists the folder.
+    /// Excludes the files in `taken`, which is sorted. Cost: lists the folder.
     SimilarNames(const fs::path& folder, const std::vector<fs::path>& taken)
     {
         std::vector<fs::path> files;
@@ -79,14 +79,14 @@ class SimilarNames {
     }
 
   private:
-    std::map<std::string, fs::path> files_; ///< the first by name of each key
+    std::map<std::string, fs::path> files_; ///< the first file in name order for each key
 };
 
-/// The file of each view.
+/// The file of each view, empty if it has none.
 std::vector<fs::path> files_of(const Scene& scene, const fs::path& folder)
 {
     std::error_code error;
-    const fs::path whole = fs::weakly_canonical(folder, error); // "." has a name
+    const fs::path whole = fs::weakly_canonical(folder, error); // so that "." has a name
     std::vector<fs::path> files(scene.views.size());
     parallel_for(
         files.size(),
@@ -113,7 +113,7 @@ std::size_t num_missing(const std::vector<fs::path>& files)
     return static_cast<std::size_t>(std::ranges::count(files, fs::path()));
 }
 
-/// Whether a photograph can be its camera's image made smaller or larger, with rounded sides.
+/// Whether a photograph can be a scaled image of the camera, with rounded sides.
 bool has_shape_of(const Camera& camera, const PhotographSize& photo)
 {
     constexpr double kShare = 0.01;
@@ -123,7 +123,7 @@ bool has_shape_of(const Camera& camera, const PhotographSize& photo)
     return difference <= std::max(2.0 * (width + height), kShare * photo.width_px * height);
 }
 
-/// Reads the sizes, and takes out the files that cannot be used.
+/// Reads the sizes, and removes unusable files.
 void measure(const Scene& scene, const char* kind, Photographs& photographs)
 {
     std::vector<std::string> reasons(photographs.of_view.size());
@@ -138,7 +138,7 @@ void measure(const Scene& scene, const char* kind, Photographs& photographs)
                 if (camera.width_px > 0 && camera.height_px > 0 && !has_shape_of(camera, size)) {
                     throw InputError(fmt::format(
                         "{}: found {} x {} pixels, but the camera's images have {} x {}; a "
-                        "{} may be scaled, but not cropped or turned",
+                        "{} may be scaled, but not cropped or rotated",
                         file.string(), size.width_px, size.height_px, camera.width_px,
                         camera.height_px, kind));
                 }
@@ -153,15 +153,14 @@ void measure(const Scene& scene, const char* kind, Photographs& photographs)
     photographs.unusable = std::move(reasons);
 }
 
-/// `kind` is a photograph or a mask.
+/// `kind` is "photograph" or "mask".
 Photographs find_pictures(const Scene& scene, const fs::path& folder, const char* kind)
 {
     if (!is_folder(folder)) {
-        throw InputError(fmt::format("{}: {}, but the folder of the {}s is expected",
-                                     folder.string(),
+        throw InputError(fmt::format("{}: {}; expected the folder of the {}s", folder.string(),
                                      is_file(folder) ? "found a file"
                                                      : "the folder does not exist "
-                                                       "or cannot be entered",
+                                                       "or cannot be opened",
                                      kind));
     }
     Photographs found;
@@ -170,8 +169,8 @@ Photographs find_pictures(const Scene& scene, const fs::path& folder, const char
     found.missing = num_missing(found.of_view);
     if (found.missing == scene.views.size()) {
         throw InputError(
-            fmt::format("{}: found the {} of none of the {} views, such as {}; expected the folder "
-                        "that the names of the views are paths in",
+            fmt::format("{}: found no {} of the {} views, such as {}; expected the folder that the "
+                        "names of the views are relative to",
                         folder.string(), kind, scene.views.size(),
                         scene.views.empty() ? "" : scene.views[0].name));
     }
@@ -204,8 +203,9 @@ void note_unusable(const std::vector<std::string>& sentences, Log& log)
         names += fmt::format("{}{}", i == 1 ? "" : ", ", fs::path(path).filename().string());
     }
     const char* const more = sentences.size() > kMostNamed ? ", ..." : "";
-    log.note(fmt::format("{} photographs cannot be used. {}. The others are {}{}", sentences.size(),
-                         sentences[0], names, more));
+    log.note(fmt::format("{} cannot be used. {}. The others are {}{}",
+                         counted(size_of(sentences.size()), "photographs"), sentences[0], names,
+                         more));
 }
 
 std::optional<fs::path> photographs_beside(const fs::path& model)

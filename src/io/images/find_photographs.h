@@ -12,34 +12,33 @@
 
 namespace vcarve {
 
-/// The photographs of the views of a scene. The arrays run parallel to the views.
+/// The photographs of the views of a scene. The first three arrays are parallel to the views.
 struct Photographs {
     std::filesystem::path folder;
-    std::vector<std::filesystem::path> of_view; ///< empty where there is none that can be read
-    std::vector<PhotographSize> sizes;          ///< zero where there is none
-    std::vector<std::filesystem::path> masks;   ///< empty if none are used, or where there is none
+    std::vector<std::filesystem::path> of_view; ///< empty if no file can be used
+    std::vector<PhotographSize> sizes;          ///< zero if no file can be used
+    std::vector<std::filesystem::path> masks;   ///< empty array if unused, empty path if missing
     std::size_t missing = 0;                    ///< views without a file
-    std::vector<std::string> unusable;          ///< a sentence for each file that cannot be used
+    std::vector<std::string> unusable;          ///< one sentence per unusable file
 };
 
-/// Finds them as `folder`/name. A backslash in a name may separate folders, and a name may begin
-/// with `images` or the name of `folder` itself. A view without such a file gets one whose name
-/// differs in case or in its end only: a.png may be A.JPG. Names that lead out of the folder count
-/// as missing. Files with another aspect ratio than their camera cannot be used. Reads the header
-/// of each, on all threads. Throws InputError if there is no such folder, or no photograph that can
-/// be used.
+/// Finds the photograph of each view as `folder`/name. Backslashes in names may separate folders,
+/// and names may begin with `images` or the name of `folder`. Otherwise a file is used whose name
+/// differs only in case or file extension: A.JPG for a.png. Names that lead out of the folder count
+/// as missing. A file whose aspect ratio differs from its camera's is unusable. Reads the headers
+/// of all files in parallel. Throws InputError if the folder is missing or no photograph is usable.
 Photographs find_photographs(const Scene& scene, const std::filesystem::path& folder);
 
-/// Finds the masks of the views in the same way, as `folder`/NAME.png, where NAME is that of the
-/// photograph with its extension, as COLMAP does, or without. Throws as find_photographs().
+/// Finds the masks of the views in the same way, as `folder`/NAME.png. NAME is the photograph's
+/// name with its extension, as in COLMAP, or without. Throws like find_photographs().
 Photographs find_masks(const Scene& scene, const std::filesystem::path& folder);
 
-/// Adds one note about photographs that are left out. Each sentence begins with a path and a colon.
+/// Logs one note about unusable photographs. Each sentence must begin with a path and a colon.
 void note_unusable(const std::vector<std::string>& sentences, Log& log);
 
-/// The folder that the names of a model's photographs are relative to: that of transforms.json, or
-/// the folder `images` in the model's folder, beside the folder `sparse` that it is, or beside the
-/// one that it is a part of (sparse/0). Nothing if there is none.
+/// Returns the folder that the names of a model's photographs are relative to, if it is found. It
+/// is the folder of transforms.json, or a folder `images`. The latter is in the model's folder, or
+/// beside a folder `sparse` that is the model or contains it (sparse/0).
 std::optional<std::filesystem::path> photographs_beside(const std::filesystem::path& model);
 
 } // namespace vcarve

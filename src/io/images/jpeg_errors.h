@@ -1,7 +1,7 @@
 #pragma once
 
-// jpeglib.h needs what stdio declares, and the numbers in jerror.h depend on what jpeglib.h
-// defines.
+// jpeglib.h needs declarations of stdio, and the message codes in jerror.h depend on macros of
+// jpeglib.h.
 // clang-format off
 #include <cstdio>
 #include <jpeglib.h>
@@ -13,23 +13,23 @@
 
 namespace vcarve {
 
-/// Where libjpeg goes with what it has to say, instead of the standard error and exit().
+/// Receives the errors of libjpeg, which otherwise prints to the standard error and calls exit().
 struct JpegErrors {
-    jpeg_error_mgr manager{}; ///< first, so that libjpeg's pointer to it is one to this
+    jpeg_error_mgr manager{}; ///< must be first, because its address is cast to JpegErrors*
     std::jmp_buf jump{};
     std::array<char, JMSG_LENGTH_MAX> message{};
 };
 
-[[noreturn]] inline void leave_libjpeg(j_common_ptr jpeg)
+[[noreturn]] inline void jump_on_libjpeg_error(j_common_ptr jpeg)
 {
     auto* const errors = reinterpret_cast<JpegErrors*>(jpeg->err);
     jpeg->err->format_message(jpeg, errors->message.data());
     std::longjmp(errors->jump, 1); // NOLINT(cert-err52-cpp): no exception may pass through C
 }
 
-/// A warning counts as an error where pixels are missing. Others, such as bytes that nobody needs,
-/// are found in files of many cameras.
-inline void hear_libjpeg(j_common_ptr jpeg, int level)
+/// Treats warnings about missing pixels as errors. Files of many cameras cause other warnings, for
+/// example about superfluous bytes.
+inline void handle_libjpeg_message(j_common_ptr jpeg, int level)
 {
     if (level >= 0) return;
     switch (jpeg->err->msg_code) {
@@ -38,7 +38,7 @@ inline void hear_libjpeg(j_common_ptr jpeg, int level)
     case JWRN_HUFF_BAD_CODE:
     case JWRN_ARITH_BAD_CODE:
     case JWRN_MUST_RESYNC:
-        leave_libjpeg(jpeg);
+        jump_on_libjpeg_error(jpeg);
     default:
         return;
     }
@@ -47,15 +47,15 @@ inline void hear_libjpeg(j_common_ptr jpeg, int level)
 inline jpeg_error_mgr* manager_of(JpegErrors& errors)
 {
     jpeg_std_error(&errors.manager);
-    errors.manager.error_exit = leave_libjpeg;
-    errors.manager.emit_message = hear_libjpeg;
+    errors.manager.error_exit = jump_on_libjpeg_error;
+    errors.manager.emit_message = handle_libjpeg_message;
     return &errors.manager;
 }
 
-/// Calls action(), which calls libjpeg and owns nothing, for it is left by a jump where libjpeg
-/// fails: then the result is false.
+/// Calls action(), which calls libjpeg. Returns false if libjpeg fails. action() must own nothing,
+/// because an error leaves it by longjmp.
 template <typename Action>
-bool libjpeg_does(JpegErrors& errors, const Action& action)
+bool run_libjpeg(JpegErrors& errors, const Action& action)
 {
     if (setjmp(errors.jump) != 0) return false; // NOLINT(cert-err52-cpp)
     action();

@@ -29,7 +29,7 @@ constexpr Decoder kStb{stb_size, decode_stb};
 constexpr Decoder kTiff{tiff_size, decode_tiff};
 constexpr Decoder kWebp{webp_size, decode_webp};
 
-/// What a file begins with; TIFF has two orders of bytes, and two sizes of offsets.
+/// The first bytes of each format. TIFF has two byte orders and two offset sizes.
 constexpr struct {
     std::string_view begin;
     Decoder decoder;
@@ -45,11 +45,10 @@ constexpr struct {
     {"BM"sv, kStb},
 };
 
-/// Formats that are not read, by what stands in their first 12 bytes.
+/// Unsupported formats, recognized by text in their first 12 bytes.
 constexpr std::pair<std::string_view, const char*> kUnread[] = {
-    {"GIF8", "a GIF"},         {"JXL ", "a JPEG XL"},    {"jP  ", "a JPEG 2000"},
-    {"ftypavif", "an AVIF"},   {"ftyphei", "a HEIC"},    {"ftypmif1", "a HEIC"},
-    {"P3\n", "a PPM as text"}, {"P3 ", "a PPM as text"},
+    {"GIF8", "a GIF"},     {"JXL ", "a JPEG XL"},  {"jP  ", "a JPEG 2000"}, {"ftypavif", "an AVIF"},
+    {"ftyphei", "a HEIC"}, {"ftypmif1", "a HEIC"}, {"P3\n", "a text PPM"},  {"P3 ", "a text PPM"},
 };
 
 const Decoder& decoder_of(const std::filesystem::path& path, std::span<const char> bytes)
@@ -64,15 +63,16 @@ const Decoder& decoder_of(const std::filesystem::path& path, std::span<const cha
         if (text.starts_with(kind.begin)) return kind.decoder;
     }
     if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP")) return kWebp;
-    // TGA has no first bytes; its second version ends with a word.
+    // TGA has no signature at the beginning; version 2 has one at the end.
     if (lower_case_end(path) == ".tga" || text.ends_with("TRUEVISION-XFILE.\0"sv)) return kStb;
     const auto* const unread = std::ranges::find_if(kUnread, [&](const auto& kind) {
         return text.substr(0, 12).find(kind.first) != std::string_view::npos;
     });
     const bool is_known = unread != std::ranges::end(kUnread);
-    throw InputError(fmt::format("{}: found {}, but photographs are read as JPEG, PNG, TIFF, WebP, "
-                                 "BMP, TGA, PPM and PGM only; convert it to one of them",
-                                 path.string(), is_known ? unread->second : "an unknown format"));
+    throw InputError(
+        fmt::format("{}: found {}, but photographs must be JPEG, PNG, TIFF, WebP, BMP, "
+                    "TGA, binary PPM or PGM; convert it to one of them",
+                    path.string(), is_known ? unread->second : "an unknown format"));
 }
 
 ImageFile image_file(const std::filesystem::path& path, std::span<const char> bytes)
@@ -84,8 +84,8 @@ ImageFile image_file(const std::filesystem::path& path, std::span<const char> by
 
 void refuse_image(const ImageFile& file, const char* kind, std::string_view reason)
 {
-    throw InputError(fmt::format("{}: found a {} that cannot be read ({}), but a whole photograph "
-                                 "is expected; copy or convert it again",
+    throw InputError(fmt::format("{}: found a {} that cannot be read ({}), but a complete "
+                                 "photograph is expected; copy or convert it again",
                                  file.path.string(), kind, reason));
 }
 
@@ -101,7 +101,7 @@ PhotographSize checked_size(const ImageFile& file, std::uint64_t width_px, std::
     return {static_cast<int>(width_px), static_cast<int>(height_px)};
 }
 
-void forget_opaque(Photograph& photo)
+void drop_opaque_alpha(Photograph& photo)
 {
     if (std::ranges::count(photo.alpha, 0) == 0) photo.alpha = {};
 }
@@ -112,7 +112,7 @@ void split_alpha(const std::uint8_t* rgba, Photograph& photo)
         std::copy_n(rgba, 3, &photo.rgb[i]);
         photo.alpha.push_back(rgba[3]);
     }
-    forget_opaque(photo);
+    drop_opaque_alpha(photo);
 }
 
 Photograph blank_photograph(const PhotographSize& size)

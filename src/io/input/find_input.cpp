@@ -28,17 +28,17 @@ bool is_ply_file(const fs::path& path)
     return path.extension() == ".ply" && is_file(path);
 }
 
-/// The file of --visibility, or the one beside the cloud; none where none is to be read.
+/// The file of --visibility, or the one beside the cloud. Empty for --rays nearest.
 fs::path visibility_of(const fs::path& cloud, const PointsOptions& options)
 {
-    if (options.sights == SightsFrom::nearest) return {};
+    if (options.rays == RaysFrom::nearest) return {};
     if (!options.visibility.empty()) return options.visibility;
     fs::path beside = cloud;
     return beside += ".vis";
 }
 
-/// Whether a cloud has lists of the images that saw its points. Of one that cannot be read,
-/// reading tells.
+/// Whether a cloud has lists of the images that saw its points. False for a broken file, which is
+/// reported when it is read.
 bool has_lists(const fs::path& cloud)
 {
     try {
@@ -50,25 +50,25 @@ bool has_lists(const fs::path& cloud)
     }
 }
 
-/// Whether something tells which views saw the points of a cloud, or none is to be asked.
-bool has_sights(const fs::path& cloud, const PointsOptions& options)
+/// Whether a file or lists have the views of a cloud's points, or --rays nearest needs none.
+bool has_rays(const fs::path& cloud, const PointsOptions& options)
 {
-    return options.sights == SightsFrom::nearest || is_file(visibility_of(cloud, options)) ||
+    return options.rays == RaysFrom::nearest || is_file(visibility_of(cloud, options)) ||
            has_lists(cloud);
 }
 
-/// A surface in the place of points. MeshLab writes an element of no faces into clouds.
+/// Throws InputError if the file is a mesh. MeshLab writes an empty element `face` into clouds.
 void refuse_mesh(const fs::path& cloud)
 {
     const PlyHeader header = read_ply_header(cloud);
     const PlyElement* faces = header.find("face");
     if (faces == nullptr || faces->count == 0) return;
-    throw InputError(fmt::format("{} is a mesh of {} faces, but a model or a cloud is wanted; "
-                                 "colmap-vcarve compare MODEL {} measures meshes",
+    throw InputError(fmt::format("{}: found a mesh of {} faces, but a model or point cloud is "
+                                 "expected; colmap-vcarve compare MODEL {} measures meshes",
                                  cloud.string(), faces->count, cloud.string()));
 }
 
-/// What a file tells of scanners; nothing of one that cannot be read, which reading tells of.
+/// The scanner positions in a file. None for a broken file, which is reported when it is read.
 PlyScanners scanners_of(const fs::path& cloud)
 {
     try {
@@ -78,104 +78,103 @@ PlyScanners scanners_of(const fs::path& cloud)
     }
 }
 
-/// Whether a cloud is a scan: its scanners are known, and the user asks for no other sights. PCL
-/// writes a camera into every cloud, so that one counts only where no file tells of views.
+/// Whether a cloud is a scan: scanner positions are known, and options select no other rays. PCL
+/// writes a camera into every cloud, so it counts only if no file has the views.
 bool is_scan(const fs::path& cloud, const PointsOptions& options)
 {
     if (options.scanner) return true;
-    if (!options.visibility.empty() || options.sights == SightsFrom::nearest) return false;
+    if (!options.visibility.empty() || options.rays == RaysFrom::nearest) return false;
     const PlyScanners scanners = scanners_of(cloud);
     return scanners == PlyScanners::each ||
            (scanners == PlyScanners::one_for_all && !is_file(visibility_of(cloud, options)));
 }
 
-/// Refuses options that cannot go with --scanner.
+/// Throws UsageError if --scanner contradicts the other options or the cloud.
 void check_scanner(const fs::path& cloud, const PointsOptions& options)
 {
     if (!options.scanner) return;
     const std::string given = fmt::format("--scanner {}", fmt::join(*options.scanner, ","));
-    if (!options.visibility.empty() || options.sights == SightsFrom::nearest) {
+    if (!options.visibility.empty() || options.rays == RaysFrom::nearest) {
         throw UsageError(fmt::format(
-            "{} says from where the points were measured, so it cannot go with {}", given,
-            options.visibility.empty() ? "--sights nearest"
+            "{} gives the scanner position, so it cannot be combined with {}", given,
+            options.visibility.empty() ? "--rays nearest"
                                        : "--visibility " + options.visibility.string()));
     }
     if (scanners_of(cloud) == PlyScanners::each) {
-        throw UsageError(fmt::format("{} is one place for all points, but {} tells itself where "
-                                     "the scanner of each stood",
+        throw UsageError(fmt::format("{} is one position for all points, but {} has a scanner "
+                                     "position for each point",
                                      given, cloud.string()));
     }
 }
 
-/// Which scanners are taken, as a sentence.
+/// A note about the source of the scanner positions.
 std::string note_on_scan(const fs::path& cloud, const PointsOptions& options)
 {
-    const std::string points = fmt::format("the points are those of {}, ", cloud.string());
+    const std::string points =
+        fmt::format("points are read from {} with the scanner ", cloud.string());
     if (options.scanner) {
-        return points +
-               fmt::format("measured by a scanner at {}", fmt::join(*options.scanner, ", "));
+        return points + fmt::format("at {}", fmt::join(*options.scanner, ", "));
     }
     if (scanners_of(cloud) == PlyScanners::each) {
-        return points + "measured by the scanners of which it tells at every point";
+        return points + "position of each point";
     }
-    return points + "measured by a scanner where its element camera stands";
+    return points + "position of its element camera";
 }
 
 FoundInput scan_input(FoundModel model, const fs::path& cloud, const PointsOptions& options)
 {
     check_scanner(cloud, options);
     if (!is_file(cloud)) {
-        throw InputError(fmt::format("{}: {}, so there are no points of a scanner to take",
-                                     cloud.string(), why_no_file(cloud)));
+        throw InputError(fmt::format("{}: {}; expected a PLY file of scanned points",
+                                     cloud.string(), file_problem(cloud)));
     }
     std::string note = note_on_scan(cloud, options);
     const fs::path visibility = visibility_of(cloud, options);
     if (!model.folder.empty()) {
-        note += fmt::format("; the views of {} are left out", model.folder.string());
+        note += fmt::format("; the views of {} are ignored", model.folder.string());
     } else if (is_file(visibility)) {
-        note += fmt::format("; {} is left out, --visibility takes it", visibility.string());
+        note += fmt::format("; {} is ignored (--visibility selects it)", visibility.string());
     }
     std::vector<std::string> notes = model.notes;
     notes.push_back(note);
     return {std::move(model), std::nullopt, ScanFile{cloud, options.scanner}, std::move(notes)};
 }
 
-/// The model that a cloud lies in.
+/// The model in the folder of a cloud.
 FoundModel model_around(const fs::path& cloud)
 {
     try {
         return find_model(cloud.has_parent_path() ? cloud.parent_path() : fs::path("."),
                           PointsFile::another);
     } catch (const InputError& error) {
-        throw InputError(
-            fmt::format("{}; {} tells of no scanner's places either, where it could do "
-                        "without a model (--scanner x,y,z tells of one)",
-                        error.what(), cloud.string()));
+        throw InputError(fmt::format("{}; without a model, {} needs scanner positions "
+                                     "(--scanner x,y,z sets one)",
+                                     error.what(), cloud.string()));
     }
 }
 
-/// Which cloud was taken, as a sentence.
+/// A note about the cloud and the source of its views.
 std::string note_on(const DenseFiles& files)
 {
     if (files.takes_lists) {
-        return fmt::format("the points are those of {}, seen by the views of {} that their lists "
-                           "view_indices name",
+        return fmt::format("points are read from {}, with the views of {} in their lists "
+                           "view_indices",
                            files.cloud.string(), files.model.string());
     }
     if (files.visibility.empty()) {
-        return fmt::format("the points are those of {}; no file tells which views saw them, so the "
-                           "nearest views of {} are taken before which no other point stands",
+        return fmt::format("points are read from {}; no file has their views, so they get the "
+                           "nearest views of {} with an unobstructed line to them",
                            files.cloud.string(), files.model.string());
     }
-    return fmt::format("the points are those of {}, seen by the views of {}", files.cloud.string(),
+    return fmt::format("points are read from {}, with views of {}", files.cloud.string(),
                        files.model.string());
 }
 
 FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOptions& options)
 {
     if (is_scan(cloud, options)) return scan_input(std::move(model), cloud, options);
-    if (options.sights == SightsFrom::nearest && !options.visibility.empty()) {
-        throw UsageError(fmt::format("--sights nearest reads no file, so it cannot go with "
+    if (options.rays == RaysFrom::nearest && !options.visibility.empty()) {
+        throw UsageError(fmt::format("--rays nearest reads no file, so it cannot be combined with "
                                      "--visibility {}",
                                      options.visibility.string()));
     }
@@ -184,15 +183,15 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
                              !is_file(visibility) && has_lists(cloud);
     if (takes_lists) visibility.clear();
     if (!is_file(cloud)) {
-        throw InputError(fmt::format("{}: {}, so there are no dense points to take with the "
-                                     "views of {}",
-                                     cloud.string(), why_no_file(cloud), model.folder.string()));
+        throw InputError(fmt::format("{}: {}; expected dense points for the views of {}",
+                                     cloud.string(), file_problem(cloud), model.folder.string()));
     }
     if (!visibility.empty() && !is_file(visibility)) {
-        throw InputError(fmt::format("{}: {}, which tells which views saw the points of {}, as "
-                                     "COLMAP's stereo_fusion writes it (--visibility names "
-                                     "another, --sights nearest does without)",
-                                     visibility.string(), why_no_file(visibility), cloud.string()));
+        throw InputError(
+            fmt::format("{}: {}; expected the views of the points of {}, as written by "
+                        "COLMAP's stereo_fusion (--visibility selects another file, "
+                        "--rays nearest needs none)",
+                        visibility.string(), file_problem(visibility), cloud.string()));
     }
     std::vector<std::string> notes = model.notes;
     DenseFiles files{model.folder, model.format, cloud, visibility, takes_lists};
@@ -200,23 +199,22 @@ FoundInput dense_input(FoundModel model, const fs::path& cloud, const PointsOpti
     return {std::move(model), std::move(files), std::nullopt, std::move(notes)};
 }
 
-/// The nearest views where nothing tells which saw the points. These are sparse then if they are
-/// called as nerfstudio and converters call COLMAP's.
+/// Like dense_input(), but points without views get the nearest views. These points count as sparse
+/// if the file has a name that nerfstudio and converters give to COLMAP's points.
 FoundInput input_of_points(FoundModel model, const fs::path& cloud, const PointsOptions& options)
 {
     PointsOptions chosen = options;
-    const bool is_told = !options.visibility.empty() || has_sights(cloud, options);
-    if (options.sights == SightsFrom::automatic && !is_told) {
-        chosen.sights = SightsFrom::nearest;
+    const bool has_visibility = !options.visibility.empty() || has_rays(cloud, options);
+    if (options.rays == RaysFrom::automatic && !has_visibility) {
+        chosen.rays = RaysFrom::nearest;
     }
     FoundInput found = dense_input(std::move(model), cloud, chosen);
     const bool is_named_so = cloud.filename() == kSparsePly || cloud.filename() == kPointsPly;
-    if (found.dense) found.dense->are_sparse = chosen.sights == SightsFrom::nearest && is_named_so;
+    if (found.dense) found.dense->are_sparse = chosen.rays == RaysFrom::nearest && is_named_so;
     return found;
 }
 
-/// The points that stand as PLY beside cameras and images, where the model has none of its own.
-/// Nothing tells which views saw them.
+/// Uses points3D.ply, whose points usually have no views, if a model has no other points.
 std::optional<FoundInput> points_ply_input(const FoundModel& model, const PointsOptions& options)
 {
     const fs::path cloud = model.folder / kPointsPly;
@@ -229,7 +227,7 @@ std::optional<FoundInput> points_ply_input(const FoundModel& model, const Points
     return found;
 }
 
-/// The poses of transforms.json, and the points it names or --points does.
+/// Uses the poses of transforms.json, and the points that it or --points selects.
 FoundInput transforms_input(const fs::path& file, const PointsOptions& options)
 {
     fs::path cloud = points_of_transforms(file);
@@ -239,21 +237,22 @@ FoundInput transforms_input(const fs::path& file, const PointsOptions& options)
         cloud = options.points;
     }
     if (cloud.empty()) {
-        throw InputError(fmt::format("{}: names no points (ply_file_path), and there is neither "
-                                     "sparse_pc.ply nor points3D.ply beside it; --points FILE "
-                                     "takes those of a PLY file in the frame of its poses",
-                                     file.string()));
+        throw InputError(
+            fmt::format("{}: has no ply_file_path, and its folder has no sparse_pc.ply "
+                        "or points3D.ply; select a PLY file in the frame of the "
+                        "poses with --points FILE",
+                        file.string()));
     }
     refuse_foreign_name(cloud);
     return input_of_points({file, ModelFormat::transforms, {}}, cloud, options);
 }
 
-/// The file that is meant: itself, or the one of a folder without a model of COLMAP's, which has
-/// tracks.
+/// Returns `input` if it is a .json file, or such a file in the folder `input`. A COLMAP model in
+/// the folder is preferred, because it has tracks.
 std::optional<fs::path> find_transforms(const fs::path& input)
 {
     if (is_file(input) && lower_case_end(input) == ".json") return input;
-    // Reading the last three says how to convert them.
+    // Reading one of the last three throws an error that explains the conversion.
     constexpr std::array kNames = {kTransforms, kTransformsTrain, "cameras.json",
                                    "reconstruction.json", "sfm_data.json"};
     const auto* const name =
@@ -271,27 +270,28 @@ FoundInput sparse_input(FoundModel model, const PointsOptions& options)
 {
     if (auto found = points_ply_input(model, options)) return *found;
     if (options.scanner) {
-        throw UsageError(fmt::format("--scanner {} says from where the points of a PLY file were "
-                                     "measured, but the sparse points of {} are taken",
+        throw UsageError(fmt::format("--scanner {} is for the points of a PLY file, but the sparse "
+                                     "points of {} are used",
                                      fmt::join(*options.scanner, ","), model.folder.string()));
     }
     if (!options.visibility.empty()) {
-        throw UsageError(fmt::format("--visibility {} tells which views saw the points of a cloud, "
-                                     "but the sparse points of {} are taken",
+        throw UsageError(fmt::format("--visibility {} is for the points of a PLY file, but the "
+                                     "sparse points of {} are used",
                                      options.visibility.string(), model.folder.string()));
     }
     std::vector<std::string> notes = model.notes;
-    return {std::move(model), std::nullopt, std::nullopt, std::move(notes), options.sights};
+    return {std::move(model), std::nullopt, std::nullopt, std::move(notes), options.rays};
 }
 
-/// A cloud of the workspace around a model, for which the user could have asked.
+/// Adds a note about a dense workspace in the folder, which the user may prefer.
 void mention_other_cloud(const fs::path& input, FoundInput& found)
 {
     for (const char* folder : {"dense", "dense/0"}) {
         const fs::path workspace = input / folder;
         if (!is_file(workspace / kFused)) continue;
-        found.notes.push_back(fmt::format("the sparse points are taken; {} means those of {}",
-                                          workspace.string(), (workspace / kFused).string()));
+        found.notes.push_back(
+            fmt::format("sparse points are used; the input {} selects the points of {}",
+                        workspace.string(), (workspace / kFused).string()));
         return;
     }
 }
@@ -304,17 +304,16 @@ FoundInput look_for_points(FoundModel model, const fs::path& input, const Points
         mention_other_cloud(input, found);
         return found;
     }
-    const bool is_told = !options.visibility.empty() || options.sights == SightsFrom::nearest ||
-                         is_scan(fused, options);
-    if (is_told || is_file(visibility_of(fused, options))) {
+    const bool has_visibility =
+        !options.visibility.empty() || options.rays == RaysFrom::nearest || is_scan(fused, options);
+    if (has_visibility || is_file(visibility_of(fused, options))) {
         FoundInput found = dense_input(std::move(model), fused, options);
-        found.notes.back() += "; --points sparse takes the sparse ones";
+        found.notes.back() += "; --points sparse selects the sparse points";
         return found;
     }
     FoundInput found = sparse_input(std::move(model), options);
-    found.notes.push_back(fmt::format("the sparse points are taken and {} is left out, for there "
-                                      "is no {} to tell which views saw its points; --sights "
-                                      "nearest does without",
+    found.notes.push_back(fmt::format("sparse points are used and {} is ignored, because {} with "
+                                      "its views is missing; --rays nearest needs no views",
                                       fused.string(), visibility_of(fused, options).string()));
     return found;
 }
@@ -338,7 +337,7 @@ void add_all_below(const fs::path& folder, std::vector<fs::path>& files)
     }
 }
 
-/// What COLMAP keeps in the folder of a model or a workspace.
+/// Adds COLMAP's files in the folder of a model or a workspace.
 void add_of_folder(const fs::path& folder, std::vector<fs::path>& files)
 {
     for (const char* const stem : kModelFiles) {
@@ -364,12 +363,12 @@ FoundInput find_input(const fs::path& input, const PointsOptions& options)
 {
     if (is_ply_file(input)) {
         if (!options.points.empty()) {
-            throw UsageError(fmt::format("--points {} chooses points for a model, but {} is a "
-                                         "cloud itself",
+            throw UsageError(fmt::format("--points {} selects the points of a model, but {} is a "
+                                         "point cloud",
                                          options.points, input.string()));
         }
         if (is_scan(input, options)) return scan_input({}, input, options);
-        if (!has_sights(input, options)) refuse_mesh(input);
+        if (!has_rays(input, options)) refuse_mesh(input);
         return dense_input(model_around(input), input, options);
     }
     if (const auto file = find_transforms(input)) return transforms_input(*file, options);
@@ -391,7 +390,7 @@ std::vector<fs::path> input_files(const fs::path& input, const FoundInput& found
     fs::path folder =
         fs::weakly_canonical(fs::is_directory(input, error) ? input : input.parent_path(), error);
     add_of_folder(folder, files);
-    // sparse/0 lies two folders below the project
+    // sparse/0 is two folders below the project
     folder = fs::weakly_canonical(found.model.folder, error);
     for (int i = 0; i < 3 && folder.has_filename(); ++i) {
         add_of_folder(folder, files);

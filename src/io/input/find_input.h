@@ -12,36 +12,35 @@
 
 namespace vcarve {
 
-/// What is read: a model with its own points, or its views with the points of a cloud, or a scan,
+/// The input: a model with its points, the views of a model with the points of a cloud, or a scan,
 /// which needs no model.
 struct FoundInput {
-    FoundModel model; ///< without a folder where there is none beside a scan
+    FoundModel model; ///< without a folder if a scan has no model
     std::optional<DenseFiles> dense;
     std::optional<ScanFile> scan;
-    std::vector<std::string> notes;            ///< sentences: what was taken and what not
-    SightsFrom sights = SightsFrom::automatic; ///< of the points of the model
+    std::vector<std::string> notes;      ///< sentences about used and ignored files
+    RaysFrom rays = RaysFrom::automatic; ///< for the points of the model
 
-    /// Whether the views of points are the nearest ones, since no file says which saw them.
+    /// Whether points get the nearest views, because no file has the views that saw them.
     bool takes_nearest_views() const
     {
-        return sights == SightsFrom::nearest ||
+        return rays == RaysFrom::nearest ||
                (dense && dense->visibility.empty() && !dense->takes_lists);
     }
 };
 
-/// Finds what `input` and the options mean, see read_model. Throws UsageError where they contradict
-/// each other, and InputError where there is no model, or no cloud or visibility that they ask for.
+/// Finds the files that `input` and the options select, see read_model. Throws UsageError if they
+/// contradict each other, and InputError if the model, or a selected file, is missing.
 FoundInput find_input(const std::filesystem::path& input, const PointsOptions& options);
 
-/// The files that nothing may be written to, since `input` is made of them, read or not: of models
-/// in any format, the cloud that was found and what tells of its views, what COLMAP keeps beside
-/// (the database, the dense workspace, images). Cost: a look at each file in the folders images and
-/// stereo.
+/// Returns the files of `input`, read or not, which must not be overwritten. These are models in
+/// all formats, the found cloud and the file with its views, and COLMAP's files beside them
+/// (database, dense workspace, images). Cost: visits each file in the folders images and stereo.
 std::vector<std::filesystem::path> input_files(const std::filesystem::path& input,
                                                const FoundInput& found);
 
-/// Whether a file is an image of the views that were found, by the end of its path once links are
-/// followed. Cost: that of reading the views, where it has the name of an image.
+/// Whether a file is the image of a view, which is so if its path, with links resolved, ends with
+/// the view's name. Cost: reads the views if the file has the extension of an image.
 bool is_image_of_views(const std::filesystem::path& file, const FoundInput& found);
 
 } // namespace vcarve

@@ -3,7 +3,7 @@
 #include "base/progress.h"
 #include "io/colmap/colmap_model.h"
 #include "io/colmap/model_files.h"
-#include "io/input/complete_sights.h"
+#include "io/input/complete_rays.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ std::optional<SceneSize> expected_size(const FoundInput& found)
     return size_before_reading(found.model.folder, found.model.format);
 }
 
-/// Counts the points and sights of the parts that go through it.
+/// Passes parts on, and counts their points and rays.
 class CountedParts final : public SceneParts {
   public:
     explicit CountedParts(SceneParts& parts) : parts_(parts) {}
@@ -33,7 +33,7 @@ class CountedParts final : public SceneParts {
     {
         Scene part = parts_.next(most, progress);
         sum_.points += part.num_points();
-        sum_.sights += part.num_sights();
+        sum_.rays += part.num_rays();
         sum_.views = part.views.size();
         sum_.has_normals = sum_.has_normals || !part.normals.empty();
         sum_.is_dense = true;
@@ -46,7 +46,7 @@ class CountedParts final : public SceneParts {
     SceneSize sum_;
 };
 
-/// A scene, and the size of what it was made of.
+/// A scene, and the size of the input it was made from.
 using SceneOf = std::pair<Scene, SceneSize>;
 
 SceneOf gathered(SceneParts& parts, const Gather& gather, const Progress& progress)
@@ -61,46 +61,45 @@ std::string file_of(const FoundInput& found, const char* stem)
     return model_path(found.model.folder, stem, found.model.format).string();
 }
 
-/// Says what to do where there is nothing to make a surface of.
+/// Throws InputError with a remedy if there are no views or no points.
 void require_points_and_views(const FoundInput& found, const SceneSize& read)
 {
     if (read.views == 0 && !found.scan) {
-        throw InputError(
-            fmt::format("{}: holds no images, so it is not known from where the points "
-                        "were seen; take the model that COLMAP's mapper or "
-                        "image_undistorter wrote",
-                        file_of(found, "images")));
+        throw InputError(fmt::format("{}: has no images, so the cameras that saw the points are "
+                                     "unknown; use the model that COLMAP's mapper or "
+                                     "image_undistorter wrote",
+                                     file_of(found, "images")));
     }
     if (read.points > 0) return;
-    if (found.scan) throw InputError(found.scan->cloud.string() + ": holds no points");
+    if (found.scan) throw InputError(found.scan->cloud.string() + ": has no points");
     if (found.dense) {
-        throw InputError(fmt::format("{}: holds no points; where stereo_fusion fuses none, a "
-                                     "smaller --StereoFusion.min_num_pixels or better depth maps "
-                                     "help, and --points sparse takes those of the model",
+        throw InputError(fmt::format("{}: has no points; run stereo_fusion with a smaller "
+                                     "--StereoFusion.min_num_pixels or better depth maps, or use "
+                                     "the points of the model (--points sparse)",
                                      found.dense->cloud.string()));
     }
-    throw InputError(fmt::format("{}: holds no points; colmap point_triangulator makes them where "
+    throw InputError(fmt::format("{}: has no points; colmap point_triangulator computes points if "
                                  "poses are known",
                                  file_of(found, "points3D")));
 }
 
-/// The points of the model; adds to the notes how it is known which views saw them.
+/// Reads the points of the model. Adds notes about the source of their rays.
 Scene sparse_scene(FoundInput& found, const Progress& progress)
 {
-    DroppedSights dropped;
+    DroppedRays dropped;
     Scene scene = read_colmap_model(found.model.folder, found.model.format, progress.part(0.0, 0.9),
                                     &dropped);
     const std::string warning = warning_of_poses(scene, file_of(found, "images"));
-    // Points of cropped images show beyond their edges.
+    // Points may project beyond the edges of cropped images.
     if (!warning.empty() && !points2d_agree(found.model.folder, found.model.format, scene)) {
         found.notes.push_back(warning);
     }
-    std::ranges::move(complete_sights(found, dropped, scene, progress.part(0.9, 1.0)),
+    std::ranges::move(complete_rays(found, dropped, scene, progress.part(0.9, 1.0)),
                       std::back_inserter(found.notes));
     return scene;
 }
 
-/// The points of a cloud; adds to the notes what was left out and what seems wrong.
+/// Reads the points of a cloud. Adds notes about dropped points and possible errors.
 Scene dense_scene(FoundInput& found, const Progress& progress)
 {
     Scene scene = read_dense_scene(*found.dense, progress, &found.notes);
@@ -124,7 +123,7 @@ SceneOf scene_of(FoundInput& found, const Gather& gather, const Progress& progre
         DenseSceneReader reader(*found.dense, progress.part(0.0, 0.1));
         return gathered(reader, gather, progress.part(0.1, 1.0));
     }
-    // Else which views saw a point is only known when all points are.
+    // Otherwise the views of a point are known only after all points are read.
     const bool is_cloud = found.scan || found.dense;
     Scene scene = whole_scene(found, gather && is_cloud ? progress.part(0.0, 0.6) : progress);
     if (gather && scene.is_dense) {
@@ -140,7 +139,7 @@ void end_stage(Stage& stage, const Scene& scene, const SceneSize& read)
     Counts counts = {{"points", size_of(scene.num_points())}};
     if (read.points != scene.num_points()) counts.emplace_back("of", size_of(read.points));
     counts.emplace_back("views", size_of(scene.views.size()));
-    counts.emplace_back("sights", size_of(read.sights));
+    counts.emplace_back("rays", size_of(read.rays));
     stage.end(counts);
 }
 
@@ -151,11 +150,11 @@ ReadModel read_found_model(const std::filesystem::path& input, const PointsOptio
 {
     Stage stage(log, "read");
     FoundInput found = find_input(input, options);
-    const auto tell = [&](std::size_t first) {
+    const auto report = [&](std::size_t first) {
         std::for_each(found.notes.begin() + static_cast<std::ptrdiff_t>(first), found.notes.end(),
                       [&](const std::string& note) { log.note(note); });
     };
-    tell(0);
+    report(0);
     const std::size_t told = found.notes.size();
     const auto size = expected_size(found);
     if (reading.check && size) reading.check(*size);
@@ -163,7 +162,7 @@ ReadModel read_found_model(const std::filesystem::path& input, const PointsOptio
     require_points_and_views(found, read);
     std::ranges::move(forget_unknown_values(scene), std::back_inserter(found.notes));
     end_stage(stage, scene, read);
-    tell(told);
+    report(told);
     return {std::move(scene), read, std::move(found)};
 }
 

@@ -11,24 +11,24 @@
 
 namespace vcarve {
 
-/// A model that was read, and where it was found.
+/// A model, and the files it was read from.
 struct ReadModel {
     Scene scene;
-    SceneSize read; ///< of all points that were read, also those that are not in the scene
+    SceneSize read; ///< size of the input, including points that are not in the scene
     FoundInput found;
 };
 
-/// Makes a scene of points whose reprojection errors are not known, which come part by part.
+/// Makes a scene from parts whose points have no reprojection errors.
 using Gather = std::function<Scene(SceneParts& parts, const Progress& progress)>;
 
-/// What is done with a model before it is read, and while it is.
+/// Callbacks of read_found_model().
 struct Reading {
-    /// Called before, where the size of the model shows then; may throw. Or nothing.
+    /// Called before reading if the model's size is known by then. It may throw, and may be empty.
     std::function<void(const SceneSize&)> check = {};
-    Gather gather = {}; ///< nothing: all points as they are; of no use to the sparse ones
+    Gather gather = {}; ///< if empty, keeps all points; not called for sparse points
 };
 
-/// As the public one; tells where the model was found, too.
+/// Reads a model like read_model(). Also returns the files it was read from.
 ReadModel read_found_model(const std::filesystem::path& input, const PointsOptions& options,
                            Log& log, const Reading& reading = {});
 

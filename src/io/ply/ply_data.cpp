@@ -16,7 +16,7 @@ namespace vcarve {
 
 namespace {
 
-/// A number in memory, in the byte order of this machine or the reverse.
+/// Reads a number in the byte order of this machine, or in the reverse order.
 template <typename Number>
 double read_number(const char* bytes, bool is_reversed)
 {
@@ -33,7 +33,7 @@ struct TypeFacts {
     double (*read)(const char*, bool);
 };
 
-/// In the order of PlyType.
+/// Parallel to the values of PlyType.
 constexpr std::array<TypeFacts, 8> kTypes{{
     {"char", "int8", 1, read_number<std::int8_t>},
     {"uchar", "uint8", 1, read_number<std::uint8_t>},
@@ -50,7 +50,7 @@ const TypeFacts& facts_of(PlyType type)
     return kTypes[static_cast<std::size_t>(type)];
 }
 
-/// The lines of a header one by one, each as its words, and where we are for the messages.
+/// Splits a header into lines of words, and counts lines for error messages.
 class HeaderLines {
   public:
     HeaderLines(std::string_view bytes, const std::filesystem::path& path)
@@ -134,7 +134,7 @@ PlyProperty parse_property(const std::vector<std::string>& words, const HeaderLi
     return property;
 }
 
-/// What "comment offset X Y Z" says; any other comment says nothing.
+/// Parses "comment offset X Y Z"; ignores other comments.
 void take_comment(const std::vector<std::string>& words, PlyHeader& header)
 {
     if (words.size() != 5 || words[1] != kOffsetWord) return;
@@ -148,7 +148,7 @@ void take_comment(const std::vector<std::string>& words, PlyHeader& header)
     if (offset.allFinite()) header.offset = offset;
 }
 
-/// Takes one line; false at the last.
+/// Parses one line. Returns false if it is the last one.
 bool take_line(const std::vector<std::string>& words, const HeaderLines& lines, PlyHeader& header)
 {
     if (words.empty() || words[0] == "obj_info") return true;
@@ -178,8 +178,8 @@ const PlyElement* PlyHeader::find(std::string_view name) const
 PlyHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path)
 {
     if (!bytes.starts_with("ply\n") && !bytes.starts_with("ply\r\n")) {
-        throw InputError(fmt::format(
-            "{}: does not begin with the line \"ply\", so it is no PLY file", path.string()));
+        throw InputError(fmt::format("{}: the first line is not \"ply\", so this is no PLY file",
+                                     path.string()));
     }
     HeaderLines lines(bytes, path);
     lines.next();
@@ -196,7 +196,7 @@ void PlyData::refuse(std::string_view what) const
     throw InputError(fmt::format("{}: {}", path_.string(), what));
 }
 
-/// As text a number takes a digit and a blank at least.
+/// A number in text needs at least a digit and a space.
 std::size_t PlyData::least_bytes(PlyType type) const
 {
     return is_text() ? 2 : facts_of(type).bytes;
@@ -208,9 +208,9 @@ void PlyData::require_room(const PlyElement& element) const
     for (const PlyProperty& property : element.properties) {
         entry += least_bytes(property.length_type.value_or(property.type));
     }
-    const std::size_t room = bytes_left() + (is_text() ? 1 : 0); // the last may lack its blank
+    const std::size_t room = bytes_left() + (is_text() ? 1 : 0); // the last one may lack its space
     if (entry > 0 && element.count > room / entry) {
-        refuse(fmt::format("the header promises {} entries \"{}\" of at least {} bytes, but only "
+        refuse(fmt::format("the header declares {} entries \"{}\" of at least {} bytes, but only "
                            "{} bytes follow",
                            element.count, element.name, entry, bytes_left()));
     }

@@ -25,40 +25,40 @@ inline bool is_integer(PlyType type)
 
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::float32;    ///< of the value, or of each value of the list
-    std::optional<PlyType> length_type; ///< only a list has one
+    PlyType type = PlyType::float32;    ///< type of the value or the list items
+    std::optional<PlyType> length_type; ///< only for lists
 };
 
 struct PlyElement {
     std::string name;
-    std::uint64_t count = 0; ///< as the header says: not yet checked against the file
+    std::uint64_t count = 0; ///< as declared, not checked against the file
     std::vector<PlyProperty> properties;
 };
 
-/// What the first lines of a PLY file promise.
+/// The parsed header of a PLY file.
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::ascii;
     std::vector<PlyElement> elements;
-    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< of a comment "offset X Y Z"
-    std::size_t size_bytes = 0;                       ///< where the data begins
+    Eigen::Vector3d offset = Eigen::Vector3d::Zero(); ///< from a comment "offset X Y Z"
+    std::size_t size_bytes = 0;                       ///< offset of the data
 
     const PlyElement* find(std::string_view name) const;
 };
 
-/// Reads the header at the beginning of `bytes`; `path` is for the messages. Throws InputError.
+/// Parses the header at the beginning of `bytes`. `path` is for error messages. Throws InputError.
 PlyHeader parse_ply_header(std::string_view bytes, const std::filesystem::path& path);
 
-/// What is wrong with an entry; PlyData::read_some() adds file and place.
+/// An error in an entry. PlyData::read_some() adds the file and the entry.
 struct BadPlyEntry {
     std::string reason;
 };
 
-/// The numbers behind a header, element by element, in the order of the header: as text, separated
-/// by white space, or as they lie in the memory of a machine of either byte order. What fails
-/// throws InputError naming the file and the entry. A copy goes on from the same place.
+/// Reads the numbers after a header, element by element in the header's order: text separated by
+/// white space, or binary numbers in either byte order. Throws InputError with the file and the
+/// entry. A copy continues at the same position.
 class PlyData {
   public:
-    /// `path` is for the messages, and must outlive this.
+    /// `path` is for error messages, and must outlive this object.
     PlyData(std::string_view file, const PlyHeader& header, const std::filesystem::path& path)
         : bytes_(file.substr(header.size_bytes)), encoding_(header.encoding), path_(path)
     {
@@ -68,20 +68,21 @@ class PlyData {
     void skip_bytes(std::size_t count) { bytes_.remove_prefix(count); }
 
     [[noreturn]] void refuse(std::string_view what) const;
-    /// The header's count must fit into what is left of the file, before anything is sized by it.
+    /// Throws InputError if the declared entries cannot fit into the rest of the file. Must be
+    /// called before memory is allocated for them.
     void require_room(const PlyElement& element) const;
-    /// How many bytes each entry takes; nothing where lists, or text, make them differ.
+    /// The size of each entry in bytes, or nothing if sizes vary because of lists or text.
     std::optional<std::size_t> bytes_of_entry(const PlyElement& element) const;
-    /// The element must have been found to have room.
+    /// Skips all entries of an element that passed require_room().
     void skip_all(const PlyElement& element);
 
-    /// Calls read_entry(i) for every entry; adds the place to what it complains about.
+    /// Calls read_entry(i) for every entry. Adds the entry to its BadPlyEntry errors.
     template <typename ReadEntry>
     void read_all(const PlyElement& element, const ReadEntry& read_entry)
     {
         read_some(element, {0, element.count}, read_entry);
     }
-    /// From the first to before the second of `range`.
+    /// The same for the entries from the first of `range` to before the second.
     template <typename ReadEntry>
     void read_some(const PlyElement& element, std::pair<std::uint64_t, std::uint64_t> range,
                    const ReadEntry& read_entry)
@@ -96,7 +97,7 @@ class PlyData {
         }
     }
 
-    /// Throws BadPlyEntry, as do those below.
+    /// Reads a number. This function and the next two throw BadPlyEntry.
     double number(PlyType type);
     std::size_t list_length(const PlyProperty& property);
     void skip(const PlyProperty& property);

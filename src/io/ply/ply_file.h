@@ -18,37 +18,36 @@
 
 namespace vcarve {
 
-/// The points of a PLY file, in its order. The optional arrays are empty or have one entry a point.
+/// The points of a PLY file, in file order. Optional arrays are empty or have one entry per point.
 struct PointCloud {
-    /// Offset added, but of meshes; what is no place (model/place.h) is not finite.
+    /// Include the offset, except in meshes. Invalid positions of clouds (scene_check.h) are NaN.
     std::vector<Eigen::Vector3d> positions;
-    std::vector<Eigen::Vector3f> normals; ///< optional: as they stand in the file
+    std::vector<Eigen::Vector3f> normals; ///< optional, unchanged
     std::vector<Color> colors;            ///< optional
-    /// Where the scanners stood, offset added: one a point, or one for all of them. Finite, but of
-    /// points that are not.
+    /// Scanner positions with the offset: one per point, or one for all. Finite if the point is.
     std::vector<Eigen::Vector3d> scanners;
-    std::vector<Splat> splats; ///< optional: of Gaussians
-    Tracks images;             ///< optional: the numbers of the images that its list names
+    std::vector<Splat> splats; ///< optional: for Gaussians
+    Tracks images;             ///< optional: image numbers of each point's list
 };
 
-/// What is read of a PLY file.
+/// The content to read from a PLY file.
 enum class PlyContent { points, points_and_scanners, mesh };
 
-/// Reads the vertices of a PLY file part by part, in its order; see read_ply_cloud and read_ply for
-/// what is read and refused. The parts of the file that have been read are no longer in memory.
+/// Reads the vertices of a PLY file in parts, in file order. read_ply_cloud and read_ply document
+/// the content and the errors. Parts of the file that were read are released from memory.
 class PlyReader {
   public:
-    /// Opens the file, and refuses what its header tells.
+    /// Opens the file, and checks its header.
     explicit PlyReader(const std::filesystem::path& path, PlyContent content = PlyContent::points);
     PlyReader(const PlyReader&) = delete;
     PlyReader& operator=(const PlyReader&) = delete;
 
     std::size_t num_points() const { return vertices_.count; }
     const Eigen::Vector3d& offset() const { return header_.offset; }
-    /// The next points, at most so many; none after the last. A scanner that stands for all is told
-    /// with the last ones.
+    /// Returns the next `most` points, or fewer at the end. The last points come with the scanner
+    /// position that applies to all points, if any.
     PointCloud next(std::size_t most, const Progress& progress = {});
-    /// The faces of a mesh, all of whose vertices were read.
+    /// Returns the faces of a mesh after all vertices were read.
     std::vector<Face> take_faces() { return std::move(read_faces_); }
 
   private:
@@ -70,30 +69,30 @@ class PlyReader {
     PlyData data_;
     const PlyElement& vertices_;
     PlyVertexLayout layout_;
-    bool with_scanners_ = false;         ///< of each vertex
-    const PlyElement* camera_ = nullptr; ///< that stands for all vertices; null where none does
-    const PlyElement* faces_ = nullptr;  ///< of a mesh
+    bool with_scanners_ = false;         ///< each vertex has a scanner position
+    const PlyElement* camera_ = nullptr; ///< scanner of all vertices, or null
+    const PlyElement* faces_ = nullptr;  ///< null for clouds
     std::optional<Eigen::Vector3d> place_of_camera_;
     std::vector<Face> read_faces_;
-    std::uint64_t done_ = 0; ///< vertices
+    std::uint64_t done_ = 0; ///< number of vertices read
 };
 
-/// Reads the vertices of an ascii, little endian or big endian PLY file, numbers of any type; text
-/// is read with all its digits, also where the header calls it float. Other properties and elements
-/// before them are skipped; what follows all that is asked for is not read. Throws InputError: no
-/// such file, not PLY, cut off, no vertices with x, y and z; where the scanners are asked for and
-/// the file has some (see scanners_in), less than three coordinates of them, or one that is no
-/// finite number, or not one camera; and Cancelled. Cost: linear in the size of the file, which is
-/// mapped, and in parallel where every vertex takes as many bytes, in binary files without lists;
-/// allocations never exceed a small multiple of it.
+/// Reads the vertices of an ascii, little endian or big endian PLY file with numbers of any type.
+/// Text keeps all digits, even if the header declares float. Skips other properties, and elements
+/// before the vertices; does not read elements after the last requested one. Throws InputError if
+/// the file is missing, is not PLY, is truncated, or has no vertices with x, y and z. Also throws
+/// if scanners are requested and present (see scanners_in), but lack a coordinate, are not finite,
+/// or are not exactly one camera. Throws Cancelled. Cost: linear in the size of the file, which is
+/// mapped. Binary vertices without lists are read in parallel. Allocations are a small multiple of
+/// the file size at most.
 PointCloud read_ply_cloud(const std::filesystem::path& path, const Progress& progress = {},
                           PlyContent content = PlyContent::points);
 
-/// Only the header of a file. Throws InputError. Cost: none.
+/// Reads only the header of a file. Throws InputError. Cost: negligible.
 PlyHeader read_ply_header(const std::filesystem::path& path);
 
-/// Writes what write_ply() does into a stream, whose errors are left to whoever owns it. Where
-/// there is a texture, the names are those of its pages' files.
+/// Writes a mesh like write_ply(), but to a stream; the caller must check it for errors.
+/// `page_names` are the file names of the texture pages.
 void write_ply(std::ostream& out, const TriMesh& mesh, const MeshFormat& format,
                const std::vector<std::string>& page_names);
 

@@ -16,7 +16,7 @@ namespace vcarve {
 
 namespace {
 
-/// So many vertices are read between two calls of Progress::tell.
+/// The number of vertices between two progress reports.
 constexpr std::size_t kVerticesBetweenTells = 16384;
 
 std::string_view text_of(const MappedFile& file)
@@ -26,7 +26,7 @@ std::string_view text_of(const MappedFile& file)
 
 std::string not_finite(const Eigen::Vector3d& place)
 {
-    return fmt::format("its scanner stands at ({}), expected finite numbers",
+    return fmt::format("its scanner position is ({}), expected finite numbers",
                        fmt::join(place, ", "));
 }
 
@@ -43,7 +43,7 @@ PlyReader::PlyReader(const std::filesystem::path& path, PlyContent content)
     if (content == PlyContent::mesh) {
         faces_ = header_.find("face");
         if (faces_ == nullptr) {
-            data_.refuse("has points but no element \"face\", expected a surface");
+            data_.refuse("has no element \"face\", expected a mesh");
         }
     }
     if (!layout_.has_positions()) {
@@ -97,7 +97,7 @@ const PlyElement& PlyReader::find_vertices() const
     return *vertices;
 }
 
-/// Less than three coordinates are no place.
+/// Throws InputError unless the element has all three coordinates of a scanner position.
 void PlyReader::require_all(const char* who_has, const PlyElement& element,
                             const PlyNames& names) const
 {
@@ -107,11 +107,11 @@ void PlyReader::require_all(const char* who_has, const PlyElement& element,
     };
     std::vector<std::string_view> found;
     std::ranges::copy_if(names, std::back_inserter(found), is_there);
-    data_.refuse(fmt::format("{} {} only, expected {}, {} and {} to say where the scanner stood",
-                             who_has, fmt::join(found, " and "), names[0], names[1], names[2]));
+    data_.refuse(fmt::format("{} only {}, expected the scanner position as {}, {} and {}", who_has,
+                             fmt::join(found, " and "), names[0], names[1], names[2]));
 }
 
-/// Clouds may hold points that are not finite, which were not measured from wherever; no mesh may.
+/// Throws InputError if a vertex of a mesh, or the scanner of a finite point, is invalid.
 void PlyReader::require_finite(const PointCloud& cloud) const
 {
     for (std::size_t i = 0; faces_ != nullptr && i < cloud.positions.size(); ++i) {
@@ -121,7 +121,7 @@ void PlyReader::require_finite(const PointCloud& cloud) const
     }
     for (std::size_t i = 0; i < cloud.scanners.size(); ++i) {
         const Eigen::Vector3d& place = cloud.scanners[i];
-        if (is_place(place) || !cloud.positions[i].allFinite()) continue;
+        if (is_valid_position(place) || !cloud.positions[i].allFinite()) continue;
         data_.refuse(
             fmt::format("vertex {} of {}: {}", done_ + i, vertices_.count, not_finite(place)));
     }
@@ -136,7 +136,7 @@ void PlyReader::pass(const PlyElement& element)
 void PlyReader::read_camera()
 {
     if (camera_->count != 1) {
-        data_.refuse(fmt::format("has {} entries \"{}\", expected the one where the scanner stood",
+        data_.refuse(fmt::format("has {} entries \"{}\", expected one with the scanner position",
                                  camera_->count, camera_->name));
     }
     require_all("the camera has", *camera_, kPlyCameraPlace);
@@ -150,7 +150,7 @@ void PlyReader::read_camera()
                 place[name - kPlyCameraPlace.begin()] = data_.number(property.type);
             }
         }
-        if (!is_place(place)) throw BadPlyEntry{not_finite(place)};
+        if (!is_valid_position(place)) throw BadPlyEntry{not_finite(place)};
     });
     place_of_camera_ = place + header_.offset;
 }
@@ -173,7 +173,7 @@ void PlyReader::read_faces()
     });
 }
 
-/// A polygon becomes a fan around its first corner.
+/// Splits a polygon into a triangle fan around its first corner.
 void PlyReader::read_face(const PlyProperty& corners)
 {
     const std::size_t length = data_.list_length(corners);
@@ -224,7 +224,7 @@ void PlyReader::read_in_order(PointCloud& cloud, const Progress& progress)
         put(cloud, i, layout_.read(data_, &images));
         if (has_images) cloud.images.push_back(images);
         if (i % kVerticesBetweenTells == 0) {
-            progress.tell(static_cast<double>(i), static_cast<double>(count));
+            progress.report(static_cast<double>(i), static_cast<double>(count));
         }
     });
 }
@@ -232,7 +232,7 @@ void PlyReader::read_in_order(PointCloud& cloud, const Progress& progress)
 void PlyReader::put(PointCloud& cloud, std::size_t i, const PlyVertex& vertex) const
 {
     cloud.positions[i] =
-        faces_ != nullptr ? vertex.position : place_or_none(vertex.position + header_.offset);
+        faces_ != nullptr ? vertex.position : position_or_nan(vertex.position + header_.offset);
     if (!cloud.normals.empty()) cloud.normals[i] = vertex.normal;
     if (!cloud.colors.empty()) cloud.colors[i] = vertex.color;
     if (with_scanners_) cloud.scanners[i] = vertex.scanner + header_.offset;

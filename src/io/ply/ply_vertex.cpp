@@ -8,7 +8,7 @@ namespace vcarve {
 
 namespace {
 
-/// As the benchmark IQmulus/TerraMobilita has them, and as words.
+/// The names of the IQmulus/TerraMobilita benchmark, and descriptive names.
 constexpr std::array<PlyNames, 2> kScannersOfVertices = {
     {{"x_origin", "y_origin", "z_origin"}, {"scanner_x", "scanner_y", "scanner_z"}}};
 
@@ -16,27 +16,28 @@ constexpr PlyNames kColorNames = {"red", "green", "blue"};
 constexpr PlyNames kHarmonics = {"f_dc_0", "f_dc_1", "f_dc_2"};
 constexpr std::string_view kImages = "view_indices";
 
-/// A constant term of spherical harmonics as a colour from 0 to 1.
+/// Converts a constant term of spherical harmonics to a color from 0 to 1.
 double color_of_harmonic(double term)
 {
     constexpr double kConstant = 0.28209479177387814; // 1 / (2 sqrt(pi))
     return 0.5 + kConstant * term;
 }
 
-/// The images of a list that is read.
+/// Appends the images of the list to `images`.
 void take_images(PlyData& data, const PlyProperty& list, std::vector<std::uint32_t>& images)
 {
     constexpr double kMost = 4294967294.0;
     for (std::size_t n = data.list_length(list); n > 0; --n) {
         const double image = data.number(list.type);
         if (!(image >= 0.0 && image <= kMost) || image != std::floor(image)) {
-            throw BadPlyEntry{fmt::format("its list {} names image {}", list.name, image)};
+            throw BadPlyEntry{fmt::format("its list {} has image {}, expected 0 to 4294967294",
+                                          list.name, image)};
         }
         images.push_back(static_cast<std::uint32_t>(image));
     }
 }
 
-/// A colour of any number type as one of 0 to 255.
+/// Converts a color of any number type to a range from 0 to 255.
 std::uint8_t channel(double value, PlyType type)
 {
     if (!is_integer(type)) value *= 255.0;

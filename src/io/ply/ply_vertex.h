@@ -12,24 +12,24 @@
 
 namespace vcarve {
 
-/// What a Gaussian of 3D Gaussian splatting is beside a point.
+/// The properties of a Gaussian (3D Gaussian splatting) in addition to its center.
 struct Splat {
-    float opacity_logit = 0.0F; ///< its opacity is the sigmoid of it
+    float opacity_logit = 0.0F; ///< the opacity is its sigmoid
     float log_axis = 0.0F;      ///< natural logarithm of the largest half-axis
 };
 
-/// What is kept of a vertex; all but the position is zero where the file has none.
+/// The values of a vertex. Missing values are zero, except that log_axis is -infinity.
 struct PlyVertex {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    Eigen::Vector3d scanner = Eigen::Vector3d::Zero(); ///< where it stood that measured the vertex
+    Eigen::Vector3d scanner = Eigen::Vector3d::Zero(); ///< position of its scanner
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
     Color color{};
     Splat splat{};
 };
 
-/// Where position, normal, colour, scanner and what makes a Gaussian stand among the properties of
-/// the vertices, of which all others are skipped. The colour of Gaussians is the constant term of
-/// their spherical harmonics, where they have no other.
+/// Maps the vertex properties of a file to position, normal, color, scanner and Gaussian. Other
+/// properties are skipped. Gaussians without a color use the constant term of their spherical
+/// harmonics.
 class PlyVertexLayout {
   public:
     explicit PlyVertexLayout(const PlyElement& vertices);
@@ -38,15 +38,15 @@ class PlyVertexLayout {
     bool has_normals() const { return has_three_from(kNormal); }
     bool has_colors() const { return has_three_from(kColor); }
     bool are_splats() const { return are_splats_; }
-    /// Whether each has a list of the images that saw it, as OpenMVS writes it.
+    /// Whether vertices have OpenMVS's list of the images that saw them.
     bool has_images() const;
 
-    /// Reads the next vertex; adds the images of its list to `images` where that is not null.
-    /// Throws BadPlyEntry.
+    /// Reads the next vertex. Appends the images of its list to `images` unless null. Throws
+    /// BadPlyEntry.
     PlyVertex read(PlyData& data, std::vector<std::uint32_t>* images = nullptr) const;
 
   private:
-    /// Where the values of the file go to: the first of three numbers each, and what is not kept.
+    /// Slots of values in read(), the first of three for vectors. kNowhere is for skipped values.
     static constexpr std::size_t kPosition = 0;
     static constexpr std::size_t kNormal = 3;
     static constexpr std::size_t kColor = 6;
@@ -67,26 +67,25 @@ class PlyVertexLayout {
     bool colors_are_harmonics_ = false;
 };
 
-/// What the three coordinates of a place are called.
+/// The property names of three coordinates.
 using PlyNames = std::array<std::string_view, 3>;
 
-/// The element that PCL writes behind the vertices, and where it says that the sensor stood.
+/// The element that PCL writes after the vertices, and the properties of the sensor position.
 inline constexpr std::string_view kPlyCamera = "camera";
 inline constexpr PlyNames kPlyCameraPlace = {"view_px", "view_py", "view_pz"};
 
-/// For which of its points a file says where their scanner stood.
+/// The points for which a file has scanner positions.
 enum class PlyScanners { none, one_for_all, each };
 
-/// Whether the file says where the scanner stood of each vertex, else whether it has a camera that
-/// stands for all. Also where it names a part of the coordinates only, which reading refuses.
+/// Detects scanner positions of the vertices, or otherwise a camera for all vertices. Incomplete
+/// coordinates count, too; reading them throws.
 PlyScanners scanners_in(const PlyHeader& header);
 
-/// What the vertices call the place of their scanner: x_origin, y_origin and z_origin, or
-/// scanner_x, scanner_y and scanner_z, of which the element has all or at least some; the first
-/// where it has none.
+/// The names of the scanner coordinates: x_origin, y_origin and z_origin, or scanner_x, scanner_y
+/// and scanner_z. Returns the names of which the element has most, the first ones if equal.
 const PlyNames& names_of_scanner(const PlyElement& vertices);
 
-/// How many of the names are numbers of an element.
+/// The number of names that are scalar properties of an element.
 int count_names(const PlyElement& element, const PlyNames& names);
 
 } // namespace vcarve

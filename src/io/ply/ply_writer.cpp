@@ -10,7 +10,7 @@
 namespace vcarve {
 namespace {
 
-/// One number, by memory layout or as text.
+/// Appends a number in binary, or as text with a space.
 template <typename Number>
 void put_one(fmt::memory_buffer& block, Number number, bool binary)
 {
@@ -21,7 +21,7 @@ void put_one(fmt::memory_buffer& block, Number number, bool binary)
     }
 }
 
-/// Three numbers of a vertex, by memory layout or as text.
+/// Appends three numbers in binary or as text.
 template <typename Vector>
 void put_triple(fmt::memory_buffer& block, const Vector& triple, bool binary)
 {
@@ -30,7 +30,7 @@ void put_triple(fmt::memory_buffer& block, const Vector& triple, bool binary)
     }
 }
 
-/// The last blank of a line of text becomes its end.
+/// Replaces the last space of a text line by a line break.
 void end_line(fmt::memory_buffer& block, bool binary)
 {
     if (!binary) block[block.size() - 1] = '\n';
@@ -92,7 +92,7 @@ void write_vertices(std::ostream& out, const TriMesh& mesh, const MeshFormat& fo
     }
 }
 
-/// Where the corners of a face lie in its page, v upwards, and which page it is.
+/// Appends the texture coordinates of a face's corners (v upward) and its page.
 void put_places(fmt::memory_buffer& block, const Texture& texture, std::size_t face, bool binary)
 {
     put_one(block, std::uint8_t{6}, binary);
@@ -141,7 +141,7 @@ void write_ply(const std::filesystem::path& path, const TriMesh& mesh, const Mes
 {
     OutputFile file(path);
     write_ply(file.stream(), mesh, format, {});
-    // Errors of the stream are told by commit, which knows their cause.
+    // commit() reports stream errors, because it knows their cause.
     file.commit();
 }
 

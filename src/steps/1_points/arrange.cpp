@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The middle coordinate on every axis: robust against far points, and the same for any order.
+/// The median on every axis, which is robust against far points and independent of the order.
 Vector3d median_of(const std::vector<Vector3d>& positions)
 {
     Vector3d median = Vector3d::Zero();
@@ -53,7 +53,7 @@ void move_origin(Scene& scene, const Vector3d& origin)
 Scene spatial_sort(Scene scene, const Progress& progress)
 {
     const std::vector<std::uint32_t> order = hilbert_order(scene.positions);
-    progress.tell(0.8);
+    progress.report(0.8);
     const auto row_of = [&](std::size_t i) { return scene.tracks[order[i]]; };
     keep_points(scene, order, make_tracks(order.size(), row_of));
     return scene;

@@ -20,13 +20,12 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr std::uint32_t kAlone =
-    0xffffffffU;                    ///< stands for the cluster of a point that has none yet
-constexpr int kLevels = 21;         ///< of cubes, one within the other; 3 x 21 bits number them
-constexpr int kFiner = 6;           ///< levels below the usual footprint; finer ones count as these
-constexpr std::uint32_t kUsed = 16; ///< levels that dots are merged on
+constexpr std::uint32_t kAlone = 0xffffffffU; ///< the leader of a dot without a cluster
+constexpr int kLevels = 21;         ///< nested cube sizes; a cube's number has 3 x 21 bits
+constexpr int kFiner = 6;           ///< levels below the unit; still finer dots use the finest
+constexpr std::uint32_t kUsed = 16; ///< levels on which dots are merged
 
-/// The bits of a number below 2^21, two zeros before each.
+/// Inserts two zeros before each bit of a number below 2^21.
 std::uint64_t spread_bits(std::uint64_t number)
 {
     number = (number | (number << 32U)) & 0x001f00000000ffffU;
@@ -36,18 +35,18 @@ std::uint64_t spread_bits(std::uint64_t number)
     return (number | (number << 2U)) & 0x1249249249249249U;
 }
 
-/// Cubes whose sides are a power of two times one length.
+/// Cubes whose sides are powers of two times one length.
 struct CubeGrid {
     Vector3d corner;
-    double finest; ///< side
+    double finest; ///< smallest side
 
-    /// Which of the finest cubes holds a place, numbered so that the cubes within a larger one
-    /// follow each other (Morton order); nothing where it lies beyond all that are numbered.
+    /// The Morton code of the finest cube that contains a position, so that the cubes within a
+    /// larger one are consecutive. Returns nothing if the position is outside the numbered cubes.
     std::optional<std::uint64_t> code(const Vector3d& place) const
     {
         constexpr double kMost = 1U << kLevels;
         const Vector3d cell = ((place - corner) / finest).array().floor();
-        // What is not a number is beyond all, too.
+        // The comparison also rejects NaN.
         if (!(cell.array() >= 0.0 && cell.array() < kMost).all()) return std::nullopt;
         std::uint64_t code = 0;
         for (int axis = 0; axis < 3; ++axis) {
@@ -57,7 +56,7 @@ struct CubeGrid {
     }
 };
 
-/// A dot and its cube, which is one of those of its level.
+/// A dot with its cube and level.
 struct Placed {
     std::uint64_t code;
     std::uint32_t dot;
@@ -81,7 +80,7 @@ struct Leader {
     }
 };
 
-/// Whether two dots may be the same piece of surface.
+/// Whether the normals allow two dots to be merged.
 bool agree(const Dots& dots, std::uint32_t a, std::uint32_t b)
 {
     constexpr float kAgreement = 0.5F; // cosine
@@ -120,7 +119,7 @@ class Clustering {
     }
 
   private:
-    /// The level of a dot is that whose cubes' side is nearest to its footprint, as a factor.
+    /// Selects the level whose side is nearest to the footprint of a dot, as a ratio.
     Placed place(std::uint32_t dot) const
     {
         const double footprint = dots_.footprints[dot];
@@ -130,7 +129,7 @@ class Clustering {
         return {*code, dot, static_cast<std::uint32_t>(std::clamp(level, 0.0, kUsed - 1.0))};
     }
 
-    /// Gives the dots of a level to leaders, old ones or new, cube by cube.
+    /// Assigns the dots of a level to existing or new leaders, cube by cube.
     void add_level(std::span<const Placed> dots, std::uint32_t level)
     {
         const auto begins_cube = [&](std::size_t i) {
@@ -154,8 +153,8 @@ class Clustering {
         leaders_ = std::move(all);
     }
 
-    /// Gives the dots of a cube to its leaders, the nearest that agrees each; of those left over,
-    /// the ones with most views lead.
+    /// Assigns each dot of a cube to the nearest leader with a similar normal. Dots without such a
+    /// leader become leaders, in descending order of views.
     void join(std::span<const Placed> own, std::vector<Leader> leaders, std::vector<Leader>& fresh)
     {
         std::vector<Placed> by_views(own.begin(), own.end());
@@ -192,7 +191,7 @@ class Clustering {
     const Dots& dots_;
     double reach_;
     CubeGrid grid_{};
-    std::vector<Leader> leaders_; ///< so far, by code
+    std::vector<Leader> leaders_; ///< found so far, sorted by code
     std::vector<std::uint32_t> leader_of_;
 };
 
@@ -230,7 +229,7 @@ class Members {
         for (const std::uint32_t place : places_) {
             sum += static_cast<float>(weight(place)) * points_.scene.normals[place];
         }
-        return sum.normalized(); // leaves zero as it is
+        return sum.normalized(); // keeps zero
     }
 
   private:
@@ -241,7 +240,7 @@ class Members {
 
     const MergedPoints& points_;
     std::span<const std::uint32_t> places_;
-    double weight_ = 0.0; ///< of all
+    double weight_ = 0.0; ///< sum over all members
 };
 
 } // namespace
@@ -293,7 +292,7 @@ void append(MergedPoints& points, MergedPoints more)
     const auto add = [](auto& values, const auto& others) {
         values.insert(values.end(), others.begin(), others.end());
     };
-    const std::size_t first = points.scene.num_sights();
+    const std::size_t first = points.scene.num_rays();
     add(points.scene.positions, more.scene.positions);
     add(points.scene.colors, more.scene.colors);
     add(points.scene.errors_px, more.scene.errors_px);

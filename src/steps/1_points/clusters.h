@@ -12,30 +12,31 @@
 
 namespace vcarve {
 
-/// Points that may be merged: where they are, how fine they were seen, and how much they count.
+/// Points that may be merged.
 struct Dots {
     std::span<const Eigen::Vector3d> positions;
-    std::span<const Eigen::Vector3f> normals; ///< empty, or one a dot
-    std::vector<double> footprints;           ///< infinite: never merged
+    std::span<const Eigen::Vector3f> normals; ///< empty, or one per dot
+    std::vector<double> footprints;           ///< in scene units; infinite: never merged
     std::vector<std::uint32_t> num_views;
 
     std::size_t size() const { return positions.size(); }
 };
 
-/// Cubes that dots are merged in.
+/// The cubes in which dots are merged.
 struct CubesForDots {
-    double unit = 1.0;  ///< the usual side
+    double unit = 1.0;  ///< the median side
     double shift = 0.0; ///< of all cubes along every axis, in units
-    double reach = 1.0; ///< a dot joins a leader nearer than so many sides of its cube
+    double reach = 1.0; ///< maximum distance of a dot to its leader, in sides of the dot's cube
 };
 
-/// The leader of every dot, which is one of its cluster. Dots whose footprint is the side of a cube
-/// or up to about twice that, and which lie in the same cube, make a cluster, finer dots first, and
-/// coarser dots join finer ones in their cube; the dot with most views leads, the first of several.
-/// Dots whose normals differ by more than 60 degrees are not in one. Cost: O(n log n), in parallel.
+/// Returns the leader of each dot. The sides of cubes are powers of two times the unit. A dot
+/// belongs to the cube whose side is nearest to its footprint, as a ratio. Dots in the same cube
+/// form a cluster, and coarser dots join finer ones in their cube. The dot with most views leads;
+/// the first of several. Dots whose normals differ by more than 60 degrees never share a cluster.
+/// Cost: O(n log n), in parallel.
 std::vector<std::uint32_t> leaders_in_cubes(const Dots& dots, const CubesForDots& cubes);
 
-/// The members of every cluster, the clusters in the order of their leaders.
+/// The members of every cluster. Clusters are in the order of their leaders.
 class Clusters {
   public:
     explicit Clusters(const std::vector<std::uint32_t>& leader_of);
@@ -49,22 +50,21 @@ class Clusters {
     }
 
   private:
-    RowTable members_; ///< a dot, empty where it does not lead
+    RowTable members_; ///< per dot; empty if the dot is no leader
     std::vector<std::uint32_t> leaders_;
 };
 
-/// Points, and of how many read ones each was made.
+/// Points, each with the number of input points that it was merged from.
 struct MergedPoints {
     Scene scene;
-    std::vector<std::uint32_t> counts; ///< empty: of itself each
+    std::vector<std::uint32_t> counts; ///< empty if each point is an input point
 };
 
-/// One point for every cluster, in their order: at the mean of its points, with the mean of their
-/// colours and normals, all views that saw any, and error and id of the leader. Cost: O(points +
-/// sights), in parallel.
+/// Returns one point per cluster, in their order. It has the mean position, color and normal of its
+/// points, and all their views. Error and id are the leader's. Cost: O(points + rays), in parallel.
 MergedPoints merge_points(const MergedPoints& points, const Clusters& clusters);
 
-/// Adds points of the same views behind others, or makes them the first.
+/// Appends points that refer to the same views. `points` may be empty.
 void append(MergedPoints& points, MergedPoints more);
 
 } // namespace vcarve

@@ -28,8 +28,8 @@ std::string box_text(const AlignedBox3d& box)
     for (const Eigen::Vector3d& position : scene.positions) {
         points.extend(position);
     }
-    throw InputError(fmt::format("no point lies within the region of --crop ({}); the points lie "
-                                 "in {}",
+    throw InputError(fmt::format("no point is inside the region of --crop ({}); the points span "
+                                 "{}. Enlarge or move the region",
                                  box_text(region.bounds().translated(scene.offset)),
                                  box_text(points.translated(scene.offset))));
 }
@@ -40,30 +40,30 @@ CroppedPoints crop_points(Scene scene, const Region& region, const Progress& pro
 {
     const Tracks& tracks = scene.tracks;
     Flags is_inside(scene.num_points());
-    Flags says_something(scene.num_sights(), 1);
+    Flags says_something(scene.num_rays(), 1);
     const auto judge = [&](std::size_t point) {
         const Eigen::Vector3d& place = scene.positions[point];
         is_inside[point] = region.contains(place) ? 1 : 0;
         if (is_inside[point] != 0) return;
-        for (std::size_t sight = tracks.begins[point]; sight < tracks.begins[point + 1]; ++sight) {
-            const View& view = scene.views[tracks.views[sight]];
-            says_something[sight] = region.meets(place, view.center) ? 1 : 0;
+        for (std::size_t ray = tracks.begins[point]; ray < tracks.begins[point + 1]; ++ray) {
+            const View& view = scene.views[tracks.views[ray]];
+            says_something[ray] = region.meets(place, view.center) ? 1 : 0;
         }
     };
     parallel_for(scene.num_points(), progress.part(0.0, 0.9), judge);
 
     CroppedPoints result;
-    // What is reserved takes memory only where it is filled
+    // Reserved memory is used only once it is written
     std::vector<std::uint32_t> kept;
     kept.reserve(scene.num_points());
     Tracks kept_tracks;
     kept_tracks.begins.reserve(scene.num_points() + 1);
-    kept_tracks.views.reserve(scene.num_sights());
+    kept_tracks.views.reserve(scene.num_rays());
     std::vector<std::uint32_t> views;
     for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
         views.clear();
-        for (std::size_t sight = tracks.begins[point]; sight < tracks.begins[point + 1]; ++sight) {
-            if (says_something[sight] != 0) views.push_back(tracks.views[sight]);
+        for (std::size_t ray = tracks.begins[point]; ray < tracks.begins[point + 1]; ++ray) {
+            if (says_something[ray] != 0) views.push_back(tracks.views[ray]);
         }
         if (is_inside[point] == 0 && views.empty()) continue;
         (is_inside[point] != 0 ? result.inside : result.witnesses) += 1;

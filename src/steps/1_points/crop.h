@@ -10,15 +10,14 @@ namespace vcarve {
 
 struct CroppedPoints {
     Scene scene;
-    std::int64_t inside = 0;    ///< points within the region
-    std::int64_t witnesses = 0; ///< points outside that some view saw through the region
+    std::int64_t inside = 0;    ///< points inside the region
+    std::int64_t witnesses = 0; ///< points outside with a ray that passes through the region
 };
 
-/// The points that say something about a region, in the same order: those within it with all their
-/// sights, and of those outside the witnesses, with the sights that pass through the region. So
-/// what was seen to be empty there stays so, wherever the sight ends. Throws InputError where no
-/// point lies within the region; a scene without points stays as it is. Cost: a question to the
-/// region a sight of a point outside, in parallel.
+/// Returns the points that affect a region, in the same order. Inside points keep all rays. Outside
+/// points keep the rays that pass through the region (witnesses), so that these still mark its free
+/// space. Throws InputError if no point is inside the region; a scene without points is returned
+/// unchanged. Cost: one region query per point and per ray of an outside point, in parallel.
 CroppedPoints crop_points(Scene scene, const Region& region, const Progress& progress = {});
 
 } // namespace vcarve

@@ -21,11 +21,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-using Vectors = std::vector<Vector3d>; ///< one a point
+using Vectors = std::vector<Vector3d>; ///< one per point
 
-/// How many points around a point tell how the surface runs there. More than the few bend it where
-/// they reach around an edge; but fitting normals, and noise as large as the distances between
-/// points, take more.
+/// Number of neighbors that define the surface around a point. A larger number bends it near edges,
+/// but is needed to fit normals and for noise as large as the point spacing.
 constexpr std::size_t kFewAround = 12;
 constexpr std::size_t kManyAround = 24;
 
@@ -35,7 +34,7 @@ bool knows_all_normals(const Scene& scene)
            std::ranges::none_of(scene.normals, [](const auto& normal) { return normal.isZero(); });
 }
 
-/// The direction in which the points around a point spread least, towards the views.
+/// The direction of least spread of the points around a point, oriented towards the views.
 Vector3d fitted_normal(const Scene& scene, const Neighborhoods& neighborhoods, std::size_t point)
 {
     const Vector3d& position = scene.positions[point];
@@ -57,7 +56,7 @@ Vector3d fitted_normal(const Scene& scene, const Neighborhoods& neighborhoods, s
     return normal.dot(towards_views(scene, point)) < 0.0 ? Vector3d(-normal) : normal;
 }
 
-/// Normals of the surface at the points: the cloud's or fitted ones, then filtered.
+/// Filtered surface normals at the points, from the cloud or fitted.
 Vectors surface_normals(const Scene& scene, const Neighborhoods& neighborhoods)
 {
     Vectors normals(scene.num_points());
@@ -78,8 +77,8 @@ BilateralFilter filter_of(const Scene& scene, std::size_t num_around, const Prog
             [&](std::size_t point) { return covariance_of_a_pixel(scene, point, focals_px); }};
 }
 
-/// Whether a scan is so exact that its points stand out of the surface by next to nothing beside
-/// the distances between them. What is taken for noise there is what the surface is like.
+/// Whether a scan is so exact that its noise is negligible beside the point spacing. The measured
+/// noise is then real surface detail.
 bool is_exact_scan(const Scene& scene, const BilateralFilter& filter)
 {
     constexpr double kExact = 0.083;
@@ -116,11 +115,11 @@ void keep_apart(std::vector<Vector3d>& positions, const std::vector<Vector3d>& b
 
 DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const Progress& progress)
 {
-    constexpr std::size_t kLeastPoints = 4; // a point and three around it
+    constexpr std::size_t kLeastPoints = 4; // a point and three neighbors
     DenoiseReport report;
     if (scene.num_points() < kLeastPoints) return report;
     const BilateralFilter filter = filter_of(scene, progress.part(0.0, 0.7));
-    progress.tell(0.8);
+    progress.report(0.8);
     report.noise_px = filter.noise_px();
     const double gate = options.denoise * report.noise_px;
     if (!(gate > 0.0) || is_exact_scan(scene, filter)) return report;

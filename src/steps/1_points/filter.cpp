@@ -28,8 +28,8 @@ using Eigen::Vector3d;
 using Positions = std::vector<Vector3d>;
 using Points = std::vector<std::uint32_t>;
 
-/// A point by how far it lies along a direction that no surface of a scene is likely to stand
-/// across, so that few points lie equally far.
+/// A point, sorted by its coordinate along a direction. Surfaces are rarely perpendicular to this
+/// direction, so few points have equal coordinates.
 struct Along {
     double way;
     std::uint32_t point;
@@ -43,13 +43,13 @@ struct Along {
 double same_place_size(const Positions& positions, const Points& points)
 {
     constexpr double kSame = 1e-9;
-    constexpr double kMiddleHalf = 0.25; // left out at either end
+    constexpr double kMiddleHalf = 0.25; // omitted at either end
     const Positions places = values_at(points, positions);
     const auto box = middle_box(places, kMiddleHalf);
     return box.isEmpty() ? 0.0 : kSame * box.diagonal().norm();
 }
 
-/// As many digits as the coordinates of some points have in common with those of their copies.
+/// The rounding error by which copies of a point may differ, from the largest coordinate.
 double rounding_of(const Positions& positions, const Points& points)
 {
     double largest = 0.0;
@@ -59,11 +59,11 @@ double rounding_of(const Positions& positions, const Points& points)
     return 4.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// For every entry of `points`, which ascend, the first entry at its place.
+/// For each entry of `points`, which ascend, the index of the first entry at the same position.
 Points join_within(double size, const Positions& positions, const Points& points)
 {
     const Vector3d direction(0.5377, 0.3183, 0.7807);
-    constexpr std::size_t kMostCompared = 64; // however many lie equally far
+    constexpr std::size_t kMostCompared = 64; // bounds the cost for equal coordinates
     std::vector<Along> order(points.size());
     parallel_for(points.size(), [&](std::size_t i) {
         order[i] = {direction.dot(positions[points[i]]), static_cast<std::uint32_t>(i)};
@@ -80,21 +80,21 @@ Points join_within(double size, const Positions& positions, const Points& points
             if (apart.cwiseAbs().maxCoeff() <= size) places.join(order[i].point, order[j].point);
         }
     });
-    std::vector<Along>().swap(order); // before there is more
+    std::vector<Along>().swap(order); // frees memory before the next allocation
     Points firsts(points.size());
     parallel_for(firsts.size(),
                  [&](std::size_t i) { firsts[i] = places.root(static_cast<std::uint32_t>(i)); });
     return firsts;
 }
 
-/// A place of many points may be a small part of the scene, far from the rest: it is judged by
-/// itself.
+/// Compares a group of many points again by itself, because it may be a small part of the scene,
+/// far from the rest.
 void find_firsts(double size, const Positions& positions, const Points& points, Points& firsts)
 {
     constexpr std::uint32_t kMostCopies = 8;
     const Points joined = join_within(size, positions, points);
     if (firsts.empty()) {
-        firsts.resize(positions.size()); // only now: joining takes the most memory
+        firsts.resize(positions.size()); // only now, since join_within() uses the most memory
         std::iota(firsts.begin(), firsts.end(), 0U);
     }
     Points counts(points.size());
@@ -119,17 +119,17 @@ void find_firsts(double size, const Positions& positions, const Points& points, 
 
 using PointIndices = std::vector<std::uint32_t>;
 
-/// Points at one place, by the index of the best of them.
+/// The points at each position, and the best of them.
 struct Merged {
-    std::size_t num_finite = 0;        ///< of all points, those that are at a place
-    PointIndices best;                 ///< one point a place, ascending
+    std::size_t num_finite = 0;        ///< number of points with valid positions
+    PointIndices best;                 ///< one point per position, ascending
     std::vector<std::uint32_t> group;  ///< per entry of `best`, its row in `members`, or kAlone
-    std::vector<PointIndices> members; ///< all points of a place that has more than one
+    std::vector<PointIndices> members; ///< all points of each position that has more than one
 
     static constexpr std::uint32_t kAlone = 0xffffffffU;
 };
 
-/// Which of the points at one place stands for them: most views, smallest error, smallest id.
+/// The best of the points at one position: most views, then smallest error, then smallest id.
 std::uint32_t best_of(const Scene& scene, const PointIndices& points)
 {
     const auto worth = [&](std::uint32_t i) {
@@ -141,11 +141,11 @@ std::uint32_t best_of(const Scene& scene, const PointIndices& points)
                              [&](std::uint32_t a, std::uint32_t b) { return worth(a) < worth(b); });
 }
 
-/// The points that lie at a place, ascending.
+/// The points with valid positions, ascending.
 PointIndices finite_points(const Scene& scene)
 {
     return parallel_collect<std::uint32_t>(scene.num_points(), [&](std::size_t i, auto& finite) {
-        if (is_place(scene.positions[i])) finite.push_back(static_cast<std::uint32_t>(i));
+        if (is_valid_position(scene.positions[i])) finite.push_back(static_cast<std::uint32_t>(i));
     });
 }
 
@@ -154,8 +154,8 @@ Merged merge_duplicates(const Scene& scene)
     const PointIndices finite = finite_points(scene);
     const std::vector<std::uint32_t> firsts = first_at_place(scene.positions, finite);
     constexpr std::uint32_t kLeftOut = Merged::kAlone - 1;
-    std::vector<std::uint32_t> groups(scene.num_points(), kLeftOut);     // of the best of a place
-    std::vector<std::uint32_t> rows(scene.num_points(), Merged::kAlone); // of the first
+    std::vector<std::uint32_t> groups(scene.num_points(), kLeftOut);     // per best point
+    std::vector<std::uint32_t> rows(scene.num_points(), Merged::kAlone); // per first point
     Merged merged;
     merged.num_finite = finite.size();
     for (const std::uint32_t point : finite) {
@@ -186,7 +186,7 @@ Merged merge_duplicates(const Scene& scene)
     return merged;
 }
 
-/// Whether two of the sights of a point meet at `min_angle_rad` or more.
+/// Whether two rays of a point meet at `min_angle_rad` or more.
 bool sees_from_wide_enough(const Scene& scene, const Vector3d& point,
                            std::span<const std::uint32_t> track, double min_angle_rad)
 {
@@ -235,7 +235,7 @@ void count(Verdict verdict, FilterReport& report)
     report.low_angle += verdict == Verdict::low_angle ? 1 : 0;
 }
 
-/// Leaves the places whose points are to be kept.
+/// Removes the positions whose points are dropped.
 void drop_places(Merged& merged, const std::vector<Verdict>& verdicts)
 {
     std::size_t kept = 0;
@@ -279,7 +279,7 @@ FilteredPoints filter_points(Scene scene, const FilterOptions& options, const Pr
 {
     require_indexable(scene.num_points(), kMostIndices, "points");
     Merged merged = merge_duplicates(scene);
-    progress.tell(0.6);
+    progress.report(0.6);
     const Tracks united = united_tracks(scene.tracks, merged.members);
     const auto track_of = [&](std::size_t place) -> std::span<const std::uint32_t> {
         const std::uint32_t group = merged.group[place];
@@ -290,7 +290,7 @@ FilteredPoints filter_points(Scene scene, const FilterOptions& options, const Pr
     parallel_for(verdicts.size(), [&](std::size_t place) {
         verdicts[place] = judge(scene, merged.best[place], track_of(place), options);
     });
-    progress.tell(0.8);
+    progress.report(0.8);
 
     FilteredPoints result;
     result.report.non_finite = static_cast<std::int64_t>(scene.num_points() - merged.num_finite);

@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// More than the points that one false match after another may put near each other.
+/// More than the number of false matches that may occur close to each other.
 constexpr std::size_t kCrowd = 4;
 
-/// Which points are seen so seldom that they may be stray.
+/// The points with few enough views to be stray.
 std::vector<std::uint32_t> seldom_seen_points(const Scene& scene)
 {
     constexpr std::size_t kFew = 2;
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> seldom_seen_points(const Scene& scene)
     });
 }
 
-/// Some points, evenly spread among all, to estimate by what is usual; all where they are few.
+/// Evenly spread points for estimating medians; all points if they are few.
 std::vector<std::uint32_t> spread_sample(const Scene& scene)
 {
     constexpr std::size_t kEnough = 8192;
@@ -43,20 +43,20 @@ std::vector<std::uint32_t> spread_sample(const Scene& scene)
     return sample;
 }
 
-/// How alone points stand: the distance to the 4th nearest of the others over that to the nearest
-/// view that saw the point.
+/// The isolation of points: the distance to the 4th nearest other point, over the distance to the
+/// nearest view that saw the point.
 class Solitude {
   public:
     explicit Solitude(const Scene& scene) : scene_(scene), tree_(scene.positions) {}
 
-    /// Whether a point stands so much alone or more.
+    /// Whether the isolation of a point is at least `solitude`.
     bool is_at_least(double solitude, std::size_t point) const
     {
         const double distance = solitude * distance_to_views(point);
         return !has_crowd_along(point, distance) && reach(point, distance) >= distance;
     }
 
-    /// Of the median one of some points.
+    /// The median isolation of some points.
     double median(const std::vector<std::uint32_t>& points) const
     {
         std::vector<double> all(points.size());
@@ -77,8 +77,8 @@ class Solitude {
         return nearest;
     }
 
-    /// Whether four of the points that come just before or after it lie nearer than so far. Of
-    /// most points that is so, and no others need be looked at.
+    /// Whether four of the points just before or after it in the order are closer than `distance`.
+    /// Most points pass this quick test, and need no search.
     bool has_crowd_along(std::size_t point, double distance) const
     {
         constexpr std::size_t kSome = 4;
@@ -91,7 +91,7 @@ class Solitude {
         return num_near >= kCrowd;
     }
 
-    /// The distance to the 4th nearest other point, at most so far.
+    /// The distance to the 4th nearest other point, at most `most`.
     double reach(std::size_t point, double most) const
     {
         std::array<double, kCrowd> nearest;
@@ -112,15 +112,15 @@ class Solitude {
     PointTree tree_;
 };
 
-/// What reprojection errors are usual. Nothing is below or above it where none is known.
+/// Typical reprojection errors. If none is known, no error is below or above them.
 struct UsualErrors {
     double median = 0.0;
-    double large = kUnlimited; ///< one in twenty is larger
+    double large = kUnlimited; ///< one error in twenty is larger
 };
 
 UsualErrors usual_errors(const Scene& scene, const std::vector<std::uint32_t>& points)
 {
-    constexpr std::size_t kWorst = 20; // one in so many
+    constexpr std::size_t kWorst = 20; // one in this number is large
     std::vector<double> errors;
     for (const std::uint32_t point : points) {
         if (scene.errors_px[point] >= 0.0) errors.push_back(scene.errors_px[point]);
@@ -130,7 +130,7 @@ UsualErrors usual_errors(const Scene& scene, const std::vector<std::uint32_t>& p
     return {errors[errors.size() / 2], errors[errors.size() - 1 - errors.size() / kWorst]};
 }
 
-/// How many times more alone than usual a point may stand, over `stray_spacing`.
+/// The factor of the limit `stray_spacing` that a reprojection error causes.
 double tolerance(double error_px, const UsualErrors& usual)
 {
     constexpr double kOfLargeError = 2.0 / 3.0;
@@ -139,7 +139,7 @@ double tolerance(double error_px, const UsualErrors& usual)
     return error_px >= 0.0 && error_px < usual.median ? kOfSmallError : 1.0;
 }
 
-/// Leaves all points but some, which ascend.
+/// Drops some points, given in ascending order.
 void drop_points(Scene& scene, const std::vector<std::uint32_t>& dropped)
 {
     const auto kept =
@@ -161,7 +161,7 @@ std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options)
     const Solitude solitude(scene);
     const std::vector<std::uint32_t> usual = spread_sample(scene);
     const double most = options.stray_spacing * solitude.median(usual);
-    if (!(most > 0.0)) return 0; // half of them were seen by none
+    if (!(most > 0.0)) return 0; // no view saw half of them
     const UsualErrors errors = usual_errors(scene, usual);
     const auto is_stray = [&](std::uint32_t point) {
         return solitude.is_at_least(tolerance(scene.errors_px[point], errors) * most, point);

@@ -7,17 +7,17 @@
 
 namespace vcarve {
 
-/// Drops stray points: false matches that two views agree on by chance, far before or behind what
-/// is there, from which giant faces and needles would hang. Two views cannot tell them from good
-/// points, but what stands around can: features come in crowds. How alone a point stands is the
-/// distance to the 4th nearest of the others over that to the nearest of the views that saw it, so
-/// that the background, which is sampled as densely as seen, stands no more alone than what is
-/// near. Of the points of at most two views those go that stand `stray_spacing` times more alone
-/// than the median point; two thirds of that where the reprojection error is among the largest
-/// twentieth, and 1.75 times that where it is below the median. What is usual is estimated from
-/// some thousand points, evenly spread. Points that a scanner measured stay. The points follow each
-/// other in space, as spatial_sort() puts them; their order stays. Returns how many were dropped.
-/// Cost: O(points log points), in parallel, and 4 bytes a point.
+/// Drops stray points. A stray point is a false match that two views agree on by chance. It is far
+/// in front of or behind the surface, and causes giant faces and needles. Two views cannot
+/// distinguish it from a good point, but its isolation can, because features cluster. The isolation
+/// of a point is the distance to the 4th nearest other point, over the distance to the nearest view
+/// that saw it. So the background, sampled as densely in images, is no more isolated than the
+/// foreground. A point with at most two views is dropped if its isolation is at least
+/// `stray_spacing` times the median. The limit is two thirds of that for the largest twentieth of
+/// reprojection errors, and 1.75 times that for errors below the median. The medians come from some
+/// thousand evenly spread points. Points of scanners stay. The points must be in the order of
+/// spatial_sort(), which is kept. Returns the number of dropped points. Cost: O(points log points),
+/// in parallel, and 4 bytes per point.
 std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options);
 
 } // namespace vcarve

@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What so many pixels cover at a point's distance, in the view that shows it largest; infinite for
-/// one that none saw.
+/// The size of `pixels` pixels at a point's distance, in the view that shows it largest; infinite
+/// for a point that no view saw.
 double footprint(const Scene& scene, std::size_t point, double pixels,
                  const std::vector<double>& focals)
 {
@@ -32,7 +32,7 @@ double footprint(const Scene& scene, std::size_t point, double pixels,
     return least;
 }
 
-/// Must not outlive the scene.
+/// The result refers to the scene and must not outlive it.
 Dots dots_of(const Scene& scene, double merge_px)
 {
     const std::vector<double> focals = mean_focals_px(scene.cameras);
@@ -51,7 +51,7 @@ double median_of_finite(std::vector<double> values)
     return median_in_place(values);
 }
 
-/// Merges the points of the parts it is given.
+/// Merges the points of consecutive parts.
 class Thinning {
   public:
     Thinning(const ThinOptions& options, std::size_t at_once)
@@ -78,14 +78,14 @@ class Thinning {
     Scene finish(const Progress& progress)
     {
         if (num_parts_ > 1) merge_again(kWholeCubes);
-        progress.tell(0.6);
+        progress.report(0.6);
         merge_again(kAcrossBorders);
-        progress.tell(1.0);
+        progress.report(1.0);
         return std::move(kept_.scene);
     }
 
   private:
-    /// More than the diagonal of a cube reaches every dot in it.
+    /// A reach above the diagonal of a cube covers all its dots.
     static constexpr CubesForDots kWholeCubes = {.shift = 0.0, .reach = 2.0};
     static constexpr CubesForDots kAcrossBorders = {.shift = 1.0 / 3.0, .reach = 0.5};
 
@@ -103,9 +103,9 @@ class Thinning {
     }
 
     double merge_px_;
-    std::size_t most_; ///< points that are kept before they are merged again
+    std::size_t most_; ///< points held before they are merged again
     std::size_t num_parts_ = 0;
-    double unit_ = 0.0; ///< the usual footprint; zero while no part has points to be merged
+    double unit_ = 0.0; ///< the median footprint; 0 until a part has points to merge
     MergedPoints kept_;
 };
 
@@ -118,7 +118,7 @@ Scene thin_points(SceneParts& parts, const ThinOptions& options, const Progress&
     const auto all = static_cast<double>(std::max<std::size_t>(parts.num_points(), 1));
     Thinning thinning(options, at_once);
     std::size_t done = 0;
-    do { // also of none: the scene has views then
+    do { // runs at least once, so that an empty scene keeps its views
         const std::size_t end = std::min(done + at_once, parts.num_points());
         const Progress part =
             merging.part(static_cast<double>(done) / all, static_cast<double>(end) / all);
@@ -126,7 +126,7 @@ Scene thin_points(SceneParts& parts, const ThinOptions& options, const Progress&
         thinning.add(std::move(points));
         done = end;
     } while (done < parts.num_points());
-    merging.tell(1.0);
+    merging.report(1.0);
     return thinning.finish(progress.part(0.8, 1.0));
 }
 

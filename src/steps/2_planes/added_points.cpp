@@ -27,13 +27,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// How near to it a candidate bears no point, in steps.
+/// Minimum distance of a candidate to existing points, in steps.
 double clearance(PointKind kind)
 {
     return kind == PointKind::textureless ? 0.5 : 0.3;
 }
 
-/// Whether a candidate stands amid its own regions' points, and at none of them.
+/// Whether a candidate is surrounded by points of its regions, and not too close to any.
 bool has_place(const Candidate& candidate, const PlanarRegions& planes)
 {
     constexpr std::size_t kLook = 8;
@@ -49,7 +49,7 @@ bool has_place(const Candidate& candidate, const PlanarRegions& planes)
            std::ranges::count_if(nearest, is_own) >= kMost;
 }
 
-/// The points beside a candidate: of each of its regions the nearest two, of a single one four.
+/// The points beside a candidate: the two nearest of each region, or four in a textureless area.
 std::vector<std::uint32_t> points_beside(const Candidate& candidate, const PlanarRegions& planes)
 {
     const auto [a, b] = candidate.regions;
@@ -62,7 +62,7 @@ std::vector<std::uint32_t> points_beside(const Candidate& candidate, const Plana
     return beside;
 }
 
-/// The views of some points that see a candidate, ascending.
+/// The views of `points` that see a candidate, ascending.
 std::vector<std::uint32_t> views_seeing(const Candidate& candidate, const PlanarRegions& planes,
                                         const Scene& scene, std::span<const std::uint32_t> points)
 {
@@ -91,7 +91,7 @@ void leave_out_seen_through(std::vector<AcceptedPoint>& points, const Scene& sce
         std::ranges::copy(point.candidate.surface, std::back_inserter(triangles));
     }
     const std::vector<std::uint32_t> counts =
-        sights_through(scene, triangles, planes.spacings, progress);
+        rays_through(scene, triangles, planes.spacings, progress);
     auto next = counts.begin();
     std::erase_if(points, [&](const AcceptedPoint& point) {
         const auto first = std::exchange(next, next + std::ssize(point.candidate.surface));
@@ -160,16 +160,16 @@ std::vector<AcceptedPoint> accept(const Scene& scene, const PlanarRegions& plane
     };
     std::vector<AcceptedPoint> accepted =
         parallel_collect<AcceptedPoint>(candidates.size(), progress.part(0.0, 0.4), look, 256);
-    keep_views_that_look(accepted, scene, planes, progress.part(0.4, 0.6));
+    keep_viewing_views(accepted, scene, planes, progress.part(0.4, 0.6));
     leave_out_seen_through(accepted, scene, planes, progress.part(0.6, 1.0));
     leave_out_near_ones(accepted);
     return accepted;
 }
 
-std::vector<std::uint32_t> sights_through(const Scene& scene,
-                                          std::span<const std::array<Vector3d, 3>> triangles,
-                                          const std::vector<double>& margins,
-                                          const Progress& progress)
+std::vector<std::uint32_t> rays_through(const Scene& scene,
+                                        std::span<const std::array<Vector3d, 3>> triangles,
+                                        const std::vector<double>& margins,
+                                        const Progress& progress)
 {
     std::vector<std::uint32_t> counts(triangles.size());
     if (triangles.empty()) return counts;
@@ -179,7 +179,7 @@ std::vector<std::uint32_t> sights_through(const Scene& scene,
     };
     parallel_for(scene.num_points(), progress, [&](std::size_t point) {
         for (const std::uint32_t view : scene.tracks[point]) {
-            visit_sight(
+            visit_ray(
                 scene, point, view, margins[point],
                 [&](const Vector3d& from, const Vector3d& to) { tree.visit_met(from, to, count); });
         }

@@ -17,86 +17,85 @@
 
 namespace vcarve {
 
-/// A point that a scene shall get.
+/// A point to add to a scene.
 struct AcceptedPoint {
     Candidate candidate;
     std::vector<std::uint32_t> beside = {}; ///< the nearest points of its regions
-    std::vector<std::uint32_t> track = {};  ///< the views that see it, ascending; two at least
+    std::vector<std::uint32_t> track = {};  ///< at least two views that see it, ascending
 };
 
-/// The candidates that are right as far as points and sights tell, in their order. Each of them
-/// must stand the following tests, which are the same whoever proposes it:
+/// Returns the candidates that points and rays confirm, in their order. All kinds of candidates
+/// must pass the same tests:
 ///
-/// 1. No point of the scene is within three tenths of its step (of half a step amid a region).
-/// 2. Of the eight points nearest to it five belong to its regions: nothing else stands there, and
-///    a surface that bends does not go on.
-/// 3. Two views see it. Those that saw the nearest points of its regions are asked; they must show
-///    the place and stand before the planes of all its regions, or, where it stands out, of one.
-///    Amid a region they must look at it, too (keep_views_that_look).
-/// 4. Through its surface pass fewer sights than see it: where none is, one looks through. Of each
-///    sight the spacing at its point is left out.
-/// 5. No candidate that was accepted before it is within half a step.
+/// 1. No point of the scene is within .3 steps of it (.5 steps if textureless).
+/// 2. At least five of the eight nearest points belong to its regions. So no other object is there,
+///    and a curved surface is not extended.
+/// 3. At least two views see it. Views of the nearest points of its regions are tested. They must
+///    show the position and be in front of the planes of all its regions, or of one plane at
+///    a convex crease. In textureless areas they must look at it, too (keep_viewing_views).
+/// 4. Fewer rays pass through its surface than see it; more would show an opening. The part of a
+///    ray within one spacing of its point does not count.
+/// 5. No earlier accepted candidate is within half a step.
 ///
-/// Cost: O(log points) a candidate and O(log candidates) a sight, in parallel.
+/// Cost: O(log points) per candidate and O(log candidates) per ray, in parallel.
 std::vector<AcceptedPoint> accept(const Scene& scene, const PlanarRegions& planes,
                                   std::vector<Candidate> candidates, const Progress& progress);
 
-/// Leaves of the tracks of textureless points the views that look at them, as far as the model
-/// tells: amid a region nothing but its plane says where a point is, so something may stand before
-/// it. A view looks at a place if, of the points that it saw, the one that its image shows nearest
-/// to the place is of the region; and if no other planar region covers the place before which the
-/// view stands, as a roof does the ground: one that a line from the place along its plane's normal
-/// meets from behind, within the hull of its points. Points with fewer than two views left are
-/// dropped. Cost: O(sights log sights + points x views log points), in parallel, and 100 bytes a
-/// sight of a view for each thread.
-void keep_views_that_look(std::vector<AcceptedPoint>& points, const Scene& scene,
-                          const PlanarRegions& planes, const Progress& progress);
+/// Removes from the tracks of textureless points the views that do not look at them, as far as the
+/// model shows. Only the plane defines the position of such a point, so an object may occlude it. A
+/// view looks at a position under two conditions. The nearest of its points in its image belongs to
+/// the region. No other planar region covers the position, as a roof covers the ground. A region
+/// covers it if the view is in front of its plane, and the normal at the position meets the hull
+/// from behind. Points with fewer than two remaining views are dropped. Cost: O(rays log rays +
+/// points x views log points), in parallel, and 100 bytes per ray of a view and thread.
+void keep_viewing_views(std::vector<AcceptedPoint>& points, const Scene& scene,
+                        const PlanarRegions& planes, const Progress& progress);
 
-/// Shows visit(from, to) the sight from a point to a view as a segment to the view. The margin (a
-/// length) next to the point is left out, half of the sight at most, since points lie a little
-/// before or behind the surface.
+/// Calls visit(from, to) with the ray from a point to a view. The segment starts `margin` (a
+/// length) away from the point, at most half of the ray. Points are slightly in front of or behind
+/// the surface.
 template <typename Visit>
-void visit_sight(const Scene& scene, std::size_t point, std::uint32_t view, double margin,
-                 const Visit& visit)
+void visit_ray(const Scene& scene, std::size_t point, std::uint32_t view, double margin,
+               const Visit& visit)
 {
-    constexpr double kMostOfSight = 0.5;
+    constexpr double kMostOfRay = 0.5;
     const Eigen::Vector3d& center = scene.views[view].center;
     const Eigen::Vector3d way = center - scene.positions[point];
     const double length = way.norm();
     if (length == 0.0) return;
-    const double left_out = std::min(margin / length, kMostOfSight);
+    const double left_out = std::min(margin / length, kMostOfRay);
     visit(scene.positions[point] + left_out * way, center);
 }
 
-/// How many sights of a scene, without the margins of their points (visit_sight()), pass through
-/// each of some triangles. The tree is over the triangles, which are few; SightTree is the one over
-/// all sights, for many questions. Cost: O(triangles log triangles + sights log triangles), in
-/// parallel, and about 200 bytes a triangle.
-std::vector<std::uint32_t> sights_through(const Scene& scene,
-                                          std::span<const std::array<Eigen::Vector3d, 3>> triangles,
-                                          const std::vector<double>& margins,
-                                          const Progress& progress);
+/// Returns the number of rays that pass through each triangle, without the margins at their points
+/// (visit_ray()). It builds a tree of the few triangles; RayTree is a tree of all rays, for many
+/// queries. Cost: O(triangles log triangles + rays log triangles), in parallel, and about 200 bytes
+/// per triangle.
+std::vector<std::uint32_t> rays_through(const Scene& scene,
+                                        std::span<const std::array<Eigen::Vector3d, 3>> triangles,
+                                        const std::vector<double>& margins,
+                                        const Progress& progress);
 
-/// What was found and added.
+/// The number of planar regions and added points.
 struct AddedPoints {
-    std::int64_t regions = 0; ///< planar ones of the surface
+    std::int64_t regions = 0; ///< planar regions of the surface
     std::int64_t added = 0;   ///< points
 };
 
 /// Adds points to the planar regions of the surface (planar_regions) where feature detectors find
-/// few, so that the Delaunay triangulation cuts corners off or spans them and no labelling of its
-/// cells can give them back: along creases (crease_candidates), along borders (border_candidates)
-/// and on textureless areas (textureless_candidates), where accept() lets them stand. Point sets
-/// are structured so by Lafarge & Alliez (2013), who know no views; here each point has sights,
-/// which carve as others do. But behind a border there may be anything, so these points' sights say
-/// nothing of what lies behind them (RayCaster).
+/// few. There the Delaunay triangulation cuts corners off or bridges them, and no labeling of its
+/// cells can restore them. Candidates are along creases (crease_candidates), along borders
+/// (border_candidates) and in textureless areas (textureless_candidates), and accept() tests them.
+/// Lafarge & Alliez (2013) structure point sets in this way, without views; here each point has
+/// rays, which carve like others. Space behind a border is unknown, so rays of border points do not
+/// vote for inside (RayCaster).
 ///
-/// A new point has the mean colour of the points beside it and the error of the one next to it.
-/// Borders of dense clouds get none: points stand close enough there; nor do scans, which have
-/// points wherever something was to be measured. The points follow each other
-/// in space, as spatial_sort() puts them, before and after. The result does not depend on the
-/// number of threads nor, up to rounding, on where the scene lies and how large it is. Cost: that
-/// of the steps named and of a sort; 90 bytes a point, and what crossings take (border_candidates).
+/// An added point has the mean color of the points beside it and the error of the nearest one.
+/// Dense clouds get no border points, because their points are dense enough. Scans get no points,
+/// because the scanner measured all surfaces. The points must be in the order of spatial_sort(),
+/// before and after. The result does not depend on the thread count nor, up to rounding, on the
+/// position and scale of the scene. Cost: that of these steps and a sort; 90 bytes per point, and
+/// the memory of crossings (border_candidates).
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options,
                        const Progress& progress = {});
 

@@ -30,22 +30,22 @@ using Triangulation = CGAL::Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<
                 CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>>>;
 
-/// Where a sight passes through the plane of a region.
+/// The intersection of a ray with the plane of a region.
 struct Crossing {
     std::uint32_t region;
-    Vector2d place; ///< in the plane
+    Vector2d place; ///< in the plane's frame
 };
 
-/// A point of a region beside a crossing of its plane.
+/// A point of a region and a neighboring crossing of its plane.
 struct BorderPair {
-    double apart; ///< how far
+    double apart; ///< distance
     std::uint32_t point;
     std::uint32_t crossing;
 };
 
-/// The pairs of neighbours in the Delaunay triangulation of places in a plane, of which the first
-/// so many are points and the others crossings, that are no farther apart than `most`; the nearest
-/// first.
+/// Returns the edges between points and crossings in the Delaunay triangulation of positions in a
+/// plane. The first `num_points` positions are points. Edges are at most `most` long, and the
+/// shortest come first.
 std::vector<BorderPair> pairs_beside(const std::vector<Vector2d>& places, std::size_t num_points,
                                      double most)
 {
@@ -68,7 +68,7 @@ std::vector<BorderPair> pairs_beside(const std::vector<Vector2d>& places, std::s
     return pairs;
 }
 
-/// Finds where the planar regions of a scene end.
+/// Finds the borders of the planar regions of a scene.
 class Borders {
   public:
     Borders(const Scene& scene, const PlanarRegions& planes, double gap)
@@ -92,10 +92,10 @@ class Borders {
     }
 
   private:
-    /// How far from the points of a region crossings count.
+    /// Maximum distance of a crossing to the points of a region.
     double near(std::size_t region) const { return gap_ * planes_.regions[region].spacing; }
 
-    /// A rectangle in the plane around the points of a region and what is near.
+    /// A rectangle in the plane around the points of a region and all possible crossings.
     std::array<Vector3d, 4> rectangle_around(std::size_t region) const
     {
         const PlaneFrame& frame = frames_[region];
@@ -109,13 +109,13 @@ class Borders {
                 frame.in_space({low.x(), high.y()})};
     }
 
-    /// The crossings of sights with the planes of regions near their points, by region: of each
-    /// point's sights the first and the last one, since those between pass between them.
+    /// The crossings of planes near the points of their regions, sorted by region. Only the first
+    /// and the last ray of each point are tested, because the others are between them.
     std::vector<Crossing> crossings(const Progress& progress) const
     {
         constexpr std::size_t kFewest = 20;
         std::vector<std::array<Vector3d, 3>> triangles;
-        std::vector<std::uint32_t> owners; // of both triangles of a region
+        std::vector<std::uint32_t> owners; // one per two triangles
         for (std::uint32_t i = 0; i < planes_.regions.size(); ++i) {
             if (planes_.regions[i].points.size() < kFewest) continue;
             owners.push_back(i);
@@ -139,7 +139,7 @@ class Borders {
             const auto track = scene_.tracks[point];
             if (track.empty()) return;
             for (const std::uint32_t view : {track.front(), track.back()}) {
-                visit_sight(scene_, point, view, planes_.spacings[point], through);
+                visit_ray(scene_, point, view, planes_.spacings[point], through);
             }
         };
         std::vector<Crossing> found =
@@ -148,14 +148,14 @@ class Borders {
         return found;
     }
 
-    /// That of a sight with the plane of a region, if it is near the region's points.
+    /// Adds the crossing of a ray with the plane of a region, if it is near the region's points.
     void add_crossing(std::uint32_t region, const Vector3d& from, const Vector3d& to,
                       std::vector<Crossing>& found) const
     {
         const Plane& plane = planes_.regions[region].plane;
         const double before = plane.height_of(from);
         const double behind = plane.height_of(to);
-        if (before == behind) return; // in the plane
+        if (before == behind) return; // parallel to the plane
         const Vector3d place = from + before / (before - behind) * (to - from);
         if (planes_.regions[region].has_point_near(place, near(region)))
             found.push_back({region, frames_[region].in_plane(place)});
@@ -164,7 +164,7 @@ class Borders {
     void add_candidates(std::uint32_t region, std::span<const Crossing> crossings,
                         std::vector<Candidate>& found) const
     {
-        constexpr double kShare = 0.3; // of the way from the point to the crossing
+        constexpr double kShare = 0.3; // of the distance from the point to the crossing
         const std::vector<Vector3d>& points = planes_.regions[region].positions;
         std::vector<Vector2d> places(points.size());
         std::ranges::transform(points, places.begin(), [&](const Vector3d& position) {
@@ -184,7 +184,7 @@ class Borders {
     const Scene& scene_;
     const PlanarRegions& planes_;
     double gap_;
-    std::vector<PlaneFrame> frames_; ///< of each region
+    std::vector<PlaneFrame> frames_; ///< one per region
 };
 
 } // namespace

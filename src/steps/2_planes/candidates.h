@@ -12,60 +12,60 @@
 
 namespace vcarve {
 
-/// How far a candidate stands off its plane at most, in steps: among points in one plane rounding
-/// would tell which cells there are.
+/// Maximum distance of a candidate from its plane, in steps. Among coplanar points, rounding would
+/// decide which cells exist.
 inline constexpr double kOffPlane = 1e-3;
 
-/// A place where a point may be added, as a generator proposes it.
+/// A position where a point may be added.
 struct Candidate {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     PointKind kind = PointKind::crease;
-    double step = 0.0;                         ///< how far apart such points stand
-    std::array<std::uint32_t, 2> regions = {}; ///< whose it is: two that meet, or one twice
-    bool stands_out = false; ///< as the edge of a box does, before either of the regions' planes
-    /// Pieces of the surface that there would be.
+    double step = 0.0;                         ///< distance between such points
+    std::array<std::uint32_t, 2> regions = {}; ///< the two regions that meet, or one region twice
+    bool stands_out = false;                   ///< a convex crease, such as the edge of a box
+    /// Triangles of the surface that the point would cause.
     std::vector<std::array<Eigen::Vector3d, 3>> surface = {};
 };
 
-/// Places along the creases of the surface, where two planar regions meet: at the foot of a wall,
-/// in the corner of a room, along the edge of a box. After Lafarge & Alliez (2013), who put points
-/// along the lines where planes meet if points of both are near; here they may be far, since sights
-/// tell where one looks through.
+/// Returns candidates along creases, where two planar regions meet. Examples are the foot of a
+/// wall, the corner of a room, and the edge of a box. Lafarge & Alliez (2013) add points along the
+/// intersection of planes if points of both are near. Here points may be far, because rays reveal
+/// openings.
 ///
-/// Two regions whose planes stand at 30 degrees or more to each other meet along a line. It gets a
-/// place every seven tenths of the larger of their spacings where both have points within `reach`
-/// spacings of it, to both sides along it. The surface that there would be are two strips, as wide
-/// as the step, to the nearest points of either. In an order that does not depend on the threads.
-/// Cost: O(log points) for each point of a region that lies near another, in parallel.
+/// Two regions are intersected if their planes meet at 30 degrees or more. Candidates are .7 of the
+/// larger spacing apart on the line. Each needs points of both regions within `reach` spacings, in
+/// both directions along the line. Its surface consists of two strips, as wide as the step, to the
+/// nearest points of both regions. The order does not depend on the thread count. Cost: O(log
+/// points) for each point of a region near another, in parallel.
 std::vector<Candidate> crease_candidates(const Scene& scene, const PlanarRegions& planes,
                                          double reach, const Progress& progress);
 
-/// Places along the borders of planar regions, where one ends since sights pass by, as at the eaves
-/// of a roof over a plain wall, of which no point is known: there is no crease. A border is where
-/// points and crossings of the plane by sights are neighbours, in the plane's Delaunay
-/// triangulation. (Borders in point sets: Bendels, Schnabel & Klein 2006, by the angle that the
-/// points around leave free; that tells where points end, not that one looks past them.)
+/// Returns candidates along borders, where rays pass beside a planar region. The eaves of a
+/// roof over a plain wall without points are an example; no crease is there. At a border, points
+/// and crossings of the plane by rays are neighbors in the plane's Delaunay triangulation.
+/// (Bendels, Schnabel & Klein 2006 detect borders of point sets by the largest angle without
+/// points. This shows where points end, but not that rays pass.)
 ///
-/// Of a region of 20 points or more the crossings of its plane within `gap` spacings of its points
-/// are looked up, of the sights to the first and the last view of each point, since those between
-/// pass between them; of a sight the spacing at its point is left out. Each edge of the
-/// triangulation from a point to a crossing that is no longer than `gap` gets a place at three
-/// tenths of the way. Region by region, those next to their points first, in an order that does not
-/// depend on the threads; many stand closer to each other than their steps. Cost: O(sights log
-/// regions + crossings log crossings), in parallel, and 24 bytes a crossing.
+/// Regions of at least 20 points are searched for crossings of their plane within `gap` spacings of
+/// their points. Only rays to the first and the last view of each point are tested, because the
+/// others are between them. The part of a ray within one spacing of its point is omitted. Each edge
+/// of the triangulation from a point to a crossing, of at most `gap` spacings, gets a candidate at
+/// .3 of its length. Candidates are sorted by region and distance to the point, for any thread
+/// count. Many are closer to each other than their steps. Cost: O(rays log regions + crossings log
+/// crossings), in parallel, and 24 bytes per crossing.
 std::vector<Candidate> border_candidates(const Scene& scene, const PlanarRegions& planes,
                                          double gap, const Progress& progress);
 
-/// Places on textureless areas, amid planar regions: a plain floor, or the road between cars, where
-/// views look but images show no features. Chauve, Labatut & Pons (2010) complete planes so, by
-/// cells of their arrangement; here a plane goes on within the convex hull of its points alone,
-/// since the truth ends somewhere, too.
+/// Returns candidates in textureless areas of planar regions, such as a plain floor or the road
+/// between cars, where images show no features. Chauve, Labatut & Pons (2010) complete planes by
+/// cells of their arrangement. Here a plane continues only within the convex hull of its points,
+/// because real surfaces are bounded, too.
 ///
-/// The plane of a region of 100 points or more is divided into squares with sides of `step`
-/// spacings. Those within the hull that have none of its points get a place near their middle,
-/// those next to points first, no more than there are points. The surface that there would be is
-/// the square. Region by region, in an order that does not depend on the threads. Cost: O(points
-/// log points), in parallel over the regions.
+/// The plane of a region of at least 100 points is divided into squares with sides of `step`
+/// spacings. Squares within the hull and without points get a candidate near their center, those
+/// next to points first. There are at most as many as points. The surface is the square. Candidates
+/// are sorted by region, for any thread count. Cost: O(points log points), in parallel over the
+/// regions.
 std::vector<Candidate> textureless_candidates(const PlanarRegions& planes, double step,
                                               const Progress& progress);
 

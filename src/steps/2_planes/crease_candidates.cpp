@@ -27,7 +27,7 @@ Box grown(const Box& box, double by)
 
 using PlanePair = std::array<std::uint32_t, 2>;
 
-/// The pairs of regions that lie no farther apart than `reach` of their spacings, ascending.
+/// The pairs of regions whose bounding boxes meet if grown by `reach` spacings, ascending.
 std::vector<PlanePair> near_pairs(const PlanarRegions& planes, double reach)
 {
     using Boxed = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::uint32_t>;
@@ -46,7 +46,7 @@ std::vector<PlanePair> near_pairs(const PlanarRegions& planes, double reach)
     return pairs;
 }
 
-/// A line, by a point on it and its direction.
+/// A line through a point, with a direction.
 struct Line {
     Vector3d origin;
     Vector3d direction; ///< unit
@@ -55,7 +55,7 @@ struct Line {
     Vector3d off(const Vector3d& place) const { return place - origin - along(place) * direction; }
 };
 
-/// Where two planes meet that are not parallel.
+/// The intersection of two planes that are not parallel.
 Line intersection(const Plane& a, const Plane& b)
 {
     const Vector3d middle = 0.5 * (a.center + b.center);
@@ -67,7 +67,7 @@ Line intersection(const Plane& a, const Plane& b)
     return {middle - way / (1.0 - cosine * cosine), a.normal.cross(b.normal).normalized()};
 }
 
-/// No more than the distance of any place in a box from a line.
+/// A lower bound of the distance between a box and a line.
 double least_distance(const Box& box, const Line& line)
 {
     const Vector3d middle = 0.5 * (box.low + box.high);
@@ -76,11 +76,11 @@ double least_distance(const Box& box, const Line& line)
 
 /// A point of a region near the line.
 struct Support {
-    double along; ///< the line
-    double high;  ///< over the plane of the other region
+    double along; ///< coordinate on the line
+    double high;  ///< height over the plane of the other region
 };
 
-/// Where two regions meet.
+/// The intersection of two regions.
 class Crease {
   public:
     Crease(const Scene& scene, const PlanarRegions& planes, const PlanePair& pair, double reach)
@@ -105,7 +105,7 @@ class Crease {
         const double low = std::max(a.front().along, b.front().along);
         const double high = std::min(a.back().along, b.back().along);
         const double last = std::floor(high / step + kRounding);
-        constexpr double kMost = 1e15; // beyond, whole numbers do not tell places apart
+        constexpr double kMost = 1e15; // beyond, doubles do not distinguish positions
         if (!(std::max(std::abs(low), std::abs(high)) < kMost * step)) return;
         for (double i = std::ceil(low / step - kRounding); i <= last; ++i) {
             i = std::max({i, first_near(a, i, step), first_near(b, i, step)});
@@ -121,7 +121,7 @@ class Crease {
     }
 
   private:
-    /// The points of one region near the line where the other region is near, too, along it.
+    /// The points of one region near the line and the box of the other region, sorted along it.
     std::vector<Support> supports(std::size_t side) const
     {
         const PlanarRegion& region = *regions_[side];
@@ -132,7 +132,7 @@ class Crease {
                                                        : least_distance(box, line_);
         };
         std::vector<Support> found;
-        region.tree.visit_foreign({0, 0}, reach_ * region.spacing, bound, [&](std::size_t i) {
+        region.tree.visit_excluding({0, 0}, reach_ * region.spacing, bound, [&](std::size_t i) {
             const Vector3d& position = region.positions[i];
             const double spacing = std::min(region.spacing, planes_.spacings[region.points[i]]);
             if (line_.off(position).norm() <= reach_ * spacing)
@@ -153,7 +153,7 @@ class Crease {
         return sum;
     }
 
-    /// No more than the number of the next place near any support, which may be far away.
+    /// A lower bound of the number of the next position near a support, which may be far away.
     double first_near(const std::vector<Support>& supports, double i, double step) const
     {
         const double within = reach_ * spacing_;
@@ -162,7 +162,7 @@ class Crease {
         return next == supports.end() ? i : std::floor((next->along - within) / step);
     }
 
-    /// Whether there are some within the reach to both sides of a place along the line.
+    /// Whether supports are within the reach in both directions along the line.
     bool are_to_both_sides(const std::vector<Support>& supports, double along) const
     {
         const double within = reach_ * spacing_;
@@ -173,7 +173,7 @@ class Crease {
                std::prev(last)->along >= along - slack;
     }
 
-    /// The i-th place, a little off the line, to either side of both planes, as i² and i³ tell.
+    /// The i-th position, slightly off the line and both planes by pseudorandom amounts.
     Vector3d place_at(double i, double step) const
     {
         constexpr std::array<double, 2> kIrrational = {0.6180339887, 0.4142135624};
@@ -186,9 +186,9 @@ class Crease {
         return place;
     }
 
-    /// Adds the surface between a candidate and the two points of one region next to it: as wide as
-    /// its step, towards their middle, up to the one nearest to the line. Some is left out where it
-    /// begins and ends, since planes are a little off.
+    /// Adds the surface between a candidate and its two nearest points of one region. The strip is
+    /// as wide as the step. It runs towards the mean of these points, as far as the one nearest to
+    /// the line. Its two ends are omitted, because planes are inexact.
     void add_strip(std::size_t side, Candidate& candidate) const
     {
         constexpr double kLeftOut = 0.1; // of its length, at either end
@@ -212,7 +212,7 @@ class Crease {
     PlanePair pair_;
     std::array<const PlanarRegion*, 2> regions_;
     Line line_;
-    double spacing_; ///< the larger one
+    double spacing_; ///< the larger of both regions
     double reach_;
 };
 

@@ -25,12 +25,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How many points around a point tell how the surface runs there, and how many make a region.
+/// The number of neighbors that define the surface around a point, and the minimum size of a
+/// region.
 constexpr std::size_t kAround = 12;
 using Around = std::array<std::uint32_t, kAround>;
 
-/// The plane that lies nearest to points, and how far from it they lie: the root of the mean
-/// square.
+/// The least-squares plane of points, and their root mean square distance to it.
 struct FittedPlane {
     Plane plane;
     double deviation = 0.0;
@@ -53,12 +53,12 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, std::span<const st
             std::sqrt(std::max(solver.eigenvalues()[0], 0.0))};
 }
 
-/// The points around every point, and what they tell.
+/// The neighbors of every point, and the surface that they define.
 struct Surroundings {
     std::vector<Around> around;
     std::vector<double> spacings;
-    std::vector<double> bends;    ///< how far they lie from a plane, in spacings, rounded
-    double thickness = 1.0 / 7.0; ///< how far from its plane a point of a region may lie, too
+    std::vector<double> bends;    ///< root mean square distance to a plane, in spacings, rounded
+    double thickness = 1.0 / 7.0; ///< maximum distance to the plane of a region, in spacings
 
     Surroundings(const Scene& scene, const NearestNeighbors& tree, const Progress& progress)
         : around(scene.num_points()), spacings(scene.num_points()), bends(scene.num_points())
@@ -80,10 +80,10 @@ struct Surroundings {
     }
 
   private:
-    /// Three standard deviations of heights over a plane that was fitted to twelve of them.
+    /// Three standard deviations of heights over a plane that was fitted to twelve points.
     static constexpr double kOfNoise = 3.5;
 
-    /// Most points of a dense cloud lie on smooth surfaces, and bend by their noise only.
+    /// Most points of a dense cloud are on smooth surfaces, so only noise bends them.
     double median_bend() const
     {
         std::vector<double> all = bends;
@@ -94,28 +94,28 @@ struct Surroundings {
                      std::size_t i)
     {
         thread_local std::vector<NearestNeighbors::Neighbor> nearest;
-        tree.find(positions[i], kAround + 1, nearest); // the point, too
+        tree.find(positions[i], kAround + 1, nearest); // includes the point
         std::array<std::uint32_t, kAround + 1> all{};
         std::ranges::transform(nearest, all.begin(), &NearestNeighbors::Neighbor::point);
         std::ranges::copy(std::span(all).subspan<1>(), around[i].begin());
-        // Where the surface is flat, so many points share the disc out to the farthest.
+        // On a flat surface these points share the disc up to the farthest.
         spacings[i] = std::sqrt(nearest.back().distance_sq * std::numbers::pi / kAround);
-        // Rounded, since points without noise are flat but for the last digits.
+        // Rounded, since points without noise differ only in the last digits.
         constexpr double kExact = 1e-3;
         const double bend = fit_plane(positions, all).deviation / spacings[i];
         bends[i] = kExact * std::round(bend / kExact);
     }
 };
 
-/// What grew from a seed: its points, and its plane and spacing if they are a region.
+/// The points that grew from a seed, and their plane and spacing if they are a region.
 struct Grown {
     std::vector<std::uint32_t> points;
     std::optional<Plane> plane;
     double spacing = 0.0;
 };
 
-/// Grows regions among the points that are of none yet. It changes nothing but its own marks, so
-/// that many may grow side by side.
+/// Grows regions from points without a region. It changes only its marks, so that objects may grow
+/// in parallel.
 class Growth {
   public:
     Growth(const Scene& scene, const Surroundings& surroundings, const PlanarRegions& found)
@@ -123,7 +123,8 @@ class Growth {
     {
     }
 
-    /// The region around a flat point, unless that is another's or there is none.
+    /// The region around a flat point; empty if the point belongs to a region, and without a plane
+    /// if none was found.
     Grown grow(std::uint32_t seed)
     {
         region_.clear();
@@ -159,7 +160,7 @@ class Growth {
 
     void begin(std::uint32_t seed)
     {
-        constexpr double kSparser = 2.0; // than at the seed
+        constexpr double kSparser = 2.0; // times the spacing at the seed
         ++current_;
         take_in(seed);
         plane_.normal = towards_views(scene_, seed);
@@ -189,8 +190,8 @@ class Growth {
         }
     }
 
-    /// Whether a point lies so many spacings from the plane at most, and is looked at from the same
-    /// side.
+    /// Whether a point is at most `spacings` spacings from the plane, and its views are in front of
+    /// it.
     bool is_within(std::uint32_t point, double spacings) const
     {
         const double spacing = std::min(surroundings_.spacings[point], most_spacing_);
@@ -198,7 +199,7 @@ class Growth {
                towards_views(scene_, point).dot(plane_.normal) > 0.0;
     }
 
-    /// Whether many points lie right beside the slab.
+    /// Whether many points are right beside the slab.
     bool goes_on_beside() const
     {
         constexpr double kWider = 3.0;
@@ -218,7 +219,7 @@ class Growth {
     const Scene& scene_;
     const Surroundings& surroundings_;
     const PlanarRegions& found_;
-    std::vector<std::uint32_t> mark_; ///< of each point, which growth took it in last
+    std::vector<std::uint32_t> mark_; ///< per point: the last growth that added it
     std::uint32_t current_ = 0;
     Plane plane_;
     std::vector<std::uint32_t> region_;
@@ -226,8 +227,8 @@ class Growth {
     std::size_t refit_at_ = 0;
 };
 
-/// Grows one region after the other from the seeds, in their order, or as if so: some grow side by
-/// side, as if none of them took a point, and those that would have met one which did grow anew.
+/// Grows regions from the seeds as if one after the other. Several grow in parallel, as if none of
+/// them took a point. Regions that meet a region added meanwhile grow again.
 class GrowthInTurn {
   public:
     GrowthInTurn(const Scene& scene, const Surroundings& surroundings, PlanarRegions& found)
@@ -241,7 +242,7 @@ class GrowthInTurn {
 
     void grow(std::span<const std::uint32_t> seeds, const Progress& progress)
     {
-        constexpr std::size_t kMostAtOnce = 256; // times the number of threads
+        constexpr std::size_t kMostAtOnce = 256; // per thread
         std::size_t at_once = 1;
         ProgressCount done(progress, seeds.size());
         while (!seeds.empty()) {
@@ -254,7 +255,7 @@ class GrowthInTurn {
     }
 
   private:
-    /// Whether there is a new region.
+    /// Returns whether a region was added.
     bool grow_some(std::span<const std::uint32_t> seeds)
     {
         std::vector<Grown> grown(seeds.size());
@@ -279,8 +280,7 @@ class GrowthInTurn {
         return found_.regions.size() > before;
     }
 
-    /// Whether a growth looked at a point that is of a region which was added since there were so
-    /// many.
+    /// Whether a growth visited a point of a region with a number of at least `regions`.
     bool meets_since(std::size_t regions, const Grown& grown) const
     {
         if (found_.regions.size() == regions) return false;
@@ -307,9 +307,9 @@ class GrowthInTurn {
     const Scene& scene_;
     const Surroundings& surroundings_;
     PlanarRegions& found_;
-    std::deque<Growth> growths_; ///< of each thread
-    /// Whether a point was of many that grew from a seed and are no region: neither is what would
-    /// grow from this one, which is about the same.
+    std::deque<Growth> growths_; ///< one per thread
+    /// Whether a point belonged to a large growth that is no region. A growth from this point would
+    /// be about the same.
     std::vector<std::uint8_t> is_tried_;
 };
 
@@ -358,7 +358,7 @@ std::vector<Vector3d> PlanarRegion::hull() const
 
 bool PlanarRegion::has_point_near(const Vector3d& place, double distance) const
 {
-    constexpr double kDone = -1.0; // no box is so near
+    constexpr double kDone = -1.0; // stops the search: no box is as near
     double most = distance;
     tree.visit_near(place, {0, 0}, most, [&](std::size_t i) {
         if ((positions[i] - place).norm() <= distance) most = kDone;

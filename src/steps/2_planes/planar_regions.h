@@ -16,16 +16,16 @@
 
 namespace vcarve {
 
-/// A plane.
+/// An oriented plane.
 struct Plane {
-    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< one of its points
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< a point on it
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ(); ///< unit
 
-    /// How far before it a place lies; negative behind it.
+    /// The signed distance of a position; negative behind the plane.
     double height_of(const Eigen::Vector3d& place) const { return normal.dot(place - center); }
 };
 
-/// Coordinates in a plane.
+/// 2D coordinates in a plane.
 class PlaneFrame {
   public:
     explicit PlaneFrame(const Plane& plane)
@@ -43,11 +43,11 @@ class PlaneFrame {
     }
 
   private:
-    /// A unit vector at right angles to another. It turns little where that does: rounding must not
-    /// choose the axis it is made of, as where two of its components are next to nothing.
+    /// A unit vector perpendicular to `normal`, which changes little with it. A threshold selects
+    /// the axis. The smallest component would depend on rounding if two are almost zero.
     static Eigen::Vector3d across(const Eigen::Vector3d& normal)
     {
-        constexpr double kFlat = 0.593; // above 1 / sqrt(3), so that one component is below
+        constexpr double kFlat = 0.593; // above 1 / sqrt(3), so one component is smaller
         const int axis = std::abs(normal.x()) < kFlat ? 0 : std::abs(normal.y()) < kFlat ? 1 : 2;
         return normal.cross(Eigen::Vector3d::Unit(axis)).normalized();
     }
@@ -57,63 +57,61 @@ class PlaneFrame {
     Eigen::Vector3d y_;
 };
 
-/// Of points in rows and columns many are equally far; lengths that differ by such a share count as
-/// equal, so that rounding does not tell which of them are asked.
+/// Relative tolerance for equal lengths. Many points of a grid are equally far, and rounding must
+/// not select among them.
 inline constexpr double kRounding = 1e-6;
 
-/// Points that lie on a plane. It stays where it is made, since its tree refers to the positions.
+/// The points on a plane. Not movable, because the tree refers to the positions.
 struct PlanarRegion {
-    Plane plane;                            ///< its normal looks to the views that saw the points
-    double spacing;                         ///< how far its points stand apart: the median
+    Plane plane;                            ///< the normal points towards the views
+    double spacing;                         ///< median distance between its points
     std::vector<std::uint32_t> points;      ///< ascending
-    std::vector<Eigen::Vector3d> positions; ///< of these
-    PointTree tree;                         ///< of the positions
+    std::vector<Eigen::Vector3d> positions; ///< of `points`
+    PointTree tree;                         ///< of `positions`
 
     PlanarRegion(const Scene& scene, const Plane& fitted, double median_spacing,
                  std::vector<std::uint32_t> of);
     PlanarRegion(const PlanarRegion&) = delete;
     PlanarRegion& operator=(const PlanarRegion&) = delete;
 
-    /// The points nearest to a place: so many, and those as near as the last of them.
+    /// The `count` points nearest to a position, and others as far as the last.
     std::vector<std::uint32_t> nearest(const Eigen::Vector3d& place, std::size_t count) const;
-    /// The corners of the convex hull of its points in its plane, counter-clockwise.
+    /// The corners of the convex hull of the points in the plane, counter-clockwise.
     std::vector<Eigen::Vector3d> hull() const;
-    /// Whether a point is no farther than so far from a place.
+    /// Whether a point is within `distance` of a position.
     bool has_point_near(const Eigen::Vector3d& place, double distance) const;
 };
 
-/// The planar regions of a scene, and whose its points are. Keeps a reference to the positions.
+/// The planar regions of a scene, and the region of each point. Refers to the scene's positions.
 struct PlanarRegions {
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
     NearestNeighbors tree;                ///< of all points
-    std::deque<PlanarRegion> regions;     ///< the flattest first
-    std::vector<std::uint32_t> region_of; ///< per point; kNone where it is of none
-    std::vector<double> spacings;         ///< per point: how far those around it stand apart
+    std::deque<PlanarRegion> regions;     ///< in descending order of flatness
+    std::vector<std::uint32_t> region_of; ///< per point; kNone without a region
+    std::vector<double> spacings;         ///< per point: local distance between points
 
     explicit PlanarRegions(const Scene& scene);
 };
 
-/// The parts of the surface that are planar, by growing regions from the flattest points on
-/// (Poppinga, Vaskevicius, Birk & Pathak 2008). The points of the scene must follow each other in
-/// space.
+/// Finds planar parts of the surface by growing regions from the flattest points (Poppinga,
+/// Vaskevicius, Birk & Pathak 2008). The points must be in the order of spatial_sort().
 ///
-/// A point is flat if the 12 points nearest to it and it lie within a seventh of their spacing of a
-/// plane (root of the mean square). From there a region takes in those of the 12 points around each
-/// of its points that its views look at from the same side and that lie no farther from its plane
-/// than a seventh of the spacing around; the plane is fitted anew whenever the points have doubled.
-/// In a dense cloud it is three standard deviations of the noise, where these are more: what the
-/// median point and those around lie off a plane. A point of hundreds that grew from another and
-/// are no region begins no growth of its own, so that noise is not looked at again and again.
+/// A point is flat if it and its 12 nearest points are within a seventh of their spacing of a plane
+/// (root mean square). From there a region adds the 12 nearest points of each of its points, under
+/// two conditions. Their views are in front of the plane, and their distance to it is at most a
+/// seventh of the local spacing. The plane is refitted whenever the number of points has doubled.
+/// In a dense cloud the distance may be three standard deviations of the noise, if this is more.
+/// The noise is the median deviation of a point and its neighbors from a plane. A failed growth of
+/// hundreds of points excludes them as seeds, so that noise is not searched repeatedly.
 ///
-/// Such a slab can be laid through anything that has points enough: through noise, of which it is
-/// a slice, and along something round, which bends out of it. In both many points lie right beside
-/// it. So 12 points or more are a region if of the points around them that lie in a slab three
-/// times as thick at least four in five are its own.
+/// A slab fits anything with enough points: a slice of noise, or a part of a round surface that
+/// bends out of it. Both have many points right beside the slab. So a region needs at least 12
+/// points, and four in five of the points around them in a slab three times as thick.
 ///
-/// The result does not depend on the number of threads nor on where the scene lies or how large it
-/// is, up to rounding. Cost: O(points log points + sights), in parallel, and 90 bytes a point and 4
-/// for each of up to 16 threads.
+/// The result does not depend on the thread count nor, up to rounding, on the position and scale of
+/// the scene. Cost: O(points log points + rays), in parallel, and 90 bytes per point plus 4 for
+/// each of at most 16 threads.
 PlanarRegions planar_regions(const Scene& scene, const Progress& progress);
 
 } // namespace vcarve

@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A square of a grid, by its column and its row.
+/// A square of a grid: its column and row.
 using Square = std::pair<std::int64_t, std::int64_t>;
 
 /// The plane of a region, divided into squares.
@@ -31,17 +31,17 @@ class Grid {
     {
     }
 
-    /// Whether whole numbers tell the squares of all points apart.
+    /// Whether doubles represent the square numbers of all points exactly.
     bool can_number_points() const
     {
         constexpr double kMost = 1e15;
         return std::ranges::all_of(region_.positions, [&](const Vector3d& place) {
-            return frame_.in_plane(place).norm() < kMost * side_; // nor if it is no number
+            return frame_.in_plane(place).norm() < kMost * side_; // false for NaN, too
         });
     }
 
-    /// The squares within the hull of the points that have none of them, ring by ring around those
-    /// that have: no more than there are points.
+    /// The squares within the hull and without points, ring by ring around squares with points. At
+    /// most as many as points.
     std::vector<Square> empty_squares() const
     {
         std::vector<Kernel::Point_2> hull;
@@ -97,7 +97,7 @@ class Grid {
                 static_cast<std::int64_t>(std::floor(steps.y()))};
     }
 
-    /// The place that is so many sides from the lower left corner of a square.
+    /// The position `right` and `up` sides from the lower left corner of a square.
     Vector3d at(const Square& square, double right, double up) const
     {
         const auto& [column, row] = square;
@@ -111,8 +111,8 @@ class Grid {
                 at(square, 0.0, 1.0)};
     }
 
-    /// The place for a point of a square: near its middle, and next to the plane, as far off as the
-    /// square's numbers tell.
+    /// The position of a candidate: near the center of its square and slightly off the plane, by
+    /// pseudorandom amounts of the square's numbers.
     Vector3d place_in(const Square& square) const
     {
         constexpr double kAside = 0.1; // of a side, at most
@@ -129,8 +129,8 @@ class Grid {
                kOffPlane * side_ * off * region_.plane.normal;
     }
 
-    /// The middle of the plane is no corner: points that stand in rows around it would be on the
-    /// lines, and rounding would tell in which squares.
+    /// Shifts the grid from the center of the plane. Otherwise points in rows around the center
+    /// would lie on grid lines, and rounding would select their squares.
     static constexpr double kShift = 0.118;
 
     const PlanarRegion& region_;

@@ -17,8 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The planar regions as what covers what lies behind them, each as large as the hull of its
-/// points.
+/// The planar regions as occluders, each as large as the hull of its points.
 class Covers {
   public:
     explicit Covers(const PlanarRegions& planes)
@@ -33,10 +32,10 @@ class Covers {
         if (!box.isEmpty()) reach_ = 2.0 * box.diagonal().norm();
     }
 
-    /// The planes of the regions over a place of another one.
+    /// The planes of the regions above a position of another region.
     std::vector<const Plane*> over(const Vector3d& place, const PlanarRegion& of) const
     {
-        constexpr double kClearly = 0.5; // spacings over its plane
+        constexpr double kClearly = 0.5; // spacings above the plane
         const Vector3d& up = of.plane.normal;
         std::vector<const Plane*> met;
         if (reach_ <= kClearly * of.spacing) return met;
@@ -64,12 +63,12 @@ class Covers {
     }
 
     const PlanarRegions& planes_;
-    std::vector<std::uint32_t> owners_; ///< of the triangles
-    double reach_ = 0.0;                ///< farther than from any region to another
+    std::vector<std::uint32_t> owners_; ///< region of each triangle
+    double reach_ = 0.0;                ///< more than the distance of any two regions
     TriangleTree tree_;
 };
 
-/// The points that a view saw, by where its image shows them.
+/// The points that a view saw, by their direction.
 class ShownPoints {
   public:
     ShownPoints(const Scene& scene, std::uint32_t view, std::vector<std::uint32_t> points)
@@ -82,7 +81,7 @@ class ShownPoints {
     ShownPoints(const ShownPoints&) = delete;
     ShownPoints& operator=(const ShownPoints&) = delete;
 
-    /// The one shown nearest to a place.
+    /// The point shown nearest to a position.
     std::uint32_t nearest(const Vector3d& place) const
     {
         thread_local std::vector<PointTree::Near> near;
@@ -101,17 +100,18 @@ class ShownPoints {
 
     const Vector3d& center_;
     std::vector<std::uint32_t> points_;
-    std::vector<Vector3d> ways_; ///< to the points, unit
-    PointTree tree_;             ///< of these
+    std::vector<Vector3d> ways_; ///< unit vectors to the points
+    PointTree tree_;             ///< of `ways_`
 };
 
-/// What is asked of a view: whether it looks at an accepted point.
+/// A view that may look at an accepted point.
 struct Question {
     std::uint32_t view;
-    std::uint32_t point; ///< among those accepted
+    std::uint32_t point; ///< index of the accepted point
 };
 
-/// The views that may look at textureless points, which are taken out of their tracks; by view.
+/// The views that may look at textureless points, sorted by view. Clears the tracks of these
+/// points.
 std::vector<Question> questions(std::vector<AcceptedPoint>& points, const Scene& scene,
                                 const PlanarRegions& planes)
 {
@@ -136,11 +136,11 @@ std::vector<Question> questions(std::vector<AcceptedPoint>& points, const Scene&
 
 } // namespace
 
-void keep_views_that_look(std::vector<AcceptedPoint>& points, const Scene& scene,
-                          const PlanarRegions& planes, const Progress& progress)
+void keep_viewing_views(std::vector<AcceptedPoint>& points, const Scene& scene,
+                        const PlanarRegions& planes, const Progress& progress)
 {
     const std::vector<Question> asked = questions(points, scene, planes);
-    std::vector<std::vector<std::uint32_t>> seen(scene.views.size()); // points, by view
+    std::vector<std::vector<std::uint32_t>> seen(scene.views.size()); // points per view
     for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
         for (const std::uint32_t view : scene.tracks[point]) {
             seen[view].push_back(point);

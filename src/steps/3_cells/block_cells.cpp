@@ -20,31 +20,31 @@ using Eigen::Vector3d;
 using CellHandle = Triangulation::Cell_handle;
 using VertexHandle = Triangulation::Vertex_handle;
 
-/// What a cell's number says while the block grows: that no point is known in its sphere.
+/// The number of a cell whose sphere is known to be empty, while the block grows.
 constexpr Index kEmptySphere = 0;
 
-/// How many points may be looked at one by one, of a block of so many: usually it is some hundred a
-/// point. And how many of these exactly, which takes a hundred times as long.
+/// The maximum number of tested points per point of a block, usually some hundred. Exact tests take
+/// a hundred times as long and have a lower limit.
 constexpr std::size_t kLooks = 3000;
 constexpr std::size_t kExactLooks = 60;
-constexpr std::size_t kFreeLooks = 20'000; ///< points more than there are
+constexpr std::size_t kFreeLooks = 20'000; ///< added to the number of points
 
-/// The corners of CGAL's facet i of a cell such that orientation(them, corner i) is positive in a
-/// cell that is not inside out.
+/// The corners of CGAL's facet i of a cell, such that orientation(corners, corner i) is positive if
+/// the cell is not inverted.
 constexpr std::array<std::array<int, 3>, 4> kBeforeCorner = {
     {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
-/// The share of the time after which own points are in, spheres are looked into for the first time,
-/// and others are in; the rest is ordering cells.
+/// The shares of the time at the end of three phases: inserting own points, testing all spheres,
+/// inserting points of other blocks. The rest orders the cells.
 constexpr double kOwn = 0.6;
 constexpr double kFirstLook = 0.8;
 constexpr double kForeign = 0.95;
 
-/// The triangulation of a block's own points and of the others that it takes in.
+/// The triangulation of a block's points and the points of other blocks that it needs.
 class Block {
   public:
     Block(const PointTree& tree, const PointRun& own, CellCount& count)
-        : tree_(tree), own_(own), count_(count), to_foreign_(tree.distances_to_foreign(own))
+        : tree_(tree), own_(own), count_(count), to_foreign_(tree.distances_to_others(own))
     {
         triangulation_.infinite_vertex()->info() = kInfinite;
     }
@@ -54,7 +54,7 @@ class Block {
         last_ = triangulation_.insert(to_cgal(tree_.points()[point]), near);
         last_->info() = point;
         ++inserted_;
-        if (triangulation_.number_of_vertices() != inserted_) throw two_at_one_place();
+        if (triangulation_.number_of_vertices() != inserted_) throw duplicate_position_error();
         count_.change(counted_, triangulation_.number_of_cells());
         counted_ = triangulation_.number_of_cells();
     }
@@ -70,8 +70,8 @@ class Block {
                                    [&](int i) { return is_own(cell->vertex(i)); });
     }
 
-    /// Of the points of other blocks in the sphere around a cell, or beyond the facet of one at the
-    /// hull, the deepest, as far as rounding lets that be told.
+    /// The deepest point of other blocks in the sphere around a cell, up to rounding. For an
+    /// infinite cell, the deepest point beyond its facet of the hull.
     std::optional<Index> deepest_foreign(CellHandle cell)
     {
         SphereBound bound = sphere_of(cell);
@@ -79,7 +79,7 @@ class Block {
         bound = bound.within(tree_.box());
         double least = 0.0;
         std::optional<Index> deepest;
-        tree_.visit_foreign(
+        tree_.visit_excluding(
             own_, least, [&](const Box& box) { return bound.least_in(box); },
             [&](std::size_t i) {
                 const double at = bound.least_at(tree_.points()[i]);
@@ -118,8 +118,8 @@ class Block {
                                     position(cell->vertex(2)), position(cell->vertex(3))});
     }
 
-    /// Whether the points around one of its own corners already say that the sphere holds none of
-    /// other blocks: so it is for most cells.
+    /// Whether the distance of an own corner to points of other blocks already shows that the
+    /// sphere contains none. This is true for most cells.
     bool is_far_from_foreign(CellHandle cell, const SphereBound& bound) const
     {
         double distance = 0.0;
@@ -132,7 +132,7 @@ class Block {
         return bound.is_within(distance);
     }
 
-    /// Exact, ties decided as CGAL does when it inserts.
+    /// An exact test, which breaks ties like CGAL's insertion.
     bool is_inside(CellHandle cell, Index point) const
     {
         for (int i = 0; i < 4; ++i) {
@@ -146,7 +146,7 @@ class Block {
     PointRun own_;
     CellCount& count_;
     std::size_t counted_ = 0;
-    std::vector<double> to_foreign_; ///< from each own leaf's box to the nearest point of others
+    std::vector<double> to_foreign_; ///< per own leaf: distance to the nearest foreign point
     Triangulation triangulation_;
     VertexHandle last_;
     std::size_t inserted_ = 0;
@@ -154,13 +154,13 @@ class Block {
     std::size_t exact_looks_ = 0;
 };
 
-/// A point to take in, and a vertex of a cell whose sphere it is in.
+/// A point to insert, and a vertex of a cell whose sphere contains it.
 struct Wanted {
     Index point;
     VertexHandle near;
 };
 
-/// The deepest point in the sphere of a cell, where there is any, goes to `wanted`.
+/// Adds the deepest point in the sphere of a cell to `wanted`, if any.
 void look_into(CellHandle cell, Block& block, std::vector<Wanted>& wanted)
 {
     if (cell->info().value == kEmptySphere || !block.has_own_corner(cell)) return;
@@ -179,13 +179,13 @@ std::vector<Wanted> points_in_spheres(Block& block, BlockProgress& progress)
     std::size_t count = 0;
     for (const CellHandle cell : block.cells().all_cell_handles()) {
         look_into(cell, block, wanted);
-        if (++count % Progress::kToldEvery != 0) continue;
-        progress.tell(kOwn + (kFirstLook - kOwn) * static_cast<double>(count) / all);
+        if (++count % Progress::kReportEvery != 0) continue;
+        progress.report(kOwn + (kFirstLook - kOwn) * static_cast<double>(count) / all);
     }
     return wanted;
 }
 
-/// The same, of the cells that came with the points inserted last: all new cells are around these.
+/// The same for the cells around the points inserted last, which include all new cells.
 std::vector<Wanted> points_in_spheres_around(const std::vector<VertexHandle>& inserted,
                                              Block& block)
 {
@@ -222,8 +222,8 @@ void insert_own(Block& block, const std::vector<Index>& first, const PointRun& o
     for (std::size_t i = 0; i < order.size(); ++i) {
         const auto point = static_cast<Index>(own.first + order[i]);
         if (!std::ranges::binary_search(first, point)) block.insert(point, block.last_inserted());
-        if (i % Progress::kToldEvery != 0) continue;
-        progress.tell(kOwn * static_cast<double>(i) / static_cast<double>(order.size()));
+        if (i % Progress::kReportEvery != 0) continue;
+        progress.report(kOwn * static_cast<double>(i) / static_cast<double>(order.size()));
     }
 }
 
@@ -232,7 +232,7 @@ void insert_foreign(Block& block, BlockProgress& progress)
     std::vector<Wanted> wanted = points_in_spheres(block, progress);
     double done = kFirstLook;
     while (!wanted.empty()) {
-        progress.tell(done);
+        progress.report(done);
         done += 0.5 * (kForeign - done);
         const std::vector<VertexHandle> inserted = insert_wanted(std::move(wanted), block);
         wanted = points_in_spheres_around(inserted, block);
@@ -255,7 +255,7 @@ std::vector<OpenFacet> open_facets(const UnsetArray<Cell>& cells)
     return facets;
 }
 
-/// Point by point the first ones that do not lie at one place, on one line, in one plane.
+/// The first points that are neither coincident nor collinear nor coplanar, at most four.
 std::vector<Index> spanning_points(const std::vector<Vector3d>& points)
 {
     std::vector<Index> found;

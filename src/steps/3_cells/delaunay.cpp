@@ -19,7 +19,7 @@ Cell unordered_cell(Triangulation::Cell_handle cell)
     for (int i = 0; i < 4; ++i) {
         found[i] = cell->vertex(i)->info();
     }
-    // Sort by exchanging; each exchange turns the cell inside out, and one more may turn it back.
+    // Sort by swaps. Each swap inverts the orientation, so an odd number needs one more.
     bool is_odd = false;
     for (int i = 1; i < 4; ++i) {
         for (int j = i; j > 0 && found[sources[j]] < found[sources[j - 1]]; --j) {
@@ -43,7 +43,7 @@ Index smallest_vertex(const Cell& cell)
     return std::min(cell.vertices[0], cell.vertices[1]);
 }
 
-/// Binned by smallest vertex, each bin sorted; without those of other vertices.
+/// The cells sorted by smallest vertex, then by comes_before(), without cells of other vertices.
 UnsetArray<Index> canonical_order(const UnsetArray<Cell>& cells, Index first_vertex,
                                   std::size_t num_vertices)
 {
@@ -60,16 +60,16 @@ UnsetArray<Index> canonical_order(const UnsetArray<Cell>& cells, Index first_ver
     return std::move(bins.items);
 }
 
-/// Where a cell has another one as neighbour, which is in one place only: cells that shared two
-/// facets would share all vertices.
+/// The slot of a neighbor. It is unique, because cells that shared two facets would share all
+/// vertices.
 int slot_of_neighbor(const Cell& cell, Index neighbor)
 {
     const auto found = std::find(cell.neighbors.begin(), cell.neighbors.end(), neighbor);
     return static_cast<int>(found - cell.neighbors.begin());
 }
 
-/// In which round a point is inserted: the last one takes three quarters of all points, the one
-/// before three quarters of the rest, and so on, by chance.
+/// The random round in which a point is inserted. The last round has three quarters of all points,
+/// the one before three quarters of the rest, and so on.
 std::uint32_t insertion_round(std::size_t point, std::uint32_t num_rounds)
 {
     std::uint32_t round = num_rounds - 1;
@@ -85,7 +85,7 @@ UnsetArray<Cell> unordered_cells(const Triangulation& triangulation, const Progr
     Index count = 0;
     for (const Triangulation::Cell_handle cell : triangulation.all_cell_handles())
         cell->info().value = count++;
-    progress.tell(0.5);
+    progress.report(0.5);
     UnsetArray<Cell> cells;
     cells.reserve(count);
     for (const Triangulation::Cell_handle cell : triangulation.all_cell_handles())
@@ -106,7 +106,7 @@ UnsetArray<Cell> in_canonical_order(const UnsetArray<Cell>& cells, Index first_v
                                     std::size_t num_vertices, const Progress& progress)
 {
     const UnsetArray<Index> order = canonical_order(cells, first_vertex, num_vertices);
-    progress.tell(0.6);
+    progress.report(0.6);
     UnsetArray<Index> numbers = filled_array<Index>(cells.size(), CellNumber::kNone);
     parallel_for(order.size(), [&](std::size_t i) { numbers[order[i]] = static_cast<Index>(i); });
     UnsetArray<Cell> ordered(order.size());
@@ -141,7 +141,7 @@ void complete(TetMesh& mesh)
 
 UnsetArray<std::uint32_t> insertion_order(std::size_t count)
 {
-    constexpr std::size_t kFirstRound = 16; // points or more
+    constexpr std::size_t kFirstRound = 16; // minimum number of points
     std::uint32_t num_rounds = 1;
     while (count >> (2 * num_rounds) >= kFirstRound)
         ++num_rounds;

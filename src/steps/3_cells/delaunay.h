@@ -16,37 +16,38 @@
 
 namespace vcarve {
 
-/// What a cell of CGAL's triangulation is told beside its corners. New ones have no number.
+/// The number of a cell of CGAL's triangulation. New cells have none.
 struct CellNumber {
     static constexpr Index kNone = 0xffffffffU;
     Index value = kNone;
 };
 
-/// CGAL's triangulation, whose vertices know the numbers of their points.
+/// CGAL's triangulation, whose vertices store the numbers of their points.
 using Triangulation = CGAL::Delaunay_triangulation_3<
     Kernel, CGAL::Triangulation_data_structure_3<
                 CGAL::Triangulation_vertex_base_with_info_3<Index, Kernel>,
                 CGAL::Triangulation_cell_base_with_info_3<
                     CellNumber, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>>>;
 
-/// All cells in the order CGAL keeps them, with their vertices as TetMesh has them, their
-/// neighbours by number in there. CGAL's cells are told these numbers.
+/// Returns all cells in CGAL's order, with vertices ordered as in TetMesh and neighbors by number.
+/// Stores these numbers in CGAL's cells.
 UnsetArray<Cell> unordered_cells(const Triangulation& triangulation, const Progress& progress = {});
 
-/// Whether the sorted vertices of a cell come first. Only the first two may stand exchanged.
+/// Whether the sorted vertices of `a` precede those of `b`. Only the first two vertices may be
+/// swapped.
 bool comes_before(const Cell& a, const Cell& b);
 
-/// The cells whose smallest vertices are among the `num_vertices` ones from `first_vertex` on, in
-/// canonical order, see TetMesh. A neighbour that is none of them becomes CellNumber::kNone.
+/// Returns the cells whose smallest vertices are among the `num_vertices` from `first_vertex`, in
+/// canonical order (see TetMesh). Other neighbors become CellNumber::kNone.
 UnsetArray<Cell> in_canonical_order(const UnsetArray<Cell>& cells, Index first_vertex,
                                     std::size_t num_vertices, const Progress& progress = {});
 
-/// Fills what follows from positions and cells: `mirrors` and `cell_of_vertex`.
+/// Computes `mirrors` and `cell_of_vertex` from the positions and cells.
 void complete(TetMesh& mesh);
 
-/// The numbers of points that follow each other in space, in the order that suits insertion: random
-/// at large, near each other in the small (Amenta, Choi, Rote, "Incremental constructions con
-/// BRIO", 2003).
+/// Returns an insertion order for points in the order of spatial_sort(). It is random on a large
+/// scale and local on a small scale (Amenta, Choi, Rote, "Incremental constructions con BRIO",
+/// 2003).
 UnsetArray<std::uint32_t> insertion_order(std::size_t count);
 
 } // namespace vcarve

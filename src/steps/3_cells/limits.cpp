@@ -21,14 +21,15 @@ InputError all_in_one_plane(std::size_t num_points)
 
 InputError too_many_cells(std::size_t most)
 {
-    return InputError(fmt::format("the points have more than {} cells between them, all that "
-                                  "--max-memory allows: many of them lie on few lines or curves",
-                                  most));
+    return InputError(
+        fmt::format("the points have more than {} cells, all that --max-memory allows, "
+                    "because many lie on few lines or curves; raise --max-memory",
+                    most));
 }
 
-std::logic_error two_at_one_place()
+std::logic_error duplicate_position_error()
 {
-    return std::logic_error("two points to triangulate lie at one place");
+    return std::logic_error("two points to triangulate have the same position");
 }
 
 } // namespace vcarve

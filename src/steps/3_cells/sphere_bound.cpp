@@ -15,8 +15,8 @@ constexpr double kRounding = 0x1p-53;
 template <typename Number>
 using Vector3 = Eigen::Matrix<Number, 3, 1>;
 
-/// The cross product with sums instead of differences: what rounding errors of it are bounded by,
-/// where both vectors have no negative number.
+/// The cross product with sums instead of differences, which bounds its rounding errors if both
+/// vectors have no negative component.
 template <typename Number>
 Vector3<Number> cross_bound(const Vector3<Number>& a, const Vector3<Number>& b)
 {
@@ -26,10 +26,10 @@ Vector3<Number> cross_bound(const Vector3<Number>& a, const Vector3<Number>& b)
 
 } // namespace
 
-/// A difference of two coordinates is off by one rounding of itself, a product of k factors by k
-/// roundings and one for each multiplication, and each sum adds one: 16 for D, which has three
-/// factors, and 24 for N, which has four, are more than enough. Then both are rounded to doubles,
-/// and the polynomial, of few more operations, is computed of these: that is the rest.
+/// A difference of two coordinates has one rounding error. A product of k factors has k, and one
+/// per multiplication; each sum adds one. So 16 for D, of three factors, and 24 for N, of four, are
+/// more than enough. The other terms are for rounding both to doubles, and for the few operations
+/// of the polynomial.
 template <typename Number>
 SphereBound SphereBound::computed(const std::array<Vector3d, 4>& corners)
 {
@@ -95,7 +95,7 @@ SphereBound SphereBound::within(const Box& all) const
 
 bool SphereBound::is_within(double distance) const
 {
-    // A diameter is all that lies between two points of the sphere.
+    // Two points of the sphere are at most a diameter apart.
     const double diameter_times_volume = normal_.norm() + normal_error_.norm();
     return volume_ > 2.0 * volume_error_ &&
            diameter_times_volume < 0.999 * distance * (volume_ - volume_error_);

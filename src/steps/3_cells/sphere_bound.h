@@ -12,28 +12,26 @@
 
 namespace vcarve {
 
-/// How far inside the sphere around a tetrahedron a point lies, or how far beyond a plane: a
-/// polynomial that is negative there, with a bound of what rounding adds. It has the signs of
-/// D |q - a|^2 - N (q - a), where a is a corner, D six times the volume and N / 2 D the center seen
-/// from a. So nothing is divided, and cells without a volume to speak of, whose center and radius
-/// would be noise, are safe too: their bound is large, and tells nothing.
+/// A polynomial that is negative inside the sphere around a tetrahedron, or beyond a plane, with a
+/// bound of its rounding error. At a point q it is D |q - a|^2 - N (q - a). Here a is a corner, D
+/// six times the volume, and N / 2 D the center relative to a. Without divisions, almost flat cells
+/// are safe, too. Their center and radius would be noise, but here only their error bound is large.
 class SphereBound {
   public:
-    /// Of the sphere through the corners of a tetrahedron; orientation(a, b, c, d) is positive.
+    /// The sphere through the corners of a tetrahedron. Requires positive orientation(a, b, c, d).
     static SphereBound around(const std::array<Eigen::Vector3d, 4>& corners);
-    /// Of the half space in which orientation(a, b, c, x) is positive.
+    /// The half space in which orientation(a, b, c, x) is positive.
     static SphereBound beyond(const std::array<Eigen::Vector3d, 3>& corners);
 
-    /// The same, asked only about what lies in a box. Most is told sooner then.
+    /// The same for queries inside a box only. Most queries are then faster.
     SphereBound within(const Box& all) const;
 
-    /// At most what the polynomial is at any point of a box. Where it is positive, no point in
-    /// there is inside.
+    /// A lower bound of the polynomial in a box. If it is positive, no point of the box is inside.
     double least_in(const Box& box) const;
-    /// The same of one point.
+    /// The same for one point.
     double least_at(const Eigen::Vector3d& point) const;
 
-    /// Whether all of the sphere lies nearer to each corner than so far.
+    /// Whether every point of the sphere is closer than `distance` to each corner.
     bool is_within(double distance) const;
 
   private:
@@ -43,21 +41,21 @@ class SphereBound {
     bool is_flat() const;
     double error_in(const Box& box) const;
 
-    /// So much products may be off that are too small for doubles.
+    /// A bound of the error of products that underflow.
     static constexpr double kTiny = std::numeric_limits<double>::min();
 
     Eigen::Vector3d corner_;
     double volume_ = 0.0; ///< D
     Eigen::Vector3d normal_;
-    double volume_error_ = 0.0; ///< at most what D is off by
+    double volume_error_ = 0.0; ///< bound of the error of D
     Eigen::Vector3d normal_error_;
-    Eigen::Vector3d center_; ///< from the corner, where D is positive
-    double most_error_ = std::numeric_limits<double>::infinity(); ///< where it will be asked about
+    Eigen::Vector3d center_; ///< relative to the corner; set if D is positive
+    double most_error_ = std::numeric_limits<double>::infinity(); ///< error bound, see within()
 };
 
-// What follows is asked some hundred times a point.
+// The following functions are called some hundred times per point.
 
-/// At most what rounding adds at any point of a box.
+/// A bound of the rounding error at any point of a box.
 inline double SphereBound::error_in(const Box& box) const
 {
     const Eigen::Vector3d most =
@@ -71,7 +69,7 @@ inline double SphereBound::least_in(const Box& box) const
     const Eigen::Vector3d high = box.high - corner_;
     const auto at = [&](double q, int axis) { return q * (volume_ * q - normal_[axis]); };
     double least = 0.0;
-    // A parabola that opens upwards is least at the center, any other one at an end.
+    // A parabola that opens upwards has its minimum at the center, any other at an end.
     for (int axis = 0; axis < 3; ++axis) {
         least += volume_ > 0.0 ? at(std::clamp(center_[axis], low[axis], high[axis]), axis)
                                : std::min(at(low[axis], axis), at(high[axis], axis));

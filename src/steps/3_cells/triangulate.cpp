@@ -19,27 +19,27 @@ namespace vcarve {
 
 namespace {
 
-/// Smaller blocks take in so many points of others that they are slower than no blocks (measured).
+/// Smaller blocks are slower than no blocks (measured), because they need many points of others.
 constexpr std::size_t kLeastBlock = 10'000;
 
-/// Copies the cells of a triangulation to flat arrays and clears it on the way, so that only one
-/// copy of the cells lives beside it.
+/// Copies the cells of a triangulation to flat arrays. Clears the triangulation meanwhile, so that
+/// it coexists with only one copy.
 TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress& progress)
 {
     if (triangulation.dimension() < 3) throw all_in_one_plane(scene.num_points());
     require_indexable(triangulation.number_of_cells(), kMostIndices, "cells");
     if (triangulation.number_of_vertices() != scene.num_points()) {
-        throw two_at_one_place();
+        throw duplicate_position_error();
     }
     triangulation.infinite_vertex()->info() = kInfinite;
     const UnsetArray<Cell> unordered = unordered_cells(triangulation, progress.part(0.0, 0.4));
-    progress.tell(0.4);
+    progress.report(0.4);
     triangulation.clear();
     return_freed_memory();
-    progress.tell(0.6);
+    progress.report(0.6);
     TetMesh mesh;
     mesh.cells = in_canonical_order(unordered, 0, scene.num_points(), progress.part(0.6, 0.9));
-    progress.tell(0.9);
+    progress.report(0.9);
     mesh.positions = scene.positions;
     complete(mesh);
     return mesh;
@@ -56,7 +56,7 @@ std::size_t usual_blocks(std::size_t points, std::size_t threads)
 
 TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const CellLimit& limit)
 {
-    // CGAL's insertion of many points at once does the same, but does not tell how far it is.
+    // CGAL's insertion of many points at once does the same, but reports no progress.
     require_four_points(scene.num_points());
     const Progress inserting = progress.part(0.0, 0.8);
     Triangulation triangulation;
@@ -70,7 +70,7 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const 
             hint->info() = order[i];
             count.change(cells, triangulation.number_of_cells());
             cells = triangulation.number_of_cells();
-            if (i % Progress::kToldEvery == 0) inserting.tell(i, order.size());
+            if (i % Progress::kReportEvery == 0) inserting.report(i, order.size());
         }
     }
     return flatten(triangulation, scene, progress.part(0.8, 1.0));

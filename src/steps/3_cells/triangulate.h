@@ -9,22 +9,20 @@
 
 namespace vcarve {
 
-/// In how many blocks triangulate() works, each one thread at a time: two for each thread, so that
-/// one which has less to do takes its turn, and half of CGAL's structure is there at a time.
+/// Returns the number of blocks for triangulate(). It is two per thread, to balance the work and to
+/// hold only half of CGAL's structure at a time.
 std::size_t usual_blocks(std::size_t points, std::size_t threads);
 
-/// The Delaunay triangulation of the points of a scene. Points on one sphere are told apart by
-/// CGAL's symbolic perturbation, so the triangulation depends on the points alone, not on their
-/// order or on the number of threads. Needs finite points, no two at one place. Throws InputError
-/// where there are fewer than four points or all lie in one plane, and where there are more cells
-/// than the limit says, as soon as there are, or too many for 32-bit indices. Cost: O(points log
-/// points) on surfaces where points that follow each other lie near each other, as spatial_sort()
-/// puts them. Memory: CGAL's structure, about 500 bytes a point of the blocks in work, beside the
-/// cells; of all points where there is one thread, or triangulate_in_blocks() gives up.
+/// Returns the Delaunay triangulation of the points of a scene. CGAL's symbolic perturbation breaks
+/// ties of points on one sphere. So the result depends only on the points, not on their order or
+/// the thread count. Points must be finite and distinct. Throws InputError for fewer than four
+/// points, coplanar points, or too many cells for 32-bit indices, and as soon as the limit is
+/// exceeded. Cost: O(points log points) for points on surfaces in the order of spatial_sort().
+/// Memory: the cells, and CGAL's structure of about 500 bytes per point of the blocks in progress.
+/// With one thread, or if triangulate_in_blocks() gives up, this is needed for all points.
 TetMesh triangulate(const Scene& scene, const Progress& progress = {}, const CellLimit& limit = {});
 
-/// The same, made by one thread and not in blocks: for points that triangulate_in_blocks() has
-/// given up already.
+/// The same on one thread and without blocks, for points that triangulate_in_blocks() gave up.
 TetMesh triangulate_at_once(const Scene& scene, const Progress& progress = {},
                             const CellLimit& limit = {});
 

@@ -23,9 +23,8 @@ PointRun run_of(std::size_t block, std::size_t num_blocks, std::size_t num_point
     return {block * num_points / num_blocks, (block + 1) * num_points / num_blocks};
 }
 
-/// Calls body(block) for all blocks, from many threads. What one throws is thrown at the end, and
-/// not from within the loop: oneTBB would then end the loops that other blocks run, too, as if they
-/// were done.
+/// Calls body(block) for all blocks from many threads. Rethrows the first exception at the end,
+/// because an exception inside the loop makes oneTBB end other blocks' loops as if they were done.
 template <typename Body>
 void for_each_block(std::size_t count, const Body& body)
 {
@@ -48,7 +47,7 @@ std::size_t num_blocks(const Blocks& wanted, const Scene& scene)
     return std::clamp<std::size_t>(wanted.count, 1, scene.num_points());
 }
 
-/// Calls use(block, cells) for the blocks of a share, from many threads.
+/// Calls use(block, cells) for the blocks of a share from many threads.
 template <typename Use>
 void for_each_block_of(const Blocks& share, const Scene& scene, const std::vector<Index>& first,
                        const Use& use, const Progress& progress)
@@ -64,7 +63,7 @@ void for_each_block_of(const Blocks& share, const Scene& scene, const std::vecto
         const PointRun own = run_of(block, all, scene.num_points());
         BlockProgress told(done, own.size());
         use(block, share.keep(block, [&] { return block_cells(tree, first, own, cells, told); }));
-        told.tell(1.0);
+        told.report(1.0);
     });
 }
 
@@ -79,7 +78,7 @@ std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>&
     return made;
 }
 
-/// The number of each block's first cell, and of all cells.
+/// The number of each block's first cell, and the number of all cells.
 std::vector<std::size_t> first_cells(const std::vector<BlockCells>& blocks)
 {
     std::vector<std::size_t> firsts{0};
@@ -89,7 +88,7 @@ std::vector<std::size_t> first_cells(const std::vector<BlockCells>& blocks)
     return firsts;
 }
 
-/// The facets between blocks, numbered by all cells, each from both sides, one after the other.
+/// The facets between blocks, with numbers of all cells. Each occurs twice in a row, once per side.
 std::vector<OpenFacet> facets_between(std::vector<BlockCells>& blocks,
                                       const std::vector<std::size_t>& firsts)
 {
@@ -106,7 +105,7 @@ std::vector<OpenFacet> facets_between(std::vector<BlockCells>& blocks,
     return facets;
 }
 
-/// The cells of all blocks, one block after the other, which is their canonical order.
+/// The cells of all blocks in sequence, which is their canonical order.
 UnsetArray<Cell> joined_cells(std::vector<BlockCells>& blocks,
                               const std::vector<std::size_t>& firsts)
 {
@@ -124,22 +123,22 @@ UnsetArray<Cell> joined_cells(std::vector<BlockCells>& blocks,
     return cells;
 }
 
-/// Makes the cells at both sides of the facets between blocks neighbours.
+/// Connects the two cells at each facet between blocks.
 void join_facets(const std::vector<OpenFacet>& facets, UnsetArray<Cell>& cells)
 {
-    if (facets.size() % 2 != 0) throw std::logic_error("a facet between blocks has one side");
+    if (facets.size() % 2 != 0) throw std::logic_error("a facet between blocks has only one cell");
     parallel_for(facets.size() / 2, [&](std::size_t i) {
         const OpenFacet& one = facets[2 * i];
         const OpenFacet& other = facets[2 * i + 1];
         if (one.corners != other.corners) {
-            throw std::logic_error("a facet between blocks has one side");
+            throw std::logic_error("a facet between blocks has only one cell");
         }
         cells[one.cell].neighbors[one.slot] = other.cell;
         cells[other.cell].neighbors[other.slot] = one.cell;
     });
 }
 
-/// The cells of all blocks, as neighbours of each other.
+/// The connected cells of all blocks.
 TetMesh joined(std::vector<BlockCells>& blocks)
 {
     const std::vector<std::size_t> firsts = first_cells(blocks);
@@ -155,7 +154,7 @@ TetMesh joined(std::vector<BlockCells>& blocks)
 
 void triangulate_share(const Scene& scene, const Blocks& share, const Progress& progress)
 {
-    if (scene.num_points() < 4) return; // refused by who makes the whole
+    if (scene.num_points() < 4) return; // triangulate_in_blocks() rejects these points
     const std::vector<Index> first = first_points(scene.positions);
     if (first.size() < 4) return;
     try {
@@ -181,7 +180,7 @@ std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& w
     }
     return_freed_memory();
     TetMesh mesh = joined(blocks);
-    progress.tell(0.95);
+    progress.report(0.95);
     mesh.positions = scene.positions;
     complete(mesh);
     return mesh;

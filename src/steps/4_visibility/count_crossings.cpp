@@ -17,28 +17,28 @@ void count_one(std::uint32_t& count)
     std::atomic_ref<std::uint32_t>(count).fetch_add(1, std::memory_order_relaxed);
 }
 
-/// The rays to a run of vertices.
-std::vector<Sight> rays_to(Index first, Index last, const RaySource& source)
+/// The rays to the vertices [first, last).
+std::vector<Ray> rays_to(Index first, Index last, const RaySource& source)
 {
-    const Tracks& rays = *source.rays;
-    std::vector<Sight> sights;
-    sights.reserve(rays.begins[last] - rays.begins[first]);
+    const Tracks& tracks = *source.rays;
+    std::vector<Ray> rays;
+    rays.reserve(tracks.begins[last] - tracks.begins[first]);
     for (Index vertex = first; vertex < last; ++vertex) {
-        for (const std::uint32_t origin : rays[vertex]) {
-            sights.push_back({vertex, source.origins[origin]});
+        for (const std::uint32_t origin : tracks[vertex]) {
+            rays.push_back({vertex, source.origins[origin]});
         }
     }
-    return sights;
+    return rays;
 }
 
-/// How many of the rays cross each facet.
+/// The number of rays that cross each facet.
 Crossings count(const TetMesh& cells, const RaySource& source, const Progress& progress)
 {
     Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
     for_each_run_of_vertices(all_vertices(cells), progress, [&](Index first, Index last) {
-        const std::vector<Sight> sights = rays_to(first, last, source);
-        SightWalk(cells).along_each(
-            sights.size(), [&](std::size_t k) { return sights[k]; },
+        const std::vector<Ray> rays = rays_to(first, last, source);
+        RayWalk(cells).along_each(
+            rays.size(), [&](std::size_t k) { return rays[k]; },
             [&](std::size_t, Index cell, int slot) { // counted on both sides
                 const Index beyond = cells.cells[cell].neighbors[slot];
                 count_one(crossings[cell][slot]);

@@ -6,15 +6,15 @@
 
 namespace vcarve {
 
-/// Counts how many rays of a source cross each facet (Akgunduz, Zetu, Banerjee 2000, section 4.2).
-/// `cells` must outlive it.
+/// Counts the rays of a source that cross each facet (Akgunduz, Zetu, Banerjee 2000, section 4.2).
+/// `cells` must outlive the counter.
 class CrossingCounter {
   public:
     explicit CrossingCounter(const TetMesh& cells) : cells_(cells) {}
 
-    /// Adds to each facet how many rays cross it, times the weight of the source and rounded down.
-    /// Crossings that are empty begin at zero. Cost: one walk a ray, in parallel; 16 bytes a cell,
-    /// and as many more where the crossings are not empty.
+    /// Adds the number of rays across each facet, times the weight of the source, rounded down.
+    /// Empty `crossings` start at zero. Cost: one walk per ray, in parallel; 16 bytes per cell
+    /// beside `crossings`.
     void cast(const RaySource& source, Crossings& crossings, const Progress& progress) const;
 
   private:

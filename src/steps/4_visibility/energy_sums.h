@@ -15,18 +15,18 @@
 
 namespace vcarve {
 
-inline constexpr std::size_t kSumsOfRun = 8; ///< cells
+inline constexpr std::size_t kSumsOfRun = 8; ///< cells per run
 
-/// Sums of all cells without the long runs of cells where they are zero, as the sights to a part of
-/// the points leave them: cells lie in the order of points, and most sights end near their points.
+/// The sums of all cells, without runs of zeros. Rays to a subset of the points leave many such
+/// runs: cells are in the order of the points, and most rays end near their points.
 template <typename T>
 struct SparseSums {
-    std::uint64_t count = 0;         ///< of all cells
-    std::vector<std::uint32_t> runs; ///< those with a sum that is not zero, ascending
-    UnsetArray<T> values;            ///< of these runs, one after the other
+    std::uint64_t count = 0;         ///< number of all cells
+    std::vector<std::uint32_t> runs; ///< runs with a nonzero sum, ascending
+    UnsetArray<T> values;            ///< the sums of these runs, concatenated
 };
 
-/// Cost: O(cells), and memory for the runs that are not zero.
+/// Drops runs of zeros. Cost: O(cells), and memory for the other runs.
 template <typename Sums, typename T = typename Sums::value_type>
 SparseSums<T> sparse_sums(const Sums& sums)
 {
@@ -62,12 +62,12 @@ SparseSums<T> sparse_sums(const Sums& sums)
     return sparse;
 }
 
-/// Calls add(sum, value) for each sum in `sums` and what is to be added to it, from many threads.
-/// Throws std::logic_error where the sums are of another number of cells.
+/// Calls add(sum, value) for each stored value and its sum in `sums`, from several threads.
+/// Throws std::logic_error if the numbers of cells differ.
 template <typename T, typename Sums, typename Add>
 void add_sparse(const SparseSums<T>& sparse, Sums& sums, const Add& add)
 {
-    if (sparse.count != sums.size()) throw std::logic_error("sums of other cells");
+    if (sparse.count != sums.size()) throw std::logic_error("add_sparse: the sums differ in size");
     parallel_for(
         sparse.runs.size(),
         [&](std::size_t k) {
@@ -80,10 +80,10 @@ void add_sparse(const SparseSums<T>& sparse, Sums& sums, const Add& add)
         2048);
 }
 
-/// Adds to the network from many threads. What is added to arcs has no sign, so a sum that goes on
-/// from where it is too large stays too large in any order, and can end at a limit: a facet in free
-/// space that two million sights cross is as safe from any cut as one that more cross. A sum of a
-/// cell's terms has signs and must be exact; it is remembered whether one was too large.
+/// Adds to the network, from any number of threads. Sums of arcs are clamped to a limit, because no
+/// cut crosses a facet that two million rays cross. Their terms are not negative, so the order of
+/// addition does not matter. Terms of cells have signs, so their sums must be exact. is_exceeded()
+/// returns whether one was too large.
 class EnergySums {
   public:
     explicit EnergySums(FlowNetwork& network) : network_(network) {}
@@ -100,7 +100,7 @@ class EnergySums {
     {
         add_terminal(network_.terminal_capacities[cell], flow);
     }
-    /// The same for the sum itself.
+    /// The same for a given sum.
     void add_terminal(std::int32_t& sum, std::int32_t flow)
     {
         const std::int32_t before = add(sum, flow);
@@ -110,7 +110,7 @@ class EnergySums {
     }
     bool is_exceeded() const { return is_exceeded_; }
 
-    /// To be called when all is added.
+    /// Clamps the arc capacities. Call it after the last addition.
     void limit_full_arcs()
     {
         ArcCapacities& arcs = network_.arc_capacities;
@@ -121,7 +121,7 @@ class EnergySums {
         });
     }
 
-    /// Adds two sums of a cell's arcs, each made by itself and limited.
+    /// Adds two clamped sums of a cell's arcs and clamps the result.
     static void add_full_arcs(std::array<std::int32_t, 4>& sums,
                               const std::array<std::int32_t, 4>& others)
     {
@@ -130,14 +130,14 @@ class EnergySums {
         }
     }
 
-    /// Asks early for the memory of a cell's arcs.
+    /// Prefetches a cell's arcs.
     void fetch(Index cell) const { prefetch(&network_.arc_capacities[cell]); }
 
   private:
-    // The cut adds a few sums and the costs of facets: a quarter of the range is theirs.
+    // A quarter of the range, because the cut adds several sums and the costs of facets.
     static constexpr std::int32_t kMaxSum = 1 << 29;
 
-    /// Gives the sum before.
+    /// Returns the sum before the addition.
     static std::int32_t add(std::int32_t& sum, std::int32_t value)
     {
         return std::atomic_ref<std::int32_t>(sum).fetch_add(value, std::memory_order_relaxed);

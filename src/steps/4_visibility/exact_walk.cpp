@@ -28,12 +28,12 @@ std::array<Index, 3> facet_corners(const Cell& cell, int slot)
     return {cell.vertices[corners[0]], cell.vertices[corners[1]], cell.vertices[corners[2]]};
 }
 
-/// The cells around an edge in the order of turning, infinite ones included. `start` is one.
+/// The cells around an edge in cyclic order, including infinite cells. `start` is one of them.
 std::vector<Index> cells_around_edge(const TetMesh& mesh, Index a, Index b, Index start)
 {
     std::vector<Index> ring;
     Index cell = start;
-    Index from = kInfinite; // the cell we came from
+    Index from = kInfinite; // the previous cell
     do {
         ring.push_back(cell);
         Index next = kInfinite;
@@ -51,7 +51,7 @@ std::vector<Index> cells_around_edge(const TetMesh& mesh, Index a, Index b, Inde
     return ring;
 }
 
-/// Whether of three points on one line the middle one comes strictly between the others. Exact.
+/// Whether `middle` is strictly between two points that are collinear with it. Exact.
 bool lies_between(const Eigen::Vector3d& from, const Eigen::Vector3d& middle,
                   const Eigen::Vector3d& to)
 {
@@ -61,11 +61,11 @@ bool lies_between(const Eigen::Vector3d& from, const Eigen::Vector3d& middle,
            (from[axis] > middle[axis] && middle[axis] > to[axis]);
 }
 
-/// Which cells were met: a sorted list of a few, a table of many, as around a point within a ball,
-/// amid which inserting would take too long.
+/// A set of cells: a sorted list while it is small, then a hash table. Insertion into a long list
+/// would be slow, for example around a point at the center of a sphere of points.
 class MetCells {
   public:
-    /// Whether a cell was not met before; now it was.
+    /// Adds a cell and returns whether it is new.
     bool add(Index cell)
     {
         if (!many_.empty()) return many_.insert(cell).second;
@@ -99,13 +99,13 @@ std::vector<Index> cells_around_vertex(const TetMesh& mesh, Index vertex, Index 
     return star;
 }
 
-/// +1 where the line of the sight passes left of the way from a to b seen from its point, -1 right.
+/// +1 if the ray's line passes left of the edge from a to b, seen from its point, -1 if right.
 int ExactWalk::side_of_line(Index a, Index b) const
 {
     return -orientation(point_, target_, position(a), position(b));
 }
 
-/// Slot of the one vertex of the place's cell that its three corners leave out.
+/// The slot of the vertex of the cell that is not among the three corners of `place`.
 int ExactWalk::off_plane_corner(const Position& place) const
 {
     const Cell& cell = mesh_.cells[place.cell];
@@ -117,7 +117,7 @@ int ExactWalk::off_plane_corner(const Position& place) const
     return slot;
 }
 
-/// Inside a cell: out through the facet, edge or vertex ahead, unless the target comes first.
+/// Inside a cell: leaves by the facet, edge or vertex ahead, unless the target comes first.
 ExactWalk::Position ExactWalk::leave_cell(Index index)
 {
     const Cell& cell = mesh_.cells[index];
@@ -137,7 +137,7 @@ ExactWalk::Position ExactWalk::leave_cell(Index index)
             const Index neighbor = cell.neighbors[slot];
             return {mesh_.cells[neighbor].is_infinite() ? Kind::end : Kind::cell, neighbor, {}};
         }
-        // On the line of one edge: through its inside; on the lines of two: through their corner.
+        // Coplanar with one edge: leaves through its interior. With two: through their corner.
         const std::array<Index, 3> corners = {a, b, c};
         for (int i = 0; i < 3; ++i) {
             const Index from = corners[i];
@@ -150,10 +150,10 @@ ExactWalk::Position ExactWalk::leave_cell(Index index)
             }
         }
     }
-    return {Kind::end, index, {}}; // unreachable: a line through the inside leaves it
+    return {Kind::end, index, {}}; // unreachable: a line through the interior leaves the cell
 }
 
-/// In a facet's plane, from its corner 0 towards the inside of the edge from corner 1 to corner 2.
+/// In a facet's plane: leaves corner 0 through the interior of the edge between corners 1 and 2.
 ExactWalk::Position ExactWalk::leave_facet_from_vertex(const Position& place)
 {
     const auto [from, a, b] = place.corners;
@@ -166,12 +166,13 @@ ExactWalk::Position ExactWalk::leave_facet_from_vertex(const Position& place)
     return {Kind::edge, place.cell, {a, b, kInfinite}};
 }
 
-/// In a facet's plane, from the inside of the edge from corner 0 to corner 1 on.
+/// In a facet's plane: leaves the interior of the edge between corners 0 and 1.
 ExactWalk::Position ExactWalk::leave_facet_from_edge(const Position& place)
 {
     const auto [a, b, tip] = place.corners;
     const Index off = mesh_.cells[place.cell].vertices[off_plane_corner(place)];
-    // The plane through the line and `off` parts a from b; where it puts the tip, there it leaves.
+    // The plane through the line and `off` separates a and b. The ray leaves by the edge to the tip
+    // from the corner on the other side of the plane.
     const int side_a = orientation(point_, target_, position(off), position(a));
     const int side_tip = orientation(point_, target_, position(off), position(tip));
     const Index far_end = side_tip == side_a ? b : a;
@@ -188,7 +189,7 @@ ExactWalk::Position ExactWalk::leave_facet_from_edge(const Position& place)
     return {Kind::edge, place.cell, {far_end, tip, kInfinite}};
 }
 
-/// On the inside of an edge: into the cell or the facet around it that faces the target.
+/// In the interior of an edge: enters the cell or facet around the edge that faces the target.
 ExactWalk::Position ExactWalk::leave_edge(const Position& place)
 {
     const Index a = place.corners[0];
@@ -215,10 +216,10 @@ ExactWalk::Position ExactWalk::leave_edge(const Position& place)
             return {Kind::facet_from_edge, index, {a, b, y}};
         }
     }
-    return {}; // out of the hull
+    return {}; // leaves the hull
 }
 
-/// At a vertex: into the cell, the facet or the edge around it that leads to the target.
+/// At a vertex: enters the cell, facet or edge around the vertex that leads to the target.
 ExactWalk::Position ExactWalk::leave_vertex(const Position& place)
 {
     const Index vertex = place.corners[0];
@@ -237,7 +238,7 @@ ExactWalk::Position ExactWalk::leave_vertex(const Position& place)
         }
         const auto zeros = std::count(turns.begin(), turns.end(), 0);
         if (std::count(turns.begin(), turns.end(), -1) > 0 || zeros == 3) {
-            continue; // leads elsewhere
+            continue; // does not lead to the target
         }
         if (zeros == 0) {
             return {Kind::cell, index, {}};
@@ -255,7 +256,7 @@ ExactWalk::Position ExactWalk::leave_vertex(const Position& place)
             }
         }
     }
-    return {}; // out of the hull
+    return {}; // leaves the hull
 }
 
 ExactWalk::Position ExactWalk::leave(const Position& place)

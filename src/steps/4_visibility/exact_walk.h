@@ -8,22 +8,21 @@
 
 namespace vcarve {
 
-/// Where a walk began and ended.
+/// The first and the last cell of a walk.
 struct WalkEnds {
-    /// The cell whose interior the sight enters first; kInfinite where it starts along an edge, in
+    /// The cell whose interior the ray enters first; kInfinite if the ray starts along an edge, in
     /// a facet, or out of the hull.
     Index first = kInfinite;
-    /// The cell that holds the target, its border included, or an infinite one when the sight
-    /// leaves the hull; kInfinite where it leaves the hull through an edge or a vertex.
+    /// The cell that contains the target, boundary included, or an infinite cell if the ray leaves
+    /// the hull; kInfinite if it leaves the hull through an edge or a vertex.
     Index last = kInfinite;
 };
 
-/// Follows the segment from a vertex to a target through the cells by exact predicates alone:
-/// through facets, along facets and edges, through edges and vertices. A facet counts as crossed
-/// where the segment passes from one side of it to the other through its relative interior;
-/// touching an edge or a vertex and running inside a facet's plane cross nothing. Each step goes
-/// further along the segment, so the walk always ends. Slow and rarely needed: it takes over where
-/// the fast walk meets a zero.
+/// Follows the segment from a vertex to a target through the cells, with exact predicates only:
+/// through facets, along facets and edges, through edges and vertices. The segment crosses a facet
+/// if it passes from one side to the other through the relative interior. It crosses nothing where
+/// it touches an edge or a vertex, or runs in a facet's plane. Each step advances along the
+/// segment, so the walk always ends. Slow and rarely needed: RayWalk uses it when a predicate is 0.
 class ExactWalk {
   public:
     ExactWalk(const TetMesh& mesh, const Eigen::Vector3d& point, const Eigen::Vector3d& target)
@@ -31,19 +30,19 @@ class ExactWalk {
     {
     }
 
-    /// From a vertex (at `point`) to the target.
+    /// Walks from a vertex, which is at `point`, to the target.
     WalkEnds from_vertex(Index vertex);
 
-    /// On from inside a cell that the segment has entered; returns the last cell.
+    /// Continues inside a cell that the segment has entered, and returns the last cell.
     Index from_cell(Index cell);
 
-    /// The facets crossed so far, in order, as seen from the cells left.
+    /// The facets crossed so far, in order, given from the cells that the segment left by them.
     const std::vector<CellFacet>& crossed() const { return crossed_; }
 
   private:
-    /// What the sight has reached, and where to look for it. `corners` are vertices of `cell`:
-    /// none inside a cell, one at a vertex, two on an edge, three inside a facet (where `entered`
-    /// says through which of its corners or edges: the vertex it does not touch is last).
+    /// The simplex that the ray has reached. `corners` are vertices of `cell`: none inside a cell,
+    /// one at a vertex, two on an edge, and three in a facet. In a facet, the corner or edge by
+    /// which the ray entered comes first.
     enum class Kind { end, cell, facet_from_vertex, facet_from_edge, edge, vertex };
     struct Position {
         Kind kind = Kind::end;
@@ -70,8 +69,7 @@ class ExactWalk {
     std::vector<CellFacet> crossed_;
 };
 
-/// The cells around a vertex, infinite ones included, in no particular order. `start` is one of
-/// them.
+/// The cells around a vertex, including infinite cells, in no particular order. `start` is one.
 std::vector<Index> cells_around_vertex(const TetMesh& mesh, Index vertex, Index start);
 
 } // namespace vcarve

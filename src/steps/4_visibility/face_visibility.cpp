@@ -23,7 +23,7 @@ std::array<Vector3d, 3> facet_corners(const TetMesh& mesh, const CellFacet& face
     return {mesh.positions[vertices[a]], mesh.positions[vertices[b]], mesh.positions[vertices[c]]};
 }
 
-/// How many views saw the least seen corner from the front.
+/// The number of views that saw a corner from the front, minimum over the corners.
 std::int32_t face_support(const TriMesh& mesh, const Scene& scene, const Face& face)
 {
     const Vector3d normal = face_normal(mesh.positions, face);
@@ -33,7 +33,7 @@ std::int32_t face_support(const TriMesh& mesh, const Scene& scene, const Face& f
         }
         const auto track = scene.tracks[mesh.points[vertex]];
         return std::count_if(track.begin(), track.end(), [&](std::uint32_t view) {
-            return stands_before(scene.views[view].center, mesh.positions[vertex], normal);
+            return is_in_front_of(scene.views[view].center, mesh.positions[vertex], normal);
         });
     };
     return static_cast<std::int32_t>(
@@ -42,12 +42,12 @@ std::int32_t face_support(const TriMesh& mesh, const Scene& scene, const Face& f
 
 } // namespace
 
-bool stands_before(const Vector3d& center, const Vector3d& place, const Vector3d& normal,
-                   double cosine)
+bool is_in_front_of(const Vector3d& center, const Vector3d& place, const Vector3d& normal,
+                    double cosine)
 {
     const Vector3d way = center - place;
     const double height = normal.dot(way);
-    return height > 0.0 && height > cosine * way.norm(); // most need no root
+    return height > 0.0 && height > cosine * way.norm(); // the sign usually decides, without a root
 }
 
 std::vector<Vector3d> places_on(const std::array<Vector3d, 3>& corners)
@@ -113,17 +113,17 @@ std::vector<Vector3d> FaceVisibility::places_on(const CellFacet& facet) const
     return vcarve::places_on(corners_of(facet));
 }
 
-/// Whether a view stands before a facet at a place that its image shows.
+/// Whether a view is in front of a facet, and its image shows a position on the facet.
 bool FaceVisibility::faces(std::uint32_t view, const CellFacet& facet, const Vector3d& place,
                            double cosine) const
 {
     const View& eye = scene_.views[view];
-    return stands_before(eye.center, place, outward(facet).normalized(), cosine) &&
+    return is_in_front_of(eye.center, place, outward(facet).normalized(), cosine) &&
            view_shows(eye, scene_.cameras[eye.camera], place);
 }
 
-/// Whether a way to a view that goes through a facet to be crossed next may be free.
-/// Through an edge or a vertex the way may enter inside cells unasked, but not leave them so.
+/// Whether a ray from `facet` to a view is unoccluded at `ahead`, the facet that it crosses next.
+/// Both cells are tested, because the ray may have entered an inside cell by an edge or vertex.
 bool FaceVisibility::is_free(const CellFacet& ahead, const CellFacet& facet) const
 {
     return (ahead.cell == facet.cell || labels_[ahead.cell] == Label::outside) &&
@@ -133,9 +133,9 @@ bool FaceVisibility::is_free(const CellFacet& ahead, const CellFacet& facet) con
 bool FaceVisibility::sees(std::uint32_t view, const CellFacet& facet, const Vector3d& place) const
 {
     if (!faces(view, facet, place)) return false;
-    const auto goes_on = [&](const CellFacet& ahead) { return is_free(ahead, facet); };
+    const auto continues = [&](const CellFacet& ahead) { return is_free(ahead, facet); };
     const Vector3d& center = scene_.views[view].center;
-    return SightWalk(cells_).through_facet(facet, place, center, goes_on).cell == kInfinite;
+    return RayWalk(cells_).through_facet(facet, place, center, continues).cell == kInfinite;
 }
 
 bool FaceVisibility::is_seen(const CellFacet& facet) const
@@ -152,7 +152,7 @@ bool FaceVisibility::is_seen(const CellFacet& facet) const
     });
 }
 
-bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
+bool FaceVisibility::has_reliable_visibility(const CellFacet& facet) const
 {
     const Vector3d normal = outward(facet).normalized();
     return std::ranges::all_of(kFacetCorners[facet.slot], [&](int corner) {
@@ -161,7 +161,7 @@ bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
         bool is_seen = false;
         for (const std::uint32_t view : scene_.tracks[vertex]) {
             const View& eye = scene_.views[view];
-            if (!stands_before(eye.center, place, normal)) continue;
+            if (!is_in_front_of(eye.center, place, normal)) continue;
             if (view_shows(eye, scene_.cameras[eye.camera], place)) return true;
             is_seen = true;
         }
@@ -169,7 +169,7 @@ bool FaceVisibility::is_told_by_images(const CellFacet& facet) const
     });
 }
 
-/// What a line crosses of the boundary where it goes through a facet out of the facet's cell.
+/// The boundary facet, if any, that a line crosses when it leaves the cell of `ahead` by `ahead`.
 FaceVisibility::Crossed FaceVisibility::crossed_at(const CellFacet& ahead) const
 {
     const CellFacet beyond = cells_.other_side(ahead);
@@ -180,17 +180,17 @@ FaceVisibility::Crossed FaceVisibility::crossed_at(const CellFacet& ahead) const
 
 bool FaceVisibility::along_boundary(const CellFacet& facet, const Vector3d& place,
                                     const Vector3d& target,
-                                    const std::function<bool(const Crossed&)>& goes_on) const
+                                    const std::function<bool(const Crossed&)>& continues) const
 {
-    bool passes = false; // through the facet itself, which comes first
+    bool passes = false; // whether it has crossed the facet itself, which comes first
     const auto look = [&](const CellFacet& ahead) {
         const Crossed met = crossed_at(ahead);
         if (met.side == Meets::nothing) return true;
-        if (passes) return goes_on(met);
+        if (passes) return continues(met);
         passes = true;
         return true;
     };
-    SightWalk(cells_).through_facet(facet, place, target, look);
+    RayWalk(cells_).through_facet(facet, place, target, look);
     return passes;
 }
 
@@ -198,7 +198,7 @@ bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Vector3d&
 {
     const auto track = scene.tracks[point];
     return std::any_of(track.begin(), track.end(), [&](std::uint32_t view) {
-        return stands_before(scene.views[view].center, scene.positions[point], normal);
+        return is_in_front_of(scene.views[view].center, scene.positions[point], normal);
     });
 }
 

@@ -16,32 +16,33 @@
 
 namespace vcarve {
 
-/// Cosine of the angle off the normal up to which a view sees a face by more than a graze: about 87
-/// degrees.
+/// A view is grazing and does not see a face if the cosine of its angle to the normal is at most
+/// this (about 87 degrees).
 inline constexpr double kGrazing = 0.05;
 
-/// Whether a view at `center` stands before a place with this unit normal, so that the cosine of
-/// the angle off the normal is above the given one. Never where the normal is zero.
-bool stands_before(const Eigen::Vector3d& center, const Eigen::Vector3d& place,
-                   const Eigen::Vector3d& normal, double cosine = kGrazing);
+/// Whether a view at `center` is in front of a position with this unit normal: the cosine of the
+/// angle to the normal exceeds 0 and `cosine`. False if the normal is zero.
+bool is_in_front_of(const Eigen::Vector3d& center, const Eigen::Vector3d& place,
+                    const Eigen::Vector3d& normal, double cosine = kGrazing);
 
-/// Places spread over a triangle: its middle, and near its corners and the middles of its edges; on
-/// a long thin one also so near its corners as its shortest edge is long. At most 10.
+/// Samples of a triangle: its centroid, and positions near its corners and edge midpoints. A long
+/// thin triangle has one more near each corner, about as near as its shortest edge is long. At most
+/// 10.
 std::vector<Eigen::Vector3d> places_on(const std::array<Eigen::Vector3d, 3>& corners);
 
-/// Places spread evenly over a triangle, so many along each side.
+/// Samples spread evenly over a triangle, `to_a_side` of them along each side.
 std::vector<Eigen::Vector3d> grid_on(const std::array<Eigen::Vector3d, 3>& corners, int to_a_side);
 
-/// What the views see of the boundary between inside and outside cells. A view sees a place on a
-/// boundary facet if its image shows the place, the facet turns its front, the outside, to the
-/// view, by more than a graze, and the way between them leads through outside cells only. Facets
-/// are given from their inside cells. Safe from many threads. Keeps references.
+/// The visibility of the boundary between inside and outside cells. A view sees a position on a
+/// boundary facet if its image shows the position, the front of the facet (the outside) faces the
+/// view at more than a grazing angle, and the ray between them crosses outside cells only. Facets
+/// are given from their inside cells. Thread-safe. Keeps references.
 class FaceVisibility {
   public:
-    /// What a line meets.
+    /// The side of the boundary that a line meets.
     enum class Meets { nothing, front, back };
 
-    /// A facet of the boundary, given from its inside cell, and from which side a line meets it.
+    /// A boundary facet, given from its inside cell, and the side from which a line meets it.
     struct Crossed {
         CellFacet facet;
         Meets side = Meets::nothing;
@@ -53,54 +54,52 @@ class FaceVisibility {
 
     std::array<Eigen::Vector3d, 3> corners_of(const CellFacet& facet) const;
 
-    /// Places spread over a facet, as over any triangle.
+    /// Samples of a facet, see the function for triangles.
     std::vector<Eigen::Vector3d> places_on(const CellFacet& facet) const;
 
-    /// Whether a view sees a place on a facet, at more than a graze.
-    /// Cost: a walk through the cells up to the view, where the view stands before the facet and
-    /// its image shows the place.
+    /// Whether a view sees a position on a facet, at more than a grazing angle. Cost: a walk to the
+    /// view if the view is in front of the facet and its image shows the position.
     bool sees(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place) const;
 
-    /// Whether some view sees one of the places on a facet, as any_view() asks them. Cost: up to 32
-    /// walks for each place, and one for each view that saw a corner.
+    /// Whether any view sees a sample of a facet; any_view() describes which views are tried. Cost
+    /// per sample: up to 32 walks, and one per view that saw a corner.
     bool is_seen(const CellFacet& facet) const;
 
-    /// The same of a place where of the boundary only the facets are there that is_kept(facet)
-    /// names.
+    /// Whether a view sees a position on a facet if only facets with is_kept(facet) can occlude it.
     template <typename IsKept>
     bool sees_among(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                     const IsKept& is_kept, double cosine = kGrazing) const;
 
-    /// Whether ask(view) says yes for some view that may see a place on a facet: of those that saw
-    /// a corner of it, the likeliest to see it, or of the nearest 32 that stand before it and whose
-    /// images show it.
+    /// Whether ask(view) is true for a view that may see a position on a facet. Tries the views
+    /// that saw a corner first, because they are the likeliest to see it. Then tries the nearest 32
+    /// views in front of it whose images show it.
     template <typename Ask>
     bool any_view(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const;
 
-    /// Whether images tell what is seen of a facet: of the views before a corner that saw it, one
-    /// shows it at least. Where a lens or a pose is wrong they do not.
-    bool is_told_by_images(const CellFacet& facet) const;
+    /// Whether images and tracks agree at a facet: at each corner, one of the views in front that
+    /// saw it must show it in its image, if there are any. Wrong lenses or poses violate this.
+    bool has_reliable_visibility(const CellFacet& facet) const;
 
-    /// Whether nothing but infinity lies behind a facet.
+    /// Whether the cell behind a facet is infinite.
     bool is_before_infinity(const CellFacet& facet) const
     {
         return cells_.cells[facet.cell].is_infinite();
     }
 
-    /// Whether nothing but infinity lies before a facet.
+    /// Whether the cell in front of a facet is infinite.
     bool is_on_hull(const CellFacet& facet) const
     {
         return cells_.cells[cells_.other_side(facet).cell].is_infinite();
     }
 
-    /// What a view that sees a place on a facet would meet, were the facet away: the first facet
-    /// behind the place that is_kept(facet) says is there, from its front or from its back.
+    /// The side that a view of a position on a facet would meet if the facet were removed: the
+    /// front or back of the first facet behind the position with is_kept(facet).
     template <typename IsKept>
     Meets met_behind(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
                      const IsKept& is_kept) const;
 
   private:
-    /// Towards the outside; not of unit length.
+    /// The normal towards the outside, not of unit length.
     Eigen::Vector3d outward(const CellFacet& facet) const;
 
     bool faces(std::uint32_t view, const CellFacet& facet, const Eigen::Vector3d& place,
@@ -115,12 +114,12 @@ class FaceVisibility {
     template <typename Ask>
     bool any_near_view(const CellFacet& facet, const Eigen::Vector3d& place, const Ask& ask) const;
 
-    /// Walks along a line out of a facet's cell, from a place on the facet to a target, and calls
-    /// goes_on(crossed) for what it crosses of the boundary behind the facet itself, until that
-    /// says no. False where the line does not clearly pass through the facet.
+    /// Walks from a position on a facet out of the facet's cell to a target. Calls
+    /// continues(crossed) for each boundary facet after the facet itself, until it returns false.
+    /// Returns false if the line does not clearly pass through the facet.
     bool along_boundary(const CellFacet& facet, const Eigen::Vector3d& place,
                         const Eigen::Vector3d& target,
-                        const std::function<bool(const Crossed&)>& goes_on) const;
+                        const std::function<bool(const Crossed&)>& continues) const;
 
     const TetMesh& cells_;
     const Labels& labels_;
@@ -165,11 +164,11 @@ bool FaceVisibility::sees_among(std::uint32_t view, const CellFacet& facet,
 {
     if (!faces(view, facet, place, cosine)) return false;
     bool is_free = true;
-    const auto goes_on = [&](const Crossed& crossed) {
+    const auto continues = [&](const Crossed& crossed) {
         is_free = !is_kept(crossed.facet);
         return is_free;
     };
-    return along_boundary(facet, place, scene_.views[view].center, goes_on) && is_free;
+    return along_boundary(facet, place, scene_.views[view].center, continues) && is_free;
 }
 
 template <typename IsKept>
@@ -187,20 +186,20 @@ FaceVisibility::Meets FaceVisibility::met_behind(std::uint32_t view, const CellF
     return met;
 }
 
-/// Whether some view of a point's track sees it from the side the unit normal points to, at under
-/// about 87 degrees.
+/// Whether a view of a point's track sees it from the side of the unit normal, less than about 87
+/// degrees from it.
 bool is_seen_from_front(const Scene& scene, std::uint32_t point, const Eigen::Vector3d& normal);
 
-/// Whether a face over points of the scene has been seen: each corner by some view of its point's
-/// track that the face turns its front to.
+/// Whether a face over points of the scene was seen: each corner has a view in its point's track
+/// that is in front of the face.
 bool is_seen(const Scene& scene, const Face& points, const Eigen::Vector3d& normal);
 
-/// Which faces have been seen at all corners, by is_seen(). Needs TriMesh::points. Cost: O(sights),
-/// in parallel.
+/// Flags the faces that were seen at all corners, by is_seen(). Needs TriMesh::points. Cost:
+/// O(rays), in parallel.
 FaceFlags faces_seen_at_corners(const TriMesh& mesh, const Scene& scene);
 
-/// Per face, how many views of its track saw the least seen corner from the front of the face: what
-/// faces_seen_at_corners wants to be 1 or more. 0 where a corner is no point. Needs
+/// Per face, the number of views of a corner's track in front of the face, minimum over the
+/// corners. faces_seen_at_corners() requires at least 1. 0 if a corner is not a point. Needs
 /// TriMesh::points. Cost: O(faces x views of their points), in parallel.
 std::vector<std::int32_t> face_supports(const TriMesh& mesh, const Scene& scene);
 

@@ -4,7 +4,7 @@
 #include "base/parallel.h"
 #include "geometry/triangle.h"
 #include "steps/4_visibility/energy_sums.h"
-#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/ray_weights.h"
 #include "steps/4_visibility/walk.h"
 #include "vcarve/error.h"
 
@@ -20,14 +20,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// All zero.
+/// A network with zero capacities.
 FlowNetwork empty_network(const TetMesh& mesh)
 {
     const std::size_t count = mesh.cells.size();
     return {filled_array(count, std::array<std::int32_t, 4>{}), filled_array(count, 0)};
 }
 
-/// Distance from a point to where the line through it in a direction meets a facet's plane.
+/// The distance from a point along a direction to a facet's plane; 0 if they are parallel.
 double distance_to_facet(const TetMesh& mesh, CellFacet facet, const Vector3d& point,
                          const Vector3d& direction)
 {
@@ -41,9 +41,9 @@ double distance_to_facet(const TetMesh& mesh, CellFacet facet, const Vector3d& p
     return along == 0.0 ? 0.0 : std::abs(normal.dot(a - point) / along);
 }
 
-/// What each cell keeps of the flow of one sight, cell by cell from the point on. The next cell is
-/// not the one reached where the sight met an edge or a vertex: there one stretch ends, with a
-/// source (or sink) of its own, and another begins.
+/// Pushes the flow of one ray, cell by cell from its point, and records the excess of each cell. If
+/// the ray meets an edge or a vertex, the next cell is not the one it reached. There one stretch
+/// ends in a separate source (or sink), and another begins.
 class Push {
   public:
     enum class Sign : std::int32_t { source = 1, sink = -1 };
@@ -76,7 +76,7 @@ class Push {
 
     void keep(Index cell, std::int32_t flow)
     {
-        // Infinite cells are outside whatever they keep.
+        // Infinite cells are outside whatever their excess.
         if (flow != 0 && cell != kInfinite && !mesh_.cells[cell].is_infinite()) {
             sums_.add_terminal_capacity(cell, sign_ * flow);
         }
@@ -89,43 +89,43 @@ class Push {
     Index reached_ = kInfinite;
 };
 
-/// A sight from a point to a view, and how far its flow is pushed.
-struct OutwardSight {
-    Sight sight;
+/// A ray from a point to a view, and the state of its push.
+struct OutwardRay {
+    Ray ray;
     std::uint32_t view;
-    std::int32_t full;   ///< its weight where the distance sigma is zero
-    std::int32_t bundle; ///< how many sights go on as one, far from their points
+    std::int32_t full;   ///< weight before the factor for the distance
+    std::int32_t bundle; ///< number of rays that continue as one, far from their points
     Vector3d direction;
     Push push;
-    int crossed = 0;        ///< facets
-    std::uint32_t lead = 1; ///< for how many one goes on
+    int crossed = 0;        ///< number of facets
+    std::uint32_t lead = 1; ///< number of rays for which one continues
     bool leads = true;
 
-    /// Whether it goes through one more facet, and with what weight: one sight of a bundle goes on
-    /// for all. Points follow each other in space, and so each of those near takes its turn.
-    bool goes_on()
+    /// Whether the ray crosses one more facet; updates its weight. One ray of a bundle continues
+    /// for all. Consecutive points are neighbors in space, so a bundle consists of neighbors.
+    bool continues()
     {
         ++crossed;
         if (crossed == kBundledAfter[0] + 1 || crossed == kBundledAfter[1] + 1) {
             lead *= static_cast<std::uint32_t>(bundle);
             full *= bundle;
-            leads = (sight.vertex + view) % lead == 0;
+            leads = (ray.vertex + view) % lead == 0;
         }
-        return leads; // asked again where the exact walk reports all its facets
+        return leads; // called again if the exact walk reports all its facets
     }
 };
 
-/// Adds the terms of sights to the network.
-class SightTerms {
+/// Adds the terms of rays to the network.
+class RayTerms {
   public:
-    SightTerms(const TetMesh& mesh, EnergySums& sums, double sigma)
+    RayTerms(const TetMesh& mesh, EnergySums& sums, double sigma)
         : mesh_(mesh), sums_(sums), sigma_(sigma)
     {
     }
 
-    /// The sight from a vertex to a view.
-    OutwardSight outward(Index vertex, std::uint32_t view, const Vector3d& center,
-                         std::int32_t full, std::int32_t bundle) const
+    /// The ray from a vertex to a view.
+    OutwardRay outward(Index vertex, std::uint32_t view, const Vector3d& center, std::int32_t full,
+                       std::int32_t bundle) const
     {
         return {{vertex, center},
                 view,
@@ -135,46 +135,45 @@ class SightTerms {
                 Push(mesh_, sums_, Push::Sign::source)};
     }
 
-    /// Outside, from the points to the views. Calls on_end(view, cell) with the cell of the view,
-    /// kInfinite if that lies out of the hull.
+    /// Adds the votes for outside along the rays from points to views. Calls on_end(view, cell)
+    /// with the cell of the view, kInfinite if the view is outside the hull.
     template <typename OnEnd>
-    void add_outside_terms(SightWalk& walk, std::vector<OutwardSight>& sights,
-                           const OnEnd& on_end) const
+    void add_outside_terms(RayWalk& walk, std::vector<OutwardRay>& rays, const OnEnd& on_end) const
     {
         walk.along_each(
-            sights.size(), [&](std::size_t k) -> const Sight& { return sights[k].sight; },
+            rays.size(), [&](std::size_t k) -> const Ray& { return rays[k].ray; },
             [&](std::size_t k, Index cell, int slot) {
                 const Index beyond = mesh_.cells[cell].neighbors[slot];
                 sums_.fetch(beyond);
-                // The sight's flow comes from the view and falls towards the point: it fills the
-                // arc inwards, opens the one outwards, and what the next facet will not take stays
-                // here. Where a bundle begins, the sights that end there leave theirs to the one
-                // that goes on, and ask for that cell to be outside.
-                OutwardSight& on = sights[k];
-                if (!on.goes_on()) return false;
+                // The flow runs from the view to the point and decreases on its way. It saturates
+                // the inward arc, opens the outward arc, and the rest stays here as excess. Where
+                // a bundle begins, rays that end pass their weight to the ray that continues, and
+                // vote for that cell to be outside.
+                OutwardRay& on = rays[k];
+                if (!on.continues()) return false;
                 const std::int32_t weight =
                     on.push.carried() == on.full
                         ? on.full
-                        : soft_weight({cell, slot}, mesh_.positions[on.sight.vertex], on.direction,
+                        : soft_weight({cell, slot}, mesh_.positions[on.ray.vertex], on.direction,
                                       on.full);
                 sums_.add_arc_capacity(cell, slot, weight);
                 on.push.cross(cell, beyond, weight);
                 return true;
             },
             [&](std::size_t k, const WalkEnds& ends) {
-                sights[k].push.end(ends.last, sights[k].full);
+                rays[k].push.end(ends.last, rays[k].full);
                 const bool in_hull =
                     ends.last != kInfinite && !mesh_.cells[ends.last].is_infinite();
-                on_end(sights[k].view, in_hull ? ends.last : kInfinite);
+                on_end(rays[k].view, in_hull ? ends.last : kInfinite);
             });
     }
 
-    /// Inside, from a vertex away from the origins of its rays, down to a depth of `sink_depth`
-    /// sigmas.
-    void add_inside_terms(SightWalk& walk, Index vertex, const RaySource& source, std::int32_t full,
+    /// Adds the votes for inside behind a vertex, away from the origins of its rays, to a depth of
+    /// `sink_depth` sigmas.
+    void add_inside_terms(RayWalk& walk, Index vertex, const RaySource& source, std::int32_t full,
                           double sink_depth) const
     {
-        walk.stand_at(vertex);
+        walk.move_to(vertex);
         for (const std::uint32_t origin : (*source.rays)[vertex]) {
             add_inside_terms(walk, mesh_.positions[vertex], source.origins[origin], full,
                              sink_depth);
@@ -182,8 +181,8 @@ class SightTerms {
     }
 
   private:
-    /// The same of one ray, from the point where the walk stands.
-    void add_inside_terms(SightWalk& walk, const Vector3d& point, const Vector3d& center,
+    /// The same for one ray, from the vertex of the walk.
+    void add_inside_terms(RayWalk& walk, const Vector3d& point, const Vector3d& center,
                           std::int32_t full, double sink_depth) const
     {
         const Vector3d direction = (point - center).normalized();
@@ -221,13 +220,13 @@ class SightTerms {
     double sigma_;
 };
 
-/// Finds the cells of the origins to which no ray led, as when none of a view's points passed the
-/// filter: a camera stands in free space all the same.
+/// Finds the cells of origins without rays, for example if the filter dropped all points of a view:
+/// cameras without points are in free space, too.
 void locate_other_origins(const TetMesh& cells, const std::vector<Vector3d>& origins,
                           std::vector<Index>& cell_of_origin)
 {
     if (cells.positions.empty()) return;
-    SightWalk walk(cells, 0);
+    RayWalk walk(cells, 0);
     for (std::size_t origin = 0; origin < origins.size(); ++origin) {
         if (cell_of_origin[origin] != kInfinite) continue;
         const Index last = walk.to(origins[origin], [](Index, int) {}).last;
@@ -238,40 +237,40 @@ void locate_other_origins(const TetMesh& cells, const std::vector<Vector3d>& ori
 void require_exact(bool is_exact, const Scene& scene)
 {
     if (!is_exact) {
-        throw InputError(fmt::format("the {} sights of the model add up to more than 32 bits hold "
-                                     "in one cell; a surface needs fewer points or views",
-                                     scene.num_sights()));
+        throw InputError(fmt::format("the weights of the {} rays of the model exceed 32 bits "
+                                     "in one cell; use fewer points or views",
+                                     scene.num_rays()));
     }
 }
 
 } // namespace
 
-VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& points,
-                                    const Progress& progress) const
+VisibilityEnergy RayCaster::energy_of(const RaySource& source, const VertexRun& points,
+                                      const Progress& progress) const
 {
     VisibilityEnergy energy;
-    energy.unit = SightWeights::kUnit;
+    energy.unit = RayWeights::kUnit;
     energy.network = empty_network(cells_);
     if (source.is_measured) energy.cell_of_view.resize(source.origins.size(), kInfinite);
     std::vector<Index>& cell_of_origin = energy.cell_of_view;
     EnergySums sums(energy.network);
-    const SightTerms terms(cells_, sums, options_.distance_sigma * scales_.short_edge);
-    const SightWeights weights(scene_, scales_, options_);
+    const RayTerms terms(cells_, sums, options_.distance_sigma * scales_.short_edge);
+    const RayWeights weights(scene_, scales_, options_);
 
     for_each_run_of_vertices(points, progress, [&](Index first, Index last) {
-        SightWalk walk(cells_);
-        std::vector<OutwardSight> sights;
+        RayWalk walk(cells_);
+        std::vector<OutwardRay> rays;
         for (Index vertex = first; vertex < last; ++vertex) {
             const std::int32_t full = weights.full_weight(vertex, source.weight);
-            const std::int32_t bundle = scene_.is_dense ? options_.bundle_sights : 1;
+            const std::int32_t bundle = scene_.is_dense ? options_.bundle_rays : 1;
             if (source.is_measured && scene_.kind_of(vertex) != PointKind::border)
                 terms.add_inside_terms(walk, vertex, source, full, options_.sink_depth);
             for (const std::uint32_t view : (*source.rays)[vertex]) {
-                sights.push_back(terms.outward(vertex, view, source.origins[view], full, bundle));
+                rays.push_back(terms.outward(vertex, view, source.origins[view], full, bundle));
             }
         }
-        terms.add_outside_terms(walk, sights, [&](std::uint32_t view, Index cell) {
-            // Of a view on the border of cells different ones are found.
+        terms.add_outside_terms(walk, rays, [&](std::uint32_t view, Index cell) {
+            // Rays find different cells for a view on the boundary between cells.
             if (source.is_measured) atomic_min(cell_of_origin[view], cell);
         });
     });
@@ -283,7 +282,7 @@ VisibilityEnergy RayCaster::said_of(const RaySource& source, const VertexRun& po
 RayCaster::Share RayCaster::share(const RaySource& source, const VertexRun& points,
                                   const Progress& progress) const
 {
-    VisibilityEnergy energy = said_of(source, points, progress);
+    VisibilityEnergy energy = energy_of(source, points, progress);
     return {sparse_sums(energy.network.arc_capacities),
             sparse_sums(energy.network.terminal_capacities), std::move(energy.cell_of_view)};
 }
@@ -323,7 +322,7 @@ void RayCaster::finish(const RaySource& source, VisibilityEnergy energy,
 void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
                      const Progress& progress) const
 {
-    finish(source, said_of(source, all_vertices(cells_), progress), energy);
+    finish(source, energy_of(source, all_vertices(cells_), progress), energy);
 }
 
 } // namespace vcarve

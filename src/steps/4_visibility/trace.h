@@ -5,7 +5,7 @@
 #include "model/tet_mesh.h"
 #include "model/visibility_energy.h"
 #include "steps/4_visibility/energy_sums.h"
-#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/ray_weights.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
@@ -17,7 +17,7 @@
 
 namespace vcarve {
 
-/// The vertices from `first` up to `last`, and without that.
+/// The vertices [first, last).
 struct VertexRun {
     Index first = 0;
     Index last = 0;
@@ -28,8 +28,8 @@ inline VertexRun all_vertices(const TetMesh& cells)
     return {0, static_cast<Index>(cells.positions.size())};
 }
 
-/// Calls body(first, last) for shorter runs of vertices [first, last) in parallel, which together
-/// are `all`, and tells how far it is.
+/// Calls body(first, last) in parallel for short runs of vertices [first, last), which partition
+/// `all`, and reports progress.
 template <typename Body>
 void for_each_run_of_vertices(const VertexRun& all, const Progress& progress, const Body& body)
 {
@@ -43,7 +43,7 @@ void for_each_run_of_vertices(const VertexRun& all, const Progress& progress, co
                  1);
 }
 
-/// Calls body(vertex) for every vertex in parallel and tells how far it is.
+/// Calls body(vertex) for every vertex in parallel and reports progress.
 template <typename Body>
 void for_each_vertex(const TetMesh& cells, const Progress& progress, const Body& body)
 {
@@ -54,33 +54,33 @@ void for_each_vertex(const TetMesh& cells, const Progress& progress, const Body&
     });
 }
 
-/// What the rays to some of the points say, without the cells of which they say nothing.
+/// The terms of the rays to some of the points, without cells that have none.
 struct EnergyShare {
     SparseSums<std::array<std::int32_t, 4>> arc_capacities;
     SparseSums<std::int32_t> terminal_capacities;
-    std::vector<Index> cell_of_view; ///< of the origins of the source, where it is measured
+    std::vector<Index> cell_of_view; ///< per origin of a measured source
 };
 
-/// After how many facets rays to points of a dense cloud become bundles, and after how many these
+/// The numbers of facets after which rays to points of a dense cloud become bundles, and bundles
 /// become bundles of bundles.
 inline constexpr std::array<int, 2> kBundledAfter = {16, 40};
 
 /// Adds the visibility terms of sources to an energy. `cells`, `scene` and `options` must outlive
-/// it; `scene` has the points of the cells, which weigh their rays.
+/// it. `scene` has the points of the cells, which determine the weights of their rays.
 ///
-/// Each ray asks for the cells before its point to be outside and, if it was measured, for the cell
-/// behind it to be inside (Labatut, Pons, Keriven 2009), softly near the point; but not behind a
-/// point along a border (PointKind::border), where what lies behind often is free. The terms are
-/// integers, so their sums do not depend on the number of threads. The flow of each ray is pushed
-/// along its walk at once, which leaves the minimum cut as it is (docs/algorithm.md). Where a ray
-/// meets an edge or a vertex no facet leads its flow on: each stretch between such places ends in a
-/// source (behind the point a sink) of its own, as strong as the term of the ray for what comes
-/// next.
+/// Each ray votes for the cells in front of its point to be outside and, if it was measured, for
+/// the cell behind the point to be inside (Labatut, Pons, Keriven 2009). Votes are weaker near the
+/// point. Points on a border (PointKind::border) do not vote for inside, because the space behind
+/// them is often free. Terms are integers, so their sums do not depend on the thread count.
 ///
-/// Near sights of a dense cloud say the same far from their points. So after kBundledAfter[0]
-/// facets only one of `bundle_sights` walks on, with the weight of all, and after kBundledAfter[1]
-/// only one of as many of these; the others end there and ask for the cell they reached to be
-/// outside.
+/// The flow of a ray is pushed along its walk at once, which does not change the minimum cut
+/// (docs/algorithm.md). If a ray meets an edge or a vertex, no facet passes its flow on. Each
+/// stretch between such positions ends in a separate source (behind the point: a sink), whose
+/// capacity is the ray's next term.
+///
+/// Neighboring rays of a dense cloud cross the same cells far from their points. So after
+/// kBundledAfter[0] facets one of `bundle_rays` rays continues with the weight of all, and after
+/// kBundledAfter[1] one of as many bundles. The others vote for the cell they reached, and end.
 class RayCaster {
   public:
     RayCaster(const TetMesh& cells, const Scene& scene, const Scales& scales,
@@ -91,21 +91,21 @@ class RayCaster {
 
     using Share = EnergyShare;
 
-    /// Adds the terms of all rays of a source. An energy that is empty begins at zero. The cells of
-    /// the origins of measured rays are appended to VisibilityEnergy::cell_of_view. Throws
-    /// InputError if a sum leaves 32 bits. Cost: one walk a ray, in parallel; 20 bytes a cell, and
-    /// as many more where the energy is not empty.
+    /// Adds the terms of all rays of a source. An empty energy starts at zero. Appends the cells of
+    /// the origins of measured rays to VisibilityEnergy::cell_of_view. Throws InputError if the sum
+    /// of a cell is too large for 32 bits. Cost: one walk per ray, in parallel; 20 bytes per cell,
+    /// and 20 more if the energy is not empty.
     void cast(const RaySource& source, VisibilityEnergy& energy, const Progress& progress) const;
 
-    // The same in steps, for who shares the work with others.
+    // The steps of cast(), for runs that share the work among processes.
 
-    /// What the rays to a run of points say by themselves.
-    VisibilityEnergy said_of(const RaySource& source, const VertexRun& points,
-                             const Progress& progress) const;
+    /// The terms of the rays to a run of points.
+    VisibilityEnergy energy_of(const RaySource& source, const VertexRun& points,
+                               const Progress& progress) const;
     Share share(const RaySource& source, const VertexRun& points, const Progress& progress) const;
-    /// Adds what the rays of the same source to other points say.
+    /// Adds the terms of rays of the same source to other points, from their share().
     void add(const Share& share, VisibilityEnergy& said) const;
-    /// Adds what all rays of a source say to an energy, as cast() does.
+    /// Adds the terms of all rays of a source to an energy, as cast() does.
     void finish(const RaySource& source, VisibilityEnergy said, VisibilityEnergy& energy) const;
 
   private:

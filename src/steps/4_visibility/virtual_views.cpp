@@ -3,7 +3,7 @@
 #include "base/numbers.h"
 #include "base/parallel.h"
 #include "geometry/point_tree.h"
-#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/ray_weights.h"
 #include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/walk.h"
 
@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What the real sights say of each cell, as bits.
+/// The evidence of the real rays per cell, as bits.
 using Evidence = std::vector<std::uint8_t>;
-constexpr std::uint8_t kCrossed = 1; ///< a sight crosses one of its facets
-constexpr std::uint8_t kBehind = 2;  ///< it begins at a point on the side away from a view
+constexpr std::uint8_t kCrossed = 1; ///< a ray crosses one of its facets
+constexpr std::uint8_t kBehind = 2;  ///< it is directly behind a point that a view saw
 
 void set_bit(Evidence& evidence, Index cell, std::uint8_t bit)
 {
@@ -31,8 +31,8 @@ Evidence gather_evidence(const TetMesh& cells, const Scene& scene, const Progres
 {
     Evidence evidence(cells.cells.size(), 0);
     for_each_vertex(cells, progress, [&](Index vertex) {
-        SightWalk outward(cells, vertex);
-        SightWalk inward(cells, vertex);
+        RayWalk outward(cells, vertex);
+        RayWalk inward(cells, vertex);
         const Vector3d& point = cells.positions[vertex];
         for (const std::uint32_t view : scene.tracks[vertex]) {
             const Vector3d& center = scene.views[view].center;
@@ -49,12 +49,12 @@ Evidence gather_evidence(const TetMesh& cells, const Scene& scene, const Progres
     return evidence;
 }
 
-// ---- where to stand -----------------------------------------------------------------------------
+// ---- candidates ---------------------------------------------------------------------------------
 
-/// A place in the middle of a cell.
+/// The centroid of a cell.
 struct Viewpoint {
     Vector3d center;
-    double clearance; ///< how far the nearest of the cell's vertices is
+    double clearance; ///< distance to the nearest vertex of the cell
 };
 
 Viewpoint middle_of(const TetMesh& mesh, const Cell& cell)
@@ -70,12 +70,12 @@ Viewpoint middle_of(const TetMesh& mesh, const Cell& cell)
     return place;
 }
 
-/// Where a viewpoint may stand. Not at the surface, where it would see along it only, and not far
-/// off in empty space, where real views stand.
+/// The candidates for viewpoints. They are not at the surface, where all angles would be grazing,
+/// nor far off in empty space, where the real views are.
 std::vector<Viewpoint> free_places(const TetMesh& mesh, const Labels& labels,
                                    const Evidence& evidence)
 {
-    constexpr double kLeastClearance = 0.5; // in short edges
+    constexpr double kLeastClearance = 0.5; // in units of short_edge_length()
     constexpr double kMostClearance = 8.0;
     const double short_edge = short_edge_length(mesh);
     std::vector<Viewpoint> places;
@@ -93,7 +93,7 @@ std::vector<Viewpoint> free_places(const TetMesh& mesh, const Labels& labels,
     return places;
 }
 
-/// Some of the places, each the farthest from those before it; the first is the one with most room.
+/// Selects candidates by farthest-point sampling, from the one with the largest clearance.
 std::vector<Viewpoint> spread(const std::vector<Viewpoint>& places, std::size_t count,
                               const Progress& progress)
 {
@@ -109,7 +109,7 @@ std::vector<Viewpoint> spread(const std::vector<Viewpoint>& places, std::size_t 
     std::vector<double> distances_sq(places.size(), kUnlimited);
     while (chosen.size() < count && distances_sq[next] > 0.0) {
         const Vector3d center = places[next].center;
-        progress.tell(chosen.size(), count);
+        progress.report(chosen.size(), count);
         chosen.push_back(places[next]);
         parallel_for(places.size(), [&](std::size_t i) {
             distances_sq[i] = std::min(distances_sq[i], (places[i].center - center).squaredNorm());
@@ -120,10 +120,10 @@ std::vector<Viewpoint> spread(const std::vector<Viewpoint>& places, std::size_t 
     return chosen;
 }
 
-// ---- what is seen from there --------------------------------------------------------------------
+// ---- visible points -----------------------------------------------------------------------------
 
-/// Which way the surface between inside and outside looks at each vertex: the mean over its facets
-/// there, weighted by area. Zero where there is none.
+/// The outward normal of the surface between inside and outside at each vertex: the mean over its
+/// facets, weighted by area. Zero if the vertex has none.
 std::vector<Vector3d> outward_normals(const TetMesh& mesh, const Labels& labels)
 {
     std::vector<Vector3d> normals(mesh.positions.size(), Vector3d::Zero());
@@ -148,30 +148,30 @@ std::vector<Vector3d> outward_normals(const TetMesh& mesh, const Labels& labels)
     return normals;
 }
 
-/// What is known before any virtual viewpoint is placed.
+/// The state before any virtual viewpoint is placed.
 struct Known {
     const TetMesh& mesh;
     const Labels& labels;
     Evidence evidence;
-    std::vector<Vector3d> normals; ///< one a point
+    std::vector<Vector3d> normals; ///< per point
     PointTree points;
 };
 
-/// Whether the surface as it is at a point looks towards the viewpoint. It need not quite: it is
-/// not yet what it is to be.
+/// Whether the labeled surface at a point faces the viewpoint, with a margin, because the surface
+/// is not final.
 bool looks_towards(const Known& known, Index vertex, const Vector3d& center)
 {
-    constexpr double kLeastCosine = -0.3; // about 17 degrees beyond the right angle
+    constexpr double kLeastCosine = -0.3; // about 17 degrees beyond a right angle
     const Vector3d& normal = known.normals[vertex];
     const Vector3d way = (center - known.mesh.positions[vertex]).normalized();
     return !normal.isZero() && way.dot(normal) > kLeastCosine;
 }
 
-/// Whether the way to a viewpoint leads through a cell that is known to be solid.
+/// Whether the ray to a viewpoint passes through a cell that is known to be solid.
 bool is_hidden(const Known& known, Index vertex, const Vector3d& center)
 {
     bool hidden = false;
-    SightWalk(known.mesh, vertex).to(center, [&](Index cell, int) {
+    RayWalk(known.mesh, vertex).to(center, [&](Index cell, int) {
         hidden = hidden ||
                  (known.labels[cell] == Label::inside && (known.evidence[cell] & kBehind) != 0);
     });
@@ -194,7 +194,7 @@ std::vector<Index> seen_points(const Known& known, const Scene& scene, const Vie
     return points;
 }
 
-/// From the points of each view to the views of each point.
+/// Transposes the points of each view to the views of each point.
 Tracks tracks_of(const std::vector<std::vector<Index>>& points_of_views, std::size_t num_points)
 {
     Tracks tracks;
@@ -217,8 +217,8 @@ Tracks tracks_of(const std::vector<std::vector<Index>>& points_of_views, std::si
 
 } // namespace
 
-VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, const Labels& labels,
-                                  const VirtualViewOptions& options, const Progress& progress)
+VirtualRays find_virtual_rays(const TetMesh& cells, const Scene& scene, const Labels& labels,
+                              const VirtualViewOptions& options, const Progress& progress)
 {
     const Known known = {.mesh = cells,
                          .labels = labels,
@@ -228,17 +228,17 @@ VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, cons
     const std::vector<Viewpoint> places =
         spread(free_places(cells, labels, known.evidence), static_cast<std::size_t>(options.count),
                progress.part(0.5, 0.8));
-    VirtualSights sights;
-    sights.centers.reserve(places.size());
+    VirtualRays rays;
+    rays.centers.reserve(places.size());
     for (const Viewpoint& place : places) {
-        sights.centers.push_back(place.center);
+        rays.centers.push_back(place.center);
     }
     std::vector<std::vector<Index>> seen(places.size());
     parallel_for(
         seen.size(), progress.part(0.8, 1.0),
         [&](std::size_t i) { seen[i] = seen_points(known, scene, places[i]); }, 1);
-    sights.tracks = tracks_of(seen, cells.positions.size());
-    return sights;
+    rays.tracks = tracks_of(seen, cells.positions.size());
+    return rays;
 }
 
 } // namespace vcarve

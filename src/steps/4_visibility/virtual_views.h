@@ -8,15 +8,14 @@
 
 namespace vcarve {
 
-/// More viewpoints (Akgunduz, Zetu, Banerjee 2000, who leave them to the future). They stand in
-/// cells that are labelled outside and crossed by a real sight, near the points but not at them,
-/// spread as far as they go. A viewpoint sees those of the 1000 points around it which some view
-/// saw, at which the surface as labelled looks towards it, and which nothing known to be solid
-/// hides: no cell that is labelled inside and lies just behind a point that a view saw. Cells
-/// labelled inside of which the sights say nothing hide nothing: they are what is to be found out.
-/// The result does not depend on the number of threads. Cost: two walks a real sight, up to 1000 a
-/// viewpoint, and O(cells x viewpoints) to spread them, all in parallel.
-VirtualSights find_virtual_sights(const TetMesh& cells, const Scene& scene, const Labels& labels,
-                                  const VirtualViewOptions& options, const Progress& progress);
+/// Virtual viewpoints (Akgunduz, Zetu, Banerjee 2000, who leave them to future work). They are in
+/// outside cells that a real ray crosses, near the points but not at them, as far apart as
+/// possible. A viewpoint sees those of the nearest 1000 points that a view saw, if the labeled
+/// surface there faces the viewpoint and no known solid occludes them. Known solids are inside
+/// cells directly behind a point that a view saw. Other inside cells do not occlude, because
+/// virtual rays are to test them. The result does not depend on the thread count. Cost: two walks
+/// per real ray, up to 1000 per viewpoint, and O(cells x viewpoints) to spread them, in parallel.
+VirtualRays find_virtual_rays(const TetMesh& cells, const Scene& scene, const Labels& labels,
+                              const VirtualViewOptions& options, const Progress& progress);
 
 } // namespace vcarve

@@ -3,7 +3,7 @@
 #include "base/arrays.h"
 #include "model/tet_mesh.h"
 #include "steps/4_visibility/exact_walk.h"
-#include "steps/4_visibility/sight_frame.h"
+#include "steps/4_visibility/ray_frame.h"
 
 #include <Eigen/Core>
 
@@ -14,31 +14,31 @@
 
 namespace vcarve {
 
-/// From a vertex of a triangulation to any target.
-struct Sight {
+/// A ray from a vertex of a triangulation to any target.
+struct Ray {
     Index vertex;
     Eigen::Vector3d target;
 };
 
-/// Walks along sights, exactly. Holds where it was, so that the sights of one vertex, walked one
-/// after another, find their first cell at once. A step costs one new vertex and three 2x2
-/// determinants; where rounding leaves a sign open, exact predicates decide, and where that sign is
-/// zero, ExactWalk goes on to the end.
-class SightWalk {
+/// Walks along rays, exactly. Remembers its last first cell, so that consecutive rays of one vertex
+/// find theirs quickly. A step costs one new vertex and three 2x2 determinants. If rounding leaves
+/// a sign uncertain, exact predicates decide. If the exact sign is zero, ExactWalk completes the
+/// walk.
+class RayWalk {
   public:
-    /// Stands nowhere: for along_each() only, until stand_at().
-    explicit SightWalk(const TetMesh& mesh) : mesh_(mesh) {}
-    SightWalk(const TetMesh& mesh, Index vertex) : mesh_(mesh) { stand_at(vertex); }
+    /// Without a vertex: only along_each() may be called before move_to().
+    explicit RayWalk(const TetMesh& mesh) : mesh_(mesh) {}
+    RayWalk(const TetMesh& mesh, Index vertex) : mesh_(mesh) { move_to(vertex); }
 
-    /// Where the next sights begin.
-    void stand_at(Index vertex)
+    /// Sets the vertex of the next rays.
+    void move_to(Index vertex)
     {
         vertex_ = vertex;
         star_cell_ = mesh_.cell_of_vertex[vertex];
     }
 
-    /// Calls on_crossing(cell, slot) for every facet the segment from the vertex to the target
-    /// crosses, from the vertex on: it leaves `cell` by facet `slot`. Never loops.
+    /// Calls on_crossing(cell, slot) for each facet that the segment from the vertex to the target
+    /// crosses, in order. The segment leaves `cell` by facet `slot`. Always ends.
     template <typename OnCrossing>
     WalkEnds to(const Eigen::Vector3d& target, const OnCrossing& on_crossing)
     {
@@ -51,21 +51,20 @@ class SightWalk {
         return walker.ends;
     }
 
-    /// Walks through the middle of a facet to the target, out of the facet's cell, and on into each
-    /// next cell for as long as goes_on(facet) says so, the facet being the one to be crossed next,
-    /// seen from the cell before it. Returns the facet at which it was stopped:
-    /// the given one where `place`, which is to lie inside it, does not as seen along the sight. An
-    /// infinite cell number where nothing stopped it before the target or the hull. Plays no part
-    /// in walks from vertices.
-    template <typename GoesOn>
+    /// Walks from `place`, a position inside a facet, out of the facet's cell to the target. Calls
+    /// continues(facet) before each facet is crossed, the given one first, each given from the cell
+    /// before it. Stops if it returns false. Returns the facet at which it stopped; the given one
+    /// if `place` is not inside it, seen along the ray; cell kInfinite if it reached the target or
+    /// left the hull. Does not affect walks from vertices.
+    template <typename Continues>
     CellFacet through_facet(const CellFacet& facet, const Eigen::Vector3d& place,
-                            const Eigen::Vector3d& target, const GoesOn& goes_on) const
+                            const Eigen::Vector3d& target, const Continues& continues) const
     {
         Walker walker;
-        if (!start_in_facet(facet, SightFrame(place, target), walker)) return facet;
+        if (!start_in_facet(facet, RayFrame(place, target), walker)) return facet;
         CellFacet stopped{kInfinite, 0};
         const auto note_stop = [&](Index cell, int slot) {
-            if (stopped.cell == kInfinite && !goes_on(CellFacet{cell, slot}))
+            if (stopped.cell == kInfinite && !continues(CellFacet{cell, slot}))
                 stopped = {cell, slot};
         };
         note_stop(walker.exit.cell, walker.exit.slot);
@@ -77,14 +76,13 @@ class SightWalk {
         return stopped;
     }
 
-    /// Walks along sight_at(k) for all k below `count`, several at a time, a step each in turn: a
-    /// walk mostly waits for memory and for its own last step, and so the others go on meanwhile.
-    /// Calls on_crossing(k, cell, slot) as to() does, for each k in order of its walk, which goes
-    /// on as long as that says so, and on_end(k, ends) at the end of those that were not stopped. A
-    /// walk that the exact one took over may still call on_crossing after it was stopped. Sights of
-    /// one vertex should follow each other.
-    template <typename SightAt, typename OnCrossing, typename OnEnd>
-    void along_each(std::size_t count, const SightAt& sight_at, const OnCrossing& on_crossing,
+    /// Walks along ray_at(k) for all k below `count`, several at a time, one step each in turn. A
+    /// walk mostly waits for memory and its last step, so the other walks advance meanwhile. Calls
+    /// on_crossing(k, cell, slot) as to() does, in order for each k, and stops walk k if it returns
+    /// false. Calls on_end(k, ends) for walks that were not stopped. The exact walk may call
+    /// on_crossing after a stop. Rays of one vertex should be consecutive.
+    template <typename RayAt, typename OnCrossing, typename OnEnd>
+    void along_each(std::size_t count, const RayAt& ray_at, const OnCrossing& on_crossing,
                     const OnEnd& on_end)
     {
         std::array<Walker, kAbreast> walkers;
@@ -94,13 +92,13 @@ class SightWalk {
             for (; active < kAbreast && next < count; ++next) {
                 Walker& walker = walkers[active];
                 walker.k = next;
-                bool goes_on = true;
+                bool continues = true;
                 const auto cross = [&](Index cell, int slot) {
-                    goes_on = on_crossing(next, cell, slot);
+                    continues = on_crossing(next, cell, slot);
                 };
-                if (start(sight_at(next), walker, cross)) {
+                if (start(ray_at(next), walker, cross)) {
                     ++active;
-                } else if (goes_on) {
+                } else if (continues) {
                     on_end(next, walker.ends);
                 }
             }
@@ -109,25 +107,25 @@ class SightWalk {
             }
             for (std::size_t i = active; i-- > 0;) {
                 Walker& walker = walkers[i];
-                bool goes_on = true;
+                bool continues = true;
                 const auto cross = [&](Index cell, int slot) {
-                    goes_on = on_crossing(walker.k, cell, slot);
+                    continues = on_crossing(walker.k, cell, slot);
                 };
                 const bool ended = !step(walker, cross);
-                if (ended && goes_on) on_end(walker.k, walker.ends);
-                if (ended || !goes_on) walkers[i] = walkers[--active];
+                if (ended && continues) on_end(walker.k, walker.ends);
+                if (ended || !continues) walkers[i] = walkers[--active];
             }
         }
     }
 
-    /// The cell whose interior the segment from the vertex to the target enters first; kInfinite
-    /// where it leaves the hull there, or starts in a facet or along an edge.
+    /// The cell whose interior the segment from the vertex to the target enters first; kInfinite if
+    /// it leaves the hull there, or starts in a facet or along an edge.
     Index first_cell(const Eigen::Vector3d& target)
     {
         const Eigen::Vector3d& point = mesh_.positions[vertex_];
         Exit exit;
         const Found found =
-            point == target ? Found::unclear : find_first_cell(SightFrame(point, target), exit);
+            point == target ? Found::unclear : find_first_cell(RayFrame(point, target), exit);
         if (found == Found::cell) {
             star_cell_ = exit.cell;
             return exit.cell;
@@ -137,55 +135,54 @@ class SightWalk {
     }
 
   private:
-    /// The facet ahead: its corners in counter-clockwise order seen from the sight's point.
+    /// The facet ahead, with its corners counter-clockwise seen from the ray's point.
     struct Exit {
         Index cell = kInfinite;
         int slot = 0;
         Index beyond = kInfinite; ///< the cell across the facet
-        int entered_by = 0;       ///< the facet's slot there
-        unsigned far = 0;         ///< bit k: corner k may lie as far as the target
+        int entered_by = 0;       ///< the facet's slot in `beyond`
+        unsigned far = 0;         ///< bit k: corner k may be as deep as the target
         std::array<Index, 3> corners{};
-        std::array<Sighted, 3> sighted{};
+        std::array<Rayed, 3> rayed{};
     };
     enum class Found { cell, outside_hull, unclear };
 
-    Found find_first_cell(const SightFrame& frame, Exit& exit) const;
-    bool passes_facet(const SightFrame& frame, const Exit& exit) const;
-    int corner_to_replace(const SightFrame& frame, const Exit& exit, const Sighted& tip_sighted,
+    Found find_first_cell(const RayFrame& frame, Exit& exit) const;
+    bool passes_facet(const RayFrame& frame, const Exit& exit) const;
+    int corner_to_replace(const RayFrame& frame, const Exit& exit, const Rayed& tip_rayed,
                           const Eigen::Vector3d& tip_position) const;
-    bool enter_beyond(const SightFrame& frame, Index tip, Exit& exit) const;
+    bool enter_beyond(const RayFrame& frame, Index tip, Exit& exit) const;
 
     static constexpr std::size_t kAbreast = 8;
     static constexpr double kMargin = 1e-12; ///< far above the rounding of a depth
 
-    /// A walk on its way.
+    /// The state of a walk.
     struct Walker {
-        SightFrame frame;
+        RayFrame frame;
         Exit exit;
-        Index tip = kInfinite; ///< the corner across the facet ahead
+        Index tip = kInfinite; ///< the vertex of the cell beyond that is not on the facet ahead
         WalkEnds ends;
-        std::size_t k = 0; ///< which walk it is
+        std::size_t k = 0; ///< index of the walk
     };
 
-    /// Finds the first cell. Returns false if that is the end already, or the exact walk went all
-    /// the way.
+    /// Finds the first cell. Returns false if the walk ends there, or the exact walk completed it.
     template <typename Cross>
-    bool start(const Sight& sight, Walker& walker, const Cross& cross)
+    bool start(const Ray& ray, Walker& walker, const Cross& cross)
     {
-        if (sight.vertex != vertex_) stand_at(sight.vertex);
+        if (ray.vertex != vertex_) move_to(ray.vertex);
         const Eigen::Vector3d& point = mesh_.positions[vertex_];
-        if (point == sight.target) {
+        if (point == ray.target) {
             walker.ends = {kInfinite, mesh_.cell_of_vertex[vertex_]};
             return false;
         }
-        walker.frame = SightFrame(point, sight.target);
+        walker.frame = RayFrame(point, ray.target);
         const Found found = find_first_cell(walker.frame, walker.exit);
         if (found == Found::outside_hull) {
             walker.ends = {kInfinite, walker.exit.cell};
             return false;
         }
         if (found == Found::unclear) {
-            ExactWalk walk(mesh_, point, sight.target);
+            ExactWalk walk(mesh_, point, ray.target);
             walker.ends = walk.from_vertex(vertex_);
             report(walk, cross);
             return false;
@@ -196,8 +193,8 @@ class SightWalk {
         return true;
     }
 
-    /// Stands before a facet. Returns false if the sight does not clearly pass through its inside.
-    bool start_in_facet(const CellFacet& facet, const SightFrame& frame, Walker& walker) const
+    /// Starts before a facet. Returns false if the ray does not clearly pass through its interior.
+    bool start_in_facet(const CellFacet& facet, const RayFrame& frame, Walker& walker) const
     {
         const Cell& cell = mesh_.cells[facet.cell];
         Exit& exit = walker.exit;
@@ -206,12 +203,12 @@ class SightWalk {
         exit.slot = facet.slot;
         for (int i = 0; i < 3; ++i) {
             exit.corners[i] = cell.vertices[kFacetCorners[facet.slot][i]];
-            exit.sighted[i] = frame.project(mesh_.positions[exit.corners[i]]);
+            exit.rayed[i] = frame.project(mesh_.positions[exit.corners[i]]);
         }
         look_ahead(exit);
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3;
-            if (frame.turn(exit.sighted[i], exit.sighted[j], mesh_.positions[exit.corners[i]],
+            if (frame.turn(exit.rayed[i], exit.rayed[j], mesh_.positions[exit.corners[i]],
                            mesh_.positions[exit.corners[j]]) <= 0) {
                 return false;
             }
@@ -219,7 +216,7 @@ class SightWalk {
         return true;
     }
 
-    /// Crosses the facet it stands before. Returns false if the walk ends with that.
+    /// Crosses the first facet. Returns false if the walk ends there.
     template <typename Cross>
     bool enter_first(Walker& walker, const Cross& cross) const
     {
@@ -228,7 +225,7 @@ class SightWalk {
         return walker.tip != kInfinite && enter_or_finish(walker, cross);
     }
 
-    /// Crosses the facet ahead. Returns false if the walk ends with that or before.
+    /// Crosses the facet ahead. Returns false if the walk ends there or before it.
     template <typename Cross>
     bool step(Walker& walker, const Cross& cross) const
     {
@@ -242,7 +239,7 @@ class SightWalk {
         return walker.tip != kInfinite && enter_or_finish(walker, cross);
     }
 
-    /// Finds the next facet ahead. Returns false if the exact walk went all the way.
+    /// Finds the next facet ahead. Returns false if the exact walk completed the walk.
     template <typename Cross>
     bool enter_or_finish(Walker& walker, const Cross& cross) const
     {
@@ -263,16 +260,16 @@ class SightWalk {
         }
     }
 
-    static unsigned may_reach_target(const Sighted& corner)
+    static unsigned may_reach_target(const Rayed& corner)
     {
-        return static_cast<unsigned>(!(corner.depth < 1.0 - kMargin)); // nor if it is no number
+        return static_cast<unsigned>(!(corner.depth < 1.0 - kMargin)); // true for NaN
     }
 
     void look_ahead(Exit& exit) const
     {
         exit.far = 0;
         for (int k = 0; k < 3; ++k) {
-            exit.far |= may_reach_target(exit.sighted[k]) << k;
+            exit.far |= may_reach_target(exit.rayed[k]) << k;
         }
         look_beyond(exit);
     }
@@ -292,10 +289,10 @@ class SightWalk {
 
     const TetMesh& mesh_;
     Index vertex_ = kInfinite;
-    Index star_cell_ = kInfinite; ///< a finite cell at the vertex, near where the last sight went
+    Index star_cell_ = kInfinite; ///< a finite cell at the vertex, near the last ray
 };
 
-/// Where a cell keeps one of its vertices. Without branches, which no processor foresees.
+/// The slot of a vertex in its cell. Branchless, because the branches would be unpredictable.
 inline int slot_of(const Cell& cell, Index vertex)
 {
     const bool is_third = cell.vertices[3] == vertex;
@@ -304,11 +301,11 @@ inline int slot_of(const Cell& cell, Index vertex)
     return odd | high << 1;
 }
 
-/// Turns around the vertex towards the target: from a cell to its neighbour across a facet
-/// that has the target on its far side.
-inline SightWalk::Found SightWalk::find_first_cell(const SightFrame& frame, Exit& exit) const
+/// Walks around the vertex towards the target: from a cell to its neighbor across a facet with the
+/// target on the far side.
+inline RayWalk::Found RayWalk::find_first_cell(const RayFrame& frame, Exit& exit) const
 {
-    constexpr int kMaxTurns = 64; // a star has about 27 cells; beyond, the exact walk looks at all
+    constexpr int kMaxTurns = 64; // a star has about 27 cells; the exact walk handles larger ones
     Index cell = star_cell_;
     for (int turns = 0; turns < kMaxTurns; ++turns) {
         const Cell& here = mesh_.cells[cell];
@@ -319,13 +316,13 @@ inline SightWalk::Found SightWalk::find_first_cell(const SightFrame& frame, Exit
         exit.slot = slot_of(here, vertex_);
         for (int i = 0; i < 3; ++i) {
             exit.corners[i] = here.vertices[kFacetCorners[exit.slot][i]];
-            exit.sighted[i] = frame.project(mesh_.positions[exit.corners[i]]);
+            exit.rayed[i] = frame.project(mesh_.positions[exit.corners[i]]);
         }
         int outside_of = -1;
         for (int i = 0; i < 3 && outside_of < 0; ++i) {
             const int j = (i + 1) % 3;
             const int turn =
-                frame.turn(exit.sighted[i], exit.sighted[j], mesh_.positions[exit.corners[i]],
+                frame.turn(exit.rayed[i], exit.rayed[j], mesh_.positions[exit.corners[i]],
                            mesh_.positions[exit.corners[j]]);
             if (turn == 0) {
                 return Found::unclear;
@@ -340,11 +337,11 @@ inline SightWalk::Found SightWalk::find_first_cell(const SightFrame& frame, Exit
     return Found::unclear;
 }
 
-/// Whether the target lies strictly beyond the facet ahead.
-inline bool SightWalk::passes_facet(const SightFrame& frame, const Exit& exit) const
+/// Whether the target is strictly beyond the facet ahead.
+inline bool RayWalk::passes_facet(const RayFrame& frame, const Exit& exit) const
 {
     const auto [near, far] =
-        std::minmax({exit.sighted[0].depth, exit.sighted[1].depth, exit.sighted[2].depth});
+        std::minmax({exit.rayed[0].depth, exit.rayed[1].depth, exit.rayed[2].depth});
     if (far < 1.0 - kMargin) {
         return true;
     }
@@ -355,20 +352,20 @@ inline bool SightWalk::passes_facet(const SightFrame& frame, const Exit& exit) c
                        mesh_.positions[exit.corners[2]], frame.target()) < 0;
 }
 
-/// The corner of the facet ahead that is not on the facet by which the sight leaves the cell
-/// beyond, whose tip takes its place; -1 where the sight meets an edge or the tip.
-inline int SightWalk::corner_to_replace(const SightFrame& frame, const Exit& exit,
-                                        const Sighted& tip_sighted,
-                                        const Eigen::Vector3d& tip_position) const
+/// The corner of the facet ahead that the tip replaces in the facet by which the ray leaves the
+/// cell beyond; -1 if the ray meets an edge or the tip.
+inline int RayWalk::corner_to_replace(const RayFrame& frame, const Exit& exit,
+                                      const Rayed& tip_rayed,
+                                      const Eigen::Vector3d& tip_position) const
 {
-    // By the corners that turn left to the tip, 0 in the lowest bit.
+    // The index has a bit for each corner that turns left to the tip, corner 0 in the lowest.
     static constexpr std::array<std::int8_t, 8> kReplaced = {0, 1, 2, 1, 0, 0, 2, 0};
-    const int left = frame.clear_turns(exit.sighted, tip_sighted);
+    const int left = frame.clear_turns(exit.rayed, tip_rayed);
     if (left >= 0) {
         return kReplaced[left];
     }
     const auto turn_from = [&](int corner) {
-        return frame.turn(exit.sighted[corner], tip_sighted, mesh_.positions[exit.corners[corner]],
+        return frame.turn(exit.rayed[corner], tip_rayed, mesh_.positions[exit.corners[corner]],
                           tip_position);
     };
     const int first = turn_from(0);
@@ -383,20 +380,20 @@ inline int SightWalk::corner_to_replace(const SightFrame& frame, const Exit& exi
     return second > 0 ? 2 : 0;
 }
 
-/// Steps through the facet ahead and finds the next one. Returns false, `exit` then being of no
-/// more use, where the sight meets an edge or the new vertex.
-inline bool SightWalk::enter_beyond(const SightFrame& frame, Index tip, Exit& exit) const
+/// Crosses the facet ahead and finds the next one. Returns false, with `exit` invalid, if the ray
+/// meets an edge or the new vertex.
+inline bool RayWalk::enter_beyond(const RayFrame& frame, Index tip, Exit& exit) const
 {
     const Eigen::Vector3d& tip_position = mesh_.positions[tip];
-    const Sighted tip_sighted = frame.project(tip_position);
-    const int replaced = corner_to_replace(frame, exit, tip_sighted, tip_position);
+    const Rayed tip_rayed = frame.project(tip_position);
+    const int replaced = corner_to_replace(frame, exit, tip_rayed, tip_position);
     if (replaced < 0) {
         return false;
     }
     const Index left_out = exit.corners[replaced];
     exit.corners[replaced] = tip;
-    exit.sighted[replaced] = tip_sighted;
-    exit.far = (exit.far & ~(1U << replaced)) | may_reach_target(tip_sighted) << replaced;
+    exit.rayed[replaced] = tip_rayed;
+    exit.far = (exit.far & ~(1U << replaced)) | may_reach_target(tip_rayed) << replaced;
     exit.cell = exit.beyond;
     exit.slot = slot_of(mesh_.cells[exit.cell], left_out);
     look_beyond(exit);

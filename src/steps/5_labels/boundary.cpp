@@ -21,14 +21,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What facets are ordered by.
+/// The sort key of facets.
 std::pair<Index, int> key(const CellFacet& facet)
 {
     return {facet.cell, facet.slot};
 }
 
-/// Whether a view beyond a facet of the hull shows a corner of it, the middle of an edge or its
-/// own: nothing lies between them, so the view sees it.
+/// Whether a view outside the hull sees a hull facet: it saw a corner, or its image shows a corner,
+/// an edge midpoint or the centroid. Nothing can occlude the facet from there.
 bool is_seen_from_beyond(const TetMesh& cells, const Scene& scene, const Face& face,
                          const Vector3d& inwards)
 {
@@ -48,7 +48,7 @@ bool is_seen_from_beyond(const TetMesh& cells, const Scene& scene, const Face& f
     });
 }
 
-/// Whether a facet of the hull is a surface seen from within the hull.
+/// Whether a hull facet is seen from within the hull, and not from outside.
 bool is_seen_from_within(const TetMesh& cells, const Scene& scene, Index infinite)
 {
     const Face face = face_of(cells, {infinite, kHullSlot});
@@ -113,9 +113,9 @@ std::vector<Index> uncrossed_hull_cells(const TetMesh& cells, const FlowNetwork&
     return parallel_collect<Index>(cells.cells.size(), look);
 }
 
-std::int64_t go_on_along_hull(const TetMesh& cells, const Scene& scene,
-                              const std::vector<Index>& uncrossed, const HullOptions& options,
-                              Labels& labels)
+std::int64_t continue_along_hull(const TetMesh& cells, const Scene& scene,
+                                 const std::vector<Index>& uncrossed, const HullOptions& options,
+                                 Labels& labels)
 {
     if (options.hull_edge == 0.0) return 0;
     const auto look = [&](std::size_t i, std::vector<Index>& seen) {
@@ -125,8 +125,8 @@ std::int64_t go_on_along_hull(const TetMesh& cells, const Scene& scene,
     };
     const auto seen = parallel_collect<Index>(uncrossed.size(), look, 256);
     if (seen.empty()) return 0;
-    // The boundary tells how long edges are and how the surface runs; where there is none, the
-    // facets of the hull do.
+    // Local edge lengths and normals are those of the boundary, and of hull facets at vertices that
+    // are not on the boundary.
     std::vector<Face> faces = boundary_faces(cells, boundary_facets(cells, labels));
     const std::size_t num_boundary = faces.size();
     std::vector<std::uint8_t> is_on_boundary(cells.positions.size());
@@ -145,7 +145,7 @@ std::int64_t go_on_along_hull(const TetMesh& cells, const Scene& scene,
     const SurfaceNormals normals(cells.positions, faces, edges);
     const auto judge = [&](std::size_t i, std::vector<Index>& solid) {
         const std::size_t face = num_boundary + i;
-        if (edges.relative_size(face) <= options.hull_edge && goes_on(face, normals))
+        if (edges.relative_size(face) <= options.hull_edge && continues_surface(face, normals))
             solid.push_back(seen[i]);
     };
     const auto solid = parallel_collect<Index>(seen.size(), judge, 64);

@@ -25,16 +25,16 @@ using Eigen::Vector3d;
 using Costs = std::array<std::int32_t, 4>;
 using FacetCosts = UnsetArray<Costs>;
 
-/// The cosines of the angles between each facet of a finite cell and the sphere around the cell;
-/// not finite where the cell is too flat to have one. Roots and divisions, the larger part of the
-/// cost, are taken side by side.
+/// The cosines of the angles between each facet of a finite cell and its circumsphere; not finite
+/// if the cell is too flat to have one. Roots and divisions, which are most of the cost, are
+/// vectorized.
 Array4d sphere_cosines(const TetMesh& mesh, const Cell& cell)
 {
     const Vector3d& origin = mesh.positions[cell.vertices[0]];
     const Vector3d a = mesh.positions[cell.vertices[1]] - origin;
     const Vector3d b = mesh.positions[cell.vertices[2]] - origin;
     const Vector3d c = mesh.positions[cell.vertices[3]] - origin;
-    // Inward, one a slot: those of facets 1 to 3 meet at the origin, that of facet 0 lies opposite.
+    // Inward normals per slot. Facets 1 to 3 meet at the origin, and facet 0 is opposite.
     const Vector3d opposite = (c - a).cross(b - a);
     const Vector3d bc = b.cross(c);
     const Vector3d ca = c.cross(a);
@@ -51,15 +51,15 @@ Array4d sphere_cosines(const TetMesh& mesh, const Cell& cell)
     return dots / (lengths * Array4d(radii[0], radii[1], radii[1], radii[1]));
 }
 
-/// 1 - cos of the angle between each facet of a cell and the sphere around the cell, in steps; 0
-/// for infinite cells.
+/// 1 - cos of the angle between each facet of a cell and the cell's circumsphere, in steps; 0 for
+/// infinite cells.
 Costs sphere_angle_costs(const TetMesh& mesh, const Cell& cell, double steps)
 {
     Costs costs = {0, 0, 0, 0};
     if (cell.is_infinite()) return costs;
     const Array4d cosines = sphere_cosines(mesh, cell);
     for (int slot = 0; slot < 4; ++slot) {
-        constexpr double kUnknown = 0.5; // a cell too flat to have a sphere
+        constexpr double kUnknown = 0.5; // a cell too flat to have a circumsphere
         const double cosine = cosines[slot];
         const double cost = std::isfinite(cosine) ? 1.0 - std::clamp(cosine, -1.0, 1.0) : kUnknown;
         costs[slot] = round_half_up(steps * cost);
@@ -67,7 +67,7 @@ Costs sphere_angle_costs(const TetMesh& mesh, const Cell& cell, double steps)
     return costs;
 }
 
-/// What cutting each facet costs by its shape, in steps, seen from either side.
+/// The cost of each facet by the shape of the cell, in steps.
 FacetCosts facet_costs(const TetMesh& mesh, double steps)
 {
     FacetCosts costs(mesh.cells.size());
@@ -76,7 +76,7 @@ FacetCosts facet_costs(const TetMesh& mesh, double steps)
     return costs;
 }
 
-/// Makes each facet cost the same from both sides: the worse of the two.
+/// Adds the cost of each facet to its arcs in both directions: the larger one of its two cells.
 void add_facet_costs(const TetMesh& mesh, const FacetCosts& costs, FlowNetwork& network)
 {
     parallel_for(mesh.cells.size(), [&](std::size_t i) {
@@ -88,13 +88,13 @@ void add_facet_costs(const TetMesh& mesh, const FacetCosts& costs, FlowNetwork& 
     });
 }
 
-/// Takes a cell out of the network as part of the source: its arcs are full, its neighbours hold
-/// what came.
+/// Merges a cell with the source: its outgoing arcs are saturated, and their flow becomes excess of
+/// its neighbors.
 void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
 {
     for (int slot = 0; slot < 4; ++slot) {
         const Index neighbor = mesh.cells[cell].neighbors[slot];
-        // Held below the end of 32 bits: so much excess is more than any cell can pass on.
+        // Clamped to 32 bits: no cell can pass on that much excess.
         const std::int64_t sum = std::int64_t{network.terminal_capacities[neighbor]} +
                                  std::int64_t{network.arc_capacities[cell][slot]};
         network.terminal_capacities[neighbor] = static_cast<std::int32_t>(
@@ -104,7 +104,7 @@ void give_to_source(const TetMesh& mesh, Index cell, FlowNetwork& network)
     }
 }
 
-/// The cells that are outside for certain: those that hold views, and the infinite ones.
+/// The cells that are certainly outside: infinite cells, and cells that contain views.
 std::vector<Index> source_cells(const TetMesh& mesh, const std::vector<Index>& cells_of_views)
 {
     auto sources = parallel_collect<Index>(mesh.cells.size(), [&](std::size_t i, auto& infinite) {
@@ -120,7 +120,7 @@ void pin_outside(const TetMesh& mesh, const std::vector<Index>& sources, FlowNet
     for (const Index cell : sources) {
         give_to_source(mesh, cell, network);
     }
-    // A source cell may have got flow from the next one; it has no way on and no meaning.
+    // A source cell may have received flow from another. It cannot leave and means nothing.
     for (const Index cell : sources) {
         network.terminal_capacities[cell] = 0;
     }
@@ -139,7 +139,7 @@ Labels cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& opti
            const Progress& progress)
 {
     FlowNetwork network = cut_network(cells, std::move(energy), options);
-    progress.tell(0.2);
+    progress.report(0.2);
     return minimum_cut(cells, std::move(network), {}, progress.part(0.2, 1.0));
 }
 
@@ -150,7 +150,7 @@ CutCells cut_cells(const TetMesh& cells, const Scene& scene, VisibilityEnergy en
     CutCells made;
     made.labels = cut(cells, std::move(energy), options.cut, progress);
     made.inside = std::ranges::count(made.labels, Label::inside);
-    made.on_hull = go_on_along_hull(cells, scene, uncrossed, options.hull, made.labels);
+    made.on_hull = continue_along_hull(cells, scene, uncrossed, options.hull, made.labels);
     return made;
 }
 

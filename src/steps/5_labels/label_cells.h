@@ -11,30 +11,30 @@
 
 namespace vcarve {
 
-/// The labelling of least energy: the minimum cut of the visibility terms plus what each
-/// facet costs by its shape, quality (1 - min(cos phi, cos psi)) with the angles between the facet
-/// and the spheres around its two cells (Labatut, Pons, Keriven 2009, figure 9). Infinite cells and
-/// the cells that hold views are outside.
+/// The labeling of least energy: the minimum cut of the visibility terms plus a cost per facet,
+/// quality (1 - min(cos phi, cos psi)). phi and psi are the angles between the facet and the
+/// circumspheres of its two cells (Labatut, Pons, Keriven 2009, figure 9). Infinite cells and cells
+/// that contain views are outside.
 Labels cut(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options,
            const Progress& progress = {});
 
-/// The network that cut() finds the minimum cut of.
+/// The network whose minimum cut cut() returns.
 FlowNetwork cut_network(const TetMesh& cells, VisibilityEnergy energy, const CutOptions& options);
 
 struct CutCells {
     Labels labels;
-    std::int64_t inside = 0;  ///< cells that the cut leaves inside
-    std::int64_t on_hull = 0; ///< faces of the hull along which the surface goes on
+    std::int64_t inside = 0;  ///< number of cells that the cut labels inside
+    std::int64_t on_hull = 0; ///< number of faces by which the surface continues along the hull
 };
 
-/// Labels each cell outside or inside by what the sights say: a minimum cut, which goes on
-/// along the hull (go_on_along_hull). The labels do not depend on the number of threads.
+/// Labels each cell outside or inside by a minimum cut, and continues the surface along the hull
+/// (continue_along_hull()). The labels do not depend on the thread count.
 CutCells cut_cells(const TetMesh& cells, const Scene& scene, VisibilityEnergy energy,
                    const LabelOptions& options, const Progress& progress);
 
 /// Strict carving (Akgunduz, Zetu, Banerjee 2000, section 4.3): a cell is outside if it is infinite
-/// or one of its facets is crossed by at least `min_crossings` sights; all others are inside. Exact
-/// on points without noise; one wrong sight drills a tunnel. Cost: O(cells).
+/// or at least `min_crossings` rays cross one of its facets. All other cells are inside. Exact for
+/// points without noise; one wrong ray drills a tunnel. Cost: O(cells).
 Labels carve(const TetMesh& cells, const Crossings& crossings, int min_crossings);
 
 } // namespace vcarve

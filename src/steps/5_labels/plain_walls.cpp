@@ -22,14 +22,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFlat = 0.02;        // off the plane, of how far a wall reaches
-constexpr double kTurned = 0.9;       // cosine off the normal
-constexpr std::size_t kMinPoints = 6; // in the plane; 3 of them always are
-constexpr double kUpright = 0.5;      // cosine between up and the normal
-constexpr double kHeld = 0.6;         // share of the outline; two sides of a triangle are less
+constexpr double kFlat = 0.02;        // distance to the plane, over the extent of the wall
+constexpr double kTurned = 0.9;       // minimum cosine between normals
+constexpr std::size_t kMinPoints = 6; // in the plane; 3 always are
+constexpr double kUpright = 0.5;      // maximum cosine between up and the normal
+constexpr double kHeld = 0.6;         // share of the outline; more than two sides of a triangle
 constexpr std::ptrdiff_t kMinViews = 3;
 
-/// Facets of the hull in one plane.
+/// Hull facets in one plane.
 struct Wall {
     std::vector<Index> cells; ///< infinite
     Vector3d normal;          ///< of unit length
@@ -44,7 +44,7 @@ class Walls {
         }
     }
 
-    /// Takes a facet and the facets around it that lie in its plane and are in no wall yet.
+    /// Grows a wall from a facet to adjacent facets in its plane. Skips facets of other walls.
     Wall grow(Index seed)
     {
         Wall wall{{}, face_normal(cells_.positions, face(seed))};
@@ -67,7 +67,7 @@ class Walls {
                    });
         };
         take(seed);
-        // What is too far off the plane of a small wall may lie in that of a large one.
+        // The tolerance grows with the wall, so rejected facets are tested again.
         for (std::size_t before = 0; before < wall.cells.size();) {
             before = wall.cells.size();
             std::size_t i = 0;
@@ -94,7 +94,7 @@ class Walls {
         return points.size();
     }
 
-    /// The share of the outline at which some of the faces lie.
+    /// The share of the outline along which there are faces.
     double held_share(const Wall& wall, const std::vector<Face>& faces,
                       const VertexFaces& faces_at) const
     {
@@ -124,11 +124,11 @@ class Walls {
     Face face(Index cell) const { return face_of(cells_, {cell, kHullSlot}); }
 
     const TetMesh& cells_;
-    std::unordered_map<Index, std::size_t> wall_of_; ///< of the open cells
+    std::unordered_map<Index, std::size_t> wall_of_; ///< per open cell
     std::size_t num_walls_ = 0;
 };
 
-/// How many views see a place on a wall.
+/// The number of views that see a sample of a wall.
 std::ptrdiff_t num_views(const Wall& wall, const FaceVisibility& visibility)
 {
     const std::size_t views = visibility.scene().views.size();

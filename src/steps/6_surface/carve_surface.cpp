@@ -22,10 +22,10 @@ void require_faces(const CarvedSurface& made)
 {
     if (!made.faces.faces.empty()) return;
     if (made.counts.out_of_region > 0) {
-        throw InputError("no face of the surface lies within the region of --crop");
+        throw InputError("the region of --crop contains no face of the surface; enlarge it");
     }
-    throw InputError("the sights leave no surface: no part of the space behind the points is seen "
-                     "well enough");
+    throw InputError("no surface found: too few rays pass behind the points; add images, or dense "
+                     "points");
 }
 
 } // namespace
@@ -101,14 +101,14 @@ CarvedSurface carve_surface(Labels labels, const SurfaceInput& input, const Surf
     if (options.closed) close_hull(cells, labels);
     const std::vector<CellFacet> facets = boundary_facets(cells, labels);
     TriMesh surface = extract_surface(cells, facets, scene);
-    progress.tell(0.2);
+    progress.report(0.2);
     const FaceVisibility visibility(cells, labels, scene);
-    progress.tell(0.4);
+    progress.report(0.4);
     ChosenFaces chosen = choose_faces({surface, facets, visibility}, region, options, removals);
-    progress.tell(0.7);
+    progress.report(0.7);
     made.counts = {
         .unseen = chosen.unseen, .closing = chosen.closing, .out_of_region = chosen.out_of_region};
-    // What a region leaves out is not open, nor what is trimmed, which no view sees.
+    // Neither faces outside a region nor trimmed pieces, which no view sees, count as open.
     if (!options.closed && region == nullptr) {
         made.openness = measure_openness(cells, labels, facets, chosen.keep, scene);
     }

@@ -17,7 +17,7 @@ using OpenMesh::EdgeHandle;
 using OpenMesh::FaceHandle;
 using OpenMesh::VertexHandle;
 
-/// The faces joined through edges to pieces.
+/// The connected components of the faces, joined through edges.
 UnionFind find_pieces(const HalfEdgeMesh& mesh)
 {
     UnionFind pieces(mesh.n_faces());
@@ -39,7 +39,7 @@ void delete_with_vertices(HalfEdgeMesh& mesh, FaceHandle face)
     }
 }
 
-/// From which edge on a face is long: twice the longest edge of the median face.
+/// The edge length of a long face: twice the median longest edge.
 double long_edge(const HalfEdgeMesh& mesh)
 {
     constexpr double kLong = 2.0;
@@ -50,14 +50,14 @@ double long_edge(const HalfEdgeMesh& mesh)
     return kLong * median_in_place(lengths);
 }
 
-/// Deletes pieces of fewer faces, and of fewer than half as many those that are compact: closed,
-/// without a long face. Of the largest ones the first stays in any case. Returns how many pieces
-/// went.
+/// Deletes components of fewer than `min_faces` faces. Compact components (closed, without long
+/// faces) are deleted below half of that. The first of the largest components stays. Returns the
+/// number of deleted components.
 std::int64_t delete_small_pieces(HalfEdgeMesh& mesh, int min_faces)
 {
     UnionFind pieces = find_pieces(mesh);
     const auto num_faces = static_cast<std::uint32_t>(mesh.n_faces());
-    std::vector<std::int64_t> sizes(num_faces, 0); // of a piece at its first face
+    std::vector<std::int64_t> sizes(num_faces, 0); // of a component, at its first face
     for (std::uint32_t face = 0; face < num_faces; ++face) {
         ++sizes[pieces.root(face)];
     }
@@ -65,13 +65,13 @@ std::int64_t delete_small_pieces(HalfEdgeMesh& mesh, int min_faces)
     const auto may_go = [&](std::uint32_t piece) {
         return piece != largest && sizes[piece] < min_faces;
     };
-    std::vector<std::uint32_t> faces; // of the pieces that may go
+    std::vector<std::uint32_t> faces; // of small components
     for (std::uint32_t face = 0; face < num_faces; ++face) {
         if (may_go(pieces.root(face))) faces.push_back(face);
     }
     if (faces.empty()) return 0;
     const double most = long_edge(mesh);
-    std::vector<char> is_compact(num_faces, 1); // a piece at its first face
+    std::vector<char> is_compact(num_faces, 1); // of a component, at its first face
     for (const std::uint32_t i : faces) {
         const auto face = handle_at<FaceHandle>(i);
         if (mesh.is_boundary(face) || longest_edge(mesh.triangle(face)) > most)
@@ -110,18 +110,18 @@ std::int64_t drop_small_components(TriMesh& mesh, double min_area)
 
 CleanSurface clean_surface(TriMesh soup, const CleanupOptions& options)
 {
-    // OpenMesh cannot hold what is not manifold, and CGAL would cut it open along every such edge.
+    // OpenMesh requires manifold input, and CGAL would cut the mesh open along each such edge.
     ManifoldSurface manifold = split_nonmanifold(std::move(soup));
     CleanSurface result;
     result.mesh = std::make_unique<HalfEdgeMesh>(manifold.mesh, manifold.twins);
     result.counts.split_edges = manifold.split_edges;
     result.counts.split_vertices = manifold.split_vertices;
 
-    // Small pieces go before holes are filled: a hole in one of them is none of ours.
+    // Delete small components first, so that their holes are not filled and counted.
     HalfEdgeMesh& mesh = *result.mesh;
-    result.counts.removed_components = delete_small_pieces(mesh, options.min_component_faces);
+    result.counts.removed_components = delete_small_pieces(mesh, options.min_component);
     result.first_filled = mesh.n_faces();
-    result.counts.filled_holes = fill_holes(mesh, options.max_hole_edges);
+    result.counts.filled_holes = fill_holes(mesh, options.max_hole);
     set_vertex_normals(mesh);
     result.counts.vertices = num_vertices_left(mesh);
     result.counts.faces = num_faces_left(mesh);

@@ -52,7 +52,7 @@ FaceEvidence::FaceEvidence(const Boundary& boundary, const FaceFlags& keep)
 {
 }
 
-bool FaceEvidence::surface_ends_at(std::uint32_t face) const
+bool FaceEvidence::is_at_boundary(std::uint32_t face) const
 {
     return boundary_.visibility.is_on_hull(boundary_.facets[face]) ||
            std::ranges::any_of(kCorners, [&](int corner) {
@@ -76,7 +76,7 @@ bool FaceEvidence::is_beside_kept(std::uint32_t face) const
 bool FaceEvidence::is_seen_less_than(double share, std::uint32_t face) const
 {
     const CellFacet& facet = boundary_.facets[face];
-    if (!boundary_.visibility.is_told_by_images(facet)) return false;
+    if (!boundary_.visibility.has_reliable_visibility(facet)) return false;
     const std::vector<Vector3d> places = boundary_.visibility.places_on(facet);
     const double enough = share * static_cast<double>(places.size());
     double seen = 0.0;
@@ -87,7 +87,7 @@ bool FaceEvidence::is_seen_less_than(double share, std::uint32_t face) const
     return true;
 }
 
-bool FaceEvidence::hides_a_back(std::uint32_t face) const
+bool FaceEvidence::hides_back(std::uint32_t face) const
 {
     const CellFacet& facet = boundary_.facets[face];
     const FaceVisibility& visibility = boundary_.visibility;

@@ -21,7 +21,7 @@ FaceNumbers numbers_with(std::uint8_t flag, const FaceFlags& flags)
     });
 }
 
-/// The faces for which ask(face) says yes.
+/// The faces for which ask(face) is true.
 template <typename Ask>
 FaceNumbers those_that(const FaceNumbers& faces, const Ask& ask)
 {
@@ -33,20 +33,20 @@ FaceNumbers those_that(const FaceNumbers& faces, const Ask& ask)
         16);
 }
 
-/// Whether a face closes what was looked at without support: rows 4 to 7.
+/// Whether a face is unsupported: rows 4 to 7.
 bool is_unsupported(std::uint32_t face, const FaceEvidence& evidence, double closing,
                     const FaceRules& rules)
 {
     const double length = evidence.length(face);
-    const bool ends_here = evidence.surface_ends_at(face);
+    const bool ends_here = evidence.is_at_boundary(face);
     if (length < closing && !ends_here) return false;
     if (evidence.is_seen_less_than(rules.hardly_seen, face)) return true;
-    if (length < closing || evidence.goes_on(face)) return false;
+    if (length < closing || evidence.continues_surface(face)) return false;
     return evidence.is_seen_less_than(rules.half_seen, face) ||
-           (ends_here && length >= rules.vast * closing);
+           (ends_here && length >= rules.boundary_closing * closing);
 }
 
-/// drop_unsupported() by evidence that is at hand.
+/// drop_unsupported() with given evidence.
 std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, const FaceRules& rules,
                      FaceFlags& keep)
 {
@@ -67,7 +67,7 @@ std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, con
         sort_unique(asked);
         dropped = those_that(asked, [&](std::uint32_t face) {
             return keep[face] != 0 && is_unsupported(face, evidence, closing, rules) &&
-                   !evidence.hides_a_back(face);
+                   !evidence.hides_back(face);
         });
         for (const std::uint32_t face : dropped) {
             keep[face] = 0;
@@ -77,7 +77,7 @@ std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, con
     return count;
 }
 
-/// The faces that may be put back, are small and lie beside a kept one.
+/// The faces of `may_return` that are small and beside a kept face.
 FaceNumbers small_faces_beside(const FaceFlags& keep, const FaceFlags& may_return,
                                const FaceEvidence& evidence, const FaceRules& rules)
 {
@@ -88,7 +88,7 @@ FaceNumbers small_faces_beside(const FaceFlags& keep, const FaceFlags& may_retur
     });
 }
 
-/// Which faces have all corners within a region.
+/// The faces with all corners inside a region.
 FaceFlags faces_within(const Region& region, const TriMesh& surface)
 {
     std::vector<std::uint8_t> is_inside(surface.positions.size());

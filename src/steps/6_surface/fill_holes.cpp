@@ -14,7 +14,7 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-/// Twice the area of the faces along a loop, each as a vector along its normal.
+/// Twice the area of the faces along a loop, as the sum of normal vectors and as a total.
 struct AreaAlong {
     Vector3d sum = Vector3d::Zero();
     double total = 0.0;
@@ -32,7 +32,7 @@ AreaAlong area_along(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
     return area;
 }
 
-/// Twice the area vector of whatever surface fills the loop: it depends on the loop alone.
+/// Twice the area vector of any surface that fills the loop, which depends only on the loop.
 Vector3d area_within(const HalfEdgeMesh& mesh, const BoundaryLoop& loop)
 {
     const Vector3d& origin = mesh.point(mesh.from_vertex_handle(loop[0]));
@@ -61,12 +61,12 @@ class PolygonFill {
 
     bool exists() const { return std::isfinite(chord(0, corners_.size() - 1).area); }
 
-    /// Adds the triangles; call it only where they exist.
+    /// Adds the triangles. Requires exists().
     void add_to(HalfEdgeMesh& mesh) const { add_behind(mesh, 0, corners_.size() - 1); }
 
   private:
-    /// From corner i to corner j: the least area of the polygon i, i + 1, ..., j and the corner
-    /// that the triangle on the chord has there.
+    /// A chord from corner i to corner j: the least area of the polygon i, i + 1, ..., j, and the
+    /// third corner of the triangle at the chord.
     struct Chord {
         double area = 0.0;
         std::size_t apex = 0;
@@ -87,7 +87,7 @@ class PolygonFill {
     void fill_behind(std::size_t i, std::size_t j)
     {
         Chord& best = chord(i, j);
-        best.area = std::numeric_limits<double>::infinity(); // not possible
+        best.area = std::numeric_limits<double>::infinity(); // impossible
         const bool closes_loop = i == 0 && j + 1 == corners_.size();
         const bool taken = mesh_.find_halfedge(corners_[i], corners_[j]).is_valid();
         if (taken && !closes_loop) return;
@@ -121,7 +121,7 @@ VertexHandle add_middle(HalfEdgeMesh& mesh, const std::vector<VertexHandle>& cor
         position += mesh.point(corner) / count;
         color += Vector3d(c[0], c[1], c[2]) / count;
     }
-    // NOLINTNEXTLINE(cppcoreguidelines-slicing): a handle is all that is wanted
+    // NOLINTNEXTLINE(cppcoreguidelines-slicing): only the handle is needed
     const VertexHandle middle = mesh.add_vertex(position);
     mesh.data(middle).color = {static_cast<std::uint8_t>(color[0]),
                                static_cast<std::uint8_t>(color[1]),
@@ -137,7 +137,7 @@ void add_fan(HalfEdgeMesh& mesh, const std::vector<VertexHandle>& corners)
     }
 }
 
-/// The half-edges without a face, beside a face that is not deleted, ascending.
+/// The half-edges without a face whose opposite face is not deleted, ascending.
 std::vector<HalfedgeHandle> boundary_half_edges(const HalfEdgeMesh& mesh)
 {
     return parallel_collect<HalfedgeHandle>(mesh.n_halfedges(), [&](std::size_t h, auto& found) {
@@ -148,7 +148,7 @@ std::vector<HalfedgeHandle> boundary_half_edges(const HalfEdgeMesh& mesh)
     });
 }
 
-/// Neither a rim, nor does it touch itself.
+/// Whether a loop is short enough, not an outer boundary, and does not touch itself.
 bool is_fillable(const HalfEdgeMesh& mesh, const BoundaryLoop& loop, int max_edges)
 {
     return loop.size() <= static_cast<std::size_t>(std::max(max_edges, 0)) && !is_rim(mesh, loop) &&

@@ -20,13 +20,13 @@ using Eigen::Vector3d;
 constexpr std::size_t kRays = 4096;
 constexpr std::size_t kMaxViews = 512;
 
-/// A view, and a point that it saw; kInfinite where it saw none.
+/// A view, and a point that it saw, or kInfinite.
 struct Onlooker {
     std::uint32_t view;
     Index vertex = kInfinite;
 };
 
-/// At most kMaxViews of the views, evenly spread.
+/// At most kMaxViews views, evenly spread.
 std::vector<Onlooker> onlookers(const Scene& scene)
 {
     const std::size_t num_views = scene.views.size();
@@ -49,7 +49,7 @@ std::vector<Onlooker> onlookers(const Scene& scene)
     return chosen;
 }
 
-/// A boundary of which some facets are kept.
+/// A boundary with flags of the kept facets.
 struct PartOfBoundary {
     const TetMesh& cells;
     const Labels& labels;
@@ -60,7 +60,7 @@ struct PartOfBoundary {
     {
         return labels[ahead.cell] != labels[cells.cells[ahead.cell].neighbors[ahead.slot]];
     }
-    /// Of a facet of the boundary, seen from whichever side.
+    /// Whether a boundary facet is kept, given from either side.
     bool is_kept(const CellFacet& ahead) const
     {
         const bool from_inside = labels[ahead.cell] == Label::inside;
@@ -68,13 +68,13 @@ struct PartOfBoundary {
     }
 };
 
-/// Longer than the way from a place to any point.
+/// A length greater than the distance from `place` to any point.
 double reach_from(const Vector3d& place, const Eigen::AlignedBox3d& box)
 {
     return 2.0 * ((place - box.center()).norm() + box.diagonal().norm());
 }
 
-/// Along at most so many lines of sight.
+/// The openness for one view, along at most `most` rays.
 Openness seen_by(const Onlooker& onlooker, const Scene& scene, const Eigen::AlignedBox3d& box,
                  const PartOfBoundary& part, std::size_t most)
 {

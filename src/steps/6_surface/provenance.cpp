@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53; // doubles hold whole numbers up to it
+constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53; // doubles hold integers up to it
 
 bool is_of_model(std::uint32_t point, const Scene& scene)
 {
@@ -28,8 +28,8 @@ void require_exact_ids(const TriMesh& mesh, const Scene& scene)
 {
     for (const std::uint32_t point : mesh.points) {
         if (is_of_model(point, scene) && scene.point_ids[point] > kLargestId) {
-            throw InputError(fmt::format("point {} cannot be written with --attributes: a PLY file "
-                                         "holds ids up to {} only",
+            throw InputError(fmt::format("--attributes cannot write point {}: PLY stores ids up to "
+                                         "{} only; omit --attributes",
                                          scene.point_ids[point], kLargestId));
         }
     }
@@ -47,7 +47,7 @@ ViewAgreement agreement_of_face(const HalfEdgeMesh& mesh, const Scene& scene,
             continue;
         }
         for (const std::uint32_t view : scene.tracks[point]) {
-            ++agreement.sights;
+            ++agreement.rays;
             agreement.facing += normal.dot(scene.views[view].center - mesh.point(vertex)) > 0.0;
         }
     }
@@ -56,7 +56,7 @@ ViewAgreement agreement_of_face(const HalfEdgeMesh& mesh, const Scene& scene,
 
 ViewAgreement sum(const ViewAgreement& a, const ViewAgreement& b)
 {
-    return {.sights = a.sights + b.sights, .facing = a.facing + b.facing};
+    return {.rays = a.rays + b.rays, .facing = a.facing + b.facing};
 }
 
 } // namespace

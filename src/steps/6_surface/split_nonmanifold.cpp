@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A soup and, for every half-edge, the half-edge it is sewn to, or kNoHalfEdge at a border. Twins
-/// run along the same two vertices in opposite directions.
+/// A soup, and the twin of each half-edge, or kNoHalfEdge at a boundary. Twins run along the same
+/// two vertices in opposite directions.
 struct SewnSoup {
     TriMesh mesh;
     std::vector<HalfEdge> twins;
@@ -29,8 +29,8 @@ struct SewnSoup {
     }
 };
 
-/// Orders faces by their angle around the edge u v, counter-clockwise seen from v, beginning at a
-/// face with the apex `reference`. Exact, however thin the wedges.
+/// Orders faces by their angle around the edge u v, counter-clockwise seen from v, starting at a
+/// face with the apex `reference`. Exact, even for thin wedges.
 class AngleAroundEdge {
   public:
     AngleAroundEdge(const Vector3d& u, const Vector3d& v, const Vector3d& reference)
@@ -48,7 +48,7 @@ class AngleAroundEdge {
     }
 
   private:
-    /// 0 at the reference, 1 less than half a turn on, 2 just half a turn, 3 more.
+    /// 0 at the reference, 1 below half a turn, 2 at exactly half a turn, 3 above.
     int quarter(const Vector3d& apex) const
     {
         const int side = orientation(u_, v_, reference_, apex);
@@ -62,8 +62,8 @@ class AngleAroundEdge {
     const Vector3d& reference_;
 };
 
-/// The half-edges of one edge in the order of their faces around it, seen along lower -> higher
-/// vertex.
+/// The half-edges of one edge, sorted by the angle of their faces around it, seen along lower ->
+/// higher vertex.
 std::vector<HalfEdge> sorted_by_angle(const TriMesh& mesh, std::span<const HalfEdge> half_edges)
 {
     const auto [lower, higher] =
@@ -84,9 +84,9 @@ std::vector<HalfEdge> sorted_by_angle(const TriMesh& mesh, std::span<const HalfE
     return sorted;
 }
 
-/// Sews the faces of an edge in pairs that bound one solid sector each. Going round, a face that
-/// runs against lower -> higher opens a sector and one that runs along closes it; they nest like
-/// brackets where faces of sectors in between are missing.
+/// Joins the faces of an edge in pairs that bound one solid sector each. In angular order, a
+/// half-edge against lower -> higher opens a sector and one along it closes a sector. If faces in
+/// between are missing, sectors nest like brackets.
 void sew_sectors(std::span<const HalfEdge> half_edges, SewnSoup& soup)
 {
     const std::span<const Face> faces(soup.mesh.faces);
@@ -95,7 +95,7 @@ void sew_sectors(std::span<const HalfEdge> half_edges, SewnSoup& soup)
     };
     const std::vector<HalfEdge> around = sorted_by_angle(soup.mesh, half_edges);
     std::vector<HalfEdge> open;
-    // The second turn closes what the first left open at its end.
+    // The second turn closes the sectors that are open at the end of the first.
     for (std::size_t i = 0; i < 2 * around.size(); ++i) {
         const HalfEdge half_edge = around[i % around.size()];
         const bool first_turn = i < around.size();
@@ -108,10 +108,10 @@ void sew_sectors(std::span<const HalfEdge> half_edges, SewnSoup& soup)
     }
 }
 
-/// What sew_edges leaves for later.
+/// The edges that sew_edges() cannot resolve.
 struct Crowd {
     std::int64_t num_edges = 0;       ///< edges with more than two faces
-    std::vector<std::uint32_t> faces; ///< at edges that are more than one border or one seam
+    std::vector<std::uint32_t> faces; ///< at edges with more than one boundary half-edge or seam
 };
 
 Crowd sew_edges(SewnSoup& soup)
@@ -141,7 +141,7 @@ Crowd sew_edges(SewnSoup& soup)
     return crowd;
 }
 
-/// The corners of vertices whose corners do not all hang together through seams, ascending.
+/// The corners of vertices whose corners are not all connected through seams, ascending.
 std::vector<HalfEdge> corners_to_separate(const SewnSoup& soup)
 {
     const std::span<const Face> faces(soup.mesh.faces);
@@ -162,8 +162,8 @@ std::vector<HalfEdge> corners_to_separate(const SewnSoup& soup)
     });
 }
 
-/// Gives each fan of corners that hang together through seams a vertex of its own; the fan of the
-/// first corner keeps the old one. Returns how many vertices came apart.
+/// Assigns a separate vertex to each fan of corners connected through seams. The fan of the first
+/// corner keeps the old vertex. Returns the number of split vertices.
 std::int64_t separate_vertices(SewnSoup& soup)
 {
     std::vector<Face>& faces = soup.mesh.faces;
@@ -182,9 +182,9 @@ std::int64_t separate_vertices(SewnSoup& soup)
     return static_cast<std::int64_t>(split.size());
 }
 
-/// Splits a face a b c at `middle`, a point of its half-edge a -> b, into a middle c, which keeps
-/// the numbers, and middle b c. Returns the half-edge middle -> b; that one and a -> middle are
-/// left to be sewn.
+/// Splits a face a b c at `middle`, a vertex on its half-edge a -> b, into a middle c, which keeps
+/// the indices, and middle b c. Returns the half-edge middle -> b. The caller must set the twins of
+/// this one and of a -> middle.
 HalfEdge split_face(SewnSoup& soup, HalfEdge half_edge, std::uint32_t middle)
 {
     std::vector<Face>& faces = soup.mesh.faces;
@@ -200,7 +200,7 @@ HalfEdge split_face(SewnSoup& soup, HalfEdge half_edge, std::uint32_t middle)
     return added;
 }
 
-/// One border or one seam of an edge gets a vertex of its own in the middle.
+/// Splits one boundary half-edge or seam of an edge at a new midpoint.
 void split_seam(SewnSoup& soup, HalfEdge half_edge)
 {
     const HalfEdge twin = soup.twins[half_edge];
@@ -213,7 +213,7 @@ void split_seam(SewnSoup& soup, HalfEdge half_edge)
     soup.sew(twin, added);
 }
 
-/// The half-edges of some faces that share their two ends with others of these, edge by edge.
+/// The half-edges of some faces, grouped by their two vertices.
 std::vector<std::vector<HalfEdge>> shared_edges(const SewnSoup& soup,
                                                 const std::set<std::uint32_t>& some_faces)
 {
@@ -237,8 +237,8 @@ std::vector<std::vector<HalfEdge>> shared_edges(const SewnSoup& soup,
     return edges;
 }
 
-/// One round of separate_seams over the edges of `crowd`. A face takes part in one split at most,
-/// because splitting renumbers its half-edges. Returns the faces to look at again.
+/// One round of separate_seams over the edges of `crowd`. Splits each face at most once, because
+/// this renumbers its half-edges. Returns the faces to process again.
 std::set<std::uint32_t> separate_seams_once(SewnSoup& soup, const std::set<std::uint32_t>& crowd)
 {
     std::set<std::uint32_t> touched;
@@ -251,7 +251,7 @@ std::set<std::uint32_t> separate_seams_once(SewnSoup& soup, const std::set<std::
         for (const HalfEdge half_edge : half_edges) {
             again.insert(half_edge / 3);
             const HalfEdge twin = soup.twins[half_edge];
-            // The first seam stays as it is; the others are met at their lower half-edge.
+            // Keeps the first seam, and splits the others at their lower half-edge.
             const bool stays =
                 half_edge == half_edges[0] || half_edge == first_twin || twin < half_edge;
             const bool free = !touched.contains(half_edge / 3) &&
@@ -270,8 +270,8 @@ std::set<std::uint32_t> separate_seams_once(SewnSoup& soup, const std::set<std::
     return again;
 }
 
-/// Splits borders and seams until no two of them run between the same two vertices. All that can
-/// are among the faces of `crowd`.
+/// Splits boundary half-edges and seams until no two join the same vertices. All candidates are at
+/// the faces of `crowd`.
 void separate_seams(SewnSoup& soup, const std::vector<std::uint32_t>& crowd)
 {
     std::set<std::uint32_t> faces(crowd.begin(), crowd.end());

@@ -10,22 +10,22 @@ namespace vcarve {
 
 struct ManifoldSurface {
     TriMesh mesh;
-    std::vector<HalfEdge> twins;  ///< per half-edge the one it shares an edge with, or kNoHalfEdge
-    std::int64_t split_edges = 0; ///< edges that had three or more faces
-    std::int64_t split_vertices = 0; ///< vertices that became several
+    std::vector<HalfEdge> twins;     ///< per half-edge its twin, or kNoHalfEdge at a boundary
+    std::int64_t split_edges = 0;    ///< number of edges that had three or more faces
+    std::int64_t split_vertices = 0; ///< number of vertices that were split
 };
 
-/// Takes a triangle soup apart where it is not manifold, moving nothing. Around an edge of more
-/// than two faces, those that bound one solid sector (the side opposite to the normals) stay
-/// together, so solids that touch in an edge or in a vertex come apart. Faces that find no partner
-/// get a border; on a consistently oriented soup these are the edges that were borders already.
+/// Splits a triangle soup where it is non-manifold, without moving vertices. At an edge of more
+/// than two faces, the faces that bound one solid sector (the side opposite to the normals) stay
+/// connected. So solids that touch in an edge or a vertex are separated. Faces without a partner
+/// get a boundary edge; in a consistently oriented soup these edges already were boundary edges.
 ///
-/// Every edge of the result has one or two faces, two run along it in opposite directions, and
-/// every vertex has one fan or one disk of faces. Where two sheets still share both ends of an edge
-/// after the split, all but one of them get a vertex of their own in the middle of it; this is the
-/// only case that adds faces. Degenerate faces (a vertex twice) are dropped. Vertices keep their
-/// numbers, copies follow; a copy keeps colour and point, a midpoint has the mean colour and no
-/// point. Normals are dropped. Cost: O(faces log(faces of a vertex)), mostly in parallel.
+/// Each edge of the result has one face, or two that run along it in opposite directions. Each
+/// vertex has one fan or one disk of faces. If several seams still join the same two vertices, all
+/// but one are split at a new midpoint; only this adds faces. Degenerate faces (with a repeated
+/// vertex) are dropped. Vertices keep their numbers, and copies follow. A copy keeps color and
+/// point; a midpoint has the mean color and no point. Normals are dropped. Cost: O(faces log(faces
+/// of a vertex)), mostly in parallel.
 ManifoldSurface split_nonmanifold(TriMesh mesh);
 
 } // namespace vcarve

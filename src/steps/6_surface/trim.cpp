@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How much views see of a piece.
+/// The visible share of the samples of a piece.
 enum class Seen : std::uint8_t { none, part, all };
 
 /// Trims the faces of a boundary.
@@ -35,8 +35,8 @@ class Trimming {
     {
     }
 
-    /// Takes the flags off the pieces of faces that no view sees, and divides only as far as
-    /// needed. Returns how many faces lost a piece.
+    /// Clears the flags of pieces that no view sees, and bisects only as far as needed. Returns the
+    /// number of faces that lost a piece.
     std::int64_t trim(std::vector<std::uint32_t> faces);
 
   private:
@@ -44,7 +44,7 @@ class Trimming {
     {
         return vcarve::corners_of(surface_.positions, surface_.faces[face]);
     }
-    /// The face of the boundary that a face is, or is a piece of.
+    /// The original face of a piece, which may be the face itself.
     std::uint32_t origin_of(std::uint32_t face) const
     {
         return face < facets_.size() ? face : origins_[face - facets_.size()];
@@ -58,11 +58,11 @@ class Trimming {
     TriMesh& surface_;
     Boundary boundary_;
     const std::vector<CellFacet>& facets_;
-    double long_edge_; ///< from which on faces are trimmed
+    double long_edge_; ///< faces with such an edge are trimmed
     FaceFlags& keep_;
-    const FaceFlags whole_; ///< what was kept before, which hides what is behind it
+    const FaceFlags whole_; ///< the faces kept before, which block views
     EdgeHalving halving_;
-    std::vector<std::uint32_t> origins_; ///< of the faces that were added
+    std::vector<std::uint32_t> origins_; ///< original faces of the added pieces
 };
 
 Seen Trimming::seen_of(std::uint32_t piece) const
@@ -80,24 +80,24 @@ Seen Trimming::seen_of(std::uint32_t piece) const
     return first ? Seen::all : Seen::none;
 }
 
-/// Whether a piece is not worth halving.
+/// Whether a piece is too short to be bisected.
 bool Trimming::is_short(std::uint32_t piece) const
 {
-    constexpr double kShort = 0.5;      // of the length from which on faces are trimmed
-    constexpr double kSmallPart = 0.07; // of the longest edge of the whole face; a power of 1/2
-                                        // would be met by halves within rounding
+    constexpr double kShort = 0.5;      // of the length that makes a face be trimmed
+    constexpr double kSmallPart = 0.07; // of the original face's longest edge; for a power of 1/2,
+                                        // rounding would decide
     const double whole = longest_edge(boundary_.visibility.corners_of(facets_[origin_of(piece)]));
     return longest_edge(corners_of(piece)) <= std::max(kShort * long_edge_, kSmallPart * whole);
 }
 
-/// Halves pieces at their longest edges, and whatever else is at these. Returns the halves of the
+/// Bisects pieces and their neighbors at the longest edges of the pieces. Returns the halves of the
 /// pieces, ascending.
 std::vector<std::uint32_t> Trimming::halve(const std::vector<std::uint32_t>& pieces)
 {
     std::set<std::uint32_t> whole(pieces.begin(), pieces.end());
     std::set<std::uint32_t> halves;
     for (const std::uint32_t piece : pieces) {
-        if (!whole.contains(piece)) continue; // halved along with another
+        if (!whole.contains(piece)) continue; // already bisected with another
         const auto [a, b] = longest_edge_of(surface_.positions, surface_.faces[piece]);
         for (const auto& [face, other_half] : halving_.halve(a, b)) {
             keep_.push_back(std::uint8_t(keep_[face]));
@@ -108,7 +108,7 @@ std::vector<std::uint32_t> Trimming::halve(const std::vector<std::uint32_t>& pie
     return {halves.begin(), halves.end()};
 }
 
-/// Joins halves again that are both kept or both not.
+/// Merges halves that are both kept or both dropped.
 void Trimming::join_pieces()
 {
     const auto joined = halving_.take_back(
@@ -117,7 +117,7 @@ void Trimming::join_pieces()
     for (const std::uint32_t face : joined) {
         is_gone[face] = 1;
     }
-    std::size_t left = facets_.size(); // none of the faces before was added
+    std::size_t left = facets_.size(); // no face before this was added
     for (std::size_t face = left; face < surface_.faces.size(); ++face) {
         if (is_gone[face] != 0) continue;
         surface_.faces[left] = surface_.faces[face];
@@ -163,7 +163,7 @@ std::int64_t trim_faces(TriMesh& surface, const std::vector<CellFacet>& facets,
     auto large = parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t face, auto& found) {
         if (keep[face] == 0 || chosen.seen[face] == 0) return;
         if (longest_edge(surface.positions, surface.faces[face]) < long_edge) return;
-        if (!visibility.is_told_by_images(facets[face])) return;
+        if (!visibility.has_reliable_visibility(facets[face])) return;
         found.push_back(static_cast<std::uint32_t>(face));
     });
     if (large.empty()) return 0;

@@ -21,7 +21,7 @@ using Triangle = std::array<Vector3d, 3>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// The plane through a place, by its unit normal, as what it costs to leave it.
+/// The quadric of the plane through `place` with a unit normal.
 Quadricd plane(const Vector3d& normal, const Vector3d& place, double weight)
 {
     Quadricd quadric(normal.x(), normal.y(), normal.z(), -normal.dot(place));
@@ -29,8 +29,8 @@ Quadricd plane(const Vector3d& normal, const Vector3d& place, double weight)
     return quadric;
 }
 
-/// One a vertex: the planes of its faces, weighted by area, and for rims, which these know nothing
-/// of, planes along a rim and across its face.
+/// One quadric per vertex: the planes of its faces, weighted by area. At boundary edges, which
+/// these do not preserve, a plane through the edge, perpendicular to its face, is added.
 std::vector<Quadricd> quadrics(const HalfEdgeMesh& mesh)
 {
     constexpr double kRimWeight = 4.0;
@@ -69,8 +69,8 @@ double roundness(const Triangle& t)
     return sum_sq > 0.0 ? 2.0 * std::sqrt(3.0) * twice_area / sum_sq : 0.0;
 }
 
-/// Calls visit(before, after) for each face that going along a half-edge changes, until that says
-/// no. Returns whether it never did.
+/// Calls visit(before, after) for each face that collapsing a half-edge changes, until it returns
+/// false. Returns whether all calls returned true.
 template <typename Visit>
 bool all_changed_faces(const HalfEdgeMesh& mesh, HalfedgeHandle half_edge, const Visit& visit)
 {
@@ -88,7 +88,7 @@ bool all_changed_faces(const HalfEdgeMesh& mesh, HalfedgeHandle half_edge, const
     return true;
 }
 
-/// Whether no face turns far or becomes a worse sliver than those that are replaced.
+/// Whether no face turns too far or becomes a worse sliver than the replaced faces.
 bool keeps_faces_in_shape(const HalfEdgeMesh& mesh, HalfedgeHandle half_edge)
 {
     constexpr double kMostTurnCosine = 0.5; // 60 degrees
@@ -104,8 +104,8 @@ bool keeps_faces_in_shape(const HalfEdgeMesh& mesh, HalfedgeHandle half_edge)
     });
 }
 
-/// Whether the surface stays manifold and has all its pieces, handles and rims: what OpenMesh's
-/// decimater asks.
+/// Whether the surface stays manifold and keeps its components, handles and boundary loops. These
+/// are the conditions of OpenMesh's decimater.
 bool keeps_topology(HalfEdgeMesh& mesh, HalfedgeHandle half_edge)
 {
     if (!mesh.is_collapse_ok(half_edge)) return false;
@@ -124,7 +124,7 @@ bool keeps_topology(HalfEdgeMesh& mesh, HalfedgeHandle half_edge)
     return !is_tetrahedron && !leaves_rim && turned(turned(half_edge)) != half_edge;
 }
 
-/// Going from the beginning of a half-edge to its end, and what that costs.
+/// The collapse of a half-edge, from its start to its end, and the cost.
 struct Collapse {
     double cost = kNever;
     HalfedgeHandle half_edge;
@@ -135,12 +135,12 @@ struct Collapse {
     }
 };
 
-/// Collapses edges in passes: in each of them some of the cheapest ones that have no face in
-/// common, so that threads can look at them at once. Asking the guard costs more than all else, so
-/// only what is about to be done is asked about.
+/// Collapses edges in passes. Each pass selects some of the cheapest edges without common faces, so
+/// that threads can test them concurrently. The guard is the most expensive test, so it runs only
+/// for selected edges.
 class Collapser {
   public:
-    Collapser(HalfEdgeMesh& mesh, const SightGuard& guard)
+    Collapser(HalfEdgeMesh& mesh, const RayGuard& guard)
         : mesh_(mesh),
           guard_(guard),
           quadrics_(quadrics(mesh)),
@@ -158,7 +158,7 @@ class Collapser {
 
     std::int64_t faces() const { return faces_; }
 
-    /// Whether there was anything to try. At most as many faces go as are more than `wanted`.
+    /// Stops at about `wanted` faces. Returns whether there were candidates.
     bool pass(std::int64_t wanted, const Progress& progress)
     {
         look_at_changed();
@@ -178,7 +178,7 @@ class Collapser {
     }
 
   private:
-    /// Finds anew the cheapest collapse of vertices where something changed.
+    /// Recomputes the cheapest collapse of changed vertices.
     void look_at_changed()
     {
         std::erase_if(vertices_, [&](VertexHandle v) { return mesh_.is_deleted(v); });
@@ -191,7 +191,7 @@ class Collapser {
                 const VertexHandle to = mesh_.to_vertex_handle(outgoing);
                 Quadricd quadric = quadrics_[v];
                 quadric += quadrics_[index(to)];
-                // Rounding must not make one of two costs of nothing the lesser.
+                // Zero costs must compare equal despite rounding.
                 collapses.push_back({std::max(quadric(mesh_.point(to)), 0.0), outgoing});
             }
             std::ranges::sort(collapses, std::less<>());
@@ -202,10 +202,10 @@ class Collapser {
         });
     }
 
-    /// The cheapest quarter, in order.
+    /// The cheapest quarter of the collapses, sorted.
     std::vector<Collapse> cheapest() const
     {
-        constexpr std::size_t kShare = 4; // one in so many
+        constexpr std::size_t kShare = 4; // one in four
         std::vector<Collapse> all;
         for (const VertexHandle vertex : vertices_) {
             const Collapse& best = best_[index(vertex)];
@@ -219,7 +219,7 @@ class Collapser {
         return all;
     }
 
-    /// Of these, ones between whose first ends there is no edge.
+    /// A subset of these whose start vertices are pairwise not adjacent.
     std::vector<Collapse> choose(std::int64_t wanted)
     {
         ++pass_;
@@ -239,14 +239,14 @@ class Collapser {
             }
             chosen.push_back(candidate);
         }
-        // What lies close in space is asked about one after the other, as it is in memory.
+        // Vertices with close indices are close in space, which speeds up ray queries.
         std::ranges::sort(chosen, {}, [&](const Collapse& collapse) {
             return mesh_.from_vertex_handle(collapse.half_edge).idx();
         });
         return chosen;
     }
 
-    /// The faces that a collapse leaves around its second end.
+    /// The changed faces around the end of a collapsed half-edge.
     std::vector<Triangle> fan(HalfedgeHandle half_edge) const
     {
         std::vector<Triangle> triangles;
@@ -275,7 +275,7 @@ class Collapser {
         }
     }
 
-    /// What was refused at a vertex may be possible now.
+    /// Marks a vertex as changed. Its rejected collapses may be possible now.
     void change(VertexHandle vertex)
     {
         is_changed_[index(vertex)] = 1;
@@ -285,13 +285,13 @@ class Collapser {
     }
 
     HalfEdgeMesh& mesh_;
-    const SightGuard& guard_;
+    const RayGuard& guard_;
     std::vector<Quadricd> quadrics_;
-    std::vector<VertexHandle> vertices_;     ///< not deleted when the pass began
-    std::vector<Collapse> best_;             ///< of each vertex
-    std::vector<std::uint8_t> is_changed_;   ///< whether that is to be found anew
-    std::vector<std::uint8_t> is_refused_;   ///< one a half-edge
-    std::vector<std::uint32_t> neighbor_in_; ///< in which pass it was a neighbour of a chosen one
+    std::vector<VertexHandle> vertices_;     ///< not deleted at the start of the pass
+    std::vector<Collapse> best_;             ///< cheapest collapse of each vertex
+    std::vector<std::uint8_t> is_changed_;   ///< whether best_ is outdated
+    std::vector<std::uint8_t> is_refused_;   ///< one per half-edge
+    std::vector<std::uint32_t> neighbor_in_; ///< last pass with a chosen vertex beside it
     std::uint32_t pass_ = 0;
     bool has_tried_ = false;
     std::int64_t faces_;
@@ -299,7 +299,7 @@ class Collapser {
 
 } // namespace
 
-SimplifyCounts simplify_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
+SimplifyCounts simplify_surface(HalfEdgeMesh& mesh, const RayGuard& guard,
                                 const SimplifyOptions& options, const Progress& progress)
 {
     SimplifyCounts counts{.faces_before = num_faces_left(mesh)};

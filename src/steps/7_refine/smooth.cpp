@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using OpenMesh::FaceHandle;
 using OpenMesh::VertexHandle;
 
-using Positions = std::vector<Vector3d>; ///< one a vertex
+using Positions = std::vector<Vector3d>; ///< one per vertex
 using Triangle = std::array<Vector3d, 3>;
 
 Vector3d twice_area(const Triangle& t)
@@ -45,7 +45,7 @@ std::vector<FaceFrame> face_frames(const HalfEdgeMesh& mesh, const Positions& po
     return frames;
 }
 
-/// The mean of the normals around a face, weighted by area, nearness and likeness.
+/// The mean of the normals around a face, weighted by area, distance and similarity.
 Vector3d filtered_normal(const HalfEdgeMesh& mesh, const std::vector<FaceFrame>& frames,
                          std::size_t f)
 {
@@ -71,7 +71,7 @@ Vector3d filtered_normal(const HalfEdgeMesh& mesh, const std::vector<FaceFrame>&
     return sum.squaredNorm() > 0.0 ? sum.normalized() : self.normal;
 }
 
-/// Where the vertex goes so that the faces around it come closer to their `normal`s.
+/// The position at which the faces around a vertex agree better with their normals.
 Vector3d fitted_position(const HalfEdgeMesh& mesh, const std::vector<FaceFrame>& frames,
                          const Vector3d& position, VertexHandle vertex)
 {
@@ -85,7 +85,7 @@ Vector3d fitted_position(const HalfEdgeMesh& mesh, const std::vector<FaceFrame>&
     return count > 0.0 ? Vector3d(position + sum / count) : position;
 }
 
-/// Where all vertices would go in one iteration if nothing held them.
+/// The unconstrained positions of all vertices after one iteration.
 Positions targets(const HalfEdgeMesh& mesh, Positions positions)
 {
     constexpr int kRounds = 3;
@@ -112,7 +112,7 @@ Positions targets(const HalfEdgeMesh& mesh, Positions positions)
     return positions;
 }
 
-/// Vertices by colour, no two of a colour neighbours: these can move side by side.
+/// A vertex coloring. No two vertices of a set are adjacent, so they can move concurrently.
 std::vector<std::vector<VertexHandle>> independent_sets(const HalfEdgeMesh& mesh)
 {
     std::vector<std::size_t> set_of(mesh.n_vertices());
@@ -131,12 +131,12 @@ std::vector<std::vector<VertexHandle>> independent_sets(const HalfEdgeMesh& mesh
     return sets;
 }
 
-/// OpenMesh's smoother with goals of ours, since those of its JacobiLaplaceSmootherT round off
-/// edges, and with rays held free. Vertices at rims stay.
-class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> {
+/// OpenMesh's smoother with other target positions, because its JacobiLaplaceSmootherT rounds off
+/// edges. Free rays stay free, and boundary vertices stay in place.
+class RayGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> {
   public:
-    SightGuardedSmoother(HalfEdgeMesh& mesh, const SightGuard& guard, int iterations,
-                         const Progress& progress)
+    RayGuardedSmoother(HalfEdgeMesh& mesh, const RayGuard& guard, int iterations,
+                       const Progress& progress)
         : SmootherT(mesh),
           guard_(guard),
           sets_(independent_sets(mesh)),
@@ -183,7 +183,7 @@ class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> 
     void move(VertexHandle vertex, const Vector3d& target)
     {
         if (!is_active(vertex)) return;
-        constexpr double kReach = 0.5; // of the spacing, from the start
+        constexpr double kReach = 0.5; // of the spacing, from the original position
         const std::size_t v = index(vertex);
         const Vector3d& start = orig_position(vertex);
         const Vector3d way = target - start;
@@ -219,22 +219,22 @@ class SightGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> 
         return true;
     }
 
-    const SightGuard& guard_;
+    const RayGuard& guard_;
     std::vector<std::vector<VertexHandle>> sets_;
     std::vector<double> spacings_;
-    Positions positions_; ///< on the way
+    Positions positions_; ///< current positions
     std::vector<char> held_;
-    double tried_ = 0.0; ///< vertices, over all iterations, out of to_move_
+    double tried_ = 0.0; ///< vertices tried in all iterations, of to_move_
     double to_move_;
     Progress progress_;
 };
 
 } // namespace
 
-SmoothCounts smooth_surface(HalfEdgeMesh& mesh, const SightGuard& guard,
-                            const SmoothOptions& options, const Progress& progress)
+SmoothCounts smooth_surface(HalfEdgeMesh& mesh, const RayGuard& guard, const SmoothOptions& options,
+                            const Progress& progress)
 {
-    SightGuardedSmoother smoother(mesh, guard, options.iterations, progress);
+    RayGuardedSmoother smoother(mesh, guard, options.iterations, progress);
     smoother.smooth(static_cast<unsigned>(options.iterations));
     set_vertex_normals(mesh);
     return smoother.counts();

@@ -44,7 +44,7 @@ TEST(ByteReader, AcceptsACountThatFillsTheFileExactly)
     reader.expect_end("the last pair");
 }
 
-TEST(ByteReader, RefusesACountTheRestOfTheFileCannotHold)
+TEST(ByteReader, RefusesACountThatExceedsTheFile)
 {
     ByteReader reader = reader_over("\x03\0\0\0\0\0\0\0aabb"sv);
     EXPECT_EQ(
@@ -56,19 +56,19 @@ TEST(ByteReader, RefusesACountTheRestOfTheFileCannotHold)
         "f.bin: byte 0: the file ends inside the number of pairs (bytes expected: 8, found: 3)");
 }
 
-TEST(ByteReader, ReadsTextUpToItsZeroByte)
+TEST(ByteReader, ReadsTextUpToTheZeroByte)
 {
     ByteReader reader = reader_over("a b\0\0c"sv);
     EXPECT_EQ(reader.read_zero_terminated("a name"), "a b");
     EXPECT_EQ(reader.read_zero_terminated("a name"), "");
     EXPECT_EQ(refusal<InputError>([&] { reader.read_zero_terminated("a name"); }),
-              "f.bin: byte 5: the file ends inside a name (no zero byte closes it)");
+              "f.bin: byte 5: the file ends inside a name (no terminating zero byte)");
     ByteReader empty = reader_over("");
     EXPECT_EQ(refusal<InputError>([&] { empty.read_zero_terminated("a name"); }),
-              "f.bin: byte 0: the file ends inside a name (no zero byte closes it)");
+              "f.bin: byte 0: the file ends inside a name (no terminating zero byte)");
 }
 
-TEST(ByteReader, RefusesBytesAfterTheEnd)
+TEST(ByteReader, RefusesTrailingBytes)
 {
     const ByteReader reader = reader_over("ab");
     EXPECT_EQ(

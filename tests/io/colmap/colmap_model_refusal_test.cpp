@@ -23,32 +23,32 @@ namespace fs = std::filesystem;
 const fs::path kFixtures = fixtures_folder();
 constexpr const char* kStems[] = {"cameras", "images", "points3D"};
 
-/// What is said of fixtures/broken/NAME, after the path of that folder.
+/// A folder in fixtures/broken, and the error message after its path.
 using Refusal = std::pair<const char*, const char*>;
 
 const std::vector<Refusal> kBinaryRefusals{
     {"bin_camera_count_huge", "/cameras.bin: byte 0: found a count of 1152921504606846976 cameras, "
                               "but the rest of the file can hold 2 at most"},
     {"bin_camera_model_99",
-     "/cameras.bin: camera 1 is of model 99, which is not known, and neither "
-     "is the number of its parameters (a model as text can be read)"},
+     "/cameras.bin: camera 1 has the unknown model 99, so its number of parameters is unknown; "
+     "convert the COLMAP model to text"},
     {"bin_camera_twice", "/cameras.bin: camera 1 occurs twice"},
     {"bin_cameras_trailing", "/cameras.bin: byte 64: expected the end of the file after the last "
                              "camera, found more bytes: 3"},
     {"bin_cameras_truncated", "/cameras.bin: byte 56: the file ends inside the parameters of a "
                               "camera (bytes expected: 8, found: 3)"},
     {"bin_image_camera_unknown",
-     "/images.bin: image 1 (a.jpg) uses camera 7, which cameras.bin does not have"},
+     "/images.bin: image 1 (a.jpg) uses camera 7, which is missing in cameras.bin"},
     {"bin_image_count_huge",
      "/images.bin: byte 0: found a count of 1152921504606846976 images, but "
      "the rest of the file can hold 3 at most"},
     {"bin_image_name_open",
-     "/images.bin: byte 72: the file ends inside the name of an image (no zero byte closes it)"},
+     "/images.bin: byte 72: the file ends inside the name of an image (no terminating zero byte)"},
     {"bin_image_rotation_nan", "/images.bin: image 1 (a.jpg) has a pose that is not finite"},
     {"bin_image_rotation_zero",
      "/images.bin: image 1 (a.jpg) has a rotation quaternion of length zero"},
     {"bin_image_translation_nan", "/images.bin: image 1 (a.jpg) has a pose that is not finite"},
-    {"bin_image_twice", "/images.bin: image 1 (b.jpg) has the id of image 1 (a.jpg)"},
+    {"bin_image_twice", "/images.bin: image 1 (b.jpg) has the same id as image 1 (a.jpg)"},
     {"bin_images_points2d_huge", "/images.bin: byte 78: found a count of 1152921504606846976 2D "
                                  "points, but the rest of the file can hold 6 at most"},
     {"bin_images_trailing", "/images.bin: byte 236: expected the end of the file after the last "
@@ -72,37 +72,41 @@ const std::vector<Refusal> kBinaryRefusals{
 
 const std::vector<Refusal> kTextRefusals{
     {"txt_camera_params_few",
-     "/cameras.txt: line 2: found 3 parameters of a PINHOLE camera, which has 4"},
+     "/cameras.txt: line 2: found 3 parameters, but a PINHOLE camera has 4"},
     {"txt_camera_size_missing",
-     "/cameras.txt: line 2: the line ends where the height of the camera should stand"},
-    {"txt_camera_width_word", "/cameras.txt: line 2: found 'wide' where the width of the camera, a "
-                              "whole number of 64 bits, should stand"},
+     "/cameras.txt: line 2: the line ends, expected the height of the camera"},
+    {"txt_camera_width_word",
+     "/cameras.txt: line 2: found 'wide', expected the width of the camera "
+     "(an unsigned 64-bit integer)"},
     {"txt_image_camera_unknown",
-     "/images.txt: image 1 (a.jpg) uses camera 7, which cameras.txt does not have"},
-    {"txt_image_id_negative", "/images.txt: line 4: found '-2' where the id of an image, a whole "
-                              "number of 32 bits, should stand"},
+     "/images.txt: image 1 (a.jpg) uses camera 7, which is missing in cameras.txt"},
+    {"txt_image_id_negative", "/images.txt: line 4: found '-2', expected the id of an image (an "
+                              "unsigned 32-bit integer)"},
     {"txt_image_name_missing",
-     "/images.txt: line 2: the line ends where the name of the image should stand"},
+     "/images.txt: line 2: the line ends, expected the name of the image"},
     {"txt_image_rotation_nan", "/images.txt: image 1 (a.jpg) has a pose that is not finite"},
     {"txt_image_rotation_zero",
      "/images.txt: image 1 (a.jpg) has a rotation quaternion of length zero"},
-    {"txt_image_twice", "/images.txt: image 1 (b.jpg) has the id of image 1 (a.jpg)"},
+    {"txt_image_twice", "/images.txt: image 1 (b.jpg) has the same id as image 1 (a.jpg)"},
     {"txt_images_points2d_left_out",
-     "/images.txt: line 3: found 'b.jpg' at the end of the line, which should hold the 2D points "
-     "of "
-     "the image on the line before, as x, y and point id, or nothing"},
+     "/images.txt: line 3: found 'b.jpg' at the end of the line, expected the 2D points of the "
+     "image on the previous line (x, y and point id each), or an empty line"},
     {"txt_images_pose_cut",
-     "/images.txt: line 2: the line ends where the translation of the image should stand"},
-    {"txt_point_color_300", "/points3D.txt: line 2: found '300' where the colour of the point, a "
-                            "whole number from 0 to 255, should stand"},
-    {"txt_point_coordinate_1e999", "/points3D.txt: line 2: found '1e999' where the position of the "
-                                   "point, a number, should stand"},
-    {"txt_point_coordinate_word", "/points3D.txt: line 2: found '5,0' where the position of the "
-                                  "point, a number, should stand"},
+     "/images.txt: line 2: the line ends, expected the translation of the image"},
+    {"txt_point_color_300",
+     "/points3D.txt: line 2: found '300', expected the color of the point (an "
+     "integer from 0 to 255)"},
+    {"txt_point_coordinate_1e999",
+     "/points3D.txt: line 2: found '1e999', expected the position of the "
+     "point (a number)"},
+    {"txt_point_coordinate_word",
+     "/points3D.txt: line 2: found '5,0', expected the position of the "
+     "point (a number)"},
     {"txt_point_error_missing",
-     "/points3D.txt: line 2: the line ends where the error of the point should stand"},
-    {"txt_point_track_odd", "/points3D.txt: line 2: the line ends where the index of a 2D point in "
-                            "the track should stand"},
+     "/points3D.txt: line 2: the line ends, expected the error of the point"},
+    {"txt_point_track_odd",
+     "/points3D.txt: line 2: the line ends, expected the index of a 2D point in "
+     "the track"},
     {"txt_point_twice", "/points3D.txt: point 1 occurs twice"},
 };
 
@@ -115,17 +119,17 @@ void expect_refusals(const std::vector<Refusal>& refusals, ModelFormat format)
     }
 }
 
-TEST(ColmapModel, RefusesBrokenBinaryFilesWithASentence)
+TEST(ColmapModel, RefusesBrokenBinaryFilesWithOneSentence)
 {
     expect_refusals(kBinaryRefusals, ModelFormat::binary);
 }
 
-TEST(ColmapModel, RefusesBrokenTextFilesWithASentence)
+TEST(ColmapModel, RefusesBrokenTextFilesWithOneSentence)
 {
     expect_refusals(kTextRefusals, ModelFormat::text);
 }
 
-TEST(ColmapModel, HasASentenceForEveryBrokenFixture)
+TEST(ColmapModel, TestsCoverEveryBrokenFixture)
 {
     const auto folders = std::distance(fs::directory_iterator(kFixtures / "broken"), {});
     EXPECT_EQ(static_cast<std::size_t>(folders), kBinaryRefusals.size() + kTextRefusals.size());
@@ -147,8 +151,7 @@ std::vector<FileBytes> files_of(const std::string& fixture, const std::string& e
     return files;
 }
 
-/// Whether there is a scene, which must be well-formed; anything thrown but InputError gets
-/// through.
+/// Whether the model can be read; the scene must be well-formed. Other errors than InputError pass.
 bool reads(const fs::path& folder, ModelFormat format)
 {
     try {
@@ -166,7 +169,7 @@ void write_all(const TemporaryFolder& folder, const std::vector<FileBytes>& file
     }
 }
 
-/// How many of the cuts, at every byte of every file, leave a model that can be read.
+/// Truncates every file at every byte. Returns how many of these models can be read.
 int count_readable_cuts(const std::vector<FileBytes>& files, ModelFormat format)
 {
     const TemporaryFolder folder;
@@ -181,7 +184,7 @@ int count_readable_cuts(const std::vector<FileBytes>& files, ModelFormat format)
     return readable;
 }
 
-/// How many of 1000 models with one to three bytes changed can be read.
+/// Changes one to three bytes in 1000 models. Returns how many of them can be read.
 int count_readable_flips(const std::vector<FileBytes>& files, ModelFormat format)
 {
     const TemporaryFolder folder;
@@ -201,12 +204,12 @@ int count_readable_flips(const std::vector<FileBytes>& files, ModelFormat format
     return readable;
 }
 
-TEST(ColmapModel, RefusesEveryCutBinaryFile)
+TEST(ColmapModel, RefusesEveryTruncatedBinaryFile)
 {
     EXPECT_EQ(count_readable_cuts(files_of("formats/rich_bin", ".bin"), ModelFormat::binary), 0);
 }
 
-TEST(ColmapModel, ReadsOrRefusesCutTextFiles)
+TEST(ColmapModel, ReadsOrRefusesTruncatedTextFiles)
 {
     const auto files = files_of("formats/rich_txt", ".txt");
     std::size_t cuts = 0;
@@ -218,7 +221,7 @@ TEST(ColmapModel, ReadsOrRefusesCutTextFiles)
     EXPECT_LT(static_cast<std::size_t>(readable), cuts);
 }
 
-TEST(ColmapModel, ReadsOrRefusesFlippedBytes)
+TEST(ColmapModel, ReadsOrRefusesChangedBytes)
 {
     for (const auto& [fixture, extension, format] :
          {std::tuple{"formats/rich_bin", ".bin", ModelFormat::binary},

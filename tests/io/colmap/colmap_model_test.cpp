@@ -29,7 +29,7 @@ Scene read_fixture(const std::string& name)
     return read_colmap_model(found.folder, found.format);
 }
 
-TEST(ColmapModel, HoldsWhatTheFilesSay)
+TEST(ColmapModel, ReadsAllRecordsOfTheFiles)
 {
     const Scene scene = read_fixture("formats/rich_bin");
     expect_well_formed(scene);
@@ -62,17 +62,17 @@ TEST(ColmapModel, HoldsWhatTheFilesSay)
                 ElementsAre(Color{0, 128, 255}, Color{255, 255, 255}, Color{1, 2, 3}));
     EXPECT_THAT(scene.errors_px, ElementsAre(0.5, -1.0, 0.0));
     EXPECT_THAT(scene.point_ids, ElementsAre(900U, 2U, 18446744073709551614U));
-    // The first track is images 100000, 7, 40 and 7 once more
+    // The first track has images 100000, 7, 40 and again 7
     EXPECT_THAT(scene.tracks.begins, ElementsAre(0U, 3U, 4U, 4U));
     EXPECT_THAT(scene.tracks.views, ElementsAre(0U, 1U, 2U, 1U));
     EXPECT_EQ(scene.offset, Vector3d::Zero());
 }
 
-TEST(ColmapModel, KeepsPosesWhole)
+TEST(ColmapModel, KeepsPosesExact)
 {
     const Scene scene = read_fixture("formats/rich_bin");
     ASSERT_EQ(scene.views.size(), 3U);
-    // A quaternion of length 2 is the identity all the same
+    // This quaternion is the identity with length 2
     EXPECT_EQ(scene.views[0].cam_from_world.coeffs(), Eigen::Vector4d(0, 0, 0, 1));
     EXPECT_EQ(scene.views[0].center, Vector3d(-1, -2, -3));
     // 120 degrees about (1, -1, 1): x goes to z, y to -x, z to -y
@@ -91,7 +91,7 @@ TEST(ColmapModel, IsTheSameInEitherFormat)
     expect_equal_scenes(binary, read_fixture("formats/rich_txt_by_hand"));
 }
 
-TEST(ColmapModel, KnowsEveryCameraModelOfColmap)
+TEST(ColmapModel, ReadsEveryCameraModelOfColmap)
 {
     const std::vector<std::size_t> num_params{3, 4,  4,  5, 8, 8, 12, 5, 4,
                                               5, 12, 16, 4, 5, 3, 4,  6, 2};
@@ -105,7 +105,7 @@ TEST(ColmapModel, KnowsEveryCameraModelOfColmap)
     expect_equal_scenes(scene, read_fixture("formats/cameras_txt"));
 }
 
-TEST(ColmapModel, KeepsACameraOfUnknownModelInText)
+TEST(ColmapModel, KeepsACameraOfAnUnknownModelInText)
 {
     const Scene scene = read_fixture("formats/camera_unknown_txt");
     ASSERT_EQ(scene.cameras.size(), 1U);
@@ -133,7 +133,7 @@ TEST(ColmapModel, ReadsLinesOfMegabytes)
     EXPECT_THAT(scene.tracks.views, ElementsAre(0U, 1U));
 }
 
-TEST(ColmapModel, TakesAnErrorThatIsNotANumberForUnknown)
+TEST(ColmapModel, ReadsAnErrorOfNanAsUnknown)
 {
     const TemporaryFolder folder;
     folder.copy(kFixtures / "formats/rich_txt", "model");
@@ -142,7 +142,7 @@ TEST(ColmapModel, TakesAnErrorThatIsNotANumberForUnknown)
     EXPECT_THAT(scene.errors_px, ElementsAre(-1.0, std::numeric_limits<double>::infinity()));
 }
 
-TEST(ColmapModel, DropsSightsOfImagesThatAreNotThereAndCountsThemButForPlaceholders)
+TEST(ColmapModel, DropsRaysOfMissingImagesAndCountsThemUnlessPlaceholders)
 {
     const TemporaryFolder folder;
     folder.copy(kFixtures / "formats/rich_txt", "model"); // its images are 7, 40 and 100000
@@ -150,16 +150,16 @@ TEST(ColmapModel, DropsSightsOfImagesThatAreNotThereAndCountsThemButForPlacehold
                                        "2 0 0 1 0 0 0 1 0 0\n"
                                        "3 0 1 0 0 0 0 1 -1 -1\n"
                                        "4 0 1 1 0 0 0 1 9 0 41 5\n");
-    DroppedSights dropped;
+    DroppedRays dropped;
     const Scene scene = read_colmap_model(folder.path() / "model", ModelFormat::text, {}, &dropped);
     expect_well_formed(scene);
     EXPECT_THAT(scene.tracks.begins, ElementsAre(0U, 2U, 2U, 2U, 2U));
     EXPECT_THAT(scene.tracks.views, ElementsAre(0U, 1U));
-    EXPECT_EQ(dropped.sights, 3U);
+    EXPECT_EQ(dropped.rays, 3U);
     EXPECT_THAT(dropped.images, ElementsAre(9U, 41U));
 }
 
-TEST(ColmapModel, TellsTracksOfImagesInEitherFormat)
+TEST(ColmapModel, ReadsTracksOfImagesInEitherFormat)
 {
     for (const char* name : {"scene/sparse/0", "scene/sparse_txt"}) {
         const FoundModel found = find_model(kFixtures / name);
@@ -170,7 +170,7 @@ TEST(ColmapModel, TellsTracksOfImagesInEitherFormat)
     }
 }
 
-TEST(ColmapModel, TakesASightOnceAndOnlyOfPointsThatAreThere)
+TEST(ColmapModel, ReadsRepeatedRaysOnceAndSkipsMissingPoints)
 {
     const TemporaryFolder folder;
     folder.copy(kFixtures / "formats/rich_txt", "model");
@@ -180,14 +180,14 @@ TEST(ColmapModel, TakesASightOnceAndOnlyOfPointsThatAreThere)
     const Scene scene = read_colmap_model(folder.path() / "model", ModelFormat::text);
     const Tracks tracks = read_tracks_of_images(folder.path() / "model", ModelFormat::text, scene);
     EXPECT_THAT(tracks.begins, ElementsAre(0U, 2U, 3U, 3U));
-    EXPECT_THAT(tracks.views, ElementsAre(0U, 1U, 1U)); // by id: image 4 is the first
+    EXPECT_THAT(tracks.views, ElementsAre(0U, 1U, 1U)); // sorted by id, so image 4 is view 0
 }
 
 TEST(ColmapModel, ReadsEveryDegenerateFixture)
 {
     struct Sizes {
         const char* name;
-        std::size_t views, points, sights;
+        std::size_t views, points, rays;
     };
     const std::vector<Sizes> expected{
         {"collinear_points", 4, 8, 32},
@@ -214,13 +214,13 @@ TEST(ColmapModel, ReadsEveryDegenerateFixture)
         expect_well_formed(scene);
         EXPECT_EQ(scene.views.size(), sizes.views);
         EXPECT_EQ(scene.num_points(), sizes.points);
-        EXPECT_EQ(scene.num_sights(), sizes.sights);
+        EXPECT_EQ(scene.num_rays(), sizes.rays);
     }
     const auto folders = std::distance(fs::directory_iterator(kFixtures / "degenerate"), {});
     EXPECT_EQ(static_cast<std::size_t>(folders), expected.size());
 }
 
-TEST(ColmapModel, PutsTheViewExactlyOnThePointItCoincidesWith)
+TEST(ColmapModel, PutsAViewExactlyOnACoincidentPoint)
 {
     const Scene scene = read_fixture("degenerate/view_on_point");
     EXPECT_EQ(scene.views[4].center, scene.positions[0]);
@@ -237,7 +237,7 @@ std::string count_bytes(char count)
 
 class SizeBeforeReading : public ::testing::Test {
   protected:
-    /// A folder whose files begin with these counts; the rest is zeros.
+    /// Of a folder whose files begin with these counts, followed by zeros.
     std::optional<SceneSize> size_of_files(char views, char points, std::size_t rest_bytes)
     {
         folder.write("images.bin", count_bytes(views));
@@ -248,16 +248,16 @@ class SizeBeforeReading : public ::testing::Test {
     TemporaryFolder folder;
 };
 
-TEST_F(SizeBeforeReading, CountsPointsViewsAndWhatIsLeftForSights)
+TEST_F(SizeBeforeReading, CountsPointsViewsAndTheRemainingBytesAsRays)
 {
     const auto size = size_of_files(3, 2, 2 * 51 + 5 * 8);
     ASSERT_TRUE(size);
     EXPECT_EQ(size->points, 2U);
     EXPECT_EQ(size->views, 3U);
-    EXPECT_EQ(size->sights, 5U);
+    EXPECT_EQ(size->rays, 5U);
 }
 
-TEST_F(SizeBeforeReading, SaysNothingOfFilesTooShortForTheirCount)
+TEST_F(SizeBeforeReading, IsEmptyForFilesTooShortForTheirCount)
 {
     EXPECT_FALSE(size_of_files(3, 2, 2 * 51 - 1));
     EXPECT_TRUE(size_of_files(3, 2, 2 * 51));
@@ -265,7 +265,7 @@ TEST_F(SizeBeforeReading, SaysNothingOfFilesTooShortForTheirCount)
     EXPECT_FALSE(size_before_reading(folder.path(), ModelFormat::binary));
 }
 
-TEST_F(SizeBeforeReading, SaysNothingOfTextAndOfMissingFiles)
+TEST_F(SizeBeforeReading, IsEmptyForTextAndMissingFiles)
 {
     EXPECT_FALSE(size_before_reading(folder.path(), ModelFormat::binary));
     EXPECT_TRUE(size_of_files(3, 2, 2 * 51));

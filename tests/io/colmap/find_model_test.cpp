@@ -21,7 +21,7 @@ const fs::path kText = kFixtures / "formats/rich_txt";      // the same
 const fs::path kLattice = kFixtures / "degenerate/lattice"; // 64 points, text
 const fs::path kCube = kFixtures / "degenerate/one_view";   // 8 points, text
 
-TEST(FindModel, TakesTheFolderItself)
+TEST(FindModel, FindsTheFolderItself)
 {
     const FoundModel binary = find_model(kBinary);
     EXPECT_EQ(binary.folder, kBinary);
@@ -33,7 +33,7 @@ TEST(FindModel, TakesTheFolderItself)
     EXPECT_THAT(text.notes, IsEmpty());
 }
 
-TEST(FindModel, PrefersBinaryToTextAndSaysSo)
+TEST(FindModel, PrefersBinaryToTextWithANote)
 {
     const TemporaryFolder folder;
     folder.copy(kBinary, "m");
@@ -41,10 +41,10 @@ TEST(FindModel, PrefersBinaryToTextAndSaysSo)
     const FoundModel found = find_model(folder.path() / "m");
     EXPECT_EQ(found.format, ModelFormat::binary);
     EXPECT_THAT(found.notes, ElementsAre((folder.path() / "m").string() +
-                                         " holds .bin and .txt files: the .bin are read"));
+                                         " has .bin and .txt files; reading the .bin files"));
 }
 
-TEST(FindModel, TakesTextWhereBinaryIsIncompleteAndSaysSo)
+TEST(FindModel, ReadsTextIfBinaryIsIncompleteWithANote)
 {
     const TemporaryFolder folder;
     folder.copy(kText, "m");
@@ -53,11 +53,11 @@ TEST(FindModel, TakesTextWhereBinaryIsIncompleteAndSaysSo)
     EXPECT_EQ(found.format, ModelFormat::text);
     EXPECT_THAT(found.notes,
                 ElementsAre((folder.path() / "m").string() +
-                            " holds .bin and .txt files: the .txt are read, for images.bin and "
-                            "points3D.bin is missing"));
+                            " has .bin and .txt files; reading the .txt files, because it "
+                            "has no images.bin and no points3D.bin"));
 }
 
-TEST(FindModel, TakesTheComponentWithMostPointsAndNamesTheOthers)
+TEST(FindModel, SelectsTheComponentWithMostPointsAndNamesTheOthers)
 {
     const TemporaryFolder folder;
     folder.copy(kBinary, "sparse/0");
@@ -65,8 +65,9 @@ TEST(FindModel, TakesTheComponentWithMostPointsAndNamesTheOthers)
     folder.copy(kLattice, "sparse/10");
     folder.copy(kFixtures / "broken/bin_points_missing", "sparse/11");
     const std::string sparse = (folder.path() / "sparse").string();
-    const std::string note = sparse + "/10 has most points (64) and is taken; left out: " + sparse +
-                             "/0 (3), " + sparse + "/2 (8)";
+    const std::string note =
+        "the model has 3 components; using the first one with the most points, " + sparse +
+        "/10 (64 points); ignored: " + sparse + "/0 (3 points), " + sparse + "/2 (8 points)";
     for (const fs::path& input : {folder.path(), folder.path() / "sparse"}) {
         const FoundModel found = find_model(input);
         EXPECT_EQ(found.folder, folder.path() / "sparse/10");
@@ -75,7 +76,7 @@ TEST(FindModel, TakesTheComponentWithMostPointsAndNamesTheOthers)
     }
 }
 
-TEST(FindModel, TakesTheFirstOfComponentsWithAsManyPoints)
+TEST(FindModel, SelectsTheFirstOfComponentsThatTie)
 {
     const TemporaryFolder folder;
     folder.copy(kBinary, "sparse/10");
@@ -84,11 +85,12 @@ TEST(FindModel, TakesTheFirstOfComponentsWithAsManyPoints)
     const FoundModel found = find_model(folder.path());
     EXPECT_EQ(found.folder, folder.path() / "sparse/9");
     EXPECT_THAT(found.notes,
-                ElementsAre(sparse + "/9 has most points (3) and is taken; left out: " + sparse +
-                            "/10 (3)"));
+                ElementsAre("the model has 2 components; using the first one with the "
+                            "most points, " +
+                            sparse + "/9 (3 points); ignored: " + sparse + "/10 (3 points)"));
 }
 
-TEST(FindModel, DoesNotBelieveACountTheFileCannotHold)
+TEST(FindModel, IgnoresACountThatExceedsTheFile)
 {
     const TemporaryFolder folder;
     folder.copy(kFixtures / "broken/bin_point_count_huge", "sparse/0");
@@ -96,7 +98,7 @@ TEST(FindModel, DoesNotBelieveACountTheFileCannotHold)
     EXPECT_EQ(find_model(folder.path()).folder, folder.path() / "sparse/1");
 }
 
-TEST(FindModel, TakesAWorkspacesOnlyModelWithoutANote)
+TEST(FindModel, FindsTheOnlyModelOfAWorkspaceWithoutANote)
 {
     const TemporaryFolder folder;
     folder.copy(kBinary, "one/sparse/0");
@@ -109,7 +111,7 @@ TEST(FindModel, TakesAWorkspacesOnlyModelWithoutANote)
     EXPECT_THAT(two.notes, IsEmpty());
 }
 
-TEST(FindModel, LooksAFewLevelsDownAndNamesWhatElseIsThere)
+TEST(FindModel, SearchesAFewLevelsDownAndNamesOtherModels)
 {
     const TemporaryFolder folder;
     folder.copy(kText, "a/colmap/sparse/0");
@@ -120,33 +122,35 @@ TEST(FindModel, LooksAFewLevelsDownAndNamesWhatElseIsThere)
     folder.copy(kLattice, "a/colmap/sparse/1");
     const FoundModel found = find_model(folder / "a");
     EXPECT_EQ(found.folder, folder / "a/colmap/sparse/1");
-    EXPECT_THAT(found.notes, ElementsAre((folder / "a/colmap/sparse/1").string() +
-                                         " has most points (64) and is taken; left out: " +
-                                         (folder / "a/colmap/sparse/0").string() + " (3)"));
+    EXPECT_THAT(found.notes,
+                ElementsAre("the model has 2 components; using the first one with the "
+                            "most points, " +
+                            (folder / "a/colmap/sparse/1").string() + " (64 points); ignored: " +
+                            (folder / "a/colmap/sparse/0").string() + " (3 points)"));
     folder.copy(kText, "b/1/2/3/4/5");
     EXPECT_THAT(refusal<InputError>([&] { find_model(folder / "b"); }),
                 ::testing::HasSubstr("no COLMAP model"));
 }
 
-TEST(FindModel, MentionsALargerPartOfTheModelBesideTheOneThatIsNamed)
+TEST(FindModel, MentionsALargerComponentBesideTheGivenOne)
 {
     const TemporaryFolder folder;
     folder.copy(kText, "sparse/0");
     folder.copy(kLattice, "sparse/1");
-    folder.copy(kFixtures / "scene/sparse_txt", "sparse/other"); // larger, but no part
+    folder.copy(kFixtures / "scene/sparse_txt", "sparse/other"); // larger, but no component
     for (const char* const name : {"sparse/0", "sparse/0/"}) {
         const FoundModel found = find_model(folder / name);
         EXPECT_EQ(found.folder, folder / name);
         EXPECT_THAT(found.notes, ElementsAre((folder / name).string() +
-                                             " has 3 points; the largest part of the "
+                                             " has 3 points; the largest component of the "
                                              "model is " +
-                                             (folder / "sparse/1").string() + " (64)"));
+                                             (folder / "sparse/1").string() + " (64 points)"));
     }
     EXPECT_THAT(find_model(folder / "sparse/1").notes, IsEmpty());
     EXPECT_THAT(find_model(folder / "sparse/other").notes, IsEmpty());
 }
 
-TEST(FindModel, TakesTheFolderOfAFileOfTheModelAndSaysSo)
+TEST(FindModel, FindsTheModelOfAFileInItWithANote)
 {
     const TemporaryFolder folder;
     folder.copy(kBinary, "m");
@@ -156,7 +160,7 @@ TEST(FindModel, TakesTheFolderOfAFileOfTheModelAndSaysSo)
         EXPECT_EQ(found.format, ModelFormat::binary);
         EXPECT_THAT(found.notes,
                     ElementsAre((folder / "m" / name).string() + " is a file of the model in " +
-                                (folder / "m").string() + ", which is read"));
+                                (folder / "m").string() + "; reading that model"));
     }
     for (const char* const name : {"cameras.txt", "images.txt", "points3D.txt"}) {
         fs::copy_file(kText / name, folder / "m" / name);
@@ -166,7 +170,7 @@ TEST(FindModel, TakesTheFolderOfAFileOfTheModelAndSaysSo)
     EXPECT_EQ(find_model(folder.write("m/rigs.bin", "")).folder, folder / "m");
 }
 
-TEST(FindModel, TakesNoOtherFilesAndNoneWithoutAWholeModelAround)
+TEST(FindModel, RefusesOtherFilesAndFilesOfIncompleteModels)
 {
     const TemporaryFolder folder;
     folder.copy(kBinary, "m");
@@ -174,18 +178,19 @@ TEST(FindModel, TakesNoOtherFilesAndNoneWithoutAWholeModelAround)
                 ::testing::HasSubstr("is not a folder"));
     fs::remove(folder / "m/cameras.bin");
     EXPECT_THAT(refusal<InputError>([&] { find_model(folder / "m/images.bin"); }),
-                ::testing::HasSubstr("is not a folder"));
+                ::testing::EndsWith("found a model in " + (folder / "m").string() +
+                                    " without cameras.bin"));
 }
 
-TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
+TEST(FindModel, ListsWhatItFoundIfThereIsNoModel)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path().string();
     const std::string looked_for =
-        ": no COLMAP model, looked for cameras, images and points3D, all .bin or all .txt, in this "
-        "folder, in sparse and in the folders they hold, found ";
+        ": no COLMAP model found; searched this folder, sparse and their subfolders for cameras, "
+        "images and points3D (all .bin or all .txt); found ";
     EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
-              path + looked_for + "nothing of the kind");
+              path + looked_for + "none of these files");
 
     folder.write("database.db", "");
     folder.write("a.ply", "");
@@ -194,22 +199,21 @@ TEST(FindModel, SaysWhatIsThereWhereNoModelIs)
 
     folder.write("b.ply", "");
     folder.copy(kFixtures / "broken/bin_points_missing", "sparse/0");
-    EXPECT_EQ(
-        refusal<InputError>([&] { find_model(folder.path()); }),
-        path + looked_for + "a model in " + path +
-            "/sparse/0 without points3D.bin, database.db, 2 .ply files; colmap "
-            "point_triangulator makes points where poses are known, and --points FILE --sights "
-            "nearest takes those of a cloud");
+    EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path()); }),
+              path + looked_for + "a model in " + path +
+                  "/sparse/0 without points3D.bin, database.db, 2 .ply files; run colmap "
+                  "point_triangulator to compute points from the poses, or give a cloud with "
+                  "--points FILE --rays nearest");
 }
 
-TEST(FindModel, SaysThatAFolderHasImagesAndWhereTheModelIs)
+TEST(FindModel, RefusesAFolderOfImagesAndNamesTheModelBesideIt)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path().string();
     folder.write("images/a.JPG", "");
     folder.write("images/b.png", "");
     EXPECT_EQ(refusal<InputError>([&] { find_model(folder.path() / "images"); }),
-              path + "/images is a folder of images; the model is what COLMAP's mapper made of "
+              path + "/images is a folder of images; give the model that COLMAP's mapper made of "
                      "them, often sparse/0");
     folder.copy(kBinary, "sparse/0");
     for (const char* name : {"images", "images/"}) {
@@ -219,21 +223,21 @@ TEST(FindModel, SaysThatAFolderHasImagesAndWhereTheModelIs)
     }
 }
 
-TEST(FindModel, NamesWhatLiesInThePlaceOfAModel)
+TEST(FindModel, RecognizesOtherFilesInsteadOfAModel)
 {
     const TemporaryFolder folder;
     const fs::path page = folder.write("model", "<!doctype html><html>");
     EXPECT_EQ(refusal<InputError>([&] { find_model(page); }),
-              page.string() + " is a web page, not the file: the download failed");
+              page.string() + " is a web page, not the file: download it again");
     const fs::path zip = folder.write("model.zip", "PK\x03\x04...");
     EXPECT_EQ(refusal<InputError>([&] { find_model(zip); }),
               zip.string() + " is a zip archive: unpack it first");
 }
 
-TEST(FindModel, RefusesAPathThatIsNoFolder)
+TEST(FindModel, RefusesAPathThatIsNotAFolder)
 {
     const TemporaryFolder folder;
-    const fs::path file = folder.write("points3D.bin", "");
+    const fs::path file = folder.write("points.bin", "");
     const std::string what =
         "; a COLMAP model is a folder with cameras, images and points3D as .bin or .txt";
     EXPECT_EQ(refusal<InputError>([&] { find_model(file); }),

@@ -18,7 +18,7 @@ class Sim3Text : public ::testing::Test {
     {
         return read_sim3(folder_.write("sim3.txt", text));
     }
-    /// What is said of it after the name of the file.
+    /// The error message after the path of the file.
     std::string refused(const std::string& text) const
     {
         const std::string sentence = refusal<InputError>([&] { read(text); });
@@ -31,7 +31,7 @@ class Sim3Text : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-/// A quarter turn around z.
+/// A rotation by 90 degrees about z.
 Matrix3d quarter()
 {
     Matrix3d matrix;
@@ -39,7 +39,7 @@ Matrix3d quarter()
     return matrix;
 }
 
-TEST_F(Sim3Text, IsScaleQuaternionAndTranslationAsColmapWritesThem)
+TEST_F(Sim3Text, ReadsScaleQuaternionAndTranslationOfColmap)
 {
     const Similarity to = read("2.5 0.70710678118654757 0 0 0.70710678118654757 1 -2 3e5\n");
     EXPECT_NEAR(to.scale, 2.5, 1e-14);
@@ -47,7 +47,7 @@ TEST_F(Sim3Text, IsScaleQuaternionAndTranslationAsColmapWritesThem)
     EXPECT_EQ(to.translation, Vector3d(1, -2, 3e5));
 }
 
-TEST_F(Sim3Text, IsAMatrixOfThreeOrFourRows)
+TEST_F(Sim3Text, ReadsAMatrixOfThreeOrFourRows)
 {
     const std::string rows = "# moved by hand\n0 -3 0 7\n3 0 0 8\n\n0 0 3 9";
     for (const char* const last : {"", "\n", "\n0 0 0 1\n", "\r\n0 0 0 1.0\r\n"}) {
@@ -58,7 +58,7 @@ TEST_F(Sim3Text, IsAMatrixOfThreeOrFourRows)
     }
 }
 
-TEST_F(Sim3Text, ReadsWhatItWrites)
+TEST_F(Sim3Text, SurvivesARoundTrip)
 {
     const Similarity to = read("0.1 0.5 0.5 -0.5 0.5 1e6 0.3 -7");
     const Similarity again = read(sim3_text(to));
@@ -67,7 +67,7 @@ TEST_F(Sim3Text, ReadsWhatItWrites)
     EXPECT_EQ(again.translation, to.translation);
 }
 
-TEST_F(Sim3Text, IsRefusedInOneSentence)
+TEST_F(Sim3Text, RefusesOtherTextWithOneSentence)
 {
     const std::string expected = ", expected 8 as COLMAP writes them (scale, quaternion w x y z, "
                                  "translation) or a matrix of 3 or 4 rows of 4";
@@ -79,7 +79,7 @@ TEST_F(Sim3Text, IsRefusedInOneSentence)
     }
     EXPECT_EQ(refused(many), "found more than 16 numbers" + expected);
     EXPECT_EQ(refused("1 0 0\n0 one 0"),
-              "line 2: found 'one' where a number of the transformation, a number, should stand");
+              "line 2: found 'one', expected an entry of the transformation (a number)");
     EXPECT_EQ(refused("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2"),
               "the last row of the matrix is 0 0 0 2, expected 0 0 0 1");
     const std::string end = ", expected a rotation with a scale and a translation";
@@ -88,10 +88,10 @@ TEST_F(Sim3Text, IsRefusedInOneSentence)
     EXPECT_EQ(refused("1 0 0 0 0 1 0 0 0 0 -1 0"),
               "the transformation is a reflection, which turns surfaces inside out" + end);
     EXPECT_EQ(refused("1 0 0 0 0 2 0 0 0 0 1 0"),
-              "the transformation is no rotation times a scale" + end);
+              "the transformation is a matrix with shear or unequal scales" + end);
     for (const char* const none : {"0 1 0 0 0 0 0 0", "nan 1 0 0 0 0 0 0", "1 0 0 0 0 1 2 3",
                                    "1 1 0 0 0 inf 0 0", "1e300 1 0 0 0 0 0 0"}) {
-        EXPECT_EQ(refused(none), "the transformation is no matrix that could be inverted" + end);
+        EXPECT_EQ(refused(none), "the transformation is a singular or infinite matrix" + end);
     }
 }
 

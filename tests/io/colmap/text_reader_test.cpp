@@ -38,7 +38,7 @@ TEST(TextReader, SkipsCommentsAndBlankLinesBetweenRecords)
     EXPECT_TRUE(reader.at_line_end());
 }
 
-TEST(TextReader, StopsAtBlankLinesWhereTheyCount)
+TEST(TextReader, StopsAtBlankLinesInNextLine)
 {
     TextReader reader = reader_over("a\n\nb\n# c\n");
     ASSERT_TRUE(reader.next_line());
@@ -49,7 +49,7 @@ TEST(TextReader, StopsAtBlankLinesWhereTheyCount)
     EXPECT_FALSE(reader.next_line());
 }
 
-TEST(TextReader, LeavesBlanksInsideTheRest)
+TEST(TextReader, KeepsBlanksInsideTheRest)
 {
     TextReader reader = reader_at("1 \t IMG  0001 .jpg \r\n");
     EXPECT_EQ(reader.read_uint32("an id"), 1U);
@@ -69,7 +69,7 @@ TEST(TextReader, ReadsNumbersAsWritten)
     EXPECT_EQ(reader.read_double("n"), 0.5);
 }
 
-TEST(TextReader, TakesNegativeNumbersForNoneOnlyWhereThereMayBeNone)
+TEST(TextReader, ReadsNegativeNumbersAsNoneOnlyIfNoneIsAllowed)
 {
     TextReader reader = reader_at("-1 -20 12 -1 -1");
     EXPECT_EQ(reader.read_uint32_or_none("n"), 4294967295U);
@@ -91,40 +91,36 @@ TEST(TextReader, ReadsNumbersThatAreNotFinite)
     EXPECT_EQ(reader.read_double("n"), -std::numeric_limits<double>::infinity());
 }
 
-TEST(TextReader, RefusesWhatIsNotTheNumberWanted)
+TEST(TextReader, RefusesWordsThatAreNotNumbersOfTheType)
 {
-    const auto said_of = [](std::string_view text, auto member) {
+    const auto energy_of = [](std::string_view text, auto member) {
         TextReader reader = reader_at(text);
         return refusal<InputError>([&] { (reader.*member)("the id"); });
     };
     const auto of_32_bits = [](const std::string& word) {
-        return "f.txt: line 1: found '" + word +
-               "' where the id, a whole number of 32 bits, should stand";
+        return "f.txt: line 1: found '" + word + "', expected the id (an unsigned 32-bit integer)";
     };
     for (const char* word : {"-1", "4294967296", "1.0", "1x", "+", "++1", "+-1", "x"}) {
-        EXPECT_EQ(said_of(word, &TextReader::read_uint32), of_32_bits(word));
+        EXPECT_EQ(energy_of(word, &TextReader::read_uint32), of_32_bits(word));
     }
     for (const char* word : {"1,5", "1e999", "1e-999", "+-1", "1.2.3", "--1", "0x1p3"}) {
-        EXPECT_EQ(said_of(word, &TextReader::read_double), std::string("f.txt: line 1: found '") +
-                                                               word +
-                                                               "' where the id, a number, should "
-                                                               "stand");
+        EXPECT_EQ(energy_of(word, &TextReader::read_double),
+                  std::string("f.txt: line 1: found '") + word + "', expected the id (a number)");
     }
-    EXPECT_EQ(
-        said_of("256", &TextReader::read_uint8),
-        "f.txt: line 1: found '256' where the id, a whole number from 0 to 255, should stand");
-    EXPECT_EQ(said_of(" ", &TextReader::read_double),
-              "f.txt: line 1: the line ends where the id should stand");
+    EXPECT_EQ(energy_of("256", &TextReader::read_uint8),
+              "f.txt: line 1: found '256', expected the id (an integer from 0 to 255)");
+    EXPECT_EQ(energy_of(" ", &TextReader::read_double),
+              "f.txt: line 1: the line ends, expected the id");
 }
 
-TEST(TextReader, CountsCommentsAmongTheLines)
+TEST(TextReader, CountsCommentLines)
 {
     TextReader reader = reader_over("# a\n\n# b\r\nx\n");
     ASSERT_TRUE(reader.next_record());
     EXPECT_EQ(refusal<InputError>([&] { reader.fail("sentence"); }), "f.txt: line 4: sentence");
 }
 
-TEST(Printable, CutsBetweenCharactersAndReplacesControls)
+TEST(Printable, TruncatesBetweenCharactersAndReplacesControls)
 {
     EXPECT_EQ(printable("K\xC3\xB6ln 1.png"), "K\xC3\xB6ln 1.png");
     EXPECT_EQ(printable("a\nb\x7F"), "a?b?");

@@ -43,7 +43,7 @@ class TransformsJson : public ::testing::Test {
     }
     ColmapViews read(const Json& json) const { return read(json.dump()); }
 
-    /// What is said of it after the name of the file.
+    /// The error message after the path of the file.
     std::string refused(const std::string& text) const
     {
         const std::string sentence = refusal<InputError>([&] { read(text); });
@@ -51,7 +51,7 @@ class TransformsJson : public ::testing::Test {
         EXPECT_TRUE(sentence.starts_with(begin)) << sentence;
         return sentence.substr(std::min(begin.size(), sentence.size()));
     }
-    /// The same with a value in the place of another, or without it where it is null.
+    /// The same for small_file() with the value at `pointer` replaced.
     std::string refused_with(const std::string& pointer, const Json& value) const
     {
         Json json = small_file();
@@ -62,7 +62,7 @@ class TransformsJson : public ::testing::Test {
     TemporaryFolder folder;
 };
 
-TEST_F(TransformsJson, HasPosesFromTheCameraWithAxesOfOpenGL)
+TEST_F(TransformsJson, ReadsPosesWithTheAxesOfOpenGL)
 {
     const ColmapViews views = read(small_file());
     ASSERT_EQ(views.views.size(), 1U);
@@ -70,7 +70,7 @@ TEST_F(TransformsJson, HasPosesFromTheCameraWithAxesOfOpenGL)
     EXPECT_EQ(view.name, "images/a.jpg");
     EXPECT_EQ(view.id, 1U);
     EXPECT_TRUE(view.center.isApprox(Vector3d(5, 6, 7), 1e-15));
-    // The camera's x, y and z are the world's y, z and x; it looks along -z, and its y points up
+    // The camera's x, y, z are the world's y, z, x; it looks along -z, and its y points up
     EXPECT_TRUE((view.cam_from_world * Vector3d(-1, 0, 0)).isApprox(Vector3d(0, 0, 1), 1e-15));
     EXPECT_TRUE((view.cam_from_world * Vector3d(0, 1, 0)).isApprox(Vector3d(1, 0, 0), 1e-15));
     EXPECT_TRUE((view.cam_from_world * Vector3d(0, 0, 1)).isApprox(Vector3d(0, -1, 0), 1e-15));
@@ -81,7 +81,7 @@ TEST_F(TransformsJson, HasPosesFromTheCameraWithAxesOfOpenGL)
     EXPECT_THAT(views.cameras[0].params, ElementsAre(500, 510, 321, 239));
 }
 
-TEST_F(TransformsJson, GivesBackTheViewsOfTheModelItWasMadeOf)
+TEST_F(TransformsJson, SurvivesARoundTripOfAModel)
 {
     const fs::path model = fixtures_folder() / "scene/sparse/0";
     const ColmapViews views = read_colmap_views(model, ModelFormat::binary);
@@ -108,7 +108,7 @@ TEST_F(TransformsJson, GivesBackTheViewsOfTheModelItWasMadeOf)
     EXPECT_EQ(again.cameras.size(), 1U);
 }
 
-TEST_F(TransformsJson, SaysOfALensWhatAnImageSaysElseWhatCountsForAll)
+TEST_F(TransformsJson, PrefersLensParametersOfTheImageToSharedOnes)
 {
     Json json = small_file();
     Json other = json["frames"][0];
@@ -126,7 +126,7 @@ TEST_F(TransformsJson, SaysOfALensWhatAnImageSaysElseWhatCountsForAll)
                 ElementsAre(400, 510, 321, 239, 0.1, 0, 0, 0.02, 0.003, 0, 0, 0));
 }
 
-TEST_F(TransformsJson, KnowsFisheyes)
+TEST_F(TransformsJson, ReadsFisheyeLenses)
 {
     Json json = small_file();
     json["camera_model"] = "OPENCV_FISHEYE";
@@ -140,7 +140,7 @@ TEST_F(TransformsJson, KnowsFisheyes)
     EXPECT_EQ(read(json).cameras[0].params, params);
 }
 
-TEST_F(TransformsJson, TakesTheFocalLengthFromTheAngleAndTheMiddleForTheAxis)
+TEST_F(TransformsJson, DerivesTheFocalLengthFromTheAngleAndCentersTheAxis)
 {
     Json json = small_file();
     for (const char* const key : {"fl_x", "fl_y", "cx", "cy"}) {
@@ -154,16 +154,17 @@ TEST_F(TransformsJson, TakesTheFocalLengthFromTheAngleAndTheMiddleForTheAxis)
     EXPECT_EQ(camera.params[3], 240.0);
 }
 
-TEST_F(TransformsJson, SaysWhereItIsNoJson)
+TEST_F(TransformsJson, NamesThePositionOfInvalidJson)
 {
     const std::string end = ", expected a transforms.json as nerfstudio and instant-ngp write it";
-    EXPECT_EQ(refused(""), "line 1: no JSON after ''" + end);
-    EXPECT_EQ(refused("{\n\"w\": 640,\n\"h\": NaN}"), "line 3: no JSON after '\"h\": N'" + end);
-    EXPECT_EQ(refused("{\"w\": 1e999}"), "holds a number too large to be one");
+    EXPECT_EQ(refused(""), "line 1: invalid JSON after ''" + end);
+    EXPECT_EQ(refused("{\n\"w\": 640,\n\"h\": NaN}"),
+              "line 3: invalid JSON after '\"h\": N'" + end);
+    EXPECT_EQ(refused("{\"w\": 1e999}"), "contains a number that is too large");
     const std::string deep(200, '[');
-    EXPECT_EQ(refused(deep), "its values stand more than 64 deep in each other" + end);
+    EXPECT_EQ(refused(deep), "its values are nested more than 64 levels deep" + end);
     EXPECT_EQ(refused(std::string(20'000'000, '[')),
-              "its values stand more than 64 deep in each other" + end);
+              "its values are nested more than 64 levels deep" + end);
     EXPECT_THAT(refused("{\"w\": \"\xff\"}"), EndsWith(end));
     const std::string whole = small_file().dump();
     for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -171,7 +172,7 @@ TEST_F(TransformsJson, SaysWhereItIsNoJson)
     }
 }
 
-TEST_F(TransformsJson, SaysWhatWasFoundInstead)
+TEST_F(TransformsJson, NamesTheFoundAndTheExpectedValue)
 {
     const std::string frames = "frames: found ";
     const std::string list = ", expected a list of images with their poses, as nerfstudio and "
@@ -180,7 +181,7 @@ TEST_F(TransformsJson, SaysWhatWasFoundInstead)
     EXPECT_EQ(refused("[1, 2]"), frames + "nothing" + list);
     EXPECT_EQ(refused("7"), frames + "nothing" + list);
     EXPECT_EQ(refused_with("/frames", "many"), frames + "\"many\"" + list);
-    EXPECT_EQ(refused_with("/frames", Json::array()), frames + "an array of 0" + list);
+    EXPECT_EQ(refused_with("/frames", Json::array()), frames + "an array of size 0" + list);
     EXPECT_EQ(refused_with("/w", "wide"),
               "w: found \"wide\", expected the size of the images in pixels");
     EXPECT_EQ(refused_with("/h", 480.5),
@@ -192,7 +193,7 @@ TEST_F(TransformsJson, SaysWhatWasFoundInstead)
     EXPECT_EQ(refused_with("/camera_model", "EQUIRECTANGULAR"),
               "camera_model: found \"EQUIRECTANGULAR\", expected PINHOLE, OPENCV or "
               "OPENCV_FISHEYE");
-    EXPECT_EQ(refused_with("/frames/0", 3), // has nothing of its own
+    EXPECT_EQ(refused_with("/frames/0", 3), // a number has no members
               "frames[0].transform_matrix: found nothing, expected a pose: 4 rows of 4 numbers, "
               "from the camera to the world");
     EXPECT_EQ(refused_with("/frames/0/file_path", 3),
@@ -204,7 +205,7 @@ TEST_F(TransformsJson, SaysWhatWasFoundInstead)
               "itself");
 }
 
-TEST_F(TransformsJson, TakesTheSizeFromThePicturesWhereItIsMissing)
+TEST_F(TransformsJson, ReadsAMissingSizeFromThePhotographs)
 {
     Json json = small_file();
     json.erase("w");
@@ -222,21 +223,21 @@ TEST_F(TransformsJson, TakesTheSizeFromThePicturesWhereItIsMissing)
     EXPECT_EQ(views.views[0].name, "train/r_0");
 }
 
-TEST_F(TransformsJson, SaysHowToConvertOtherPrograms)
+TEST_F(TransformsJson, ExplainsHowToConvertFilesOfOtherPrograms)
 {
     EXPECT_EQ(refused(R"([{"id": 0, "img_name": "a", "position": [0, 0, 0]}])"),
-              "is the list of cameras of 3D Gaussian splatting, which is not read: give the COLMAP "
-              "model that it was trained on (source_path in cfg_args), with --points "
-              "point_cloud/iteration_30000/point_cloud.ply for its Gaussians");
+              "camera lists of 3D Gaussian splatting are not supported; give the COLMAP model that "
+              "was used for training (source_path in cfg_args), and its Gaussians as --points "
+              "point_cloud/iteration_30000/point_cloud.ply");
     EXPECT_EQ(refused(R"([{"cameras": {}, "shots": {}, "points": {}}])"),
-              "is a reconstruction of OpenSfM, which is not read: opensfm export_colmap DATASET "
-              "makes a folder that is");
+              "reconstructions of OpenSfM are not supported; run: opensfm export_colmap DATASET, "
+              "and give the exported folder");
     EXPECT_EQ(refused(R"({"sfm_data_version": "0.3", "views": []})"),
-              "is a scene of OpenMVG, which is not read: openMVG_main_openMVG2Colmap -i " +
-                  (folder / "transforms.json").string() + " -o FOLDER makes a folder that is");
+              "scenes of OpenMVG are not supported; run: openMVG_main_openMVG2Colmap -i " +
+                  (folder / "transforms.json").string() + " -o FOLDER, and give FOLDER");
 }
 
-/// A quarter turn about z, a shift, and a scale of 2.
+/// A rotation by 90 degrees about z, a translation, and a scale of 2.
 constexpr const char* kParsed =
     R"({"transform": [[0, -1, 0, 1], [1, 0, 0, 2], [0, 0, 1, 3]], "scale": 2.0})";
 
@@ -245,7 +246,7 @@ Vector3d moved(const Similarity& to, const Vector3d& x)
     return to.linear * x + to.translation;
 }
 
-TEST_F(TransformsJson, LeadsFromColmapToTheFrameOfTraining)
+TEST_F(TransformsJson, MapsTheFrameOfColmapToThatOfTraining)
 {
     const fs::path file = folder.write("dataparser_transforms.json", kParsed);
     const Similarity to = read_nerfstudio_transform(file, {});
@@ -253,7 +254,7 @@ TEST_F(TransformsJson, LeadsFromColmapToTheFrameOfTraining)
     EXPECT_TRUE(moved(to, {5, 6, 7}).isApprox(Vector3d(2 * (-6 + 1), 2 * (5 + 2), 2 * (7 + 3))));
 }
 
-TEST_F(TransformsJson, LeadsFromItsOwnFrameToThatOfTraining)
+TEST_F(TransformsJson, MapsItsOwnFrameToThatOfTraining)
 {
     const fs::path file = folder.write("dataparser_transforms.json", kParsed);
     const Similarity from_colmap = read_nerfstudio_transform(file, {});
@@ -268,7 +269,7 @@ TEST_F(TransformsJson, LeadsFromItsOwnFrameToThatOfTraining)
     EXPECT_NEAR(to.scale, 2.0, 1e-15);
 }
 
-TEST_F(TransformsJson, RefusesFilesThatAreNotOfTheDataparser)
+TEST_F(TransformsJson, RefusesFilesOfOtherFormatsAsDataparser)
 {
     const auto refused_transform = [&](const char* text) {
         const fs::path file = folder.write("t.json", text);
@@ -279,27 +280,27 @@ TEST_F(TransformsJson, RefusesFilesThatAreNotOfTheDataparser)
     EXPECT_EQ(refused_transform("{}"), ": scale: found nothing, expected the scale of nerfstudio");
     EXPECT_EQ(refused_transform(R"({"scale": 0})"), ": scale: found 0, expected a scale above 0");
     EXPECT_EQ(refused_transform(R"({"scale": 1, "transform": [1]})"),
-              ": transform: found an array of 1, expected a matrix of 3 rows of 4 numbers");
+              ": transform: found an array of size 1, expected a matrix of 3 rows of 4 numbers");
 }
 
-TEST_F(TransformsJson, RefusesWhatIsNoPose)
+TEST_F(TransformsJson, RefusesInvalidPoses)
 {
     const std::string place = "frames[0].transform_matrix";
     const std::string pose = ", expected a pose: 4 rows of 4 numbers, from the camera to the world";
     EXPECT_EQ(refused_with("/frames/0/transform_matrix", "I"), place + ": found \"I\"" + pose);
     EXPECT_EQ(refused_with("/frames/0/transform_matrix", {1, 2}),
-              place + ": found an array of 2" + pose);
+              place + ": found an array of size 2" + pose);
     EXPECT_EQ(refused_with("/frames/0/transform_matrix/1", {1, 2, 3}),
-              place + "[1]: found an array of 3" + pose);
+              place + "[1]: found an array of size 3" + pose);
     EXPECT_EQ(refused_with("/frames/0/transform_matrix/1/2", nullptr),
               place + "[1][2]: found null, expected a number");
     EXPECT_EQ(refused_with("/frames/0/transform_matrix/0/2", -1),
               place + ": found a reflection, which turns surfaces inside out" + pose);
     EXPECT_EQ(refused_with("/frames/0/transform_matrix/0/2", 0),
-              place + ": found no matrix that could be inverted" + pose);
+              place + ": found a singular or infinite matrix" + pose);
 }
 
-TEST_F(TransformsJson, NamesItsPointsOrHasThemBesideIt)
+TEST_F(TransformsJson, FindsItsPointsByNameOrInItsFolder)
 {
     const fs::path file = folder.write("transforms.json", small_file().dump());
     EXPECT_EQ(points_of_transforms(file), fs::path());

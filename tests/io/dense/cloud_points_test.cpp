@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 
 namespace {
 
-/// Points on a line, one for each Gaussian.
+/// One point per Gaussian, on a line.
 PointCloud cloud_of(std::vector<Splat> splats)
 {
     PointCloud cloud;
@@ -32,7 +32,7 @@ PointCloud cloud_of(std::vector<Splat> splats)
     return cloud;
 }
 
-TEST(Splats, AreKeptWhereNoneIsFaintOrHuge)
+TEST(Splats, AreAllKeptIfNoneIsFaintOrHuge)
 {
     PointCloud cloud = cloud_of({{0.0F, -4.0F}, {3.0F, -1.8F}, {9.0F, -4.0F}});
     const KeptSplats kept = keep_solid_splats(cloud);
@@ -41,10 +41,10 @@ TEST(Splats, AreKeptWhereNoneIsFaintOrHuge)
     EXPECT_EQ(cloud.positions.size(), 3U);
 }
 
-TEST(Splats, GoWhereTheyAreFaintOrHuge)
+TEST(Splats, AreDroppedIfFaintOrHuge)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    PointCloud cloud = cloud_of({{-0.1F, -4.0F}, // half and less
+    PointCloud cloud = cloud_of({{-0.1F, -4.0F}, // below half opacity
                                  {1.0F, -4.0F},
                                  {1.0F, -4.0F + std::log(9.9F)},
                                  {1.0F, -4.0F + std::log(10.1F)},
@@ -55,8 +55,8 @@ TEST(Splats, GoWhereTheyAreFaintOrHuge)
     const KeptSplats kept = keep_solid_splats(cloud);
     EXPECT_THAT(kept.places, ElementsAre(1, 2, 6, 7));
     EXPECT_EQ(kept.note,
-              "of 8 Gaussians 2 are left out for less than half the opacity, 2 for being "
-              "10 times as large as the median");
+              "of 8 Gaussians, 2 are dropped because their opacity is below one half, and 2 "
+              "because they are over 10 times as large as the median");
     EXPECT_THAT(cloud.positions, ElementsAre(Vector3d(1, 0, 0), Vector3d(2, 0, 0),
                                              Vector3d(6, 0, 0), Vector3d(7, 0, 0)));
     EXPECT_THAT(cloud.colors,
@@ -64,7 +64,7 @@ TEST(Splats, GoWhereTheyAreFaintOrHuge)
     EXPECT_THAT(cloud.normals, IsEmpty());
 }
 
-TEST(Splats, LeaveOtherCloudsAsTheyAre)
+TEST(Splats, AreOnlyDroppedInCloudsOfGaussians)
 {
     PointCloud cloud = cloud_of({{1.0F, 0.0F}});
     cloud.splats.clear();
@@ -72,7 +72,7 @@ TEST(Splats, LeaveOtherCloudsAsTheyAre)
     EXPECT_EQ(cloud.positions.size(), 1U);
 }
 
-/// A cloud as 3DGS writes it, with axes that differ, of which one is faint.
+/// A cloud as 3DGS writes it, of anisotropic Gaussians. The second one is faint.
 std::string splat_file(const std::string& more = "", const std::string& values = "")
 {
     std::string text = "ply\nformat ascii 1.0\nelement vertex 3\n";
@@ -92,7 +92,7 @@ DenseFiles files_with(const std::filesystem::path& cloud)
     return {fixtures_folder() / "formats/rich_bin", ModelFormat::binary, cloud, {}};
 }
 
-TEST(Splats, HaveTheColourOfTheirHarmonicsAndTheirPlaceInTheFile)
+TEST(Splats, HaveColorsOfTheirHarmonicsAndIdsOfTheFile)
 {
     const TemporaryFolder folder;
     const auto file = folder.write("a.ply", splat_file());
@@ -102,12 +102,12 @@ TEST(Splats, HaveTheColourOfTheirHarmonicsAndTheirPlaceInTheFile)
     EXPECT_THAT(scene.colors, ElementsAre(Color{255, 0, 128}, Color{191, 255, 0}));
     EXPECT_THAT(scene.point_ids, ElementsAre(0, 2));
     EXPECT_EQ(scene.tracks.size(), 2U);
-    EXPECT_THAT(notes, ElementsAre(file.string() + ": of 3 Gaussians 1 are left out for less than "
-                                                   "half the opacity, 0 for being 10 times as "
-                                                   "large as the median"));
+    EXPECT_THAT(notes, ElementsAre(file.string() + ": of 3 Gaussians, 1 are dropped because their "
+                                                   "opacity is below one half, and 0 because they "
+                                                   "are over 10 times as large as the median"));
 }
 
-TEST(Splats, KeepColoursOfTheirOwn)
+TEST(Splats, KeepExplicitColors)
 {
     const TemporaryFolder folder;
     const std::string more = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -116,7 +116,7 @@ TEST(Splats, KeepColoursOfTheirOwn)
                 ElementsAre(Color{1, 2, 3}, Color{1, 2, 3}));
 }
 
-TEST(Splats, AreRefusedWhereNoneIsLeft)
+TEST(Splats, AreRefusedIfNoneRemains)
 {
     const TemporaryFolder folder;
     std::string faint = splat_file();
@@ -125,8 +125,9 @@ TEST(Splats, AreRefusedWhereNoneIsLeft)
     }
     const auto file = folder.write("a.ply", faint);
     EXPECT_EQ(refusal<InputError>([&] { read_dense_scene(files_with(file)); }),
-              file.string() + ": of 3 Gaussians 3 are left out for less than half the opacity, 0 "
-                              "for being 10 times as large as the median, so none is left");
+              file.string() + ": of 3 Gaussians, 3 are dropped because their opacity is below one "
+                              "half, and 0 because they are over 10 times as large as the median, "
+                              "so none remains");
 }
 
 } // namespace

@@ -52,7 +52,7 @@ TEST(DenseScene, HasTheViewsOfTheModelAndThePointsOfTheCloud)
     EXPECT_TRUE(scene.is_dense);
     EXPECT_THAT(scene.errors_px, ElementsAre(-1.0, -1.0, -1.0));
     EXPECT_THAT(scene.point_ids, ElementsAre(0, 1, 2));
-    // By images 40, 7 and 100000, in the order of their file.
+    // The indices refer to images 40, 7 and 100000, in file order.
     EXPECT_THAT(scene.tracks.begins, ElementsAre(0, 2, 4, 5));
     EXPECT_THAT(scene.tracks.views, ElementsAre(1, 2, 0, 2, 1));
 }
@@ -64,7 +64,7 @@ TEST(DenseScene, HasNormalsOfUnitLengthOrZero)
                 ElementsAre(Vector3f(0, 0, -1), Vector3f(0, 0.6F, -0.8F), Vector3f(0, 0, 0)));
 }
 
-TEST(DenseScene, IsBlackAndWithoutNormalsWhereTheCloudIsBare)
+TEST(DenseScene, IsBlackAndWithoutNormalsIfTheCloudHasNoAttributes)
 {
     const Scene scene = read_dense_scene(files_of("dense_bare"));
     expect_well_formed(scene);
@@ -72,13 +72,13 @@ TEST(DenseScene, IsBlackAndWithoutNormalsWhereTheCloudIsBare)
     EXPECT_THAT(scene.colors, ::testing::Each(Color{0, 0, 0}));
 }
 
-TEST(DenseScene, ShowsItsSizeBeforeItIsRead)
+TEST(DenseScene, ReportsItsSizeBeforeReading)
 {
     const auto size = dense_size_before_reading(files_of("dense_little"));
     ASSERT_TRUE(size);
     EXPECT_EQ(size->points, 3U);
     EXPECT_EQ(size->views, 3U);
-    EXPECT_EQ(size->sights, 6U); // one of them twice
+    EXPECT_EQ(size->rays, 6U); // including a repeated one
     EXPECT_TRUE(size->has_normals);
     EXPECT_FALSE(dense_size_before_reading(files_of("dense_bare"))->has_normals);
     DenseFiles other = files_of("dense_little");
@@ -86,43 +86,42 @@ TEST(DenseScene, ShowsItsSizeBeforeItIsRead)
     EXPECT_FALSE(dense_size_before_reading(other));
 }
 
-/// What is said of fixtures/broken_dense/NAME, after the path of that folder.
+/// A folder in fixtures/broken_dense, and the error message after its path.
 using Refusal = std::pair<const char*, std::string>;
 
 std::vector<Refusal> refusals()
 {
-    const std::string remedy = "; of a cloud that was cropped or thinned, --sights nearest takes "
-                               "the nearest views (--crop cuts a part out of the whole)";
+    const std::string remedy = " points; for a cropped or thinned cloud, use --rays nearest "
+                               "(--crop reconstructs a region of the whole cloud)";
     const auto cloud_of = [](const char* name) {
         return (kFixtures / "broken_dense" / name / "fused.ply").string();
     };
     return {
-        {"no_model", ": no COLMAP model, looked for cameras, images and points3D, all .bin or all "
-                     ".txt, in this folder, in sparse and in the folders they hold, found "
-                     "fused.ply"},
+        {"no_model", ": no COLMAP model found; searched this folder, sparse and their subfolders "
+                     "for cameras, images and points3D (all .bin or all .txt); found fused.ply"},
         {"ply_ascii_ends", "/fused.ply: vertex 2 of 3: the file ends there"},
         {"ply_ascii_word", "/fused.ply: vertex 0 of 3: found \"0,25\", expected a number"},
-        {"ply_count_huge", "/fused.ply: the header promises 1000000000000000000 entries \"vertex\" "
+        {"ply_count_huge", "/fused.ply: the header declares 1000000000000000000 entries \"vertex\" "
                            "of at least 27 bytes, but only 81 bytes follow"},
-        {"ply_empty", "/fused.ply: does not begin with the line \"ply\", so it is no PLY file"},
+        {"ply_empty", "/fused.ply: the first line is not \"ply\", so this is no PLY file"},
         {"ply_header_open", "/fused.ply: the PLY header has no line end_header"},
         {"ply_list_long", "/fused.ply: vertex 2 of 3: the list \"samples\" has length 9, but only "
                           "4 bytes follow"},
         {"ply_no_vertices", "/fused.ply: has no element \"vertex\""},
         {"ply_no_z", "/fused.ply: the vertices lack one of the properties x, y and z"},
-        {"ply_truncated", "/fused.ply: the header promises 3 entries \"vertex\" of at least 27 "
+        {"ply_truncated", "/fused.ply: the header declares 3 entries \"vertex\" of at least 27 "
                           "bytes, but only 76 bytes follow"},
         {"vis_count_huge", "/fused.ply.vis: byte 0: found a count of 1152921504606846976 points, "
                            "but the rest of the file can hold 9 at most"},
-        {"vis_count_less", "/fused.ply.vis: tells of 2 points, but " + cloud_of("vis_count_less") +
-                               " has 3" + remedy},
-        {"vis_count_more", "/fused.ply.vis: tells of 4 points, but " + cloud_of("vis_count_more") +
-                               " has 3" + remedy},
+        {"vis_count_less", "/fused.ply.vis: has the views of 2 points, but " +
+                               cloud_of("vis_count_less") + " has 3" + remedy},
+        {"vis_count_more", "/fused.ply.vis: has the views of 4 points, but " +
+                               cloud_of("vis_count_more") + " has 3" + remedy},
         {"vis_empty", "/fused.ply.vis: the file is empty"},
-        {"vis_image_unknown", "/fused.ply.vis: point 1 of 3 was seen by image 3, but the model has "
+        {"vis_image_unknown", "/fused.ply.vis: point 1 of 3 has image 3, but the model has "
                               "3 images, counted from 0"},
-        {"vis_no_points",
-         "/fused.ply.vis: tells of 0 points, but " + cloud_of("vis_no_points") + " has 3" + remedy},
+        {"vis_no_points", "/fused.ply.vis: has the views of 0 points, but " +
+                              cloud_of("vis_no_points") + " has 3" + remedy},
         {"vis_track_huge", "/fused.ply.vis: byte 8: found a count of 2147483648 views of point 0, "
                            "but the rest of the file can hold 8 at most"},
         {"vis_trailing", "/fused.ply.vis: byte 44: expected the end of the file after the views of "
@@ -135,7 +134,7 @@ std::vector<Refusal> refusals()
     };
 }
 
-TEST(DenseScene, OfBrokenFilesIsRefusedWithASentence)
+TEST(DenseScene, RefusesBrokenFilesWithOneSentence)
 {
     for (const auto& [name, sentence] : refusals()) {
         const fs::path folder = kFixtures / "broken_dense" / name;
@@ -143,7 +142,7 @@ TEST(DenseScene, OfBrokenFilesIsRefusedWithASentence)
     }
 }
 
-TEST(DenseScene, HasASentenceForEveryBrokenFixture)
+TEST(DenseScene, TestsCoverEveryBrokenFixture)
 {
     const auto folders = std::distance(fs::directory_iterator(kFixtures / "broken_dense"), {});
     EXPECT_EQ(static_cast<std::size_t>(folders), refusals().size());

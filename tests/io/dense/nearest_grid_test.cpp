@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A view at the origin that looks along z, and points in a square a unit wide, five before it.
+/// A view at the origin that looks along z, and a unit square of points at distance 5.
 Scene square_before_a_view()
 {
     Scene scene = make_scene({Vector3d::Zero()}, {});
@@ -21,11 +21,11 @@ Scene square_before_a_view()
     return scene;
 }
 
-TEST(NearestGrid, SeesWhatIsInTheImageAndNotClearlyBehindAPoint)
+TEST(NearestGrid, SeesPointsInTheImageThatAreNotClearlyBehindAnother)
 {
     const Scene scene = square_before_a_view();
     NearestGrid grid(scene.views[0], scene, scene.positions, 1);
-    EXPECT_TRUE(grid.sees({0.0, 0.0, 6.0})); // nothing is there yet
+    EXPECT_TRUE(grid.sees({0.0, 0.0, 6.0})); // the grid is empty
     for (const Vector3d& position : scene.positions) {
         grid.add(position);
     }
@@ -36,19 +36,19 @@ TEST(NearestGrid, SeesWhatIsInTheImageAndNotClearlyBehindAPoint)
     EXPECT_FALSE(grid.sees({50.0, 0.0, 5.0}));
 }
 
-TEST(NearestGrid, HasSquaresAsWideAsAFewPointsStandApart)
+TEST(NearestGrid, HasSquaresOfAFewPointSpacings)
 {
     const Scene scene = square_before_a_view();
     const NearestGrid grid(scene.views[0], scene, scene.positions, 1);
     const double apart = 0.05 / 5.0;
     EXPECT_GT(grid.square_angle(), 2.0 * apart);
     EXPECT_LT(grid.square_angle(), 8.0 * apart);
-    // A quarter of the points tells the same of all.
+    // A sample of a quarter of the points gives about the same spacing.
     const NearestGrid from_few(scene.views[0], scene, scene.positions, 4);
     EXPECT_NEAR(from_few.square_angle(), grid.square_angle(), 0.5 * grid.square_angle());
 }
 
-TEST(ProjectInto, TellsWhereAViewShowsAPlaceAndHowFarItIs)
+TEST(ProjectInto, ReturnsThePixelAndTheDistance)
 {
     const Scene scene = square_before_a_view();
     const auto shown = project_into(scene.views[0], scene.cameras[0], {0.3, 0.4, 5.0});

@@ -25,7 +25,7 @@ using ::testing::ElementsAre;
 
 namespace {
 
-/// `side` x `side` points a tenth apart in the plane z = 10.
+/// `side` x `side` points in the plane z = 10, with a spacing of 0.1.
 std::vector<Vector3d> wall(int side)
 {
     std::vector<Vector3d> points;
@@ -43,7 +43,7 @@ Scene with_scanners(const std::vector<Vector3d>& points, const std::vector<Vecto
     return scene;
 }
 
-TEST(ScannerViews, StandWhereTheScannersStoodInTheOrderOfThePoints)
+TEST(ScannerViews, HaveTheScannerPositionsInTheOrderOfThePoints)
 {
     const Scene scene = with_scanners({{0, 0, 1}, {0, 0, 2}, {0, 0, 3}, {0, 0, 4}},
                                       {{5, 0, 0}, {-1, 0, 0}, {5, 0, 0}, {-1, 0, -0.0}});
@@ -67,7 +67,7 @@ TEST(ScannerViews, SeeNoPointThatIsNotFinite)
     EXPECT_TRUE(with_scanners({}, {}).views.empty());
 }
 
-TEST(ScannerViews, ShowAllThatIsAroundThem)
+TEST(ScannerViews, ShowAllDirections)
 {
     const Scene scene = with_scanners(wall(9), {Vector3d::Zero()});
     for (const Vector3d& way : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0, 0, -1)}) {
@@ -75,12 +75,12 @@ TEST(ScannerViews, ShowAllThatIsAroundThem)
     }
 }
 
-TEST(ScannerViews, HavePixelsAQuarterAsWideAsPointsStandApart)
+TEST(ScannerViews, HavePixelsOfAQuarterOfThePointSpacing)
 {
-    // Eight others lie around within sqrt 2 tenths, so that each has pi / 4 hundredths.
+    // Eight neighbors are within 0.1 sqrt 2, so the area per point is 0.01 pi / 4.
     const Scene scene = with_scanners(wall(101), {Vector3d::Zero()});
     const double pixel_rad = 1.0 / mean_focals_px(scene.cameras)[0];
-    // Farther points at the border of the wall stand nearer to each other in angle.
+    // Points at the border of the wall are farther away, so their angular spacing is smaller.
     EXPECT_NEAR(pixel_rad, 0.25 * 0.01 * std::sqrt(std::numbers::pi / 4.0), 0.001);
     const Scene larger = [] {
         std::vector<Vector3d> points = wall(101);
@@ -92,9 +92,9 @@ TEST(ScannerViews, HavePixelsAQuarterAsWideAsPointsStandApart)
     EXPECT_EQ(larger.cameras[0].width_px, scene.cameras[0].width_px);
 }
 
-TEST(ScannerViews, AreStationsOfAFiftiethOfTheRangeWhereEveryPointHasItsOwnScanner)
+TEST(ScannerViews, AreStationsOfAFiftiethOfTheRangeForMovingScanners)
 {
-    // Carried along x for one unit, with ranges of 10: cubes are 0.2 wide.
+    // The scanner moves one unit along x with ranges of 10, so cubes are 0.2 wide.
     const std::size_t count = 2 * kMostStations;
     std::vector<Vector3d> points;
     std::vector<Vector3d> scanners;
@@ -111,7 +111,7 @@ TEST(ScannerViews, AreStationsOfAFiftiethOfTheRangeWhereEveryPointHasItsOwnScann
     }
 }
 
-TEST(ScannerViews, KeepEveryPlaceUpToSoMany)
+TEST(ScannerViews, KeepEveryPositionUpToTheMaximum)
 {
     std::vector<Vector3d> scanners;
     for (std::size_t i = 0; i < kMostStations; ++i) {
@@ -121,7 +121,7 @@ TEST(ScannerViews, KeepEveryPlaceUpToSoMany)
     EXPECT_EQ(with_scanners(points, scanners).views.size(), kMostStations);
 }
 
-TEST(ScannerViews, AreNeverMoreThanSoManyHoweverFarTheScannerWent)
+TEST(ScannerViews, AreNeverMoreThanTheMaximumHoweverFarTheScannerMoves)
 {
     std::vector<Vector3d> scanners;
     for (std::size_t i = 0; i < 2 * kMostStations; ++i) {
@@ -157,7 +157,7 @@ std::vector<Vector3d> places_of(const Scene& scene)
     return places;
 }
 
-TEST(ScanScene, HasItsScannersForViewsWhateverTheyAreCalledAndHoweverTheyAreWritten)
+TEST(ScanScene, ReadsScannersInAllFormatsAndPropertyNames)
 {
     for (const char* name : {"scan_origin", "scan_origin_big_lists", "scan_scanner_ascii"}) {
         SCOPED_TRACE(name);
@@ -173,7 +173,7 @@ TEST(ScanScene, HasItsScannersForViewsWhateverTheyAreCalledAndHoweverTheyAreWrit
     }
 }
 
-TEST(ScanScene, HasTheOneScannerOfPclsCamera)
+TEST(ScanScene, ReadsTheOneScannerOfPclsCamera)
 {
     for (const char* name : {"scan_camera", "scan_camera_ascii_first", "scan_camera_big"}) {
         SCOPED_TRACE(name);
@@ -184,14 +184,14 @@ TEST(ScanScene, HasTheOneScannerOfPclsCamera)
     }
 }
 
-TEST(ScanScene, HasTheScannerThatIsGivenInPlaceOfPclsCamera)
+TEST(ScanScene, PrefersTheGivenScannerToPclsCamera)
 {
     ScanFile file = scan_of("scan_camera");
     file.scanner = Vector3d(5, 6, 7);
     EXPECT_THAT(places_of(read_scan_scene(file)), ElementsAre(Vector3d(5, 6, 7)));
 }
 
-TEST(ScanScene, LiesWithItsScannersWhereTheFileSaysItIsOffset)
+TEST(ScanScene, AddsTheOffsetOfTheFileToItsScanners)
 {
     const TemporaryFolder folder;
     const std::string vertices = "element vertex 1\nproperty float x\nproperty float y\n"
@@ -205,44 +205,44 @@ TEST(ScanScene, LiesWithItsScannersWhereTheFileSaysItIsOffset)
     EXPECT_THAT(places_of(read_scan_scene(file)), ElementsAre(Vector3d(1000, 0, 1)));
 }
 
-TEST(ScanScene, ShowsItsSizeBeforeItIsRead)
+TEST(ScanScene, ReportsItsSizeBeforeReading)
 {
     const auto size = scan_size_before_reading(scan_of("scan_origin"));
     ASSERT_TRUE(size);
     EXPECT_EQ(size->points, 4U);
-    EXPECT_EQ(size->sights, 4U);
+    EXPECT_EQ(size->rays, 4U);
     EXPECT_TRUE(size->is_dense);
 }
 
-TEST(ScanScene, IsRefusedWhereNothingTellsOfAScanner)
+TEST(ScanScene, IsRefusedWithoutAScannerPosition)
 {
     const ScanFile file{kFixtures / "formats/dense_bare/fused.ply", std::nullopt};
     EXPECT_EQ(refusal<InputError>([&] { read_scan_scene(file); }),
               file.cloud.string() +
-                  ": the file does not tell where the scanner of its points stood");
+                  ": the file has no scanner position; give it with --scanner x,y,z");
 }
 
-/// What is said of fixtures/broken_scans/NAME, after the path of its scan.ply.
+/// A folder in fixtures/broken_scans, and the error message after the path of its scan.ply.
 const std::vector<std::pair<const char*, const char*>> kRefusals = {
-    {"camera_ends", ": the header promises 1 entries \"camera\" of at least 20 bytes, but only 14 "
+    {"camera_ends", ": the header declares 1 entries \"camera\" of at least 20 bytes, but only 14 "
                     "bytes follow"},
     {"camera_infinite",
-     ": camera 0 of 1: its scanner stands at (0, inf, 1), expected finite numbers"},
-    {"camera_twice", ": has 2 entries \"camera\", expected the one where the scanner stood"},
-    {"camera_x_only", ": the camera has view_px only, expected view_px, view_py and view_pz to say "
-                      "where the scanner stood"},
+     ": camera 0 of 1: its scanner position is (0, inf, 1), expected finite numbers"},
+    {"camera_twice", ": has 2 entries \"camera\", expected one with the scanner position"},
+    {"camera_x_only", ": the camera has only view_px, expected the scanner position as view_px, "
+                      "view_py and view_pz"},
     {"origin_infinite",
-     ": vertex 2 of 4: its scanner stands at (8, 0, -inf), expected finite numbers"},
-    {"origin_nan", ": vertex 2 of 4: its scanner stands at (nan, 0, 1), expected finite numbers"},
-    {"origin_without_z", ": the vertices have x_origin and y_origin only, expected x_origin, "
-                         "y_origin and z_origin to say where the scanner stood"},
-    {"scanner_y_only", ": the vertices have scanner_y only, expected scanner_x, scanner_y and "
-                       "scanner_z to say where the scanner stood"},
-    {"vertices_end", ": the header promises 4 entries \"vertex\" of at least 24 bytes, but only 92 "
+     ": vertex 2 of 4: its scanner position is (8, 0, -inf), expected finite numbers"},
+    {"origin_nan", ": vertex 2 of 4: its scanner position is (nan, 0, 1), expected finite numbers"},
+    {"origin_without_z", ": the vertices have only x_origin and y_origin, expected the scanner "
+                         "position as x_origin, y_origin and z_origin"},
+    {"scanner_y_only", ": the vertices have only scanner_y, expected the scanner position as "
+                       "scanner_x, scanner_y and scanner_z"},
+    {"vertices_end", ": the header declares 4 entries \"vertex\" of at least 24 bytes, but only 92 "
                      "bytes follow"},
 };
 
-TEST(ScanScene, OfABrokenFileIsRefusedWithASentence)
+TEST(ScanScene, RefusesBrokenFilesWithOneSentence)
 {
     for (const auto& [name, sentence] : kRefusals) {
         const fs::path path = kFixtures / "broken_scans" / name / "scan.ply";
@@ -251,7 +251,7 @@ TEST(ScanScene, OfABrokenFileIsRefusedWithASentence)
     }
 }
 
-TEST(ScanScene, HasASentenceForEveryBrokenFixture)
+TEST(ScanScene, TestsCoverEveryBrokenFixture)
 {
     const auto folders = std::distance(fs::directory_iterator(kFixtures / "broken_scans"), {});
     EXPECT_EQ(static_cast<std::size_t>(folders), kRefusals.size());

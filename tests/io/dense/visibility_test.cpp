@@ -41,26 +41,26 @@ class Visibility : public ::testing::Test {
     TemporaryFolder folder;
 };
 
-TEST_F(Visibility, CountsImagesAsTheyStandInTheirFile)
+TEST_F(Visibility, CountsImagesInFileOrder)
 {
     const Tracks tracks = read({{0, 2}, {1}, {}, {0, 1, 2}}, {1, 2, 0});
     EXPECT_THAT(tracks.begins, ElementsAre(0, 2, 3, 3, 6));
     EXPECT_THAT(tracks.views, ElementsAre(0, 1, 2, 0, 1, 2));
 }
 
-TEST_F(Visibility, CountsAViewThatAPointNamesTwiceOnce)
+TEST_F(Visibility, CountsARepeatedViewOnce)
 {
     const Tracks tracks = read({{0}, {2, 1, 2, 2}, {1, 1}, {}, {2, 0}}, {0, 1, 2});
     EXPECT_THAT(tracks.begins, ElementsAre(0, 1, 3, 4, 4, 6));
     EXPECT_THAT(tracks.views, ElementsAre(0, 1, 2, 1, 0, 2));
 }
 
-TEST_F(Visibility, OfNoPointsIsEmpty)
+TEST_F(Visibility, IsEmptyWithoutPoints)
 {
     EXPECT_EQ(read({}, {0}).size(), 0U);
 }
 
-TEST_F(Visibility, IsWhatASetOfEachRowIs)
+TEST_F(Visibility, MatchesASetPerRow)
 {
     constexpr std::size_t kPoints = 20'000; // several ranges of rows
     constexpr std::uint32_t kImages = 40;
@@ -91,7 +91,7 @@ TEST_F(Visibility, IsWhatASetOfEachRowIs)
     }
 }
 
-TEST_F(Visibility, NamesTheFirstPointWithAnImageThatIsNotThere)
+TEST_F(Visibility, NamesTheFirstPointWithAnInvalidImage)
 {
     Rows rows(50'000, {0, 1});
     rows[31'000] = {1, 2};
@@ -99,11 +99,11 @@ TEST_F(Visibility, NamesTheFirstPointWithAnImageThatIsNotThere)
     EXPECT_EQ(refusal<InputError>([&] {
                   read(rows, {0, 1});
               }),
-              (folder / "a.vis").string() + ": point 31000 of 50000 was seen by image 2, but the "
-                                            "model has 2 images, counted from 0");
+              (folder / "a.vis").string() + ": point 31000 of 50000 has image 2, but the model "
+                                            "has 2 images, counted from 0");
 }
 
-TEST_F(Visibility, ComesInParts)
+TEST_F(Visibility, IsReadInParts)
 {
     VisibilityReader reader(
         folder.write("a.vis", visibility_bytes(Rows{{0, 2}, {1, 1}, {}, {0, 1, 2}, {5}})),
@@ -113,11 +113,11 @@ TEST_F(Visibility, ComesInParts)
     EXPECT_THAT(first.views, ElementsAre(0, 1, 2));
     EXPECT_THAT(reader.next(1).views, ElementsAre(0, 1, 2));
     EXPECT_EQ(refusal<InputError>([&] { reader.next(7); }),
-              (folder / "a.vis").string() + ": point 4 of 5 was seen by image 5, but the model has "
-                                            "3 images, counted from 0");
+              (folder / "a.vis").string() + ": point 4 of 5 has image 5, but the model has 3 "
+                                            "images, counted from 0");
 }
 
-TEST_F(Visibility, IsRefusedWhereverTheFileIsCut)
+TEST_F(Visibility, IsRefusedWhereverTheFileIsTruncated)
 {
     const std::string bytes = visibility_bytes(Rows{{0, 1}, {}, {1}});
     for (std::size_t length = 0; length < bytes.size(); ++length) {
@@ -136,7 +136,7 @@ using Rows = std::vector<std::vector<std::uint32_t>>;
 
 const fs::path kWorkspace = fixtures_folder() / "formats/dense_little";
 
-/// The points of the fixture with lists beside them, as OpenMVS writes them.
+/// The points of the fixture with view lists, as OpenMVS writes them.
 std::string cloud_with_lists(const std::vector<std::string>& lists)
 {
     return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -162,10 +162,10 @@ class ViewLists : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST(TracksOfLists, CountImagesAsTheyStandInTheirFile)
+TEST(TracksOfLists, CountsImagesInFileOrder)
 {
     Scene scene;
-    scene.cameras.resize(1); // without a size: it shows all that is before it
+    scene.cameras.resize(1); // without a size, so it shows all points in front
     scene.views.resize(3);
     scene.positions.assign(3, Eigen::Vector3d(0, 0, 1));
     Tracks lists;
@@ -180,7 +180,7 @@ TEST(TracksOfLists, CountImagesAsTheyStandInTheirFile)
     EXPECT_THAT(tracks->views, ElementsAre(0, 1, 2));
 }
 
-TEST(TracksOfLists, AreThoseOfAnotherModelWhereImagesDoNotShowThePoints)
+TEST(TracksOfLists, RejectsListsIfImagesDoNotShowThePoints)
 {
     const Scene scene =
         read_colmap_model(fixtures_folder() / "scene/sparse/0", ModelFormat::binary);
@@ -192,18 +192,17 @@ TEST(TracksOfLists, AreThoseOfAnotherModelWhereImagesDoNotShowThePoints)
     EXPECT_EQ(tracks->views, scene.tracks.views);
     EXPECT_EQ(note, "");
 
-    Scene other = scene; // whose cameras look the other way
+    Scene other = scene; // its cameras look the other way
     for (View& view : other.views) {
         view.cam_from_world =
             Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitY()) * view.cam_from_world;
     }
     EXPECT_FALSE(tracks_of_lists(scene.tracks, file_order, other, note));
-    EXPECT_EQ(note, "100 % of the points do not show in the images that its lists view_indices "
-                    "name, which seem to be those of another model, so the nearest views are taken "
-                    "instead");
+    EXPECT_EQ(note, "100 % of the images in its lists view_indices do not show the point, and "
+                    "they seem to belong to another model, so the nearest views are used instead");
 }
 
-TEST(ViewListsOfBall, AreTheTracksOfACloud)
+TEST(ViewListsOfBall, BecomeTheTracksOfACloud)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "sparse", 60);
@@ -226,21 +225,22 @@ TEST(ViewListsOfBall, AreTheTracksOfACloud)
     EXPECT_EQ(scene.positions, ball.positions);
 }
 
-TEST_F(ViewLists, AreLeftOutWhereTheyNameImagesThatAreNotThere)
+TEST_F(ViewLists, AreIgnoredIfTheyContainInvalidImages)
 {
     const Scene scene = read({"2 0 3 0", "1 1 0", "0 0"});
-    EXPECT_THAT(notes, ElementsAre(file() + ": its lists view_indices name image 3, but the model "
-                                            "has 3, counted from 0, so the nearest views are taken "
-                                            "instead"));
+    EXPECT_THAT(notes, ElementsAre(file() + ": its lists view_indices contain image 3, but the "
+                                            "model has 3 images, counted from 0, so the nearest "
+                                            "views are used instead"));
     expect_well_formed(scene);
 }
 
-TEST_F(ViewLists, AreRefusedWhereTheyAreNoNumbersOfImages)
+TEST_F(ViewLists, AreRefusedIfTheyContainNegativeNumbers)
 {
     EXPECT_EQ(refusal<InputError>([&] {
                   read({"1 -1 0", "0 0", "0 0"});
               }),
-              file() + ": vertex 0 of 3: its list view_indices names image -1");
+              file() +
+                  ": vertex 0 of 3: its list view_indices has image -1, expected 0 to 4294967294");
 }
 
 } // namespace

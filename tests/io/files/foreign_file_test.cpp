@@ -33,45 +33,46 @@ std::string refusal_of_name(const std::string& name)
     return "accepted";
 }
 
-TEST(ForeignFile, IsKnownByItsFirstBytes)
+TEST(ForeignFile, IsRecognizedByItsFirstBytes)
 {
     EXPECT_EQ(refusal_of("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n"),
               "cameras.bin is a Git LFS pointer, not the file: run git lfs pull");
     EXPECT_EQ(refusal_of("<!DOCTYPE HTML><html>"),
-              "cameras.bin is a web page, not the file: the download failed");
+              "cameras.bin is a web page, not the file: download it again");
     EXPECT_EQ(refusal_of("<HTML lang=en>"),
-              "cameras.bin is a web page, not the file: the download failed");
+              "cameras.bin is a web page, not the file: download it again");
     EXPECT_EQ(refusal_of("PK\x03\x04 and so on"), "cameras.bin is a zip archive: unpack it first");
     EXPECT_EQ(refusal_of("\x1f\x8b\x08"), "cameras.bin is a gzip archive: unpack it first");
 }
 
-TEST(ForeignFile, IsNoneThatOnlyBeginsAlike)
+TEST(ForeignFile, AcceptsFilesWithASimilarBeginning)
 {
     for (const std::string content : {"", "version", "PK", "# Camera list", "ply\n"}) {
         EXPECT_EQ(refusal_of(content), "accepted") << content;
     }
 }
 
-TEST(ForeignFile, IsKnownByTheEndOfItsName)
+TEST(ForeignFile, IsRecognizedByItsExtension)
 {
     EXPECT_EQ(refusal_of_name("a/scan.LAS"),
-              "a/scan.LAS: is a scan, which is not read: pdal translate a/scan.LAS "
-              "a/scan.LAS.ply converts it");
-    EXPECT_EQ(refusal_of_name("s.mvs"),
-              "s.mvs: is a scene of OpenMVS, which is not read: InterfaceCOLMAP -i s.mvs -o FOLDER "
-              "brings it into a folder that is");
+              "a/scan.LAS: scans of this format are not supported; run: pdal translate a/scan.LAS "
+              "a/scan.LAS.ply");
+    EXPECT_EQ(
+        refusal_of_name("s.mvs"),
+        "s.mvs: scenes of OpenMVS are not supported; run: InterfaceCOLMAP -i s.mvs -o FOLDER, "
+        "and give FOLDER");
     EXPECT_EQ(refusal_of_name("d.xyz"),
-              "d.xyz: is a cloud as text, which is not read: pdal translate --reader readers.text "
-              "--readers.text.header=\"X Y Z\" d.xyz d.xyz.ply converts it (the header names all "
-              "of its columns)");
+              "d.xyz: text clouds are not supported; run: pdal translate --reader readers.text "
+              "--readers.text.header=\"X Y Z\" d.xyz d.xyz.ply (list all columns in the header)");
     EXPECT_EQ(refusal_of_name("e.nvm"),
-              "e.nvm: is a model of VisualSFM, which is not read: kapture_import_nvm.py -i e.nvm "
-              "-im IMAGES -o KAPTURE --add-reconstruction, then kapture_export_colmap.py -i "
-              "KAPTURE -db KAPTURE/colmap.db -txt FOLDER make a folder that is");
+              "e.nvm: models of VisualSFM are not supported; run: kapture_import_nvm.py -i e.nvm "
+              "-im IMAGES -o KAPTURE --add-reconstruction, then: kapture_export_colmap.py -i "
+              "KAPTURE -db KAPTURE/colmap.db -txt FOLDER, and give FOLDER");
     for (const char* const name : {"a.laz", "b.e57", "c.pcd", "bundle.out", "b/list.OUT"}) {
         EXPECT_NE(refusal_of_name(name), "accepted") << name;
     }
-    EXPECT_EQ(refusal_of_name("mesh.obj"), "mesh.obj: is a mesh, but a model or a cloud is wanted");
+    EXPECT_EQ(refusal_of_name("mesh.obj"),
+              "mesh.obj: is a mesh; expected a model or a point cloud");
     EXPECT_EQ(refusal_of_name("cloud.ply"), "accepted");
     EXPECT_EQ(refusal_of_name("cloud"), "accepted");
 }

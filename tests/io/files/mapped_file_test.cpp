@@ -28,7 +28,7 @@ TEST(MappedFile, HoldsTheBytesOfTheFile)
     EXPECT_EQ(text_of(moved), "one\0two\r\n"sv);
 }
 
-TEST(MappedFile, ShowsWhatWasGivenBackAgain)
+TEST(MappedFile, RereadsReleasedBytes)
 {
     const TemporaryFolder folder;
     const std::string bytes(100'000, 'a');
@@ -40,14 +40,14 @@ TEST(MappedFile, ShowsWhatWasGivenBackAgain)
     }
 }
 
-TEST(MappedFile, TakesAnEmptyFile)
+TEST(MappedFile, AcceptsAnEmptyFile)
 {
     const TemporaryFolder folder;
     const MappedFile file(folder.write("empty", ""));
     EXPECT_EQ(file.bytes().size(), 0U);
 }
 
-TEST(MappedFile, RefusesWhatIsNotAFile)
+TEST(MappedFile, RefusesPathsThatAreNotFiles)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path().string();
@@ -63,7 +63,7 @@ TEST(MappedFile, RefusesWhatIsNotAFile)
               path + "/loop: the file cannot be read (Too many levels of symbolic links)");
 }
 
-TEST(MappedFile, IsReadAgainWhereItsPagesWereDropped)
+TEST(MappedFile, RereadsDroppedPages)
 {
     const TemporaryFolder folder;
     const MappedFile file(folder.write("file", std::string(100'000, 'a')));

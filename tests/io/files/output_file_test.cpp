@@ -13,6 +13,8 @@
 namespace vcarve::output_file_test {
 namespace {
 
+const std::string kNoNewFile = "the system allows no new file in the folder ";
+
 namespace fs = std::filesystem;
 
 std::string refusal_to_write(const fs::path& path)
@@ -20,7 +22,7 @@ std::string refusal_to_write(const fs::path& path)
     return refusal<UsageError>([&] { require_writable(path); });
 }
 
-/// While it lives, no file of this process can grow beyond a size: a full disk for the tests.
+/// Simulates a full disk: while it lives, no file of this process can grow beyond `size_bytes`.
 class FullDisk {
   public:
     explicit FullDisk(rlim_t size_bytes)
@@ -68,7 +70,7 @@ TEST(OutputFile, KeepsThePermissionsOfTheFileItReplaces)
     }
 }
 
-TEST(OutputFile, LeavesNothingWithoutACommit)
+TEST(OutputFile, LeavesNoFileWithoutACommit)
 {
     const TemporaryFolder folder;
     {
@@ -115,7 +117,7 @@ TEST(OutputFile, KeepsEveryByteOfSmallAndLargeWrites)
     EXPECT_EQ(bytes_of(folder / "out.ply"), expected);
 }
 
-TEST(OutputFile, ReplacesWhatASymbolicLinkPointsTo)
+TEST(OutputFile, ReplacesTheTargetOfASymbolicLink)
 {
     const TemporaryFolder folder;
     fs::create_directory(folder / "real");
@@ -128,7 +130,7 @@ TEST(OutputFile, ReplacesWhatASymbolicLinkPointsTo)
     EXPECT_EQ(bytes_of(real), "new");
 }
 
-TEST(OutputFile, WritesADeviceStraight)
+TEST(OutputFile, WritesADeviceDirectly)
 {
     OutputFile file("/dev/null");
     file.stream() << "gone";
@@ -137,7 +139,7 @@ TEST(OutputFile, WritesADeviceStraight)
     EXPECT_FALSE(fs::exists(part_path("/dev/null")));
 }
 
-TEST(OutputFile, SaysThatTheDeviceIsFull)
+TEST(OutputFile, ReportsAFullDevice)
 {
     const std::string message = refusal<UsageError>([] {
         OutputFile file("/dev/full");
@@ -147,7 +149,7 @@ TEST(OutputFile, SaysThatTheDeviceIsFull)
     EXPECT_EQ(message, "cannot write /dev/full: No space left on device");
 }
 
-TEST(OutputFile, LeavesNothingWhereTheDiskFillsUp)
+TEST(OutputFile, LeavesTheOldFileIfTheDiskFillsUp)
 {
     const TemporaryFolder folder;
     const fs::path path = folder.write("out.ply", "old");
@@ -167,7 +169,7 @@ TEST(OutputFile, LeavesNothingWhereTheDiskFillsUp)
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST(OutputFile, TakesOverThePartOfADeadProcess)
+TEST(OutputFile, OverwritesTheTemporaryFileOfADeadProcess)
 {
     const TemporaryFolder folder;
     std::ofstream(part_path(folder / "out.ply")) << "left behind, and longer";
@@ -177,20 +179,20 @@ TEST(OutputFile, TakesOverThePartOfADeadProcess)
     EXPECT_EQ(bytes_of(folder / "out.ply"), "new");
 }
 
-TEST(PartPath, LiesBesideTheFileAndNamesTheProcess)
+TEST(PartPath, IsInTheFolderOfTheFileAndContainsTheProcessId)
 {
     EXPECT_EQ(part_path("/nowhere/out.ply").string(),
               "/nowhere/out.ply.part-" + std::to_string(::getpid()));
 }
 
-TEST(RequireWritable, LeavesNothingBehind)
+TEST(RequireWritable, LeavesNoFileBehind)
 {
     const TemporaryFolder folder;
     require_writable(folder / "out.ply");
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(RequireWritable, RefusesInOneSentence)
+TEST(RequireWritable, ExplainsEachReasonInOneSentence)
 {
     const TemporaryFolder folder;
     const std::string name = folder.path().string();
@@ -209,23 +211,20 @@ TEST(RequireWritable, RefusesInOneSentence)
     fs::create_symlink("loop", folder / "loop");
     const std::string circle = "Too many levels of symbolic links";
     EXPECT_EQ(refusal_to_write(folder / "loop"), "cannot write " + name + "/loop: " + circle);
-    EXPECT_EQ(refusal_to_write(folder / "loop/out.ply"),
-              "cannot write " + name + "/loop/out.ply: no file can be created in the folder " +
-                  name + "/loop: " + circle);
+    EXPECT_EQ(refusal_to_write(folder / "loop/out.ply"), "cannot write " + name +
+                                                             "/loop/out.ply: " + kNoNewFile + name +
+                                                             "/loop (" + circle + ")");
     EXPECT_TRUE(fs::is_symlink(folder / "loop"));
     const std::string endless(300, 'n');
-    EXPECT_EQ(refusal_to_write(folder / endless), "cannot write " + name + "/" + endless +
-                                                      ": no file can be created in the folder " +
-                                                      name + ": File name too long");
+    EXPECT_EQ(refusal_to_write(folder / endless), "cannot write " + name + "/" + endless + ": " +
+                                                      kNoNewFile + name + " (File name too long)");
 }
 
-TEST(RequireWritable, RefusesAFolderThatTakesNoNewFile)
+TEST(RequireWritable, RefusesAFolderThatAcceptsNoNewFile)
 {
-    // /proc takes none from anybody, root included.
-    EXPECT_EQ(
-        refusal_to_write("/proc/out.ply"),
-        "cannot write /proc/out.ply: no file can be created in the folder /proc: No such file or "
-        "directory");
+    // /proc accepts no new file, not even from root.
+    EXPECT_EQ(refusal_to_write("/proc/out.ply"),
+              "cannot write /proc/out.ply: " + kNoNewFile + "/proc (No such file or directory)");
 }
 
 } // namespace

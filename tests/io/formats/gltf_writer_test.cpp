@@ -38,7 +38,7 @@ TriMesh sheet_far_away()
     return mesh;
 }
 
-/// The text and the numbers of a file, taken apart as the specification says.
+/// The JSON and the binary chunk of a file, split as the specification defines.
 struct Chunks {
     Json json;
     std::string numbers;
@@ -63,7 +63,7 @@ Chunks chunks_of(const std::string& bytes)
     return chunks;
 }
 
-/// The numbers of one accessor.
+/// Returns the numbers of one accessor.
 template <typename Number>
 std::vector<Number> numbers_of(const Chunks& chunks, std::size_t accessor, std::size_t components)
 {
@@ -78,7 +78,7 @@ std::vector<Number> numbers_of(const Chunks& chunks, std::size_t accessor, std::
     return numbers;
 }
 
-/// Another program reads these corners where they are.
+/// Expects another program to read the same corners.
 void expect_read_back(const TriMesh& mesh, const std::filesystem::path& path)
 {
     const std::vector<Corner> expected = corners_of(mesh);
@@ -90,7 +90,7 @@ void expect_read_back(const TriMesh& mesh, const std::filesystem::path& path)
     }
 }
 
-TEST(WriteGlb, SaysWhatItHolds)
+TEST(WriteGlb, DescribesItsContent)
 {
     const Json json = chunks_of(written(sample_sheet(), {.comments = {"made here", "x"}})).json;
     EXPECT_EQ(json["asset"], Json::parse(R"({"generator": "made here", "version": "2.0",
@@ -128,7 +128,7 @@ TEST(WriteGlb, KeepsPositionsFarFromTheOrigin)
     }
 }
 
-TEST(WriteGlb, SaysTheOffsetThatWasSubtracted)
+TEST(WriteGlb, RecordsTheSubtractedOffset)
 {
     const TriMesh mesh = sheet_far_away();
     const Json whole = chunks_of(written(mesh)).json;
@@ -142,7 +142,7 @@ TEST(WriteGlb, SaysTheOffsetThatWasSubtracted)
     EXPECT_NEAR(before[2] - after[2], 0.1, 1e-9);
 }
 
-TEST(WriteGlb, SaysTheBoxOfItsPositions)
+TEST(WriteGlb, RecordsTheBoundingBoxOfPositions)
 {
     const Chunks chunks = chunks_of(written(sheet_far_away()));
     const auto numbers = numbers_of<float>(chunks, 0, 3);
@@ -156,7 +156,7 @@ TEST(WriteGlb, SaysTheBoxOfItsPositions)
         const Json& about = chunks.json["accessors"][0];
         EXPECT_EQ(about["min"][i].get<float>(), least);
         EXPECT_EQ(about["max"][i].get<float>(), most);
-        EXPECT_NEAR(least, -most, 1e-6); // they lie around the middle of their box
+        EXPECT_NEAR(least, -most, 1e-6); // positions are relative to the center of their box
     }
 }
 
@@ -166,7 +166,7 @@ TEST(WriteGlb, KeepsNormalsAndFaces)
     mesh.normals[5] = Vector3f::Zero();
     const Chunks chunks = chunks_of(written(mesh));
     const auto normals = numbers_of<float>(chunks, 1, 3);
-    mesh.normals[5] = Vector3f::UnitZ(); // which has to have one
+    mesh.normals[5] = Vector3f::UnitZ(); // the writer replaces zero normals
     for (std::size_t v = 0; v < mesh.normals.size(); ++v) {
         EXPECT_EQ(Vector3f(normals[3 * v], normals[3 * v + 1], normals[3 * v + 2]),
                   mesh.normals[v]);
@@ -177,7 +177,7 @@ TEST(WriteGlb, KeepsNormalsAndFaces)
     }
 }
 
-/// IEC 61966-2-1, from linear back to a byte.
+/// Converts a linear value back to an sRGB byte (IEC 61966-2-1).
 int srgb(double linear)
 {
     const double share =
@@ -185,7 +185,7 @@ int srgb(double linear)
     return static_cast<int>(std::lround(255.0 * share));
 }
 
-TEST(WriteGlb, MakesColoursLinearAndKeepsEachApart)
+TEST(WriteGlb, WritesDistinctLinearColors)
 {
     TriMesh mesh;
     for (int i = 0; i < 256; ++i) {
@@ -203,7 +203,7 @@ TEST(WriteGlb, MakesColoursLinearAndKeepsEachApart)
     EXPECT_EQ(colors[4 * 128], 14146); // ((128 / 255 + 0.055) / 1.055) ^ 2.4 = 0.21586
 }
 
-TEST(WriteGlb, LeavesOutWhatTheMeshHasNot)
+TEST(WriteGlb, OmitsMissingAttributes)
 {
     TriMesh mesh = sample_sheet();
     mesh.normals.clear();
@@ -213,20 +213,20 @@ TEST(WriteGlb, LeavesOutWhatTheMeshHasNot)
     EXPECT_EQ(json["accessors"].size(), 2U);
 }
 
-TEST(WriteGlb, HasNoBuffersWithoutFaces)
+TEST(WriteGlb, WritesNoBuffersWithoutFaces)
 {
     const Json json = chunks_of(written(TriMesh(), {.comments = {"made here"}})).json;
     EXPECT_EQ(json, Json::parse(R"({"asset": {"version": "2.0", "generator": "made here",
                                               "extras": {"comments": ["made here"]}}})"));
 }
 
-TEST(WriteGlb, ReplacesBytesThatAreNotUtf8)
+TEST(WriteGlb, ReplacesInvalidUtf8)
 {
     const Json json = chunks_of(written(TriMesh(), {.comments = {"model \xff"}})).json;
     EXPECT_EQ(json["asset"]["generator"], "model \uFFFD");
 }
 
-TEST(WriteGlb, TurnsWhatIsUpToY)
+TEST(WriteGlb, RotatesUpToY)
 {
     const TemporaryFolder folder;
     TriMesh mesh = sample_sheet();
@@ -245,12 +245,12 @@ TEST(WriteGlb, TurnsWhatIsUpToY)
     expect_read_back(mesh, folder / "a.glb");
 }
 
-TEST(WriteGlb, RefusesWhatItsLengthsCannotSay)
+TEST(WriteGlb, RefusesMeshesThatExceedItsSizeFields)
 {
     EXPECT_NO_THROW(require_glb_room(4294901759));
     EXPECT_EQ(refusal<UsageError>([] { require_glb_room(4294901760); }),
-              "the surface takes 4294901760 bytes, and binary glTF holds at most 4294901759; PLY "
-              "holds more");
+              "the mesh needs 4294901760 bytes, but binary glTF holds at most 4294901759; write "
+              "PLY instead");
 }
 
 } // namespace

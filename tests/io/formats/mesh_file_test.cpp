@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 const std::string kNames[] = {"a.ply", "a.obj", "a.off", "a.stl", "a.glb"};
 
-TEST(WriteMesh, PicksTheFormatByTheEndOfTheName)
+TEST(WriteMesh, SelectsTheFormatByFileExtension)
 {
     const TemporaryFolder folder;
     const TriMesh mesh = sample_sheet();
@@ -31,20 +31,20 @@ TEST(WriteMesh, PicksTheFormatByTheEndOfTheName)
     EXPECT_EQ(beginning("a.glb"), "glTF");
 }
 
-TEST(WriteMesh, RefusesOtherNames)
+TEST(WriteMesh, RefusesOtherFileExtensions)
 {
     const TemporaryFolder folder;
     for (const char* name : {"a.gltf", "ply", ".ply", "a.ply.gz", "a."}) {
         const fs::path path = folder / name;
         EXPECT_EQ(refusal<UsageError>([&] { write_mesh(path, sample_sheet(), {}); }),
                   "cannot write " + path.string() +
-                      ": the name of a surface must end with .ply, .obj, .off, .stl or .glb");
+                      ": the name of a mesh must end with .ply, .obj, .off, .stl or .glb");
         EXPECT_FALSE(is_mesh_name(path));
     }
     EXPECT_EQ(folder.num_entries(), 0U);
 }
 
-TEST(WriteMesh, RefusesWhatOnlyPlyHolds)
+TEST(WriteMesh, RefusesOptionsThatAreForPlyOnly)
 {
     const TemporaryFolder folder;
     const Provenance provenance;
@@ -63,31 +63,31 @@ TEST(WriteMesh, RefusesWhatOnlyPlyHolds)
     EXPECT_EQ(folder.num_entries(), 1U);
 }
 
-TEST(WriteMesh, LeavesTheFileAsItWasWhereItFails)
+TEST(WriteMesh, LeavesTheFileUnchangedOnFailure)
 {
     const TemporaryFolder folder;
     for (const std::string& name : kNames) {
         const fs::path path = folder / name;
-        fs::create_symlink("/dev/full", path); // a disk without room
+        fs::create_symlink("/dev/full", path); // behaves like a full disk
         EXPECT_EQ(refusal<UsageError>([&] { write_mesh(path, sample_sheet(), {}); }),
                   "cannot write " + path.string() + ": No space left on device");
     }
     EXPECT_EQ(folder.num_entries(), std::size(kNames));
 }
 
-TEST(RoundingShare, IsWhatFloatsMoveTheVerticesOfStl)
+TEST(RoundingShare, MeasuresTheRoundingOfStl)
 {
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
     mesh.faces = {{0, 1, 2}};
     EXPECT_EQ(rounding_share("a.stl", mesh, {}), 0.0);
-    mesh.offset = {0, 4600000.2, 0}; // floats are half a metre apart there
+    mesh.offset = {0, 4600000.2, 0}; // floats near 4600000 have steps of half a meter
     EXPECT_NEAR(rounding_share("a.stl", mesh, {}), 0.2 / 5.0, 1e-9);
     EXPECT_EQ(rounding_share("a.obj", mesh, {}), 0.0);
     EXPECT_LT(rounding_share("a.stl", mesh, {.offset = {0, 4600000, 0}}), 1e-7);
 }
 
-TEST(WriteMesh, WritesFacesThatAreNotManifold)
+TEST(WriteMesh, WritesNonManifoldFaces)
 {
     const TemporaryFolder folder;
     TriMesh mesh = sample_sheet();

@@ -41,7 +41,7 @@ std::string written(const TriMesh& mesh, const std::string& name, const MeshForm
     return bytes_of(folder / name);
 }
 
-TEST(WriteObj, WritesExactlyThisText)
+TEST(WriteObj, WritesExpectedText)
 {
     EXPECT_EQ(written(adorned_triangles(), "a.obj", {.comments = {"made here", "two\nlines"}}),
               "# made here\n"
@@ -64,7 +64,7 @@ TEST(WriteObj, WritesExactlyThisText)
                                                  "f 3 2 4\n");
 }
 
-TEST(WriteOff, WritesExactlyThisText)
+TEST(WriteOff, WritesExpectedText)
 {
     EXPECT_EQ(written(adorned_triangles(), "a.off", {.comments = {"made here"}}),
               "COFF\n"
@@ -86,7 +86,7 @@ TEST(WriteOff, WritesExactlyThisText)
                                                  "3 2 1 3\n");
 }
 
-TEST(TextFormats, SayTheOffsetThatWasSubtracted)
+TEST(TextFormats, RecordTheSubtractedOffset)
 {
     TriMesh mesh = two_triangles();
     mesh.offset = {5e5, 4.6e6, 100.25};
@@ -99,7 +99,7 @@ TEST(TextFormats, SayTheOffsetThatWasSubtracted)
                 EndsWith("# offset 500000 4600000 -0.1\n# made here\n"));
 }
 
-/// The positions of OBJ or, without a word before them, of OFF.
+/// Returns the positions in OBJ or OFF text; OFF lines have no leading keyword.
 std::vector<Vector3d> positions_in(const std::string& text, std::size_t count, bool is_obj)
 {
     std::istringstream lines(text);
@@ -151,7 +151,7 @@ TEST(TextFormats, AreReadByAssimp)
     }
 }
 
-TEST(TextFormats, KeepEveryColourWhetherReadersRoundOrCutOff)
+TEST(TextFormats, PreserveColorsWhetherReadersRoundOrTruncate)
 {
     TriMesh mesh;
     for (int i = 0; i < 256; ++i) {
@@ -179,7 +179,7 @@ std::string bytes_of_numbers(std::initializer_list<Number> numbers)
     return {reinterpret_cast<const char*>(std::data(numbers)), numbers.size() * sizeof(Number)};
 }
 
-TEST(WriteStl, WritesExactlyTheseBytes)
+TEST(WriteStl, WritesExpectedBytes)
 {
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 0, -3}};
@@ -197,7 +197,7 @@ TEST(WriteStl, WritesExactlyTheseBytes)
                   std::string(2, '\0'));
 }
 
-TEST(WriteStl, SaysTheOffsetThatWasSubtracted)
+TEST(WriteStl, RecordsTheSubtractedOffset)
 {
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 0, -3}};
@@ -211,7 +211,7 @@ TEST(WriteStl, SaysTheOffsetThatWasSubtracted)
     EXPECT_EQ(bytes.substr(96, 12), bytes_of_numbers<float>({0.5F, 0.0F, 7.0F}));
 }
 
-TEST(WriteStl, CutsLongCommentsOff)
+TEST(WriteStl, TruncatesLongComments)
 {
     const TemporaryFolder folder;
     write_mesh(folder / "a.stl", {}, {.comments = {std::string(100, 'x')}});

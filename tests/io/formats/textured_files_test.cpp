@@ -21,7 +21,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// Two faces that share an edge: on two pages, or on one with the same places there or others.
+/// Two faces that share an edge. They are on two pages, or on one page, shifted by `shift`.
 struct Sheet {
     TriMesh mesh;
     Texture texture;
@@ -40,7 +40,7 @@ struct Sheet {
     }
 };
 
-TEST(Unwrap, LeavesVerticesTogetherThatLieTogetherInThePage)
+TEST(Unwrap, KeepsVerticesWithOneTextureCoordinate)
 {
     const Sheet sheet(0, 0.0F);
     const UnwrappedMesh unwrapped = unwrap(sheet.mesh, sheet.texture);
@@ -48,7 +48,7 @@ TEST(Unwrap, LeavesVerticesTogetherThatLieTogetherInThePage)
     EXPECT_EQ(unwrapped.begins, (std::vector<std::size_t>{0, 2}));
 }
 
-TEST(Unwrap, TakesVerticesApartWhereChartsMeet)
+TEST(Unwrap, DuplicatesVerticesOnSeams)
 {
     const Sheet sheet(0, -0.5F);
     const UnwrappedMesh unwrapped = unwrap(sheet.mesh, sheet.texture);
@@ -66,7 +66,7 @@ TEST(Unwrap, TakesVerticesApartWhereChartsMeet)
     }
 }
 
-TEST(Unwrap, PutsTheFacesOfAPageTogether)
+TEST(Unwrap, GroupsFacesByPage)
 {
     Sheet sheet(1, 0.0F);
     sheet.texture.page_of_face = {1, 0};
@@ -80,7 +80,7 @@ TEST(Unwrap, PutsTheFacesOfAPageTogether)
 
 namespace {
 
-/// A sheet on two even pages, red and green.
+/// A sheet on two single-colored pages, red and green.
 struct Textured {
     TemporaryFolder folder;
     TriMesh mesh = sample_sheet();
@@ -103,14 +103,14 @@ struct Textured {
     }
 };
 
-TEST(FilesBeside, AreThePagesAndTheMaterialsOfObj)
+TEST(FilesBeside, ListsPagesAndObjMaterials)
 {
     EXPECT_THAT(files_beside("a/b.obj", 2), ElementsAre("a/b.mtl", "a/b_0.jpg", "a/b_1.jpg"));
     EXPECT_THAT(files_beside("b.PLY", 1), ElementsAre("b_0.jpg"));
     EXPECT_TRUE(files_beside("b.glb", 3).empty());
 }
 
-TEST(TexturedObj, IsReadByAnotherProgram)
+TEST(TexturedObj, IsReadByAssimp)
 {
     const Textured made;
     write_mesh(made.folder / "sheet.obj", made.mesh, made.format);
@@ -124,7 +124,7 @@ TEST(TexturedObj, IsReadByAnotherProgram)
     EXPECT_THAT(bytes_of(made.folder / "sheet.mtl"), HasSubstr("map_Kd sheet_1.jpg"));
 }
 
-TEST(TexturedFiles, HoldThePages)
+TEST(TexturedFiles, ContainThePages)
 {
     const Textured made;
     write_mesh(made.folder / "sheet.obj", made.mesh, made.format);
@@ -135,7 +135,7 @@ TEST(TexturedFiles, HoldThePages)
     EXPECT_NEAR(page.rgb[0], 0, 3);
 }
 
-TEST(TexturedPly, SaysWhereCornersLie)
+TEST(TexturedPly, HasTextureCoordinatesOfCorners)
 {
     Textured made;
     made.format.ascii = true;
@@ -147,7 +147,7 @@ TEST(TexturedPly, SaysWhereCornersLie)
     EXPECT_THAT(text, HasSubstr(" 6 0.25 1 1 0.875 0.5 0 1\n"));
 }
 
-TEST(TexturedPly, IsReadAgain)
+TEST(TexturedPly, RoundTrips)
 {
     const Textured made;
     write_mesh(made.folder / "sheet.ply", made.mesh, made.format);
@@ -156,7 +156,7 @@ TEST(TexturedPly, IsReadAgain)
     EXPECT_EQ(read.colors, made.mesh.colors);
 }
 
-TEST(TexturedGlb, HoldsItsPages)
+TEST(TexturedGlb, EmbedsItsPages)
 {
     const Textured made;
     write_mesh(made.folder / "sheet.glb", made.mesh, made.format);
@@ -180,7 +180,7 @@ TEST(TexturedGlb, HoldsItsPages)
         EXPECT_EQ(json["materials"][page]["pbrMetallicRoughness"]["baseColorTexture"]["index"],
                   page);
         EXPECT_TRUE(drawn["attributes"].contains("TEXCOORD_0"));
-        EXPECT_FALSE(drawn["attributes"].contains("COLOR_0")); // would darken the texture
+        EXPECT_FALSE(drawn["attributes"].contains("COLOR_0")); // they would darken the texture
         faces += json["accessors"][drawn["indices"].get<std::size_t>()]["count"].get<std::size_t>();
     }
     EXPECT_EQ(faces, 3 * made.mesh.faces.size());

@@ -16,13 +16,13 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Le;
 
-/// How a JPEG is to be written that encode_jpeg() does not write.
+/// Format of a JPEG that encode_jpeg() cannot write.
 struct Look {
-    J_COLOR_SPACE given = JCS_RGB; ///< also stored, but for RGB, and where it is stored otherwise
+    J_COLOR_SPACE given = JCS_RGB; ///< color space of the given pixels
     J_COLOR_SPACE stored = JCS_YCbCr;
     bool progressive = false;
     bool has_adobe_marker = false;
-    Bytes exif{}; ///< without "Exif\0\0"
+    Bytes exif{}; ///< content of an APP1 marker
 };
 
 int channels_of(J_COLOR_SPACE space)
@@ -30,7 +30,7 @@ int channels_of(J_COLOR_SPACE space)
     return space == JCS_GRAYSCALE ? 1 : space == JCS_CMYK ? 4 : 3;
 }
 
-/// A JPEG of these pixels at quality 100.
+/// Returns a JPEG of these pixels with quality 100.
 Bytes jpeg_of(int width_px, int height_px, Bytes pixels, const Look& look)
 {
     jpeg_error_mgr errors{};
@@ -76,7 +76,7 @@ std::string refusal_of(const Bytes& file)
     return refusal<InputError>([&] { decoded(file); });
 }
 
-/// How far the channels of two photographs differ.
+/// The absolute differences of all channels of two photographs.
 std::vector<int> differences(const Photograph& a, const Photograph& b)
 {
     std::vector<int> result;
@@ -86,14 +86,14 @@ std::vector<int> differences(const Photograph& a, const Photograph& b)
     return result;
 }
 
-/// What refuse_image() says around the reason.
+/// The message of refuse_image() for a reason.
 std::string sentence(const std::string& reason)
 {
     return "a folder/photo: found a JPEG that cannot be read (" + reason +
-           "), but a whole photograph is expected; copy or convert it again";
+           "), but a complete photograph is expected; copy or convert it again";
 }
 
-TEST(DecodeJpeg, GivesItsColoursRowByRow)
+TEST(DecodeJpeg, ReturnsRowsOfColors)
 {
     const Photograph photo = gradient(20, 11);
     const Bytes file = jpeg_of(20, 11, photo.rgb, {});
@@ -106,7 +106,7 @@ TEST(DecodeJpeg, GivesItsColoursRowByRow)
     EXPECT_THAT(differences(read, photo), Each(Le(6)));
 }
 
-TEST(DecodeJpeg, TakesProgressiveOnes)
+TEST(DecodeJpeg, ReadsProgressiveFiles)
 {
     const Photograph photo = gradient(20, 11);
     const Bytes file = jpeg_of(20, 11, photo.rgb, {.progressive = true});
@@ -114,13 +114,13 @@ TEST(DecodeJpeg, TakesProgressiveOnes)
     EXPECT_THAT(differences(decoded(file), photo), Each(Le(6)));
 }
 
-TEST(DecodeJpeg, MakesGreyThreeEqualColours)
+TEST(DecodeJpeg, ExpandsGrayToThreeChannels)
 {
     const Bytes file = jpeg_of(2, 1, {77, 77}, {.given = JCS_GRAYSCALE, .stored = JCS_GRAYSCALE});
     EXPECT_THAT(decoded(file).rgb, ElementsAre(77, 77, 77, 77, 77, 77));
 }
 
-TEST(DecodeJpeg, TakesInksByHowAdobeWritesThemOrElseAsInks)
+TEST(DecodeJpeg, ConvertsCmykWithAndWithoutAdobeMarker)
 {
     const Look adobe{.given = JCS_CMYK, .stored = JCS_CMYK, .has_adobe_marker = true};
     EXPECT_THAT(decoded(jpeg_of(1, 1, {255, 128, 0, 255}, adobe)).rgb, ElementsAre(255, 128, 0));
@@ -129,7 +129,7 @@ TEST(DecodeJpeg, TakesInksByHowAdobeWritesThemOrElseAsInks)
     EXPECT_THAT(decoded(jpeg_of(1, 1, {0, 127, 255, 0}, plain)).rgb, ElementsAre(255, 128, 0));
 }
 
-TEST(DecodeJpeg, TakesInksThatAreStoredAsBrightnessAndColour)
+TEST(DecodeJpeg, ConvertsYcck)
 {
     const Look look{.given = JCS_CMYK, .stored = JCS_YCCK, .has_adobe_marker = true};
     const Bytes bright = pixel(decoded(jpeg_of(1, 1, {200, 150, 100, 255}, look)), 0, 0);
@@ -138,9 +138,9 @@ TEST(DecodeJpeg, TakesInksThatAreStoredAsBrightnessAndColour)
     EXPECT_NEAR(bright[2], 100, 2);
 }
 
-TEST(DecodeJpeg, LeavesThePixelsAsTheyLieWhateverExifSays)
+TEST(DecodeJpeg, IgnoresTheExifOrientation)
 {
-    // One entry, the orientation: turn it by a quarter
+    // One entry: orientation 6, a rotation by 90 degrees.
     const Bytes exif{'E', 'x', 'i', 'f', 0, 0, 'M', 'M', 0, 42, 0, 0, 0, 8, 0, 1,
                      1,   18,  0,   3,   0, 0, 0,   1,   0, 6,  0, 0, 0, 0, 0, 0};
     const Photograph photo = gradient(16, 8);
@@ -149,7 +149,7 @@ TEST(DecodeJpeg, LeavesThePixelsAsTheyLieWhateverExifSays)
     EXPECT_EQ(decoded(jpeg_of(16, 8, photo.rgb, {.exif = exif})).width_px, 16);
 }
 
-TEST(DecodeJpeg, PutsUpWithBytesThatNobodyNeeds)
+TEST(DecodeJpeg, IgnoresSuperfluousBytes)
 {
     Bytes file = jpeg_of(20, 11, gradient(20, 11).rgb, {});
     const Photograph whole = decoded(file);
@@ -157,7 +157,7 @@ TEST(DecodeJpeg, PutsUpWithBytesThatNobodyNeeds)
     EXPECT_EQ(decoded(file).rgb, whole.rgb);
 }
 
-TEST(DecodeJpeg, RefusesWhatIsCutOff)
+TEST(DecodeJpeg, RefusesTruncatedFiles)
 {
     const Photograph photo = gradient(64, 64);
     for (const bool progressive : {false, true}) {
@@ -177,14 +177,14 @@ TEST(DecodeJpeg, RefusesWhatIsCutOff)
               sentence("Premature end of JPEG file"));
 }
 
-TEST(DecodeJpeg, RefusesWhatIsNotWhatWasCompressed)
+TEST(DecodeJpeg, RefusesDamagedPixels)
 {
     Bytes file = jpeg_of(64, 64, gradient(64, 64).rgb, {});
     std::fill(file.end() - 200, file.end() - 100, std::uint8_t{0xFF});
     EXPECT_THAT(refusal_of(file), HasSubstr("Corrupt JPEG data"));
 }
 
-TEST(DecodeJpeg, RefusesAHugeSizeBeforeItTakesMemory)
+TEST(DecodeJpeg, RefusesHugeSizesBeforeAllocation)
 {
     Bytes file = encode_jpeg(gradient(8, 8), 90);
     const Bytes frame{0xFF, 0xC0, 0, 17, 8};

@@ -11,13 +11,13 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// How a PNG is to be written that encode_png() does not write.
+/// Format of a PNG that encode_png() cannot write.
 struct Look {
     int color_type = PNG_COLOR_TYPE_RGB;
     int bits = 8;
     int interlace = PNG_INTERLACE_NONE;
     std::vector<png_color> palette{};
-    Bytes transparent{}; ///< an alpha for each colour of the palette
+    Bytes transparent{}; ///< alpha of each color of the palette
 };
 
 void append(png_structp png, png_bytep bytes, std::size_t count)
@@ -26,7 +26,7 @@ void append(png_structp png, png_bytep bytes, std::size_t count)
     file->insert(file->end(), bytes, bytes + count);
 }
 
-/// A PNG of rows that are packed already.
+/// Returns a PNG of packed rows.
 Bytes png_of(int width_px, const std::vector<Bytes>& rows, const Look& look)
 {
     Bytes file;
@@ -43,7 +43,7 @@ Bytes png_of(int width_px, const std::vector<Bytes>& rows, const Look& look)
         png_set_tRNS(png, info, look.transparent.data(), static_cast<int>(look.transparent.size()),
                      nullptr);
     }
-    png_set_gAMA(png, info, 1.0); // which is not what colours are shown by
+    png_set_gAMA(png, info, 1.0); // the decoder must ignore it
     png_write_info(png, info);
     std::vector<png_bytep> pointers;
     for (const Bytes& row : rows) {
@@ -65,14 +65,14 @@ std::string refusal_of(const Bytes& file)
     return refusal<InputError>([&] { decoded(file); });
 }
 
-/// What refuse_image() says around the reason.
+/// The message of refuse_image() for a reason.
 std::string sentence(const std::string& reason)
 {
     return "a folder/photo: found a PNG that cannot be read (" + reason +
-           "), but a whole photograph is expected; copy or convert it again";
+           "), but a complete photograph is expected; copy or convert it again";
 }
 
-TEST(DecodePng, GivesExactlyTheColours)
+TEST(DecodePng, ReturnsExactColors)
 {
     const Photograph photo = gradient(7, 5);
     const Photograph read = decoded(encode_png(photo));
@@ -82,26 +82,26 @@ TEST(DecodePng, GivesExactlyTheColours)
     EXPECT_EQ(png_size({kImagePath, encode_png(photo)}).height_px, 5);
 }
 
-TEST(DecodePng, MakesGreyThreeEqualColours)
+TEST(DecodePng, ExpandsGrayToThreeChannels)
 {
-    const Look grey{.color_type = PNG_COLOR_TYPE_GRAY};
-    EXPECT_THAT(decoded(png_of(2, {{7, 250}}, grey)).rgb, ElementsAre(7, 7, 7, 250, 250, 250));
+    const Look gray{.color_type = PNG_COLOR_TYPE_GRAY};
+    EXPECT_THAT(decoded(png_of(2, {{7, 250}}, gray)).rgb, ElementsAre(7, 7, 7, 250, 250, 250));
     const Look bits{.color_type = PNG_COLOR_TYPE_GRAY, .bits = 1};
     EXPECT_THAT(decoded(png_of(2, {{0x40}}, bits)).rgb, ElementsAre(0, 0, 0, 255, 255, 255));
 }
 
-TEST(DecodePng, KeepsAlphaOfTransparentPixelsAndTheirColors)
+TEST(DecodePng, KeepsAlphaAndColorsOfTransparentPixels)
 {
-    const Look colours{.color_type = PNG_COLOR_TYPE_RGB_ALPHA};
-    const Photograph half = decoded(png_of(2, {{10, 20, 30, 0, 40, 50, 60, 200}}, colours));
+    const Look colors{.color_type = PNG_COLOR_TYPE_RGB_ALPHA};
+    const Photograph half = decoded(png_of(2, {{10, 20, 30, 0, 40, 50, 60, 200}}, colors));
     EXPECT_THAT(half.rgb, ElementsAre(10, 20, 30, 40, 50, 60));
     EXPECT_THAT(half.alpha, ElementsAre(0, 200));
-    EXPECT_THAT(decoded(png_of(1, {{10, 20, 30, 1}}, colours)).alpha, ElementsAre());
-    const Look grey{.color_type = PNG_COLOR_TYPE_GRAY_ALPHA};
-    EXPECT_THAT(decoded(png_of(1, {{99, 5}}, grey)).rgb, ElementsAre(99, 99, 99));
+    EXPECT_THAT(decoded(png_of(1, {{10, 20, 30, 1}}, colors)).alpha, ElementsAre());
+    const Look gray{.color_type = PNG_COLOR_TYPE_GRAY_ALPHA};
+    EXPECT_THAT(decoded(png_of(1, {{99, 5}}, gray)).rgb, ElementsAre(99, 99, 99));
 }
 
-TEST(DecodePng, LooksColoursUpInThePalette)
+TEST(DecodePng, LooksColorsUpInThePalette)
 {
     const Look look{.color_type = PNG_COLOR_TYPE_PALETTE,
                     .bits = 4,
@@ -120,7 +120,7 @@ TEST(DecodePng, RoundsSixteenBitsToEight)
                 ElementsAre(19, 128, 255));
 }
 
-TEST(DecodePng, TakesInterlacedOnes)
+TEST(DecodePng, ReadsInterlacedFiles)
 {
     const Photograph photo = gradient(5, 3);
     std::vector<Bytes> rows;
@@ -130,7 +130,7 @@ TEST(DecodePng, TakesInterlacedOnes)
     EXPECT_EQ(decoded(png_of(5, rows, {.interlace = PNG_INTERLACE_ADAM7})).rgb, photo.rgb);
 }
 
-TEST(DecodePng, RefusesAWrongChecksum)
+TEST(DecodePng, RefusesWrongChecksums)
 {
     Bytes file = encode_png(gradient(7, 5));
     const Bytes data{'I', 'D', 'A', 'T'};
@@ -139,7 +139,7 @@ TEST(DecodePng, RefusesAWrongChecksum)
     Bytes last = file;
     last[last.size() - 13] ^= 1U; // the checksum of the pixels
     EXPECT_EQ(refusal_of(last), sentence("IDAT: CRC error"));
-    file[12 + 8 + 4] ^= 1U; // within the header
+    file[12 + 8 + 4] ^= 1U; // in the header
     EXPECT_EQ(refusal_of(file), sentence("IHDR: CRC error"));
     EXPECT_EQ(refusal<InputError>([&] {
                   png_size({kImagePath, file});
@@ -147,17 +147,17 @@ TEST(DecodePng, RefusesAWrongChecksum)
               sentence("IHDR: CRC error"));
 }
 
-TEST(DecodePng, RefusesWhatIsCutOff)
+TEST(DecodePng, RefusesTruncatedFiles)
 {
     const Bytes file = encode_png(gradient(30, 30));
     for (const std::size_t count :
          {std::size_t{8}, std::size_t{20}, file.size() / 2, file.size() - 1}) {
         EXPECT_EQ(refusal_of({file.begin(), file.begin() + static_cast<std::ptrdiff_t>(count)}),
-                  sentence("the file ends too early"));
+                  sentence("the file is truncated"));
     }
 }
 
-TEST(DecodePng, RefusesAHugeSizeBeforeItTakesMemory)
+TEST(DecodePng, RefusesHugeSizesBeforeAllocation)
 {
     Bytes huge = encode_png(gradient(1, 1));
     for (const int at : {16, 20}) {

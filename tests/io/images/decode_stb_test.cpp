@@ -20,7 +20,7 @@ void put(Bytes& bytes, std::uint32_t value, int count)
     }
 }
 
-/// A BMP without compression, of these pixels; a negative height puts the first row at the top.
+/// An uncompressed BMP of these pixels. With a negative height the first row is at the top.
 Bytes bmp(int width_px, int height_px, int bits, const Bytes& pixels)
 {
     Bytes bytes{'B', 'M'};
@@ -36,7 +36,7 @@ Bytes bmp(int width_px, int height_px, int bits, const Bytes& pixels)
     return bytes;
 }
 
-/// A TGA whose first row is at the top; kind 2 is plain, 3 gray, 10 compressed.
+/// A TGA whose first row is at the top. Kind 2 is uncompressed, 3 gray, 10 compressed.
 Bytes tga(int kind, int width_px, int height_px, int bits, const Bytes& pixels)
 {
     Bytes bytes{0, 0, static_cast<std::uint8_t>(kind)};
@@ -63,7 +63,7 @@ std::string refused(const Bytes& bytes)
     return refusal<InputError>([&] { decode_stb({kImagePath, bytes}); });
 }
 
-TEST(DecodeStb, ReadsRowsOfBmpFromEitherEnd)
+TEST(DecodeStb, ReadsBottomUpAndTopDownBmp)
 {
     const Bytes rows{3, 2, 1, 6, 5, 4, 0, 0, 9, 8, 7, 12, 11, 10, 0, 0}; // blue first, padded
     const Photograph up = decode(bmp(2, 2, 24, rows));
@@ -81,14 +81,14 @@ TEST(DecodeStb, KeepsTransparentPixels)
     EXPECT_THAT(decode(tga(2, 1, 1, 32, {3, 2, 1, 255})).alpha, IsEmpty());
 }
 
-TEST(DecodeStb, ReadsEachKindOfTga)
+TEST(DecodeStb, ReadsEveryKindOfTga)
 {
     EXPECT_THAT(decode(tga(2, 2, 1, 24, {3, 2, 1, 6, 5, 4})).rgb, ElementsAre(1, 2, 3, 4, 5, 6));
     EXPECT_THAT(decode(tga(3, 2, 1, 8, {7, 8})).rgb, ElementsAre(7, 7, 7, 8, 8, 8));
     EXPECT_THAT(decode(tga(10, 2, 1, 24, {0x81, 3, 2, 1})).rgb, ElementsAre(1, 2, 3, 1, 2, 3));
 }
 
-TEST(DecodeStb, RefusesFilesThatAreCutOff)
+TEST(DecodeStb, RefusesTruncatedFiles)
 {
     const Bytes row(std::size_t{3} * 100, 1);
     Bytes packets;
@@ -100,7 +100,7 @@ TEST(DecodeStb, RefusesFilesThatAreCutOff)
         EXPECT_THAT(decode(whole).rgb, ::testing::SizeIs(300));
         for (std::size_t size = 2; size < whole.size(); ++size) {
             const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
-            EXPECT_THAT(refused(cut), HasSubstr("that cannot be read (it is cut off)")) << size;
+            EXPECT_THAT(refused(cut), HasSubstr("that cannot be read (it is truncated)")) << size;
         }
     }
 }
@@ -115,13 +115,13 @@ TEST(DecodeStb, RefusesSizesBeyondTheLimit)
     EXPECT_THAT(refused(tga(2, 40000, 40000, 24, {})), HasSubstr("40000 x 40000 pixels"));
 }
 
-TEST(DecodeStb, NamesTheKind)
+TEST(DecodeStb, ReportsTheFormatInErrors)
 {
     Bytes packed = bmp(1, 1, 8, {0, 0, 0, 0});
     packed[30] = 1;
     EXPECT_EQ(refused(packed), kImagePath.string() +
                                    ": found a BMP that cannot be read (it is damaged, or "
-                                   "compressed in a way that is not read), but a whole "
+                                   "its compression is not supported), but a complete "
                                    "photograph is expected; copy or convert it again");
     EXPECT_THAT(refused(tga(7, 1, 1, 24, {1, 2, 3})), HasSubstr("found a TGA that cannot be read"));
 }

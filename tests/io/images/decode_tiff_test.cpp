@@ -12,19 +12,19 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-/// How a TIFF is to be written.
+/// Format of a TIFF to write.
 struct Look {
     std::uint16_t photometric = PHOTOMETRIC_RGB;
     std::uint16_t channels = 3;
     std::uint16_t bits = 8;
     std::uint16_t compression = COMPRESSION_NONE;
     std::uint16_t orientation = ORIENTATION_TOPLEFT;
-    std::uint16_t extra = 0; ///< what the last channel is, where it is no colour
+    std::uint16_t extra = 0; ///< type of the last channel, if it is no color
     std::uint32_t rows_per_strip = 7;
     const char* mode = "w";
 };
 
-/// The bytes of a TIFF of these rows.
+/// Returns the bytes of a TIFF with these rows.
 Bytes tiff_of(const TemporaryFolder& folder, int width_px, std::vector<Bytes> rows,
               const Look& look)
 {
@@ -64,7 +64,7 @@ std::vector<Bytes> rows_of(const Photograph& photo)
     return rows;
 }
 
-/// Decodes these bytes from a file, as libtiff reads it.
+/// Writes the bytes to a file, which libtiff needs, and decodes it.
 Photograph decoded(const Bytes& bytes)
 {
     const TemporaryFolder folder;
@@ -72,7 +72,7 @@ Photograph decoded(const Bytes& bytes)
     return decode_tiff({folder / "photo", bytes});
 }
 
-/// What is read of a file of such rows.
+/// Encodes the rows as TIFF and decodes it.
 Photograph decoded(int width_px, const std::vector<Bytes>& rows, const Look& look)
 {
     const TemporaryFolder folder;
@@ -84,9 +84,9 @@ std::string refusal_of(const Bytes& file)
     return refusal<InputError>([&] { decoded(file); });
 }
 
-TEST(DecodeTiff, GivesExactlyTheColours)
+TEST(DecodeTiff, ReturnsExactColors)
 {
-    const Photograph photo = gradient(5, 200); // three bands
+    const Photograph photo = gradient(5, 200); // 200, 29 or one strip
     for (const char* const mode : {"wl", "wb", "w8"}) {
         for (const std::uint32_t rows : {1U, 7U, 200U}) {
             const Look look{.compression = COMPRESSION_LZW, .rows_per_strip = rows, .mode = mode};
@@ -98,7 +98,7 @@ TEST(DecodeTiff, GivesExactlyTheColours)
     }
 }
 
-TEST(DecodeTiff, TakesTiles)
+TEST(DecodeTiff, ReadsTiles)
 {
     const TemporaryFolder folder;
     const Photograph photo = gradient(16, 96);
@@ -119,7 +119,7 @@ TEST(DecodeTiff, TakesTiles)
     EXPECT_EQ(decode_tiff({folder / "tiled.tif", {}}).rgb, photo.rgb);
 }
 
-TEST(DecodeTiff, MakesGreyThreeEqualColours)
+TEST(DecodeTiff, ExpandsGrayToThreeChannels)
 {
     const Look black{.photometric = PHOTOMETRIC_MINISBLACK, .channels = 1};
     EXPECT_THAT(decoded(2, {{7, 250}}, black).rgb, ElementsAre(7, 7, 7, 250, 250, 250));
@@ -127,17 +127,17 @@ TEST(DecodeTiff, MakesGreyThreeEqualColours)
     EXPECT_THAT(decoded(1, {{7}}, white).rgb, Each(248));
 }
 
-TEST(DecodeTiff, DropsAlphaAndLeavesColoursAsTheyAre)
+TEST(DecodeTiff, KeepsColorsUnchangedByAlpha)
 {
     for (const std::uint16_t extra : {EXTRASAMPLE_UNASSALPHA, EXTRASAMPLE_ASSOCALPHA}) {
-        const Look colours{.channels = 4, .extra = extra};
-        EXPECT_THAT(decoded(1, {{10, 20, 30, 0}}, colours).rgb, ElementsAre(10, 20, 30));
-        const Look grey{.photometric = PHOTOMETRIC_MINISBLACK, .channels = 2, .extra = extra};
-        EXPECT_THAT(decoded(1, {{99, 5}}, grey).rgb, Each(99));
+        const Look colors{.channels = 4, .extra = extra};
+        EXPECT_THAT(decoded(1, {{10, 20, 30, 0}}, colors).rgb, ElementsAre(10, 20, 30));
+        const Look gray{.photometric = PHOTOMETRIC_MINISBLACK, .channels = 2, .extra = extra};
+        EXPECT_THAT(decoded(1, {{99, 5}}, gray).rgb, Each(99));
     }
 }
 
-TEST(DecodeTiff, LooksColoursUpInThePalette)
+TEST(DecodeTiff, LooksColorsUpInThePalette)
 {
     const Look look{.photometric = PHOTOMETRIC_PALETTE, .channels = 1};
     EXPECT_THAT(decoded(2, {{9, 0}}, look).rgb, ElementsAre(0xC8, 0x22, 0x33, 0x11, 0x22, 0x33));
@@ -145,19 +145,19 @@ TEST(DecodeTiff, LooksColoursUpInThePalette)
 
 TEST(DecodeTiff, RoundsSixteenBitsToEight)
 {
-    // 0x12FF / 257 is 18.9; lowest byte first
+    // 0x12FF / 257 is 18.9; little endian
     const Look look{.bits = 16, .mode = "wl"};
     EXPECT_THAT(decoded(1, {{0xFF, 0x12, 0x80, 0x80, 0xFF, 0xFF}}, look).rgb,
                 ElementsAre(19, 128, 255));
 }
 
-TEST(DecodeTiff, MixesInks)
+TEST(DecodeTiff, ConvertsCmykToRgb)
 {
     const Look look{.photometric = PHOTOMETRIC_SEPARATED, .channels = 4};
     EXPECT_THAT(decoded(1, {{0, 255, 0, 0}}, look).rgb, ElementsAre(255, 0, 255));
 }
 
-TEST(DecodeTiff, LeavesThePixelsAsTheyLieWhateverTheOrientationSays)
+TEST(DecodeTiff, IgnoresTheOrientation)
 {
     const Photograph photo = gradient(5, 3);
     for (const std::uint16_t turned :
@@ -166,17 +166,17 @@ TEST(DecodeTiff, LeavesThePixelsAsTheyLieWhateverTheOrientationSays)
     }
 }
 
-TEST(DecodeTiff, RefusesWhatIsCutOff)
+TEST(DecodeTiff, RefusesTruncatedFiles)
 {
     const TemporaryFolder folder;
-    // The pixels are behind the header and before the directory, so the directory is moved forward
+    // The directory follows the pixels, so the first half of the file lacks it.
     const Bytes file = tiff_of(folder, 30, rows_of(gradient(30, 30)), {.mode = "wl"});
     const Bytes part(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(file.size() / 2));
     EXPECT_THAT(refusal_of(part), HasSubstr("/photo: found a TIFF that cannot be read ("));
     EXPECT_THAT(refusal_of({'I', 'I', 42, 0}), HasSubstr("a TIFF that cannot be read ("));
 }
 
-TEST(DecodeTiff, RefusesPixelsThatAreMissing)
+TEST(DecodeTiff, RefusesDamagedPixels)
 {
     const TemporaryFolder folder;
     const Look look{.compression = COMPRESSION_LZW, .rows_per_strip = 30};
@@ -185,18 +185,18 @@ TEST(DecodeTiff, RefusesPixelsThatAreMissing)
     EXPECT_THAT(refusal_of(file), HasSubstr("a TIFF that cannot be read ("));
 }
 
-TEST(DecodeTiff, RefusesNumbersThatAreNoColours)
+TEST(DecodeTiff, Refuses32BitSamples)
 {
     const TemporaryFolder folder;
     const Bytes file = tiff_of(folder, 1, {Bytes(12)}, {.bits = 32});
     EXPECT_THAT(refusal_of(file), HasSubstr("32-bit samples"));
 }
 
-TEST(DecodeTiff, RefusesAHugeSizeBeforeItTakesMemory)
+TEST(DecodeTiff, RefusesHugeSizesBeforeAllocation)
 {
     const TemporaryFolder folder;
     Bytes file = tiff_of(folder, 1, {{1, 2, 3}}, {.mode = "wl"});
-    for (const std::uint8_t tag : {0, 1}) { // of the width and the height, 16 or 32 bits, one each
+    for (const std::uint8_t tag : {0, 1}) { // width and height, of 16 or 32 bits
         for (const std::uint8_t type : {3, 4}) {
             const Bytes entry{tag, 1, type, 0, 1, 0, 0, 0};
             const auto at = std::search(file.begin(), file.end(), entry.begin(), entry.end());

@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// Lossless, of pixels with alpha.
+/// Returns a lossless WebP of RGBA pixels.
 Bytes webp(int width_px, int height_px, const Bytes& rgba)
 {
     std::uint8_t* made = nullptr;
@@ -33,7 +33,7 @@ Bytes with_alpha(const Photograph& photo, std::uint8_t alpha)
     return rgba;
 }
 
-TEST(DecodeWebp, LosesNothing)
+TEST(DecodeWebp, ReturnsExactColors)
 {
     const Photograph photo = gradient(20, 11);
     const Bytes bytes = webp(20, 11, with_alpha(photo, 255));
@@ -65,10 +65,10 @@ TEST(DecodeWebp, ReadsLossyFiles)
     }
 }
 
-TEST(DecodeWebp, RefusesFilesThatAreCutOff)
+TEST(DecodeWebp, RefusesTruncatedFiles)
 {
     const Bytes whole = webp(20, 11, with_alpha(gradient(20, 11), 255));
-    for (std::size_t size = 12; size < whole.size() - 1; ++size) { // the last byte pads
+    for (std::size_t size = 12; size < whole.size() - 1; ++size) { // the last byte is padding
         const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
         EXPECT_THAT(refusal<InputError>([&] {
                         decode_webp({kImagePath, cut});

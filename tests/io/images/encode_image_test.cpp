@@ -9,20 +9,20 @@
 namespace vcarve::encode_image_test {
 namespace {
 
-TEST(EncodeImage, GivesTheSameBytesAgain)
+TEST(EncodeImage, ReturnsIdenticalBytes)
 {
     const Photograph photo = gradient(20, 11);
     EXPECT_EQ(encode_jpeg(photo, 80), encode_jpeg(photo, 80));
     EXPECT_EQ(encode_png(photo), encode_png(photo));
 }
 
-TEST(EncodeImage, MakesPngThatLosesNothing)
+TEST(EncodeImage, WritesLosslessPng)
 {
     const Photograph photo = gradient(20, 11);
     EXPECT_EQ(decode_png({kImagePath, encode_png(photo)}).rgb, photo.rgb);
 }
 
-TEST(EncodeImage, MakesJpegOfThatQuality)
+TEST(EncodeImage, WritesJpegOfTheGivenQuality)
 {
     const Photograph photo = gradient(60, 60);
     const Bytes coarse = encode_jpeg(photo, 20);
@@ -40,7 +40,7 @@ TEST(EncodeImage, MakesJpegOfThatQuality)
     EXPECT_LT(error(fine), error(coarse));
 }
 
-TEST(EncodeImage, KeepsColoursOfPixelsSideBySideApart)
+TEST(EncodeImage, SeparatesColorsOfAdjacentPixels)
 {
     Photograph photo{16, 16, {}};
     for (int i = 0; i < 256; ++i) {
@@ -54,7 +54,7 @@ TEST(EncodeImage, KeepsColoursOfPixelsSideBySideApart)
     EXPECT_LT(pixel(read, 5, 4)[0], 50);
 }
 
-TEST(EncodeImage, SaysWhatLibjpegCannot)
+TEST(EncodeImage, ThrowsIfLibjpegFails)
 {
     Photograph wide{70'000, 1, {}};
     wide.rgb.resize(std::size_t{3} * wide.width_px);

@@ -29,7 +29,7 @@ std::filesystem::path put_photo(const TemporaryFolder& folder, const std::string
     return folder.write(name, text_of(encode_jpeg(gradient(width_px, 2), 90)));
 }
 
-TEST(FindPhotographs, FindsThemByTheNamesOfTheViews)
+TEST(FindPhotographs, FindsFilesByViewName)
 {
     const TemporaryFolder folder;
     const auto first = put_photo(folder, "a.jpg", 3);
@@ -46,7 +46,7 @@ TEST(FindPhotographs, FindsThemByTheNamesOfTheViews)
     EXPECT_THAT(found.unusable, IsEmpty());
 }
 
-TEST(FindPhotographs, IgnoresCaseAndEndsOfNamesWithoutAFile)
+TEST(FindPhotographs, IgnoresCaseAndExtensionIfNoFileMatches)
 {
     const TemporaryFolder folder;
     const auto first = put_photo(folder, "A.JPG", 3);
@@ -56,11 +56,11 @@ TEST(FindPhotographs, IgnoresCaseAndEndsOfNamesWithoutAFile)
     const Photographs found = find_photographs(
         scene_of({"a.png", "left/b.c.png", "d.png", "e.jpg", "e.png", "./r_0"}), folder.path());
     EXPECT_THAT(found.of_view, ElementsAre(first, second, "", third, "", fourth))
-        << "e.jpg belongs to the view of its name only";
+        << "e.jpg belongs only to the view of this name";
     EXPECT_EQ(found.missing, 2U);
 }
 
-TEST(FindPhotographs, TakesBackslashesForSlashes)
+TEST(FindPhotographs, AcceptsBackslashesAsSeparators)
 {
     const TemporaryFolder folder;
     const auto photo = put_photo(folder, "left/a.jpg", 3);
@@ -68,7 +68,7 @@ TEST(FindPhotographs, TakesBackslashesForSlashes)
                 ElementsAre(photo));
 }
 
-TEST(FindPhotographs, TakesNamesThatBeginWithTheNameOfTheFolder)
+TEST(FindPhotographs, AcceptsNamesThatBeginWithTheFolder)
 {
     const TemporaryFolder folder;
     const auto photo = put_photo(folder, "images/a.jpg", 3);
@@ -77,7 +77,7 @@ TEST(FindPhotographs, TakesNamesThatBeginWithTheNameOfTheFolder)
     EXPECT_THAT(find_photographs(scene, folder / "images").of_view, ElementsAre(photo));
 }
 
-TEST(FindPhotographs, LeavesOutPhotographsOfAnotherShape)
+TEST(FindPhotographs, RejectsOtherAspectRatios)
 {
     const TemporaryFolder folder;
     Scene scene = scene_of({"whole.png", "half.png", "turned.png", "cropped.png"});
@@ -95,11 +95,11 @@ TEST(FindPhotographs, LeavesOutPhotographsOfAnotherShape)
     EXPECT_THAT(found.unusable,
                 ElementsAre(turned.string() +
                                 ": found 301 x 401 pixels, but the camera's images have 401 x 301; "
-                                "a photograph may be scaled, but not cropped or turned",
+                                "a photograph may be scaled, but not cropped or rotated",
                             HasSubstr("found 401 x 280 pixels")));
 }
 
-TEST(FindPhotographs, StaysWithinTheFolder)
+TEST(FindPhotographs, NeverLeavesTheFolder)
 {
     const TemporaryFolder folder;
     const auto outside = put_photo(folder, "outside.jpg", 3);
@@ -111,7 +111,7 @@ TEST(FindPhotographs, StaysWithinTheFolder)
     EXPECT_EQ(found.missing, 4U);
 }
 
-TEST(FindPhotographs, TellsWhichFilesCannotBeUsed)
+TEST(FindPhotographs, ReportsUnusableFiles)
 {
     const TemporaryFolder folder;
     const auto good = put_photo(folder, "good.jpg", 3);
@@ -128,7 +128,7 @@ TEST(FindPhotographs, TellsWhichFilesCannotBeUsed)
                 HasSubstr(text.string() + ": found an unknown format"));
 }
 
-TEST(FindMasks, AppendsPngToTheNameOfThePhotographOrReplacesItsExtension)
+TEST(FindMasks, AppendsPngToTheNameOrReplacesItsExtension)
 {
     const TemporaryFolder folder;
     const auto first = put_photo(folder, "left/a.jpg.png", 3);
@@ -138,10 +138,10 @@ TEST(FindMasks, AppendsPngToTheNameOfThePhotographOrReplacesItsExtension)
     EXPECT_THAT(found.of_view, ElementsAre(first, second, ""));
     EXPECT_EQ(found.missing, 1U);
     EXPECT_THAT(refusal<InputError>([&] { find_masks(scene_of({"d.jpg"}), folder.path()); }),
-                HasSubstr(": found the mask of none of the 1 views, such as d.jpg"));
+                HasSubstr(": found no mask of the 1 views, such as d.jpg"));
 }
 
-TEST(FindPhotographs, RefusesAFolderThatHoldsNone)
+TEST(FindPhotographs, RefusesFoldersWithoutPhotographs)
 {
     const TemporaryFolder folder;
     const std::string path = folder.path().string();
@@ -150,19 +150,19 @@ TEST(FindPhotographs, RefusesAFolderThatHoldsNone)
             find_photographs(scene_of({"left/a.jpg", "b.jpg"}), folder / name);
         });
     };
-    EXPECT_EQ(refused("."), path + "/.: found the photograph of none of the 2 views, such as "
-                                   "left/a.jpg; expected the folder that the names of the views "
-                                   "are paths in");
-    EXPECT_EQ(refused("gone"), path + "/gone: the folder does not exist or cannot be entered, but "
-                                      "the folder of the photographs is expected");
+    EXPECT_EQ(refused("."), path + "/.: found no photograph of the 2 views, such as left/a.jpg; "
+                                   "expected the folder that the names of the views are relative "
+                                   "to");
+    EXPECT_EQ(refused("gone"), path + "/gone: the folder does not exist or cannot be opened; "
+                                      "expected the folder of the photographs");
     folder.write("file", "");
     EXPECT_EQ(refused("file"),
-              path + "/file: found a file, but the folder of the photographs is expected");
+              path + "/file: found a file; expected the folder of the photographs");
     EXPECT_THAT(refusal<InputError>([&] { find_photographs(scene_of({}), folder.path()); }),
-                HasSubstr("none of the 0 views"));
+                HasSubstr("no photograph of the 0 views"));
 }
 
-TEST(PhotographsBeside, LooksWhereCOLMAPAndItsUsersPutThem)
+TEST(PhotographsBeside, FindsTheUsualFolders)
 {
     const TemporaryFolder folder;
     put_photo(folder, "images/a.jpg", 3);

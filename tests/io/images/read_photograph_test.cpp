@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(ReadPhotograph, GoesByWhatFilesAreNotByTheirNames)
+TEST(ReadPhotograph, DetectsTheFormatByContent)
 {
     const TemporaryFolder folder;
     const Photograph photo = gradient(6, 4);
@@ -24,7 +24,7 @@ TEST(ReadPhotograph, GoesByWhatFilesAreNotByTheirNames)
     EXPECT_EQ(photograph_size(jpeg).height_px, 4);
 }
 
-TEST(ReadPhotograph, KnowsEachKindOfTiff)
+TEST(ReadPhotograph, ReadsEveryKindOfTiff)
 {
     const TemporaryFolder folder;
     for (const char* const mode : {"wl", "wb", "wl8", "wb8"}) {
@@ -55,7 +55,7 @@ TEST(ReadPhotograph, ReadsPpmAndPgm)
     EXPECT_THAT(read_photograph(deep).rgb, ElementsAre(255, 0, 128));
     const auto none = folder.write("none.ppm", "P6 1 x");
     EXPECT_THAT(refusal<InputError>([&] { photograph_size(none); }),
-                testing::HasSubstr("no width, height or range"));
+                testing::HasSubstr("no size or maximum value"));
     const auto cut = folder.write("cut.ppm", "P6 2 2 255\nabc");
     EXPECT_THAT(refusal<InputError>([&] { read_photograph(cut); }),
                 testing::HasSubstr("found a PPM or PGM that cannot be read"));
@@ -89,7 +89,7 @@ TEST(ReadPhotograph, ReadsBmpTgaAndWebp)
     EXPECT_THAT(read_photograph(webp).alpha, ElementsAre(0));
 }
 
-TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
+TEST(ReadPhotograph, RefusesOtherFiles)
 {
     const TemporaryFolder folder;
     const auto refused = [](const std::filesystem::path& path) {
@@ -98,8 +98,8 @@ TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
         return sentence;
     };
     const auto text = folder.write("text.jpg", "to be replaced by a photograph\n");
-    const std::string read = ", but photographs are read as JPEG, PNG, TIFF, WebP, BMP, TGA, PPM "
-                             "and PGM only; convert it to one of them";
+    const std::string read = ", but photographs must be JPEG, PNG, TIFF, WebP, BMP, TGA, binary "
+                             "PPM or PGM; convert it to one of them";
     EXPECT_EQ(refused(text), text.string() + ": found an unknown format" + read);
     const std::pair<std::string_view, const char*> kinds[] = {
         {"GIF89a", "a GIF"},
@@ -113,7 +113,7 @@ TEST(ReadPhotograph, RefusesWhatIsNoPhotograph)
          "an AVIF"},
         {std::string_view("\0\0\0\x0cjP  \r\n", 10), "a JPEG 2000"},
         {std::string_view("\0\0\0\x0cJXL \r\n", 10), "a JPEG XL"},
-        {"P3 1 1 255 1 2 3", "a PPM as text"}};
+        {"P3 1 1 255 1 2 3", "a text PPM"}};
     for (const auto& [bytes, name] : kinds) {
         const auto file = folder.write("kind.jpg", bytes);
         EXPECT_EQ(refused(file), file.string() + ": found " + name + read);

@@ -25,7 +25,7 @@ namespace {
 
 const fs::path kWorkspace = fixtures_folder() / "formats/dense_little";
 
-/// A folder with a dense workspace in "dense".
+/// A folder with a dense workspace `dense`.
 class FindInput : public ::testing::Test {
   protected:
     FindInput() { folder.copy(kWorkspace, "dense"); }
@@ -40,7 +40,7 @@ class FindInput : public ::testing::Test {
     }
     std::string taken() const
     {
-        return "the points are those of " + fused.string() + ", seen by the views of " +
+        return "points are read from " + fused.string() + ", with views of " +
                (dense / "sparse").string();
     }
 
@@ -50,7 +50,7 @@ class FindInput : public ::testing::Test {
     fs::path visibility = dense / "fused.ply.vis";
 };
 
-TEST_F(FindInput, TakesTheCloudOfADenseWorkspaceAndSaysSo)
+TEST_F(FindInput, SelectsAndNotesTheCloudOfADenseWorkspace)
 {
     const FoundInput found = find_input(dense, {});
     ASSERT_TRUE(found.dense);
@@ -59,10 +59,10 @@ TEST_F(FindInput, TakesTheCloudOfADenseWorkspaceAndSaysSo)
     EXPECT_EQ(found.dense->format, ModelFormat::binary);
     EXPECT_EQ(found.dense->cloud, fused);
     EXPECT_EQ(found.dense->visibility, visibility);
-    EXPECT_THAT(found.notes, ElementsAre(taken() + "; --points sparse takes the sparse ones"));
+    EXPECT_THAT(found.notes, ElementsAre(taken() + "; --points sparse selects the sparse points"));
 }
 
-TEST_F(FindInput, TakesTheModelItselfWhereThatIsNamed)
+TEST_F(FindInput, AcceptsTheModelOfADenseWorkspace)
 {
     const FoundInput found = find_input(dense / "sparse", {});
     EXPECT_FALSE(found.dense);
@@ -70,7 +70,7 @@ TEST_F(FindInput, TakesTheModelItselfWhereThatIsNamed)
     EXPECT_THAT(found.notes, IsEmpty());
 }
 
-TEST_F(FindInput, TakesTheCloudThatIsNamed)
+TEST_F(FindInput, AcceptsTheCloudOfADenseWorkspace)
 {
     const FoundInput found = find_input(fused, {});
     ASSERT_TRUE(found.dense);
@@ -79,7 +79,7 @@ TEST_F(FindInput, TakesTheCloudThatIsNamed)
     EXPECT_THAT(found.notes, ElementsAre(taken()));
 }
 
-TEST_F(FindInput, RefusesAMeshInThePlaceOfAModel)
+TEST_F(FindInput, RefusesMeshes)
 {
     const std::string mesh =
         folder.write("mesh.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
@@ -87,21 +87,21 @@ TEST_F(FindInput, RefusesAMeshInThePlaceOfAModel)
                                  "property list uchar int vertex_indices\nend_header\n"
                                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
     EXPECT_EQ(refused(mesh, {}), mesh +
-                                     " is a mesh of 1 faces, but a model or a cloud is wanted; "
-                                     "colmap-vcarve compare MODEL " +
+                                     ": found a mesh of 1 faces, but a model or point cloud is "
+                                     "expected; colmap-vcarve compare MODEL " +
                                      mesh + " measures meshes");
     const std::string other = folder.write("mesh.obj", "v 0 0 0\n");
-    EXPECT_EQ(refused(other, {}), other + ": is a mesh, but a model or a cloud is wanted");
+    EXPECT_EQ(refused(other, {}), other + ": is a mesh; expected a model or a point cloud");
 }
 
-TEST_F(FindInput, NamesTheFormatOfCloudsThatAreNotRead)
+TEST_F(FindInput, ReportsTheFormatOfUnsupportedClouds)
 {
     EXPECT_EQ(refused(dense, {.points = "a/scan.las"}),
-              "a/scan.las: is a scan, which is not read: pdal translate a/scan.las "
-              "a/scan.las.ply converts it");
+              "a/scan.las: scans of this format are not supported; run: pdal translate a/scan.las "
+              "a/scan.las.ply");
 }
 
-TEST_F(FindInput, TakesWhatTheOptionsChoose)
+TEST_F(FindInput, SelectsFilesByOptions)
 {
     EXPECT_FALSE(find_input(dense, {.points = "sparse"}).dense);
     EXPECT_EQ(find_input(dense, {.points = "dense"}).dense->cloud, fused);
@@ -116,104 +116,101 @@ TEST_F(FindInput, TakesWhatTheOptionsChoose)
     EXPECT_EQ(mine.dense->visibility, folder / "mine.vis");
 }
 
-TEST_F(FindInput, LeavesACloudWithoutItsViewsOutAndSaysSo)
+TEST_F(FindInput, IgnoresAndNotesACloudWithoutViews)
 {
     fs::remove(visibility);
     const FoundInput found = find_input(dense, {});
     EXPECT_FALSE(found.dense);
     EXPECT_THAT(found.notes,
-                ElementsAre("the sparse points are taken and " + fused.string() +
-                            " is left out, for there is no " + visibility.string() +
-                            " to tell which views saw its points; --sights nearest does without"));
+                ElementsAre("sparse points are used and " + fused.string() +
+                            " is ignored, because " + visibility.string() +
+                            " with its views is missing; --rays nearest needs no views"));
 }
 
-TEST_F(FindInput, NeedsNoFileForTheNearestViewsAndSaysSo)
+TEST_F(FindInput, NeedsNoViewsForRaysNearest)
 {
     fs::remove(visibility);
     for (const auto& [input, points] :
          {std::pair{dense, ""}, std::pair{dense, "dense"}, std::pair{fused, ""}}) {
         const FoundInput found =
-            find_input(input, {.points = points, .visibility = {}, .sights = SightsFrom::nearest});
+            find_input(input, {.points = points, .visibility = {}, .rays = RaysFrom::nearest});
         ASSERT_TRUE(found.dense);
         EXPECT_EQ(found.dense->cloud, fused);
         EXPECT_TRUE(found.dense->visibility.empty());
-        EXPECT_THAT(
-            found.notes,
-            ElementsAre(::testing::StartsWith(
-                "the points are those of " + fused.string() +
-                "; no file tells which views saw them, so the nearest views of " +
-                (dense / "sparse").string() + " are taken before which no other point stands")));
+        EXPECT_THAT(found.notes,
+                    ElementsAre(::testing::StartsWith(
+                        "points are read from " + fused.string() +
+                        "; no file has their views, so they get the nearest views of " +
+                        (dense / "sparse").string() + " with an unobstructed line to them")));
     }
 }
 
-TEST_F(FindInput, MentionsACloudFartherDown)
+TEST_F(FindInput, NotesAnUnusedDenseWorkspace)
 {
     folder.copy(dense / "sparse", "sparse/0");
     FoundInput found = find_input(folder.path(), {});
     EXPECT_FALSE(found.dense);
     EXPECT_EQ(found.model.folder, folder.path() / "sparse/0");
-    EXPECT_THAT(found.notes, ElementsAre("the sparse points are taken; " + dense.string() +
-                                         " means those of " + fused.string()));
+    EXPECT_THAT(found.notes, ElementsAre("sparse points are used; the input " + dense.string() +
+                                         " selects the points of " + fused.string()));
     fs::rename(dense, folder / "other");
     EXPECT_THAT(find_input(folder.path(), {}).notes, IsEmpty());
 }
 
-TEST_F(FindInput, SaysWhatLiesInTheCloudsPlace)
+TEST_F(FindInput, RefusesPipes)
 {
     const std::string pipe = folder / "pipe.ply";
     ::mkfifo(pipe.c_str(), 0600);
     EXPECT_EQ(refused(dense / "sparse", {.points = pipe}),
               pipe +
-                  ": found something that is not a file, so there are no dense points to take "
-                  "with the views of " +
+                  ": found something that is not a file; expected dense points for the views of " +
                   (dense / "sparse").string());
-    EXPECT_THAT(refused(dense, {.points = fused, .visibility = pipe}),
-                ::testing::StartsWith(pipe + ": found something that is not a file, which tells"));
-    EXPECT_THAT(refused(dense, {.points = pipe, .scanner = {{0, 0, 0}}}),
-                ::testing::StartsWith(pipe + ": found something that is not a file, so there"));
+    EXPECT_THAT(
+        refused(dense, {.points = fused, .visibility = pipe}),
+        ::testing::StartsWith(pipe + ": found something that is not a file; expected the views"));
+    EXPECT_THAT(
+        refused(dense, {.points = pipe, .scanner = {{0, 0, 0}}}),
+        ::testing::StartsWith(pipe + ": found something that is not a file; expected a PLY"));
 }
 
-TEST_F(FindInput, RefusesACloudOrViewsThatAreNotThere)
+TEST_F(FindInput, RefusesMissingCloudsOrViews)
 {
     EXPECT_EQ(refused(dense / "sparse", {.points = "dense"}),
               (dense / "sparse/fused.ply").string() +
-                  ": the file does not exist, so there are no dense points to take with the views "
-                  "of " +
+                  ": the file does not exist; expected dense points for the views of " +
                   (dense / "sparse").string());
     fs::remove(visibility);
     const std::string missing =
-        visibility.string() +
-        ": the file does not exist, which tells which views saw the points "
-        "of " +
+        visibility.string() + ": the file does not exist; expected the views of the points of " +
         fused.string() +
-        ", as COLMAP's stereo_fusion writes it (--visibility names another, "
-        "--sights nearest does without)";
+        ", as written by COLMAP's stereo_fusion (--visibility selects another file, "
+        "--rays nearest needs none)";
     EXPECT_EQ(refused(dense, {.points = "dense"}), missing);
     EXPECT_EQ(refused(fused, {}), missing);
 }
 
-TEST_F(FindInput, RefusesOptionsThatContradictEachOther)
+TEST_F(FindInput, RefusesContradictoryOptions)
 {
-    EXPECT_EQ(misused(fused, {.points = "sparse"}), "--points sparse chooses points for a model, "
-                                                    "but " +
-                                                        fused.string() + " is a cloud itself");
+    EXPECT_EQ(misused(fused, {.points = "sparse"}),
+              "--points sparse selects the points of a model, "
+              "but " +
+                  fused.string() + " is a point cloud");
     EXPECT_EQ(misused(dense, {.points = "sparse", .visibility = "a.vis"}),
-              "--visibility a.vis tells which views saw the points of a cloud, but the sparse "
-              "points of " +
-                  (dense / "sparse").string() + " are taken");
-    EXPECT_EQ(misused(dense, {.points = {}, .visibility = "a.vis", .sights = SightsFrom::nearest}),
-              "--sights nearest reads no file, so it cannot go with --visibility a.vis");
+              "--visibility a.vis is for the points of a PLY file, but the sparse points of " +
+                  (dense / "sparse").string() + " are used");
+    EXPECT_EQ(misused(dense, {.points = {}, .visibility = "a.vis", .rays = RaysFrom::nearest}),
+              "--rays nearest reads no file, so it cannot be combined with --visibility a.vis");
 }
 
-TEST_F(FindInput, TakesTheNearestViewsForSparsePointsOnRequest)
+TEST_F(FindInput, AppliesRaysNearestToSparsePoints)
 {
     const FoundInput found =
-        find_input(dense, {.points = "sparse", .visibility = {}, .sights = SightsFrom::nearest});
+        find_input(dense, {.points = "sparse", .visibility = {}, .rays = RaysFrom::nearest});
     EXPECT_FALSE(found.dense);
-    EXPECT_EQ(found.sights, SightsFrom::nearest);
+    EXPECT_EQ(found.rays, RaysFrom::nearest);
 }
 
-TEST_F(FindInput, NeedsNoPointsOfTheModelWhereOthersAreTaken)
+TEST_F(FindInput, NeedsNoModelPointsWithACloud)
 {
     fs::remove(dense / "sparse/points3D.bin");
     EXPECT_EQ(find_input(dense, {}).dense->cloud, fused);
@@ -222,7 +219,7 @@ TEST_F(FindInput, NeedsNoPointsOfTheModelWhereOthersAreTaken)
     EXPECT_THAT(refused(dense / "sparse", {}), ::testing::HasSubstr("without points3D.bin"));
 }
 
-TEST_F(FindInput, TakesPointsThatStandAsPlyBesideTheViews)
+TEST_F(FindInput, UsesPoints3dPlyIfTheModelHasNoPoints)
 {
     const fs::path sparse = dense / "sparse";
     fs::copy(fused, sparse / "points3D.ply");
@@ -239,11 +236,11 @@ TEST_F(FindInput, TakesPointsThatStandAsPlyBesideTheViews)
     fs::copy(visibility, sparse / "points3D.ply.vis");
     EXPECT_EQ(find_input(sparse, {}).dense->visibility, sparse / "points3D.ply.vis");
     fs::remove(sparse / "points3D.ply.vis");
-    EXPECT_THAT(refused(sparse, {.sights = SightsFrom::file}),
+    EXPECT_THAT(refused(sparse, {.rays = RaysFrom::file}),
                 ::testing::HasSubstr("points3D.ply.vis"));
 }
 
-TEST_F(FindInput, SaysThatThePointsAreCutOffWhereOthersStandIn)
+TEST_F(FindInput, NotesTruncatedPointsReplacedByPoints3dPly)
 {
     const fs::path sparse = dense / "sparse";
     const std::string bytes = bytes_of(sparse / "points3D.bin");
@@ -258,7 +255,7 @@ TEST_F(FindInput, SaysThatThePointsAreCutOffWhereOthersStandIn)
                                ::testing::EndsWith("; copy it again to use its points"))));
 }
 
-TEST_F(FindInput, SaysHowToConvertFoldersOfOtherPrograms)
+TEST_F(FindInput, ExplainsHowToConvertOtherFormats)
 {
     folder.write("splats/cameras.json", R"([{"id": 0, "img_name": "a"}])");
     EXPECT_THAT(refused(folder / "splats", {}), ::testing::HasSubstr("of 3D Gaussian splatting"));
@@ -268,27 +265,30 @@ TEST_F(FindInput, SaysHowToConvertFoldersOfOtherPrograms)
     EXPECT_THAT(refused(folder / "openmvg", {}),
                 ::testing::HasSubstr("openMVG_main_openMVG2Colmap"));
     for (const char* const name : {"a.sfm", "b.xml", "c.splat", "d.spz"}) {
-        EXPECT_THAT(refused(folder.write(name, "x"), {}),
-                    ::testing::AnyOf(::testing::HasSubstr("makes a folder"),
-                                     ::testing::HasSubstr("--points")))
+        EXPECT_THAT(
+            refused(folder.write(name, "x"), {}),
+            ::testing::AnyOf(::testing::HasSubstr("and give "), ::testing::HasSubstr("--points")))
             << name;
     }
 }
 
-/// A scan in the workspace, with views beside it that saw its points.
+/// A dense workspace with a scan.
 class FindScan : public FindInput {
   protected:
-    /// A fixture as the cloud scan.ply of the workspace.
+    /// Copies the scan of a fixture to the workspace.
     void take(const char* format)
     {
         fs::copy(fixtures_folder() / "formats" / format / "scan.ply", scan);
     }
-    std::string taken_scan() const { return "the points are those of " + scan.string() + ", "; }
+    std::string taken_scan() const
+    {
+        return "points are read from " + scan.string() + " with the scanner ";
+    }
 
     fs::path scan = dense / "scan.ply";
 };
 
-TEST_F(FindScan, TakesTheScannersOfThePointsBeforeAnyViews)
+TEST_F(FindScan, PrefersScannerPositionsOfPointsToViews)
 {
     take("scan_origin");
     const fs::path views = folder.write("dense/scan.ply.vis", "");
@@ -296,73 +296,71 @@ TEST_F(FindScan, TakesTheScannersOfThePointsBeforeAnyViews)
     ASSERT_TRUE(found.scan);
     EXPECT_EQ(found.scan->cloud, scan);
     EXPECT_FALSE(found.scan->scanner);
-    const std::string by_each = "measured by the scanners of which it tells at every point; ";
+    const std::string by_each = "position of each point; ";
     EXPECT_THAT(found.notes, ElementsAre(taken_scan() + by_each + views.string() +
-                                         " is left out, --visibility takes it"));
+                                         " is ignored (--visibility selects it)"));
     const FoundInput beside = find_input(dense, {.points = scan});
     EXPECT_TRUE(beside.scan);
     EXPECT_THAT(beside.notes, ElementsAre(taken_scan() + by_each + "the views of " +
-                                          (dense / "sparse").string() + " are left out"));
+                                          (dense / "sparse").string() + " are ignored"));
 }
 
-TEST_F(FindScan, TakesTheViewsThatAreAskedFor)
+TEST_F(FindScan, UsesViewsIfOptionsSelectThem)
 {
     take("scan_origin");
     const FoundInput nearest =
-        find_input(scan, {.points = {}, .visibility = {}, .sights = SightsFrom::nearest});
+        find_input(scan, {.points = {}, .visibility = {}, .rays = RaysFrom::nearest});
     EXPECT_FALSE(nearest.scan);
     EXPECT_TRUE(nearest.dense);
     EXPECT_EQ(find_input(scan, {.points = {}, .visibility = visibility}).dense->visibility,
               visibility);
 }
 
-TEST_F(FindScan, TakesPclsCameraWhereNoFileTellsOfViews)
+TEST_F(FindScan, UsesPclsCameraWithoutAVisibilityFile)
 {
     take("scan_camera");
     const FoundInput found = find_input(scan, {});
     EXPECT_TRUE(found.scan);
-    EXPECT_THAT(found.notes, ElementsAre(taken_scan() +
-                                         "measured by a scanner where its element camera stands"));
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() + "position of its element camera"));
     folder.write("dense/scan.ply.vis", "");
     EXPECT_TRUE(find_input(scan, {}).dense);
 }
 
-TEST_F(FindScan, TakesTheScannerThatIsGiven)
+TEST_F(FindScan, UsesTheScannerOption)
 {
     take("scan_camera");
     const FoundInput found = find_input(scan, {.scanner = Eigen::Vector3d(1, 2.5, -3)});
     EXPECT_EQ(found.scan->scanner, Eigen::Vector3d(1, 2.5, -3));
-    EXPECT_THAT(found.notes, ElementsAre(taken_scan() + "measured by a scanner at 1, 2.5, -3"));
+    EXPECT_THAT(found.notes, ElementsAre(taken_scan() + "at 1, 2.5, -3"));
     EXPECT_TRUE(find_input(dense, {.points = "dense", .scanner = Eigen::Vector3d::Zero()}).scan);
 }
 
-TEST_F(FindScan, RefusesAScannerThatCannotBeMeant)
+TEST_F(FindScan, RefusesContradictoryScannerOptions)
 {
     take("scan_origin");
     const Eigen::Vector3d place(1, 2.5, -3);
     EXPECT_EQ(misused(scan, {.scanner = place}),
-              "--scanner 1,2.5,-3 is one place for all points, but " + scan.string() +
-                  " tells itself where the scanner of each stood");
+              "--scanner 1,2.5,-3 is one position for all points, but " + scan.string() +
+                  " has a scanner position for each point");
     EXPECT_EQ(
         misused(scan,
-                {.points = {}, .visibility = {}, .sights = SightsFrom::nearest, .scanner = place}),
-        "--scanner 1,2.5,-3 says from where the points were measured, so it cannot go with "
-        "--sights nearest");
+                {.points = {}, .visibility = {}, .rays = RaysFrom::nearest, .scanner = place}),
+        "--scanner 1,2.5,-3 gives the scanner position, so it cannot be combined with "
+        "--rays nearest");
     EXPECT_EQ(misused(scan, {.points = {}, .visibility = "a.vis", .scanner = place}),
-              "--scanner 1,2.5,-3 says from where the points were measured, so it cannot go with "
+              "--scanner 1,2.5,-3 gives the scanner position, so it cannot be combined with "
               "--visibility a.vis");
     EXPECT_EQ(misused(dense / "sparse", {.scanner = place}),
-              "--scanner 1,2.5,-3 says from where the points of a PLY file were measured, but the "
-              "sparse points of " +
-                  (dense / "sparse").string() + " are taken");
+              "--scanner 1,2.5,-3 is for the points of a PLY file, but the sparse points of " +
+                  (dense / "sparse").string() + " are used");
     EXPECT_EQ(refused(dense, {.points = "none.ply", .scanner = place}),
-              "none.ply: the file does not exist, so there are no points of a scanner to take");
+              "none.ply: the file does not exist; expected a PLY file of scanned points");
 }
 
-/// Poses of nerfstudio's without any image: what is in them is not asked here.
+/// A transforms.json of nerfstudio without images; these tests do not read its poses.
 const std::string kTransforms = R"({"frames": [{}]})";
 
-TEST_F(FindInput, TakesTransformsWithTheirPointsAndTheNearestViews)
+TEST_F(FindInput, ReadsTransformsWithPointsAndNearestViews)
 {
     const fs::path json = folder.write("nerf/transforms.json", kTransforms);
     const fs::path cloud = folder.write("nerf/sparse_pc.ply", "ply\n");
@@ -377,30 +375,29 @@ TEST_F(FindInput, TakesTransformsWithTheirPointsAndTheNearestViews)
         EXPECT_EQ(found.dense->cloud, cloud);
         EXPECT_EQ(found.dense->visibility, fs::path());
         EXPECT_THAT(found.notes,
-                    ElementsAre("the points are those of " + cloud.string() +
-                                "; no file tells "
-                                "which views saw them, so the nearest views of " +
-                                json.string() + " are taken before which no other point stands"));
+                    ElementsAre("points are read from " + cloud.string() +
+                                "; no file has their views, so they get the nearest views of " +
+                                json.string() + " with an unobstructed line to them"));
         EXPECT_TRUE(found.dense->are_sparse);
         EXPECT_EQ(find_input(input, {.points = other}).dense->cloud, other);
         EXPECT_FALSE(find_input(input, {.points = other}).dense->are_sparse);
     }
 }
 
-TEST_F(FindInput, SaysThatTransformsNeedPoints)
+TEST_F(FindInput, RefusesTransformsWithoutPoints)
 {
     const fs::path json = folder.write("ngp/transforms.json", kTransforms);
     EXPECT_EQ(refused(folder / "ngp", {}),
-              json.string() + ": names no points (ply_file_path), and there is neither "
-                              "sparse_pc.ply nor points3D.ply beside it; --points FILE takes "
-                              "those of a PLY file in the frame of its poses");
+              json.string() + ": has no ply_file_path, and its folder has no sparse_pc.ply or "
+                              "points3D.ply; select a PLY file in the frame of the poses with "
+                              "--points FILE");
     EXPECT_THAT(refused(json, {.points = folder / "nothing.ply"}),
                 ::testing::HasSubstr("nothing.ply: the file does not exist"));
     EXPECT_THAT(refused(json, {.points = "dense"}),
                 ::testing::HasSubstr("ngp/fused.ply: the file does not exist"));
 }
 
-TEST_F(FindInput, PrefersAModelWithTracksToTransforms)
+TEST_F(FindInput, PrefersModelsWithTracksToTransforms)
 {
     folder.copy(fixtures_folder() / "formats/rich_bin", "nerf/colmap/sparse/0");
     const fs::path json = folder.write("nerf/transforms.json", kTransforms);
@@ -409,7 +406,7 @@ TEST_F(FindInput, PrefersAModelWithTracksToTransforms)
     EXPECT_EQ(find_input(json, {}).model.folder, json);
 }
 
-TEST_F(FindInput, TakesTheListsOfACloudWhereNoFileTellsOfItsViews)
+TEST_F(FindInput, UsesTheListsOfACloudWithoutAVisibilityFile)
 {
     const std::string header = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\n"
                                "property float y\nproperty float z\n"
@@ -421,11 +418,10 @@ TEST_F(FindInput, TakesTheListsOfACloudWhereNoFileTellsOfItsViews)
         EXPECT_TRUE(found.dense->takes_lists);
         EXPECT_EQ(found.dense->visibility, fs::path());
         EXPECT_THAT(found.notes,
-                    ElementsAre("the points are those of " + cloud.string() +
-                                ", seen by the views of " + (dense / "sparse").string() +
-                                " that their lists view_indices name"));
+                    ElementsAre("points are read from " + cloud.string() + ", with the views of " +
+                                (dense / "sparse").string() + " in their lists view_indices"));
     }
-    EXPECT_FALSE(find_input(cloud, {.sights = SightsFrom::nearest}).dense->takes_lists);
+    EXPECT_FALSE(find_input(cloud, {.rays = RaysFrom::nearest}).dense->takes_lists);
     EXPECT_EQ(find_input(cloud, {.visibility = visibility}).dense->visibility, visibility);
     folder.write("dense/scene_dense.ply.vis", "");
     EXPECT_FALSE(find_input(cloud, {}).dense->takes_lists);
@@ -435,7 +431,7 @@ TEST_F(FindInput, TakesTheListsOfACloudWhereNoFileTellsOfItsViews)
 
 namespace {
 
-TEST(InputFiles, AreThoseOfTheModelAndOfTheProjectAround)
+TEST(InputFiles, IncludeTheModelAndItsProject)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "sparse/0", 12);
@@ -449,18 +445,18 @@ TEST(InputFiles, AreThoseOfTheModelAndOfTheProjectAround)
                              Not(Contains(folder / "sparse/0/mesh.ply"))));
 }
 
-TEST(InputFiles, AreTheCloudAndItsViews)
+TEST(InputFiles, IncludeTheCloudAndItsViews)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "sparse", 12);
     const auto scan = folder.write("far/scan.ply", "");
     const auto views = folder.write("far/scan.ply.vis", "");
-    const PointsOptions options = {.points = scan, .sights = SightsFrom::nearest};
+    const PointsOptions options = {.points = scan, .rays = RaysFrom::nearest};
     EXPECT_THAT(input_files(folder / "sparse", find_input(folder / "sparse", options)),
                 AllOf(Contains(scan), Contains(views)));
 }
 
-TEST(InputFiles, AreTransformsAndTheirPoints)
+TEST(InputFiles, IncludeTransformsAndTheirPoints)
 {
     const TemporaryFolder folder;
     const auto json = folder.write("t/poses.json", R"({"frames": [{}]})");
@@ -469,7 +465,7 @@ TEST(InputFiles, AreTransformsAndTheirPoints)
                 AllOf(Contains(json), Contains(points)));
 }
 
-TEST(IsImageOfViews, GoesByTheEndOfThePath)
+TEST(IsImageOfViews, ComparesTheEndOfThePath)
 {
     const TemporaryFolder folder;
     write_ball_model(folder / "sparse", 12);

@@ -3,7 +3,7 @@
 #include "model/camera.h"
 #include "support/ball_model.h"
 #include "support/dense_workspace.h"
-#include "support/told_log.h"
+#include "support/recording_log.h"
 #include "vcarve/error.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ class ReadModelOfBall : public ::testing::Test {
 
     std::string refused(const std::filesystem::path& input) const
     {
-        ToldLog log;
+        RecordingLog log;
         return refusal<InputError>([&] { read_model(input, log); });
     }
 
@@ -31,44 +31,44 @@ class ReadModelOfBall : public ::testing::Test {
     std::filesystem::path model = folder / "m";
 };
 
-TEST_F(ReadModelOfBall, SaysWhatToDoWhereThereIsNothingToMesh)
+TEST_F(ReadModelOfBall, ReportsRemediesForEmptyModels)
 {
     folder.write("m/points3D.txt", "# nothing\n");
     EXPECT_EQ(refused(model), (model / "points3D.txt").string() +
-                                  ": holds no points; colmap point_triangulator makes them where "
+                                  ": has no points; colmap point_triangulator computes points if "
                                   "poses are known");
     folder.write("m/images.txt", "");
-    EXPECT_THAT(refused(model), StartsWith((model / "images.txt").string() + ": holds no images"));
+    EXPECT_THAT(refused(model), StartsWith((model / "images.txt").string() + ": has no images"));
 }
 
-TEST_F(ReadModelOfBall, SaysWhatToDoAboutACloudWithoutPoints)
+TEST_F(ReadModelOfBall, ReportsRemediesForEmptyClouds)
 {
     folder.copy(model, "dense/sparse");
     Scene nothing;
     folder.write("dense/fused.ply", cloud_bytes(nothing, CloudEncoding::binary));
     folder.write("dense/fused.ply.vis", visibility_bytes(nothing.tracks));
     EXPECT_THAT(refused(folder / "dense"), StartsWith((folder / "dense/fused.ply").string() +
-                                                      ": holds no points; where stereo_fusion"));
-    EXPECT_THAT(refused(folder / "dense"), EndsWith("--points sparse takes those of the model"));
+                                                      ": has no points; run stereo_fusion"));
+    EXPECT_THAT(refused(folder / "dense"), EndsWith("the points of the model (--points sparse)"));
 }
 
-TEST_F(ReadModelOfBall, NotesWhatWasTakenForUnknown)
+TEST_F(ReadModelOfBall, NotesUnknownErrorsAndColors)
 {
     std::string points = bytes_of(model / "points3D.txt");
     for (std::size_t at = 0; (at = points.find("200 100 50 0.5", at)) != std::string::npos;) {
         points.replace(at, 14, "0 0 0 0.0");
     }
     folder.write("m/points3D.txt", points);
-    ToldLog log;
+    RecordingLog log;
     const ReadModel read = read_found_model(model, {}, log);
     EXPECT_THAT(read.found.notes, Contains(HasSubstr("the error of every point is 0")));
-    EXPECT_THAT(read.found.notes, Contains(HasSubstr("the points have no colours")));
+    EXPECT_THAT(read.found.notes, Contains(HasSubstr("the points have no colors")));
     EXPECT_THAT(read.scene.errors_px, ::testing::Each(-1.0));
 }
 
-TEST_F(ReadModelOfBall, WarnsOfPosesFromCameraToWorld)
+TEST_F(ReadModelOfBall, WarnsAboutCameraToWorldPoses)
 {
-    // From camera to world: the centre stands in the place of the translation.
+    // Camera-to-world poses have the center instead of the translation.
     write_ball_model(model, 60, {2, 3, 5});
     const Scene scene = read_colmap_model(model, ModelFormat::text);
     std::string images;
@@ -78,14 +78,14 @@ TEST_F(ReadModelOfBall, WarnsOfPosesFromCameraToWorld)
                               q.z(), view.center.x(), view.center.y(), view.center.z());
     }
     folder.write("m/images.txt", images);
-    ToldLog log;
+    RecordingLog log;
     EXPECT_THAT(read_found_model(model, {}, log).found.notes,
                 Contains(HasSubstr("camera-to-world")));
 }
 
-TEST_F(ReadModelOfBall, TakesTwoDimensionalPointsBeyondTheEdgesForThoseOfCroppedImages)
+TEST_F(ReadModelOfBall, AcceptsPointsBeyondTheEdgesOfCroppedImages)
 {
-    // 50 x 50 pixels of the 1000 x 1000 that show the points.
+    // Crops images to 50 x 50 of 1000 x 1000 pixels.
     folder.write("m/cameras.txt", "1 SIMPLE_PINHOLE 50 50 1000 25 25\n");
     const auto notes = [&](double off_px) {
         const Scene scene = read_colmap_model(model, ModelFormat::text);
@@ -105,11 +105,11 @@ TEST_F(ReadModelOfBall, TakesTwoDimensionalPointsBeyondTheEdgesForThoseOfCropped
             images += "\n";
         }
         folder.write("m/images.txt", images);
-        ToldLog log;
+        RecordingLog log;
         return read_found_model(model, {}, log).found.notes;
     };
     EXPECT_THAT(notes(3.0), ::testing::IsEmpty());
-    EXPECT_THAT(notes(5.0), Contains(HasSubstr("do not seem to belong together")));
+    EXPECT_THAT(notes(5.0), Contains(HasSubstr("do not seem to match")));
 }
 
 } // namespace

@@ -28,7 +28,7 @@ void expect_points_of_the_fixtures(const PointCloud& cloud)
                                              Vector3d(1.5, -2.0, 6.0)));
 }
 
-TEST(PlyCloud, IsTheSameInEveryEncodingWhateverElseThereIs)
+TEST(PlyCloud, IsEqualInAllEncodingsAndLayouts)
 {
     for (const char* name : {"dense_little", "dense_ascii", "dense_big_lists"}) {
         SCOPED_TRACE(name);
@@ -41,7 +41,7 @@ TEST(PlyCloud, IsTheSameInEveryEncodingWhateverElseThereIs)
     }
 }
 
-TEST(PlyCloud, ComesInParts)
+TEST(PlyCloud, IsReadInParts)
 {
     for (const char* name : {"dense_little", "dense_ascii", "dense_big_lists"}) {
         SCOPED_TRACE(name);
@@ -56,7 +56,7 @@ TEST(PlyCloud, ComesInParts)
     }
 }
 
-TEST(PlyCloud, NamesTheVertexOfTheFileWhateverThePart)
+TEST(PlyCloud, ReportsTheVertexNumberInTheFile)
 {
     const fs::path path = fixtures_folder() / "broken_dense/ply_ascii_ends/fused.ply";
     PlyReader reader(path);
@@ -66,7 +66,7 @@ TEST(PlyCloud, NamesTheVertexOfTheFileWhateverThePart)
               path.string() + ": vertex 2 of 3: the file ends there");
 }
 
-TEST(PlyCloud, NeedsNeitherNormalsNorColours)
+TEST(PlyCloud, NeedsNoNormalsOrColors)
 {
     const PointCloud cloud = read_ply_cloud(kFormats / "dense_bare/fused.ply");
     expect_points_of_the_fixtures(cloud);
@@ -74,7 +74,7 @@ TEST(PlyCloud, NeedsNeitherNormalsNorColours)
     EXPECT_THAT(cloud.colors, IsEmpty());
 }
 
-TEST(PlyCloud, KeepsWhatIsNotFinite)
+TEST(PlyCloud, KeepsPointsThatAreNotFinite)
 {
     const TemporaryFolder folder;
     const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -90,7 +90,7 @@ TEST(PlyCloud, KeepsWhatIsNotFinite)
     }
 }
 
-TEST(PlyCloud, IsReadInParallelInTheOrderOfTheFile)
+TEST(PlyCloud, KeepsFileOrderWhenReadInParallel)
 {
     constexpr std::size_t kPoints = 100'000; // several ranges of points
     std::mt19937 random(3);
@@ -109,7 +109,7 @@ TEST(PlyCloud, IsReadInParallelInTheOrderOfTheFile)
     EXPECT_EQ(cloud.colors, scene.colors);
 }
 
-TEST(PlyCloud, AddsTheOffsetOfItsComment)
+TEST(PlyCloud, AddsTheOffsetOfAComment)
 {
     Scene scene;
     scene.positions = {{0.5, 1, 2}};
@@ -121,14 +121,14 @@ TEST(PlyCloud, AddsTheOffsetOfItsComment)
                 ElementsAre(Vector3d(500000.5, 4600001, -1)));
 }
 
-TEST(PlyCloud, OfNoPointsIsEmpty)
+TEST(PlyCloud, MayBeEmpty)
 {
     const TemporaryFolder folder;
     const fs::path path = folder.write("a.ply", cloud_bytes({}, CloudEncoding::binary));
     EXPECT_THAT(read_ply_cloud(path).positions, IsEmpty());
 }
 
-TEST(PlyCloud, IsRefusedWhereverTheFileIsCut)
+TEST(PlyCloud, IsRefusedIfTruncatedAnywhere)
 {
     const TemporaryFolder folder;
     for (const char* name : {"dense_little", "dense_big_lists"}) {

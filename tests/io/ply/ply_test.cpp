@@ -46,7 +46,7 @@ TriMesh random_mesh(int num_vertices, int num_faces)
     return mesh;
 }
 
-TEST(WritePly, WritesExactlyThisText)
+TEST(WritePly, WritesExpectedText)
 {
     const TemporaryFolder folder;
     TriMesh mesh = two_triangles();
@@ -78,7 +78,7 @@ TEST(WritePly, WritesExactlyThisText)
                                             "3 2 1 3\n");
 }
 
-TEST(WritePly, WritesExactlyTheseBytes)
+TEST(WritePly, WritesExpectedBytes)
 {
     const TemporaryFolder folder;
     TriMesh mesh;
@@ -104,7 +104,7 @@ Provenance provenance_of_two_triangles()
             .supports = {2, 0}};
 }
 
-TEST(WritePly, WritesAProvenanceBehindTheRest)
+TEST(WritePly, AppendsProvenance)
 {
     const TemporaryFolder folder;
     const Provenance provenance = provenance_of_two_triangles();
@@ -157,7 +157,7 @@ TEST(WritePly, IsReadByOpenMesh)
     }
 }
 
-TEST(ReadPly, ReadsBackWhatWasWritten)
+TEST(ReadPly, RoundTrips)
 {
     const TemporaryFolder folder;
     const TriMesh mesh = random_mesh(300, 500);
@@ -181,7 +181,7 @@ TEST(ReadPly, ReadsBackWhatWasWritten)
     }
 }
 
-TEST(ReadPly, AddsBackTheOffsetThatWasSubtracted)
+TEST(ReadPly, RestoresTheSubtractedOffset)
 {
     const TemporaryFolder folder;
     TriMesh mesh = two_triangles();
@@ -198,7 +198,7 @@ TEST(ReadPly, AddsBackTheOffsetThatWasSubtracted)
     }
 }
 
-TEST(ReadPly, TakesOtherCommentsForWords)
+TEST(ReadPly, IgnoresOtherComments)
 {
     const TemporaryFolder folder;
     for (const std::string comment :
@@ -211,7 +211,7 @@ TEST(ReadPly, TakesOtherCommentsForWords)
     EXPECT_EQ(read_ply(folder / "out.ply").offset, Vector3d(-1.5, 2000, 3));
 }
 
-TEST(ReadPly, ReadsAnEmptySurface)
+TEST(ReadPly, ReadsEmptyMeshes)
 {
     const TemporaryFolder folder;
     write_ply(folder / "out.ply", {}, {});
@@ -225,7 +225,7 @@ const std::string kTextHeader = "ply\nformat ascii 1.0\nelement vertex 4\nproper
                                 "property list uchar int vertex_index\nend_header\n";
 const std::string kFourVertices = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
-TEST(ReadPly, FansPolygons)
+TEST(ReadPly, SplitsPolygonsIntoFans)
 {
     const TemporaryFolder folder;
     const TriMesh mesh =
@@ -233,7 +233,7 @@ TEST(ReadPly, FansPolygons)
     EXPECT_EQ(mesh.faces, (std::vector<Face>{{3, 0, 1}, {3, 1, 2}}));
 }
 
-TEST(ReadPly, TakesAnyLayoutOfText)
+TEST(ReadPly, AcceptsAnyTextLayout)
 {
     const TemporaryFolder folder;
     const std::string text =
@@ -260,7 +260,7 @@ TEST(ReadPly, TakesAnyLayoutOfText)
     EXPECT_EQ(mesh.faces, (std::vector<Face>{{0, 1, 2}, {2, 1, 0}}));
 }
 
-/// `value` in the byte order asked for, on a little endian machine.
+/// The bytes of `value` in the given byte order, on a little endian machine.
 template <typename Number>
 std::string raw(Number value, bool big)
 {
@@ -309,14 +309,14 @@ std::string refusal_of(const TemporaryFolder& folder, const std::string& bytes)
                                               : message;
 }
 
-TEST(ReadPly, RefusesABrokenHeader)
+TEST(ReadPly, RefusesBrokenHeaders)
 {
     const TemporaryFolder folder;
     const std::string begin = "ply\nformat ascii 1.0\n";
     EXPECT_EQ(refusal_of(folder, ""),
-              "a.ply: does not begin with the line \"ply\", so it is no PLY file");
+              "a.ply: the first line is not \"ply\", so this is no PLY file");
     EXPECT_EQ(refusal_of(folder, "solid x\n"),
-              "a.ply: does not begin with the line \"ply\", so it is no PLY file");
+              "a.ply: the first line is not \"ply\", so this is no PLY file");
     EXPECT_EQ(refusal_of(folder, begin + "element vertex 3\n"),
               "a.ply: the PLY header has no line end_header");
     EXPECT_EQ(
@@ -342,7 +342,7 @@ TEST(ReadPly, RefusesABrokenHeader)
         "a.ply: line 4 of the PLY header is \"property float\", expected \"property TYPE NAME\"");
     EXPECT_EQ(refusal_of(folder, begin + "end_header\n"), "a.ply: has no element \"vertex\"");
     EXPECT_EQ(refusal_of(folder, begin + "element vertex 0\nend_header\n"),
-              "a.ply: has points but no element \"face\", expected a surface");
+              "a.ply: has no element \"face\", expected a mesh");
     EXPECT_EQ(refusal_of(folder, begin + "element vertex 0\nproperty float x\nproperty float y\n"
                                          "element face 0\nend_header\n"),
               "a.ply: the vertices lack one of the properties x, y and z");
@@ -358,13 +358,13 @@ TEST(ReadPly, RefusesBrokenText)
     const std::string good = kTextHeader + kFourVertices;
     EXPECT_EQ(
         refusal_of(folder, kTextHeader + "0 0 0 1 0 0 1"),
-        "a.ply: the header promises 4 entries \"vertex\" of at least 6 bytes, but only 13 bytes "
+        "a.ply: the header declares 4 entries \"vertex\" of at least 6 bytes, but only 13 bytes "
         "follow");
     EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 0 0 1 1" + std::string(20, ' ')),
               "a.ply: vertex 2 of 4: the file ends there");
     EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 zero 0 1 1 0 0 1 0 3 0 1 2"),
               "a.ply: vertex 1 of 4: found \"zero\", expected a number");
-    for (const std::string word : {"1e400", "-1e400", "1e-400"}) { // no double holds them
+    for (const std::string word : {"1e400", "-1e400", "1e-400"}) { // out of the range of double
         EXPECT_EQ(refusal_of(folder, kTextHeader + "0 0 0 1 " + word + " 0 1 1 0 0 1 0 3 0 1 2"),
                   "a.ply: vertex 1 of 4: found \"" + word + "\", expected a number");
     }
@@ -383,7 +383,7 @@ TEST(ReadPly, RefusesBrokenText)
         "a.ply: face 0 of 1: the list \"vertex_index\" has length 3, but only 4 bytes follow");
 }
 
-TEST(ReadPly, NeverBelievesACountTheFileCannotHold)
+TEST(ReadPly, RefusesCountsThatExceedTheFile)
 {
     const TemporaryFolder folder;
     const std::string vertices = "property double x\nproperty double y\nproperty double z\n";
@@ -391,11 +391,11 @@ TEST(ReadPly, NeverBelievesACountTheFileCannotHold)
     const std::string faces = "\nproperty list uint uint vertex_indices\nend_header\n";
     EXPECT_EQ(
         refusal_of(folder, begin + "18446744073709551615\n" + vertices + "element face 0" + faces),
-        "a.ply: the header promises 18446744073709551615 entries \"vertex\" of at least 24 bytes, "
+        "a.ply: the header declares 18446744073709551615 entries \"vertex\" of at least 24 bytes, "
         "but only 0 bytes follow");
     EXPECT_EQ(
         refusal_of(folder, begin + "0\n" + vertices + "element face 4000000000" + faces + "...."),
-        "a.ply: the header promises 4000000000 entries \"face\" of at least 4 bytes, but only 4 "
+        "a.ply: the header declares 4000000000 entries \"face\" of at least 4 bytes, but only 4 "
         "bytes follow");
     EXPECT_EQ(
         refusal_of(folder,
@@ -404,14 +404,14 @@ TEST(ReadPly, NeverBelievesACountTheFileCannotHold)
         "follow");
 }
 
-TEST(ReadPly, SurvivesEveryCutAndManyDents)
+TEST(ReadPly, SurvivesTruncatedAndDamagedFiles)
 {
     const TemporaryFolder folder;
     std::mt19937 random(3);
     for (const bool ascii : {false, true}) {
         write_ply(folder / "whole.ply", random_mesh(5, 4), {.ascii = ascii, .comments = {}});
         const std::string whole = bytes_of(folder / "whole.ply");
-        // Without its last byte a text may still be whole: it ends with a line break.
+        // A text file without its last byte, a line break, is still complete.
         for (std::size_t size = 0; size + 2 < whole.size(); size += 3) {
             const fs::path path = folder.write("cut.ply", whole.substr(0, size));
             ASSERT_THROW(read_ply(path), InputError) << "cut to " << size << " bytes";

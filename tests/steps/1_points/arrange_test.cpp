@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(CenterPoints, MovesTheMedianToTheOriginAndRecordsTheMove)
+TEST(CenterPoints, MovesTheMedianToTheOriginAndRecordsTheOffset)
 {
     const Scene scene = make_scene(
         {{500010, 0, 0}}, {{{500000, 1, 0}, {0}}, {{500002, 2, 0}, {0}}, {{900000, 3, 0}, {0}}});
@@ -20,14 +20,14 @@ TEST(CenterPoints, MovesTheMedianToTheOriginAndRecordsTheMove)
     EXPECT_EQ(centered.views[0].center, Vector3d(8, -2, 0));
 }
 
-TEST(CenterPoints, IgnoresCoordinatesThatAreNotFinite)
+TEST(CenterPoints, IgnoresNonFiniteCoordinates)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Scene scene = make_scene({{0, 0, 0}}, {{{nan, 5, 5}, {0}}, {{3, 5, 5}, {0}}});
     EXPECT_EQ(center_points(scene).offset, Vector3d(3, 5, 5));
 }
 
-TEST(SpatialSortPoints, GivesOneOrderForAnyOrderOfTheInput)
+TEST(SpatialSortPoints, DoesNotDependOnTheInputOrder)
 {
     const Scene scene = bumpy_sphere(2000, 11);
     const Scene sorted = spatial_sort(scene);
@@ -35,7 +35,7 @@ TEST(SpatialSortPoints, GivesOneOrderForAnyOrderOfTheInput)
     EXPECT_EQ(sorted.point_ids, spatial_sort(permuted(scene, 4)).point_ids);
 }
 
-TEST(SpatialSortPoints, KeepsWhatBelongsToAPointTogether)
+TEST(SpatialSortPoints, MovesAllAttributesOfAPointTogether)
 {
     Scene scene = bumpy_sphere(500, 12);
     for (const Vector3d& position : scene.positions) {

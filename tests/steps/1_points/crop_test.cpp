@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Two views above and one within the box from -1 to 1.
+/// Two views above the box from -1 to 1, and one inside it.
 const std::vector<Vector3d> kCenters = {{0, 0, 10}, {10, 0, 10}, {0, 0, 0.5}};
 
 std::unique_ptr<Region> unit_box()
@@ -24,7 +24,7 @@ std::unique_ptr<Region> unit_box()
     return box_region({-1, -1, -1}, {1, 1, 1});
 }
 
-TEST(Crop, KeepsPointsWithinTheRegionWithAllTheirSights)
+TEST(Crop, KeepsAllRaysOfPointsInsideTheRegion)
 {
     const Scene scene = make_scene(kCenters, {{{0, 0, 0}, {0, 1}}, {{1, 1, 1}, {0, 1, 2}}});
     const CroppedPoints cropped = crop_points(scene, *unit_box());
@@ -35,12 +35,12 @@ TEST(Crop, KeepsPointsWithinTheRegionWithAllTheirSights)
     EXPECT_EQ(cropped.scene.views.size(), scene.views.size());
 }
 
-TEST(Crop, KeepsOfPointsOutsideTheSightsThroughTheRegion)
+TEST(Crop, KeepsRaysOfOutsidePointsThatPassThroughTheRegion)
 {
-    Scene scene = make_scene(kCenters, {{{0, 0, -5}, {0, 1}},   // below: 0 looks through the box
-                                        {{5, 0, 0}, {0, 1}},    // beside: nobody does
-                                        {{0, 0, 0}, {0, 1}},    // within
-                                        {{50, 0, 0}, {0, 2}}}); // beside, 2 looks out of the box
+    Scene scene = make_scene(kCenters, {{{0, 0, -5}, {0, 1}}, // below: view 0 looks through the box
+                                        {{5, 0, 0}, {0, 1}},  // beside: no view does
+                                        {{0, 0, 0}, {0, 1}},  // inside
+                                        {{50, 0, 0}, {0, 2}}}); // beside: view 2 is inside the box
     scene.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
     scene.offset = {7, 8, 9};
     scene.errors_px = {0.1, 0.2, 0.3, 0.4};
@@ -57,22 +57,22 @@ TEST(Crop, KeepsOfPointsOutsideTheSightsThroughTheRegion)
     EXPECT_EQ(cropped.scene.offset, scene.offset);
 }
 
-TEST(Crop, RefusesARegionWithoutPoints)
+TEST(Crop, RejectsARegionWithoutPoints)
 {
     Scene scene = make_scene(kCenters, {{{0, 0, -5}, {0, 1}}, {{5, 2, 0.25}, {0, 1}}});
     scene.offset = {100, 0, 0};
     EXPECT_EQ(refusal<InputError>([&] { crop_points(scene, *unit_box()); }),
-              "no point lies within the region of --crop (x 99 to 101, y -1 to 1, z -1 to 1); the "
-              "points lie in x 100 to 105, y 0 to 2, z -5 to 0.25");
+              "no point is inside the region of --crop (x 99 to 101, y -1 to 1, z -1 to 1); the "
+              "points span x 100 to 105, y 0 to 2, z -5 to 0.25. Enlarge or move the region");
 }
 
-TEST(Crop, LeavesASceneWithoutPointsAsItIs)
+TEST(Crop, AcceptsASceneWithoutPoints)
 {
     const CroppedPoints cropped = crop_points(make_scene(kCenters, {}), *unit_box());
     EXPECT_EQ(cropped.scene.num_points(), 0U);
 }
 
-TEST(Crop, GivesTheSameForAnyNumberOfThreads)
+TEST(Crop, ReturnsTheSamePointsForAnyThreadCount)
 {
     const Scene scene = bumpy_sphere(3000, 4);
     const auto region = box_region({0, -0.5, -0.5}, {2, 0.5, 0.5});
@@ -97,8 +97,8 @@ RegionChoice box(const Vector3d& low, const Vector3d& high)
     return {.kind = RegionChoice::Kind::box, .low = low, .high = high};
 }
 
-/// An octahedron whose corners two views each see from outside, and a point seen by two views that
-/// stand opposite.
+/// An octahedron whose corners are seen from outside by two views each, and a point seen by two
+/// views on the opposite side.
 Scene octahedron_and(const Vector3d& far_point)
 {
     std::vector<Vector3d> centers;
@@ -121,7 +121,7 @@ Scene octahedron_and(const Vector3d& far_point)
     return make_scene(centers, points);
 }
 
-/// How many faces have two opposite corners of the octahedron, so that they lie within it.
+/// The number of faces inside the octahedron: faces with two opposite corners of it.
 std::int64_t faces_within_octahedron(const TriMesh& mesh)
 {
     const auto is_within = [&](const Face& face) {
@@ -135,7 +135,7 @@ std::int64_t faces_within_octahedron(const TriMesh& mesh)
     return std::ranges::count_if(mesh.faces, is_within);
 }
 
-TEST(Crop, LetsWhatIsSeenThroughTheRegionCarveIt)
+TEST(Crop, CarvesWithRaysThatPassThroughTheRegion)
 {
     const RegionChoice region = box({-2, -2, -2}, {2, 2, 2});
     Options options;
@@ -151,14 +151,14 @@ TEST(Crop, LetsWhatIsSeenThroughTheRegionCarveIt)
     EXPECT_EQ(faces_within_octahedron(whole.mesh), 0);
 }
 
-TEST(Crop, LeavesNoFaceWithACornerOutsideTheRegion)
+TEST(Crop, KeepsNoFaceWithACornerOutsideTheRegion)
 {
     const Scene scene = bumpy_sphere(3000, 4);
     const RegionChoice half = box({0, -2, -2}, {2, 2, 2});
     for (const bool closed : {false, true}) {
         Options options;
         options.surface.closed = closed;
-        options.surface.cleanup.max_hole_edges = 0;
+        options.surface.cleanup.max_hole = 0;
         const Reconstruction cropped = run(scene, half, options);
         const MeshCheck check = check_mesh(cropped.mesh);
         EXPECT_GT(check.boundary_edges, 20);
@@ -169,7 +169,7 @@ TEST(Crop, LeavesNoFaceWithACornerOutsideTheRegion)
     }
 }
 
-TEST(Crop, ToAllThereIsChangesNothing)
+TEST(Crop, ChangesNothingIfTheRegionContainsAll)
 {
     const Scene scene = bumpy_sphere(3000, 4);
     const TriMesh all = run(scene, {}).mesh;
@@ -179,7 +179,7 @@ TEST(Crop, ToAllThereIsChangesNothing)
     EXPECT_EQ(cropped.points, all.points);
 }
 
-TEST(Crop, GivesTheSameSurfaceForAnyNumberOfThreads)
+TEST(Crop, ReturnsTheSameSurfaceForAnyThreadCount)
 {
     const Scene scene = bumpy_sphere(3000, 4);
     Options one;
@@ -193,7 +193,7 @@ TEST(Crop, GivesTheSameSurfaceForAnyNumberOfThreads)
     EXPECT_EQ(a.faces, b.faces);
 }
 
-TEST(Crop, MeansTheSamePlaceInMapCoordinates)
+TEST(Crop, AppliesTheRegionInTheModelsCoordinates)
 {
     const Scene scene = bumpy_sphere(3000, 4);
     const Vector3d utm(500000, 4600000, 100);
@@ -203,7 +203,7 @@ TEST(Crop, MeansTheSamePlaceInMapCoordinates)
     EXPECT_EQ(run(far, box(here.low + utm, here.high + utm)).mesh.faces, near.faces);
 }
 
-TEST(Crop, RefusesARegionWithoutAFace)
+TEST(Crop, RejectsARegionWithoutAFace)
 {
     const Scene scene = bumpy_sphere(3000, 4);
     double farthest = 0.0;
@@ -215,7 +215,7 @@ TEST(Crop, RefusesARegionWithoutAFace)
     EXPECT_EQ(refusal<InputError>([&] {
                   run(scene, box({farthest, -9, -9}, {99, 9, 9}));
               }),
-              "no face of the surface lies within the region of --crop");
+              "the region of --crop contains no face of the surface; enlarge it");
 }
 
 } // namespace

@@ -23,7 +23,7 @@ using testing::kUpOfAPixel;
 using testing::rms;
 using testing::two_views;
 
-TEST(DenoisePoints, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
+TEST(DenoisePoints, FlattensAPlaneAndMeasuresItsNoise)
 {
     Scene scene = ground(0.4, flat);
     const double before = rms(scene.positions);
@@ -33,7 +33,7 @@ TEST(DenoisePoints, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
     EXPECT_EQ(report.moved, static_cast<std::int64_t>(scene.num_points()));
 }
 
-TEST(DenoisePoints, NeedsNoSecondViewWhereTheRangeWasMeasured)
+TEST(DenoisePoints, NeedsNoSecondViewForMeasuredRanges)
 {
     Scene scene = ground(0.4, flat);
     Scene scanned = scene;
@@ -50,11 +50,11 @@ TEST(DenoisePoints, NeedsNoSecondViewWhereTheRangeWasMeasured)
     EXPECT_EQ(denoise_points(photographed, {}).moved, 0);
 }
 
-TEST(DenoisePoints, LeavesAScanThatIsExactForTheDistancesOfItsPoints)
+TEST(DenoisePoints, KeepsAScanWhoseNoiseIsSmallForItsSpacing)
 {
-    // The 24th of the points around is about 2.8 spacings away.
+    // The 24th nearest point is about 2.8 spacings away.
     const double spacing = 1.0 / 50.0;
-    const double pixel = kHeight / kFocalPx; // of a range, as of a place in an image
+    const double pixel = kHeight / kFocalPx; // of a range, too
     for (const double share : {0.02, 0.05}) {
         Scene scanned = ground(share * 2.8 * spacing / kUpOfAPixel, flat);
         scanned.cameras[0].measures_range = true;
@@ -68,19 +68,18 @@ TEST(DenoisePoints, LeavesAScanThatIsExactForTheDistancesOfItsPoints)
     }
 }
 
-TEST(DenoisePoints, TakesTheNormalsOfTheCloud)
+TEST(DenoisePoints, UsesTheNormalsOfTheCloud)
 {
     Scene scene = ground(0.4, flat);
     Scene known = scene;
     known.normals.assign(known.num_points(), Vector3f::UnitZ());
     denoise_points(scene, {});
     denoise_points(known, {});
-    EXPECT_LT(rms(known.positions), 0.9 * rms(scene.positions))
-        << "fitted normals are noisy themselves";
+    EXPECT_LT(rms(known.positions), 0.9 * rms(scene.positions)) << "fitted normals are noisy";
     EXPECT_EQ(known.normals, std::vector<Vector3f>(known.num_points(), Vector3f::UnitZ()));
 }
 
-TEST(DenoisePoints, FitsTheNormalsThatTheCloudDoesNotKnow)
+TEST(DenoisePoints, FitsMissingNormals)
 {
     Scene scene = ground(0.4, flat);
     Scene unknown = scene;
@@ -92,7 +91,7 @@ TEST(DenoisePoints, FitsTheNormalsThatTheCloudDoesNotKnow)
 
 TEST(DenoisePoints, KeepsEdges)
 {
-    // A roof: averaging without regard to normals cuts its ridge off.
+    // A roof: averaging that ignores normals cuts off its ridge.
     const auto roof = [](double x, double) { return -std::abs(x); };
     Scene scene = ground(0.2, roof);
     const double before = rms(scene.positions, roof);
@@ -108,7 +107,7 @@ TEST(DenoisePoints, KeepsEdges)
     EXPECT_LT(lowered / near_ridge, 0.35 * before);
 }
 
-TEST(DenoisePoints, LeavesExactPointsWhereTheyAre)
+TEST(DenoisePoints, KeepsExactPoints)
 {
     Scene scene = ground(0.0, flat);
     const Scene before = scene;
@@ -118,7 +117,7 @@ TEST(DenoisePoints, LeavesExactPointsWhereTheyAre)
     EXPECT_EQ(scene.positions, before.positions);
 }
 
-TEST(DenoisePoints, LeavesPointsWhoseSightsDoNotCross)
+TEST(DenoisePoints, KeepsPointsWhoseRaysDoNotCross)
 {
     Scene scene = ground(0.4, flat);
     const Scene before = scene;
@@ -135,7 +134,7 @@ TEST(DenoisePoints, LeavesPointsWhoseSightsDoNotCross)
     EXPECT_EQ(scene.positions[1235], before.positions[1235]);
 }
 
-TEST(DenoisePoints, DoesNotPullOutliersIn)
+TEST(DenoisePoints, DoesNotPullOutliersToTheSurface)
 {
     Scene scene = ground(0.2, flat);
     scene.normals.assign(scene.num_points(), Vector3f::UnitZ());
@@ -152,10 +151,10 @@ TEST(DenoisePoints, DoesNotPullOutliersIn)
     EXPECT_EQ(scene.positions[far_outlier], far_before);
 }
 
-TEST(DenoisePoints, MovesPointsAlongWhatIsUncertain)
+TEST(DenoisePoints, MovesPointsInTheDirectionOfUncertainty)
 {
-    // The views are far above the ground, and so it is up and down where a point is uncertain; a
-    // steep slope is left by that way, not across.
+    // The views are far above the ground, so points are uncertain in z. They move along z even on
+    // a steep slope, not along its normal.
     const auto slope = [](double x, double) { return 2.0 * x; };
     Scene scene = ground(0.3, slope);
     const Scene before = scene;
@@ -170,9 +169,9 @@ TEST(DenoisePoints, MovesPointsAlongWhatIsUncertain)
     EXPECT_GT(up, 4.0 * across);
 }
 
-TEST(DenoisePoints, KeepsTheTwoSidesOfABoardApart)
+TEST(DenoisePoints, KeepsTwoSidesOfABoardApart)
 {
-    // Two sheets nearer to each other than the noise allows to tell, seen from above and below.
+    // Two surfaces closer to each other than the noise, seen from above and below.
     constexpr double kThickness = 0.01;
     Scene scene = two_views();
     scene.views.push_back(
@@ -205,7 +204,7 @@ TEST(DenoisePoints, KeepsTheTwoSidesOfABoardApart)
     EXPECT_NEAR(lower, -kThickness, 0.1 * kThickness);
 }
 
-TEST(DenoisePoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
+TEST(DenoisePoints, ReturnsTheSameForAnyThreadCountAndScale)
 {
     const Scene scene = ground(0.4, [](double x, double y) { return 0.2 * std::sin(9.0 * x) * y; });
     const auto by = [&](int threads) {
@@ -226,7 +225,7 @@ TEST(DenoisePoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
     }
 }
 
-TEST(DenoisePoints, LeavesTooFewPoints)
+TEST(DenoisePoints, DoesNotMoveTooFewPoints)
 {
     for (std::size_t count = 0; count < 6; ++count) {
         Scene scene = two_views();
@@ -235,14 +234,14 @@ TEST(DenoisePoints, LeavesTooFewPoints)
         }
         const Scene before = scene;
         denoise_points(scene, {});
-        EXPECT_EQ(scene.positions, before.positions) << "they lie in a plane";
+        EXPECT_EQ(scene.positions, before.positions) << "they are coplanar";
     }
 }
 
-TEST(KeepApart, PutsBackWhatCameToOnePlace)
+TEST(KeepApart, MovesCoincidentPointsBack)
 {
     const std::vector<Vector3d> before = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
-    // The first two meet where the third was, which meets the fourth there once it is put back.
+    // The first two points coincide. The first, moved back, then coincides with the fourth.
     std::vector<Vector3d> positions = {{5, 0, 0}, {5, 0, 0}, {4, 0, 0}, {0, 0, 0}};
     keep_apart(positions, before);
     EXPECT_EQ(positions, (std::vector<Vector3d>{{0, 0, 0}, {1, 0, 0}, {4, 0, 0}, {3, 0, 0}}));

@@ -42,9 +42,9 @@ TEST(Filter, KeepsEveryGoodPointInOrder)
               0);
 }
 
-TEST(MedianAngle, IsThatOfTheFirstRayAndTheFarthest)
+TEST(MedianAngle, IsTheAngleBetweenTheFirstRayAndTheFarthest)
 {
-    // The cameras are 10 away and at most 4 apart, as atan(0.4) says.
+    // The cameras are 10 away and at most 4 apart, so the angle is atan(0.4).
     const Scene wide = make_scene(kCenters, {{{0, 0, 0}, {0, 1, 2}}, {{0, 0, 0}, {0, 1}}});
     EXPECT_NEAR(median_angle_deg(wide), 21.80, 0.01);
     const Scene still = make_scene(kCenters, {{{0, 0, 0}, {0, 2}}, {{0, 0, 0}, {0}}});
@@ -53,14 +53,14 @@ TEST(MedianAngle, IsThatOfTheFirstRayAndTheFarthest)
     EXPECT_EQ(median_angle_deg(one_view), 0.0);
 }
 
-TEST(Filter, DropsEachBadPointForItsOwnReason)
+TEST(Filter, CountsDroppedPointsByReason)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     Scene scene = make_scene(kCenters, {{{1, 0, 0}, {0, 1}},   // good
                                         {{nan, 0, 0}, {0, 1}}, // not finite
                                         {{2, 0, 0}, {0}},      // one view
                                         {{3, 0, 0}, {0, 1}},   // error, see below
-                                        {{4, 0, 0}, {0, 2}}}); // 0.06 degrees between its sights
+                                        {{4, 0, 0}, {0, 2}}}); // 0.06 degrees between its rays
     scene.errors_px[3] = 4.5;
     const FilteredPoints result = filter_points(scene, {});
     EXPECT_EQ(result.scene.point_ids, (std::vector<std::uint64_t>{1}));
@@ -71,7 +71,7 @@ TEST(Filter, DropsEachBadPointForItsOwnReason)
     EXPECT_EQ(result.report.duplicate, 0);
 }
 
-TEST(Filter, DropsPointsBeyondAllPlaces)
+TEST(Filter, DropsPointsBeyondTheLargestCoordinate)
 {
     const Scene scene = make_scene(kCenters, {{{1, 0, 0}, {0, 1}},
                                               {{1e160, 0, 0}, {0, 1}},
@@ -82,7 +82,7 @@ TEST(Filter, DropsPointsBeyondAllPlaces)
     EXPECT_EQ(result.report.non_finite, 3);
 }
 
-TEST(Filter, AsksForAnAngleOnlyOfPointsThatWereTriangulated)
+TEST(Filter, RequiresAnAngleOnlyForPointsWithSeveralViews)
 {
     const Scene scene = make_scene(kCenters, {{{1, 0, 0}, {1}}, {{4, 0, 0}, {0, 2}}});
     const FilteredPoints result = filter_points(scene, {.min_views = 1});
@@ -90,10 +90,10 @@ TEST(Filter, AsksForAnAngleOnlyOfPointsThatWereTriangulated)
     EXPECT_EQ(result.report.low_angle, 1);
 }
 
-TEST(Filter, KeepsTheViewsOfAllPointsAtAPlaceBehindOthersThatAreDropped)
+TEST(Filter, KeepsViewsOfMergedPointsAfterDroppedPoints)
 {
     const Scene scene = make_scene(kCenters, {{{2, 0, 0}, {0}},      // one view
-                                              {{1, 0, 0}, {0, 1}},   // at one place
+                                              {{1, 0, 0}, {0, 1}},   // coincides
                                               {{1, 0, 0}, {1, 2}},   // with this
                                               {{4, 0, 0}, {0, 2}},   // 0.06 degrees
                                               {{3, 0, 0}, {0, 1}}}); // good
@@ -104,7 +104,7 @@ TEST(Filter, KeepsTheViewsOfAllPointsAtAPlaceBehindOthersThatAreDropped)
     EXPECT_EQ(result.scene.positions, (std::vector<Vector3d>{{1, 0, 0}, {3, 0, 0}}));
 }
 
-TEST(Filter, AsksForNoSecondViewWhereTheRangeWasMeasured)
+TEST(Filter, RequiresNoSecondViewForMeasuredRanges)
 {
     Scene scene = make_scene(kCenters, {{{2, 0, 0}, {0}}, {{3, 0, 0}, {0, 2}}, {{4, 0, 0}, {1}}});
     scene.cameras.push_back(scene.cameras.front());
@@ -118,7 +118,7 @@ TEST(Filter, AsksForNoSecondViewWhereTheRangeWasMeasured)
     EXPECT_EQ(result.report.few_views, 1);
 }
 
-TEST(Filter, DropsNothingButNonFinitePointsWhenSwitchedOff)
+TEST(Filter, KeepsFinitePointsIfAllLimitsAreOff)
 {
     Scene scene =
         make_scene(kCenters, {{{2, 0, 0}, {0}}, {{3, 0, 0}, {0, 1}}, {{4, 0, 0}, {0, 2}}});
@@ -126,19 +126,19 @@ TEST(Filter, DropsNothingButNonFinitePointsWhenSwitchedOff)
     EXPECT_EQ(filter_points(scene, all_off()).scene.num_points(), 3U);
 }
 
-TEST(Filter, KeepsPointsOfUnknownError)
+TEST(Filter, KeepsPointsWithUnknownError)
 {
     Scene scene = make_scene(kCenters, {{{1, 0, 0}, {0, 1}}});
     scene.errors_px[0] = -1.0;
     EXPECT_EQ(filter_points(scene, {}).scene.num_points(), 1U);
 }
 
-TEST(Filter, MergesPointsAtOnePlaceAndUnitesTheirViews)
+TEST(Filter, MergesCoincidentPointsAndTheirViews)
 {
     Scene scene = make_scene(
         kCenters,
         {{{1, 0, 0}, {0}}, {{7, 7, 7}, {0, 1}}, {{1, 0, 0}, {1, 2}}, {{1, 0, 0}, {0, 2}}});
-    scene.errors_px[3] = 0.25; // as many views as the third, smaller error: the best
+    scene.errors_px[3] = 0.25; // as many views as the third, but a smaller error: the best
     const FilteredPoints result = filter_points(scene, {});
     EXPECT_EQ(result.report.duplicate, 2);
     EXPECT_EQ(result.scene.point_ids, (std::vector<std::uint64_t>{2, 4}));
@@ -147,9 +147,9 @@ TEST(Filter, MergesPointsAtOnePlaceAndUnitesTheirViews)
     EXPECT_EQ(result.scene.tracks.views, (std::vector<std::uint32_t>{0, 1, 0, 1, 2}));
 }
 
-TEST(Filter, JudgesTheAngleByTheWidestPairOfSights)
+TEST(Filter, UsesTheWidestAngleBetweenRays)
 {
-    // Seen at 0.06 degrees by views 0 and 2 and at about 22 degrees by view 1.
+    // The rays to views 0 and 2 differ by 0.06 degrees, and view 1 by about 22 degrees.
     const Scene scene = make_scene(kCenters, {{{0, 0, 0}, {0, 1, 2}}});
     FilterOptions options;
     options.min_angle_deg = 21.0;
@@ -158,7 +158,7 @@ TEST(Filter, JudgesTheAngleByTheWidestPairOfSights)
     EXPECT_EQ(filter_points(scene, options).scene.num_points(), 0U);
 }
 
-TEST(Filter, KeepsTheNormalsOfThePointsItKeeps)
+TEST(Filter, KeepsNormalsOfKeptPoints)
 {
     Scene scene =
         make_scene(kCenters, {{{1, 0, 0}, {0, 1}}, {{2, 0, 0}, {0}}, {{3, 0, 0}, {0, 1}}});
@@ -177,7 +177,7 @@ Numbers all_of(std::size_t count)
     return numbers;
 }
 
-/// The corners of a box whose middle half has a diagonal of 1.
+/// The corners of a box; the middle half of the points has a box with diagonal 1.
 std::vector<Vector3d> corners()
 {
     const Vector3d side = Vector3d::Ones() / std::sqrt(3.0);
@@ -189,14 +189,14 @@ std::vector<Vector3d> corners()
     return places;
 }
 
-TEST(FirstAtPlace, IsTheLeastOfThoseNearerThanABillionthOfTheSize)
+TEST(FirstAtPlace, IsTheFirstPointWithinABillionthOfTheSize)
 {
     std::vector<Vector3d> places = corners();
-    places.push_back(places[3]);                                // 8: the same
-    places.emplace_back(places[5] + Vector3d(0.9e-9, 0, 0));    // 9: near enough
-    places.emplace_back(places[6] + Vector3d(0, 1.1e-9, 0));    // 10: not
-    places.emplace_back(places[5] + Vector3d(1.7e-9, 0, 0));    // 11: near to 9
-    places.emplace_back(places[1] - Vector3d(0, 1e-16, 1e-16)); // 12: by rounding
+    places.push_back(places[3]);                                // 8: equal
+    places.emplace_back(places[5] + Vector3d(0.9e-9, 0, 0));    // 9: close enough
+    places.emplace_back(places[6] + Vector3d(0, 1.1e-9, 0));    // 10: too far
+    places.emplace_back(places[5] + Vector3d(1.7e-9, 0, 0));    // 11: close to 9
+    places.emplace_back(places[1] - Vector3d(0, 1e-16, 1e-16)); // 12: rounding
     Numbers expected = all_of(places.size());
     expected[8] = 3;
     expected[9] = 5;
@@ -205,7 +205,7 @@ TEST(FirstAtPlace, IsTheLeastOfThoseNearerThanABillionthOfTheSize)
     EXPECT_EQ(first_at_place(places, all_of(places.size())), expected);
 }
 
-TEST(FirstAtPlace, LeavesAloneWhatIsNotFinite)
+TEST(FirstAtPlace, DoesNotMergeNonFinitePoints)
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<Vector3d> places = corners();
@@ -214,16 +214,16 @@ TEST(FirstAtPlace, LeavesAloneWhatIsNotFinite)
     EXPECT_EQ(first_at_place(places, all_of(8)), all_of(10));
 }
 
-TEST(FirstAtPlace, IsTheSameWhereRoundingIsCoarse)
+TEST(FirstAtPlace, MergesTheSamePointsIfRoundingIsCoarse)
 {
-    // As far off as UTM coordinates are, where doubles are 1e-9 apart.
+    // The size of UTM coordinates, which have a precision of 1e-9.
     const Vector3d way(5e5, 4.6e6, 100.0);
     const Positions places = random_points(2000, 77);
     std::vector<Vector3d> near;
     std::vector<Vector3d> far;
     Numbers expected;
     for (std::uint32_t i = 0; i < 2000; ++i) {
-        const bool again = i % 10 == 9; // the point before
+        const bool again = i % 10 == 9; // copies the point before
         const Vector3d place =
             again ? Vector3d(near[i - 1] * (1.0 + 4e-16)) : Vector3d(40.0 * places[i]);
         near.push_back(place);
@@ -234,10 +234,11 @@ TEST(FirstAtPlace, IsTheSameWhereRoundingIsCoarse)
     EXPECT_EQ(first_at_place(far, all_of(far.size())), expected);
 }
 
-TEST(FirstAtPlace, JudgesAPartByItselfHoweverFarTheRestLies)
+TEST(FirstAtPlace, ComparesAFarPartByItsOwnSize)
 {
     for (const double away : {1e12, 1e50, 1e100}) {
-        const double size = std::max(1.0, 1e-12 * away); // of the part, so that it has digits
+        const double size =
+            std::max(1.0, 1e-12 * away); // large enough for the precision of doubles
         const Positions places = random_points(1000, 5);
         std::vector<Vector3d> parts = places;
         for (const Vector3d& place : places) {
@@ -252,7 +253,7 @@ TEST(FirstAtPlace, JudgesAPartByItselfHoweverFarTheRestLies)
     }
 }
 
-TEST(FirstAtPlace, IsOneForManyCopiesToo)
+TEST(FirstAtPlace, MergesManyCopies)
 {
     std::vector<Vector3d> places = random_points(1000, 6);
     Numbers expected = all_of(places.size());
@@ -263,11 +264,11 @@ TEST(FirstAtPlace, IsOneForManyCopiesToo)
     EXPECT_EQ(first_at_place(places, all_of(places.size())), expected);
 }
 
-TEST(FirstAtPlace, TellsPointsOfAPlaneAcrossAnAxisApart)
+TEST(FirstAtPlace, DistinguishesPointsOfAnAxisAlignedPlane)
 {
     std::vector<Vector3d> places;
     Numbers expected;
-    for (std::uint32_t i = 0; i < 20'000; ++i) { // more than are compared at one distance
+    for (std::uint32_t i = 0; i < 20'000; ++i) { // more than are compared at one coordinate
         places.emplace_back(0.5, i / 200, i % 200);
         expected.push_back(i);
     }
@@ -276,10 +277,10 @@ TEST(FirstAtPlace, TellsPointsOfAPlaneAcrossAnAxisApart)
     EXPECT_EQ(first_at_place(places, all_of(places.size())), expected);
 }
 
-// What reading, filtering and sorting take beside the points themselves: models of which a machine
-// can just hold the points must get through.
+// The memory of reading, filtering and sorting, beside the points. A machine must process any model
+// whose points just fit in its memory.
 
-#ifndef VCARVE_SANITIZED // sanitizers need memory of their own
+#ifndef VCARVE_SANITIZED // sanitizers use additional memory
 
 constexpr std::size_t kPoints = 1'000'000;
 constexpr double kPerPoint = static_cast<double>(kPoints);
@@ -295,23 +296,23 @@ double memory_of_reading(const Scene& scene)
     return taken;
 }
 
-TEST(PointsMemory, OfReadingIsThatOfTheSceneAndAFifth)
+TEST(PointsMemory, ReadingNeedsAtMostAFifthMoreThanTheScene)
 {
-    // As many sights as an array that grew by three at first would just have been doubled for
+    // This number of rays would just have doubled an array that began with three per point
     Scene scene = many_points(1'050'000);
     EXPECT_LT(memory_of_reading(scene), 1.1 * bytes_of_points(scene))
-        << "the file is given back, tracks do not grow, ids that ascend are not sorted";
+        << "the file is unmapped, tracks do not grow, ascending ids are not sorted";
     std::ranges::reverse(scene.point_ids);
     EXPECT_LT(memory_of_reading(scene), 1.2 * bytes_of_points(scene));
 }
 
-TEST(PointsMemory, OfCenteringIsOneCoordinate)
+TEST(PointsMemory, CenteringNeedsOneCoordinatePerPoint)
 {
     Scene scene = many_points(kPoints);
     EXPECT_LT(memory_taken([&] { scene = center_points(std::move(scene)); }), 10.0 * kPerPoint);
 }
 
-TEST(PointsMemory, OfFilteringIsNotASecondScene)
+TEST(PointsMemory, FilteringNeedsNoSecondScene)
 {
     Scene scene = many_points(kPoints);
     FilteredPoints filtered;
@@ -320,14 +321,14 @@ TEST(PointsMemory, OfFilteringIsNotASecondScene)
     EXPECT_EQ(filtered.scene.num_points(), kPoints);
 }
 
-TEST(PointsMemory, OfSortingIsNotASecondScene)
+TEST(PointsMemory, SortingNeedsNoSecondScene)
 {
     Scene scene = many_points(kPoints);
     EXPECT_LT(memory_taken([&] { scene = spatial_sort(std::move(scene)); }), 44.0 * kPerPoint);
     EXPECT_EQ(scene.num_points(), kPoints);
 }
 
-TEST(PointsMemory, OfCroppingIsNotASecondScene)
+TEST(PointsMemory, CroppingNeedsNoSecondScene)
 {
     Scene scene = many_points(kPoints);
     const auto region = box_region({-9, -9, -9}, {9, 9, 9});

@@ -16,7 +16,8 @@ const std::vector<Vector3d> kCenters = {{0, 0, 4}, {0.5, 0, 4}, {0, 0.5, 4}};
 const std::vector<std::uint32_t> kTwo = {0, 1};
 const std::vector<std::uint32_t> kThree = {0, 1, 2};
 
-/// Points in rows and columns across the views' way, `half` of them to each side of the middle.
+/// A square grid of points across the viewing direction, with `half` points on each side of the
+/// center.
 std::vector<MadePoint> grid(int half, double spacing, double z,
                             const std::vector<std::uint32_t>& views)
 {
@@ -29,7 +30,7 @@ std::vector<MadePoint> grid(int half, double spacing, double z,
     return points;
 }
 
-/// A wall before the views, and further points.
+/// A wall in front of the views, and other points.
 Scene wall_and(const std::vector<MadePoint>& others)
 {
     std::vector<MadePoint> points = grid(20, 0.05, 0.0, kThree);
@@ -42,7 +43,7 @@ std::int64_t num_stray(Scene scene, const FilterOptions& options = {})
     return drop_stray_points(scene, options);
 }
 
-TEST(StrayPoints, GoWhereTwoViewsSawThemAlone)
+TEST(StrayPoints, AreIsolatedPointsOfTwoViews)
 {
     Scene scene = wall_and({{{0.1, 0, 2}, kTwo}});
     const Scene clean = wall_and({});
@@ -56,36 +57,36 @@ TEST(StrayPoints, GoWhereTwoViewsSawThemAlone)
     EXPECT_EQ(scene.colors.size(), scene.num_points());
 }
 
-TEST(StrayPoints, StayWhereThreeViewsAgree)
+TEST(StrayPoints, AreKeptIfThreeViewsAgree)
 {
     EXPECT_EQ(num_stray(wall_and({{{0.1, 0, 2}, kThree}})), 0);
 }
 
-TEST(StrayPoints, StayNearOthers)
+TEST(StrayPoints, AreKeptIfCloseToOthers)
 {
-    // 8 and 21 times as far from the 4th nearest point, seen from their views, as the wall's points
+    // The isolation is 8 and 21 times that of the wall's points.
     EXPECT_EQ(num_stray(wall_and({{{0.01, 0.01, 0.35}, kTwo}})), 0);
     EXPECT_EQ(num_stray(wall_and({{{0.01, 0.01, 0.85}, kTwo}})), 1);
 }
 
-TEST(StrayPoints, GoSoonerWhereTheirErrorIsLarge)
+TEST(StrayPoints, HaveALowerLimitIfTheirErrorIsLarge)
 {
     Scene scene = wall_and({{{0.01, 0.01, 0.55}, kTwo}}); // 13 times
     EXPECT_EQ(num_stray(scene), 0);
     scene.errors_px[7] = 2.0;
     EXPECT_EQ(num_stray(scene), 1);
-    // One of twenty has an error as large
+    // One error in twenty is as large
     for (std::size_t i = 100; i < 300; ++i) {
         scene.errors_px[i] = 2.0;
     }
     EXPECT_EQ(num_stray(scene), 0);
-    scene.errors_px.assign(scene.num_points(), -1.0); // not known
+    scene.errors_px.assign(scene.num_points(), -1.0); // unknown
     EXPECT_EQ(num_stray(scene), 0);
-    scene.errors_px[7] = 0.5; // of those that are known, as large as any
+    scene.errors_px[7] = 0.5; // the largest of the known errors
     EXPECT_EQ(num_stray(scene), 0);
 }
 
-TEST(StrayPoints, StayLongerWhereTheirErrorIsSmall)
+TEST(StrayPoints, HaveAHigherLimitIfTheirErrorIsSmall)
 {
     Scene scene = wall_and({{{0.01, 0.01, 0.85}, kTwo}}); // 21 times
     scene.errors_px[7] = 0.49;
@@ -95,7 +96,7 @@ TEST(StrayPoints, StayLongerWhereTheirErrorIsSmall)
     EXPECT_EQ(num_stray(farther), 1);
 }
 
-TEST(StrayPoints, StayInACrowd)
+TEST(StrayPoints, AreKeptInACrowd)
 {
     std::vector<MadePoint> crowd;
     for (int i = 0; i < 4; ++i) {
@@ -106,14 +107,14 @@ TEST(StrayPoints, StayInACrowd)
     EXPECT_EQ(num_stray(wall_and(crowd)), 0);
 }
 
-TEST(StrayPoints, AreNotTheBackgroundThatIsSeenAsDensely)
+TEST(StrayPoints, DoNotIncludeABackgroundAsDenseInTheImages)
 {
     EXPECT_EQ(num_stray(wall_and(grid(2, 5.0, -396.0, kTwo))), 0);
-    // Nearer, the same points are far apart as they are seen.
+    // Closer to the views, the same points are far apart in the images.
     EXPECT_EQ(num_stray(wall_and(grid(2, 5.0, -4.0, kTwo))), 25);
 }
 
-TEST(StrayPoints, StayWhereAScannerMeasuredThem)
+TEST(StrayPoints, AreKeptIfAScannerMeasuredThem)
 {
     Scene scene = wall_and({{{0.1, 0, 2}, {1}}});
     EXPECT_EQ(num_stray(scene), 1);
@@ -123,7 +124,7 @@ TEST(StrayPoints, StayWhereAScannerMeasuredThem)
     EXPECT_EQ(num_stray(scene), 0);
 }
 
-TEST(StrayPoints, StayWhereAllAreWantedOrFewAreThere)
+TEST(StrayPoints, AreKeptIfDisabledOrIfPointsAreFew)
 {
     FilterOptions options;
     options.stray_spacing = 0.0;
@@ -135,12 +136,12 @@ TEST(StrayPoints, StayWhereAllAreWantedOrFewAreThere)
     }
 }
 
-TEST(StrayPoints, GoWhereTheirViewStands)
+TEST(StrayPoints, IncludeAPointAtACameraCenter)
 {
     EXPECT_EQ(num_stray(wall_and({{kCenters[0], kTwo}})), 1);
 }
 
-TEST(StrayPoints, AreTheSameInOtherUnits)
+TEST(StrayPoints, DoNotDependOnTheUnit)
 {
     std::vector<MadePoint> stray;
     for (int i = 0; i < 40; ++i) {

@@ -24,7 +24,7 @@ using ::testing::Le;
 
 constexpr ThinOptions kOnePixel = {.merge_px = 1.0};
 
-/// A view 10 above the ground, whose pixels cover 0.1 of what lies below it, and one beside it.
+/// A view 10 above the ground, whose pixels are 0.1 wide there, and one beside it.
 Scene views_from_above()
 {
     Scene scene;
@@ -52,7 +52,7 @@ void add(Scene& scene, const Point& point)
     scene.tracks.push_back(point.views);
 }
 
-/// A wavy sheet with many points a pixel.
+/// A wavy surface with many points per pixel.
 Scene wavy_sheet(int count)
 {
     std::mt19937_64 random(7);
@@ -74,13 +74,13 @@ Scene thin_in_parts(const Scene& scene, std::size_t at_once)
     return thin_points(parts, kOnePixel, {}, at_once);
 }
 
-TEST(ThinParts, LeavesAboutAsManyPointsAsTheWholeWithAllViewsNearEveryPoint)
+TEST(ThinParts, ReturnAboutTheSamePointCountAndKeepAllViews)
 {
     const Scene scene = wavy_sheet(20'000);
     const auto whole = static_cast<double>(thin_points(scene, kOnePixel).num_points());
-    const Scene thin = thin_in_parts(scene, 700); // which is less than are left
+    const Scene thin = thin_in_parts(scene, 700); // fewer than the result
     EXPECT_NEAR(static_cast<double>(thin.num_points()), whole, 0.05 * whole);
-    // The diagonal of a cube, twice since parts are merged before they meet, and half a side more.
+    // Twice the diagonal of a cube, since parts are merged before they meet, plus half a side.
     const double reach = 0.1 * std::sqrt(2.0) * (2.0 * std::sqrt(3.0) + 0.5);
     for (std::size_t i = 0; i < scene.num_points(); i += 7) {
         bool found = false;
@@ -93,14 +93,14 @@ TEST(ThinParts, LeavesAboutAsManyPointsAsTheWholeWithAllViewsNearEveryPoint)
     }
 }
 
-TEST(ThinParts, MakesOnePointTheMeanOfAllHoweverTheyComeTogether)
+TEST(ThinParts, ReturnTheMeanOfAllMergedPoints)
 {
     Scene scene = views_from_above();
     add(scene, {{0.010, 0.01, 0.0}, {0}, {10, 0, 200}, Vector3f::UnitZ()});
     add(scene, {{0.020, 0.01, 0.0}, {0}, {20, 0, 200}, Vector3f::UnitX()});
     add(scene, {{0.030, 0.01, 0.0}, {1}, {30, 0, 200}, Vector3f::UnitZ()});
     scene.normals[1] = Vector3f(0.0F, 0.6F, 0.8F);
-    add(scene, {{5.0, 5.0, 0.0}, {0}}); // far away, and so is the middle of the last part
+    add(scene, {{5.0, 5.0, 0.0}, {0}}); // moves the center of the last part
     const Scene thin = thin_in_parts(scene, 2);
     ASSERT_EQ(thin.num_points(), 2U);
     EXPECT_TRUE((thin.positions[0] + thin.offset).isApprox(Vector3d(0.02, 0.01, 0.0)));
@@ -110,7 +110,7 @@ TEST(ThinParts, MakesOnePointTheMeanOfAllHoweverTheyComeTogether)
     EXPECT_TRUE((thin.positions[1] + thin.offset).isApprox(scene.positions[3]));
 }
 
-TEST(ThinParts, TakesPartsThatHaveNothingToMerge)
+TEST(ThinParts, AcceptPartsWithoutPointsToMerge)
 {
     Scene scene = views_from_above();
     add(scene, {{0.01, 0.01, 0.0}, {}});
@@ -123,7 +123,7 @@ TEST(ThinParts, TakesPartsThatHaveNothingToMerge)
     EXPECT_EQ(none.views.size(), 2U);
 }
 
-TEST(ThinParts, AreAskedForSoManyPointsAtATime)
+TEST(ThinParts, AreReadWithAtMostTheGivenPointCount)
 {
     struct Asked final : SceneParts {
         explicit Asked(const Scene& scene) : parts(scene) {}
@@ -143,7 +143,7 @@ TEST(ThinParts, AreAskedForSoManyPointsAtATime)
     EXPECT_THAT(parts.asked, Each(Le(300U)));
 }
 
-TEST(ThinParts, AreTheSameForAnyNumberOfThreads)
+TEST(ThinParts, ReturnTheSamePointsForAnyThreadCount)
 {
     const Scene scene = wavy_sheet(10'000);
     const auto by = [&](int threads) {
@@ -154,7 +154,7 @@ TEST(ThinParts, AreTheSameForAnyNumberOfThreads)
     expect_equal_scenes(by(3), one);
 }
 
-TEST(ThinParts, AreTheSameFromFilesAsFromMemory)
+TEST(ThinParts, ReturnTheSamePointsFromFilesAndMemory)
 {
     const std::filesystem::path folder = fixtures_folder() / "dense_room";
     const DenseFiles files = {folder / "sparse", ModelFormat::text, folder / "fused.ply",

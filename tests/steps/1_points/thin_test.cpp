@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-/// Views 10 above the ground and 20, whose pixels cover 0.1 and 0.2 of what lies below them.
+/// Two views 10 and 20 above the ground, whose pixels are 0.1 and 0.2 wide there.
 Scene two_views()
 {
     Scene scene;
@@ -34,7 +34,7 @@ void add(Scene& scene, const Vector3d& position, const std::vector<std::uint32_t
     scene.tracks.push_back(views);
 }
 
-/// Where a point is in the frame of the scene that was thinned.
+/// The position of a point in the frame of the input scene.
 Vector3d place(const Scene& thin, std::size_t point)
 {
     return thin.positions[point] + thin.offset;
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> track(const Scene& scene, std::size_t point)
     return {views.begin(), views.end()};
 }
 
-TEST(ThinPoints, MergesWhatOnePixelShowsAndKeepsItsSights)
+TEST(ThinPoints, MergesPointsWithinAPixelAndKeepsTheirRays)
 {
     Scene scene = two_views();
     add(scene, {0.01, 0.01, 0.0}, {0});
@@ -55,7 +55,7 @@ TEST(ThinPoints, MergesWhatOnePixelShowsAndKeepsItsSights)
     const Scene thin = thin_points(scene, {.merge_px = 1.0});
     ASSERT_EQ(thin.num_points(), 2U);
     EXPECT_EQ(thin.point_ids, (std::vector<std::uint64_t>{1, 2}))
-        << "the one with more views leads";
+        << "the point with more views leads";
     EXPECT_TRUE(place(thin, 0).isApprox(scene.positions[1]));
     EXPECT_TRUE(place(thin, 1).isApprox(Vector3d(0.02, 0.015, 0.0)));
     EXPECT_EQ(thin.colors[1], (Color{20, 0, 0}));
@@ -63,7 +63,7 @@ TEST(ThinPoints, MergesWhatOnePixelShowsAndKeepsItsSights)
     EXPECT_EQ(track(thin, 1), (std::vector<std::uint32_t>{0, 1}));
 }
 
-TEST(ThinPoints, LeavesTheTwoSidesOfABoardApart)
+TEST(ThinPoints, KeepsTwoSidesOfABoardApart)
 {
     Scene scene = two_views();
     for (const double z : {0.01, 0.03, 0.02, 0.04}) {
@@ -79,7 +79,7 @@ TEST(ThinPoints, LeavesTheTwoSidesOfABoardApart)
     EXPECT_NEAR(place(thin, 1).z(), 0.035, 1e-15);
 }
 
-TEST(ThinPoints, LeavesTheTwoSidesOfAnEdgeApartButMergesRoundABend)
+TEST(ThinPoints, KeepsSidesOfAnEdgeApartButMergesAcrossABend)
 {
     constexpr double kPi = 3.14159265358979323846;
     const auto merged_at = [&](double degrees) {
@@ -95,7 +95,7 @@ TEST(ThinPoints, LeavesTheTwoSidesOfAnEdgeApartButMergesRoundABend)
     EXPECT_EQ(merged_at(65.0), 2U);
 }
 
-TEST(ThinPoints, MergesPointsWhoseNormalsAreNotKnown)
+TEST(ThinPoints, MergesPointsWithUnknownNormals)
 {
     Scene scene = two_views();
     add(scene, {0.01, 0.01, 0.01}, {0, 1});
@@ -104,10 +104,10 @@ TEST(ThinPoints, MergesPointsWhoseNormalsAreNotKnown)
     EXPECT_EQ(thin_points(scene, {.merge_px = 1.0}).num_points(), 1U);
 }
 
-TEST(ThinPoints, LetsCoarsePointsJoinFineOnes)
+TEST(ThinPoints, MergesCoarsePointsIntoFineOnes)
 {
-    // One seen from below 10, and one in the next fine cube that only the far view saw. Many more
-    // make the footprint of the near view the usual one.
+    // One point is seen by the near view, and one in the next fine cube only by the far view. More
+    // points make the footprint of the near view the median.
     Scene scene = two_views();
     add(scene, {0.17, 0.01, 0.01}, {1});
     add(scene, {0.01, 0.01, 0.01}, {0});
@@ -116,11 +116,11 @@ TEST(ThinPoints, LetsCoarsePointsJoinFineOnes)
     }
     const Scene thin = thin_points(scene, {.merge_px = 1.0});
     ASSERT_EQ(thin.num_points(), 11U);
-    EXPECT_EQ(thin.point_ids[0], 1U) << "the fine one leads";
+    EXPECT_EQ(thin.point_ids[0], 1U) << "the fine point leads";
     EXPECT_EQ(track(thin, 0), (std::vector<std::uint32_t>{0, 1}));
 }
 
-TEST(ThinPoints, MergesAcrossTheBordersOfCubes)
+TEST(ThinPoints, MergesAcrossBordersOfCubes)
 {
     Scene scene = two_views();
     add(scene, {0.999 * 0.1, 0.01, 0.0}, {0});
@@ -128,7 +128,7 @@ TEST(ThinPoints, MergesAcrossTheBordersOfCubes)
     EXPECT_EQ(thin_points(scene, {.merge_px = 1.0}).num_points(), 1U);
 }
 
-TEST(ThinPoints, LeavesPointsBeyondAllCubesAndThoseNobodySaw)
+TEST(ThinPoints, KeepsPointsOutsideTheCubesOrWithoutViews)
 {
     Scene scene = two_views();
     add(scene, {0.01, 0.01, 0.0}, {0});
@@ -142,7 +142,7 @@ TEST(ThinPoints, LeavesPointsBeyondAllCubesAndThoseNobodySaw)
     EXPECT_EQ(thin_points(scene, {.merge_px = 1.0}).num_points(), 6U);
 }
 
-/// A wavy sheet of many points, each seen by some of both views.
+/// A wavy surface of many points, each seen by one or both views.
 Scene wavy_sheet(int count)
 {
     std::mt19937_64 random(7);
@@ -161,12 +161,12 @@ Scene wavy_sheet(int count)
     return scene;
 }
 
-TEST(ThinPoints, LeavesAPointWithAllItsViewsNearEveryPoint)
+TEST(ThinPoints, KeepsAllViewsOfEveryPointNearIt)
 {
     const Scene scene = wavy_sheet(5000);
     const Scene thin = thin_points(scene, {.merge_px = 1.0});
     EXPECT_LT(thin.num_points(), 2500U);
-    // The diagonal of the largest cube that a footprint of 0.2 goes into, and half a side more.
+    // The diagonal of the largest cube for a footprint of 0.2, plus half a side.
     const double reach = 0.2 * (std::sqrt(3.0) + 0.5);
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
         const auto views = scene.tracks[i];
@@ -179,14 +179,14 @@ TEST(ThinPoints, LeavesAPointWithAllItsViewsNearEveryPoint)
     }
 }
 
-TEST(ThinPoints, MergesPartsOfASceneThatHasAnOffset)
+TEST(ThinPoints, MergesPartsOfASceneWithAnOffset)
 {
     Scene scene = wavy_sheet(3000);
     scene.offset = Vector3d(5.0, -7.0, 100.0);
     const Scene whole = thin_points(scene, {.merge_px = 1.0});
     PartsOfScene parts(scene);
     const Scene thin = thin_points(parts, {.merge_px = 1.0}, {}, 1000);
-    // Each merged point lies among those of the whole sheet.
+    // Each merged point is near a point of the whole surface.
     for (std::size_t i = 0; i < thin.num_points(); ++i) {
         double nearest = 1e9;
         for (std::size_t k = 0; k < whole.num_points(); ++k) {
@@ -196,7 +196,7 @@ TEST(ThinPoints, MergesPartsOfASceneThatHasAnOffset)
     }
 }
 
-TEST(ThinPoints, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
+TEST(ThinPoints, ReturnsTheSameForAnyThreadCountAndScale)
 {
     const Scene scene = wavy_sheet(3000);
     const auto by = [&](int threads) {

@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 using namespace flat_scenes;
 
-/// On creases alone.
+/// Adds points only on creases.
 const AddedPointOptions kOnCreases = {.border_gap = 0.0, .textureless_step = 0.0};
 
 std::int64_t num_added(Scene scene, const AddedPointOptions& options = kOnCreases)
@@ -31,7 +31,7 @@ std::int64_t num_added(Scene scene, const AddedPointOptions& options = kOnCrease
     return add_points(scene, options).added;
 }
 
-TEST(AddPoints, LeavesTheModelsPointsAsTheyAre)
+TEST(AddPoints, KeepsExistingPoints)
 {
     const Scene before = together({wall(0.35), ground(0.35)});
     Scene scene = before;
@@ -48,7 +48,7 @@ TEST(AddPoints, LeavesTheModelsPointsAsTheyAre)
     EXPECT_EQ(kept, before.num_points());
 }
 
-TEST(AddPoints, GivesThemTheColourAndTheErrorOfPointsBesideThem)
+TEST(AddPoints, UsesTheColorAndErrorOfPointsBesideThem)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
@@ -65,7 +65,7 @@ TEST(AddPoints, GivesThemTheColourAndTheErrorOfPointsBesideThem)
     }
 }
 
-TEST(AddPoints, AddsThemToDenseClouds)
+TEST(AddPoints, AddsPointsToDenseClouds)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
     const std::int64_t of_model = num_added(scene);
@@ -73,14 +73,14 @@ TEST(AddPoints, AddsThemToDenseClouds)
     EXPECT_EQ(num_added(scene), of_model);
 }
 
-TEST(AddPoints, AddsNoneToScans)
+TEST(AddPoints, AddsNoPointsToScans)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
     scene.cameras.front().measures_range = true;
     EXPECT_EQ(num_added(scene), 0);
 }
 
-TEST(AddPoints, AddsNoneWherePointsAre)
+TEST(AddPoints, AddsFewPointsInASecondRun)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
     const std::int64_t first = add_points(scene, kOnCreases).added;
@@ -88,7 +88,7 @@ TEST(AddPoints, AddsNoneWherePointsAre)
     EXPECT_LE(num_added(scene), first / 10);
 }
 
-TEST(AddPoints, AddsTheSameForAnyNumberOfThreads)
+TEST(AddPoints, AddsTheSamePointsForAnyThreadCount)
 {
     Scene several = together({wall(0.35), ground(0.35)});
     Scene one = several;
@@ -102,7 +102,7 @@ TEST(AddPoints, AddsTheSameForAnyNumberOfThreads)
 
 using namespace flat_scenes;
 
-/// A wall across z without points around its middle.
+/// A wall in the plane z = 0, without points around its center.
 std::vector<MadePoint> wall_with_gap(const Views& views = kAll)
 {
     std::vector<MadePoint> points = flat({-1.0, -1.0}, {1.0, 1.0}, views,
@@ -116,7 +116,7 @@ Candidate on_wall(double x, double y)
     return {.position = {x, y, 0.0}, .kind = PointKind::border, .step = kSpacing};
 }
 
-/// What is accepted on the largest planar region of a scene.
+/// The accepted candidates on the largest planar region of a scene.
 std::vector<AcceptedPoint> accepted(const Scene& scene, std::vector<Candidate> candidates)
 {
     const PlanarRegions planes = planar_regions(scene, {});
@@ -130,7 +130,7 @@ std::vector<AcceptedPoint> accepted(const Scene& scene, std::vector<Candidate> c
     return accept(scene, planes, std::move(candidates), {});
 }
 
-TEST(Accept, TakesAPlaceAmidItsRegionWithTheViewsOfTheNearestPoints)
+TEST(Accept, AcceptsAGapOfARegionWithTheViewsOfTheNearestPoints)
 {
     const Scene scene = together({wall_with_gap()});
     const std::vector<AcceptedPoint> points = accepted(scene, {on_wall(0.02, 0.03)});
@@ -147,14 +147,14 @@ TEST(Accept, TakesAPlaceAmidItsRegionWithTheViewsOfTheNearestPoints)
     EXPECT_EQ(points[0].beside, nearest);
 }
 
-TEST(Accept, TakesNoPlaceAtAPoint)
+TEST(Accept, RejectsCandidatesAtPoints)
 {
     const Scene scene = together({wall_with_gap()});
     const Vector3d& at = scene.positions[scene.num_points() / 2];
     EXPECT_TRUE(accepted(scene, {on_wall(at.x() + 0.2 * kSpacing, at.y())}).empty());
 }
 
-TEST(Accept, TakesNoPlaceAmidOtherThings)
+TEST(Accept, RejectsCandidatesAmongPointsOfOtherObjects)
 {
     std::vector<MadePoint> thing;
     for (int i = 0; i < 4; ++i) {
@@ -162,17 +162,17 @@ TEST(Accept, TakesNoPlaceAmidOtherThings)
     }
     const Candidate amid = on_wall(0.05, 0.05);
     EXPECT_TRUE(accepted(together({wall_with_gap(), thing}), {amid}).empty());
-    thing.pop_back(); // five of eight are the wall's
+    thing.pop_back(); // five of eight belong to the wall
     EXPECT_EQ(accepted(together({wall_with_gap(), thing}), {amid}).size(), 1U);
 }
 
-TEST(Accept, NeedsTwoViews)
+TEST(Accept, RequiresTwoViews)
 {
     EXPECT_TRUE(accepted(together({wall_with_gap({1})}), {on_wall(0, 0)}).empty());
     EXPECT_EQ(accepted(together({wall_with_gap({0, 1})}), {on_wall(0, 0)}).size(), 1U);
 }
 
-TEST(Accept, AsksNoViewBehindThePlane)
+TEST(Accept, IgnoresViewsBehindThePlane)
 {
     std::vector<Vector3d> centers = kCenters;
     centers.emplace_back(0.0, 0.0, 1.0);
@@ -182,11 +182,11 @@ TEST(Accept, AsksNoViewBehindThePlane)
     EXPECT_EQ(points[0].track, kAll);
 }
 
-TEST(Accept, TakesNoPlaceThroughWhoseSurfaceAsManySightsPassAsSeeIt)
+TEST(Accept, RejectsCandidatesWithAsManyRaysThroughTheirSurfaceAsViews)
 {
     Candidate candidate = on_wall(0, 0);
     candidate.surface = {{Vector3d(-0.2, -0.2, 0), Vector3d(0.2, -0.2, 0), Vector3d(0, 0.3, 0)}};
-    // A point right behind the place, at which the views look through the surface.
+    // Views see a point right behind the candidate through the surface.
     const auto num_accepted = [&](const Views& views) {
         return accepted(together({wall_with_gap(), {{{0, 0, 0.5}, views}}}), {candidate}).size();
     };
@@ -196,7 +196,7 @@ TEST(Accept, TakesNoPlaceThroughWhoseSurfaceAsManySightsPassAsSeeIt)
     EXPECT_EQ(num_accepted({0, 1, 2}), 1U);
 }
 
-TEST(Accept, TakesTheFirstOfPlacesThatAreCloseToEachOther)
+TEST(Accept, AcceptsTheFirstOfCloseCandidates)
 {
     const Scene scene = together({wall_with_gap()});
     const std::vector<AcceptedPoint> points =
@@ -209,13 +209,13 @@ TEST(Accept, TakesTheFirstOfPlacesThatAreCloseToEachOther)
 using Triangle = std::array<Vector3d, 3>;
 using Counts = std::vector<std::uint32_t>;
 
-/// A triangle around the z axis, so high.
+/// A triangle around the z axis, at height `z`.
 Triangle across(double z)
 {
     return {Vector3d(-1.0, -1.0, z), Vector3d(2.0, -1.0, z), Vector3d(-1.0, 2.0, z)};
 }
 
-/// Points at height 0 beside the axis, seen by a view at height 10.
+/// Points at height 0 near the axis, seen by a view at height 10.
 Scene upward(int points)
 {
     std::vector<MadePoint> made;
@@ -227,10 +227,10 @@ Scene upward(int points)
 
 Counts count(const Scene& scene, const std::vector<Triangle>& triangles, double margin)
 {
-    return sights_through(scene, triangles, std::vector<double>(scene.num_points(), margin), {});
+    return rays_through(scene, triangles, std::vector<double>(scene.num_points(), margin), {});
 }
 
-TEST(SightsThrough, AreThoseThatMeetTheTriangle)
+TEST(RaysThrough, AreCountedIfTheyMeetTheTriangle)
 {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-1.0, 1.0);
@@ -261,15 +261,15 @@ TEST(SightsThrough, AreThoseThatMeetTheTriangle)
     EXPECT_GT(*std::ranges::max_element(expected), 20U);
 }
 
-TEST(SightsThrough, DoNotReachTheirPoints)
+TEST(RaysThrough, OmitTheMarginAtTheirPoints)
 {
     const std::vector<Triangle> triangles = {across(0.5), across(1.5), across(4.5), across(5.5)};
     EXPECT_EQ(count(upward(3), triangles, 1.0), Counts({0, 3, 3, 3}));
-    // half of the sight at most
+    // at most half of the ray
     EXPECT_EQ(count(upward(3), triangles, 100.0), Counts({0, 0, 0, 3}));
 }
 
-TEST(SightsThrough, AreNoneOfAPointInItsView)
+TEST(RaysThrough, DoNotIncludeAPointAtItsView)
 {
     const Scene scene = make_scene({{0.0, 0.0, 0.0}}, {{{0.0, 0.0, 0.0}, {0}}});
     EXPECT_EQ(count(scene, {across(0.0)}, 0.0), Counts({0}));

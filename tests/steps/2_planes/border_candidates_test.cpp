@@ -25,17 +25,17 @@ using flat_scenes::together;
 using flat_scenes::track_of;
 using flat_scenes::Views;
 
-/// None on creases.
+/// Adds points only on borders.
 const AddedPointOptions kOnBorders = {.crease_reach = 0.0, .textureless_step = 0.0};
 
-/// A board that the views look at, 1 wide and .8 high.
+/// A board in front of the views, 1 wide and .8 high.
 std::vector<MadePoint> board(const Views& views = kAll)
 {
     return flat({-0.5, -0.4}, {0.5, 0.4}, views,
                 [](double u, double v) { return Vector3d(u, v, 0.0); });
 }
 
-/// What stands far behind it, rough and denser than it as the views see both.
+/// A rough surface far behind the board, with denser points in the images.
 std::vector<MadePoint> backdrop(const Views& views = kAll)
 {
     return flat({-1.6, -1.4}, {1.6, 1.4}, views, [](double u, double v) {
@@ -43,7 +43,7 @@ std::vector<MadePoint> backdrop(const Views& views = kAll)
     });
 }
 
-/// The backdrop as far as the views see it past the board, and so far beyond its border.
+/// The part of the backdrop that all views see past the board, at least `beyond` from its border.
 std::vector<MadePoint> seen_backdrop(double beyond = 0.05)
 {
     std::vector<MadePoint> seen = backdrop();
@@ -75,7 +75,7 @@ TEST(BorderCandidates, AreAddedAroundABoard)
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_EQ(report.added, std::ssize(added));
     EXPECT_EQ(scene.num_points(), before.num_points() + added.size());
-    // Of the border, 3.6 long, most of the length has points.
+    // Most of the border, 3.6 long, has points.
     EXPECT_GT(added.size(), 20U);
     EXPECT_LT(added.size(), 70U);
 }
@@ -87,7 +87,7 @@ TEST(BorderCandidates, AreNotAddedToDenseClouds)
     EXPECT_EQ(num_added(scene), 0);
 }
 
-TEST(BorderCandidates, StandInThePlaneNextToTheBoard)
+TEST(BorderCandidates, AreInThePlaneBesideTheBoard)
 {
     Scene scene = together({board(), seen_backdrop()});
     add_points(scene, kOnBorders);
@@ -95,12 +95,12 @@ TEST(BorderCandidates, StandInThePlaneNextToTheBoard)
         const Vector3d& at = scene.positions[i];
         EXPECT_LT(std::abs(at.z()), 0.01 * kSpacing);
         const double beyond = std::max(std::abs(at.x()) - 0.5, std::abs(at.y()) - 0.4);
-        EXPECT_GT(beyond, -0.5 * kSpacing) << "amid the board";
-        EXPECT_LT(beyond, 1.0 * kSpacing) << "off the board";
+        EXPECT_GT(beyond, -0.5 * kSpacing) << "inside the board";
+        EXPECT_LT(beyond, 1.0 * kSpacing) << "far from the board";
     }
 }
 
-TEST(BorderCandidates, AreSeenByWhoSawThePointsBesideThem)
+TEST(BorderCandidates, HaveTheViewsOfPointsBesideThem)
 {
     Scene scene = together({board(), seen_backdrop()});
     add_points(scene, kOnBorders);
@@ -110,7 +110,7 @@ TEST(BorderCandidates, AreSeenByWhoSawThePointsBesideThem)
     }
 }
 
-TEST(BorderCandidates, StandOnAllSides)
+TEST(BorderCandidates, AreOnAllSides)
 {
     Scene scene = together({board(), seen_backdrop()});
     add_points(scene, kOnBorders);
@@ -125,9 +125,9 @@ TEST(BorderCandidates, StandOnAllSides)
     EXPECT_GE(std::ranges::min(sides), 3);
 }
 
-TEST(BorderCandidates, StandApart)
+TEST(BorderCandidates, AreApartFromOtherPoints)
 {
-    // Some sights pass so close to the board that the place would be at its point.
+    // Some rays pass so close to the board that a candidate would be at a point.
     Scene scene = together({board(), seen_backdrop(0.02)});
     add_points(scene, kOnBorders);
     const std::vector<std::size_t> added = added_points(scene);
@@ -141,10 +141,10 @@ TEST(BorderCandidates, StandApart)
     }
 }
 
-TEST(BorderCandidates, AreNoneWhereNoSightPasses)
+TEST(BorderCandidates, NeedRaysBesideTheBoard)
 {
     EXPECT_EQ(num_added(together({board()})), 0);
-    // Only to the right of it
+    // Rays only to the right of it
     auto right = seen_backdrop();
     std::erase_if(right, [](const MadePoint& point) { return point.position.x() < 0.7; });
     Scene scene = together({board(), right});
@@ -156,9 +156,9 @@ TEST(BorderCandidates, AreNoneWhereNoSightPasses)
     }
 }
 
-TEST(BorderCandidates, GoAsFarAsTheGap)
+TEST(BorderCandidates, NeedRaysWithinTheGap)
 {
-    // Nothing is seen past the board within 2.5 spacings of it.
+    // No ray passes within 2.5 spacings of the board.
     const auto far = seen_backdrop(0.25);
     const Scene scene = together({board(), far});
     EXPECT_GT(num_added(scene, {.crease_reach = 0.0, .border_gap = 4.0, .textureless_step = 0.0}),
@@ -170,7 +170,7 @@ TEST(BorderCandidates, GoAsFarAsTheGap)
               0);
 }
 
-TEST(BorderCandidates, AreNoneOfFewPoints)
+TEST(BorderCandidates, NeedARegionOf20Points)
 {
     auto small = board();
     std::erase_if(small, [](const MadePoint& point) {
@@ -178,7 +178,7 @@ TEST(BorderCandidates, AreNoneOfFewPoints)
     });
     ASSERT_LT(small.size(), 20U);
     ASSERT_GE(small.size(), 12U);
-    std::vector<MadePoint> far; // seen past its border, all around it
+    std::vector<MadePoint> far; // seen past the border, on all sides
     for (int i = 0; i < 400; ++i) {
         const double turn = 0.1 * i;
         const double radius = 0.4 + 0.001 * i;
@@ -189,15 +189,15 @@ TEST(BorderCandidates, AreNoneOfFewPoints)
     EXPECT_EQ(num_added(together({small, far})), 0);
 }
 
-TEST(BorderCandidates, AreNoneWhereTheSurfaceGoesOn)
+TEST(BorderCandidates, AreNotAddedToACurvedSurface)
 {
-    // Sights pass close to a ball's flat parts, but the ball goes on there.
+    // Rays pass close to flat parts of a ball, but these have no border.
     EXPECT_EQ(num_added(together({ball(8000, -0.2)})), 0);
 }
 
-TEST(BorderCandidates, AreNoneAmidOtherThings)
+TEST(BorderCandidates, AreNotAddedBesideOtherObjects)
 {
-    // To the right something rough touches the board, as a hedge a wall.
+    // A rough object touches the board on the right, like a hedge at a wall.
     std::mt19937 random(11);
     std::uniform_real_distribution<double> across(0.53, 0.72);
     std::uniform_real_distribution<double> up(-0.45, 0.45);
@@ -214,7 +214,7 @@ TEST(BorderCandidates, AreNoneAmidOtherThings)
     EXPECT_LE(std::ranges::count_if(added, is_right), 1);
 }
 
-TEST(BorderCandidates, AreSeenWithinImages)
+TEST(BorderCandidates, HaveOnlyViewsWhoseImagesShowThem)
 {
     // The last view's image ends above the lower part of the board.
     std::vector<Vector3d> centers = kCenters;
@@ -230,10 +230,10 @@ TEST(BorderCandidates, AreSeenWithinImages)
     EXPECT_LT(above, std::ssize(added_points(scene)));
 }
 
-/// The last one stands behind the steep board.
+/// The last center is behind the steep board.
 const std::vector<Vector3d> kBesideSteep = {{1, 0, -6}, {1.5, -0.3, -6}, {2, 0, -6}, {-2.5, 0, -6}};
 
-/// A board that three views look at from the right, and what they see past its upper border.
+/// A board that three views see from the right, and points that they see past its upper border.
 Scene steep_board(const Views& views)
 {
     const auto steep = flat({-0.5, -0.4}, {0.5, 0.4}, views,
@@ -244,7 +244,7 @@ Scene steep_board(const Views& views)
     return together({steep, far}, kBesideSteep);
 }
 
-TEST(BorderCandidates, AreSeenFromBeforeThePlane)
+TEST(BorderCandidates, HaveOnlyViewsInFrontOfThePlane)
 {
     Scene scene = steep_board({0, 1, 2, 3});
     ASSERT_GT(add_points(scene, kOnBorders).added, 3);
@@ -259,9 +259,9 @@ TEST(BorderCandidates, NeedTwoViews)
     EXPECT_EQ(num_added(steep_board({0, 3})), 0);
 }
 
-TEST(BorderCandidates, StandWithCreasePointsButNotAtThem)
+TEST(BorderCandidates, AreApartFromCreasePoints)
 {
-    // A floor before the board, whose crease points stand at the board's lower border.
+    // A floor in front of the board, with crease points at the board's lower border.
     const auto floor = flat({-0.5, 0.05}, {0.5, 1.0}, kAll,
                             [](double u, double v) { return Vector3d(u, 0.45, -v); });
     Scene scene = together({board(), floor, seen_backdrop()});
@@ -276,13 +276,13 @@ TEST(BorderCandidates, StandWithCreasePointsButNotAtThem)
     }
 }
 
-TEST(BorderCandidates, AreTheSameInOtherUnitsAndElsewhere)
+TEST(BorderCandidates, DoNotDependOnUnitAndPosition)
 {
     flat_scenes::expect_same_elsewhere(together({board(), seen_backdrop()}), kOnBorders,
                                        PointKind::border, {1.0 / 1024.0, 37.3, 1e6}, 1e-9);
 }
 
-TEST(BorderCandidates, AreAsManyInASceneThatIsTurned)
+TEST(BorderCandidates, DoNotDependOnRotation)
 {
     const Scene scene = together({board(), seen_backdrop()});
     const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));

@@ -17,13 +17,13 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using namespace flat_scenes;
 
-/// The points of a scene that are none of the model's.
+/// The points that were added to a scene.
 std::vector<std::size_t> added_points(const Scene& scene)
 {
     return points_of_kind(scene, PointKind::crease);
 }
 
-/// None along borders.
+/// Adds points only on creases.
 const AddedPointOptions kOnCreases = {.border_gap = 0.0, .textureless_step = 0.0};
 
 std::int64_t num_added(Scene scene, const AddedPointOptions& options = kOnCreases)
@@ -52,14 +52,14 @@ TEST(CreaseCandidates, AreAddedAlongTheFootOfAWall)
     EXPECT_EQ(report.regions, 2);
     EXPECT_EQ(report.added, std::ssize(added));
     EXPECT_EQ(scene.num_points(), before.num_points() + added.size());
-    // 2 long, a point every .7 of what is estimated for the spacing
+    // The crease is 2 long, with a point every .7 estimated spacings.
     EXPECT_GE(added.size(), 20U);
     EXPECT_LE(added.size(), 40U);
     EXPECT_EQ(scene.colors.size(), scene.num_points());
     EXPECT_TRUE(scene.normals.empty());
 }
 
-TEST(CreaseCandidates, StandOnTheCreaseApartFromEachOther)
+TEST(CreaseCandidates, AreOnTheCreaseAndApartFromEachOther)
 {
     Scene scene = together({wall(0.35), ground(0.35)});
     add_points(scene, kOnCreases);
@@ -74,9 +74,9 @@ TEST(CreaseCandidates, StandOnTheCreaseApartFromEachOther)
     }
 }
 
-TEST(CreaseCandidates, GoAsFarAsTheReach)
+TEST(CreaseCandidates, NeedPointsWithinTheReach)
 {
-    // The spacing is estimated to be .1; both gaps are 8 of it, or 20.
+    // The estimated spacing is .1. Both gaps are 8 spacings, or 20.
     EXPECT_GT(num_added(together({wall(0.8), ground(0.8)})), 10);
     EXPECT_EQ(num_added(together({wall(0.8), ground(0.8)}),
                         {.crease_reach = 5.0, .border_gap = 0.0, .textureless_step = 0.0}),
@@ -92,9 +92,9 @@ TEST(CreaseCandidates, GoAsFarAsTheReach)
               0);
 }
 
-TEST(CreaseCandidates, NeedPointsOfBothPlanesToBothSides)
+TEST(CreaseCandidates, NeedPointsOfBothPlanesOnBothSides)
 {
-    // The floor is known to the right only, the wall to the left of .5 only.
+    // The floor has points only on the right, the wall only to the left of .5.
     auto right = ground(0.35);
     std::erase_if(right, [](const MadePoint& p) { return p.position.x() < -0.2; });
     auto left = wall(0.35);
@@ -109,9 +109,9 @@ TEST(CreaseCandidates, NeedPointsOfBothPlanesToBothSides)
     }
 }
 
-TEST(CreaseCandidates, LeaveGapsWhereOnePlaneIsNotKnown)
+TEST(CreaseCandidates, LeaveGapsIfOnePlaneHasNoPoints)
 {
-    auto floor = ground(0.35); // which goes around what is not known
+    auto floor = ground(0.35); // surrounds an area without points
     std::erase_if(floor, [](const MadePoint& p) {
         return std::abs(p.position.x()) < 0.65 && p.position.z() > -1.1;
     });
@@ -126,9 +126,9 @@ TEST(CreaseCandidates, LeaveGapsWhereOnePlaneIsNotKnown)
     }
 }
 
-TEST(CreaseCandidates, OfTwoCreasesSideBySideStandApart)
+TEST(CreaseCandidates, OfTwoNearbyCreasesAreApart)
 {
-    // Two walls one behind the other by less than points of a crease stand apart
+    // One wall is behind the other, by less than the step of crease points.
     const auto part = [](double low, double high, double z) {
         return flat({low, -0.6}, {high, 0.65}, kAll,
                     [=](double u, double v) { return Vector3d(u, v, z); });
@@ -145,9 +145,9 @@ TEST(CreaseCandidates, OfTwoCreasesSideBySideStandApart)
     }
 }
 
-TEST(CreaseCandidates, AreSeenByTheViewsOfAllPointsEquallyNear)
+TEST(CreaseCandidates, HaveTheViewsOfAllEquallyNearPoints)
 {
-    // In the middle the column there is next, and after it those to both sides.
+    // At the center the central column is nearest, followed by the columns on both sides.
     std::vector<MadePoint> points;
     for (int column = -10; column <= 10; ++column) {
         const Views views = column < 0 ? Views{0, 1} : column > 0 ? Views{1, 2} : Views{1};
@@ -165,7 +165,7 @@ TEST(CreaseCandidates, AreSeenByTheViewsOfAllPointsEquallyNear)
     EXPECT_EQ(track_of(scene, *middle), kAll);
 }
 
-TEST(CreaseCandidates, AreNotAddedWhereOthersStandBetween)
+TEST(CreaseCandidates, AreNotAddedAmongPointsOfOtherObjects)
 {
     // A rough hedge along the foot of the wall.
     std::mt19937 random(6);
@@ -179,7 +179,7 @@ TEST(CreaseCandidates, AreNotAddedWhereOthersStandBetween)
     EXPECT_LE(num_added(together({wall(0.35), ground(0.35), hedge})), 2);
 }
 
-/// Points behind the wall, near and far, that views before it see beneath the wall.
+/// Points behind the wall, near and far, that views see beneath it.
 std::vector<MadePoint> beneath()
 {
     return flat({-1.6, 0.5}, {1.6, 0.8}, kAll, [](double u, double v) {
@@ -187,13 +187,13 @@ std::vector<MadePoint> beneath()
     });
 }
 
-TEST(CreaseCandidates, AreNotAddedWhereOneLooksThrough)
+TEST(CreaseCandidates, AreNotAddedIfRaysPassThroughTheirSurface)
 {
     const auto floor = ground(0.35);
     const std::int64_t without = num_added(together({wall(0.8), floor}));
     EXPECT_GT(without, 20);
     EXPECT_EQ(num_added(together({wall(0.8), floor, beneath()})), 0);
-    // Beneath the right half alone.
+    // Rays pass beneath the right half only.
     auto half = beneath();
     std::erase_if(half, [](const MadePoint& p) { return p.position.x() < 0.0; });
     Scene scene = together({wall(0.8), floor, half});
@@ -205,14 +205,14 @@ TEST(CreaseCandidates, AreNotAddedWhereOneLooksThrough)
     }
 }
 
-TEST(CreaseCandidates, AreAddedWhereFewerLookThroughThanSeeThem)
+TEST(CreaseCandidates, AreAddedIfFewerRaysPassThanViewsSeeThem)
 {
     const std::vector<std::vector<MadePoint>> parts = {
         wall(0.8), ground(0.35), {{{0.2, 0.6, 1.5}, {0, 1}}, {{-0.5, 0.7, 1.5}, {1, 2}}}};
     EXPECT_EQ(num_added(together(parts)), num_added(together({wall(0.8), ground(0.35)})));
 }
 
-TEST(CreaseCandidates, AreNotAddedWherePlanesHardlyBend)
+TEST(CreaseCandidates, AreNotAddedAtSmallAngles)
 {
     const auto slope = [](double degrees) {
         const double angle = degrees / 180.0 * std::acos(-1.0);
@@ -226,14 +226,14 @@ TEST(CreaseCandidates, AreNotAddedWherePlanesHardlyBend)
     EXPECT_GT(num_added(together({upper, slope(35.0)})), 10);
 }
 
-TEST(CreaseCandidates, AreNotAddedOnRoundThings)
+TEST(CreaseCandidates, AreNotAddedToRoundObjects)
 {
     EXPECT_EQ(num_added(together({ball(4000, 0.0)})), 0);
 }
 
-TEST(CreaseCandidates, AreSeenFromBeforeBothPlanesOfACorner)
+TEST(CreaseCandidates, NeedViewsInFrontOfBothPlanesOfACorner)
 {
-    // The last view saw the wall's points, but stands below the floor.
+    // The last view saw the wall's points, but is below the floor.
     std::vector<Vector3d> centers = kCenters;
     centers.emplace_back(0.0, 2.0, -6.0);
     Scene scene = together({wall(0.35, {0, 1, 3}), ground(0.35)}, centers);
@@ -241,14 +241,14 @@ TEST(CreaseCandidates, AreSeenFromBeforeBothPlanesOfACorner)
     for (const std::size_t i : added_points(scene)) {
         EXPECT_EQ(track_of(scene, i), kAll);
     }
-    // Only one stands before both.
+    // Only one view is in front of both.
     Scene hidden = together({wall(0.35, {2, 3}), ground(0.35, {2})}, centers);
     EXPECT_EQ(add_points(hidden, kOnCreases).added, 0);
 }
 
-TEST(CreaseCandidates, AreSeenFromBeforeOnePlaneOfAnEdge)
+TEST(CreaseCandidates, NeedViewsInFrontOfOnePlaneOfAnEdge)
 {
-    // A box's edge along y, seen from both sides of it by some views each.
+    // The edge of a box along y; two views see each side of it.
     const std::vector<Vector3d> centers = {{-3, 0, -6}, {-3, 0.2, -6}, {3, 0, -6}, {3, 0.2, -6}};
     const auto side = [&](double slope, const Views& views) {
         return flat({-0.8, 0.2}, {0.8, 1.2}, views,
@@ -262,9 +262,9 @@ TEST(CreaseCandidates, AreSeenFromBeforeOnePlaneOfAnEdge)
     }
 }
 
-TEST(CreaseCandidates, AreSeenWithinImagesOnly)
+TEST(CreaseCandidates, HaveOnlyViewsWhoseImagesShowThem)
 {
-    // The first view's image ends above the floor's edge: it saw the wall only.
+    // The first view's image ends above the edge of the floor and shows only the wall.
     std::vector<Vector3d> centers = kCenters;
     centers[0] = {0.0, -2.2, -6.0};
     Scene scene = together({wall(0.35), ground(0.35, {1, 2})}, centers);
@@ -285,7 +285,7 @@ TEST(CreaseCandidates, AreNotAddedToFewPoints)
     }
 }
 
-/// The farthest that points of one scene lie from where a move takes those of the other.
+/// The maximum distance between points of one scene and the transformed points of another.
 double farthest_off(const Scene& there, const Scene& here, double scale, const Vector3d& shift)
 {
     double most = 0.0;
@@ -296,7 +296,7 @@ double farthest_off(const Scene& there, const Scene& here, double scale, const V
     return most;
 }
 
-TEST(CreaseCandidates, AreTheSameInOtherUnitsAndElsewhere)
+TEST(CreaseCandidates, DoNotDependOnUnitAndPosition)
 {
     const Scene scene = together({wall(0.35), ground(0.35)});
     Scene here = scene;
@@ -311,16 +311,16 @@ TEST(CreaseCandidates, AreTheSameInOtherUnitsAndElsewhere)
     }
 }
 
-TEST(CreaseCandidates, AreAsManyInASceneThatIsTurned)
+TEST(CreaseCandidates, DoNotDependOnRotation)
 {
     const Scene scene = together({wall(0.35), ground(0.35)});
     const Quaterniond turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
     EXPECT_EQ(num_added(moved(scene, 1.0, turn, Vector3d::Zero())), num_added(scene));
 }
 
-TEST(CreaseCandidates, OfOneCreaseLieOnNoPlane)
+TEST(CreaseCandidates, OfOneCreaseAreNotCoplanar)
 {
-    // Along a hull rounding would tell which cells they make.
+    // Along a hull, rounding would decide which cells coplanar points have.
     Scene scene = together({wall(0.35), ground(0.35)});
     add_points(scene, kOnCreases);
     const std::vector<std::size_t> added = added_points(scene);
@@ -334,9 +334,9 @@ TEST(CreaseCandidates, OfOneCreaseLieOnNoPlane)
     }
 }
 
-TEST(CreaseCandidates, AreLookedForNearPointsOnlyHoweverFarTheseAreApart)
+TEST(CreaseCandidates, AreSearchedOnlyNearPoints)
 {
-    // Where the planes meet there is room for 3e13 of them between the points.
+    // The intersection of the planes between the points has room for 3e13 candidates.
     Scene scene;
     for (const double y : {-1e10, -1e10 + 0.004, 0.0, 0.004, 1e10 - 0.004, 1e10}) {
         scene.positions.emplace_back(0.0, y, 0.0);
@@ -350,7 +350,7 @@ TEST(CreaseCandidates, AreLookedForNearPointsOnlyHoweverFarTheseAreApart)
     const std::vector<Candidate> found = crease_candidates(scene, planes, 8.0, {});
     EXPECT_GE(found.size(), 9U);
     EXPECT_LE(found.size(), 24U);
-    // Nor is there an end of those that whole numbers cannot tell apart.
+    // Doubles would not distinguish these candidates, so the loop would not end.
     planes.spacings.assign(6, 1e-12);
     for (PlanarRegion& region : planes.regions) {
         region.spacing = 1e-12;

@@ -25,7 +25,7 @@ const std::vector<Vector3d> kCenters = {{0, 0, -6}, {1, 0, -6}, {0, 0, 6}, {1, 0
 const std::vector<std::uint32_t> kBefore = {0, 1};
 const std::vector<std::uint32_t> kBehind = {2, 3};
 
-/// Points with this spacing across z, so far off it at most.
+/// A wall across z, with points this spacing apart and at most `noise` off it.
 std::vector<MadePoint> wall(double z, double spacing, const std::vector<std::uint32_t>& views,
                             double noise = 0.0)
 {
@@ -53,7 +53,7 @@ Scene sorted(std::vector<MadePoint> points, const std::vector<MadePoint>& more =
     return spatial_sort(make_scene(kCenters, points));
 }
 
-TEST(PlanarRegions, TakeInAllOfAWall)
+TEST(PlanarRegions, ContainAllPointsOfAWall)
 {
     const Scene scene = sorted(wall(0.5, 0.1, kBefore));
     const PlanarRegions found = regions_of(scene);
@@ -67,9 +67,9 @@ TEST(PlanarRegions, TakeInAllOfAWall)
     ASSERT_EQ(found.spacings.size(), scene.num_points());
 }
 
-TEST(PlanarRegions, AreSeenFromOneSide)
+TEST(PlanarRegions, ContainPointsSeenFromOneSide)
 {
-    // A thin board, whose sides are nearer to each other than its points
+    // A thin board, whose sides are closer than its points
     const Scene scene = sorted(wall(-0.005, 0.1, kBefore), wall(0.005, 0.1, kBehind));
     const PlanarRegions found = regions_of(scene);
     ASSERT_EQ(found.regions.size(), 2U);
@@ -82,9 +82,9 @@ TEST(PlanarRegions, AreSeenFromOneSide)
     }
 }
 
-TEST(PlanarRegions, LeaveWhatStandsOffThem)
+TEST(PlanarRegions, ExcludePointsOffTheirPlane)
 {
-    // By half a spacing, as a picture on a wall
+    // Half a spacing in front, like a picture on a wall
     const auto picture = wall(0.0, 0.1, kBefore);
     std::vector<MadePoint> points;
     for (MadePoint point : picture) {
@@ -103,7 +103,7 @@ TEST(PlanarRegions, LeaveWhatStandsOffThem)
     }
 }
 
-TEST(PlanarRegions, MayBeALittleRough)
+TEST(PlanarRegions, MayBeSlightlyRough)
 {
     const auto largest = [](double noise, bool is_dense = false) {
         Scene scene = sorted(wall(0.0, 0.1, kBefore, noise));
@@ -117,10 +117,10 @@ TEST(PlanarRegions, MayBeALittleRough)
     EXPECT_EQ(largest(0.005), 1.0);
     EXPECT_LT(largest(0.08), 0.5);
     EXPECT_LT(largest(0.03), 0.7);
-    EXPECT_GT(largest(0.03, true), 0.98) << "of a cloud, by its noise";
+    EXPECT_GT(largest(0.03, true), 0.98) << "dense clouds may have more noise";
 }
 
-TEST(PlanarRegions, HaveTwelvePointsOrMore)
+TEST(PlanarRegions, HaveAtLeastTwelvePoints)
 {
     std::vector<MadePoint> points;
     for (int i = 0; i < 13; ++i) {
@@ -136,7 +136,7 @@ TEST(PlanarRegions, HaveTwelvePointsOrMore)
     EXPECT_TRUE(regions_of(sorted(points)).regions.empty());
 }
 
-/// How many points of a scene are of regions, as a share.
+/// The fraction of points that belong to regions.
 double share_in_regions(const Scene& scene)
 {
     const PlanarRegions found = regions_of(scene);
@@ -144,8 +144,7 @@ double share_in_regions(const Scene& scene)
     return 1.0 - static_cast<double>(out) / static_cast<double>(scene.num_points());
 }
 
-/// Points all around a ball of radius 1, each as far from its middle as height() says, which are
-/// seen from outside.
+/// Points of a unit ball at distance height() from its center, seen from outside.
 template <typename Height>
 Scene round_thing(std::size_t count, const Height& height)
 {
@@ -165,16 +164,16 @@ Scene round_thing(std::size_t count, const Height& height)
     return spatial_sort(make_scene(centers, points));
 }
 
-TEST(PlanarRegions, AreNoSlicesOfNoise)
+TEST(PlanarRegions, AreNotSlicesOfNoise)
 {
-    // Off by a third of the spacing, .025 here.
+    // The noise is a third of the spacing of .025.
     const Scene rough = round_thing(20'000, [](std::size_t i, const Vector3d& /*out*/) {
         return 1.0 + 0.008 * normal_number(i);
     });
     EXPECT_LT(share_in_regions(rough), 0.01);
 }
 
-TEST(PlanarRegions, AreFoundAmidWhatIsRough)
+TEST(PlanarRegions, AreFoundBesideRoughObjects)
 {
     // A rough ball behind a wall.
     std::vector<MadePoint> ball;
@@ -189,7 +188,7 @@ TEST(PlanarRegions, AreFoundAmidWhatIsRough)
     EXPECT_LT(share_in_regions(scene), 0.12);
 }
 
-TEST(PlanarRegions, KnowTheirNearestPoints)
+TEST(PlanarRegions, FindTheirNearestPoints)
 {
     const Scene scene = sorted(wall(0.5, 0.1, kBefore));
     const PlanarRegions found = regions_of(scene);
@@ -207,7 +206,7 @@ TEST(PlanarRegions, KnowTheirNearestPoints)
     }
 }
 
-TEST(PlanarRegions, TellAllPointsThatAreEquallyNear)
+TEST(PlanarRegions, FindAllEquallyNearPoints)
 {
     std::vector<MadePoint> points;
     for (int i = 0; i < 100; ++i) {
@@ -219,7 +218,7 @@ TEST(PlanarRegions, TellAllPointsThatAreEquallyNear)
     EXPECT_EQ(found.regions[0].nearest({0.4, 0.4, 0.5}, 1).size(), 1U);
 }
 
-TEST(PlanarRegions, KeepTheirPointsToThemselves)
+TEST(PlanarRegions, ShareNoPoints)
 {
     const Scene scene = bumpy_sphere(2000, 8);
     const Scene ordered = spatial_sort(scene);
@@ -232,7 +231,7 @@ TEST(PlanarRegions, KeepTheirPointsToThemselves)
     }
 }
 
-/// Many small walls of which some cross, amid what is rough.
+/// Many small walls, some of which intersect, among random points.
 Scene crossing_walls()
 {
     std::vector<MadePoint> points = wall(0.5, 0.05, kBefore, 0.004);
@@ -251,7 +250,7 @@ Scene crossing_walls()
     return sorted(std::move(points));
 }
 
-TEST(PlanarRegions, AreTheSameForAnyNumberOfThreads)
+TEST(PlanarRegions, AreTheSameForAnyThreadCount)
 {
     const Scene scene = crossing_walls();
     const auto found_by = [&](int threads) {

@@ -23,11 +23,11 @@ using flat_scenes::points_of_kind;
 using flat_scenes::together;
 using flat_scenes::track_of;
 
-/// None on creases and borders.
+/// Adds points only in textureless areas.
 const AddedPointOptions kTextureless = {.crease_reach = 0.0, .border_gap = 0.0};
 
-/// A place so far to the right on a floor that goes up away from the views at 45 degrees, so far
-/// along it, towards them, and so high over it.
+/// A position on or above a floor that rises away from the views at 45 degrees: `right` and `near`
+/// are along the floor, `high` is over it.
 Vector3d on_floor(double right, double near, double high = 0.0)
 {
     const Vector3d along(0, std::sqrt(0.5), -std::sqrt(0.5));
@@ -45,7 +45,7 @@ double near(const Vector3d& place)
     return on_floor(0, 1).dot(place);
 }
 
-/// The larger of how far a place of the floor is to the side of its middle and along it.
+/// The larger of the distances from the floor's center along its two directions.
 double off_middle(const Vector3d& place)
 {
     return std::max(std::abs(place.x()), std::abs(near(place)));
@@ -57,7 +57,7 @@ std::vector<MadePoint> level(const Eigen::Array2d& low, const Eigen::Array2d& hi
     return flat(low, high, kAll, [&](double u, double v) { return on_floor(u, v); });
 }
 
-/// The floor, without points so far around its middle.
+/// The floor, without points within `gap` of its center.
 std::vector<MadePoint> floor_with_gap(double gap = 0.5, double half = 1.2)
 {
     std::vector<MadePoint> points = level({-half, -half}, {half, half});
@@ -75,14 +75,14 @@ std::int64_t num_added(Scene scene, const AddedPointOptions& options = kTexturel
     return add_points(scene, options).added;
 }
 
-/// A scene with the points that are added to it, of which there must be some.
+/// A scene and the points added to it, at least ten.
 Scene filled(Scene scene)
 {
     EXPECT_GE(add_points(scene, kTextureless).added, 10);
     return scene;
 }
 
-TEST(TexturelessCandidates, AreAddedWhereAFloorHasNoTexture)
+TEST(TexturelessCandidates, AreAddedInATexturelessPartOfAFloor)
 {
     const Scene before = together({floor_with_gap()});
     Scene scene = before;
@@ -90,12 +90,12 @@ TEST(TexturelessCandidates, AreAddedWhereAFloorHasNoTexture)
     const std::vector<std::size_t> added = added_points(scene);
     EXPECT_EQ(report.added, std::ssize(added));
     EXPECT_EQ(scene.num_points(), before.num_points() + added.size());
-    // One for each square of two spacings, about, of an area of 1, but for those with a point.
+    // About one for each empty square of two spacings, of an area of 1.
     EXPECT_GE(added.size(), 10U);
     EXPECT_LE(added.size(), 25U);
 }
 
-TEST(TexturelessCandidates, StandOnTheFloorAmidTheArea)
+TEST(TexturelessCandidates, AreOnTheFloorInsideTheArea)
 {
     const Scene scene = filled(together({floor_with_gap()}));
     for (const std::size_t i : added_points(scene)) {
@@ -106,7 +106,7 @@ TEST(TexturelessCandidates, StandOnTheFloorAmidTheArea)
     }
 }
 
-TEST(TexturelessCandidates, HaveTheMeanColourOfTheFourPointsNext)
+TEST(TexturelessCandidates, HaveTheMeanColorOfTheFourNearestPoints)
 {
     Scene before = together({floor_with_gap()});
     for (std::size_t i = 0; i < before.num_points(); ++i) {
@@ -130,7 +130,7 @@ TEST(TexturelessCandidates, HaveTheMeanColourOfTheFourPointsNext)
     }
 }
 
-TEST(TexturelessCandidates, AreNoneNextToAPointOfAnythingElse)
+TEST(TexturelessCandidates, AreNotAddedNextToAPointOfAnotherObject)
 {
     const std::vector<MadePoint> floor = floor_with_gap();
     Scene scene = together({floor});
@@ -148,7 +148,7 @@ TEST(TexturelessCandidates, AreNoneNextToAPointOfAnythingElse)
     }
 }
 
-TEST(TexturelessCandidates, StandSoManySpacingsApart)
+TEST(TexturelessCandidates, AreTheStepApart)
 {
     const Scene scene = together({floor_with_gap(0.5)});
     const auto with_step = [&](double step) {
@@ -160,14 +160,14 @@ TEST(TexturelessCandidates, StandSoManySpacingsApart)
     EXPECT_GT(with_step(4.0), 0);
 }
 
-TEST(TexturelessCandidates, AreNoneWhereAFloorHasPoints)
+TEST(TexturelessCandidates, AreNotAddedAmongPoints)
 {
     EXPECT_EQ(num_added(together({floor_with_gap(0.0)})), 0);
 }
 
-TEST(TexturelessCandidates, AreNoneBeyondTheHull)
+TEST(TexturelessCandidates, AreInsideTheHull)
 {
-    // A floor without its corner at the right, which is no less empty than the middle would be.
+    // A floor without its right corner, which is as empty as a gap in the center.
     std::vector<MadePoint> points = level({-1, -1}, {1, 1});
     std::erase_if(points, [](const MadePoint& point) {
         return point.position.x() + near(point.position) > 0.0;
@@ -186,9 +186,9 @@ TEST(TexturelessCandidates, NeedARegionOf100Points)
     EXPECT_EQ(num_added(together({points})), 0);
 }
 
-TEST(TexturelessCandidates, AreNoneWhereOneLooksThrough)
+TEST(TexturelessCandidates, AreNotAddedIfRaysPassThroughTheirSurface)
 {
-    // Through the gap the views see what lies far below the floor.
+    // The views see points far below the floor through the gap.
     std::vector<MadePoint> below;
     for (double u = -0.6; u < 0.6; u += 0.05) {
         for (double v = -0.6; v < 0.6; v += 0.05) {
@@ -199,9 +199,9 @@ TEST(TexturelessCandidates, AreNoneWhereOneLooksThrough)
     EXPECT_EQ(num_added(together({floor_with_gap(), below})), 0);
 }
 
-TEST(TexturelessCandidates, AreSeenByWhoSawThePointsBesideThem)
+TEST(TexturelessCandidates, HaveTheViewsOfPointsBesideThem)
 {
-    // The last view saw nothing but the farther end of the floor.
+    // The last view saw only the far end of the floor.
     std::vector<Vector3d> centers = kCenters;
     centers.emplace_back(0.3, 0.2, -6.0);
     std::vector<MadePoint> points = floor_with_gap();
@@ -224,7 +224,7 @@ TEST(TexturelessCandidates, NeedTwoViews)
     EXPECT_EQ(num_added(together({points})), 0);
 }
 
-TEST(TexturelessCandidates, AreTheSameInOtherUnitsAndElsewhere)
+TEST(TexturelessCandidates, DoNotDependOnUnitAndPosition)
 {
     flat_scenes::expect_same_elsewhere(together({floor_with_gap(0.5)}), kTextureless,
                                        PointKind::textureless, {1.0, 1.0 / 1024.0, 37.3, 1e6},

@@ -25,7 +25,7 @@ bool is_inside(const Corners& c, const Vector3d& q)
                                          exact(q)) == CGAL::ON_POSITIVE_SIDE;
 }
 
-/// Four points, the last moved to where it lies over the others by `height`; in positive order.
+/// Four points in positive order, the last moved to `height` above the plane of the others.
 Corners tetrahedron(std::mt19937_64& random, double height)
 {
     Corners c;
@@ -38,7 +38,7 @@ Corners tetrahedron(std::mt19937_64& random, double height)
     return c;
 }
 
-TEST(SphereBound, NeverTellsThatAPointInsideIsOutside)
+TEST(SphereBound, NeverExcludesAPointInside)
 {
     std::mt19937_64 random(91);
     int inside = 0;
@@ -46,7 +46,7 @@ TEST(SphereBound, NeverTellsThatAPointInsideIsOutside)
         const double height = std::pow(10.0, even(random, -17.0, 0.0));
         const Corners corners = tetrahedron(random, height);
         const SphereBound bound = SphereBound::around(corners);
-        // Near the corners, where it is a matter of the last digits, and anywhere.
+        // Close to the corners, where the last digits decide, and farther away.
         const Vector3d near = corners[pick(random, 4)] + std::pow(10.0, even(random, -17.0, 0.0)) *
                                                              even_in_cube(random, -1.0, 1.0);
         if (!is_inside(corners, near)) continue;
@@ -62,7 +62,7 @@ TEST(SphereBound, NeverTellsThatAPointInsideIsOutside)
     EXPECT_GT(inside, 5000);
 }
 
-TEST(SphereBound, TellsWhatIsClearlyOutside)
+TEST(SphereBound, ExcludesPointsClearlyOutside)
 {
     const Vector3d far = Vector3d::Constant(1e3);
     std::mt19937_64 random(92);
@@ -75,24 +75,24 @@ TEST(SphereBound, TellsWhatIsClearlyOutside)
             if (is_inside(corners, q)) continue;
             ++outside;
             const SphereBound bound = SphereBound::around(corners);
-            const bool is_told = bound.least_at(q) > 0.0;
-            ASSERT_EQ(bound.within({-far, far}).least_at(q) > 0.0, is_told);
-            if (is_told) ++told;
+            const bool has_visibility = bound.least_at(q) > 0.0;
+            ASSERT_EQ(bound.within({-far, far}).least_at(q) > 0.0, has_visibility);
+            if (has_visibility) ++told;
         }
         EXPECT_GT(told, 0.99 * outside) << height;
     }
 }
 
-TEST(SphereBound, KnowsTheDiameter)
+TEST(SphereBound, BoundsTheDiameter)
 {
-    // Corners of the unit cube: the diameter is its diagonal.
+    // Corners of the unit cube, whose diagonal is the diameter.
     const SphereBound bound =
         SphereBound::around({Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
     EXPECT_FALSE(bound.is_within(std::sqrt(3.0)));
     EXPECT_TRUE(bound.is_within(1.01 * std::sqrt(3.0)));
 }
 
-TEST(SphereBound, KnowsTheSidesOfAPlane)
+TEST(SphereBound, DistinguishesTheSidesOfAPlane)
 {
     const SphereBound bound = SphereBound::beyond({Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}});
     EXPECT_LT(bound.least_at({5, 5, 1e-9}), 0.0); // orientation is positive above

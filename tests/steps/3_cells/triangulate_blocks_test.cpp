@@ -23,7 +23,8 @@ struct NamedPoints {
     Positions points;
 };
 
-/// On a ground of small height over a raster: flat at large, four on a circle in the small.
+/// A terrain of small height over a square grid: flat on a large scale, with cocircular points on a
+/// small scale.
 Positions terrain(int n, double height)
 {
     Positions points;
@@ -36,7 +37,7 @@ Positions terrain(int n, double height)
     return points;
 }
 
-/// A dense cluster, and points far away from it and from each other.
+/// A dense cluster, and points far from it and from each other.
 Positions with_outliers()
 {
     Positions points = mapped(random_points(800, 73), 1e-3, Vector3d(5.0, 5.0, 5.0));
@@ -45,7 +46,7 @@ Positions with_outliers()
     return points;
 }
 
-/// All in one plane but one.
+/// Coplanar points and one other.
 Positions plane_and_a_point()
 {
     Positions points = lattice(12);
@@ -92,7 +93,7 @@ void expect_equal(const TetMesh& a, const TetMesh& b)
     EXPECT_EQ(a.cell_of_vertex, b.cell_of_vertex);
 }
 
-TEST(TriangulateBlocks, GivesTheCellsOfTheWhole)
+TEST(TriangulateBlocks, ReturnsTheCellsOfTheWhole)
 {
     for (const NamedPoints& named : point_sets()) {
         const Scene scene = spatial_sort(scene_of(named.points));
@@ -104,7 +105,7 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWhole)
     }
 }
 
-TEST(TriangulateBlocks, GivesTheCellsOfTheWholeWithOnePointABlock)
+TEST(TriangulateBlocks, ReturnsTheCellsOfTheWholeWithOnePointPerBlock)
 {
     for (const Positions& points : {lattice(4), random_points(70, 79), points_on_sphere()}) {
         const Scene scene = spatial_sort(scene_of(points));
@@ -114,14 +115,14 @@ TEST(TriangulateBlocks, GivesTheCellsOfTheWholeWithOnePointABlock)
     }
 }
 
-/// Blocks then lie amid each other, which is slow but must be right.
-TEST(TriangulateBlocks, GivesTheCellsOfTheWholeOfPointsThatDoNotFollowEachOther)
+/// Blocks then overlap in space, which is slow but must be correct.
+TEST(TriangulateBlocks, ReturnsTheCellsOfTheWholeForUnsortedPoints)
 {
     const Scene scene = scene_of(random_points(400, 80));
     expect_equal(in_blocks(scene, 5), triangulate(scene));
 }
 
-TEST(TriangulateBlocks, GivesTheSameForAnyNumberOfThreads)
+TEST(TriangulateBlocks, ReturnsTheSameForAnyThreadCount)
 {
     const Scene scene = spatial_sort(scene_of(random_points(4000, 81)));
     const auto with_threads = [&](int threads) {
@@ -131,9 +132,9 @@ TEST(TriangulateBlocks, GivesTheSameForAnyNumberOfThreads)
     expect_equal(with_threads(1), with_threads(2));
 }
 
-TEST(TriangulateBlocks, TakesInFewPointsOfOtherBlocks)
+TEST(TriangulateBlocks, NeedsFewPointsOfOtherBlocks)
 {
-    // A block of an eighth of 20,000 points has some 600 around it: about one layer.
+    // A block of an eighth of 20,000 points is surrounded by about 600, which is about one layer.
     const Scene scene = spatial_sort(scene_of(random_points(20'000, 82)));
     const PointTree tree(scene.positions);
     const std::vector<Index> first = first_points(scene.positions);
@@ -146,7 +147,7 @@ TEST(TriangulateBlocks, TakesInFewPointsOfOtherBlocks)
     EXPECT_GT(block.taken_in, own.size() / 10);
 }
 
-TEST(TriangulateBlocks, CountsTheCellsOfAllBlocksWhileTheyGrow)
+TEST(TriangulateBlocks, CountsTheCellsOfAllGrowingBlocks)
 {
     const Scene scene = scene_of(two_skew_lines(100));
     const std::size_t all = triangulate(scene).cells.size();
@@ -157,18 +158,18 @@ TEST(TriangulateBlocks, CountsTheCellsOfAllBlocksWhileTheyGrow)
             return triangulate_in_blocks(scene, {.count = 4, .limit = limit})->cells.size();
         });
     };
-    // Every block takes in nearly all points here.
-    EXPECT_EQ(in_four({.most = 2 * all}), all);
-    EXPECT_THROW(in_four({.most = 3 * all / 2}), InputError);
-    EXPECT_EQ(refusal<InputError>([&] { in_four({.most = 5000}); }),
-              "the points have more than 5000 cells between them, all that --max-memory allows: "
-              "many of them lie on few lines or curves");
-    // Of blocks that are done nothing counts where it is in files.
-    EXPECT_EQ(in_four({.most = 3 * all / 2, .counts_made = false}), all);
-    EXPECT_THROW(in_four({.most = 5000, .counts_made = false}), InputError);
+    // Every block needs almost all points here.
+    EXPECT_EQ(in_four({.limit = 2 * all}), all);
+    EXPECT_THROW(in_four({.limit = 3 * all / 2}), InputError);
+    EXPECT_EQ(refusal<InputError>([&] { in_four({.limit = 5000}); }),
+              "the points have more than 5000 cells, all that --max-memory allows, because many "
+              "lie on few lines or curves; raise --max-memory");
+    // Finished blocks do not count if they are in files.
+    EXPECT_EQ(in_four({.limit = 3 * all / 2, .counts_made = false}), all);
+    EXPECT_THROW(in_four({.limit = 5000, .counts_made = false}), InputError);
 }
 
-TEST(TriangulateBlocks, RefusesWhatTheWholeRefuses)
+TEST(TriangulateBlocks, RejectsTheSamePointsAsTheWhole)
 {
     Positions plane = lattice(5);
     plane.resize(25);
@@ -180,17 +181,17 @@ TEST(TriangulateBlocks, RefusesWhatTheWholeRefuses)
                   refusal<InputError>([&] { triangulate(scene); }));
     }
     EXPECT_EQ(refusal<std::logic_error>([&] { in_blocks(scene_of(doubled), 2); }),
-              "two points to triangulate lie at one place");
+              "two points to triangulate have the same position");
 }
 
-/// Each of their cells has nearly all points on its sphere.
-TEST(TriangulateBlocks, LeavesPointsOnOneSphereToTheWhole)
+/// The sphere of each cell has almost all points on it.
+TEST(TriangulateBlocks, GivesUpOnPointsOnOneSphere)
 {
     const Scene scene = spatial_sort(scene_of(nearly_on_a_sphere(10'000, 0.0)));
     EXPECT_FALSE(triangulate_in_blocks(scene, {.count = 4}).has_value());
 }
 
-TEST(FirstPoints, SpanSpaceWhereverTheyAre)
+TEST(FirstPoints, SpanSpace)
 {
     Positions points = plane_and_a_point();
     std::swap(points[100], points.back());

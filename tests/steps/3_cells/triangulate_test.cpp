@@ -23,7 +23,7 @@ std::array<Index, 4> sorted(std::array<Index, 4> vertices)
     return vertices;
 }
 
-/// The permutation's points: point i of the result is point order[i].
+/// Permutes points: point i of the result is point order[i].
 Positions reordered(const Positions& points, const std::vector<Index>& order)
 {
     Positions result;
@@ -50,9 +50,9 @@ TetMesh with_threads(int threads, const Positions& points)
     return arena.execute([&] { return triangulation_of(points); });
 }
 
-// ---- what a TetMesh promises --------------------------------------------------------------------
+// ---- invariants of TetMesh ----------------------------------------------------------------------
 
-/// Fails the test where cells are not in canonical order or their vertices are not.
+/// Fails unless cells and their vertices are in canonical order.
 void expect_canonical(const TetMesh& mesh)
 {
     for (std::size_t i = 0; i < mesh.cells.size(); ++i) {
@@ -73,7 +73,7 @@ void expect_canonical(const TetMesh& mesh)
     }
 }
 
-/// Fails the test where neighbours do not share the facet between them or do not know each other.
+/// Fails unless neighbors share the facet between them and are mutual.
 void expect_mutual_neighbors(const TetMesh& mesh)
 {
     ASSERT_EQ(mesh.mirrors.size(), mesh.cells.size());
@@ -84,7 +84,7 @@ void expect_mutual_neighbors(const TetMesh& mesh)
             const int mirror = mesh.mirror(cell, slot);
             ASSERT_EQ(mesh.cells[beyond].neighbors[mirror], cell);
             ASSERT_EQ(mesh.mirror(beyond, mirror), slot);
-            // Apart from the vertices opposite the facet, the two hold the same three.
+            // Both cells have the same vertices, except those opposite the facet.
             auto mine = mesh.cells[cell].vertices;
             auto theirs = mesh.cells[beyond].vertices;
             ASSERT_NE(mine[slot], theirs[mirror]);
@@ -94,7 +94,7 @@ void expect_mutual_neighbors(const TetMesh& mesh)
     }
 }
 
-/// Fails the test where a vertex does not know a finite cell of its own.
+/// Fails unless each vertex has a finite cell that contains it.
 void expect_cells_of_vertices(const TetMesh& mesh)
 {
     ASSERT_EQ(mesh.cell_of_vertex.size(), mesh.positions.size());
@@ -106,8 +106,7 @@ void expect_cells_of_vertices(const TetMesh& mesh)
     }
 }
 
-/// Fails the test where a point lies strictly inside the sphere around a cell, or beyond a facet of
-/// the hull.
+/// Fails if a point is strictly inside the sphere around a cell, or beyond a facet of the hull.
 void expect_delaunay(const TetMesh& mesh)
 {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -139,7 +138,7 @@ void expect_sound(const TetMesh& mesh)
     expect_delaunay(mesh);
 }
 
-/// Six times the volume of all finite cells; exact for small whole coordinates.
+/// Six times the volume of all finite cells; exact for small integer coordinates.
 double volume_6(const TetMesh& mesh)
 {
     double sum = 0.0;
@@ -165,17 +164,17 @@ void expect_equal(const TetMesh& a, const TetMesh& b)
     EXPECT_EQ(a.cell_of_vertex, b.cell_of_vertex);
 }
 
-// ---- by hand ------------------------------------------------------------------------------------
+// ---- properties ---------------------------------------------------------------------------------
 
 TEST(Triangulate, NumbersOneTetrahedronAsDocumented)
 {
-    // 0 1 2 run counter-clockwise seen from 3 only once 0 and 1 have changed places.
+    // 0 1 2 are counter-clockwise seen from 3 only after 0 and 1 are swapped.
     const TetMesh mesh = triangulation_of({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}});
     using Four = std::array<Index, 4>;
     ASSERT_EQ(mesh.cells.size(), 5U);
     EXPECT_EQ(mesh.cells[0].vertices, (Four{1, 0, 2, 3}));
     EXPECT_EQ(mesh.cells[0].neighbors, (Four{3, 4, 2, 1}));
-    // Seen from beyond the hull, the corners of an infinite cell run counter-clockwise.
+    // The corners of an infinite cell are counter-clockwise seen from outside the hull.
     EXPECT_EQ(mesh.cells[1].vertices, (Four{0, 1, 2, kInfinite}));
     EXPECT_EQ(mesh.cells[2].vertices, (Four{1, 0, 3, kInfinite}));
     EXPECT_EQ(mesh.cells[3].vertices, (Four{0, 2, 3, kInfinite}));
@@ -226,7 +225,7 @@ TEST(Triangulate, FillsTheHullOfCosphericalPoints)
     EXPECT_EQ(volume_6(body_centered), 6.0 * 27.0);
 }
 
-/// The corners of all cells, each with the name it has in the order before; all ascending.
+/// The corners of all cells, with their numbers before the permutation, in ascending order.
 std::vector<std::array<Index, 4>> renamed_cells(const TetMesh& mesh,
                                                 const std::vector<Index>& order)
 {
@@ -263,7 +262,7 @@ TEST(Triangulate, HasTheSameCellsForPermutedPoints)
     }
 }
 
-TEST(Triangulate, GivesTheSameArraysForSortedPointsInAnyOrder)
+TEST(Triangulate, ReturnsTheSameArraysForAnyInputOrder)
 {
     for (const Positions& points :
          {lattice(6), points_on_sphere(), random_points(3000, 33), body_centered_lattice(5)}) {
@@ -278,7 +277,7 @@ TEST(Triangulate, GivesTheSameArraysForSortedPointsInAnyOrder)
     }
 }
 
-TEST(Triangulate, GivesTheSameArraysAtEveryPowerOfTwo)
+TEST(Triangulate, ReturnsTheSameArraysAtEveryPowerOfTwo)
 {
     for (const Positions& points : {lattice(5), points_on_sphere(), random_points(500, 34)}) {
         const TetMesh mesh = triangulation_of(points);
@@ -289,10 +288,10 @@ TEST(Triangulate, GivesTheSameArraysAtEveryPowerOfTwo)
     }
 }
 
-TEST(Triangulate, GivesTheSameArraysForOneAndTwoThreads)
+TEST(Triangulate, ReturnsTheSameArraysForOneAndTwoThreads)
 {
     expect_equal(with_threads(2, lattice(8)), with_threads(1, lattice(8)));
-    // Enough points for blocks, some of them on a lattice and some in one plane.
+    // Enough points for blocks, some on a lattice and some in one plane.
     Positions points = mapped(random_points(48'000, 35), 14.0, Vector3d::Constant(0.0));
     for (const Vector3d& point : lattice(14)) {
         points.push_back(point);
@@ -307,7 +306,7 @@ TEST(Triangulate, GivesTheSameArraysForOneAndTwoThreads)
     expect_equal(with_threads(2, points), one);
 }
 
-TEST(Triangulate, WorksInTwoBlocksAThreadThatAreNotTooSmall)
+TEST(Triangulate, UsesTwoBlocksPerThreadUnlessTheyAreSmall)
 {
     EXPECT_EQ(usual_blocks(10'000'000, 1), 1U);
     EXPECT_EQ(usual_blocks(10'000'000, 2), 4U);
@@ -317,30 +316,30 @@ TEST(Triangulate, WorksInTwoBlocksAThreadThatAreNotTooSmall)
     EXPECT_EQ(usual_blocks(4, 2), 1U);
 }
 
-TEST(Triangulate, TakesPointsOnOneSphereAtOnceWhereBlocksWouldTakeTooLong)
+TEST(Triangulate, TriangulatesPointsOnOneSphereWithoutBlocks)
 {
     const Positions points = spatial_sort(scene_of(nearly_on_a_sphere(20'000, 0.0))).positions;
     expect_equal(with_threads(2, points), with_threads(1, points));
 }
 
-// ---- refusals -----------------------------------------------------------------------------------
+// ---- errors -------------------------------------------------------------------------------------
 
 std::string refusal_of(const Positions& points)
 {
     return refusal<InputError>([&] { triangulation_of(points); });
 }
 
-TEST(Triangulate, RefusesMoreCellsThanMayBeAsSoonAsThereAre)
+TEST(Triangulate, RejectsMoreCellsThanTheLimit)
 {
     const Scene scene = scene_of(two_skew_lines(40));
     const std::size_t all = triangulate(scene).cells.size();
-    EXPECT_EQ(triangulate(scene, {}, {.most = all}).cells.size(), all);
-    EXPECT_THROW(triangulate(scene, {}, {.most = all - 1}), InputError);
+    EXPECT_EQ(triangulate(scene, {}, {.limit = all}).cells.size(), all);
+    EXPECT_THROW(triangulate(scene, {}, {.limit = all - 1}), InputError);
     const Scene many = scene_of(two_skew_lines(20'000)); // 400 million cells
-    EXPECT_THROW(triangulate_at_once(many, {}, {.most = 100'000}), InputError);
+    EXPECT_THROW(triangulate_at_once(many, {}, {.limit = 100'000}), InputError);
 }
 
-TEST(Triangulate, RefusesFewerThanFourPoints)
+TEST(Triangulate, RejectsFewerThanFourPoints)
 {
     EXPECT_EQ(refusal_of({}), "0 points passed the filter; a surface needs at least four that do "
                               "not lie in one plane");
@@ -351,7 +350,7 @@ TEST(Triangulate, RefusesFewerThanFourPoints)
               "plane");
 }
 
-TEST(Triangulate, RefusesPointsInOnePlaneOrOnOneLine)
+TEST(Triangulate, RejectsCoplanarAndCollinearPoints)
 {
     Positions plane = lattice(5);
     plane.resize(25);
@@ -366,17 +365,17 @@ TEST(Triangulate, RefusesPointsInOnePlaneOrOnOneLine)
     EXPECT_EQ(refusal_of(line), "the 7" + rest);
 }
 
-TEST(Triangulate, TakesFourPointsThatLieInNoPlane)
+TEST(Triangulate, AcceptsFourPointsThatAreNotCoplanar)
 {
     EXPECT_EQ(triangulation_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1e-300}}).cells.size(), 5U);
 }
 
-TEST(Triangulate, TakesTwoPointsAtOnePlaceForAMistake)
+TEST(Triangulate, RejectsCoincidentPointsAsALogicError)
 {
     Positions points = lattice(3);
     points.insert(points.begin(), 20, Vector3d(1, 1, 1));
     EXPECT_EQ(refusal<std::logic_error>([&] { triangulation_of(points); }),
-              "two points to triangulate lie at one place");
+              "two points to triangulate have the same position");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 #include "steps/4_visibility/exact_walk.h"
-#include "support/exact_sight.h"
+#include "support/exact_ray.h"
 #include "support/point_sets.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Two tetrahedra on the triangle 0 1 2: cell 0 up to vertex 3, the cell below down to vertex 4.
+/// Two tetrahedra with the common triangle 0 1 2: one up to vertex 3, one down to vertex 4.
 TetMesh bipyramid()
 {
     return triangulation_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 3}, {1, 1, -3}});
@@ -31,7 +31,7 @@ Index cell_with(const TetMesh& mesh, const std::array<Index, 4>& vertices)
     return 0;
 }
 
-/// The cells a walk left, in order, and where it began and ended.
+/// The cells that a walk left, in order, and its first and last cell.
 struct Walked {
     std::vector<Index> left;
     Index first;
@@ -59,9 +59,9 @@ std::ostream& operator<<(std::ostream& out, const Walked& walk)
     return out;
 }
 
-// ---- by hand ------------------------------------------------------------------------------------
+// ---- hand-computed cases ------------------------------------------------------------------------
 
-TEST(ExactWalk, CrossesTheFacetBetweenTwoCellsAndTheHull)
+TEST(ExactWalk, CrossesTheSharedFacetAndTheHullFacet)
 {
     const TetMesh mesh = bipyramid();
     const Index upper = cell_with(mesh, {0, 1, 2, 3});
@@ -72,7 +72,7 @@ TEST(ExactWalk, CrossesTheFacetBetweenTwoCellsAndTheHull)
     EXPECT_EQ(walked(mesh, 3, {1.25, -0.75, -4}), (Walked{{upper, lower}, upper, past_hull}));
 }
 
-TEST(ExactWalk, StopsBeforeTheFacetTheTargetLiesIn)
+TEST(ExactWalk, StopsBeforeTheFacetThatContainsTheTarget)
 {
     const TetMesh mesh = bipyramid();
     const Index upper = cell_with(mesh, {0, 1, 2, 3});
@@ -93,7 +93,7 @@ TEST(ExactWalk, CrossesNothingAlongAnEdgeOrInAFacet)
     EXPECT_TRUE(holds(mesh, in_facet.last, {1, 1, 0}));
 }
 
-TEST(ExactWalk, LeavesTheHullThroughAnEdgeOrAVertexIntoNoCell)
+TEST(ExactWalk, EndsInNoCellIfItLeavesTheHullThroughAnEdgeOrVertex)
 {
     const TetMesh mesh = bipyramid();
     const Index upper = cell_with(mesh, {0, 1, 2, 3});
@@ -103,7 +103,7 @@ TEST(ExactWalk, LeavesTheHullThroughAnEdgeOrAVertexIntoNoCell)
     EXPECT_EQ(walked(mesh, 3, {1, 1, 4}), (Walked{{}, kInfinite, kInfinite}));   // at once
 }
 
-TEST(ExactWalk, IsAlreadyThereWhereTheTargetIsTheVertex)
+TEST(ExactWalk, EndsAtOnceIfTheTargetIsTheVertex)
 {
     const TetMesh mesh = bipyramid();
     const Walked walk = walked(mesh, 1, {4, 0, 0});
@@ -112,7 +112,7 @@ TEST(ExactWalk, IsAlreadyThereWhereTheTargetIsTheVertex)
     EXPECT_TRUE(holds(mesh, walk.last, {4, 0, 0}));
 }
 
-TEST(ExactWalk, GoesOnFromInsideACell)
+TEST(ExactWalk, ContinuesFromInsideACell)
 {
     const TetMesh mesh = bipyramid();
     const Index upper = cell_with(mesh, {0, 1, 2, 3});
@@ -123,7 +123,7 @@ TEST(ExactWalk, GoesOnFromInsideACell)
     EXPECT_EQ(mesh.cells[upper].vertices[walk.crossed()[0].slot], 3U);
 }
 
-TEST(CellsAroundVertex, AreAllThatHoldIt)
+TEST(CellsAroundVertex, FindsAllCellsWithTheVertex)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         const TetMesh& mesh = named.mesh;
@@ -142,7 +142,7 @@ TEST(CellsAroundVertex, AreAllThatHoldIt)
     }
 }
 
-TEST(CellsAroundVertex, AreAllOfManyWithinABall)
+TEST(CellsAroundVertex, FindsManyCellsAtTheCenterOfASphere)
 {
     Positions points = {Vector3d::Zero()};
     for (int i = 0; i < 500; ++i) {
@@ -165,17 +165,17 @@ TEST(CellsAroundVertex, AreAllOfManyWithinABall)
 
 // ---- against brute force ------------------------------------------------------------------------
 
-TEST(ExactWalk, CrossesWhatBruteForceFinds)
+TEST(ExactWalk, MatchesBruteForce)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(11);
-        for (int sight = 0; sight < 700; ++sight) {
+        for (int ray = 0; ray < 700; ++ray) {
             const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
             const Vector3d target = any_target(named, vertex, random);
             ExactWalk walk(named.mesh, named.mesh.positions[vertex], target);
             const WalkEnds ends = walk.from_vertex(vertex);
             ASSERT_EQ(fault_of_walk(named.mesh, vertex, target, walk.crossed(), ends), "")
-                << named.name << ", sight " << sight << " from vertex " << vertex << " to ("
+                << named.name << ", ray " << ray << " from vertex " << vertex << " to ("
                 << target.transpose() << ")";
         }
     }

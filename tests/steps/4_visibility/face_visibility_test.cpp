@@ -15,13 +15,13 @@ using Eigen::Vector3d;
 using testing::aim;
 using testing::cell_of;
 using testing::facet_across;
-using testing::LabelledScene;
+using testing::LabeledScene;
 using testing::labels_where;
 using testing::middle;
 using Meets = FaceVisibility::Meets;
 
-/// Two tetrahedra in a wide box, the first before the second as seen from below: points 0 to 3 with
-/// the base at z = -3, and 4 to 7 with the base at z = 0. Views look up.
+/// Two tetrahedra in a wide box: points 0 to 3 with the base at z = -3, and points 4 to 7 with the
+/// base at z = 0. Views look up, so the first occludes the second from below.
 struct TwoTetrahedra {
     explicit TwoTetrahedra(const std::vector<Vector3d>& centers, bool first = true,
                            bool second = true)
@@ -62,12 +62,12 @@ struct TwoTetrahedra {
 
     inline static const Vector3d kMiddle{0.0, -1.0 / 3.0, 0.0};
     inline static const Vector3d kFirstMiddle{0.0, -1.0 / 3.0, -3.0};
-    LabelledScene made;
+    LabeledScene made;
     CellFacet first_base;
     CellFacet base;
 };
 
-/// All views aimed at one place.
+/// Aims all views at one position.
 Scene aimed(Scene scene, const Vector3d& place)
 {
     for (View& view : scene.views) {
@@ -78,14 +78,14 @@ Scene aimed(Scene scene, const Vector3d& place)
 
 // ---- sees ---------------------------------------------------------------------------------------
 
-TEST(FaceVisibility, SeesAFacetFromBeforeIt)
+TEST(FaceVisibility, SeesAFacetFromInFront)
 {
     const TwoTetrahedra scene({{0, 0, -5}, {0, 0, -50}}, false, true);
     EXPECT_TRUE(scene.sees(0)) << "from inside the hull";
-    EXPECT_TRUE(scene.sees(1)) << "from out of the hull";
+    EXPECT_TRUE(scene.sees(1)) << "from outside the hull";
 }
 
-TEST(FaceVisibility, SeesNoFacetFromBehindIt)
+TEST(FaceVisibility, DoesNotSeeAFacetFromBehind)
 {
     const TwoTetrahedra scene(
         aimed(make_scene({{0.2, 0.3, 5}, {6, 0, 0.5}}, TwoTetrahedra::points()), {0, 0, 0}), false,
@@ -94,9 +94,9 @@ TEST(FaceVisibility, SeesNoFacetFromBehindIt)
     EXPECT_FALSE(scene.sees(1));
 }
 
-TEST(FaceVisibility, SeesNoFacetInItsPlane)
+TEST(FaceVisibility, DoesNotSeeAFacetAtGrazingAngles)
 {
-    // 87.2 and 87.0 degrees off the normal: the cosine of a graze is 0.05.
+    // 87.2 and 87.0 degrees from the normal; angles are grazing up to a cosine of 0.05.
     const double y = TwoTetrahedra::kMiddle.y();
     const TwoTetrahedra scene(
         aimed(make_scene({{4, y, -0.195}, {4, y, -0.205}, {4, y, 0}}, TwoTetrahedra::points()),
@@ -107,9 +107,9 @@ TEST(FaceVisibility, SeesNoFacetInItsPlane)
     EXPECT_FALSE(scene.sees(2));
 }
 
-TEST(FaceVisibility, SeesWhatTheImageShowsOnly)
+TEST(FaceVisibility, SeesOnlyWhatTheImageShows)
 {
-    // At depth 5 an image reaches 3.2 to the sides and 2.4 up and down.
+    // At depth 5 an image extends 3.2 to the sides and 2.4 up and down.
     const double y = TwoTetrahedra::kMiddle.y();
     const TwoTetrahedra scene({{3.1, y, -5}, {3.3, y, -5}, {0, y + 2.3, -5}, {0, y - 2.5, -5}},
                               false, true);
@@ -125,8 +125,8 @@ TEST(FaceVisibility, DoesNotSeeThroughInsideCells)
     const TwoTetrahedra both(centers);
     EXPECT_FALSE(both.sees(0));
     EXPECT_FALSE(both.sees(1));
-    EXPECT_TRUE(both.sees(2)) << "from between them";
-    EXPECT_TRUE(both.sees(3)) << "past the first one";
+    EXPECT_TRUE(both.sees(2)) << "from between both";
+    EXPECT_TRUE(both.sees(3)) << "past the first tetrahedron";
     const TwoTetrahedra one(centers, false, true);
     EXPECT_TRUE(one.sees(0));
     EXPECT_TRUE(one.sees(1));
@@ -134,12 +134,12 @@ TEST(FaceVisibility, DoesNotSeeThroughInsideCells)
 
 TEST(FaceVisibility, DoesNotSeeThroughTheEdgeOfAnInsideCell)
 {
-    // From the place the line enters the first one through the edge from (0, 1, -3) to (0, 0, -2).
+    // The ray enters the first tetrahedron through the edge from (0, 1, -3) to (0, 0, -2).
     const TwoTetrahedra scene({{0, 0, -5}});
     EXPECT_FALSE(scene.sees(0, {0, 0.6, 0}));
 }
 
-TEST(FaceVisibility, SeesNothingFromInsideACell)
+TEST(FaceVisibility, SeesNothingFromWithinAnInsideCell)
 {
     const TwoTetrahedra scene({{0, 0, -2.5}});
     EXPECT_FALSE(scene.sees(0));
@@ -147,13 +147,13 @@ TEST(FaceVisibility, SeesNothingFromInsideACell)
 
 // ---- places_on, is_seen -------------------------------------------------------------------------
 
-TEST(FaceVisibility, SpreadsPlacesOverAFacet)
+TEST(FaceVisibility, SpreadsSamplesOverAFacet)
 {
-    // In shares of the corners, each ascending: one in the middle, three near corners, three near
-    // the middles of edges, and each corner and each edge has one of them.
+    // The samples are the centroid, one near each corner, and one near each edge midpoint. They are
+    // compared by sorted barycentric coordinates.
     const TwoTetrahedra scene({});
     Eigen::Matrix3d corners;
-    corners << -1, 1, 0, -1, -1, 1, 1, 1, 1; // x, y and the sum of shares
+    corners << -1, 1, 0, -1, -1, 1, 1, 1, 1; // x, y and the sum of barycentric coordinates
     std::vector<int> at_corner(3, 0);
     std::vector<int> at_edge(3, 0);
     const auto places = scene.made.visibility.places_on(scene.base);
@@ -173,20 +173,20 @@ TEST(FaceVisibility, SpreadsPlacesOverAFacet)
     EXPECT_EQ(at_edge, std::vector<int>(3, 1));
 }
 
-/// The places on a facet with corners at 0 and at x = 10, y = +-half the width.
+/// The samples of a facet with corners at 0 and at x = 10, y = +- half the width.
 std::vector<Vector3d> places_on_facet_of_width(double width)
 {
-    const LabelledScene made(make_scene({}, {{{0, 0, 0}, {}},
-                                             {{10, -0.5 * width, 0}, {}},
-                                             {{10, 0.5 * width, 0}, {}},
-                                             {{7, 0, 5}, {}}}),
-                             testing::solid);
+    const LabeledScene made(make_scene({}, {{{0, 0, 0}, {}},
+                                            {{10, -0.5 * width, 0}, {}},
+                                            {{10, 0.5 * width, 0}, {}},
+                                            {{7, 0, 5}, {}}}),
+                            testing::solid);
     return made.visibility.places_on(facet_across(made.mesh, cell_of(made.mesh, {0, 1, 2, 3}), 3));
 }
 
-TEST(FaceVisibility, SpreadsPlacesNearerToTheCornersOfAThinFacet)
+TEST(FaceVisibility, AddsSamplesNearTheCornersOfAThinFacet)
 {
-    EXPECT_EQ(places_on_facet_of_width(2.1).size(), 7U); // the other edges are 10.06 long
+    EXPECT_EQ(places_on_facet_of_width(2.1).size(), 7U); // the long edges are 10.06 long
     const double width = 1.0;
     const std::vector<Vector3d> places = places_on_facet_of_width(width);
     ASSERT_EQ(places.size(), 10U);
@@ -200,7 +200,7 @@ TEST(FaceVisibility, SpreadsPlacesNearerToTheCornersOfAThinFacet)
     }
 }
 
-TEST(FaceVisibility, NeedsNoTrackToSeeAFacet)
+TEST(FaceVisibility, SeesAFacetWithoutTracks)
 {
     const TwoTetrahedra seen({{0, 0, -5}}, false, true);
     EXPECT_TRUE(seen.made.visibility.is_seen(seen.base));
@@ -211,11 +211,11 @@ TEST(FaceVisibility, NeedsNoTrackToSeeAFacet)
     EXPECT_FALSE(nobody.made.visibility.is_seen(nobody.base));
 }
 
-TEST(FaceVisibility, AsksTheNearestThirtyTwoViewsThatMightSeeAFacet)
+TEST(FaceVisibility, TriesTheNearestThirtyTwoCandidateViews)
 {
     const auto is_seen_beside = [](std::size_t num_hidden) {
         std::vector<Vector3d> centers(num_hidden, Vector3d(0.03, 0.0, -5.0));
-        centers.emplace_back(8.0, 0.0, -5.0); // looks in from the side, and is farther off
+        centers.emplace_back(8.0, 0.0, -5.0); // from the side, farther away than the others
         Scene scene = make_scene(centers, TwoTetrahedra::points());
         const TwoTetrahedra pair(aimed(std::move(scene), TwoTetrahedra::kMiddle), true, true);
         return pair.made.visibility.is_seen(pair.base);
@@ -225,7 +225,7 @@ TEST(FaceVisibility, AsksTheNearestThirtyTwoViewsThatMightSeeAFacet)
     EXPECT_FALSE(is_seen_beside(32));
 }
 
-TEST(FaceVisibility, BelievesNoTrackThatIsBlocked)
+TEST(FaceVisibility, IgnoresTracksOfOccludedViews)
 {
     auto points = TwoTetrahedra::points();
     for (MadePoint& point : points) {
@@ -235,7 +235,7 @@ TEST(FaceVisibility, BelievesNoTrackThatIsBlocked)
     EXPECT_FALSE(scene.made.visibility.is_seen(scene.base));
 }
 
-TEST(FaceVisibility, SeesAFacetWhereOneOfItsPlacesIsSeen)
+TEST(FaceVisibility, SeesAFacetIfOneSampleIsSeen)
 {
     const TwoTetrahedra blind({});
     const auto places = blind.made.visibility.places_on(blind.base);
@@ -257,7 +257,7 @@ TEST(FaceVisibility, SeesAFacetWhereOneOfItsPlacesIsSeen)
 
 // ---- met_behind ---------------------------------------------------------------------------------
 
-TEST(FaceVisibility, MeetsTheFirstKeptFacetBehindAPlace)
+TEST(FaceVisibility, MeetsTheFirstKeptFacetBehindAPosition)
 {
     const std::vector<Vector3d> centers = {{0, 0, -5}, {0, 0, -500}};
     const TwoTetrahedra scene(centers);
@@ -281,13 +281,13 @@ TEST(FaceVisibility, MeetsTheFirstKeptFacetBehindAPlace)
                   Meets::back);
         EXPECT_EQ(met(view, [&](const CellFacet& f) { return is(f, scene.first_base); }),
                   Meets::nothing)
-            << "the facet itself is away";
+            << "the facet itself is ignored";
     }
 }
 
-TEST(FaceVisibility, TellsFrontFromBackBehindAnEdge)
+TEST(FaceVisibility, DistinguishesFrontFromBackBehindAnEdge)
 {
-    // The line leaves the first one through the same edge and enters the second by its base.
+    // The line leaves the first tetrahedron through an edge and enters the second by its base.
     const TwoTetrahedra scene({{0, 0, -5}});
     EXPECT_EQ(scene.made.visibility.met_behind(
                   0, scene.first_base, {0, 0.24, -3},
@@ -295,7 +295,7 @@ TEST(FaceVisibility, TellsFrontFromBackBehindAnEdge)
               Meets::front);
 }
 
-TEST(FaceVisibility, AsksAboutFacetsFromTheirInsideCellsInOrder)
+TEST(FaceVisibility, QueriesFacetsInOrderFromTheirInsideCells)
 {
     const TwoTetrahedra scene({{0, 0, -5}});
     std::vector<double> heights;
@@ -314,8 +314,8 @@ TEST(FaceVisibility, AsksAboutFacetsFromTheirInsideCellsInOrder)
 
 // ---- brute force --------------------------------------------------------------------------------
 
-/// The words of the header, each boundary facet tried.
-bool sees_by_brute_force(const LabelledScene& made, std::uint32_t view, std::size_t face,
+/// The definition in the header, by a test of every boundary facet.
+bool sees_by_brute_force(const LabeledScene& made, std::uint32_t view, std::size_t face,
                          const Vector3d& place)
 {
     const Vector3d& center = made.scene.views[view].center;
@@ -337,8 +337,8 @@ bool sees_by_brute_force(const LabelledScene& made, std::uint32_t view, std::siz
     return true;
 }
 
-/// Compares what is seen of every face, and adds to the counts of seen and unseen places.
-void expect_as_by_brute_force(const LabelledScene& made, std::array<int, 2>& counts)
+/// Compares the visibility of all samples of all faces, and counts unseen and seen samples.
+void expect_as_by_brute_force(const LabeledScene& made, std::array<int, 2>& counts)
 {
     for (std::size_t face = 0; face < made.facets.size(); ++face) {
         bool is_seen = false;
@@ -355,13 +355,13 @@ void expect_as_by_brute_force(const LabelledScene& made, std::array<int, 2>& cou
     }
 }
 
-TEST(FaceVisibility, SeesWhatBruteForceSees)
+TEST(FaceVisibility, MatchesBruteForce)
 {
     Scene scene = aimed(bumpy_sphere(150, 41), {0.5, 0, 0});
     scene.views.resize(6);
     scene.views[0].center *= 0.2; // within the hull
     for (std::uint64_t& begin : scene.tracks.begins) {
-        begin = 0; // nobody saw a point
+        begin = 0; // no view saw a point
     }
     std::array<int, 2> counts{};
     for (const std::uint64_t flipped : {0U, 15U}) {

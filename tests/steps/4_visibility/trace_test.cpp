@@ -3,8 +3,8 @@
 #include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/walk.h"
 #include "steps/5_labels/label_cells.h"
-#include "support/cast_sights.h"
-#include "support/exact_sight.h"
+#include "support/cast_rays.h"
+#include "support/exact_ray.h"
 #include "support/paper_rule.h"
 #include "support/point_sets.h"
 #include "support/scenes.h"
@@ -26,14 +26,14 @@ using Four = std::array<std::int32_t, 4>;
 VisibilityEnergy traced(const TetMesh& mesh, const Scene& scene, const TraceOptions& options)
 {
     Log log;
-    Stage stage(log, "sights");
+    Stage stage(log, "rays");
     return energy_of(mesh, scene, options);
 }
 
 Crossings counted(const TetMesh& mesh, const Scene& scene)
 {
     Log log;
-    Stage stage(log, "sights");
+    Stage stage(log, "rays");
     return crossings_of(mesh, scene);
 }
 
@@ -53,9 +53,9 @@ void expect_equal(const VisibilityEnergy& a, const VisibilityEnergy& b)
 }
 
 /// A tetrahedron around the origin, which is point 4. Finite cells: 0 {0 1 2 4}, 2 {0 1 3 4},
-/// 4 {0 2 3 4}, 6 {1 2 3 4}; beyond each the infinite cell with the next number. Slot 3 of a finite
-/// cell is its facet on the hull, slot 3 of an infinite one the same facet. Only the origin is
-/// seen, by one view at each centre.
+/// 4 {0 2 3 4}, 6 {1 2 3 4}. The infinite cell beyond each has the next number. Slot 3 of a finite
+/// cell is its facet on the hull, and slot 3 of the infinite cell the same facet. One view at each
+/// center sees the origin only.
 Scene star(const Positions& centers)
 {
     std::vector<std::uint32_t> all;
@@ -69,7 +69,7 @@ Scene star(const Positions& centers)
                                 {{0, 0, 0}, all}});
 }
 
-const Vector3d kBeyondCell0(0, 8, 16); // the way there leaves the hull at a sixth
+const Vector3d kBeyondCell0(0, 8, 16); // the ray to it leaves the hull at a sixth
 const Vector3d kInCell0(0, 1, 2);
 
 constexpr TraceOptions kFullWeight = {.views_sigma = 0.0, .distance_sigma = 0.0, .sink_depth = 0.0};
@@ -79,9 +79,9 @@ ArcCapacities no_arc_capacities()
     return {8, Four{0, 0, 0, 0}};
 }
 
-// ---- bundles of sights -------------------------------------------------------------------------
+// ---- bundles of rays ----------------------------------------------------------------------------
 
-/// Points in a long tube of a dense cloud, the first ten of which are seen from beyond its end.
+/// A dense cloud of points in a long tube. Views beyond its end see the first ten.
 Scene tube()
 {
     std::vector<MadePoint> points;
@@ -95,12 +95,12 @@ Scene tube()
     return scene;
 }
 
-/// The energy of sights that are walked one by one and go on as the header says: one in four after
-/// 16 facets and one in 16 after 40.
+/// The energy of rays that are walked one by one and bundled as in the header: one in four rays
+/// continues after 16 facets, and one in 16 after 40.
 struct BundledByHand {
     ArcCapacities arcs;
     UnsetArray<std::int32_t> terminals;
-    int gone_on = 0; ///< sights that go on for 16
+    int gone_on = 0; ///< rays that continue for 16
 
     BundledByHand(const TetMesh& mesh, const Scene& scene)
         : arcs(mesh.cells.size(), Four{0, 0, 0, 0}), terminals(mesh.cells.size(), 0)
@@ -116,7 +116,7 @@ struct BundledByHand {
     {
         int crossed = 0;
         std::int32_t carried = 0;
-        SightWalk walk(mesh, vertex);
+        RayWalk walk(mesh, vertex);
         walk.to(center, [&](Index cell, int slot) {
             ++crossed;
             const std::uint32_t lead = crossed <= 16 ? 1 : crossed <= 40 ? 4 : 16;
@@ -132,25 +132,25 @@ struct BundledByHand {
     }
 };
 
-TEST(TraceSights, LetsOneSightOfADenseCloudGoOnForAll)
+TEST(TraceRays, ContinuesOneRayPerBundleInDenseClouds)
 {
     const Scene scene = tube();
     const TetMesh mesh = triangulate(scene);
     TraceOptions options = kFullWeight;
-    options.bundle_sights = 4;
+    options.bundle_rays = 4;
     const VisibilityEnergy energy = traced(mesh, scene, options);
     const BundledByHand expected(mesh, scene);
     ASSERT_GT(expected.gone_on, 0);
     EXPECT_EQ(energy.network.arc_capacities, expected.arcs);
     EXPECT_EQ(energy.network.terminal_capacities, expected.terminals);
-    options.bundle_sights = 1;
+    options.bundle_rays = 1;
     EXPECT_EQ(energy.cell_of_view, traced(mesh, scene, options).cell_of_view);
 }
 
-TEST(TraceSights, LetsOneSightGoOnForAllThroughEdgesAndVertices)
+TEST(TraceRays, ContinuesOneRayPerBundleThroughEdgesAndVertices)
 {
-    // A beam of lattice points, from whose first square sights run through edges and vertices,
-    // where the exact walk takes over.
+    // A beam of lattice points. Rays from its first square run through edges and vertices, so the
+    // exact walk takes over.
     std::vector<MadePoint> points;
     for (int i = 0; i < 60 * 3 * 3; ++i) {
         const Vector3d place(i / 9, i / 3 % 3, i % 3);
@@ -161,25 +161,25 @@ TEST(TraceSights, LetsOneSightGoOnForAllThroughEdgesAndVertices)
     scene.is_dense = true;
     const TetMesh mesh = triangulate(scene);
     TraceOptions options = kFullWeight;
-    options.bundle_sights = 4;
+    options.bundle_rays = 4;
     const BundledByHand expected(mesh, scene);
     ASSERT_GT(expected.gone_on, 0);
     EXPECT_EQ(traced(mesh, scene, options).network.arc_capacities, expected.arcs);
 }
 
-TEST(TraceSights, WalksAllSightsOfPointsThatAMatcherFoundOneByOne)
+TEST(TraceRays, DoesNotBundleRaysOfSparseModels)
 {
     Scene scene = tube();
     scene.is_dense = false;
     const TetMesh mesh = triangulate(scene);
     TraceOptions options = kFullWeight;
-    options.bundle_sights = 4;
+    options.bundle_rays = 4;
     const VisibilityEnergy bundled = traced(mesh, scene, options);
-    options.bundle_sights = 1;
+    options.bundle_rays = 1;
     expect_equal(bundled, traced(mesh, scene, options));
 }
 
-// ---- by hand ------------------------------------------------------------------------------------
+// ---- hand-computed cases ------------------------------------------------------------------------
 
 TEST(CountCrossings, CountsBothSidesOfAFacet)
 {
@@ -191,12 +191,12 @@ TEST(CountCrossings, CountsBothSidesOfAFacet)
     EXPECT_EQ(crossings, expected);
 }
 
-TEST(TraceSights, PushesASightFromBeyondTheHullToItsPoint)
+TEST(TraceRays, PushesTheFlowOfARayFromOutsideTheHull)
 {
     const Scene scene = star({kBeyondCell0});
     const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
     ArcCapacities arc_capacities = no_arc_capacities();
-    arc_capacities[0][3] = 256; // back out; the way in is used up
+    arc_capacities[0][3] = 256; // outwards; the inward arc is saturated
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
     EXPECT_EQ(energy.network.terminal_capacities,
               (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
@@ -204,7 +204,7 @@ TEST(TraceSights, PushesASightFromBeyondTheHullToItsPoint)
     EXPECT_EQ(energy.unit, 256);
 }
 
-TEST(TraceSights, LeavesTheWholeFlowInTheCellOfAViewThatNoFacetPartsFromItsPoint)
+TEST(TraceRays, LeavesAllFlowInTheCellOfTheViewIfTheRayCrossesNoFacet)
 {
     const Scene scene = star({kInCell0});
     const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
@@ -214,7 +214,7 @@ TEST(TraceSights, LeavesTheWholeFlowInTheCellOfAViewThatNoFacetPartsFromItsPoint
     EXPECT_EQ(energy.cell_of_view, std::vector<Index>{0});
 }
 
-TEST(TraceSights, FindsTheCellsOfViewsThatSeeNoPoint)
+TEST(TraceRays, FindsTheCellsOfViewsWithoutPoints)
 {
     Scene scene = star({kBeyondCell0});
     for (const Vector3d& center : {kInCell0, kBeyondCell0}) {
@@ -225,9 +225,9 @@ TEST(TraceSights, FindsTheCellsOfViewsThatSeeNoPoint)
     EXPECT_EQ(energy.cell_of_view, (std::vector<Index>{kInfinite, 0, kInfinite}));
 }
 
-TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
+TEST(TraceRays, WeightsARayByTheViewsOfItsPointRelativeToTheMedian)
 {
-    // The origin has one view; point 0 has two, out of the hull, and cell 4 behind it.
+    // The origin has one view. Point 0 has two, outside the hull, and cell 4 is behind it.
     Scene scene = star({kBeyondCell0});
     scene = make_scene({kBeyondCell0, {8, 8, 9}, {12, 12, 14}}, {{scene.positions[0], {1, 2}},
                                                                  {scene.positions[1], {}},
@@ -236,7 +236,7 @@ TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
                                                                  {scene.positions[4], {0}}});
     const TraceOptions options = {.views_sigma = 3.0, .distance_sigma = 0.0, .sink_depth = 0.0};
     const VisibilityEnergy energy = traced(triangulate(scene), scene, options);
-    // 256 (1 - exp(-1 / 18)) / (1 - exp(-4 / 18)) = 69.4 beside 256
+    // 256 (1 - exp(-1 / 18)) / (1 - exp(-4 / 18)) = 69.4, relative to 256
     ArcCapacities arc_capacities = no_arc_capacities();
     arc_capacities[0][3] = 69;
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
@@ -244,10 +244,10 @@ TEST(TraceSights, WeighsASightByTheViewsOfItsPointAgainstTheMedianPoint)
               (UnsetArray<std::int32_t>{69, 0, 0, 0, -512, 0, -69, 0}));
 }
 
-TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
+TEST(TraceRays, WeightsARayLessForAnErrorAboveTheMedian)
 {
     Scene scene = star({kBeyondCell0});
-    scene.errors_px = {1.0, 1.0, 1.0, -1.0, 2.0}; // the origin's: twice the median
+    scene.errors_px = {1.0, 1.0, 1.0, -1.0, 2.0}; // that of the origin is twice the median
     TraceOptions options = kFullWeight;
     options.error_sigma = 3.0;
     const std::int32_t weight = 217; // 256 exp(-(4 - 1) / 18)
@@ -267,17 +267,17 @@ TEST(TraceSights, WeighsASightLessByAnErrorBeyondTheMedian)
     EXPECT_EQ(traced(triangulate(scene), scene, options).network.terminal_capacities, full);
 }
 
-TEST(TraceSights, LetsAnArcBeFullButNotACell)
+TEST(TraceRays, ClampsFullArcsAndRejectsFullCells)
 {
-    // One ray of more weight than an arc holds, twice: the arc is full, and of the flow that stays
-    // in the cell, which must be exact, the second is too much.
+    // The weight of one ray exceeds the limit of an arc, which is clamped. The excess of a cell
+    // must be exact, so more such rays are rejected.
     const Scene scene = star({kBeyondCell0});
     const TetMesh mesh = triangulate(scene);
     RaySource heavy = photographs(scene);
     heavy.weight = 2.2e6;
     const auto cast = [&](VisibilityEnergy& energy) {
         Log silent;
-        Stage stage(silent, "sights");
+        Stage stage(silent, "rays");
         RayCaster(mesh, scene, measure_scales(mesh, scene), kFullWeight).cast(heavy, energy, stage);
     };
     VisibilityEnergy energy;
@@ -288,13 +288,13 @@ TEST(TraceSights, LetsAnArcBeFullButNotACell)
                   cast(energy);
                   cast(energy);
               }),
-              "the 1 sights of the model add up to more than 32 bits hold in one cell; a surface "
-              "needs fewer points or views");
+              "the weights of the 1 rays of the model exceed 32 bits in one cell; use fewer "
+              "points or views");
 }
 
-TEST(TraceSights, SaysBySharesWhatItSaysAtOnce)
+TEST(TraceRays, SumsSharesToTheWholeEnergy)
 {
-    // Each of two rays leaves room in an arc; both do not.
+    // One ray does not fill an arc; two rays do.
     const Scene scene = star({kBeyondCell0});
     const Scene twice = star({kBeyondCell0, kBeyondCell0});
     const TetMesh mesh = triangulate(scene);
@@ -306,7 +306,7 @@ TEST(TraceSights, SaysBySharesWhatItSaysAtOnce)
     RayCaster(mesh, twice, scales, kFullWeight).cast(two, whole, {});
 
     const RayCaster caster(mesh, scene, scales, kFullWeight);
-    VisibilityEnergy said = caster.said_of(one, all_vertices(mesh), {});
+    VisibilityEnergy said = caster.energy_of(one, all_vertices(mesh), {});
     EXPECT_EQ(said.network.arc_capacities[0][3], 384'000'000);
     caster.add(caster.share(one, all_vertices(mesh), {}), said);
     VisibilityEnergy sum;
@@ -319,23 +319,23 @@ TEST(TraceSights, SaysBySharesWhatItSaysAtOnce)
                   caster.add(caster.share(one, all_vertices(mesh), {}), sum);
                   caster.add(caster.share(one, all_vertices(mesh), {}), sum);
               }),
-              "the 1 sights of the model add up to more than 32 bits hold in one cell; a surface "
-              "needs fewer points or views");
+              "the weights of the 1 rays of the model exceed 32 bits in one cell; use fewer "
+              "points or views");
 }
 
-TEST(TraceSights, SaysByAShareWhereTheViewIs)
+TEST(TraceRays, FindsTheCellOfAViewInAShare)
 {
     const Scene scene = star({kInCell0});
     const TetMesh mesh = triangulate(scene);
     const RaySource source = photographs(scene);
     const RayCaster caster(mesh, scene, measure_scales(mesh, scene), kFullWeight);
-    VisibilityEnergy said = caster.said_of(source, {0, 4}, {}); // nobody saw these
+    VisibilityEnergy said = caster.energy_of(source, {0, 4}, {}); // no view saw these
     EXPECT_EQ(said.cell_of_view, std::vector<Index>{kInfinite});
     caster.add(caster.share(source, {4, 5}, {}), said);
     EXPECT_EQ(said.cell_of_view, std::vector<Index>{0});
 }
 
-TEST(TraceSights, SaysNothingWithoutSights)
+TEST(TraceRays, AddsNothingWithoutRays)
 {
     const Scene scene = star({});
     const VisibilityEnergy energy = traced(triangulate(scene), scene, {});
@@ -343,10 +343,10 @@ TEST(TraceSights, SaysNothingWithoutSights)
     EXPECT_EQ(energy.network.terminal_capacities, UnsetArray<std::int32_t>(8, 0));
 }
 
-TEST(TraceSights, SoftensWhatIsNearThePoint)
+TEST(TraceRays, ReducesWeightsNearThePoint)
 {
-    // The facet is |(0, 4/3, 8/3)| = 2.98142 away. Of the ten edges, four are sqrt(48) = 6.9282
-    // long and six sqrt(128), so a short edge is 6.9282.
+    // The distance to the facet is |(0, 4/3, 8/3)| = 2.98142. Four of the ten edges have length
+    // sqrt(48) = 6.9282 and six sqrt(128), so a short edge is 6.9282.
     const Scene scene = star({kBeyondCell0});
     const TraceOptions options = {.views_sigma = 0.0, .distance_sigma = 0.5, .sink_depth = 0.0};
     const VisibilityEnergy energy = traced(triangulate(scene), scene, options);
@@ -357,7 +357,7 @@ TEST(TraceSights, SoftensWhatIsNearThePoint)
               (UnsetArray<std::int32_t>{79, 0, 0, 0, 0, 0, -256, 0}));
 }
 
-TEST(TraceSights, SaysNothingBehindAPointAlongABorder)
+TEST(TraceRays, AddsNoInsideVoteBehindABorderPoint)
 {
     Scene scene = star({kBeyondCell0});
     scene.kinds.assign(scene.num_points(), PointKind::measured);
@@ -373,13 +373,13 @@ TEST(TraceSights, SaysNothingBehindAPointAlongABorder)
               (UnsetArray<std::int32_t>{256, 0, 0, 0, 0, 0, -256, 0}));
 }
 
-TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
+TEST(TraceRays, AddsNoInsideVoteBehindAHullPoint)
 {
     Scene scene = make_scene(
         {{1, 1, 1}},
         {{{0, 0, 0}, {}}, {{4, 0, 0}, {}}, {{0, 4, 0}, {}}, {{1, 1, 3}, {0}}, {{1, 1, -3}, {0}}});
     const VisibilityEnergy energy = traced(triangulate(scene), scene, kFullWeight);
-    // Cell 0 {0 1 2 3} holds the view; point 4's sight crosses into it from cell 2 {0 1 2 4}.
+    // Cell 0 {0 1 2 3} contains the view. The ray of point 4 enters it from cell 1 {0 1 2 4}.
     ArcCapacities arc_capacities = no_arc_capacities();
     arc_capacities[1][3] = 256;
     EXPECT_EQ(energy.network.arc_capacities, arc_capacities);
@@ -390,7 +390,7 @@ TEST(TraceSights, SaysNothingBehindAPointOnTheHull)
 
 // ---- against brute force ------------------------------------------------------------------------
 
-/// Views in the hull and out of it.
+/// Views inside and outside the hull.
 Positions centers_around(std::uint64_t seed)
 {
     std::mt19937_64 random(seed);
@@ -402,7 +402,7 @@ Positions centers_around(std::uint64_t seed)
     return centers;
 }
 
-Crossings crossings_of_all_sights(const TetMesh& mesh, const Scene& scene)
+Crossings crossings_of_all_rays(const TetMesh& mesh, const Scene& scene)
 {
     Crossings crossings(mesh.cells.size(), {0, 0, 0, 0});
     for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
@@ -418,7 +418,7 @@ Crossings crossings_of_all_sights(const TetMesh& mesh, const Scene& scene)
     return crossings;
 }
 
-TEST(CountCrossings, IsTheSumOfBruteForceCrossings)
+TEST(CountCrossings, MatchesBruteForce)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(41);
@@ -427,12 +427,12 @@ TEST(CountCrossings, IsTheSumOfBruteForceCrossings)
             centers.push_back(any_target(named, static_cast<Index>(view), random));
         }
         const Scene scene = scene_seen_from(centers, named.mesh.positions, 0.5, 42);
-        EXPECT_EQ(counted(named.mesh, scene), crossings_of_all_sights(named.mesh, scene))
+        EXPECT_EQ(counted(named.mesh, scene), crossings_of_all_rays(named.mesh, scene))
             << named.name;
     }
 }
 
-TEST(CountCrossings, MarksWhatThePapersOwnTestMarks)
+TEST(CountCrossings, MatchesTheRuleOfThePaper)
 {
     const Scene scene = scene_seen_from(centers_around(43), random_points(90, 44), 0.4, 45);
     const TetMesh mesh = triangulate(scene);
@@ -452,13 +452,13 @@ TEST(CountCrossings, MarksWhatThePapersOwnTestMarks)
     EXPECT_EQ(found, (std::array<int, 3>{694, 14, 1016})); // none, unclear, redundant
 }
 
-/// Compares the cut of the pushed network with Boost's of the unpushed one; returns how many cells
-/// are inside.
+/// Compares the cut of the pushed network with Boost's cut of the unpushed network. Returns the
+/// number of inside cells.
 std::ptrdiff_t compare_cuts(const Scene& scene, const TraceOptions& options)
 {
     const TetMesh mesh = triangulate(scene);
     const VisibilityEnergy energy = traced(mesh, scene, options);
-    UnpushedNetwork network = network_of_sights(mesh, scene, options);
+    UnpushedNetwork network = network_of_rays(mesh, scene, options);
     pin_outside(mesh, energy.cell_of_view, network);
     const Labels expected = boost_minimum_cut(mesh, network);
     const Labels labels = cut(mesh, energy, {.quality = 0.0});
@@ -475,7 +475,7 @@ const std::array<TraceOptions, 7> kTraceOptions = {{{0.0, 0.0, 0.0},
                                                     {0.0, 0.5, 3.0},
                                                     {3.0, 4.0, 0.5}}};
 
-TEST(TraceSights, LeavesTheMinimumCutAsItIs)
+TEST(TraceRays, DoesNotChangeTheMinimumCut)
 {
     std::ptrdiff_t inside = 0;
     for (const TraceOptions& options : kTraceOptions) {
@@ -488,9 +488,9 @@ TEST(TraceSights, LeavesTheMinimumCutAsItIs)
     EXPECT_EQ(inside, 1938);
 }
 
-TEST(TraceSights, LeavesTheMinimumCutAsItIsForSightsThroughEdgesAndVertices)
+TEST(TraceRays, DoesNotChangeTheMinimumCutForRaysThroughEdgesAndVertices)
 {
-    // Views on points, edges, facets, in cells and out of the hull.
+    // Views on points, edges and facets, in cells, and outside the hull.
     const Positions centers = {{1, 1, 1},   {1.5, 1.5, 1.5},    {2, 1.5, 1}, {2, 2, 3},
                                {1.5, 0, 4}, {0.5, 2.25, 1.375}, {6, 5, 4},   {1, 7, 2}};
     std::ptrdiff_t inside = 0;
@@ -502,15 +502,15 @@ TEST(TraceSights, LeavesTheMinimumCutAsItIsForSightsThroughEdgesAndVertices)
     EXPECT_EQ(inside, 720);
 }
 
-TEST(TraceSights, NamesTheCellsOfViewsWhateverTheOrder)
+TEST(TraceRays, FindsTheLowestCellOfAViewOnABoundary)
 {
     const Positions centers = {{1, 1, 1}, {1.5, 1.5, 1.5}, {2, 1.5, 1}, {5, 4, 1}, {1.5, 0, 4}};
     const Scene scene = scene_seen_from(centers, lattice(4), 0.5, 62);
     const TetMesh mesh = triangulate(scene);
-    std::vector<Index> expected(centers.size(), kInfinite); // as it stays for the last two
+    std::vector<Index> expected(centers.size(), kInfinite); // for the last two views, too
     for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
         for (const std::uint32_t view : scene.tracks[vertex]) {
-            SightWalk walk(mesh, vertex);
+            RayWalk walk(mesh, vertex);
             const Index last = walk.to(centers[view], [](Index, int) {}).last;
             if (last != kInfinite && !mesh.cells[last].is_infinite()) {
                 expected[view] = std::min(expected[view], last);
@@ -520,7 +520,7 @@ TEST(TraceSights, NamesTheCellsOfViewsWhateverTheOrder)
     EXPECT_EQ(traced(mesh, scene, kFullWeight).cell_of_view, expected);
 }
 
-TEST(TraceSights, IsTheSameForOneAndTwoThreads)
+TEST(TraceRays, DoesNotDependOnTheThreadCount)
 {
     const Positions views_on_points = {{1, 1, 1}, {2, 2, 2.5}, {3.5, 3.5, 3.5}, {9, 20, 30}};
     for (const Scene& scene :
@@ -564,7 +564,7 @@ void expect_same_for_views_in_another_order(const Scene& scene)
     EXPECT_EQ(counted(mesh, permuted), counted(mesh, scene));
 }
 
-TEST(TraceSights, IsTheSameForViewsInAnyOrder)
+TEST(TraceRays, DoesNotDependOnTheOrderOfViews)
 {
     expect_same_for_views_in_another_order(
         scene_seen_from(centers_around(73), random_points(200, 74), 0.5, 75));

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The facets that a line crosses, by the walk; nothing where it could not be followed.
+/// The facets that a line crosses, by the walk; nothing if the line could not be followed.
 std::optional<std::vector<CellFacet>> walked(const TetMesh& mesh, const Vector3d& eye,
                                              const Vector3d& direction, double reach)
 {
@@ -34,8 +34,8 @@ bool is_same(const CellFacet& a, const CellFacet& b)
     return a.cell == b.cell && a.slot == b.slot;
 }
 
-/// The facets of finite cells through which a line leaves them, by trying all, in order along it;
-/// and before them the one of the hull by which it comes in.
+/// The facets that a line crosses, in order, by a test of all facets: the hull facet by which it
+/// enters, then the facets by which it leaves finite cells.
 std::vector<CellFacet> tried(const TetMesh& mesh, const Vector3d& eye, const Vector3d& target)
 {
     std::vector<std::pair<double, CellFacet>> crossed;
@@ -65,7 +65,7 @@ std::vector<CellFacet> tried(const TetMesh& mesh, const Vector3d& eye, const Vec
     return facets;
 }
 
-TEST(ViewWalk, CrossesWhatTryingEveryFacetFinds)
+TEST(ViewWalk, MatchesBruteForce)
 {
     constexpr double kReach = 40.0;
     const TetMesh mesh = triangulation_of(random_points(60, 5));
@@ -73,7 +73,7 @@ TEST(ViewWalk, CrossesWhatTryingEveryFacetFinds)
     int crossing = 0;
     int followed = 0;
     for (int i = 0; i < 2000; ++i) {
-        // Half of the eyes stand within the cube of the points, half mostly out of it.
+        // Half of the eyes are inside the cube of the points, and most others outside.
         const double size = i % 2 == 0 ? 0.0 : 3.0;
         const Vector3d eye = even_in_cube(random, -size, 1.0 + size);
         const Vector3d aim = even_in_cube(random, -0.5, 1.5);
@@ -87,10 +87,10 @@ TEST(ViewWalk, CrossesWhatTryingEveryFacetFinds)
     }
     EXPECT_EQ(followed, 2000);
     EXPECT_GT(crossing, 1000);
-    EXPECT_LT(crossing, 1990) << "some pass the hull by";
+    EXPECT_LT(crossing, 1990) << "some lines must miss the hull";
 }
 
-TEST(ViewWalk, StopsWhereItIsToldTo)
+TEST(ViewWalk, StopsIfTheCallbackReturnsFalse)
 {
     const TetMesh mesh = triangulation_of(random_points(60, 5));
     int asked = 0;
@@ -105,7 +105,7 @@ TEST(ViewWalk, DoesNotFollowALineThatEntersTheHullThroughAnEdge)
 {
     const TetMesh mesh = triangulation_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}});
     const auto never = [](const CellFacet&) -> bool { throw std::logic_error("crossed"); };
-    // The edge from (0, 0, 0) to (2, 0, 0), seen from below and before.
+    // The line enters through the edge from (0, 0, 0) to (2, 0, 0).
     EXPECT_FALSE(ViewWalk(mesh, {0.5, -1, -1}, 3).along(Vector3d(0, 1, 1).normalized(), 9, never));
     EXPECT_TRUE(ViewWalk(mesh, {0.5, -1, -1}, 3).along(Vector3d(0, -1, -1).normalized(), 9, never));
 }

@@ -3,13 +3,13 @@
 #include "io/colmap/colmap_model.h"
 #include "steps/3_cells/triangulate.h"
 #include "steps/4_visibility/count_crossings.h"
-#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/ray_weights.h"
 #include "steps/4_visibility/trace.h"
 #include "steps/4_visibility/virtual_views.h"
 #include "steps/4_visibility/walk.h"
 #include "steps/5_labels/label_cells.h"
-#include "support/cast_sights.h"
-#include "support/exact_sight.h"
+#include "support/cast_rays.h"
+#include "support/exact_ray.h"
 #include "support/places.h"
 #include "support/scenes.h"
 
@@ -29,8 +29,8 @@ Scene paper_object(const std::string& name)
     return read_colmap_model(fixtures_folder() / "paper" / name, ModelFormat::text);
 }
 
-/// The scene as two of its views saw it. All points stay, so that the true solid is still made of
-/// whole cells; most lose all their sights.
+/// The scene with the rays of two views only. All points stay, so that the true solid still
+/// consists of whole cells; most points lose all rays.
 Scene seen_by_two(const Scene& scene, std::uint32_t first, std::uint32_t second)
 {
     Scene result = scene;
@@ -53,11 +53,11 @@ double volume(const TetMesh& mesh, Index cell)
            6.0;
 }
 
-/// How far a labelling is from the truth.
+/// The errors of a labeling.
 struct Faults {
-    int left = 0; ///< empty cells that are labelled inside
+    int left = 0; ///< empty cells that are labeled inside
     double left_volume = 0.0;
-    int lost = 0; ///< solid cells that are labelled outside
+    int lost = 0; ///< solid cells that are labeled outside
 
     Faults& operator+=(const Faults& more)
     {
@@ -83,19 +83,19 @@ Faults faults_of(const TetMesh& mesh, const Labels& labels, const Labels& truth)
 
 class VirtualViews : public ::testing::Test {
   protected:
-    VirtualSights virtual_sights_of(const Scene& scene, const TetMesh& mesh, const Labels& labels,
-                                    int count)
+    VirtualRays virtual_rays_of(const Scene& scene, const TetMesh& mesh, const Labels& labels,
+                                int count)
     {
-        return find_virtual_sights(mesh, scene, labels, {.count = count, .weight = 0.5}, stage_);
+        return find_virtual_rays(mesh, scene, labels, {.count = count, .weight = 0.5}, stage_);
     }
 
     Log log_;
     Stage stage_ = Stage(log_, "a test");
 };
 
-// ---- what two views leave (figure 13 of the paper) ----------------------------------------------
+// ---- carving with two views (figure 13 of the paper) --------------------------------------------
 
-TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
+TEST_F(VirtualViews, CarvesEmptyCellsThatTwoViewsMiss)
 {
     const Scene scene = paper_object("cube_with_cavity");
     const TetMesh mesh = triangulate(scene);
@@ -109,8 +109,8 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
             const Scene two = seen_by_two(scene, a, b);
             Crossings crossings = crossings_of(mesh, two);
             const Labels first = carve(mesh, crossings, 1);
-            CrossingCounter(mesh).cast(virtual_sights_of(two, mesh, first, 20).source(0.5),
-                                       crossings, stage_);
+            CrossingCounter(mesh).cast(virtual_rays_of(two, mesh, first, 20).source(0.5), crossings,
+                                       stage_);
             const Faults left = faults_of(mesh, first, truth);
             const Faults still_left = faults_of(mesh, carve(mesh, crossings, 1), truth);
             before += left;
@@ -119,7 +119,7 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
             mended_pairs += left.left > 0 && still_left.left == 0 ? 1 : 0;
         }
     }
-    // Of 190 pairs of views, 41 empty cells and 10 cubed units each.
+    // There are 190 pairs of views, each with 41 empty cells, which are 10 cubed units in all.
     EXPECT_EQ(wrong_pairs, 189);
     EXPECT_EQ(mended_pairs, 65);
     EXPECT_EQ(before.left, 2564);
@@ -130,7 +130,7 @@ TEST_F(VirtualViews, FindWhatTwoViewsLeftOfTheCavity)
     EXPECT_EQ(after.lost, 0);
 }
 
-// ---- where they stand, what they see ------------------------------------------------------------
+// ---- positions and visible points ---------------------------------------------------------------
 
 bool holds(const TetMesh& mesh, const Cell& cell, const Vector3d& place)
 {
@@ -144,16 +144,16 @@ bool holds(const TetMesh& mesh, const Cell& cell, const Vector3d& place)
     return true;
 }
 
-TEST_F(VirtualViews, StandInDifferentCellsThatAreOutsideAndCrossed)
+TEST_F(VirtualViews, PlacesViewpointsInDistinctOutsideCellsThatRaysCross)
 {
     const Scene scene = seen_by_two(paper_object("desk"), 3, 7);
     const TetMesh mesh = triangulate(scene);
     const Crossings crossings = crossings_of(mesh, scene);
-    const Labels labels = carve(mesh, crossings, 2); // leaves cells inside that a sight crosses
-    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
-    ASSERT_EQ(sights.centers.size(), 25U);
+    const Labels labels = carve(mesh, crossings, 2); // some inside cells are crossed by one ray
+    const VirtualRays rays = virtual_rays_of(scene, mesh, labels, 25);
+    ASSERT_EQ(rays.centers.size(), 25U);
     std::set<Index> cells;
-    for (const Vector3d& center : sights.centers) {
+    for (const Vector3d& center : rays.centers) {
         for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
             if (!holds(mesh, mesh.cells[cell], center)) continue;
             cells.insert(cell);
@@ -164,7 +164,7 @@ TEST_F(VirtualViews, StandInDifferentCellsThatAreOutsideAndCrossed)
     EXPECT_EQ(cells.size(), 25U);
 }
 
-/// How far the middle of a cell is from its nearest corner.
+/// The distance from the centroid of a cell to its nearest corner.
 double clearance(const TetMesh& mesh, const Cell& cell)
 {
     Vector3d middle = Vector3d::Zero();
@@ -178,9 +178,9 @@ double clearance(const TetMesh& mesh, const Cell& cell)
     return least;
 }
 
-TEST_F(VirtualViews, StandNeitherAtTheSurfaceNorFarOff)
+TEST_F(VirtualViews, PlacesNoViewpointAtTheSurfaceOrFarOff)
 {
-    // A plate of points a unit apart, and four high above it: free cells of all sizes between.
+    // A plate of points a unit apart, and four points high above: free cells of all sizes between.
     std::vector<MadePoint> points;
     for (int i = 0; i < 10; ++i) {
         for (int j = 0; j < 10; ++j) {
@@ -203,9 +203,9 @@ TEST_F(VirtualViews, StandNeitherAtTheSurfaceNorFarOff)
         free_but_far += clearance(mesh, mesh.cells[cell]) > 8.0 * short_edge ? 1 : 0;
     }
     EXPECT_GT(free_but_far, 10);
-    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 10000);
-    EXPECT_GT(sights.centers.size(), 10U);
-    for (const Vector3d& center : sights.centers) {
+    const VirtualRays rays = virtual_rays_of(scene, mesh, labels, 10000);
+    EXPECT_GT(rays.centers.size(), 10U);
+    for (const Vector3d& center : rays.centers) {
         const auto cell = std::ranges::find_if(
             mesh.cells, [&](const Cell& candidate) { return holds(mesh, candidate, center); });
         ASSERT_NE(cell, mesh.cells.end());
@@ -214,11 +214,11 @@ TEST_F(VirtualViews, StandNeitherAtTheSurfaceNorFarOff)
     }
 }
 
-TEST_F(VirtualViews, SeeNothingThroughCellsBehindASeenPoint)
+TEST_F(VirtualViews, SeesNothingThroughCellsBehindSeenPoints)
 {
     const Scene scene = paper_object("boissonnat");
     const TetMesh mesh = triangulate(scene);
-    // With all views the labels are true, and solid cells without evidence are few.
+    // With all views the labels are correct, and few solid cells lack evidence.
     const Labels labels = carve(mesh, crossings_of(mesh, scene), 1);
     std::set<Index> solid;
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
@@ -234,11 +234,11 @@ TEST_F(VirtualViews, SeeNothingThroughCellsBehindASeenPoint)
             }
         }
     }
-    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 10);
-    ASSERT_GT(sights.tracks.views.size(), 100U);
+    const VirtualRays rays = virtual_rays_of(scene, mesh, labels, 10);
+    ASSERT_GT(rays.tracks.views.size(), 100U);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        for (const std::uint32_t view : sights.tracks[vertex]) {
-            const Vector3d& center = sights.centers[view];
+        for (const std::uint32_t view : rays.tracks[vertex]) {
+            const Vector3d& center = rays.centers[view];
             for (const auto& [facet, share] : crossings_by_brute_force(mesh, vertex, center)) {
                 EXPECT_FALSE(solid.contains(facet.cell));
             }
@@ -246,52 +246,52 @@ TEST_F(VirtualViews, SeeNothingThroughCellsBehindASeenPoint)
     }
 }
 
-TEST_F(VirtualViews, SeeNoPointThatNoViewSaw)
+TEST_F(VirtualViews, SeesNoPointThatNoViewSaw)
 {
     const Scene scene = seen_by_two(paper_object("desk"), 3, 7);
     const TetMesh mesh = triangulate(scene);
     const Labels labels = carve(mesh, crossings_of(mesh, scene), 1);
-    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
+    const VirtualRays rays = virtual_rays_of(scene, mesh, labels, 25);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        EXPECT_TRUE(!scene.tracks[vertex].empty() || sights.tracks[vertex].empty());
+        EXPECT_TRUE(!scene.tracks[vertex].empty() || rays.tracks[vertex].empty());
     }
 }
 
-TEST_F(VirtualViews, StandNowhereWhereNothingIsFree)
+TEST_F(VirtualViews, PlacesNoViewpointIfNothingIsFree)
 {
     const Scene scene = bumpy_sphere(300, 1);
     const TetMesh mesh = triangulate(scene);
     const Labels solid(mesh.cells.size(), Label::inside);
-    const VirtualSights sights = virtual_sights_of(scene, mesh, solid, 25);
-    EXPECT_TRUE(sights.centers.empty());
-    EXPECT_TRUE(sights.tracks.views.empty());
-    EXPECT_EQ(sights.tracks.size(), scene.num_points());
+    const VirtualRays rays = virtual_rays_of(scene, mesh, solid, 25);
+    EXPECT_TRUE(rays.centers.empty());
+    EXPECT_TRUE(rays.tracks.views.empty());
+    EXPECT_EQ(rays.tracks.size(), scene.num_points());
 }
 
-// ---- how they count -----------------------------------------------------------------------------
+// ---- weights ------------------------------------------------------------------------------------
 
-/// The scene as if the virtual views were all it has.
-Scene as_real(Scene scene, const VirtualSights& sights)
+/// The scene with the virtual views as its only views.
+Scene as_real(Scene scene, const VirtualRays& rays)
 {
-    scene.views.assign(sights.centers.size(), {});
-    for (std::size_t i = 0; i < sights.centers.size(); ++i) {
-        scene.views[i].center = sights.centers[i];
+    scene.views.assign(rays.centers.size(), {});
+    for (std::size_t i = 0; i < rays.centers.size(); ++i) {
+        scene.views[i].center = rays.centers[i];
     }
-    scene.tracks = sights.tracks;
+    scene.tracks = rays.tracks;
     return scene;
 }
 
-TEST_F(VirtualViews, CountLikeRealOnesAtFullWeight)
+TEST_F(VirtualViews, CountsLikeRealViewsAtFullWeight)
 {
     const Scene scene = bumpy_sphere(500, 4);
     const TetMesh mesh = triangulate(scene);
     const Crossings before = crossings_of(mesh, scene);
-    const VirtualSights sights = virtual_sights_of(scene, mesh, carve(mesh, before, 1), 25);
-    const Crossings own = crossings_of(mesh, as_real(scene, sights));
+    const VirtualRays rays = virtual_rays_of(scene, mesh, carve(mesh, before, 1), 25);
+    const Crossings own = crossings_of(mesh, as_real(scene, rays));
     Crossings whole = before;
-    CrossingCounter(mesh).cast(sights.source(1.0), whole, stage_);
+    CrossingCounter(mesh).cast(rays.source(1.0), whole, stage_);
     Crossings half = before;
-    CrossingCounter(mesh).cast(sights.source(0.5), half, stage_);
+    CrossingCounter(mesh).cast(rays.source(0.5), half, stage_);
     std::uint32_t most = 0;
     for (Index cell = 0; cell < mesh.cells.size(); ++cell) {
         for (int slot = 0; slot < 4; ++slot) {
@@ -303,27 +303,26 @@ TEST_F(VirtualViews, CountLikeRealOnesAtFullWeight)
     EXPECT_GT(most, 3U);
 }
 
-TEST_F(VirtualViews, VoteForOutsideLikeRealOnesAtFullWeight)
+TEST_F(VirtualViews, VotesForOutsideLikeRealViewsAtFullWeight)
 {
     const Scene scene = bumpy_sphere(500, 4);
     const TetMesh mesh = triangulate(scene);
     const TraceOptions options = {.views_sigma = 0.0};
     const VisibilityEnergy before = energy_of(mesh, scene, options);
     const Labels labels = carve(mesh, crossings_of(mesh, scene), 1);
-    const VirtualSights sights = virtual_sights_of(scene, mesh, labels, 25);
-    const Scene real = as_real(scene, sights);
+    const VirtualRays rays = virtual_rays_of(scene, mesh, labels, 25);
+    const Scene real = as_real(scene, rays);
     const VisibilityEnergy own = energy_of(mesh, real, options);
     VisibilityEnergy energy = before;
     RayCaster(mesh, scene, measure_scales(mesh, scene), options)
-        .cast(sights.source(1.0), energy, stage_);
+        .cast(rays.source(1.0), energy, stage_);
 
-    // What real sights say besides: the cell behind the point is inside.
+    // Real rays also vote for the cell behind the point to be inside.
     std::vector<std::int32_t> sinks(mesh.cells.size(), 0);
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        SightWalk walk(mesh, vertex);
-        for (const std::uint32_t view : sights.tracks[vertex]) {
-            const Index behind =
-                walk.first_cell(2.0 * mesh.positions[vertex] - sights.centers[view]);
+        RayWalk walk(mesh, vertex);
+        for (const std::uint32_t view : rays.tracks[vertex]) {
+            const Index behind = walk.first_cell(2.0 * mesh.positions[vertex] - rays.centers[view]);
             if (behind != kInfinite) sinks[behind] += own.unit;
         }
     }
@@ -338,7 +337,7 @@ TEST_F(VirtualViews, VoteForOutsideLikeRealOnesAtFullWeight)
                           own.network.arc_capacities[cell][slot]);
         }
     }
-    EXPECT_EQ(energy.cell_of_view, before.cell_of_view); // nobody stood there
+    EXPECT_EQ(energy.cell_of_view, before.cell_of_view); // virtual views add none
 }
 
 } // namespace

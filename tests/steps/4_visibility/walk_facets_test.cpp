@@ -1,5 +1,5 @@
 #include "steps/4_visibility/walk.h"
-#include "support/exact_sight.h"
+#include "support/exact_ray.h"
 #include "support/point_sets.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +10,14 @@ namespace {
 using Eigen::Vector3d;
 using CellAndSlot = std::pair<Index, int>;
 
-/// A way through a facet.
+/// A segment from a position on a facet to a target.
 struct Way {
     CellFacet facet;
     Vector3d place;
     Vector3d target;
 };
 
-/// What a walk asked about, and where it was stopped.
+/// The facets that a walk passed to the callback, and the facet at which it stopped.
 struct FacetWalk {
     std::vector<CellAndSlot> asked;
     CellAndSlot stopped;
@@ -30,12 +30,12 @@ CellAndSlot pair_of(const CellFacet& facet)
     return {facet.cell, facet.slot};
 }
 
-/// Goes along, and says no when asked for the time `stop_at`, counted from 0.
+/// Walks, and returns false from call `stop_at` of the callback, counted from 0.
 FacetWalk walked(const TetMesh& mesh, const Way& way, std::size_t stop_at)
 {
     FacetWalk walk;
     const CellFacet stopped =
-        SightWalk(mesh).through_facet(way.facet, way.place, way.target, [&](const CellFacet& f) {
+        RayWalk(mesh).through_facet(way.facet, way.place, way.target, [&](const CellFacet& f) {
             walk.asked.push_back(pair_of(f));
             return walk.asked.size() != stop_at + 1;
         });
@@ -59,7 +59,7 @@ std::array<Vector3d, 3> corners_of(const TetMesh& mesh, const CellFacet& facet)
     return {mesh.positions[vertices[a]], mesh.positions[vertices[b]], mesh.positions[vertices[c]]};
 }
 
-/// A place in the plane of a facet, a mix of its corners, rounded.
+/// The position in a facet's plane with barycentric coordinates u and v, rounded.
 Vector3d mixed(const TetMesh& mesh, const CellFacet& facet, double u, double v)
 {
     const auto [a, b, c] = corners_of(mesh, facet);
@@ -82,8 +82,8 @@ CellFacet any_facet(const TetMesh& mesh, std::mt19937_64& random)
     return facet;
 }
 
-/// From any place in any facet, at quarters of it every other time, which are exact on a lattice,
-/// to any target. Mostly from the side of the facet that has the target before it.
+/// A segment from a random position on a random facet to a random target. Half of the positions
+/// have quarters as coordinates, exact on a lattice. The target is mostly beyond the facet.
 Way any_way(const NamedCells& named, std::mt19937_64& random)
 {
     Way way{};
@@ -101,7 +101,7 @@ Way any_way(const NamedCells& named, std::mt19937_64& random)
     return way;
 }
 
-TEST(FacetWalk, CrossesWhatBruteForceFinds)
+TEST(FacetWalk, MatchesBruteForce)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(31);
@@ -117,7 +117,7 @@ TEST(FacetWalk, CrossesWhatBruteForceFinds)
     }
 }
 
-TEST(FacetWalk, StopsAtTheFacetItMayNotCross)
+TEST(FacetWalk, StopsAtTheRejectedFacet)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(32);
@@ -134,7 +134,7 @@ TEST(FacetWalk, StopsAtTheFacetItMayNotCross)
     }
 }
 
-TEST(FacetWalk, GoesNowhereThroughAPlaceThatIsNotInTheFacet)
+TEST(FacetWalk, CrossesNothingFromAPositionOutsideTheFacet)
 {
     const TetMesh mesh = triangulation_of(random_points(60, 33));
     std::mt19937_64 random(33);
@@ -153,7 +153,7 @@ TEST(FacetWalk, GoesNowhereThroughAPlaceThatIsNotInTheFacet)
     }
 }
 
-TEST(FacetWalk, CrossesOnlyItsFacetToATargetInTheNextCell)
+TEST(FacetWalk, CrossesOnlyTheGivenFacetIfTheTargetIsInTheNextCell)
 {
     for (const NamedCells& named : {meshes_to_walk()[0], meshes_to_walk()[2]}) {
         std::mt19937_64 random(34);

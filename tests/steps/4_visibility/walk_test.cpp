@@ -1,5 +1,5 @@
 #include "steps/4_visibility/walk.h"
-#include "support/exact_sight.h"
+#include "support/exact_ray.h"
 #include "support/point_sets.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 using CellAndSlot = std::pair<Index, int>;
 
-/// What the fast walk says to cross.
+/// The facets that the fast walk crosses.
 struct FastWalk {
     std::vector<CellAndSlot> crossed;
     WalkEnds ends;
@@ -38,13 +38,13 @@ std::string fault_of_walk(const TetMesh& mesh, Index vertex, const Vector3d& tar
     return fault_of_walk(mesh, vertex, target, facets, walk.ends);
 }
 
-/// Infinite cells are all one: which of them a sight enters straight from a vertex is left open.
+/// Maps infinite cells to kInfinite: a ray from a hull vertex may enter any of them.
 Index finite_or_none(const TetMesh& mesh, Index cell)
 {
     return cell == kInfinite || mesh.cells[cell].is_infinite() ? kInfinite : cell;
 }
 
-FastWalk fast_walk(SightWalk& walk, const Vector3d& target)
+FastWalk fast_walk(RayWalk& walk, const Vector3d& target)
 {
     FastWalk result;
     result.ends =
@@ -59,22 +59,22 @@ std::string place(const NamedCells& named, Index vertex, const Vector3d& target)
            std::to_string(target.z()) + ")";
 }
 
-// ---- SightFrame ---------------------------------------------------------------------------------
+// ---- RayFrame ---------------------------------------------------------------------------------
 
-TEST(SightFrame, SeesTheTargetAtTheOriginAtDepthOne)
+TEST(RayFrame, ProjectsTheTargetToTheOriginAtDepthOne)
 {
-    const SightFrame frame({1, 2, 3}, {5, 1, 4});
-    const Sighted target = frame.project({5, 1, 4});
+    const RayFrame frame({1, 2, 3}, {5, 1, 4});
+    const Rayed target = frame.project({5, 1, 4});
     EXPECT_EQ(target.x, 0.0);
     EXPECT_EQ(target.y, 0.0);
     EXPECT_EQ(target.depth, 1.0);
     EXPECT_EQ(target.size, 4.0);
 }
 
-TEST(SightFrame, TurnsPositiveWhereTheSightPassesLeftOfAnEdge)
+TEST(RayFrame, TurnsPositiveIfTheRayPassesLeftOfAnEdge)
 {
-    // Looking down from above: x to the right, y up, as on paper.
-    const SightFrame down({0, 0, 4}, {0, 0, 0});
+    // Seen from above, x points right and y up.
+    const RayFrame down({0, 0, 4}, {0, 0, 0});
     const auto turn = [&](const Vector3d& a, const Vector3d& b) {
         return down.turn(down.project(a), down.project(b), a, b);
     };
@@ -83,20 +83,20 @@ TEST(SightFrame, TurnsPositiveWhereTheSightPassesLeftOfAnEdge)
     EXPECT_EQ(turn({1, 1, 0}, {-1, -1, 2}), 0);
 }
 
-TEST(SightFrame, IsNotClearWhereADeterminantOverflows)
+TEST(RayFrame, IsUnclearIfADeterminantOverflows)
 {
-    // Infinity less infinity is no number, which compares as neither large nor small.
-    const SightFrame frame({0, 0, 0}, {0, 0, 1e160});
-    const std::array<Sighted, 3> from = {frame.project({1e160, 1e160, 0}),
-                                         frame.project({-1e160, 1e160, 0}),
-                                         frame.project({0, -1e160, 0})};
+    // Infinity minus infinity is NaN, and all comparisons with NaN are false.
+    const RayFrame frame({0, 0, 0}, {0, 0, 1e160});
+    const std::array<Rayed, 3> from = {frame.project({1e160, 1e160, 0}),
+                                       frame.project({-1e160, 1e160, 0}),
+                                       frame.project({0, -1e160, 0})};
     EXPECT_LT(frame.clear_turns(from, frame.project({1e160, 1e160, 1e160})), 0);
-    const std::array<Sighted, 3> near = {frame.project({1, 1, 0}), frame.project({-1, 1, 0}),
-                                         frame.project({0, -1, 0})};
+    const std::array<Rayed, 3> near = {frame.project({1, 1, 0}), frame.project({-1, 1, 0}),
+                                       frame.project({0, -1, 0})};
     EXPECT_GE(frame.clear_turns(near, frame.project({0.5, 2, 1})), 0);
 }
 
-TEST(SightFrame, TurnsAsTheExactPredicateSays)
+TEST(RayFrame, MatchesTheExactPredicate)
 {
     std::mt19937_64 random(21);
     for (const NamedCells& named : meshes_to_walk()) {
@@ -107,7 +107,7 @@ TEST(SightFrame, TurnsAsTheExactPredicateSays)
             if (target == points[vertex]) {
                 continue;
             }
-            const SightFrame frame(points[vertex], target);
+            const RayFrame frame(points[vertex], target);
             const Vector3d& a = points[pick(random, points.size())];
             const Vector3d& b = points[pick(random, points.size())];
             ASSERT_EQ(frame.turn(frame.project(a), frame.project(b), a, b),
@@ -117,16 +117,16 @@ TEST(SightFrame, TurnsAsTheExactPredicateSays)
     }
 }
 
-// ---- SightWalk ----------------------------------------------------------------------------------
+// ---- RayWalk ----------------------------------------------------------------------------------
 
-TEST(SightWalk, CrossesWhatBruteForceFinds)
+TEST(RayWalk, MatchesBruteForce)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(12);
         for (int round = 0; round < 90; ++round) {
             const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
-            SightWalk walk(named.mesh, vertex);
-            for (int sight = 0; sight < 10; ++sight) {
+            RayWalk walk(named.mesh, vertex);
+            for (int ray = 0; ray < 10; ++ray) {
                 const Vector3d target = any_target(named, vertex, random);
                 const FastWalk found = fast_walk(walk, target);
                 ASSERT_EQ(fault_of_walk(named.mesh, vertex, target, found), "")
@@ -138,14 +138,14 @@ TEST(SightWalk, CrossesWhatBruteForceFinds)
     }
 }
 
-TEST(SightWalk, CrossesWhatTheExactWalkCrosses)
+TEST(RayWalk, MatchesTheExactWalk)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(13);
         for (int round = 0; round < 5000; ++round) {
             const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
             const Vector3d target = any_target(named, vertex, random);
-            SightWalk walk(named.mesh, vertex);
+            RayWalk walk(named.mesh, vertex);
             const auto [crossed, ends] = fast_walk(walk, target);
             ExactWalk exact(named.mesh, named.mesh.positions[vertex], target);
             const WalkEnds exact_ends = exact.from_vertex(vertex);
@@ -158,22 +158,22 @@ TEST(SightWalk, CrossesWhatTheExactWalkCrosses)
     }
 }
 
-TEST(SightWalk, CrossesTheSameSideBySideAsAlone)
+TEST(RayWalk, CrossesTheSameFacetsInterleavedAsAlone)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(16);
-        std::vector<Sight> sights;
-        while (sights.size() < 1000) {
+        std::vector<Ray> rays;
+        while (rays.size() < 1000) {
             const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
             for (std::size_t of_vertex = pick(random, 6); of_vertex > 0; --of_vertex) {
-                sights.push_back({vertex, any_target(named, vertex, random)});
+                rays.push_back({vertex, any_target(named, vertex, random)});
             }
         }
-        std::vector<FastWalk> found(sights.size());
-        std::vector<int> ended(sights.size(), 0);
-        SightWalk(named.mesh)
+        std::vector<FastWalk> found(rays.size());
+        std::vector<int> ended(rays.size(), 0);
+        RayWalk(named.mesh)
             .along_each(
-                sights.size(), [&](std::size_t k) { return sights[k]; },
+                rays.size(), [&](std::size_t k) { return rays[k]; },
                 [&](std::size_t k, Index cell, int slot) {
                     found[k].crossed.emplace_back(cell, slot);
                     return true;
@@ -182,9 +182,9 @@ TEST(SightWalk, CrossesTheSameSideBySideAsAlone)
                     found[k].ends = ends;
                     ++ended[k];
                 });
-        for (std::size_t k = 0; k < sights.size(); ++k) {
-            const auto& [vertex, target] = sights[k];
-            SightWalk walk(named.mesh, vertex);
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+            const auto& [vertex, target] = rays[k];
+            RayWalk walk(named.mesh, vertex);
             const FastWalk alone = fast_walk(walk, target);
             ASSERT_EQ(ended[k], 1) << place(named, vertex, target);
             ASSERT_EQ(found[k].crossed, alone.crossed) << place(named, vertex, target);
@@ -196,15 +196,15 @@ TEST(SightWalk, CrossesTheSameSideBySideAsAlone)
     }
 }
 
-TEST(SightWalk, IsTheSameWhateverTheWalkBefore)
+TEST(RayWalk, DoesNotDependOnPreviousWalks)
 {
     for (const NamedCells& named : meshes_to_walk()) {
         std::mt19937_64 random(14);
         const auto vertex = static_cast<Index>(pick(random, named.mesh.positions.size()));
-        SightWalk worn(named.mesh, vertex);
-        for (int sight = 0; sight < 500; ++sight) {
+        RayWalk worn(named.mesh, vertex);
+        for (int ray = 0; ray < 500; ++ray) {
             const Vector3d target = any_target(named, vertex, random);
-            SightWalk fresh(named.mesh, vertex);
+            RayWalk fresh(named.mesh, vertex);
             const FastWalk a = fast_walk(worn, target);
             const FastWalk b = fast_walk(fresh, target);
             ASSERT_EQ(a.crossed, b.crossed) << place(named, vertex, target);
@@ -216,11 +216,11 @@ TEST(SightWalk, IsTheSameWhateverTheWalkBefore)
     }
 }
 
-TEST(SightWalk, EndsInACellAtTheVertexWhereTheTargetIsTheVertex)
+TEST(RayWalk, EndsInACellAtTheVertexIfTheTargetIsTheVertex)
 {
     const TetMesh mesh = triangulation_of(random_points(50, 16));
     for (Index vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-        SightWalk walk(mesh, vertex);
+        RayWalk walk(mesh, vertex);
         const auto [crossed, ends] = fast_walk(walk, mesh.positions[vertex]);
         EXPECT_EQ(crossed.size(), 0U);
         EXPECT_EQ(ends.first, kInfinite);
@@ -228,7 +228,7 @@ TEST(SightWalk, EndsInACellAtTheVertexWhereTheTargetIsTheVertex)
     }
 }
 
-TEST(SightWalk, ReachesATargetNextToNothingAway)
+TEST(RayWalk, ReachesATargetAtATinyDistance)
 {
     const Vector3d middle = Vector3d::Constant(-0.5);
     Positions random = mapped(random_points(40, 17), 1.0, middle);
@@ -241,7 +241,7 @@ TEST(SightWalk, ReachesATargetNextToNothingAway)
         for (const Vector3d& target :
              {Vector3d(1e-310, 3e-311, 2e-311), Vector3d(-3e-311, 2e-311, -1e-310),
               Vector3d(0, 5e-324, 0), Vector3d(-1e-300, 3e-301, 1e-301), Vector3d(1e-310, 0, 0)}) {
-            SightWalk walk(mesh, vertex);
+            RayWalk walk(mesh, vertex);
             EXPECT_EQ(fault_of_walk(mesh, vertex, target, fast_walk(walk, target)), "")
                 << target.transpose();
         }

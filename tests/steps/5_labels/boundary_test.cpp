@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(Boundary, HasAFaceForEachFacetSeenFromOutside)
+TEST(Boundary, HasAnOutwardFaceForEachFacet)
 {
     const Scene scene = bumpy_sphere(300, 71);
     const TetMesh mesh = triangulate(scene);
@@ -48,7 +48,7 @@ TEST(Boundary, HasAFaceForEachFacetSeenFromOutside)
     }
 }
 
-TEST(CloseHull, CallsInfiniteCellsOutsideAndNoOthers)
+TEST(CloseHull, LabelsOnlyInfiniteCellsOutside)
 {
     const TetMesh mesh = triangulate(bumpy_sphere(60, 3));
     Labels labels(mesh.cells.size(), Label::inside);
@@ -58,7 +58,7 @@ TEST(CloseHull, CallsInfiniteCellsOutsideAndNoOthers)
     }
 }
 
-/// Points on a sphere of radius 1, evenly below the lid at z = 0.3, each seen by all views.
+/// Points spread evenly on the unit sphere below z = 0.3, where it is open, each seen by `views`.
 std::vector<MadePoint> round_room(const std::vector<std::uint32_t>& views)
 {
     constexpr int kPoints = 600;
@@ -76,7 +76,7 @@ std::vector<MadePoint> round_room(const std::vector<std::uint32_t>& views)
 const std::vector<Vector3d> kWithin = {
     {0.1, 0.0, 0.0}, {-0.2, 0.1, 0.1}, {0.0, -0.2, -0.1}, {0.1, 0.2, -0.2}};
 
-/// The room with all cells outside, as sights from within leave them.
+/// A room with all cells outside, as after carving by rays from within.
 struct FreeRoom {
     explicit FreeRoom(Scene made)
         : scene(std::move(made)),
@@ -86,7 +86,7 @@ struct FreeRoom {
         network.arc_capacities = filled_array(mesh.cells.size(), std::array<std::int32_t, 4>{});
     }
 
-    std::int64_t go_on() { return go_on_along_hull(mesh, scene, uncrossed(), {}, labels); }
+    std::int64_t go_on() { return continue_along_hull(mesh, scene, uncrossed(), {}, labels); }
     std::vector<CellFacet> facets() const { return boundary_facets(mesh, labels); }
     std::vector<Index> uncrossed() const { return uncrossed_hull_cells(mesh, network); }
     std::int64_t num_on_hull() const
@@ -94,7 +94,7 @@ struct FreeRoom {
         return std::ranges::count_if(mesh.cells,
                                      [](const Cell& cell) { return cell.is_infinite(); });
     }
-    /// Whether a facet of the hull goes across the lid: to its middle, a way of .95; edges on walls
+    /// Whether a hull facet is on the open top: it has edges of .95 to the center. Edges on walls
     /// are much shorter.
     bool is_on_lid(Index cell) const { return longest_edge(cell) > 0.7; }
     double longest_edge(Index cell) const
@@ -112,7 +112,7 @@ struct FreeRoom {
     FlowNetwork network;
 };
 
-TEST(GoOnAlongHull, ShowsTheWallsOfARoomBehindWhichNoPointsLie)
+TEST(GoOnAlongHull, AddsTheWallsOfARoomWithoutPointsBehindThem)
 {
     FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
     const std::int64_t found = room.go_on();
@@ -120,14 +120,14 @@ TEST(GoOnAlongHull, ShowsTheWallsOfARoomBehindWhichNoPointsLie)
     EXPECT_EQ(found, size_of(facets.size()));
     EXPECT_GT(found, room.num_on_hull() * 9 / 10);
     for (const CellFacet& facet : facets) {
-        EXPECT_EQ(facet.slot, 3) << "only facets of the hull have an end";
+        EXPECT_EQ(facet.slot, 3) << "only these facets of infinite cells are bounded";
         const Face face = face_of(room.mesh, facet);
         EXPECT_LT(face_normal(room.mesh.positions, face).dot(room.mesh.positions[face[0]]), 0.0)
-            << "walls look into the room";
+            << "walls must face the room";
     }
 }
 
-TEST(GoOnAlongHull, IsStoppedByTheBoundaryBeingClosed)
+TEST(GoOnAlongHull, IsUndoneByCloseHull)
 {
     FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
     ASSERT_GT(room.go_on(), 0);
@@ -135,9 +135,9 @@ TEST(GoOnAlongHull, IsStoppedByTheBoundaryBeingClosed)
     EXPECT_TRUE(room.facets().empty());
 }
 
-TEST(GoOnAlongHull, LeavesWhatIsSeenFromBeyond)
+TEST(GoOnAlongHull, RejectsFacetsThatViewsSawFromOutside)
 {
-    // Views far out at all sides besides: nothing tells the inner side from the outer one.
+    // With views far out on all sides, the inner side of the walls cannot be distinguished.
     std::vector<Vector3d> views = kWithin;
     for (const double far : {-9.0, 9.0}) {
         views.insert(views.end(), {{far, 0.0, 0.0}, {0.0, far, 0.0}, {0.0, 0.0, far}});
@@ -146,9 +146,9 @@ TEST(GoOnAlongHull, LeavesWhatIsSeenFromBeyond)
     EXPECT_EQ(room.go_on(), 0);
 }
 
-TEST(GoOnAlongHull, LeavesWhatAViewBeyondHasInItsImage)
+TEST(GoOnAlongHull, RejectsFacetsInTheImageOfAViewOutside)
 {
-    // A view below the room that saw none of its points looks at its floor's back.
+    // A view below the room, which saw none of its points, looks at the back of the floor.
     std::vector<Vector3d> views = kWithin;
     views.emplace_back(0.0, 0.0, -9.0);
     Scene scene = make_scene(views, round_room({0, 1, 2, 3}));
@@ -162,22 +162,22 @@ TEST(GoOnAlongHull, LeavesWhatAViewBeyondHasInItsImage)
         EXPECT_GE(face_normal(room.mesh.positions, face).dot(to_view), 0.0);
     }
 
-    // Nor does it matter once it looks elsewhere.
+    // Without this view there are more facets.
     const auto blind = FreeRoom(make_scene(kWithin, round_room({0, 1, 2, 3}))).go_on();
     EXPECT_LT(size_of(facets.size()), blind);
 }
 
-TEST(GoOnAlongHull, LeavesWhatNoViewSawFromWithin)
+TEST(GoOnAlongHull, RejectsFacetsThatNoViewSawFromWithin)
 {
     FreeRoom room(make_scene({{0.0, 0.0, 9.0}, {0.5, 0.0, 9.0}}, round_room({0, 1})));
     room.go_on();
     for (const CellFacet& facet : room.facets()) {
         const Face face = face_of(room.mesh, facet);
-        EXPECT_LT(room.mesh.positions[face[0]].z(), 0.25) << "seen from its back from above";
+        EXPECT_LT(room.mesh.positions[face[0]].z(), 0.25) << "views above see only the back";
     }
 }
 
-TEST(GoOnAlongHull, LeavesFacetsThatSightsCross)
+TEST(GoOnAlongHull, RejectsFacetsThatRaysCross)
 {
     FreeRoom room(make_scene(kWithin, round_room({0, 1, 2, 3})));
     const std::vector<Index> all = room.uncrossed();
@@ -191,10 +191,10 @@ TEST(GoOnAlongHull, LeavesFacetsThatSightsCross)
     EXPECT_EQ(room.uncrossed(), expected);
 }
 
-TEST(GoOnAlongHull, LeavesTheLidWhichTurnsOffTheSurface)
+TEST(GoOnAlongHull, RejectsFacetsAtAnAngleToTheSurface)
 {
     std::vector<MadePoint> points = round_room({0, 1, 2, 3});
-    points.push_back({{0.0, 0.0, 0.4}, {0, 1, 2, 3}}); // so that the lid is a fan
+    points.push_back({{0.0, 0.0, 0.4}, {0, 1, 2, 3}}); // so that the top is a fan of facets
     FreeRoom room(make_scene(kWithin, points));
     const auto is_on_lid = [&](Index cell) { return room.is_on_lid(cell); };
     ASSERT_TRUE(std::ranges::any_of(room.uncrossed(), is_on_lid));
@@ -204,8 +204,8 @@ TEST(GoOnAlongHull, LeavesTheLidWhichTurnsOffTheSurface)
     }
 }
 
-/// How many facets of the hull go on from a flat bowl, whose points are 1 apart, to a point so far
-/// from its rim.
+/// The number of hull facets that continue the surface of a flat bowl to a point at distance `far`
+/// from its rim. The point spacing of the bowl is 1.
 std::int64_t num_going_on(double far)
 {
     std::vector<MadePoint> points;
@@ -227,15 +227,15 @@ std::int64_t num_going_on(double far)
     return num_long;
 }
 
-TEST(GoOnAlongHull, GoesUpToTwentyTimesTheEdgesAround)
+TEST(GoOnAlongHull, AcceptsEdgesUpToTwentyTimesTheLocalLength)
 {
-    // At the corners of some facets the usual edge is up to 2.
+    // The local length is up to 2 at the corners of some facets.
     EXPECT_GT(num_going_on(15.0), 0);
     EXPECT_GT(num_going_on(30.0), 0);
     EXPECT_EQ(num_going_on(45.0), 0);
 }
 
-TEST(Reconstruct, FindsTheWallsOfARoomSeenFromWithinOnly)
+TEST(Reconstruct, FindsWallsSeenOnlyFromWithin)
 {
     Log log;
     Scene scene = make_scene(kWithin, round_room({0, 1, 2, 3}));
@@ -243,7 +243,7 @@ TEST(Reconstruct, FindsTheWallsOfARoomSeenFromWithinOnly)
     EXPECT_GT(mesh.faces.size(), 650U);
     Options closed;
     closed.surface.closed = true;
-    EXPECT_THROW(reconstruct(scene, closed, log), InputError) << "nothing lies behind the walls";
+    EXPECT_THROW(reconstruct(scene, closed, log), InputError) << "no points are behind the walls";
 }
 
 } // namespace

@@ -5,8 +5,8 @@
 #include "steps/4_visibility/trace.h"
 #include "steps/5_labels/label_cells.h"
 #include "steps/6_surface/carve_surface.h"
-#include "support/cast_sights.h"
-#include "support/exact_sight.h"
+#include "support/cast_rays.h"
+#include "support/exact_ray.h"
 #include "support/paper_rule.h"
 #include "support/places.h"
 #include "support/point_sets.h"
@@ -28,7 +28,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// VisibilityEnergy that say nothing, with no view's cell known.
+/// An energy without terms and without cells of views.
 VisibilityEnergy silence(const TetMesh& mesh)
 {
     VisibilityEnergy energy;
@@ -38,7 +38,7 @@ VisibilityEnergy silence(const TetMesh& mesh)
     return energy;
 }
 
-/// Two tetrahedra on one triangle: the apexes of a bipyramid at +-height.
+/// Two tetrahedra with a common triangle: a bipyramid with apexes at +-height.
 TetMesh bipyramid(double height)
 {
     return triangulate(make_scene({{9, 9, 9}}, {{{1, 0, 0}, {0}},
@@ -59,32 +59,31 @@ std::vector<Index> finite_cells(const TetMesh& mesh)
     return finite;
 }
 
-TEST(Cut, LeavesEverythingOutsideWithoutEvidence)
+TEST(Cut, LabelsEverythingOutsideWithoutEvidence)
 {
     const TetMesh mesh = triangulate(spatial_sort(bumpy_sphere(300, 31)));
     const Labels labels = cut(mesh, silence(mesh), {});
     EXPECT_EQ(labels, Labels(mesh.cells.size(), Label::outside));
 }
 
-TEST(Cut, PutsACellInsideWhenItsVoteOutweighsItsFacets)
+TEST(Cut, LabelsACellInsideIfItsVoteExceedsTheCostOfItsFacets)
 {
     const TetMesh mesh = bipyramid(2.0);
     ASSERT_EQ(finite_cells(mesh).size(), 2U);
     const Index chosen = finite_cells(mesh)[0];
     VisibilityEnergy energy = silence(mesh);
     energy.network.terminal_capacities[chosen] = -100 * energy.unit;
-    // The other cell stays outside: a border through the triangle between the two costs 0.38 of a
-    // sight by the angle of its spheres, one through the other cell's three facets 0.73 to 0.78
-    // each.
+    // The other cell stays outside: the common triangle costs 0.38 of a ray by the angles of its
+    // circumspheres, and the three other facets of the other cell cost 0.73 to 0.78 each.
     Labels expected(mesh.cells.size(), Label::outside);
     expected[chosen] = Label::inside;
     EXPECT_EQ(cut(mesh, energy, {}), expected);
 
-    // Facets that cost more than the sink capacity make it not worth while.
+    // If facets cost more than the sink capacity, the cell stays outside.
     EXPECT_EQ(cut(mesh, energy, {.quality = 1000.0}), Labels(mesh.cells.size(), Label::outside));
 }
 
-TEST(Cut, NeverPutsAViewsCellInside)
+TEST(Cut, NeverLabelsTheCellOfAViewInside)
 {
     const TetMesh mesh = bipyramid(2.0);
     const Index chosen = finite_cells(mesh)[0];
@@ -94,7 +93,7 @@ TEST(Cut, NeverPutsAViewsCellInside)
     EXPECT_EQ(cut(mesh, energy, {})[chosen], Label::outside);
 }
 
-TEST(Cut, LetsOnlyTheSightsDecideWithoutQuality)
+TEST(Cut, UsesOnlyRaysIfQualityIsZero)
 {
     const TetMesh mesh = bipyramid(0.3);
     const auto finite = finite_cells(mesh);
@@ -105,7 +104,7 @@ TEST(Cut, LetsOnlyTheSightsDecideWithoutQuality)
     EXPECT_EQ(labels[finite[1]], Label::inside);
 }
 
-TEST(Cut, NeverPutsAnInfiniteCellInside)
+TEST(Cut, NeverLabelsAnInfiniteCellInside)
 {
     const Scene scene = spatial_sort(bumpy_sphere(1000, 32));
     const TetMesh mesh = triangulate(scene);
@@ -123,9 +122,9 @@ TEST(Cut, NeverPutsAnInfiniteCellInside)
 constexpr Label o = Label::outside;
 constexpr Label i = Label::inside;
 
-// ---- by hand ------------------------------------------------------------------------------------
+// ---- hand-computed cases ------------------------------------------------------------------------
 
-TEST(Carve, TakesAwayInfiniteCellsAndThoseWithEnoughCrossingsOfOneFacet)
+TEST(Carve, RemovesInfiniteCellsAndCellsWithEnoughCrossingsOfOneFacet)
 {
     // Two tetrahedra, {0 1 2 3} and {0 1 2 4}, and the six cells around them.
     const TetMesh mesh = triangulation_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 3}, {1, 1, -3}});
@@ -137,7 +136,7 @@ TEST(Carve, TakesAwayInfiniteCellsAndThoseWithEnoughCrossingsOfOneFacet)
     crossings[1] = {0, 0, 1, 0};
     EXPECT_EQ(carve(mesh, crossings, 1), (Labels{i, o, o, o, o, o, o, o}));
     EXPECT_EQ(carve(mesh, crossings, 2), (Labels{i, i, o, o, o, o, o, o}));
-    crossings[0] = {1, 1, 1, 1}; // one facet must be crossed twice, not two once
+    crossings[0] = {1, 1, 1, 1}; // one facet must be crossed twice, not two facets once
     crossings[1] = {0, 0, 0, 2};
     EXPECT_EQ(carve(mesh, crossings, 2), (Labels{i, o, o, o, o, o, o, o}));
     EXPECT_EQ(carve(mesh, crossings, 3), (Labels{i, i, o, o, o, o, o, o}));
@@ -147,7 +146,7 @@ TEST(Carve, TakesAwayInfiniteCellsAndThoseWithEnoughCrossingsOfOneFacet)
 
 using Whole = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// In units of the grid all coordinates of the paper's objects lie on.
+/// A position in units of the grid that contains all coordinates of the paper's objects.
 Whole on_grid(const Vector3d& position)
 {
     const Vector3d scaled = position * 2048.0;
@@ -161,7 +160,7 @@ std::int64_t determinant(const Whole& a, const Whole& b, const Whole& c)
            a.z() * (b.x() * c.y() - b.y() * c.x());
 }
 
-/// Six times the volume a closed surface holds, in cubes of the grid.
+/// Six times the volume within a closed surface, in cubes of the grid.
 std::int64_t volume_6(const TriMesh& solid)
 {
     std::int64_t sum = 0;
@@ -172,7 +171,7 @@ std::int64_t volume_6(const TriMesh& solid)
     return sum;
 }
 
-/// Six times the volume of the cells inside, in cubes of the grid.
+/// Six times the volume of the inside cells, in cubes of the grid.
 std::int64_t volume_6(const TetMesh& mesh, const Labels& labels)
 {
     std::int64_t sum = 0;
@@ -188,7 +187,7 @@ std::int64_t volume_6(const TetMesh& mesh, const Labels& labels)
     return sum;
 }
 
-/// Turned so that the smallest vertex comes first.
+/// Rotates a face so that the smallest vertex comes first.
 Face turned(Face face)
 {
     std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
@@ -222,13 +221,13 @@ std::vector<Face> sorted_faces(const TriMesh& solid)
     return faces;
 }
 
-/// An object of the paper with what README.md of the fixtures says about it.
+/// An object of the paper, with values from README.md of the fixtures.
 struct PaperObject {
     std::string name;
     double volume;
     std::ptrdiff_t solid_cells;
     std::ptrdiff_t empty_cells;
-    std::size_t sights;
+    std::size_t rays;
     std::array<int, 3>
         marks; ///< slots of finite cells by the paper's test: none, unclear, redundant
 };
@@ -247,7 +246,7 @@ class PaperObjects : public ::testing::TestWithParam<PaperObject> {
           mesh_(triangulate(scene_))
     {
         Log log;
-        Stage stage(log, "sights");
+        Stage stage(log, "rays");
         crossings_ = crossings_of(mesh_, scene_);
     }
 
@@ -258,10 +257,10 @@ class PaperObjects : public ::testing::TestWithParam<PaperObject> {
     Crossings crossings_;
 };
 
-TEST_P(PaperObjects, AreCarvedToTheTrueSolid)
+TEST_P(PaperObjects, CarvesTheTrueSolid)
 {
-    ASSERT_EQ(scene_.positions, solid_.positions); // so that indices mean the same
-    ASSERT_EQ(scene_.num_sights(), GetParam().sights);
+    ASSERT_EQ(scene_.positions, solid_.positions); // so that indices are the same
+    ASSERT_EQ(scene_.num_rays(), GetParam().rays);
     const Labels labels = carve(mesh_, crossings_, 1);
     EXPECT_EQ(volume_6(mesh_, labels), volume_6(solid_));
     EXPECT_EQ(static_cast<double>(volume_6(solid_)), 6.0 * GetParam().volume * std::pow(2048.0, 3));
@@ -272,7 +271,7 @@ TEST_P(PaperObjects, AreCarvedToTheTrueSolid)
     EXPECT_EQ(finite, GetParam().solid_cells + GetParam().empty_cells);
 }
 
-TEST_P(PaperObjects, HaveTheFacetsMarkedThatBruteForceMarks)
+TEST_P(PaperObjects, MatchesBruteForceCrossings)
 {
     Crossings expected(mesh_.cells.size(), {0, 0, 0, 0});
     for (Index vertex = 0; vertex < scene_.num_points(); ++vertex) {
@@ -288,7 +287,7 @@ TEST_P(PaperObjects, HaveTheFacetsMarkedThatBruteForceMarks)
     EXPECT_EQ(crossings_, expected);
 }
 
-TEST_P(PaperObjects, HaveTheFacetsMarkedThatThePapersOwnTestMarks)
+TEST_P(PaperObjects, MatchesTheRuleOfThePaper)
 {
     const auto marks = marks_by_paper_rule(mesh_, scene_);
     std::array<int, 3> found = {0, 0, 0};

@@ -16,20 +16,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kWidth = 4.0;  // of the room, and its depth
+constexpr double kWidth = 4.0;  // width and depth of the room
 constexpr double kHeight = 2.5; // z is up
 
-/// What differs from a room whose wall at x = kWidth has points along its outline only.
+/// Changes to a room whose wall at x = kWidth has points only along its outline.
 struct Changes {
-    int num_views = 4;                    ///< that look at the wall
-    double bulge = 0.0;                   ///< how far the middle of its top lies off the plane
-    bool has_few_points = false;          ///< at the corners of the wall only
-    bool has_walls_beside = true;         ///< else the wall is held along its foot only
+    int num_views = 4;                    ///< looking at the wall
+    double bulge = 0.0;                   ///< distance of the middle of its top from the plane
+    bool has_few_points = false;          ///< only at the corners of the wall
+    bool has_walls_beside = true;         ///< otherwise only the floor adjoins the wall
     Vector3d up = Vector3d::UnitZ();      ///< of the images
-    Vector3d towards = Vector3d::UnitX(); ///< where they look
+    Vector3d towards = Vector3d::UnitX(); ///< viewing direction
 };
 
-/// Grids of points on the floor and on three walls, and along the outline of the fourth.
+/// Grids of points on the floor and on three walls, and points along the outline of the fourth.
 struct Room {
     explicit Room(const Changes& changes = {})
     {
@@ -88,7 +88,7 @@ struct Room {
         scene.tracks.push_back(views);
     }
 
-    /// Of what is found.
+    /// The area of the walls that are found.
     double area() const
     {
         double sum = 0.0;
@@ -104,46 +104,46 @@ struct Room {
     std::vector<Index> open;
 };
 
-TEST(PlainWalls, IsAWallWithPointsAlongItsOutlineOnly)
+TEST(PlainWalls, FindsAWallWithPointsOnlyAlongItsOutline)
 {
     EXPECT_NEAR(Room().area(), kWidth * kHeight, 1e-9);
 }
 
-TEST(PlainWalls, MayBeUneven)
+TEST(PlainWalls, AcceptsSlightlyUnevenWalls)
 {
     EXPECT_GT(Room({.bulge = 0.03}).area(), 0.8 * kWidth * kHeight);
     EXPECT_LT(Room({.bulge = 0.3}).area(), 0.2 * kWidth * kHeight);
 }
 
-TEST(PlainWalls, NeedMorePointsInThePlaneThanAnyTrianglesHave)
+TEST(PlainWalls, RequiresSixPointsInThePlane)
 {
     EXPECT_EQ(Room({.has_few_points = true}).area(), 0.0);
 }
 
-TEST(PlainWalls, AreHeldAlongHalfOfTheirOutline)
+TEST(PlainWalls, RequiresFacesAlongTheOutline)
 {
-    EXPECT_EQ(Room({.has_walls_beside = false}).area(), 0.0) << "of 13, the foot is 4";
+    EXPECT_EQ(Room({.has_walls_beside = false}).area(), 0.0) << "the foot is 4 of 13";
 }
 
-TEST(PlainWalls, AreSeenByThreeViews)
+TEST(PlainWalls, RequiresThreeViews)
 {
     EXPECT_GT(Room({.num_views = 3}).area(), 0.0);
     EXPECT_EQ(Room({.num_views = 2}).area(), 0.0);
-    EXPECT_EQ(Room({.towards = -Vector3d::UnitX()}).area(), 0.0) << "views look away";
+    EXPECT_EQ(Room({.towards = -Vector3d::UnitX()}).area(), 0.0) << "the views look away";
 }
 
-TEST(PlainWalls, AreNoCeilings)
+TEST(PlainWalls, RejectsCeilings)
 {
-    // To views that look down by 45 degrees the wall is no more a wall than a ceiling.
+    // For views that look down by 45 degrees, the wall is between upright and level.
     EXPECT_EQ(
         Room({.up = Vector3d(1, 0, 1).normalized(), .towards = Vector3d(1, 0, -1).normalized()})
             .area(),
         0.0);
-    // The wall is upright in images that are turned by 45 degrees.
+    // The wall is upright in images that are rotated by 45 degrees.
     EXPECT_GT(Room({.up = Vector3d(0, 1, 1).normalized()}).area(), 0.0);
 }
 
-TEST(PlainWalls, AreInTheMesh)
+TEST(PlainWalls, AddsTheWallToTheMesh)
 {
     Log log;
     const Room room;
@@ -155,7 +155,7 @@ TEST(PlainWalls, AreInTheMesh)
     EXPECT_NEAR(area, kWidth * kHeight, 0.01 * kWidth * kHeight);
 }
 
-TEST(PlainWalls, AreTheSameForAnyNumberOfThreads)
+TEST(PlainWalls, DoesNotDependOnTheThreadCount)
 {
     const Room room;
     const auto found = [&] { return plain_walls(room.mesh, room.scene, room.open, room.labels); };

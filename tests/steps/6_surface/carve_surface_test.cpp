@@ -27,7 +27,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::volume;
 
-TEST(ExtractSurface, OfOneCellIsItsFourFacetsSeenFromOutside)
+TEST(ExtractSurface, ReturnsFourOutwardFacetsForOneCell)
 {
     const Scene scene = make_scene(
         {{9, 9, 9}}, {{{0, 0, 0}, {0}}, {{1, 0, 0}, {0}}, {{0, 1, 0}, {0}}, {{0, 0, 1}, {0}}});
@@ -42,7 +42,7 @@ TEST(ExtractSurface, OfOneCellIsItsFourFacetsSeenFromOutside)
     EXPECT_NEAR(volume(mesh), 1.0 / 6.0, 1e-15);
 }
 
-TEST(ExtractSurface, HasNoColorsWhereThePointsHaveNone)
+TEST(ExtractSurface, HasNoColorsIfThePointsHaveNone)
 {
     Scene scene = bumpy_sphere(40, 5);
     const TetMesh cells = triangulate(scene);
@@ -80,7 +80,7 @@ TEST(ExtractSurface, EnclosesExactlyTheInsideForAnyLabels)
     }
 }
 
-TEST(ExtractSurface, OfNothingInsideIsEmpty)
+TEST(ExtractSurface, IsEmptyIfNoCellIsInside)
 {
     const Scene scene = bumpy_sphere(50, 42);
     const TetMesh cells = triangulate(scene);
@@ -106,22 +106,22 @@ struct SeenTriangle {
     }
 };
 
-TEST(ViewAgreement, CountsSightsOnTheFrontOfTheirFaces)
+TEST(ViewAgreement, CountsRaysOnTheFrontOfTheirFaces)
 {
     const SeenTriangle seen({{0, 0, 5}, {0, 0, -5}, {3, 3, 1}});
     const ViewAgreement agreement = view_agreement(testing::half_edges(seen.mesh), seen.scene);
-    EXPECT_EQ(agreement.sights, 9);
+    EXPECT_EQ(agreement.rays, 9);
     EXPECT_EQ(agreement.facing, 6);
 }
 
-TEST(ViewAgreement, PassesOverCornersWithoutAPoint)
+TEST(ViewAgreement, IgnoresCornersWithoutAPoint)
 {
     SeenTriangle seen({{0, 0, 5}});
     seen.mesh.points[1] = kNoPoint;
-    EXPECT_EQ(view_agreement(testing::half_edges(seen.mesh), seen.scene).sights, 2);
+    EXPECT_EQ(view_agreement(testing::half_edges(seen.mesh), seen.scene).rays, 2);
 }
 
-/// Four triangles with legs of 1, 2, 3 and 4 beside each other, over vertices of their own.
+/// Four disjoint triangles with legs of 1, 2, 3 and 4.
 TriMesh four_triangles()
 {
     TriMesh mesh;
@@ -136,7 +136,7 @@ TriMesh four_triangles()
     return mesh;
 }
 
-TEST(Removals, KeepTheFirstReasonForWhichAFaceWent)
+TEST(Removals, KeepTheFirstReasonOfEachFace)
 {
     RemovedFaces removed;
     Removals removals(&removed);
@@ -151,7 +151,7 @@ TEST(Removals, KeepTheFirstReasonForWhichAFaceWent)
     EXPECT_EQ(removed.mesh.offset, Vector3d(1, 2, 3));
 }
 
-TEST(Removals, AddWhatWasDeletedBeforeHolesWereFilled)
+TEST(Removals, AddFacesDeletedBeforeHolesWereFilled)
 {
     HalfEdgeMesh mesh = testing::half_edges(four_triangles());
     for (const int face : {1, 3}) {
@@ -164,14 +164,14 @@ TEST(Removals, AddWhatWasDeletedBeforeHolesWereFilled)
     EXPECT_EQ(removed.mesh.positions[1], Vector3d(22, 0, 0));
 }
 
-TEST(Removals, DoNothingWhereNobodyWantsThem)
+TEST(Removals, DoNothingWithoutARecipient)
 {
     Removals removals(nullptr);
     removals.note({0, 0}, Removal::unseen);
     removals.add_noted(four_triangles());
 }
 
-/// What the stages of a run count.
+/// Records the counts of the stages of a run.
 struct StageCounts : Log {
     void stage_ends(std::string_view name, const Counts& counts) override
     {
@@ -187,8 +187,8 @@ std::int64_t count(const RemovedFaces& removed, Removal reason)
     return std::ranges::count(removed.reasons, reason);
 }
 
-/// Adds a bumpy sphere to a scene, below its own and so small that it is no component, with the
-/// views that stand around it.
+/// Adds a bumpy sphere below the scene's sphere, and its views. It is smaller than the minimum
+/// component.
 void add_crumb(Scene& scene)
 {
     const Scene crumb =
@@ -208,18 +208,18 @@ void add_crumb(Scene& scene)
     }
 }
 
-TEST(RemovedFaces, AreAsManyAsTheStagesCount)
+TEST(RemovedFaces, MatchTheCountsOfTheStages)
 {
     Scene scene = bumpy_sphere(2000, 8);
     add_crumb(scene);
     Options options;
-    options.surface.cleanup.max_hole_edges = 0;
-    options.surface.cleanup.min_component_faces = 600; // half of that where pieces are closed
+    options.surface.cleanup.max_hole = 0;
+    options.surface.cleanup.min_component = 600; // half for closed components
     options.surface.rules.max_closing = 0.05;
     options.crop.region.kind = RegionChoice::Kind::box;
     options.crop.region.low = Vector3d(-2, -2, -0.9);
     options.crop.region.high = Vector3d(2, 2, 0.2);
-    // Half of the ball was seen by nobody.
+    // No view saw one side of the sphere.
     for (std::size_t point = 0; point < scene.num_points(); ++point) {
         if (scene.positions[point].x() > 0.6) scene.errors_px[point] = 100.0;
     }
@@ -228,7 +228,7 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     const TriMesh mesh =
         reconstruct_thinned(scene, size_of(scene), options, log, {.removed = &removed}).mesh;
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
-    EXPECT_EQ(count(removed, Removal::closing), log.all["surface closing without support"]);
+    EXPECT_EQ(count(removed, Removal::closing), log.all["surface unsupported"]);
     EXPECT_EQ(count(removed, Removal::outside_region), log.all["surface outside the region"]);
     EXPECT_EQ(count(removed, Removal::small_piece),
               log.all["surface faces"] - static_cast<std::int64_t>(mesh.faces.size()));
@@ -243,7 +243,7 @@ TEST(RemovedFaces, AreAsManyAsTheStagesCount)
     EXPECT_EQ(same.positions, mesh.positions);
 }
 
-TEST(RemovedFaces, TellSheetsFromWhatNobodySaw)
+TEST(RemovedFaces, DistinguishUnsupportedFromUnseenFaces)
 {
     StageCounts log;
     RemovedFaces removed;
@@ -251,7 +251,7 @@ TEST(RemovedFaces, TellSheetsFromWhatNobodySaw)
     const SceneSize size = size_of(scene);
     reconstruct_thinned(scene, size, {}, log, {.removed = &removed});
     EXPECT_GT(count(removed, Removal::closing), 0);
-    EXPECT_EQ(count(removed, Removal::closing), log.all["surface closing without support"]);
+    EXPECT_EQ(count(removed, Removal::closing), log.all["surface unsupported"]);
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
 }
 

@@ -19,7 +19,7 @@ using vcarve::testing::tetra_grid;
 using vcarve::testing::TetraGrid;
 using vcarve::testing::volume;
 
-constexpr CleanupOptions kKeepAll{.min_component_faces = 0, .max_hole_edges = 0};
+constexpr CleanupOptions kKeepAll{.min_component = 0, .max_hole = 0};
 
 struct Cleaned {
     TriMesh mesh;
@@ -70,7 +70,7 @@ void expect_clean(const TriMesh& mesh)
     }
 }
 
-TEST(CleanSurface, OnlyAddsNormalsToASoundSurface)
+TEST(CleanSurface, OnlyAddsNormalsToAValidSurface)
 {
     TriMesh mesh = octahedron();
     mesh.offset = {5e5, 4.6e6, 0};
@@ -85,7 +85,7 @@ TEST(CleanSurface, OnlyAddsNormalsToASoundSurface)
     }
 }
 
-TEST(CleanSurface, TakesAnEmptySurface)
+TEST(CleanSurface, AcceptsAnEmptySurface)
 {
     const Cleaned clean = cleaned({}, {});
     EXPECT_TRUE(clean.mesh.positions.empty());
@@ -93,7 +93,7 @@ TEST(CleanSurface, TakesAnEmptySurface)
     EXPECT_EQ(clean.counts.removed_components, 0);
 }
 
-TEST(CleanSurface, DropsUnreferencedVerticesAndKeepsTheOrderOfTheRest)
+TEST(CleanSurface, DropsUnreferencedVerticesAndKeepsTheOrderOfOthers)
 {
     TriMesh mesh = octahedron();
     mesh.positions.insert(mesh.positions.begin(), Vector3d(9, 9, 9));
@@ -115,7 +115,7 @@ TEST(CleanSurface, DropsUnreferencedVerticesAndKeepsTheOrderOfTheRest)
     EXPECT_EQ(clean.counts.removed_vertices, 2);
 }
 
-/// A tetrahedron so large, beside octahedra with edges of 1.4.
+/// A tetrahedron of a given size beside two octahedra with edges of 1.4.
 TriMesh with_tetrahedron(double size)
 {
     TriMesh mesh;
@@ -126,10 +126,10 @@ TriMesh with_tetrahedron(double size)
     return mesh;
 }
 
-TEST(CleanSurface, RemovesSmallPieces)
+TEST(CleanSurface, RemovesSmallComponents)
 {
     const TriMesh mesh = with_tetrahedron(5.0);
-    const Cleaned some = cleaned(mesh, {.min_component_faces = 8, .max_hole_edges = 0});
+    const Cleaned some = cleaned(mesh, {.min_component = 8, .max_hole = 0});
     EXPECT_EQ(some.counts.removed_components, 1);
     EXPECT_EQ(some.counts.removed_vertices, 4);
     EXPECT_EQ(some.mesh.faces.size(), 16U);
@@ -139,16 +139,16 @@ TEST(CleanSurface, RemovesSmallPieces)
     EXPECT_EQ(all.mesh.faces.size(), 20U);
 }
 
-TEST(CleanSurface, RemovesCompactPiecesOfHalfAsManyFacesOnly)
+TEST(CleanSurface, RemovesCompactComponentsBelowHalfTheLimit)
 {
     const auto num_removed = [](const TriMesh& mesh, int min_faces) {
-        const CleanupOptions options{.min_component_faces = min_faces, .max_hole_edges = 0};
+        const CleanupOptions options{.min_component = min_faces, .max_hole = 0};
         return cleaned(mesh, options).counts.removed_components;
     };
     EXPECT_EQ(num_removed(with_tetrahedron(1.0), 8), 0);
     EXPECT_EQ(num_removed(with_tetrahedron(1.0), 9), 1);
     EXPECT_EQ(num_removed(with_tetrahedron(1.9), 8), 0);
-    EXPECT_EQ(num_removed(with_tetrahedron(2.1), 8), 1) << "its edges are 3 long";
+    EXPECT_EQ(num_removed(with_tetrahedron(2.1), 8), 1) << "its edges have length 3";
     EXPECT_EQ(num_removed(with_tetrahedron(2.1), 4), 0);
     TriMesh open = with_tetrahedron(1.0);
     open.faces.erase(open.faces.begin());
@@ -156,21 +156,21 @@ TEST(CleanSurface, RemovesCompactPiecesOfHalfAsManyFacesOnly)
     EXPECT_EQ(num_removed(open, 3), 0);
 }
 
-TEST(CleanSurface, NeverRemovesTheLargestPiece)
+TEST(CleanSurface, NeverRemovesTheLargestComponent)
 {
     TriMesh mesh = octahedron();
     append(mesh, octahedron(), 10);
-    const Cleaned clean = cleaned(mesh, {.min_component_faces = 1000, .max_hole_edges = 0});
+    const Cleaned clean = cleaned(mesh, {.min_component = 1000, .max_hole = 0});
     EXPECT_EQ(clean.counts.removed_components, 1);
     EXPECT_EQ(clean.mesh.positions, octahedron().positions);
 }
 
-TEST(CleanSurface, FillsHolesUpToTheSizeAskedFor)
+TEST(CleanSurface, FillsHolesUpToMaxHole)
 {
     const TetraGrid grid = tetra_grid(3);
     TriMesh mesh = boundary_of(grid, std::vector<bool>(grid.cells.size(), true));
     const double whole = volume(mesh);
-    // The middle square of the lower side: a hole of four edges.
+    // Remove the central square of the lower side, which leaves a hole of four edges.
     std::erase_if(mesh.faces, [&](const Face& face) {
         return std::ranges::all_of(face, [&](std::uint32_t v) {
             const Vector3d& p = mesh.positions[v];
@@ -178,17 +178,17 @@ TEST(CleanSurface, FillsHolesUpToTheSizeAskedFor)
         });
     });
     EXPECT_EQ(check_mesh(mesh).boundary_edges, 4);
-    const Cleaned open = cleaned(mesh, {.min_component_faces = 0, .max_hole_edges = 3});
+    const Cleaned open = cleaned(mesh, {.min_component = 0, .max_hole = 3});
     EXPECT_EQ(open.counts.filled_holes, 0);
     EXPECT_EQ(check_mesh(open.mesh).boundary_edges, 4);
-    const Cleaned filled = cleaned(mesh, {.min_component_faces = 0, .max_hole_edges = 4});
+    const Cleaned filled = cleaned(mesh, {.min_component = 0, .max_hole = 4});
     EXPECT_EQ(filled.counts.filled_holes, 1);
     EXPECT_TRUE(check_mesh(filled.mesh).is_closed());
     EXPECT_NEAR(volume(filled.mesh), whole, 1e-12);
     expect_clean(filled.mesh);
 }
 
-TEST(CleanSurface, DoesNotCloseAPatchOverItself)
+TEST(CleanSurface, KeepsTheOuterBoundaryOfAPatch)
 {
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -198,28 +198,28 @@ TEST(CleanSurface, DoesNotCloseAPatchOverItself)
     EXPECT_EQ(clean.mesh.faces, mesh.faces);
 }
 
-TEST(CleanSurface, DoesNotFillTheHolesOfPiecesItRemoves)
+TEST(CleanSurface, FillsNoHolesOfRemovedComponents)
 {
     TriMesh mesh = octahedron();
     TriMesh open = octahedron();
     open.faces.pop_back();
     append(mesh, open, 10);
-    const Cleaned clean = cleaned(mesh, {.min_component_faces = 8, .max_hole_edges = 12});
+    const Cleaned clean = cleaned(mesh, {.min_component = 8, .max_hole = 12});
     EXPECT_EQ(clean.counts.filled_holes, 0);
     EXPECT_EQ(clean.mesh.faces, octahedron().faces);
 }
 
-TEST(CleanSurface, GivesNoNormalThatIsNoNumber)
+TEST(CleanSurface, WritesZeroNormalsForFacesWithoutArea)
 {
     TriMesh mesh = octahedron();
     for (Vector3d& position : mesh.positions) {
-        position = {position.x(), position.x(), position.x()}; // all on one line
+        position = {position.x(), position.x(), position.x()}; // collinear
     }
     const Cleaned clean = cleaned(mesh, kKeepAll);
     EXPECT_EQ(clean.mesh.normals, std::vector<Vector3f>(6, Vector3f::Zero()));
 }
 
-TEST(CleanSurface, IsCleanWhateverTheLabellingAndKeepsClosedWhatIsClosed)
+TEST(CleanSurface, CleansAnyLabelingAndKeepsClosedSurfacesClosed)
 {
     const TetraGrid grid = tetra_grid(3);
     std::mt19937 random(21);
@@ -250,7 +250,7 @@ TEST(CleanSurface, IsCleanWhateverTheLabellingAndKeepsClosedWhatIsClosed)
     EXPECT_GT(num_filled, 400);
 }
 
-TEST(CleanSurface, IsCleanWhateverTheSoup)
+TEST(CleanSurface, CleansAnySoup)
 {
     std::mt19937 random(23);
     for (int round = 0; round < 600; ++round) {
@@ -263,8 +263,7 @@ TEST(CleanSurface, IsCleanWhateverTheSoup)
             const auto vertex = [&] { return static_cast<std::uint32_t>(random() % num_vertices); };
             mesh.faces.push_back({vertex(), vertex(), vertex()});
         }
-        const Cleaned clean =
-            cleaned(mesh, {.min_component_faces = round % 3, .max_hole_edges = 12});
+        const Cleaned clean = cleaned(mesh, {.min_component = round % 3, .max_hole = 12});
         ASSERT_NO_FATAL_FAILURE(expect_clean(clean.mesh)) << "round " << round;
     }
 }
@@ -286,7 +285,7 @@ TEST(CleanSurface, ScalesWithTheSurface)
     EXPECT_EQ(clean.mesh.positions[5], expected.mesh.positions[5] * std::pow(2.0, 20));
 }
 
-TEST(DropSmallComponents, DropsThoseOfLessAreaButNeverTheLargest)
+TEST(DropSmallComponents, DropsComponentsOfLessAreaButNeverTheLargest)
 {
     TriMesh mesh;
     for (const double size : {1.0, 2.0, 3.0}) { // areas 0.5, 2 and 4.5

@@ -16,21 +16,21 @@ namespace vcarve::face_rules_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::LabelledScene;
+using testing::LabeledScene;
 using testing::triangular_lattice;
 
 constexpr double kSide = 6.0;
 constexpr double kHeight = 3.0;
-constexpr double kTop = 15.0; ///< of the box around
+constexpr double kTop = 15.0; ///< of the surrounding box
 
-// The diameter of the region of interest is 9. The view sees the lid, so it goes from twice the
-// length on.
+// The diameter of the region of interest is 9. The view sees the unsupported ceiling (Part::lid),
+// so its faces are dropped from twice the length on.
 constexpr double kLong = 2.7;
 constexpr FaceRules kSeenFromLong = {.max_closing = kLong / 2.0 / 9.0};
 
-/// Points a step apart on the walls of a hall without a ceiling, and on the rim of its floor, whose
-/// middle is plain; all seen from a view on the floor that looks up and shows everything above it.
-/// Eight points far around that nobody saw, but another view looks down on them; or none.
+/// A hall without a ceiling. Points are a step apart on its walls and along the edge of its floor,
+/// whose center is plain. A view on the floor looks up and sees all of them. Eight optional points
+/// far around are seen by no view, but a second view looks down on them.
 Scene open_hall(bool has_surroundings = true)
 {
     std::vector<MadePoint> points;
@@ -52,7 +52,7 @@ Scene open_hall(bool has_surroundings = true)
     return scene;
 }
 
-/// Only the hall is free.
+/// Labels of which only the hall is free.
 Labels around_the_hall(const TetMesh& mesh)
 {
     return testing::labels_where(mesh, [&](Index cell) {
@@ -62,7 +62,7 @@ Labels around_the_hall(const TetMesh& mesh)
     });
 }
 
-/// As where the hall goes on along the hull.
+/// Labels of a surface that continues along the hull: infinite cells are inside.
 Labels beyond_the_hull(const TetMesh& mesh)
 {
     Labels labels(mesh.cells.size(), Label::outside);
@@ -72,7 +72,7 @@ Labels beyond_the_hull(const TetMesh& mesh)
     return labels;
 }
 
-/// Where a face lies.
+/// The location of a face.
 enum class Part { hall, lid, top, around };
 
 struct Hall {
@@ -111,7 +111,7 @@ struct Hall {
         return std::max({(positions[a] - positions[b]).norm(), (positions[b] - positions[c]).norm(),
                          (positions[c] - positions[a]).norm()});
     }
-    /// `keep` without the faces of a part that have an edge so long.
+    /// `keep` without the faces of a part that have an edge of at least `edge`.
     FaceFlags without(FaceFlags keep, Part part, double edge) const
     {
         for (std::size_t face = 0; face < keep.size(); ++face) {
@@ -119,7 +119,7 @@ struct Hall {
         }
         return keep;
     }
-    /// `keep` without the first of the long faces of the lid, where its rim then is.
+    /// `keep` without the first long face of the ceiling, so that it gets a boundary.
     FaceFlags opened(FaceFlags keep, double edge = kLong) const
     {
         for (std::size_t face = 0; face < keep.size(); ++face) {
@@ -134,11 +134,11 @@ struct Hall {
         return drop_unsupported({made.surface, made.facets, made.visibility}, rules, keep);
     }
 
-    LabelledScene made;
+    LabeledScene made;
     std::vector<Part> parts;
 };
 
-/// Fails unless the dropped faces are those that `expected` lacks.
+/// Fails unless exactly the faces missing in `expected` are dropped.
 void expect_dropped(const Hall& hall, const FaceRules& rules, FaceFlags keep,
                     const FaceFlags& expected)
 {
@@ -147,20 +147,20 @@ void expect_dropped(const Hall& hall, const FaceRules& rules, FaceFlags keep,
     EXPECT_EQ(keep, expected);
 }
 
-TEST(DropUnsupported, TakesTheLidOffAnOpenHallFromItsRimButNotItsPlainFloor)
+TEST(DropUnsupported, DropsUnsupportedCeilingOfAnOpenHallButNotItsPlainFloor)
 {
     const Hall hall;
     const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}));
     const FaceFlags without_lid = hall.without(keep, Part::lid, kLong);
     const FaceFlags without_floor = hall.without(keep, Part::hall, kLong);
     ASSERT_NE(without_lid, keep);
-    ASSERT_NE(without_floor, keep) << "the floor has faces as long";
+    ASSERT_NE(without_floor, keep) << "the floor has long faces, too";
     expect_dropped(hall, kSeenFromLong, keep, without_lid);
 }
 
-TEST(DropUnsupported, TakesOffWhatViewsSeeOnlyIfItIsTwiceAsLong)
+TEST(DropUnsupported, DropsVisibleFacesOnlyIfTwiceAsLong)
 {
-    constexpr double kVast = 5.4; // a length between those of the faces of the lid
+    constexpr double kVast = 5.4; // between the lengths of the faces of the ceiling
     const Hall hall;
     const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}), kVast);
     const FaceFlags rest = hall.without(keep, Part::lid, kVast);
@@ -169,14 +169,14 @@ TEST(DropUnsupported, TakesOffWhatViewsSeeOnlyIfItIsTwiceAsLong)
     expect_dropped(hall, {.max_closing = kVast / 2.0 / 9.0}, keep, rest);
 }
 
-TEST(DropUnsupported, TakesNothingSeenOutOfTheMiddle)
+TEST(DropUnsupported, KeepsVisibleFacesAwayFromTheBoundary)
 {
     const Hall hall;
     const FaceFlags keep = hall.all_but({Part::top, Part::around});
     expect_dropped(hall, kSeenFromLong, keep, keep);
 }
 
-TEST(DropUnsupported, LeavesWhatIsNoLongerThanTheShare)
+TEST(DropUnsupported, KeepsFacesBelowTheLength)
 {
     const Hall hall;
     const FaceFlags keep = hall.opened(hall.all_but({Part::top, Part::around}));
@@ -184,32 +184,33 @@ TEST(DropUnsupported, LeavesWhatIsNoLongerThanTheShare)
     expect_dropped(hall, {.max_closing = 0.475}, keep, keep);
 }
 
-TEST(DropUnsupported, TakesNoneWhereNotAsked)
+TEST(DropUnsupported, KeepsAllFacesIfDisabled)
 {
     const Hall hall;
     const FaceFlags keep = hall.opened(hall.all_but({}));
     expect_dropped(hall, {.max_closing = 0.0}, keep, keep);
 }
 
-TEST(DropUnsupported, LeavesALidThatHidesTheBackOfAKeptFace)
+TEST(DropUnsupported, KeepsFacesThatHideTheBackOfAKeptFace)
 {
     const Hall hall;
     const FaceFlags keep = hall.opened(hall.all_but({Part::around}));
     expect_dropped(hall, kSeenFromLong, keep, keep);
 }
 
-TEST(DropUnsupported, TakesUnseenFacesOfTheHullAndThenWhatTheyWereBehind)
+TEST(DropUnsupported, DropsUnseenHullFacesAndThenTheFacesInFrontOfThem)
 {
-    // The box around goes first, since nobody looks at it: then it is no back behind the lid.
+    // The surrounding box is dropped first, because no view looks at it. Then the ceiling hides no
+    // back.
     Hall hall;
-    hall.made.scene.views[1].center.z() = -90.0; // what visibility refers to
+    hall.made.scene.views[1].center.z() = -90.0; // made.visibility refers to this scene
     testing::aim(hall.made.scene.views[1], {3.0, 3.0, -200.0});
     const FaceFlags keep = hall.opened(hall.all_but({}));
     const FaceFlags open = hall.opened(hall.all_but({Part::top, Part::around}));
     expect_dropped(hall, kSeenFromLong, keep, hall.without(open, Part::lid, kLong));
 }
 
-TEST(DropUnsupported, LeavesALidBeforeInfinity)
+TEST(DropUnsupported, KeepsFacesInFrontOfInfiniteCells)
 {
     const Hall hall(open_hall(false), beyond_the_hull);
     const FaceFlags keep = hall.opened(hall.all_but({}));
@@ -217,14 +218,14 @@ TEST(DropUnsupported, LeavesALidBeforeInfinity)
     expect_dropped(hall, kSeenFromLong, keep, keep);
 }
 
-TEST(DropUnsupported, TakesNoFaceThatIsNotKept)
+TEST(DropUnsupported, CountsNoFaceThatWasDroppedBefore)
 {
     const Hall hall;
     const FaceFlags none(hall.parts.size(), 0);
     expect_dropped(hall, kSeenFromLong, none, none);
 }
 
-TEST(DropUnsupported, TakesTheSameFromOneThreadAndTwo)
+TEST(DropUnsupported, IsTheSameForAnyThreadCount)
 {
     const Hall hall;
     const auto by = [&](int threads) {
@@ -235,13 +236,12 @@ TEST(DropUnsupported, TakesTheSameFromOneThreadAndTwo)
     EXPECT_EQ(by(1), by(2));
 }
 
-// ---- small faces beside kept ones
-// ----------------------------------------------------------------
+// ---- small faces beside kept ones ---------------------------------------------------------------
 
 constexpr int kSlabSide = 7;
 
-/// Points a step apart on the top of a slab and on its bottom, so much below, which two views above
-/// show, and eight points far around that nobody saw.
+/// Points a step apart on the top and the bottom of a slab, which two views show from above, and
+/// eight unseen points far around.
 Scene slab(double thickness)
 {
     std::vector<MadePoint> points;
@@ -306,7 +306,7 @@ struct Slab {
         return keep;
     }
 
-    LabelledScene made;
+    LabeledScene made;
     FaceFlags top;
     FaceFlags rest;
 };
@@ -327,7 +327,7 @@ TEST(ChooseFaces, KeepsSmallUnseenFacesBesideKeptOnes)
     EXPECT_EQ(chosen.closing, 0);
 }
 
-TEST(ChooseFaces, KeepsNoUnseenFaceWhereNotAsked)
+TEST(ChooseFaces, DropsAllUnseenFacesIfDisabled)
 {
     SurfaceOptions options;
     options.rules.beside_edge = 0.0;
@@ -337,15 +337,15 @@ TEST(ChooseFaces, KeepsNoUnseenFaceWhereNotAsked)
 
 TEST(ChooseFaces, DropsLargeUnseenFacesBesideKeptOnes)
 {
-    EXPECT_EQ(Slab(4.5).chosen().keep, Slab(4.5).top) << "more than three edges around";
+    EXPECT_EQ(Slab(4.5).chosen().keep, Slab(4.5).top) << "longer than three local edges";
     SurfaceOptions options;
     options.rules.beside_edge = 10.0;
     EXPECT_NE(Slab(4.5).chosen(options).keep, Slab(4.5).top);
-    options.rules.beside_length = 3.0; // 1.4 is usual on top
+    options.rules.beside_length = 3.0; // the median on top is 1.4
     EXPECT_EQ(Slab(4.5).chosen(options).keep, Slab(4.5).top);
 }
 
-TEST(ChooseFaces, KeepsAllWhereTheSurfaceIsToBeClosed)
+TEST(ChooseFaces, KeepsAllFacesOfAClosedSurface)
 {
     SurfaceOptions options;
     options.closed = true;
@@ -353,7 +353,7 @@ TEST(ChooseFaces, KeepsAllWhereTheSurfaceIsToBeClosed)
     EXPECT_EQ(slab.chosen(options).keep, slab.all());
 }
 
-TEST(CarveSurface, EndsBehindTheBendWhereItTurnsOutOfSight)
+TEST(CarveSurface, EndsBehindTheBendThatLeavesTheView)
 {
     const Slab slab;
     const CarvedSurface made =
@@ -361,29 +361,29 @@ TEST(CarveSurface, EndsBehindTheBendWhereItTurnsOutOfSight)
     EXPECT_EQ(std::ssize(made.faces.faces), std::ranges::count(slab.chosen().keep, 1));
 }
 
-TEST(DropUnsupported, TakesWhatIsHardlySeenOffTheRimHoweverSmall)
+TEST(DropUnsupported, DropsHardlySeenBoundaryFacesOfAnySize)
 {
     const Slab slab;
     FaceFlags keep = slab.all();
     keep[static_cast<std::size_t>(std::ranges::find(slab.rest, 1) - slab.rest.begin())] = 0;
     EXPECT_EQ(slab.dropped(keep, 0.9), slab.top);
-    EXPECT_EQ(slab.dropped(keep, 0.0), keep) << "0 takes nothing off";
-    EXPECT_EQ(slab.dropped(slab.all(), 0.9), slab.all()) << "there is no rim";
+    EXPECT_EQ(slab.dropped(keep, 0.0), keep) << "0 disables";
+    EXPECT_EQ(slab.dropped(slab.all(), 0.9), slab.all()) << "no face is at the boundary";
 }
 
-TEST(DropUnsupported, TakesWhatIsLongAndMostlyUnseenFromAnywhere)
+TEST(DropUnsupported, DropsLongMostlyUnseenFacesAnywhere)
 {
     const Slab slab;
     EXPECT_EQ(slab.dropped(slab.all(), 0.01), slab.top);
 }
 
-// ---- what was seen ------------------------------------------------------------------------------
+// ---- seen faces ---------------------------------------------------------------------------------
 
 constexpr int kWallSide = 12;
 
-/// A wall at height 0 that view 0 stands before, 20 below its middle: everything above is solid,
-/// everything below free down to a point that nobody saw, so that the wall is not the hull; up
-/// to four points that nobody saw. The corners of the wall were all seen from view 0.
+/// A wall at height 0, whose points view 0 saw from 20 below its center. Space above is solid, up
+/// to four unseen points. Space below is free, down to an unseen point, so the wall is not on the
+/// hull.
 Scene wall(const Positions& points, const Vector3d& center)
 {
     std::vector<MadePoint> made;
@@ -410,13 +410,13 @@ Scene wall()
     return wall(triangular_lattice(kWallSide, kWallSide), {8.25, 4.76, -20});
 }
 
-/// The number of a point of the lattice.
+/// The index of a lattice point.
 Index at(int column, int row)
 {
     return static_cast<Index>(kWallSide * row + column);
 }
 
-/// Nothing is in the images any more: only tracks tell what was seen.
+/// Turns the views away, so that only tracks show which points were seen.
 Scene looking_away(Scene scene)
 {
     for (View& view : scene.views) {
@@ -440,13 +440,13 @@ std::set<Index> all_points(const Scene& scene)
     return points;
 }
 
-FaceFlags seen(const LabelledScene& made)
+FaceFlags seen(const LabeledScene& made)
 {
     return seen_faces({made.surface, made.facets, made.visibility});
 }
 
-/// The faces of the wall that do not touch any of some points.
-FaceFlags wall_but(const LabelledScene& made, const std::set<Index>& points)
+/// The faces of the wall without any of some points as corners.
+FaceFlags wall_but(const LabeledScene& made, const std::set<Index>& points)
 {
     FaceFlags flags;
     for (const Face& corners : made.corners) {
@@ -464,47 +464,47 @@ std::ptrdiff_t num_kept(const FaceFlags& keep)
     return std::ranges::count(keep, 1);
 }
 
-TEST(SeenFaces, AreAPlainWallInAnImageButNotTheShell)
+TEST(SeenFaces, IncludeAPlainWallInAnImageButNotTheFacesAround)
 {
     const Scene scene = wall();
-    const LabelledScene made(without_tracks(scene, all_points(scene)), solid_above);
+    const LabeledScene made(without_tracks(scene, all_points(scene)), solid_above);
     const FaceFlags keep = seen(made);
     EXPECT_EQ(keep, wall_but(made, {}));
     EXPECT_EQ(num_kept(keep), 2 * (kWallSide - 1) * (kWallSide - 1));
 }
 
-TEST(SeenFaces, AreWhatTheTracksOfAllCornersSaw)
+TEST(SeenFaces, IncludeFacesWhoseCornersAreInTracks)
 {
-    const LabelledScene made(looking_away(wall()), solid_above);
+    const LabeledScene made(looking_away(wall()), solid_above);
     EXPECT_EQ(seen(made), wall_but(made, {}));
 }
 
-TEST(SeenFaces, LackAFaceWithACornerThatNobodySaw)
+TEST(SeenFaces, ExcludeFacesWithAnUnseenCorner)
 {
     const std::set<Index> unseen = {at(4, 4), at(0, 0)};
-    const LabelledScene made(without_tracks(looking_away(wall()), unseen), solid_above);
+    const LabeledScene made(without_tracks(looking_away(wall()), unseen), solid_above);
     EXPECT_EQ(seen(made), wall_but(made, unseen));
 }
 
-TEST(SeenFaces, LackAWallSeenOnlyFromBehind)
+TEST(SeenFaces, ExcludeAWallSeenOnlyFromBehind)
 {
     Scene scene = wall();
     scene.views[0].center.z() = 80.0;
-    const LabelledScene made(scene, solid_above);
+    const LabeledScene made(scene, solid_above);
     EXPECT_EQ(num_kept(seen(made)), 0);
 }
 
-TEST(SeenFaces, AreNoneWhereNothingWasSeen)
+TEST(SeenFaces, AreEmptyWithoutViews)
 {
     const Scene four =
         make_scene({}, {{{0, 0, 0}, {}}, {{1, 0, 0}, {}}, {{0, 1, 0}, {}}, {{0, 0, 1}, {}}});
-    const LabelledScene made(four, testing::solid);
+    const LabeledScene made(four, testing::solid);
     EXPECT_EQ(seen(made), FaceFlags(4, 0));
 }
 
-TEST(SeenFaces, AreTheSameFromOneThreadAndTwo)
+TEST(SeenFaces, AreTheSameForAnyThreadCount)
 {
-    const LabelledScene made(bumpy_sphere(2000, 61), [](const TetMesh& mesh) {
+    const LabeledScene made(bumpy_sphere(2000, 61), [](const TetMesh& mesh) {
         return testing::labels_where(
             mesh, [&](Index cell) { return testing::middle(mesh, cell).norm() < 0.9; });
     });
@@ -516,7 +516,7 @@ TEST(SeenFaces, AreTheSameFromOneThreadAndTwo)
     EXPECT_GT(num_kept(keep), 0);
 }
 
-TEST(WithFaces, LeavesTheVertices)
+TEST(WithFaces, KeepsAllVertices)
 {
     TriMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 0, 0}};

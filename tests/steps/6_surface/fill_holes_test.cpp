@@ -19,7 +19,7 @@ MeshCheck check_of(const HalfEdgeMesh& mesh)
     return check_mesh(tri_mesh(mesh));
 }
 
-/// A tube of `n` sides around the z axis, open at both ends; its lower end is vertices 0 to n - 1.
+/// An open tube of `n` sides around the z axis. Vertices 0 to n - 1 are its lower end.
 TriMesh tube(std::uint32_t n)
 {
     TriMesh mesh;
@@ -37,7 +37,7 @@ TriMesh tube(std::uint32_t n)
     return mesh;
 }
 
-TEST(BoundaryLoops, RunAlongEveryBorderOnce)
+TEST(BoundaryLoops, FollowEveryBoundaryOnce)
 {
     const HalfEdgeMesh mesh = half_edges(tube(7));
     const std::vector<BoundaryLoop> loops = boundary_loops(mesh);
@@ -63,7 +63,7 @@ TEST(BoundaryLoop, TouchesItselfAtCopiesOfAVertex)
     EXPECT_TRUE(first_loop_touches_itself(mesh));
 }
 
-TEST(IsRim, TellsAPatchFromAHole)
+TEST(IsRim, DistinguishesAPatchFromAHole)
 {
     const auto first_loop_is_rim = [](const TriMesh& mesh) {
         const HalfEdgeMesh surface = half_edges(mesh);
@@ -74,7 +74,7 @@ TEST(IsRim, TellsAPatchFromAHole)
     mesh.faces = {{0, 2, 1}};
     EXPECT_TRUE(first_loop_is_rim(mesh)); // a lone triangle
     mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}};
-    EXPECT_FALSE(first_loop_is_rim(mesh)); // a tetrahedron without a side
+    EXPECT_FALSE(first_loop_is_rim(mesh)); // a tetrahedron without a face
     EXPECT_FALSE(first_loop_is_rim(tube(6)));
     mesh.positions = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 0.3}};
     mesh.faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
@@ -96,7 +96,7 @@ TEST(FillHole, ClosesATriangleWithOneFace)
     EXPECT_EQ(check_of(surface).orientation_faults, 0);
 }
 
-/// Least total area of a triangulated polygon by trying every one.
+/// Least total area of all triangulations of a polygon.
 double least_area(const std::vector<Vector3d>& polygon)
 {
     if (polygon.size() < 3) return 0.0;
@@ -115,7 +115,7 @@ TEST(FillHole, FindsTheLeastArea)
 {
     for (std::uint32_t n = 4; n < 10; ++n) {
         TriMesh mesh = tube(n);
-        for (std::uint32_t i = 0; i < n; ++i) { // lift the lower end out of its plane
+        for (std::uint32_t i = 0; i < n; ++i) { // make the lower end non-planar
             mesh.positions[i].z() = std::sin(3.0 * i) / 2;
         }
         HalfEdgeMesh surface = half_edges(mesh);
@@ -139,9 +139,9 @@ TEST(FillHole, FindsTheLeastArea)
     }
 }
 
-TEST(FillHole, NeverUsesAnEdgeThatIsThere)
+TEST(FillHole, NeverDuplicatesAnEdge)
 {
-    // A square patch whose rim is filled: the diagonal 0 2 is taken, 1 3 is left.
+    // A square patch whose outer boundary is filled. The diagonal 0 2 exists, so 1 3 is used.
     TriMesh mesh;
     mesh.positions = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
     mesh.faces = {{0, 1, 2}, {0, 2, 3}};
@@ -153,10 +153,10 @@ TEST(FillHole, NeverUsesAnEdgeThatIsThere)
     EXPECT_TRUE(check_of(surface).is_closed());
 }
 
-TEST(FillHole, TakesAVertexInTheMiddleWhereEveryChordIsTaken)
+TEST(FillHole, AddsACenterVertexIfAllChordsExist)
 {
-    // The torus of seven vertices has an edge between any two of them. Without vertex 6 it has a
-    // hole of six edges, all of whose chords are there.
+    // The torus of seven vertices has an edge between any two of them. Without vertex 6, it has a
+    // hole of six edges, all of whose chords exist.
     TriMesh mesh;
     for (std::uint32_t i = 0; i < 7; ++i) {
         mesh.positions.emplace_back(i, i * i, i * i * i);
@@ -184,9 +184,9 @@ TEST(FillHole, TakesAVertexInTheMiddleWhereEveryChordIsTaken)
     EXPECT_EQ(check_of(surface).euler_characteristic, 0);
 }
 
-TEST(FillHoles, FillsNoHoleOfADeletedPieceAndNoRim)
+TEST(FillHoles, SkipsDeletedComponentsAndOuterBoundaries)
 {
-    // A tube and, far off, a second one; and a lone triangle.
+    // Two distant tubes and a lone triangle.
     TriMesh mesh = tube(5);
     for (const Vector3d& position : tube(5).positions) {
         mesh.positions.emplace_back(position + Vector3d(9, 0, 0));

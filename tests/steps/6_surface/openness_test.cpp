@@ -16,11 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 using testing::aim;
-using testing::LabelledScene;
+using testing::LabeledScene;
 using testing::solid;
 
-/// Whether a ray meets one of the faces that are kept, or of all.
-bool meets(const LabelledScene& made, const FaceFlags& keep, bool only_kept, const Vector3d& eye,
+/// Whether a ray meets one of the kept faces, or of all faces.
+bool meets(const LabeledScene& made, const FaceFlags& keep, bool only_kept, const Vector3d& eye,
            const Vector3d& target)
 {
     for (std::size_t i = 0; i < made.corners.size(); ++i) {
@@ -40,8 +40,8 @@ struct Count {
     std::int64_t open = 0;
 };
 
-/// The same as measure_openness, by trying every face.
-Count tried(const LabelledScene& made, const FaceFlags& keep, std::size_t rays_a_view)
+/// Equals measure_openness(), but tests every face.
+Count tried(const LabeledScene& made, const FaceFlags& keep, std::size_t rays_a_view)
 {
     Count openness;
     for (const View& view : made.scene.views) {
@@ -60,14 +60,14 @@ Count tried(const LabelledScene& made, const FaceFlags& keep, std::size_t rays_a
     return openness;
 }
 
-Count measured(const LabelledScene& made, const FaceFlags& keep)
+Count measured(const LabeledScene& made, const FaceFlags& keep)
 {
     const Openness openness =
         measure_openness(made.mesh, made.labels, made.facets, keep, made.scene);
     return {openness.rays, openness.past, static_cast<std::int64_t>(openness.open.size())};
 }
 
-LabelledScene solid_ball()
+LabeledScene solid_ball()
 {
     Scene scene = bumpy_sphere(150, 3);
     for (View& view : scene.views) {
@@ -76,18 +76,18 @@ LabelledScene solid_ball()
     return {scene, [](const TetMesh& mesh) { return solid(mesh); }};
 }
 
-TEST(Openness, IsNoneWhereAllIsKept)
+TEST(Openness, IsZeroIfAllFacesAreKept)
 {
-    const LabelledScene made = solid_ball();
+    const LabeledScene made = solid_ball();
     const Count openness = measured(made, FaceFlags(made.facets.size(), 1));
     EXPECT_GT(openness.rays, 3000);
     EXPECT_EQ(openness.open, 0);
 }
 
-TEST(Openness, IsWhatTryingEveryFaceFinds)
+TEST(Openness, MatchesTestingEveryFace)
 {
-    const LabelledScene made = solid_ball();
-    // Two faces of three are away: through some gaps the back of others is seen.
+    const LabeledScene made = solid_ball();
+    // Two of three faces are missing, so views see the backs of others through some gaps.
     FaceFlags keep(made.facets.size(), 0);
     for (std::size_t i = 0; i < keep.size(); i += 3) {
         keep[i] = 1;
@@ -100,14 +100,14 @@ TEST(Openness, IsWhatTryingEveryFaceFinds)
     EXPECT_GT(openness.open, 100);
 }
 
-TEST(Openness, LooksFromWithin)
+TEST(Openness, CountsRaysFromInside)
 {
-    // Inside are the cells at the hull only, so that views amid the others look at their backs.
+    // Only the cells at the hull are inside, so views at the center look at them from behind.
     Scene scene = bumpy_sphere(400, 3);
     for (View& view : scene.views) {
         view.center *= 0.01;
     }
-    const LabelledScene made(scene, [](const TetMesh& mesh) {
+    const LabeledScene made(scene, [](const TetMesh& mesh) {
         return testing::labels_where(mesh, [&](Index cell) {
             return std::ranges::any_of(mesh.cells[cell].neighbors, [&](Index neighbor) {
                 return mesh.cells[neighbor].is_infinite();
@@ -126,9 +126,9 @@ TEST(Openness, LooksFromWithin)
     EXPECT_GT(openness.open, 100);
 }
 
-TEST(Openness, AsksNoViewThatSawNothing)
+TEST(Openness, IgnoresViewsWithoutPoints)
 {
-    LabelledScene made = solid_ball();
+    LabeledScene made = solid_ball();
     std::vector<std::uint32_t> track;
     made.scene.tracks = {};
     for (std::size_t i = 0; i < made.scene.num_points(); ++i) {
@@ -137,9 +137,9 @@ TEST(Openness, AsksNoViewThatSawNothing)
     EXPECT_EQ(measured(made, FaceFlags(made.facets.size(), 1)).rays, 0);
 }
 
-TEST(Openness, IsTheSameForAnyNumberOfThreads)
+TEST(Openness, IsTheSameForAnyThreadCount)
 {
-    const LabelledScene made = solid_ball();
+    const LabeledScene made = solid_ball();
     const FaceFlags keep(made.facets.size(), 0);
     const auto by = [&](int threads) {
         return testing::with_threads(threads, [&] { return measured(made, keep); });
@@ -149,7 +149,7 @@ TEST(Openness, IsTheSameForAnyNumberOfThreads)
     EXPECT_EQ(by(1).rays, by(4).rays);
 }
 
-TEST(Openness, EndsWhereAHoleIsFilled)
+TEST(Openness, EndsAtFilledHoles)
 {
     const std::vector<ViewLine> lines = {{{0.2, 0.2, 2}, {0.2, 0.2, -2}},
                                          {{0.2, 0.2, -2}, {0.2, 0.2, 2}},

@@ -21,10 +21,10 @@ namespace {
 using Eigen::Vector3d;
 using Place = std::array<double, 3>;
 
-// ---- by hand ------------------------------------------------------------------------------------
+// ---- hand-made scene ----------------------------------------------------------------------------
 
-/// Three views above the plane z = 0 and one below; a square of two triangles, looking up, and a
-/// corner that is no point.
+/// Three views above the plane z = 0 and one below. The mesh has a square of two triangles that
+/// face up, and a corner that is no point.
 Scene square_scene()
 {
     Scene scene =
@@ -46,38 +46,38 @@ TriMesh square_mesh()
     return mesh;
 }
 
-TEST(Provenance, TellsThePointOfAVertexAndWhatAFaceRestsOn)
+TEST(Provenance, RecordsPointsOfVerticesAndSupportOfFaces)
 {
     const Provenance found = find_provenance(square_mesh(), square_scene());
     EXPECT_EQ(found.point_ids, (std::vector<std::int64_t>{50, 70, 60, 9007199254740992, -1}));
     EXPECT_EQ(found.num_views, (std::vector<std::int32_t>{3, 4, 3, 1, 0}));
     EXPECT_EQ(found.errors_px, (std::vector<float>{-1.0F, 0.5F, 0.25F, 2.0F, -1.0F}));
-    // Seen from above by 3, 3 and 2 views; by 3, 2 and 0; turned over, by 1, 0 and 1; and a corner
-    // without a point.
+    // Views in front that saw the corners: 3, 3 and 2; 3, 2 and 0; 1, 0 and 1 (turned over). The
+    // last face has a corner without a point.
     EXPECT_EQ(found.supports, (std::vector<std::int32_t>{2, 0, 0, 0}));
 }
 
-TEST(Provenance, KnowsNoPointWhereOneWasAddedToTheModels)
+TEST(Provenance, RecordsNoPointForAddedPoints)
 {
     Scene scene = square_scene();
     scene.kinds.assign(scene.num_points(), PointKind::measured);
     scene.kinds[1] = PointKind::crease;
     const Provenance found = find_provenance(square_mesh(), scene);
     EXPECT_EQ(found.point_ids, (std::vector<std::int64_t>{50, 70, -1, 9007199254740992, -1}));
-    EXPECT_EQ(found.num_views, (std::vector<std::int32_t>{3, 4, 3, 1, 0})) << "those it was given";
+    EXPECT_EQ(found.num_views, (std::vector<std::int32_t>{3, 4, 3, 1, 0})) << "its assigned views";
     EXPECT_EQ(found.errors_px, (std::vector<float>{-1.0F, 0.5F, -1.0F, 2.0F, -1.0F}));
 }
 
-TEST(Provenance, RefusesIdsThatWouldBeRounded)
+TEST(Provenance, RejectsIdsThatWouldBeRounded)
 {
     Scene scene = square_scene();
     scene.point_ids[1] = (std::uint64_t{1} << 53) + 1;
     EXPECT_EQ(refusal<InputError>([&] { find_provenance(square_mesh(), scene); }),
-              "point 9007199254740993 cannot be written with --attributes: a PLY file holds ids up "
-              "to 9007199254740992 only");
+              "--attributes cannot write point 9007199254740993: PLY stores ids up to "
+              "9007199254740992 only; omit --attributes");
 }
 
-// ---- against COLMAP's own text, read here -------------------------------------------------------
+// ---- comparison with COLMAP's text files, read here ---------------------------------------------
 
 std::filesystem::path scene_folder()
 {
@@ -91,7 +91,7 @@ struct TextPoint {
     std::set<int> images;
 };
 
-/// The points of points3D.txt by id.
+/// The points of points3D.txt, by id.
 std::map<double, TextPoint> read_points()
 {
     std::map<double, TextPoint> points;
@@ -111,7 +111,7 @@ std::map<double, TextPoint> read_points()
     return points;
 }
 
-/// The centres of the images of images.txt by id: -R^T t.
+/// The camera centers of images.txt, by id: -R^T t.
 std::map<int, Vector3d> read_centers()
 {
     std::map<int, Vector3d> centers;
@@ -130,7 +130,7 @@ std::map<int, Vector3d> read_centers()
     return centers;
 }
 
-/// The numbers behind the header of a PLY file in text, line by line.
+/// The numbers after the header of an ascii PLY file, per line.
 std::vector<std::vector<double>> read_rows(const std::filesystem::path& path)
 {
     std::ifstream in(path);
@@ -148,8 +148,8 @@ std::vector<std::vector<double>> read_rows(const std::filesystem::path& path)
     return rows;
 }
 
-/// What the program writes of fixtures/scene with more arguments, in text; vertices stay on their
-/// points.
+/// The ascii output of the program for fixtures/scene with more arguments, without denoising, so
+/// that vertices stay at their points.
 std::vector<std::vector<double>> rows_of_run(const std::vector<std::string>& arguments)
 {
     const TemporaryFolder folder;
@@ -162,7 +162,7 @@ std::vector<std::vector<double>> rows_of_run(const std::vector<std::string>& arg
 
 class WrittenAttributes : public ::testing::Test {
   protected:
-    static constexpr std::size_t kId = 9; // column, behind place, normal and colour
+    static constexpr std::size_t kId = 9; // column, after position, normal and color
 
     void SetUp() override
     {
@@ -177,7 +177,7 @@ class WrittenAttributes : public ::testing::Test {
         num_faces_ = (rows_.size() - num_vertices_) / 2;
     }
 
-    /// How many images saw the corner, or a point at its place, from above the plane of the face.
+    /// The number of images in front of the face that saw a point at the position of the corner.
     std::ptrdiff_t images_before(const std::vector<double>& corner, const Vector3d& normal) const
     {
         if (corner[kId] < 0.0) return 0;
@@ -191,21 +191,21 @@ class WrittenAttributes : public ::testing::Test {
 
     std::map<double, TextPoint> points_ = read_points();
     std::map<int, Vector3d> centers_ = read_centers();
-    std::map<Place, std::set<int>> at_place_; ///< the images that saw any point there
+    std::map<Place, std::set<int>> at_place_; ///< the images that saw a point at a position
     std::vector<std::vector<double>> rows_;   ///< with --attributes
     std::vector<std::vector<double>> plain_;  ///< without
     std::size_t num_vertices_ = 0;
     std::size_t num_faces_ = 0;
 };
 
-TEST_F(WrittenAttributes, AreThoseOfTheModel)
+TEST_F(WrittenAttributes, MatchTheModel)
 {
     std::size_t num_points = 0;
     for (std::size_t v = 0; v < num_vertices_; ++v) {
         const std::vector<double>& row = rows_[v];
         if (row[kId] < 0.0) {
             EXPECT_EQ(row[kId], -1.0);
-            EXPECT_NE(row[kId + 1], 1.0) << "along a crease at least two";
+            EXPECT_NE(row[kId + 1], 1.0) << "points on creases have at least two";
             EXPECT_EQ(row[kId + 2], -1.0);
             continue;
         }
@@ -217,10 +217,10 @@ TEST_F(WrittenAttributes, AreThoseOfTheModel)
         ASSERT_EQ(row[kId + 1], static_cast<double>(at_place_.at(point.place).size()));
         ASSERT_EQ(static_cast<float>(row[kId + 2]), static_cast<float>(point.error_px));
     }
-    EXPECT_GT(num_points, num_vertices_ * 3 / 4); // others are of creases, or where faces end
+    EXPECT_GT(num_points, num_vertices_ * 3 / 4); // others are on creases, or at trimmed faces
 }
 
-TEST_F(WrittenAttributes, TellTheSupportOfEveryFace)
+TEST_F(WrittenAttributes, IncludeTheSupportOfEveryFace)
 {
     ASSERT_EQ(rows_.size(), num_vertices_ + 2 * num_faces_);
     std::set<double> supports;
@@ -235,7 +235,7 @@ TEST_F(WrittenAttributes, TellTheSupportOfEveryFace)
             (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
         const std::vector<double>& support = rows_[num_vertices_ + num_faces_ + f];
         std::ptrdiff_t expected = 1000;
-        bool is_of_model = true; // what saw a point that was added no file tells
+        bool is_of_model = true; // no file has the views of added points
         for (std::size_t i = 0; i < 3; ++i) {
             const auto& row = rows_[static_cast<std::size_t>(face[i + 1])];
             is_of_model = is_of_model && (row[kId] >= 0.0 || row[kId + 1] == 0.0);
@@ -245,10 +245,10 @@ TEST_F(WrittenAttributes, TellTheSupportOfEveryFace)
         ASSERT_EQ(support, std::vector<double>{static_cast<double>(expected)}) << "face " << f;
         supports.insert(support[0]);
     }
-    EXPECT_GT(supports.size(), 5U); // or nothing was tested
+    EXPECT_GT(supports.size(), 5U); // otherwise the test checks nothing
 }
 
-TEST_F(WrittenAttributes, ChangeNothingElse)
+TEST_F(WrittenAttributes, ChangeNoOtherProperty)
 {
     ASSERT_EQ(plain_.size(), num_vertices_ + num_faces_);
     for (std::size_t i = 0; i < plain_.size(); ++i) {

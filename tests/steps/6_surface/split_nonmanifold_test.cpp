@@ -16,7 +16,7 @@ using testing::tetra_grid;
 using testing::TetraGrid;
 using testing::volume;
 
-/// Colours and points that tell the vertices apart.
+/// Assigns distinct colors and points to the vertices.
 void mark_vertices(TriMesh& mesh)
 {
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
@@ -34,7 +34,7 @@ void expect_sound(const TriMesh& mesh)
     ASSERT_EQ(check.degenerate_faces, 0);
 }
 
-/// Two tetrahedra that share the edge 0 1 and nothing else, one on each side of it.
+/// Two tetrahedra on opposite sides of the edge 0 1, which is all they share.
 TriMesh two_wedges()
 {
     TriMesh mesh;
@@ -45,7 +45,7 @@ TriMesh two_wedges()
     return mesh;
 }
 
-/// Sides are sewn in pairs of opposite directions, but at borders.
+/// Expects that twins run in opposite directions, except at boundaries.
 void expect_mates(const ManifoldSurface& split)
 {
     const std::vector<Face>& faces = split.mesh.faces;
@@ -60,7 +60,7 @@ void expect_mates(const ManifoldSurface& split)
     ASSERT_EQ(std::ranges::count(split.twins, kNoHalfEdge), check_mesh(split.mesh).boundary_edges);
 }
 
-TEST(SplitNonmanifold, LeavesAManifoldSurfaceAsItIs)
+TEST(SplitNonmanifold, KeepsAManifoldSurfaceUnchanged)
 {
     const TetraGrid grid = tetra_grid(1);
     TriMesh mesh = boundary_of(grid, std::vector<bool>(grid.cells.size(), true));
@@ -74,12 +74,12 @@ TEST(SplitNonmanifold, LeavesAManifoldSurfaceAsItIs)
     EXPECT_EQ(split.split_vertices, 0);
 }
 
-TEST(SplitNonmanifold, TakesAnEmptySurface)
+TEST(SplitNonmanifold, AcceptsAnEmptySurface)
 {
     EXPECT_TRUE(split_nonmanifold({}).mesh.faces.empty());
 }
 
-TEST(SplitNonmanifold, KeepsTheFacesOfEachSolidAtASharedEdge)
+TEST(SplitNonmanifold, KeepsTheFacesOfEachSolidTogetherAtASharedEdge)
 {
     const ManifoldSurface split = split_nonmanifold(two_wedges());
     EXPECT_EQ(split.split_edges, 1);
@@ -100,16 +100,16 @@ TEST(SplitNonmanifold, KeepsTheFacesOfEachSolidAtASharedEdge)
     expect_sound(split.mesh);
 }
 
-TEST(SplitNonmanifold, KeepsSolidsTogetherHoweverThinTheGapBetweenThem)
+TEST(SplitNonmanifold, KeepsSolidsTogetherAcrossThinGaps)
 {
-    // Gap and solids are wedges of about 1e-15: their order is lost in rounded angles.
+    // The gaps and solids are wedges of about 1e-15, which rounded angles cannot order.
     TriMesh mesh;
     const double step = 1.0 / (1LL << 50);
     mesh.positions = {{0, 0, 0}, {0, 0, 1}};
     for (int i = 0; i < 6; ++i) {
         mesh.positions.emplace_back(1.0, i * step, 0.5);
     }
-    for (std::uint32_t i = 6; i >= 2; i -= 2) { // a solid between apexes i and i + 1
+    for (std::uint32_t i = 6; i >= 2; i -= 2) { // a solid with the apexes i and i + 1
         mesh.faces.push_back({0, 1, i + 1});
         mesh.faces.push_back({1, 0, i});
         mesh.faces.push_back({0, i + 1, i});
@@ -137,7 +137,7 @@ TEST(SplitNonmanifold, SeparatesSolidsThatTouchInAVertex)
     expect_sound(split.mesh);
 }
 
-TEST(SplitNonmanifold, LeavesABorderWhereTheOtherFaceOfASectorIsMissing)
+TEST(SplitNonmanifold, LeavesABoundaryIfTheOtherFaceOfASectorIsMissing)
 {
     TriMesh mesh = two_wedges();
     mesh.faces.erase(mesh.faces.begin() + 5); // {1, 0, 4}
@@ -148,16 +148,15 @@ TEST(SplitNonmanifold, LeavesABorderWhereTheOtherFaceOfASectorIsMissing)
     EXPECT_EQ(check_mesh(split.mesh).boundary_edges, 3);
 }
 
-TEST(SplitNonmanifold, GivesSheetsThatShareBothEndsMidpointsOfTheirOwn)
+TEST(SplitNonmanifold, SplitsSeamsBetweenTheSameVerticesAtAMidpoint)
 {
-    // The inside of a grid but for the six cells around an inner edge's two opposite wedges.
     TriMesh mesh = two_wedges();
-    // Join the wedges beyond each end of the edge, so that the ends cannot come apart: a fan of
-    // solids around each end would do; sewing the outer faces to one another is the least.
+    // Connect the outer faces of the wedges around both vertices of the edge, so that these cannot
+    // be separated.
     mesh.faces = {{0, 1, 3}, {1, 0, 2}, {0, 1, 5}, {1, 0, 4},
                   {0, 3, 4}, {1, 4, 3}, {0, 5, 2}, {1, 2, 5}};
-    // Around the edge: 0 1 3 closes the sector that 1 0 2 opens, 0 1 5 the one of 1 0 4; each end
-    // is one disk of faces 3 4 5 2, so the edge stays shared by two seams.
+    // Around the edge, 0 1 3 closes the sector of 1 0 2, and 0 1 5 that of 1 0 4. Each vertex has
+    // one disk of faces (3 4 5 2), so two seams still share the edge.
     const ManifoldSurface split = split_nonmanifold(mesh);
     expect_sound(split.mesh);
     EXPECT_EQ(split.split_edges, 1);
@@ -178,7 +177,7 @@ TEST(SplitNonmanifold, DropsDegenerateFaces)
     EXPECT_EQ(split_nonmanifold(mesh).mesh.faces.size(), 8U);
 }
 
-TEST(SplitNonmanifold, MakesTheBoundaryOfAnyLabellingManifold)
+TEST(SplitNonmanifold, MakesTheBoundaryOfAnyLabelingManifold)
 {
     const TetraGrid grid = tetra_grid(3);
     std::mt19937 random(11);
@@ -198,16 +197,15 @@ TEST(SplitNonmanifold, MakesTheBoundaryOfAnyLabellingManifold)
         num_edges += split.split_edges;
         num_midpoints += (after.faces - before.faces) / 2;
     }
-    // The labellings are the difficult kind, all cases included.
+    // These labelings are difficult and include all cases.
     EXPECT_GT(num_edges, 10000);
     EXPECT_GT(num_midpoints, 100);
 }
 
 TEST(SplitNonmanifold, SeparatesSolidsThatShareNoFacet)
 {
-    // Cells whose boundaries come apart are pieces of the inside joined through facets: a vertex or
-    // an edge joins nothing, so there are as many pieces of surface as cells when no two share a
-    // facet.
+    // Only facets connect cells; vertices and edges do not. So if no two cells share a facet, each
+    // cell is one component of the surface.
     const TetraGrid grid = tetra_grid(2);
     std::vector<bool> inside(grid.cells.size(), false);
     std::int64_t num_cells = 0;
@@ -227,7 +225,7 @@ TEST(SplitNonmanifold, SeparatesSolidsThatShareNoFacet)
     EXPECT_GT(split.split_edges, 10);
 }
 
-TEST(SplitNonmanifold, MakesAnyRestOfABoundaryManifold)
+TEST(SplitNonmanifold, MakesAnySubsetOfABoundaryManifold)
 {
     const TetraGrid grid = tetra_grid(2);
     std::mt19937 random(12);

@@ -15,22 +15,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What shows all of the second base.
+/// A view that shows all of the second base.
 const Eye kShowsAside{Vector3d(0, 0, -30) + kAside};
 
-/// The image ends on the first base.
+/// Tents of which one image shows only a part of the first base.
 Tents half_shown()
 {
     return Tents({{{-4, -1.5, -7}}, kShowsAside});
 }
 
-/// All is shown of the bases, but the third tent hides part of the first.
+/// Tents whose bases are completely in the images, but the third tent occludes a part of the first.
 Tents half_hidden()
 {
     return Tents({{{-0.6, -1.5, -30}}, kShowsAside}, true);
 }
 
-/// How much views see of a face, and how much of that was taken away.
+/// The visible area of a face, and the part of it that trimming removed.
 struct SeenArea {
     double seen = 0.0;
     double lost = 0.0;
@@ -53,7 +53,7 @@ SeenArea seen_area(const Tents& tents, std::size_t face)
     return area;
 }
 
-/// Fails where three faces meet at an edge, two do not look the same way, or a vertex of one lies
+/// Fails if three faces share an edge, two are not consistently oriented, or a vertex of one is
 /// inside an edge of another.
 void expect_no_cracks(const TriMesh& surface)
 {
@@ -75,11 +75,11 @@ void expect_no_cracks(const TriMesh& surface)
     EXPECT_EQ(check.boundary_edges, at_rims) << "an edge of one face lies on another";
 }
 
-/// Fails unless the pieces of each face make it up, and those that are kept join without a crack.
+/// Fails unless the pieces of each face cover it, and the kept pieces join without cracks.
 void expect_whole(const Tents& tents)
 {
     const std::vector<Piece> pieces = tents.pieces();
-    EXPECT_EQ(pieces.size(), tents.boundary.faces.size()) << "each lies on one face";
+    EXPECT_EQ(pieces.size(), tents.boundary.faces.size()) << "each piece lies on one face";
     for (const Piece& piece : pieces) {
         for (const Vector3d& corner : piece.corners) {
             EXPECT_TRUE(lies_on(tents.whole(piece.origin), corner));
@@ -95,7 +95,7 @@ void expect_whole(const Tents& tents)
     EXPECT_EQ(tents.keep.size(), tents.boundary.faces.size());
 }
 
-/// How many faces lost a piece.
+/// The number of faces that lost a piece.
 std::int64_t faces_that_lost(const Tents& tents)
 {
     std::set<std::size_t> found;
@@ -105,9 +105,9 @@ std::int64_t faces_that_lost(const Tents& tents)
     return static_cast<std::int64_t>(found.size());
 }
 
-TEST(TrimFaces, KeepsWhatAnImageShows)
+TEST(TrimFaces, KeepsThePartThatAnImageShows)
 {
-    // Pieces end within a quarter of the length, or 0.07 times that of the face, of what is seen.
+    // The kept part exceeds the visible one by a quarter of the length, or 0.07 of the face's.
     for (const auto& [long_edge, most_more] : {std::pair(4.0, 2.0), std::pair(1.0, 1.1)}) {
         Tents tents = half_shown();
         EXPECT_EQ(tents.trim(long_edge), 1);
@@ -121,7 +121,7 @@ TEST(TrimFaces, KeepsWhatAnImageShows)
     }
 }
 
-TEST(TrimFaces, KeepsWhatIsNotHidden)
+TEST(TrimFaces, KeepsTheUnoccludedPart)
 {
     for (const auto& [long_edge, most_more] : {std::pair(4.0, 3.0), std::pair(1.0, 2.8)}) {
         Tents tents = half_hidden();
@@ -130,15 +130,15 @@ TEST(TrimFaces, KeepsWhatIsNotHidden)
         const SeenArea area = seen_area(tents, tents.base());
         ASSERT_GT(area.seen, 0.6 * tents.whole_area(tents.base()));
         ASSERT_LT(area.seen, 0.7 * tents.whole_area(tents.base()));
-        EXPECT_LT(area.lost, 0.002 * area.seen) << "between the places that are asked about";
+        EXPECT_LT(area.lost, 0.002 * area.seen) << "between the samples";
         EXPECT_GT(tents.area(tents.base(), true), area.seen);
         EXPECT_LT(tents.area(tents.base(), true), area.seen + most_more);
     }
 }
 
-TEST(TrimFaces, KeepsThePiecesThatAreSeenAndNoOthers)
+TEST(TrimFaces, KeepsOnlyVisiblePieces)
 {
-    constexpr double kBetween = 0.05; // the places that are asked about
+    constexpr double kBetween = 0.05; // share that may be seen between samples
     for (const bool is_hidden : {false, true}) {
         for (const double long_edge : {1.0, 4.0, 12.0}) {
             Tents tents = is_hidden ? half_hidden() : half_shown();
@@ -158,10 +158,10 @@ TEST(TrimFaces, CountsTheFacesThatLostAPiece)
     Tents tents = half_hidden();
     const std::int64_t count = tents.trim(1.0);
     EXPECT_EQ(count, faces_that_lost(tents));
-    EXPECT_EQ(count, 4) << "the base, and the sides of the tent below, which the first one hides";
+    EXPECT_EQ(count, 4) << "the base, and three sides of the occluded tent below";
 }
 
-TEST(TrimFaces, TakesFacesThatNoViewSeesWhole)
+TEST(TrimFaces, DropsUnseenFacesWithoutBisectingThem)
 {
     Tents tents({kShowsAside});
     EXPECT_EQ(tents.trim(1.0), 1);
@@ -171,7 +171,7 @@ TEST(TrimFaces, TakesFacesThatNoViewSeesWhole)
     EXPECT_EQ(tents.keep, expected);
 }
 
-TEST(TrimFaces, LeavesFacesThatAreSeenWhole)
+TEST(TrimFaces, KeepsCompletelyVisibleFaces)
 {
     Tents tents = half_shown();
     tents.trim(1.0);
@@ -184,14 +184,14 @@ TEST(TrimFaces, LeavesFacesThatAreSeenWhole)
                                         [&](const Piece& piece) { return piece.origin == face; }),
                   1);
     }
-    // Beside the base they are halved along, and all pieces stay.
+    // Faces beside the base are bisected with it, and all pieces stay.
     for (const std::size_t face :
          {tents.face_of({0, 1, 3}), tents.face_of({1, 2, 3}), tents.face_of({0, 2, 3})}) {
         EXPECT_NEAR(tents.area(face, true), tents.whole_area(face), 1e-9);
     }
 }
 
-TEST(TrimFaces, LeavesFacesThatAreKeptUnseen)
+TEST(TrimFaces, IgnoresKeptUnseenFaces)
 {
     Tents tents = half_shown();
     tents.seen[tents.base()] = 0;
@@ -199,7 +199,7 @@ TEST(TrimFaces, LeavesFacesThatAreKeptUnseen)
     EXPECT_TRUE(tents.is_as_before());
 }
 
-TEST(TrimFaces, LeavesFacesThatAreNotKept)
+TEST(TrimFaces, IgnoresDroppedFaces)
 {
     Tents tents = half_shown();
     tents.keep[tents.base()] = 0;
@@ -207,7 +207,7 @@ TEST(TrimFaces, LeavesFacesThatAreNotKept)
     EXPECT_TRUE(tents.is_as_before());
 }
 
-TEST(TrimFaces, LeavesAllWhereNotAsked)
+TEST(TrimFaces, DoesNothingIfDisabled)
 {
     Tents tents = half_shown();
     EXPECT_EQ(tents.trim(0.0), 0);
@@ -215,7 +215,7 @@ TEST(TrimFaces, LeavesAllWhereNotAsked)
     EXPECT_EQ(tents.boundary.positions.size(), tents.made.surface.positions.size());
 }
 
-TEST(TrimFaces, LeavesFacesShorterThanHalfTheLength)
+TEST(TrimFaces, IgnoresFacesShorterThanHalfTheLength)
 {
     Tents tents = half_shown();
     EXPECT_EQ(tents.trim(2.0 * kLongest * 1.01), 0);
@@ -224,9 +224,9 @@ TEST(TrimFaces, LeavesFacesShorterThanHalfTheLength)
     EXPECT_FALSE(tents.is_as_before());
 }
 
-TEST(TrimFaces, LeavesFacesOfWhichImagesDoNotTell)
+TEST(TrimFaces, IgnoresFacesWithUnreliableImages)
 {
-    // The view saw the corners of the base, of which its image shows but two.
+    // The view saw the corners of the base, but its image shows only two of them.
     Scene scene = tents({{{-4, -1.5, -7}}, kShowsAside}, false);
     Tracks tracks;
     for (Index point = 0; point < scene.num_points(); ++point) {
@@ -239,7 +239,7 @@ TEST(TrimFaces, LeavesFacesOfWhichImagesDoNotTell)
     EXPECT_TRUE(tents.is_as_before());
 }
 
-TEST(TrimFaces, KeepsWhatAViewGrazes)
+TEST(TrimFaces, KeepsFacesSeenAtAGrazingAngle)
 {
     Scene scene = tents({{{15, 0, -0.5}}, kShowsAside}, false); // 88 degrees off the normal
     testing::aim(scene.views[1], {0, 0, 0});
@@ -250,7 +250,7 @@ TEST(TrimFaces, KeepsWhatAViewGrazes)
     EXPECT_TRUE(tents.is_as_before());
 }
 
-TEST(TrimFaces, LooksThroughWhatIsNotKept)
+TEST(TrimFaces, IgnoresOcclusionByDroppedFaces)
 {
     Tents tents = half_hidden();
     for (const Face& face : {Face{8, 9, 10}, Face{8, 9, 11}, Face{8, 10, 11}, Face{9, 10, 11}}) {
@@ -260,7 +260,7 @@ TEST(TrimFaces, LooksThroughWhatIsNotKept)
     EXPECT_TRUE(tents.is_as_before());
 }
 
-TEST(TrimFaces, AddsVerticesThatAreNoPoints)
+TEST(TrimFaces, AddsVerticesWithoutPoints)
 {
     Tents tents = half_shown();
     tents.trim(1.0);
@@ -274,18 +274,18 @@ TEST(TrimFaces, AddsVerticesThatAreNoPoints)
     }
 }
 
-TEST(TrimFaces, JoinsPiecesAgainThatAreAllKept)
+TEST(TrimFaces, MergesPiecesThatAreAllKept)
 {
-    // Not seen is the tip beyond x = 3.3, but of no piece all places lie there: the last is that
-    // with corners (5, -2), (2, 1) and (2.75, -2.25), whose longest edge is 4.24.
+    // The tip beyond x = 3.3 is not seen, but no piece has all samples there. The last piece has
+    // the corners (5, -2), (2, 1) and (2.75, -2.25), and its longest edge is 4.24.
     Tents tents({{{3.3 - 0.64 * 12, 0.5, -12}}, kShowsAside});
     EXPECT_EQ(tents.trim(17.5), 0);
     EXPECT_TRUE(tents.is_as_before());
     EXPECT_GT(tents.boundary.positions.size(), tents.made.surface.positions.size())
-        << "it was halved";
+        << "it was bisected";
 }
 
-TEST(TrimFaces, HalvesToASixteenthAtMost)
+TEST(TrimFaces, BisectsToASixteenthAtMost)
 {
     Tents fine = half_shown();
     fine.trim(1.0);
@@ -295,7 +295,7 @@ TEST(TrimFaces, HalvesToASixteenthAtMost)
     EXPECT_EQ(finest.keep, fine.keep);
 }
 
-TEST(TrimFaces, IsTheSameFromOneThreadAndTwo)
+TEST(TrimFaces, IsTheSameForAnyThreadCount)
 {
     const auto by = [&](int threads) {
         Tents tents = half_hidden();

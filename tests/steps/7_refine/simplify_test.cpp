@@ -1,6 +1,6 @@
 #include "mesh/check.h"
 #include "steps/7_refine/refine.h"
-#include "support/blocked_sights.h"
+#include "support/blocked_rays.h"
 #include "support/half_edges.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
@@ -16,13 +16,13 @@ namespace vcarve::simplify_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::blocked_sights;
+using testing::blocked_rays;
 using testing::empty_scene;
 using testing::flat_grid;
 using testing::half_edges;
 using testing::margins_in;
 
-TriMesh simplified(const TriMesh& mesh, const SightGuard& guard, const SimplifyOptions& options)
+TriMesh simplified(const TriMesh& mesh, const RayGuard& guard, const SimplifyOptions& options)
 {
     HalfEdgeMesh surface = half_edges(mesh);
     const SimplifyCounts counts = simplify_surface(surface, guard, options);
@@ -32,7 +32,7 @@ TriMesh simplified(const TriMesh& mesh, const SightGuard& guard, const SimplifyO
     return simple;
 }
 
-SightGuard unguarded()
+RayGuard unguarded()
 {
     return {empty_scene(), half_edges({})};
 }
@@ -42,9 +42,9 @@ std::size_t face_count(const TriMesh& mesh)
     return mesh.faces.size();
 }
 
-TEST(SimplifySurface, KeepsAFlatSquareASquare)
+TEST(SimplifySurface, KeepsTheShapeOfAFlatSquare)
 {
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const TriMesh simple = simplified(flat_grid(11), guard, {.faces = 20});
     EXPECT_LE(face_count(simple), 20U);
     EXPECT_GE(face_count(simple), 19U);
@@ -66,10 +66,10 @@ double roundness(const TriMesh& mesh, const Face& face)
     return 2.0 * std::sqrt(3.0) * ab.cross(ac).norm() / sum_sq;
 }
 
-TEST(SimplifySurface, MakesNoSliverOfRoundFaces)
+TEST(SimplifySurface, MakesNoSlivers)
 {
-    // All collapses within the plane cost the same, so nothing but the rule keeps slivers away.
-    const SightGuard guard = unguarded();
+    // All collapses in the plane have the same cost, so only the rule prevents slivers.
+    const RayGuard guard = unguarded();
     for (const int faces : {800, 400, 200, 100}) {
         const TriMesh simple = simplified(flat_grid(25), guard, {.faces = faces});
         EXPECT_LE(face_count(simple), static_cast<std::size_t>(faces));
@@ -79,9 +79,9 @@ TEST(SimplifySurface, MakesNoSliverOfRoundFaces)
     }
 }
 
-TEST(SimplifySurface, FoldsNothing)
+TEST(SimplifySurface, MakesNoFolds)
 {
-    // Teeth at random, which collapses would lay over their neighbours: all are seen from above.
+    // Random heights, at which collapses could fold faces over. All faces must face up.
     TriMesh mesh = flat_grid(41);
     std::mt19937 random(3);
     for (Vector3d& position : mesh.positions) {
@@ -89,8 +89,8 @@ TEST(SimplifySurface, FoldsNothing)
             (position.head<2>().array() * (1.0 - position.head<2>().array()) > 1e-9).all();
         if (is_inner) position.z() = 0.02 * static_cast<double>(random()) / 4294967296.0;
     }
-    const SightGuard guard = unguarded();
-    // So few go that none turns twice.
+    const RayGuard guard = unguarded();
+    // Few enough vertices are merged that no face turns twice.
     const TriMesh simple = simplified(mesh, guard, {.faces = 2600});
     for (const Face& face : simple.faces) {
         const Vector3d ab = simple.positions[face[1]] - simple.positions[face[0]];
@@ -99,16 +99,16 @@ TEST(SimplifySurface, FoldsNothing)
     }
 }
 
-TEST(SimplifySurface, LeavesAloneWhatIsSmallEnough)
+TEST(SimplifySurface, KeepsAMeshWithFewEnoughFaces)
 {
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const TriMesh mesh = testing::cube();
     EXPECT_EQ(simplified(mesh, guard, {.faces = 12}).faces, mesh.faces);
 }
 
-TEST(SimplifySurface, StopsWhereASolidWouldVanish)
+TEST(SimplifySurface, StopsBeforeASolidVanishes)
 {
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const TriMesh two =
         testing::together(testing::torus(12), testing::moved(testing::cube(), {9, 0, 0}));
     const MeshCheck check = check_mesh(simplified(two, guard, {.faces = 1}));
@@ -121,19 +121,19 @@ TEST(SimplifySurface, StopsWhereASolidWouldVanish)
 
 TEST(SimplifySurface, KeepsAFlatTetrahedron)
 {
-    // Its apex could go to a corner without a face that turns or becomes a sliver; nothing closed
-    // would be left.
+    // Its apex could move to a corner without turning a face or making a sliver, but the surface
+    // would no longer be closed.
     TriMesh mesh;
     mesh.positions = {{1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0}, {0, 0, 0.02}};
     mesh.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const TriMesh simple = simplified(mesh, guard, {.faces = 1});
     EXPECT_EQ(simple.faces, mesh.faces);
     EXPECT_TRUE(check_mesh(simple).is_closed());
 }
 
-/// A corrugated sheet, and points that hover close above its vertices: their sights count to the
-/// end, so nothing may fill a trough.
+/// A corrugated sheet, and points just above its vertices. Their whole rays count, so no face may
+/// fill a trough.
 struct Sheet {
     TriMesh mesh = flat_grid(25);
     Scene scene;
@@ -152,26 +152,26 @@ Sheet corrugated_sheet()
     return sheet;
 }
 
-TEST(SimplifySurface, BlocksNoSightThatWasFree)
+TEST(SimplifySurface, BlocksNoFreeRay)
 {
     const auto sheet = corrugated_sheet();
     const TriMesh& mesh = sheet.mesh;
     const Scene& scene = sheet.scene;
     const std::vector<double> margins = margins_in(mesh, scene);
-    const auto blocked_before = blocked_sights(scene, mesh, margins);
-    const auto newly_blocked = [&](const SightGuard& guard) {
+    const auto blocked_before = blocked_rays(scene, mesh, margins);
+    const auto newly_blocked = [&](const RayGuard& guard) {
         const TriMesh simple = simplified(mesh, guard, {.faces = 30});
-        auto blocked = blocked_sights(scene, simple, margins);
-        for (const auto& sight : blocked_before) {
-            blocked.erase(sight);
+        auto blocked = blocked_rays(scene, simple, margins);
+        for (const auto& ray : blocked_before) {
+            blocked.erase(ray);
         }
         return blocked.size();
     };
     EXPECT_GT(newly_blocked(unguarded()), 0U);
-    EXPECT_EQ(newly_blocked(SightGuard(scene, half_edges(mesh))), 0U);
+    EXPECT_EQ(newly_blocked(RayGuard(scene, half_edges(mesh))), 0U);
 }
 
-/// What simplifying to a quarter does to a scene.
+/// The result of simplifying the mesh of a scene to a quarter.
 struct Simplified {
     Reconstruction before;
     TriMesh after;
@@ -183,20 +183,20 @@ Simplified quarter(bool closed)
     Log silent;
     Options options;
     options.surface.closed = closed;
-    options.denoise.denoise = 0.0; // vertices are where their points are
+    options.denoise.denoise = 0.0; // vertices stay at their points
     Simplified result{reconstruct(bumpy_sphere(500, 4), options, silent), {}};
     const auto& [scene, mesh] = result.before;
-    const SightGuard guard(scene, half_edges(mesh));
+    const RayGuard guard(scene, half_edges(mesh));
     result.after = simplified(mesh, guard, {.faces = static_cast<int>(face_count(mesh) / 4)});
     const std::vector<double> margins = margins_in(mesh, scene);
-    const auto blocked_before = blocked_sights(scene, mesh, margins);
-    for (const auto& sight : blocked_sights(scene, result.after, margins)) {
-        result.newly_blocked += blocked_before.contains(sight) ? 0 : 1;
+    const auto blocked_before = blocked_rays(scene, mesh, margins);
+    for (const auto& ray : blocked_rays(scene, result.after, margins)) {
+        result.newly_blocked += blocked_before.contains(ray) ? 0 : 1;
     }
     return result;
 }
 
-TEST(SimplifySurface, BlocksNoSightOfAWholeScene)
+TEST(SimplifySurface, BlocksNoRayOfAWholeScene)
 {
     const Simplified simplified = quarter(false);
     EXPECT_EQ(simplified.newly_blocked, 0U);
@@ -214,7 +214,7 @@ TEST(SimplifySurface, KeepsAClosedManifoldClosed)
     EXPECT_EQ(check.euler_characteristic, check_mesh(simplified.before.mesh).euler_characteristic);
 }
 
-TEST(SimplifySurface, KeepsPlaceColourAndPointOfTheVerticesThatStay)
+TEST(SimplifySurface, KeepsPositionColorAndPointOfRemainingVertices)
 {
     const Simplified simplified = quarter(false);
     const auto& [scene, before] = simplified.before;
@@ -236,7 +236,7 @@ TEST(SimplifySurface, ScalesWithTheSurface)
     for (Vector3d& position : large.positions) {
         position *= 1024.0;
     }
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     EXPECT_EQ(simplified(large, guard, {.faces = 200}).faces,
               simplified(mesh, guard, {.faces = 200}).faces);
 }

@@ -1,5 +1,5 @@
 #include "steps/7_refine/refine.h"
-#include "support/blocked_sights.h"
+#include "support/blocked_rays.h"
 #include "support/half_edges.h"
 #include "support/measured_scenes.h"
 #include "support/scenes.h"
@@ -14,7 +14,7 @@ namespace vcarve::smooth_test {
 namespace {
 
 using Eigen::Vector3d;
-using testing::blocked_sights;
+using testing::blocked_rays;
 using testing::empty_scene;
 using testing::flat_grid;
 using testing::half_edges;
@@ -27,14 +27,14 @@ struct SmoothedSurface {
     SmoothCounts counts;
 };
 
-SmoothedSurface smoothed(const TriMesh& mesh, const SightGuard& guard, const SmoothOptions& options)
+SmoothedSurface smoothed(const TriMesh& mesh, const RayGuard& guard, const SmoothOptions& options)
 {
     HalfEdgeMesh surface = half_edges(mesh);
     const SmoothCounts counts = smooth_surface(surface, guard, options);
     return {tri_mesh(surface), counts};
 }
 
-SightGuard unguarded()
+RayGuard unguarded()
 {
     return {empty_scene(), half_edges({})};
 }
@@ -65,10 +65,10 @@ double mean_square_height(const TriMesh& mesh)
     return sum;
 }
 
-TEST(SmoothSurface, FlattensNoiseAndKeepsTheRest)
+TEST(SmoothSurface, FlattensNoiseAndKeepsFacesAndBoundary)
 {
     const TriMesh mesh = noisy_grid();
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const SmoothedSurface smooth = smoothed(mesh, guard, {.iterations = 5});
     EXPECT_LT(mean_square_height(smooth.mesh), 0.3 * mean_square_height(mesh));
     EXPECT_EQ(smooth.mesh.faces, mesh.faces);
@@ -86,13 +86,13 @@ TEST(SmoothSurface, FlattensNoiseAndKeepsTheRest)
 
 TEST(SmoothSurface, KeepsVerticesWithinHalfTheirSpacing)
 {
-    // Hills nearly as high as the edges are long, which smoothing takes away where it may.
+    // Hills almost as high as the edge length, which unlimited smoothing would flatten.
     TriMesh mesh = flat_grid(kSide);
     for (Vector3d& position : mesh.positions) {
         constexpr double kWave = 4.0 * std::numbers::pi;
         position.z() = 0.04 * std::sin(kWave * position.x()) * std::sin(kWave * position.y());
     }
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const TriMesh smooth = smoothed(mesh, guard, {.iterations = 30}).mesh;
     const std::vector<double> spacings = testing::spacings_of(mesh);
     int at_the_end_of_their_reach = 0;
@@ -107,18 +107,18 @@ TEST(SmoothSurface, KeepsVerticesWithinHalfTheirSpacing)
 TEST(SmoothSurface, KeepsSharpEdges)
 {
     const TriMesh mesh = testing::cube();
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const TriMesh smooth = smoothed(mesh, guard, {.iterations = 10}).mesh;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         EXPECT_LT((smooth.positions[v] - mesh.positions[v]).norm(), 1e-6);
     }
 }
 
-TEST(SmoothSurface, StaysWithinHalfASpacing)
+TEST(SmoothSurface, KeepsASpikeWithinHalfItsSpacing)
 {
     TriMesh mesh = flat_grid(kSide);
-    mesh.positions[kSide * 10 + 10].z() = 0.02; // the edges are 0.05 long
-    const SightGuard guard = unguarded();
+    mesh.positions[kSide * 10 + 10].z() = 0.02; // the edge length is 0.05
+    const RayGuard guard = unguarded();
     const TriMesh smooth = smoothed(mesh, guard, {.iterations = 50}).mesh;
     const std::vector<double> spacings = testing::spacings_of(mesh);
     double farthest = 0.0;
@@ -130,10 +130,10 @@ TEST(SmoothSurface, StaysWithinHalfASpacing)
     EXPECT_GT(farthest, 0.01);
 }
 
-TEST(SmoothSurface, DoesNotRiseIntoASight)
+TEST(SmoothSurface, BlocksNoRayInAPit)
 {
-    // A pit in the middle. A point hangs in it, seen along the plane of the grid: a lifted bottom
-    // would touch its sight.
+    // A point is just above the bottom of a pit, and its ray goes up. A raised bottom would block
+    // the ray.
     TriMesh mesh = flat_grid(kSide);
     const std::uint32_t middle = kSide * 10 + 10;
     mesh.positions[middle].z() = -0.02;
@@ -141,16 +141,16 @@ TEST(SmoothSurface, DoesNotRiseIntoASight)
     const Scene scene = make_scene({above + Vector3d(0, 0, 9)}, {{above, {0}}});
     mesh.points.assign(mesh.points.size(), kNoPoint);
     const SmoothOptions options{.iterations = 20};
-    const SmoothedSurface held = smoothed(mesh, SightGuard(scene, half_edges(mesh)), options);
+    const SmoothedSurface held = smoothed(mesh, RayGuard(scene, half_edges(mesh)), options);
     const SmoothedSurface loose = smoothed(mesh, unguarded(), options);
     EXPECT_GT(loose.mesh.positions[middle].z(), above.z());
     EXPECT_LT(held.mesh.positions[middle].z(), above.z());
     EXPECT_GT(held.counts.held, 0);
 }
 
-TEST(SmoothSurface, BlocksNoSightThatWasFree)
+TEST(SmoothSurface, BlocksNoFreeRay)
 {
-    // Points hover close above the vertices: their sights count to the end.
+    // The points are just above the vertices, so their whole rays count.
     TriMesh mesh = noisy_grid();
     mesh.points.assign(mesh.points.size(), kNoPoint);
     std::vector<MadePoint> points;
@@ -159,17 +159,17 @@ TEST(SmoothSurface, BlocksNoSightThatWasFree)
     }
     const Scene scene = make_scene({{0.5, 0.5, 3}, {-1, 0.5, 2}, {0.5, 4, 2}}, points);
     const std::vector<double> margins = margins_in(mesh, scene);
-    const auto blocked_before = blocked_sights(scene, mesh, margins);
-    const auto newly_blocked = [&](const SightGuard& guard) {
+    const auto blocked_before = blocked_rays(scene, mesh, margins);
+    const auto newly_blocked = [&](const RayGuard& guard) {
         const TriMesh smooth = smoothed(mesh, guard, {.iterations = 4}).mesh;
-        auto blocked = blocked_sights(scene, smooth, margins);
-        for (const auto& sight : blocked_before) {
-            blocked.erase(sight);
+        auto blocked = blocked_rays(scene, smooth, margins);
+        for (const auto& ray : blocked_before) {
+            blocked.erase(ray);
         }
         return blocked.size();
     };
     EXPECT_GT(newly_blocked(unguarded()), 100U);
-    EXPECT_EQ(newly_blocked(SightGuard(scene, half_edges(mesh))), 0U);
+    EXPECT_EQ(newly_blocked(RayGuard(scene, half_edges(mesh))), 0U);
 }
 
 TEST(SmoothSurface, ScalesWithTheSurface)
@@ -179,7 +179,7 @@ TEST(SmoothSurface, ScalesWithTheSurface)
     for (Vector3d& position : large.positions) {
         position *= 1024.0;
     }
-    const SightGuard guard = unguarded();
+    const RayGuard guard = unguarded();
     const TriMesh expected = smoothed(mesh, guard, {.iterations = 2}).mesh;
     const TriMesh smooth = smoothed(large, guard, {.iterations = 2}).mesh;
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

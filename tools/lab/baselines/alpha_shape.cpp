@@ -23,7 +23,7 @@ std::vector<double> radii_of(const TetMesh& cells)
     return radii;
 }
 
-/// An alpha shape that gains cell after cell, and knows when it is whole.
+/// An alpha shape that grows cell by cell and detects when it is whole.
 class GrowingSolid {
   public:
     explicit GrowingSolid(const TetMesh& cells)
@@ -75,7 +75,7 @@ class GrowingSolid {
     }
 
     const TetMesh& cells_;
-    std::vector<Index> parents_; ///< the pieces as trees, a root being its own parent
+    std::vector<Index> parents_; ///< union-find trees of components; a root is its own parent
     std::vector<char> is_covered_;
     std::size_t uncovered_;
     std::size_t pieces_ = 0;
@@ -105,7 +105,7 @@ double smallest_whole_alpha(const TetMesh& cells)
         const double radius = radii[order[i]];
         if (radius == std::numeric_limits<double>::infinity()) break;
         solid.take(order[i]);
-        // Cells of one radius come together.
+        // Add all cells of one radius before the test.
         const bool last_of_radius = i + 1 == order.size() || radii[order[i + 1]] > radius;
         if (last_of_radius && solid.is_whole()) return radius;
     }
@@ -121,7 +121,7 @@ Circumsphere circumsphere(const TetMesh& cells, Index cell)
     const Eigen::Vector3d a = cells.positions[corners[1]] - base;
     const Eigen::Vector3d b = cells.positions[corners[2]] - base;
     const Eigen::Vector3d c = cells.positions[corners[3]] - base;
-    // As far from the base as from the three others: x . a = a . a / 2, and so on.
+    // The same distance from the base and the three others: x . a = a . a / 2, and so on.
     const Eigen::Vector3d numerator =
         a.squaredNorm() * b.cross(c) + b.squaredNorm() * c.cross(a) + c.squaredNorm() * a.cross(b);
     const Eigen::Vector3d offset = numerator / (2.0 * a.dot(b.cross(c)));

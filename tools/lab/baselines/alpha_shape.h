@@ -6,18 +6,17 @@
 
 namespace vcarve {
 
-/// The alpha shape as a solid (Edelsbrunner, Mücke 1994): inside are the cells whose circumsphere
-/// has a radius of at most `alpha`. A baseline: it knows the points only and nothing of the views.
-/// Where the solid is thinner than its points are dense, or gaps are narrower, no alpha is right.
-/// Cost: O(cells).
+/// The alpha shape as a solid (Edelsbrunner, Mücke 1994): cells are inside if the radius of their
+/// circumsphere is at most `alpha`. A baseline that uses the points only. No alpha is right if the
+/// solid or its gaps are thinner than the point spacing. Cost: O(cells).
 Labels alpha_shape(const TetMesh& cells, double alpha);
 
-/// The smallest alpha whose alpha shape has every point as the corner of an inside cell and is one
-/// piece of cells that hang together through facets. Where flat cells keep every alpha from that:
-/// infinity, whose alpha shape is the convex hull. Cost: O(cells log cells).
+/// The smallest alpha whose alpha shape is whole: every point is a corner of an inside cell, and
+/// inside cells are connected through facets. Infinity (the convex hull) if flat cells prevent that
+/// for every finite alpha. Cost: O(cells log cells).
 double smallest_whole_alpha(const TetMesh& cells);
 
-/// The sphere through the corners of a cell. In doubles: of a cell that is nearly flat it is rough.
+/// The sphere through the corners of a cell, in doubles; inaccurate for nearly flat cells.
 struct Circumsphere {
     Eigen::Vector3d center;
     double radius = 0.0; ///< infinite for infinite and flat cells, whose center is the origin

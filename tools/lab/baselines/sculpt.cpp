@@ -14,7 +14,7 @@
 namespace vcarve {
 namespace {
 
-/// What is left of the convex hull while cells are taken away.
+/// The convex hull, from which cells are removed one by one.
 class Sculpture {
   public:
     explicit Sculpture(const TetMesh& cells)
@@ -34,13 +34,13 @@ class Sculpture {
         }
     }
 
-    /// Takes the cell that comes next; false where none may go.
+    /// Removes the next cell. Returns false if no cell may be removed.
     bool take_next()
     {
         while (!queue_.empty()) {
             const Candidate next = queue_.top();
             queue_.pop();
-            // A cell is in the queue once for each time a neighbour went; the last one counts.
+            // Each removed neighbor adds a queue entry for a cell; only the last one is valid.
             const bool current = is_inside(next.cell) && next.bulge == bulge(next.cell);
             if (!current || !may_go(next.cell)) continue;
             take(next.cell);
@@ -77,8 +77,7 @@ class Sculpture {
         return slots;
     }
 
-    /// Farthest distance from a boundary facet of the cell to the part of its circumsphere beyond
-    /// it.
+    /// The largest height of the circumsphere above a boundary facet of the cell.
     double bulge(Index cell) const
     {
         const Circumsphere sphere = circumsphere(cells_, cell);
@@ -88,7 +87,7 @@ class Sculpture {
             const Eigen::Vector3d& a = cells_.positions[corners[kFacetCorners[slot][0]]];
             const Eigen::Vector3d& b = cells_.positions[corners[kFacetCorners[slot][1]]];
             const Eigen::Vector3d& c = cells_.positions[corners[kFacetCorners[slot][2]]];
-            // The corners run counter-clockwise seen from inside.
+            // The corners are counterclockwise from inside.
             const Eigen::Vector3d outward = (c - a).cross(b - a).normalized();
             farthest = std::max(farthest, sphere.radius + outward.dot(sphere.center - a));
         }
@@ -113,7 +112,7 @@ class Sculpture {
         do {
             const Index next = cells_.cells[cell].neighbors[exit];
             if (!is_inside(next)) return false;
-            // On through the facet that holds the edge and is not the one just crossed.
+            // Leave through the other facet at the edge.
             const int entry = cells_.mirror(cell, exit);
             const std::array<Index, 4>& corners = cells_.cells[next].vertices;
             exit = 0;
@@ -134,7 +133,7 @@ class Sculpture {
         return slot;
     }
 
-    /// Books a boundary facet with its vertices, or takes it from them.
+    /// Adds `change` to the number of boundary facets of the facet's vertices.
     void count_facet(Index cell, int slot, int change)
     {
         for (const int corner : kFacetCorners[slot]) {
@@ -146,7 +145,7 @@ class Sculpture {
 
     void take(Index cell)
     {
-        // First the new facets, so that no vertex is without any in between.
+        // Add the new facets first, so that no vertex temporarily has none.
         std::vector<Index> uncovered;
         const std::vector<int> old_slots = boundary_slots(cell);
         for (int slot = 0; slot < 4; ++slot) {
@@ -170,8 +169,8 @@ class Sculpture {
 
     const TetMesh& cells_;
     Labels labels_;
-    std::vector<int> boundary_facets_; ///< at each vertex
-    std::size_t buried_;               ///< vertices not on the boundary
+    std::vector<int> boundary_facets_; ///< number at each vertex
+    std::size_t buried_;               ///< number of vertices not on the boundary
     std::priority_queue<Candidate> queue_;
 };
 

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using render::Hit;
 using render::Pinhole;
 
-/// A number of a normal distribution that depends on nothing but its arguments (Box and Muller).
+/// A normally distributed number that depends only on its arguments (Box and Muller).
 double normal_number(std::uint64_t seed, std::uint64_t index)
 {
     const double u = 1.0 - random_number(seed, 2 * index);
@@ -29,7 +29,7 @@ double normal_number(std::uint64_t seed, std::uint64_t index)
     return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * v);
 }
 
-/// Numbers of a normal distribution, each the mean of a window of 5 x 5 of others.
+/// Normally distributed numbers, smoothed over windows of 5 x 5.
 std::vector<double> smooth_numbers(int width, int height, std::uint64_t seed)
 {
     constexpr std::uint64_t kSide = 5;
@@ -45,12 +45,12 @@ std::vector<double> smooth_numbers(int width, int height, std::uint64_t seed)
             }
         }
         result[i] =
-            sum / static_cast<double>(kSide); // of 25 numbers: a standard deviation of 1 again
+            sum / static_cast<double>(kSide); // a sum of 25: restores a standard deviation of 1
     });
     return result;
 }
 
-/// The distance to the sixth nearest centre of another view: a matcher looks at several.
+/// The distance to the sixth nearest view, because a matcher uses several views.
 double baseline(const std::vector<Pinhole>& views, std::size_t view)
 {
     std::vector<double> distances;
@@ -80,7 +80,7 @@ bool is_at_jump(const std::vector<Hit>& hits, const Pinhole& view, int x, int y)
     return false;
 }
 
-/// A normal turned by two angles of a normal distribution.
+/// A normal rotated by two normally distributed angles.
 Vector3d shaken(const Vector3d& normal, double sigma_deg, std::uint64_t seed, std::uint64_t index)
 {
     const double sigma = sigma_deg * std::numbers::pi / 180.0;
@@ -94,7 +94,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using render::Pinhole;
 
-/// A pixel of a view and the place its depth stands for.
+/// A pixel of a view and the position at its depth.
 struct Found {
     std::uint32_t view;
     std::size_t pixel;
@@ -110,7 +110,7 @@ Vector3d place_of(const Pinhole& view, const DepthMap& map, std::size_t pixel)
     return view.center + map.depths[pixel] * view.ray(middle);
 }
 
-/// Where a place is in the camera's frame and in its image.
+/// The depth of a position in the camera's frame, and its pixel.
 struct Projection {
     double depth;
     Vector2d place_px;
@@ -146,7 +146,7 @@ class Fusion {
     }
 
   private:
-    /// The nearest views that look in a similar direction.
+    /// The nearest views with a similar direction.
     std::vector<std::uint32_t> views_beside(std::uint32_t view) const
     {
         constexpr double kLeastCosine = 0.5;
@@ -181,7 +181,7 @@ class Fusion {
         return found;
     }
 
-    /// The pixel of a view that shows a place, where its depth agrees.
+    /// The pixel of a view that shows a position, if its depth agrees.
     std::optional<Found> match_in(std::uint32_t view, const Vector3d& place) const
     {
         const Pinhole& lens = views_[view];
@@ -198,7 +198,7 @@ class Fusion {
         return Found{view, pixel, place_of(lens, maps_[view], pixel)};
     }
 
-    /// Adds the point that some pixels make, which belong to no other from then on.
+    /// Adds the point of some pixels, and marks them as used.
     void add(const std::vector<Found>& found, FusedCloud& cloud)
     {
         Vector3d position;

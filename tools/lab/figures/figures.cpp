@@ -25,7 +25,7 @@ Json finite_cell(const TetMesh& cells, Index cell)
     return cells.cells[cell].is_infinite() ? Json(-1) : Json(cell);
 }
 
-/// As the program does it, all of its stages.
+/// Runs all stages of the program.
 TriMesh made_by_program(const Scene& scene)
 {
     Options options;
@@ -34,7 +34,7 @@ TriMesh made_by_program(const Scene& scene)
     return reconstruct(scene, options, silent).mesh;
 }
 
-/// What there is, and whether the true solid came out.
+/// Sizes of the object, and whether the surface is the true solid.
 Json facts(const PaperCase& paper_case, const TriMesh& surface)
 {
     const auto finite = std::ranges::count_if(paper_case.cells.cells,
@@ -42,7 +42,7 @@ Json facts(const PaperCase& paper_case, const TriMesh& surface)
     return {{"object", paper_case.name},
             {"points", paper_case.scene.num_points()},
             {"views", paper_case.scene.views.size()},
-            {"sights", paper_case.scene.num_sights()},
+            {"rays", paper_case.scene.num_rays()},
             {"cells", finite},
             {"faces", surface.faces.size()},
             {"true_faces", paper_case.solid.faces.size()},
@@ -53,14 +53,14 @@ Json facts(const PaperCase& paper_case, const TriMesh& surface)
             {"exact", is_exact(surface, paper_case.solid)}};
 }
 
-/// The object as some of its views carve it.
+/// The object carved with its first `count` views.
 Json state(const PaperCase& paper_case, std::size_t count)
 {
     const Scene scene = seen_by(paper_case.scene, views_that_open_most(paper_case, count));
     const Labels labels = carve(paper_case.cells, crossings_of(paper_case.cells, scene), 1);
     const Mistakes found = mistakes_of(paper_case, labels);
     return {{"views", count},
-            {"sights", scene.num_sights()},
+            {"rays", scene.num_rays()},
             {"left", found.kept},
             {"left_volume", found.kept_volume},
             {"exact", is_exact(extract_surface(paper_case.cells, labels, scene), paper_case.solid)},

@@ -13,44 +13,44 @@
 
 namespace vcarve::paper {
 
-/// An object of the paper as fixtures/paper has it, and its cells. Vertex i of the solid, of the
-/// cells and of the scene are the same point.
+/// An object of fixtures/paper, and its cells. Vertex i of the solid, of the cells and of the scene
+/// is the same point.
 struct PaperCase {
     std::string name;
     Scene scene;
-    TriMesh solid; ///< the true one
+    TriMesh solid; ///< the true solid
     TetMesh cells;
-    Crossings crossings; ///< of all sights
-    Labels truth;        ///< strictly carved; is_exact() says whether they are what they are called
+    Crossings crossings; ///< of all rays
+    Labels truth;        ///< from strict carving; is_exact() verifies that they are true
 };
 
 PaperCase read_case(const std::filesystem::path& fixtures, const std::string& name);
 
-/// How many of a scene's sights cross each facet.
+/// The number of a scene's rays that cross each facet.
 Crossings crossings_of(const TetMesh& cells, const Scene& scene);
 
-/// The scene as some of its views saw it. All points stay, so that its cells are the same.
+/// The scene with the rays of some views only. It keeps all points, so its cells are the same.
 Scene seen_by(const Scene& scene, const std::vector<std::uint32_t>& views);
 
-/// The faces by the places of their corners, each begun at its least corner, all in order.
+/// The sorted positions of the faces' corners. Each face begins at its least corner.
 std::vector<std::array<std::array<double, 3>, 3>> sorted_places(const TriMesh& mesh);
 
-/// Whether a surface has the true solid's faces, each to its side, no more and no less.
+/// Whether a surface has exactly the faces of the true solid, with the same orientation.
 bool is_exact(const TriMesh& surface, const TriMesh& solid);
 
-/// Of a closed surface.
+/// The volume and area of a closed surface.
 double volume_of(const TriMesh& surface);
 double area_of(const TriMesh& surface);
 
-/// Finite cells that a labelling gets wrong.
+/// Wrongly labeled finite cells.
 struct Mistakes {
-    std::size_t lost = 0; ///< cells of the solid called outside
-    std::size_t kept = 0; ///< cells of empty space called inside
+    std::size_t lost = 0; ///< cells of the solid labeled outside
+    std::size_t kept = 0; ///< cells of empty space labeled inside
     double kept_volume = 0.0;
 };
 Mistakes mistakes_of(const PaperCase& paper_case, const Labels& labels);
 
-/// The views that open most empty cells one after another, each the first of the best.
+/// Greedily selects views that carve the most remaining empty cells; the first of equals.
 std::vector<std::uint32_t> views_that_open_most(const PaperCase& paper_case, std::size_t count);
 
 } // namespace vcarve::paper

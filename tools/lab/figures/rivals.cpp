@@ -22,7 +22,7 @@ struct Tried {
     Mistakes mistakes;
 };
 
-/// All alpha shapes that there are, from the smallest on.
+/// All different alpha shapes, from the smallest alpha.
 std::vector<Tried> all_alphas(const PaperCase& paper_case)
 {
     std::vector<double> radii;

@@ -36,10 +36,11 @@ std::vector<Spot> fitting_spots()
         std::vector<Spot> spots = sample_surface(block_with_a_pit(), kAnyRadius, random);
         if (spots.size() == kPapersPoints && triangulate(block_with_a_pit(), spots)) return spots;
     }
-    throw std::runtime_error("no sampling of the block with a pit has as many points as wanted");
+    throw std::runtime_error(
+        "no sampling of the block with a pit has the required number of points");
 }
 
-/// A place on the surface, spread evenly by area.
+/// Random positions on the surface, uniform by area.
 class SurfaceSpots {
   public:
     explicit SurfaceSpots(std::uint64_t seed) : random_(seed) {}
@@ -48,14 +49,14 @@ class SurfaceSpots {
     {
         const BoxSolid& solid = block_with_a_pit();
         while (true) {
-            // A place in the box around, pushed along an axis to one of the planes there.
+            // A position in the bounding box, projected along an axis onto one of the planes.
             const Side& side = sides_[below(sides_.size())];
             Spot spot;
             for (int k = 0; k < 3; ++k) {
                 spot[k] = solid.low()[k] + below(solid.high()[k] - solid.low()[k]);
             }
             spot[side.axis] = side.plane;
-            // Of two sides in one plane only one is hit where both are tried as often.
+            // If two sides share a plane, a position hits only one of them.
             if (below(largest_) < area_of(side.axis) && solid.on_side(side, 3 * spot)) return spot;
         }
     }
@@ -66,7 +67,7 @@ class SurfaceSpots {
         return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(end));
     }
 
-    /// Of the box around, across an axis.
+    /// The area of the bounding box perpendicular to an axis.
     static std::int64_t area_of(int axis)
     {
         const Spot size = block_with_a_pit().high() - block_with_a_pit().low();
@@ -94,7 +95,7 @@ std::vector<Spot> spread_spots(std::size_t count)
     return spots;
 }
 
-/// Between 0 and 1, each amid the largest gap (van der Corput).
+/// The van der Corput sequence: each number between 0 and 1 halves the largest gap.
 double halving(std::size_t i)
 {
     double share = 0.0;
@@ -104,7 +105,7 @@ double halving(std::size_t i)
     return share;
 }
 
-/// On a dome above the solid, turning by the golden angle.
+/// A viewpoint on a dome above the solid; azimuths advance by the golden angle.
 Spot viewpoint(std::size_t i)
 {
     const Spot& high = block_with_a_pit().high();

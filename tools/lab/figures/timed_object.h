@@ -6,14 +6,14 @@
 
 namespace vcarve::paper {
 
-/// The object that table 1 is measured on: a block with a pit, on which sampling for carving
-/// (sample_surface.h) puts as many points as the paper's object had.
+/// The number of points of the object of table 1, a block with a pit. Sampling for carving
+/// (sample_surface.h) gives the number of points of the paper's object.
 inline constexpr std::size_t kPapersPoints = 29;
 
-/// The object of so many points, the paper's number or more, which are spread evenly by chance; and
-/// the first so many viewpoints of a sequence that goes round above it, each seeing every point
-/// that the object does not hide. The same arguments give the same scene, its points in the order
-/// of a run's. Throws where no sampling gives the paper's number.
+/// The object with `points` points: the paper's number, or more at random positions. The viewpoints
+/// are the first of a sequence around and above it; each sees all points that the object does not
+/// occlude. Equal arguments give equal scenes, with points in the order of a run. Throws if no
+/// sampling gives the paper's number.
 Scene timed_object(std::size_t points, std::size_t viewpoints);
 
 } // namespace vcarve::paper

@@ -45,9 +45,9 @@ void add_ground(PartBuilder& builder)
 struct House {
     Vector2d place;
     double turn_deg;
-    Vector3d size;       ///< of its walls over the ground
-    double gable;        ///< of the ridge over the walls, which is along x; 0 for a flat roof
-    double contrast = 0; ///< of its walls
+    Vector3d size;       ///< of the walls above the ground
+    double gable;        ///< height of the ridge, along x, above the walls; 0 for a flat roof
+    double contrast = 0; ///< of the walls
 };
 
 const std::array kHouses{House{{-12.0, -11.0}, 12.0, {9.0, 6.5, 4.0}, 2.6},
@@ -57,10 +57,10 @@ const std::array kHouses{House{{-12.0, -11.0}, 12.0, {9.0, 6.5, 4.0}, 2.6},
                          House{{10.5, 5.5}, 5.0, {10.0, 7.0, 5.5}, 2.8},
                          House{{-2.0, 13.5}, -15.0, {9.0, 5.5, 3.6}, 2.5}};
 
-/// A corner of a gabled house: -1 or 1 along x; 0 to 4 around its end, 3 the ridge.
+/// A corner of a gabled house: `end` is -1 or 1 along x, `around` 0 to 4, where 3 is the ridge.
 Vector3d corner(const House& house, double end, int around)
 {
-    constexpr double kCellar = -3.0; // walls reach below the ground, however it runs
+    constexpr double kCellar = -3.0; // walls reach below the ground everywhere
     const Vector3d half = 0.5 * house.size;
     const double x = end * half.x();
     const std::array<Vector3d, 5> corners{Vector3d{x, -half.y(), kCellar},
@@ -88,7 +88,7 @@ void add_triangle(PartBuilder& builder, const std::array<Vector3d, 3>& corners)
     builder.triangle(first, first + 1, builder.vertex(c));
 }
 
-/// The strip of the house between two of its edges along x.
+/// Adds the side of the house between two of its edges along x.
 void add_side(PartBuilder& builder, const House& house, int from, int to)
 {
     add_quad(builder, {corner(house, -1, from), corner(house, -1, to), corner(house, 1, to),
@@ -126,7 +126,7 @@ void add_trees_and_a_wall(PartBuilder& builder)
                                         {3.0, 0.5, 1.6},
                                         {-4.5, 6.0, 1.4},
                                         {16.0, 14.0, 1.7},
-                                        {-16.0, 13.0, 1.5}}; // places and radii
+                                        {-16.0, 13.0, 1.5}}; // positions and radii
     for (const Vector3d& tree : trees) {
         const double ground = ground_height(tree.x(), tree.y());
         render::add_column(builder,
@@ -136,7 +136,7 @@ void add_trees_and_a_wall(PartBuilder& builder)
     render::add_box(builder, {{4.0, 16.0, -2.0}, {10.0, 0.5, 5.0}, 8.0}, {{0.6F, 0.58F, 0.55F}});
 }
 
-/// Strips straight down, then a ring that looks in askew.
+/// Strips of nadir views, then a ring of oblique views.
 void add_flight(std::vector<render::Pinhole>& views)
 {
     const render::Lens lens{1000, 750, 900.0};

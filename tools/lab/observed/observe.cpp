@@ -28,13 +28,13 @@ constexpr double kNoisePx = 0.7;
 constexpr double kFalse = 1.0 / 100.0;
 constexpr double kFoundAgain = 2.0 / 3.0;
 
-/// A point as one view or more have it in their images.
+/// The pixels of a point in one or more views.
 struct Match {
     std::vector<std::uint32_t> views; ///< ascending
-    std::vector<Vector2d> places_px;  ///< one a view
+    std::vector<Vector2d> places_px;  ///< one per view
 };
 
-/// Finds matches in the images of a scene and makes points of them.
+/// Finds matches in the images of a scene, and triangulates them.
 class Matcher {
   public:
     explicit Matcher(const ObservedScene& observed)
@@ -78,10 +78,10 @@ class Matcher {
         if (is_good(match, position)) add(match, position, spot.paint);
     }
 
-    /// Somewhere along the sight of a view, seen by that and up to two more.
+    /// Adds a point on the ray of a view, seen by this view and up to two more.
     void add_false_match(const Spot& spot, std::uint32_t first, Random& random)
     {
-        const double share = 0.5 * std::pow(3.0, random.uniform()); // 0.5 to 1.5 of the way
+        const double share = 0.5 * std::pow(3.0, random.uniform()); // 0.5 to 1.5 of the depth
         const Vector3d& center = views_[first].center;
         const Vector3d position = center + share * (spot.position - center);
         Match match;
@@ -104,7 +104,7 @@ class Matcher {
         match.places_px.push_back(*onlookers_.place_px(view, position) + noise);
     }
 
-    /// Where the sum of squared reprojection errors is least, by Gauss and Newton.
+    /// Minimizes the sum of squared reprojection errors (Gauss and Newton).
     Vector3d best_fit(const Match& match, Vector3d position) const
     {
         constexpr int kSteps = 8;
@@ -129,7 +129,7 @@ class Matcher {
         return position;
     }
 
-    /// Mean distance in the images; nothing where a view does not have the position before it.
+    /// The mean reprojection error; nothing if the position is behind a view.
     std::optional<double> error_px(const Match& match, const Vector3d& position) const
     {
         double sum = 0.0;
@@ -141,7 +141,7 @@ class Matcher {
         return sum / static_cast<double>(match.views.size());
     }
 
-    /// What the mapper would keep: two views, a reprojection error of up to 4 px, 1.5 degrees.
+    /// The mapper's criteria: two views, a reprojection error of up to 4 px, 1.5 degrees.
     bool is_good(const Match& match, const Vector3d& position) const
     {
         constexpr double kMostErrorPx = 4.0;
@@ -181,7 +181,7 @@ class Matcher {
 using bench::Random;
 using Eigen::Vector3d;
 
-/// Makes points of depths that views agree on.
+/// Makes points of depths on which views agree.
 class Fusion {
   public:
     explicit Fusion(const ObservedScene& observed)
@@ -228,7 +228,7 @@ class Fusion {
         return views;
     }
 
-    /// As a share of the depth.
+    /// A random error, as a share of the depth.
     double depth_error(const Spot& spot, std::uint32_t reference, std::size_t num_views,
                        Random& random) const
     {
@@ -283,7 +283,7 @@ ObservedModel observe(const ObservedScene& observed)
         matcher.add_point(random);
     }
     if (matcher.num_points() < observed.points) {
-        throw std::runtime_error(observed.name + ": too little of the scene is seen by two views");
+        throw std::runtime_error(observed.name + ": two views see too little of the scene");
     }
     return matcher.take();
 }
@@ -298,8 +298,7 @@ Scene observe_densely(const ObservedScene& observed, std::size_t num_points)
         fusion.add_point(random);
     }
     if (fusion.num_points() < num_points) {
-        throw std::runtime_error(observed.name +
-                                 ": too little of the scene is seen by three views");
+        throw std::runtime_error(observed.name + ": three views see too little of the scene");
     }
     return fusion.take();
 }

@@ -12,48 +12,47 @@
 
 namespace vcarve::observed {
 
-/// What a fixture is made of. The contrast of a part's paint says how many features a matcher finds
-/// on it, relative to other parts of the same area: none where it is 0.
+/// The source of a fixture. The contrast of a part's paint is proportional to the density of
+/// features that a matcher finds on it; a contrast of 0 gives none.
 struct ObservedScene {
-    std::string name; ///< of the fixture's folder
+    std::string name; ///< name of the fixture's folder
     render::Parts parts;
-    std::vector<render::Pinhole> views; ///< all of one lens
-    std::size_t points = 0;             ///< of the model, outliers included
+    std::vector<render::Pinhole> views; ///< all with the same lens
+    std::size_t points = 0;             ///< number in the model, including outliers
 };
 
-/// Hills with houses, trees and a wall, seen from straight above and askew. Most walls are plain.
+/// Hills with houses, trees and a wall, in nadir and oblique views. Most walls are plain.
 ObservedScene from_the_air();
 
-/// A furnished room seen from within. Walls and ceiling are plain.
+/// A furnished room seen from inside. Walls and ceiling are plain.
 ObservedScene inside_a_room();
 
-/// Where a view has a point in its image.
+/// The pixel of a point in a view.
 struct Observation {
     std::uint32_t point = 0; ///< index into Scene::positions
     Eigen::Vector2d place_px;
 };
 
-/// A scene as matching and mapping of real pictures would give it, poses aside, which are exact.
+/// A scene like those from matching and mapping photographs, but with exact poses.
 struct ObservedModel {
     Scene scene;
-    std::vector<std::vector<Observation>> observations; ///< of each view, by ascending point
+    std::vector<std::vector<Observation>> observations; ///< per view, by ascending point
 };
 
-/// Points by area and contrast of what two views or more see: places in the images are off by 0.7
-/// px each way (a normal distribution), and the point lies where they fit best, so that it is off
-/// mostly along its sights. A view finds a point again only where it looks from within 35 degrees
-/// of the view that found it first, and then with two chances in three. One point in a hundred is a
-/// false match, somewhere along the sight of a true one. The same on every machine, up to the
-/// rounding of sine and cosine in `observed`.
+/// Samples points, by area and contrast, on the surface that two or more views see. Pixels have a
+/// normally distributed error of 0.7 px in x and y. The point minimizes the reprojection error, so
+/// its error is mostly along its rays. Another view finds a point with probability 2/3 if it is
+/// within 35 degrees of the first view. One point in a hundred is a false match on the ray of a
+/// true one. The same on every machine, up to the rounding of sine and cosine in `observed`.
 ObservedModel observe(const ObservedScene& observed);
 
-/// A scene as dense stereo of real pictures and the fusion of its depths would give it, poses
-/// aside, which are exact: points by area of what three views or more agree on. A view that sees a
-/// place from within 60 degrees of the one whose depth it is agrees with three chances in four. The
-/// depth is off along the sight of that view by half a pixel of disparity at a fifth of the depth
-/// for a baseline (a normal distribution), less by the root of the number of views, and the normal
-/// by some degrees. One point in two hundred is false, up to a tenth of the depth before or behind
-/// the surface. The same on every machine, up to the rounding of sine and cosine in `observed`.
+/// A scene like those from dense stereo and fusion of photographs, but with exact poses. Points are
+/// sampled by area on the surface on which three or more views agree. A view within 60 degrees of
+/// the reference view agrees with probability 3/4. The depth has a normally distributed error of
+/// half a pixel of disparity, for a baseline of a fifth of the depth, divided by the root of the
+/// number of views. Normals are off by some degrees. One point in two hundred is false, up to a
+/// tenth of the depth in front of or behind the surface. The same on every machine, up to the
+/// rounding of sine and cosine in `observed`.
 Scene observe_densely(const ObservedScene& observed, std::size_t num_points);
 
 } // namespace vcarve::observed

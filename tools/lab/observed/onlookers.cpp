@@ -88,7 +88,7 @@ Onlookers::Onlookers(const ObservedScene& observed)
 std::vector<std::uint32_t> Onlookers::seeing(const Spot& spot) const
 {
     constexpr double kLeastCosine = 0.26; // 75 degrees
-    constexpr double kTouch = 1e-4;       // of the way, nearer is the spot's own face
+    constexpr double kTouch = 1e-4;       // share of the ray; nearer hits are the spot's face
     std::vector<std::uint32_t> seeing;
     for (std::uint32_t i = 0; i < views_.size(); ++i) {
         const Vector3d way = views_[i].center - spot.position;

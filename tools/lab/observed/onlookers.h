@@ -16,18 +16,17 @@
 
 namespace vcarve::observed {
 
-/// A place on the true surface.
+/// A position on the true surface.
 struct Spot {
     Eigen::Vector3d position;
     Eigen::Vector3d normal;
     render::Paint paint;
 };
 
-/// What places are as many of: a matcher finds features by area and contrast, stereo depths by
-/// area alone.
+/// The density of positions: features are found by area and contrast, stereo depths by area alone.
 enum class Spread { area_and_contrast, area };
 
-/// Draws places on a surface.
+/// Draws random positions on a surface.
 class Spots {
   public:
     /// `parts` must outlive this.
@@ -41,10 +40,10 @@ class Spots {
     const render::Paint& paint_of(std::size_t face) const;
 
     const render::Parts& parts_;
-    std::vector<double> sums_; ///< of what places are drawn by, up to each face
+    std::vector<double> sums_; ///< cumulative weights of the faces
 };
 
-/// The views of a scene, and what of its true surface they see.
+/// The views of a scene, and the visibility of its true surface.
 class Onlookers {
   public:
     explicit Onlookers(const ObservedScene& observed);
@@ -52,8 +51,7 @@ class Onlookers {
     const Camera& camera() const { return camera_; }
     const std::vector<View>& views() const { return views_; }
 
-    /// The views that have the spot in their image, look at it from less than 75 degrees off its
-    /// normal, and have nothing in between.
+    /// The views that show the spot unoccluded, at less than 75 degrees from its normal.
     std::vector<std::uint32_t> seeing(const Spot& spot) const;
 
     Eigen::Vector3d in_camera(std::uint32_t view, const Eigen::Vector3d& position) const;

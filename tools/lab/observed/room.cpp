@@ -22,7 +22,7 @@ constexpr double kHeight = 2.5;
 void add_shell(PartBuilder& builder)
 {
     constexpr double kWall = 0.2;
-    constexpr double kPlain = 0.1; // a stain here and there
+    constexpr double kPlain = 0.1; // a few stains
     const double wide = 2.0 * (kHalfX + kWall);
     const double deep = 2.0 * (kHalfY + kWall);
     add_box(builder, {{0.0, 0.0, -kWall}, {wide, deep, kWall}}, {{0.62F, 0.50F, 0.38F}, 0.5});
@@ -45,7 +45,7 @@ void add_table(PartBuilder& builder, const Vector3d& place, const Paint& paint)
     }
 }
 
-/// Open towards -y.
+/// Adds a shelf that is open towards -y.
 void add_shelf(PartBuilder& builder, const Vector3d& place, const Paint& paint)
 {
     for (const double x : {-0.6, 0.6}) {
@@ -88,7 +88,7 @@ ObservedScene inside_a_room()
     add_furniture(builder);
     ObservedScene scene{.name = "room", .parts = builder.take(), .views = {}, .points = 2000};
     const render::Lens wide{1000, 750, 600.0};
-    // Across the room over its middle, then outwards from around the middle.
+    // Views across the center of the room, then outward views from around the center.
     render::add_arc(scene.views, wide, {{0.0, 0.0, 0.8}, 1.5, 1.5, 10.0, 24.0, 15});
     constexpr int kOutwards = 15;
     for (int i = 0; i < kOutwards; ++i) {

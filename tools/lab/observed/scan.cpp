@@ -23,7 +23,7 @@ Vector3d direction(double turn_rad, double elevation_rad)
             std::cos(elevation_rad) * std::sin(turn_rad), std::sin(elevation_rad)};
 }
 
-/// Measures along one beam after the other.
+/// Measures along beams, one by one.
 class Scanner {
   public:
     explicit Scanner(const TriMesh& surface) : tree_(surface) {}
@@ -34,7 +34,7 @@ class Scanner {
         constexpr double kNoise = 0.003;
         constexpr double kFalse = 1.0 / 400.0;
         constexpr double kShortest = 0.3;
-        // As many random numbers a beam, whatever it meets.
+        // Every beam uses the same number of random numbers.
         const Vector3d aside = kHalfWidth * random_.direction();
         const double noise = kNoise * random_.normal();
         const double mix = random_.uniform();
@@ -55,7 +55,7 @@ class Scanner {
   private:
     static bool is_another(double a, double b)
     {
-        constexpr double kStep = 0.03; // of the range
+        constexpr double kStep = 0.03; // share of the range
         return std::abs(a - b) > kStep * std::max(a, b);
     }
 

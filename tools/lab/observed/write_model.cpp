@@ -51,7 +51,8 @@ void write_images(const std::filesystem::path& folder, const ObservedModel& mode
 void write_points(const std::filesystem::path& folder, const ObservedModel& model)
 {
     const Scene& scene = model.scene;
-    std::vector<std::size_t> listed(scene.views.size(), 0); // 2D points of each view so far
+    std::vector<std::size_t> listed(scene.views.size(),
+                                    0); // number of 2D points of each view so far
     auto out = fmt::output_file((folder / "points3D.txt").string());
     out.print("# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n");
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
@@ -66,7 +67,7 @@ void write_points(const std::filesystem::path& folder, const ObservedModel& mode
     }
 }
 
-/// The views in the order a mapper might have registered them in: every eleventh, round and round.
+/// A plausible order of registration by a mapper: every eleventh view, cyclically.
 std::vector<std::uint32_t> registered_order(std::size_t num_views)
 {
     std::vector<std::uint32_t> order;

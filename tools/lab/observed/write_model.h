@@ -7,16 +7,16 @@
 
 namespace vcarve::observed {
 
-/// Writes cameras.txt, images.txt and points3D.txt into a folder, which is made. Lengths are
-/// rounded to a millionth, places in images to a tenth of a pixel.
+/// Creates a folder and writes cameras.txt, images.txt and points3D.txt. Lengths are rounded to
+/// 1e-6, image positions to a tenth of a pixel.
 void write_model(const std::filesystem::path& folder, const ObservedModel& model);
 
-/// Writes truth.ply, its positions rounded alike.
+/// Writes truth.ply, with positions rounded in the same way.
 void write_truth(const std::filesystem::path& folder, const ObservedScene& observed);
 
-/// Writes a workspace as stereo_fusion leaves it: fused.ply, fused.ply.vis, and in sparse the model
-/// as text, without points, its images in no order of their ids. The scene must have normals.
-/// Coordinates in fused.ply are multiples of `step`, or as near as floats come where that is 0.
+/// Writes a workspace like stereo_fusion: fused.ply, fused.ply.vis, and the text model in sparse,
+/// without points and with images not sorted by id. The scene must have normals. Coordinates in
+/// fused.ply are rounded to multiples of `step`; 0 disables this.
 void write_workspace(const std::filesystem::path& folder, const Scene& scene, double step);
 
 } // namespace vcarve::observed

@@ -31,7 +31,7 @@ bool leaves_at_once(const Box& box, const Spot& begin, const Spot& way)
     return false;
 }
 
-/// Whether a segment meets the closed box: its stretches between the three pairs of planes overlap.
+/// Whether a segment meets the closed box: its intervals between the three pairs of planes overlap.
 bool hits(const Box& box, const Spot& begin, const Spot& way)
 {
     Fraction enter{0, 1};
@@ -61,8 +61,8 @@ std::array<Spot, 8> corners(const Box& box)
     return result;
 }
 
-/// Directions among which one separates a tetrahedron and a box whose interiors are apart: normals
-/// of faces, and what is normal to an edge of each.
+/// Candidate separating axes of a tetrahedron and a box: face normals, and cross products of their
+/// edges. One separates them if their interiors are disjoint.
 std::vector<Spot> separating_axes(const std::array<Spot, 4>& cell)
 {
     std::vector<Spot> axes{Spot::UnitX(), Spot::UnitY(), Spot::UnitZ()};
@@ -160,8 +160,8 @@ std::int64_t BoxSolid::volume() const
     return sum;
 }
 
-/// Whether the grid's edge that leaves `index` along `axis` is an edge of the solid: the four cells
-/// around it are neither alike nor split into two neighbouring pairs.
+/// Whether the grid edge from `index` along `axis` is an edge of the solid. It is not if the four
+/// cells around it are all equal or form two neighboring pairs.
 bool BoxSolid::is_edge(const Index& index, int axis) const
 {
     const Index u = Index::Unit((axis + 1) % 3);
@@ -173,7 +173,7 @@ bool BoxSolid::is_edge(const Index& index, int axis) const
     return !((here == left && below == across) || (here == below && left == across));
 }
 
-/// Whether edges of the solid meet here in any way but passing straight through.
+/// Whether edges of the solid meet here, except for one edge that passes straight through.
 bool BoxSolid::is_corner(const Index& index) const
 {
     int axes = 0;

@@ -10,8 +10,8 @@
 
 namespace vcarve::paper {
 
-/// A place on the integer lattice of spacing 1 / kSpotsPerUnit: every predicate on spots is exact
-/// in 64-bit integers as long as coordinates stay below 2^19.
+/// A position on the integer lattice of spacing 1 / kSpotsPerUnit. All predicates are exact in
+/// 64-bit integers if coordinates are below 2^19.
 using Spot = Eigen::Matrix<std::int64_t, 3, 1>;
 inline constexpr std::int64_t kSpotsPerUnit = 2048;
 
@@ -23,17 +23,17 @@ struct Box {
     Spot high;
 };
 
-/// A straight edge of the solid between two of its corners.
+/// An edge of the solid between two corners.
 struct Edge {
     Spot begin;
     Spot end;
 };
 
-/// All faces of the solid in one plane, solid on one side: coordinate `axis` equals `plane`.
+/// All faces of the solid in the plane where coordinate `axis` is `plane`, with the same outside.
 struct Side {
     int axis = 0;
     std::int64_t plane = 0;
-    bool outward_up = false; ///< the outside is where the coordinate is larger
+    bool outward_up = false; ///< whether the outside has larger coordinates
 
     // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 takes the defaulted comparison for a 0
     auto operator<=>(const Side&) const = default;
@@ -52,12 +52,12 @@ class BoxSolid {
 
     std::vector<Edge> edges() const;
     std::vector<Side> sides() const;
-    /// Whether `sum` / 3 lies on a face of that side.
+    /// Whether `sum` / 3 is on a face of `side`.
     bool on_side(const Side& side, const Spot& sum) const;
 
-    /// Whether the segment, without its begin, keeps clear of the closed solid.
+    /// Whether the segment, except its begin, does not touch the closed solid.
     bool sees(const Spot& begin, const Spot& end) const;
-    /// Which of the two a tetrahedron's interior meets.
+    /// Whether the interior of a tetrahedron meets the solid, and empty space.
     struct Meets {
         bool solid = false;
         bool empty = false;
@@ -73,7 +73,7 @@ class BoxSolid {
     Spot spot(const Index& index) const;
 
     std::vector<Box> boxes_;
-    std::array<std::vector<std::int64_t>, 3> ticks_; ///< planes of the grid that all boxes fit
+    std::array<std::vector<std::int64_t>, 3> ticks_; ///< planes of the grid of all box sides
 };
 
 } // namespace vcarve::paper

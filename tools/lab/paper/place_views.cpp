@@ -25,9 +25,8 @@ int sign(std::int64_t value)
 
 enum class Crossing { none, inside, degenerate };
 
-/// How the segment from p to c meets a triangle: through its relative interior, not at all, or in a
-/// way that a nudge would change (touching an edge or a corner other than p, or lying in its
-/// plane).
+/// Classifies the segment from p to c and a triangle: the segment crosses its relative interior,
+/// misses it, or is degenerate (touches an edge or a corner other than p, or lies in its plane).
 Crossing crossing(const Spot& p, const Spot& c, const std::array<Spot, 3>& t)
 {
     const int below = sign(volume_6(t[0], t[1], t[2], p));
@@ -42,7 +41,7 @@ Crossing crossing(const Spot& p, const Spot& c, const std::array<Spot, 3>& t)
                                                                : Crossing::inside;
 }
 
-/// The rotation that looks most along `way`.
+/// The rotation whose axis is closest to `way`.
 int rotation_towards(const Spot& way)
 {
     const auto& rotations = exact_rotations();
@@ -63,7 +62,7 @@ bool in_image(const ExactView& view, const Spot& spot)
     return pixel.minCoeff() >= 0.0 && pixel.maxCoeff() <= kImageSizePx;
 }
 
-/// Chooses views one after the other, each the one of many candidates that adds most.
+/// Chooses views greedily: each is the candidate that adds most.
 class Placement {
   public:
     Placement(const BoxSolid& solid, const std::vector<Spot>& samples, const Cells& cells,
@@ -86,7 +85,7 @@ class Placement {
             if (open_.empty() && weak.empty()) return views_;
             if (const auto best = best_candidate(weak)) take(*best);
         }
-        throw std::runtime_error("no views were found that see into every cell");
+        throw std::runtime_error("found no views that see into every cell");
     }
 
   private:
@@ -100,7 +99,7 @@ class Placement {
         return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(random_);
     }
 
-    /// On odd places of the lattice, so in no plane of the solid.
+    /// A lattice position with odd coordinates, which is in no plane of the solid.
     static Spot odd_spot(const Eigen::Vector3d& place)
     {
         Spot spot;
@@ -132,7 +131,7 @@ class Placement {
         return result;
     }
 
-    /// A place that sees one sample along a direction, as far out as nothing is in between.
+    /// A view of one sample along a direction, as far out as the ray is unoccluded.
     std::optional<ExactView> view_along(std::uint32_t sample, const Eigen::Vector3d& way)
     {
         const Eigen::Vector3d begin = samples_[sample].cast<double>();
@@ -144,7 +143,7 @@ class Placement {
         return std::nullopt;
     }
 
-    /// A view for a random open cell, through it from one of its corners, or for a weak sample.
+    /// A view with a ray from a corner through a random open cell, or of a weak sample.
     std::optional<ExactView> candidate(const std::vector<std::uint32_t>& weak)
     {
         if (open_.empty() || (!weak.empty() && uniform(0.0, 1.0) < 0.3)) {
@@ -169,7 +168,7 @@ class Placement {
         }
     }
 
-    /// How a view's sights meet a cell: the plainest crossing of any facet, or a degenerate one.
+    /// The clearest crossing of a view's rays with any facet of a cell, or a degenerate one.
     Crossing meets(const ExactView& view, const Cell& cell) const
     {
         Crossing result = Crossing::none;
@@ -237,7 +236,7 @@ class Placement {
 
     const BoxSolid& solid_;
     const std::vector<Spot>& samples_;
-    std::vector<Cell> open_; ///< empty cells that no sight crosses yet
+    std::vector<Cell> open_; ///< empty cells without a crossing ray
     std::vector<Cell> all_;
     std::mt19937_64& random_;
     std::vector<std::vector<Eigen::Vector3d>> seen_from_; ///< for each sample

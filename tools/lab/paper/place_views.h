@@ -11,26 +11,26 @@
 
 namespace vcarve::paper {
 
-/// A square camera with a field of view of about 92 degrees, square to the axes: rotations are
-/// exact in double precision, and so is the centre that a reader computes from the pose.
+/// An axis-aligned square camera with a field of view of about 92 degrees. Its rotation, and the
+/// center that a reader computes from the pose, are exact in double precision.
 struct ExactView {
     Spot center;
     int rotation = 0;                ///< index into exact_rotations()
-    std::vector<std::uint32_t> sees; ///< samples in the image with nothing solid before them
+    std::vector<std::uint32_t> sees; ///< unoccluded samples in the image
 };
 
 inline constexpr int kImageSizePx = 1000;
 inline constexpr double kFocalPx = 480.0;
 
-/// The twelve turns whose quaternions have entries 0, 1/2, -1/2 and 1 only.
+/// The twelve rotations whose quaternions have only the entries 0, 1/2, -1/2 and 1.
 const std::vector<Eigen::Quaterniond>& exact_rotations();
 
-/// Where a view has a point in its image, in px. The point must lie before the camera.
+/// The image position of a point, in px. The point must be in front of the camera.
 Eigen::Vector2d project(const ExactView& view, const Spot& spot);
 
-/// Views such that a sight crosses a facet of every empty cell, no sight touches the solid, none
-/// passes through an edge or a vertex of the triangulation, and every sample is seen by at least
-/// three views that lie at least 20 degrees apart around it.
+/// Places views with these properties: a ray crosses a facet of every empty cell, no ray touches
+/// the solid or passes through an edge or vertex of the triangulation, and at least three views, 20
+/// degrees or more apart, see every sample.
 std::vector<ExactView> place_views(const BoxSolid& solid, const std::vector<Spot>& samples,
                                    const Cells& cells, std::mt19937_64& random);
 

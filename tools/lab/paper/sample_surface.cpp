@@ -24,7 +24,7 @@ using Delaunay =
     CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Adds points until every ball it watches is empty.
+/// Adds points until all diametral and circumscribed balls are empty.
 class Refinement {
   public:
     Refinement(const BoxSolid& solid, std::int64_t max_radius, std::mt19937_64& random)
@@ -134,8 +134,7 @@ class Refinement {
         return false;
     }
 
-    /// Puts a point at the middle of the triangle's circle, or splits the edge that would be too
-    /// near.
+    /// Adds the circumcenter of a triangle, or splits an edge that would be too near to it.
     void split(const Triangle& t, const Side& side)
     {
         const Eigen::Vector3d center = circumcenter(t);
@@ -217,7 +216,7 @@ std::optional<Cells> triangulate(const BoxSolid& solid, const std::vector<Spot>&
     const Delaunay delaunay = build(samples);
     if (!is_unique(delaunay)) return std::nullopt;
 
-    // Tell the cells apart; info() is whether a cell is solid.
+    // Classify the cells; info() is whether a cell is solid.
     Cells result;
     for (const auto& cell : delaunay.all_cell_handles()) {
         cell->info() = false;
@@ -230,11 +229,11 @@ std::optional<Cells> triangulate(const BoxSolid& solid, const std::vector<Spot>&
         (meets.solid ? result.solid : result.empty).push_back(v);
     }
 
-    // The boundary is the facets with a solid cell on one side only.
+    // The boundary consists of the facets with a solid cell on one side only.
     for (const auto& cell : delaunay.all_cell_handles()) {
         for (int i = 0; i < 4 && cell->info(); ++i) {
             if (cell->neighbor(i)->info()) continue;
-            // CGAL numbers a facet's corners counter-clockwise seen from inside the cell.
+            // CGAL numbers a facet's corners counterclockwise from inside the cell.
             std::array<std::uint32_t, 3> face;
             for (int k = 0; k < 3; ++k) {
                 face[2 - k] = cell->vertex(Delaunay::vertex_triple_index(i, k))->info();

@@ -28,7 +28,7 @@ Eigen::Vector3d translation(const ExactView& view)
     return -(exact_rotations()[view.rotation].toRotationMatrix() * in_scene(view.center));
 }
 
-/// A colour that tells places apart: the point's share of the way through the solid's box.
+/// A color that distinguishes positions: the relative position in the solid's bounding box.
 std::array<int, 3> color(const Fixture& fixture, const Spot& spot)
 {
     const Eigen::Array3d size = (fixture.solid.high() - fixture.solid.low()).cast<double>().array();
@@ -66,7 +66,7 @@ void write_images(const std::filesystem::path& folder, const Fixture& fixture)
     }
 }
 
-/// For each sample, its track as COLMAP writes it: image id and place in that image's list.
+/// The track of each sample in COLMAP's format: image id and index in that image's list.
 std::vector<std::string> tracks(const Fixture& fixture)
 {
     std::vector<std::string> result(fixture.samples.size());
@@ -120,16 +120,16 @@ struct Segment {
     Eigen::Vector3d end;
 };
 
-bool crosses(const Segment& sight, const std::array<Eigen::Vector3d, 3>& t)
+bool crosses(const Segment& ray, const std::array<Eigen::Vector3d, 3>& t)
 {
-    const auto& [p, c] = sight;
+    const auto& [p, c] = ray;
     if (orientation(t[0], t[1], t[2], p) * orientation(t[0], t[1], t[2], c) >= 0) return false;
     const int turn = orientation(p, c, t[0], t[1]);
     return turn != 0 && turn == orientation(p, c, t[1], t[2]) &&
            turn == orientation(p, c, t[2], t[0]);
 }
 
-std::vector<Segment> sights(const Fixture& fixture)
+std::vector<Segment> rays(const Fixture& fixture)
 {
     std::vector<Segment> result;
     for (const ExactView& view : fixture.views) {
@@ -148,9 +148,9 @@ bool is_crossed(const Fixture& fixture, const std::array<std::uint32_t, 4>& cell
     std::array<Eigen::Vector3d, 4> p;
     std::transform(cell.begin(), cell.end(), p.begin(),
                    [&](std::uint32_t i) { return in_scene(fixture.samples[i]); });
-    return std::any_of(all.begin(), all.end(), [&](const Segment& sight) {
-        return crosses(sight, {p[0], p[1], p[2]}) || crosses(sight, {p[0], p[1], p[3]}) ||
-               crosses(sight, {p[0], p[2], p[3]}) || crosses(sight, {p[1], p[2], p[3]});
+    return std::any_of(all.begin(), all.end(), [&](const Segment& ray) {
+        return crosses(ray, {p[0], p[1], p[2]}) || crosses(ray, {p[0], p[1], p[3]}) ||
+               crosses(ray, {p[0], p[2], p[3]}) || crosses(ray, {p[1], p[2], p[3]});
     });
 }
 
@@ -163,7 +163,7 @@ std::int64_t cells_volume_6(const Fixture& fixture)
                            });
 }
 
-/// The volume the boundary encloses: positive if its faces look outside.
+/// The enclosed volume of the boundary; positive if its faces are oriented outward.
 std::int64_t enclosed_volume_6(const Fixture& fixture)
 {
     const auto& s = fixture.samples;
@@ -186,7 +186,7 @@ void write_fixture(const std::filesystem::path& folder, const Fixture& fixture)
 
 void check_carving(const Fixture& fixture)
 {
-    const std::vector<Segment> all = sights(fixture);
+    const std::vector<Segment> all = rays(fixture);
     for (const auto& cell : fixture.cells.empty) {
         if (!is_crossed(fixture, cell, all)) throw std::logic_error("an empty cell is not carved");
     }
@@ -194,10 +194,10 @@ void check_carving(const Fixture& fixture)
         if (is_crossed(fixture, cell, all)) throw std::logic_error("a solid cell is carved");
     }
     if (cells_volume_6(fixture) != 6 * fixture.solid.volume()) {
-        throw std::logic_error("the solid cells do not add up to the solid");
+        throw std::logic_error("the solid cells do not have the volume of the solid");
     }
     if (enclosed_volume_6(fixture) != 6 * fixture.solid.volume()) {
-        throw std::logic_error("the boundary does not enclose the solid, seen from outside");
+        throw std::logic_error("the oriented boundary does not enclose the solid");
     }
 }
 
@@ -246,7 +246,7 @@ Fixture make_fixture(const Object& object)
         const auto views = place_views(solid, samples, *cells, random);
         return {object.name, solid, samples, *cells, views};
     }
-    throw std::runtime_error(object.name + ": no sampling fits the object");
+    throw std::runtime_error(object.name + ": found no sampling that fits the object");
 }
 
 } // namespace vcarve::paper

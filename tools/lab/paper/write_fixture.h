@@ -11,7 +11,7 @@
 
 namespace vcarve::paper {
 
-/// One object, its exact model, and what strict carving must make of it.
+/// An object, its exact model, and the expected result of strict carving.
 struct Fixture {
     std::string name;
     BoxSolid solid;
@@ -24,14 +24,14 @@ struct Fixture {
 /// model is vertex i of solid.ply.
 void write_fixture(const std::filesystem::path& folder, const Fixture& fixture);
 
-/// Whether strict carving gives the true solid: looks at every facet for every sight, with CGAL's
-/// exact predicates on the doubles a reader gets (centre = -R^T t). Throws where it does not.
+/// Throws if strict carving does not give the true solid. Tests every facet with every ray, with
+/// CGAL's exact predicates, on the doubles that a reader computes (center = -R^T t).
 void check_carving(const Fixture& fixture);
 
-/// An object that boxes make up.
+/// An object made of boxes.
 struct Object {
     std::string name;
-    double max_radius;                        ///< of a triangle's circle, in scene units
+    double max_radius;                        ///< of a circumscribed circle, in scene units
     std::vector<std::array<double, 6>> boxes; ///< x0 y0 z0 x1 y1 z1
 };
 
@@ -39,8 +39,8 @@ struct Object {
 /// from multiple views" (2000).
 std::vector<Object> objects();
 
-/// Samples the object until its triangulation fits it, each time with other jitter. The same object
-/// always gives the same fixture. Throws where no sampling fits.
+/// Samples the object, with other jitter each time, until its triangulation fits. The same object
+/// always gives the same fixture. Throws if no sampling fits.
 Fixture make_fixture(const Object& object);
 
 } // namespace vcarve::paper

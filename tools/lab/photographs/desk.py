@@ -1,4 +1,4 @@
-"""The scene: a desk in the corner of a room, as flat patches that rays can meet."""
+"""The scene: a desk in the corner of a room, made of flat patches for ray casting."""
 
 import functools
 import math
@@ -8,17 +8,17 @@ import numpy as np
 
 import paints
 
-FACETS = 24  # of the tin
+FACETS = 24  # number of sides of the tin
 
 
 class Patch(typing.NamedTuple):
-    """A rectangle, or the regular polygon with FACETS sides that it holds."""
+    """A rectangle, or the regular polygon with FACETS sides in it."""
     origin: np.ndarray
     along_u: np.ndarray  # unit vectors; their cross product points out of the body
     along_v: np.ndarray
     size: tuple
     paint: typing.Callable
-    start: float = 0.0  # the u of the paint where the patch begins
+    start: float = 0.0  # the u of the paint at the beginning of the patch
     polygon: bool = False
 
     @property
@@ -37,8 +37,8 @@ class Patch(typing.NamedTuple):
 
 
 def box(center, size, turned, front, back, left, right, top, bottom=None):
-    """An upright box on center, the middle of its bottom, turned about it by degrees; front looks
-    to -y before it is turned. Each side is a paint, or None where there is none."""
+    """An upright box. `center` is the center of its bottom, about which it is turned by degrees.
+    The front faces -y before the turn. Each side is a paint, or None if the side is missing."""
     angle = math.radians(turned)
     x = np.array([math.cos(angle), math.sin(angle), 0.0])
     y = np.array([-math.sin(angle), math.cos(angle), 0.0])
@@ -58,7 +58,7 @@ def seeded(paint, seed, **more):
 
 
 def book(center, size, turned, seed, cloth, print_color):
-    """A book that lies, its spine in front."""
+    """A lying book with its spine in front."""
     a, b, c = size
     flat = {"size": (a, b), "cloth": cloth, "print_color": print_color}
     cut = seeded(paints.pages, seed + 1, size=(0, c), cloth=cloth)
@@ -68,7 +68,7 @@ def book(center, size, turned, seed, cloth, print_color):
 
 
 def standing_book(center, size, turned, seed, cloth, print_color):
-    """A book that stands, its spine in front; its covers are left and right."""
+    """An upright book with its spine in front and its covers left and right."""
     a, b, c = size
     flat = {"size": (b, c), "cloth": cloth, "print_color": print_color}
     upright = seeded(paints.spine, seed + 1, **{**flat, "size": (c, a)})
@@ -79,7 +79,7 @@ def standing_book(center, size, turned, seed, cloth, print_color):
 
 
 def painted_tin(center, radius, height, seed):
-    """A prism around center, the middle of its bottom."""
+    """A prism around `center`, the center of its bottom."""
     angles = np.arange(FACETS + 1) * 2 * math.pi / FACETS
     ring = np.array(center) + radius * np.stack(
         [np.cos(angles), np.sin(angles), np.zeros(FACETS + 1)], axis=1)
@@ -152,7 +152,7 @@ def scene():
 # ---- rays ----------------------------------------------------------------------------------------
 
 def meet(patch, origins, directions):
-    """How far along each ray the patch is, infinity where it is not, and where on it."""
+    """The distance of the patch along each ray (infinity if missed), and the position on it."""
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = patch.normal
         distance = ((patch.origin - origins) @ normal) / (directions @ normal)
@@ -173,7 +173,7 @@ def in_polygon(u, v, radius):
 
 
 def blocked(patches, origins, directions, reach):
-    """Whether something is nearer than reach along each ray."""
+    """Whether an object is nearer than `reach` along each ray."""
     result = np.zeros(len(directions), dtype=bool)
     for patch in patches:
         open_rays = ~result
@@ -187,15 +187,15 @@ def blocked(patches, origins, directions, reach):
 
 SUN = np.array([0.75, -0.38, 0.62]) / np.linalg.norm([0.75, -0.38, 0.62])
 SUN_COLOR, SKY_COLOR = np.array([0.98, 0.91, 0.8]), np.array([0.6, 0.64, 0.69])
-RAYS = 48  # to the light and to the sky each, from every place
+RAYS = 48  # to the light, and to the sky, from every position
 
 
 def light_of(patch, patches):
-    """Light at a grid of places on a patch: a window's, as a wide cone of directions, and the
-    sky's, which is what makes corners dark. The same from wherever one looks."""
+    """The light at a grid of positions on a patch: a window, as a wide cone of directions, and the
+    sky, which darkens corners. Independent of the viewing direction."""
     finest = 0.012 if max(patch.size) < 1.6 else 0.05
     counts = [max(2, int(math.ceil(extent / finest)) + 1) for extent in patch.size]
-    # Half a millimetre within the patch, so that what touches it does not hide all of its rim.
+    # Half a millimeter inside the patch, so that adjacent objects do not occlude its whole rim.
     u, v = (np.linspace(5e-4, extent - 5e-4, count) for extent, count in zip(patch.size, counts))
     places = (patch.origin + u[:, None, None] * patch.along_u + v[None, :, None] * patch.along_v
               + 1e-4 * patch.normal).reshape(-1, 3)
@@ -217,7 +217,7 @@ def light_of(patch, patches):
 
 
 def _share_free(patches, places, directions, weights, reach):
-    """For each place the mean weight of the directions, of those that are not free counted 0."""
+    """The mean weight of the directions at each position; occluded directions count as 0."""
     origins = np.repeat(places, len(directions), axis=0)
     rays = np.tile(directions, (len(places), 1))
     free = ~blocked(patches, origins, rays, reach)
@@ -225,14 +225,14 @@ def _share_free(patches, places, directions, weights, reach):
 
 
 def _around(axis, turn):
-    """The unit vector square to an axis, turned about it."""
+    """A unit vector perpendicular to an axis, rotated about it."""
     side = np.cross(axis, [0.0, 0.0, 1.0] if abs(axis[2]) < 0.9 else [1.0, 0.0, 0.0])
     side /= np.linalg.norm(side)
     return side * math.cos(turn) + np.cross(axis, side) * math.sin(turn)
 
 
 def between(grid, u, v, size):
-    """The values of a grid over a patch at places on it, linear in between."""
+    """Interpolates the values of a grid over a patch linearly."""
     s = np.clip(u / size[0], 0, 1) * (grid.shape[0] - 1)
     t = np.clip(v / size[1], 0, 1) * (grid.shape[1] - 1)
     i = np.minimum(s.astype(int), grid.shape[0] - 2)

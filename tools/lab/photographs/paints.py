@@ -1,14 +1,14 @@
-"""What the surfaces of the desk look like: functions from metres on a surface to linear colours.
+"""The surfaces of the desk: functions from meters on a surface to linear colors.
 
-Every paint takes u and v, arrays in metres, and a seed, which tells two surfaces of one kind
-apart; it returns an array of the same length with three columns.
+Every paint takes u and v, arrays in meters, and a seed, which distinguishes two surfaces of one
+kind; it returns an array of the same length with three columns.
 """
 
 import numpy as np
 
 
 def linear(*srgb):
-    """A colour as one picks it, in levels of 255, as light."""
+    """Converts an sRGB color, in levels of 255, to linear light."""
     return (np.array(srgb) / 255.0) ** 2.2
 
 
@@ -37,7 +37,7 @@ def noise(u, v, seed):
 
 
 def clouds(u, v, seed, octaves):
-    """Noise of several wavelengths, each half as long and half as strong as the one before."""
+    """Noise of several wavelengths; each has half the wavelength and amplitude of the previous."""
     total, weight = np.zeros_like(u), 0.0
     for octave in range(octaves):
         scale = 2.0 ** octave
@@ -59,12 +59,12 @@ def mix(a, b, share):
 
 
 def within(u, v, box):
-    """Whether places are within (u0, v0, u1, v1)."""
+    """Whether positions are within (u0, v0, u1, v1)."""
     return ((u > box[0]) & (v > box[1]) & (u < box[2]) & (v < box[3])).astype(float)
 
 
 def letters(u, v, box, lines, seed):
-    """Lines of blocks that look like print from afar: 1 where there is ink."""
+    """Lines of blocks that look like print from a distance: 1 for ink."""
     height = (box[3] - box[1]) / lines
     row = np.floor((v - box[1]) / height)
     column = np.floor((u - box[0]) / (height * 0.45))
@@ -72,7 +72,7 @@ def letters(u, v, box, lines, seed):
     inside_v = (v - box[1]) / height - row
     word = hashed(column, row, seed) > 0.2
     end = box[0] + (box[2] - box[0]) * (0.55 + 0.45 * hashed(row, row, seed + 1))
-    # A letter is a block of 3 x 5 strokes, some of them without ink.
+    # A letter is a block of 3 x 5 strokes; some have no ink.
     stroke = hashed(column * 3 + np.floor(inside_u * 3.6), row * 5 + np.floor(inside_v * 7),
                     seed + 2) > 0.33
     body = (inside_u < 0.83) & (inside_v > 0.2) & (inside_v < 0.86)
@@ -102,7 +102,7 @@ def brick(u, v, seed):
     color = mix(color, linear(190, 170, 155), 0.35 * bloom)
     mortar = mix(linear(150, 142, 130), linear(186, 178, 164),
                  clouds(u * 110, v * 110, seed + 7, 3))
-    # The joint lies back: its upper side is in the shade of the brick above.
+    # The joint is recessed: the brick above shades its upper side.
     shade = np.where(inside_v > height - joint, 0.74, 1.0)
     face = step(joint - 0.002, joint + 0.001, edge)
     rounded = 0.82 + 0.18 * step(joint, joint + 0.006, edge)
@@ -110,7 +110,7 @@ def brick(u, v, seed):
 
 
 def plaster(u, v, seed):
-    """Lime plaster under thin paint, with patches where it was mended and scuffs."""
+    """Lime plaster under thin paint, with repaired patches and scuffs."""
     color = mix(linear(176, 178, 160), linear(205, 203, 184), clouds(u * 3, v * 3, seed, 5))
     grain = clouds(u * 90, v * 90, seed + 1, 2)
     color = color * (0.86 + 0.28 * grain)[:, None]
@@ -168,7 +168,7 @@ def wood(u, v, seed, plank=0.115):
 
 
 def leg(u, v, seed):
-    """Wood that grows along v."""
+    """Wood with its grain along v."""
     return wood(v, u, seed, plank=0.2)
 
 
@@ -218,7 +218,7 @@ def carton_front(u, v, seed):
 # ---- books and paper -----------------------------------------------------------------------------
 
 def cover(u, v, seed, size, cloth, print_color):
-    """Cloth with a frame, a title and a worn rim."""
+    """Cloth with a frame, a title and a worn border."""
     weave = 0.5 * noise(u * 240, v * 120, seed) + 0.5 * noise(u * 120, v * 240, seed + 1)
     color = cloth * (0.74 + 0.32 * weave + 0.2 * clouds(u * 15, v * 15, seed + 2, 3))[:, None]
     edge = np.minimum(np.minimum(u, size[0] - u), np.minimum(v, size[1] - v))
@@ -235,7 +235,7 @@ def cover(u, v, seed, size, cloth, print_color):
 
 
 def spine(u, v, seed, size, cloth, print_color):
-    """The narrow side of a cover, with bands across it and a title along it."""
+    """The spine of a book, with bands across it and a title along it."""
     weave = 0.5 * noise(u * 240, v * 120, seed) + 0.5 * noise(u * 120, v * 240, seed + 1)
     color = cloth * (0.7 + 0.5 * weave)[:, None]
     from_end = np.minimum(u, size[0] - u)
@@ -246,7 +246,7 @@ def spine(u, v, seed, size, cloth, print_color):
 
 
 def pages(u, v, seed, size, cloth):
-    """The cut of a book between its covers."""
+    """The page edges of a book between its covers."""
     sheets = noise(u * 7, v * 900, seed) * 0.6 + noise(u * 25, v * 450, seed + 1) * 0.4
     color = linear(206, 194, 166) * (0.66 + 0.42 * sheets)[:, None]
     color = color * (0.88 + 0.2 * clouds(u * 25, v * 40, seed + 2, 2))[:, None]
@@ -274,7 +274,7 @@ def squared_paper(u, v, seed):
 # ---- paint and prints ----------------------------------------------------------------------------
 
 def tin(u, v, seed):
-    """Once around a painted tin: bands, diamonds, dents in the paint."""
+    """The side of a painted tin: bands, diamonds, dents in the paint."""
     color = mix(linear(58, 104, 104), linear(72, 122, 116), clouds(u * 20, v * 20, seed, 3))
     cream = linear(214, 202, 168) * (0.9 + 0.15 * noise(u * 60, v * 60, seed + 1))[:, None]
     color = mix(color, cream, (v > 0.035) & (v < 0.1))

@@ -1,4 +1,4 @@
-"""Where the photographs of the desk are taken from, and with which lenses."""
+"""The camera poses and lenses of the photographs of the desk."""
 
 import math
 import typing
@@ -6,14 +6,14 @@ import typing
 import numpy as np
 
 WIDTH, HEIGHT = 640, 480
-AIM = np.array([-0.16, 0.1, 0.1])  # what the photographer looks at, more or less
+AIM = np.array([-0.16, 0.1, 0.1])  # the approximate target of all views
 
 
 class Lens(typing.NamedTuple):
-    """COLMAP's OPENCV camera, of which the others are cases."""
+    """COLMAP's OPENCV camera; other models are special cases."""
     camera_id: int
     model: str
-    shown: tuple  # the parameters as cameras.txt has them
+    shown: tuple  # the parameters in cameras.txt
     fx: float
     fy: float
     cx: float
@@ -24,14 +24,14 @@ class Lens(typing.NamedTuple):
     p2: float = 0.0
 
     def bent(self, x, y):
-        """What the lens makes of places at depth one."""
+        """Distorts positions at depth one."""
         r2 = x * x + y * y
         radial = self.k1 * r2 + self.k2 * r2 * r2
         return (x + x * radial + 2 * self.p1 * x * y + self.p2 * (r2 + 2 * x * x),
                 y + y * radial + 2 * self.p2 * x * y + self.p1 * (r2 + 2 * y * y))
 
     def straight(self, pixel_x, pixel_y):
-        """The places at depth one that the lens shows at these pixels."""
+        """The positions at depth one that the lens shows at these pixels."""
         bent_x, bent_y = (pixel_x - self.cx) / self.fx, (pixel_y - self.cy) / self.fy
         x, y = bent_x, bent_y
         for _ in range(30):
@@ -57,7 +57,7 @@ class View(typing.NamedTuple):
 
     @property
     def rotation(self):
-        """Of quaternions as they are written, rounded, which COLMAP makes of length one."""
+        """From the rounded quaternion in the file, which COLMAP normalizes."""
         w, x, y, z = np.array(self.quaternion) / np.linalg.norm(self.quaternion)
         return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                          [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -80,9 +80,9 @@ class View(typing.NamedTuple):
         return (self.lens.fx * x + self.lens.cx, self.lens.fy * y + self.lens.cy, local[:, 2])
 
     def shows(self, places, margin=0.0):
-        """Whether the picture holds the places."""
+        """Whether the image shows the positions."""
         local = places @ self.rotation.T + self.translation
-        # Far outside of the picture a lens that bends inwards shows places again.
+        # A lens with barrel distortion maps positions far outside back into the image.
         ahead = (local[:, 2] > 0.05) & (np.hypot(local[:, 0], local[:, 1]) < 1.2 * local[:, 2])
         x, y, _ = self.project(places)
         return (ahead & (x > margin) & (y > margin) & (x < WIDTH - margin)
@@ -90,7 +90,7 @@ class View(typing.NamedTuple):
 
 
 def quaternion_of(rotation):
-    """w, x, y, z of a rotation by less than half a turn."""
+    """The quaternion (w, x, y, z) of a rotation by less than half a turn."""
     w = math.sqrt(max(1e-12, 1 + np.trace(rotation))) / 2
     return (w, (rotation[2, 1] - rotation[1, 2]) / (4 * w),
             (rotation[0, 2] - rotation[2, 0]) / (4 * w),
@@ -98,7 +98,7 @@ def quaternion_of(rotation):
 
 
 def looking(center, aim, tilt):
-    """The rotation of a camera that is held upright but for tilt."""
+    """The rotation of an upright camera with a roll of `tilt`."""
     ahead = (aim - center) / np.linalg.norm(aim - center)
     right = np.cross(ahead, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
@@ -108,7 +108,7 @@ def looking(center, aim, tilt):
 
 
 def arc(chance):
-    """Seven views from the height of the eyes of one who sits, five from one who stands."""
+    """Seven views from the eye height of a sitting person, five from that of a standing one."""
     places = [(-14 + 13.5 * k, 20, 1.18) for k in range(7)]
     places += [(-6 + 15.5 * k, 41, 1.25) for k in range(5)]
     views = []

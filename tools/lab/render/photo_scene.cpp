@@ -50,7 +50,7 @@ PhotoScene photo_scene(std::string_view name)
     const auto* found = std::find_if(kScenes.begin(), kScenes.end(),
                                      [&](const NamedScene& scene) { return scene.name == name; });
     if (found == kScenes.end()) {
-        throw UsageError(fmt::format("there is no scene {}; there are {}", name,
+        throw UsageError(fmt::format("unknown scene {}; expected one of {}", name,
                                      fmt::join(photo_scene_names(), ", ")));
     }
     return found->make();

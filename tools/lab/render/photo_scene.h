@@ -11,13 +11,13 @@
 
 namespace vcarve::render {
 
-/// What the pictures lose on the sensor.
+/// Degradation of the images by the sensor.
 struct Grain {
     double blur_px = 0.0; ///< standard deviation of a Gaussian
-    double noise = 0.0;   ///< standard deviation, of 255
+    double noise = 0.0;   ///< standard deviation, in levels of 255
 };
 
-/// From the frame the scene is built in to the one its truth is written in.
+/// The transformation from the frame of the scene to the frame of its truth file.
 struct Frame {
     double scale = 1.0;
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
@@ -29,21 +29,21 @@ struct Frame {
     }
 };
 
-/// A scene and how it is photographed: all that a reconstruction starts from.
+/// A scene and its photographs: the input of a reconstruction.
 struct PhotoScene {
     Parts parts;
     std::vector<Pinhole> views; ///< all with the same lens and size
-    int features = 2200;        ///< to find in a view, at most
-    double pair_reach = 1000.0; ///< views with centres farther apart are not matched
+    int features = 2200;        ///< maximum number per view
+    double pair_reach = 1000.0; ///< views with centers farther apart are not matched
     Grain grain;
     Frame frame;
 };
 
-/// Names of the scenes there are: the still life of fixtures/scene first, then the others, which
-/// quality is studied on. Units and frames differ from scene to scene on purpose.
+/// The names of the scenes: first the still life of fixtures/scene, then the scenes for studies of
+/// quality. Units and frames intentionally differ between scenes.
 std::vector<std::string> photo_scene_names();
 
-/// The scene of that name, the same on every machine. Throws UsageError where there is none.
+/// The scene with this name, the same on every machine. Throws UsageError if it is unknown.
 PhotoScene photo_scene(std::string_view name);
 
 } // namespace vcarve::render

@@ -11,14 +11,14 @@ namespace {
 
 constexpr int kSamplesASide = 2;
 
-/// Diffuse light from one side over an even one, so that corners show.
+/// Ambient light plus diffuse light from one side, so that corners are visible.
 float light(const Eigen::Vector3d& normal)
 {
     const Eigen::Vector3d sun = Eigen::Vector3d(-0.4, -0.7, 0.9).normalized();
     return static_cast<float>(0.55 + 0.45 * std::max(0.0, normal.dot(sun)));
 }
 
-/// Blurs along one side of the picture; beyond its ends goes on what is there.
+/// Blurs along one axis of the image; border pixels are repeated outside.
 Picture blurred_along(const Picture& picture, double sigma_px, int step_x, int step_y)
 {
     const int reach = static_cast<int>(std::ceil(3.0 * sigma_px));
@@ -42,7 +42,7 @@ Picture blurred_along(const Picture& picture, double sigma_px, int step_x, int s
     return result;
 }
 
-/// A number of the normal distribution (Box and Muller), the same with every library.
+/// A normally distributed number (Box and Muller), the same with every library.
 double normal_number(std::mt19937& random)
 {
     const double share = (static_cast<double>(random()) + 1.0) / 4294967297.0;
@@ -52,7 +52,7 @@ double normal_number(std::mt19937& random)
 
 using Corner = Eigen::Matrix<std::int32_t, 3, 1>;
 
-/// A number between 0 and 1 that belongs to a corner of a lattice.
+/// A random number between 0 and 1 for a corner of a lattice.
 double value_at(const Corner& corner, std::uint32_t seed)
 {
     std::uint32_t mixed = seed * 0x9e3779b9U + 0x7f4a7c15U;
@@ -64,7 +64,7 @@ double value_at(const Corner& corner, std::uint32_t seed)
     return static_cast<double>(mixed) / 4294967295.0;
 }
 
-/// Blends the values at the eight corners around a place smoothly.
+/// Smoothly interpolates the values at the eight corners around a position.
 double lattice_noise(const Eigen::Vector3d& place, std::uint32_t seed)
 {
     const Eigen::Vector3d floor = place.array().floor();

@@ -9,16 +9,15 @@
 
 namespace vcarve::render {
 
-/// A picture of parts with a texture of solid noise under even light and some from one side; four
-/// samples a pixel.
+/// Renders parts with a texture of solid noise, in ambient light and light from one side; four
+/// samples per pixel.
 Picture photograph(const Parts& parts, const Pinhole& view);
 
-/// The picture as a sensor gives it; its noise is the same for the same seed.
+/// Applies blur and noise of a sensor. Noise depends on the seed only.
 Picture grainy(const Picture& picture, const Grain& grain, std::uint32_t seed);
 
-/// Smooth noise in space between 0 and 1, a sum of lattices from `coarsest` down by halves, all of
-/// the same strength, so that it has detail at every distance. The same everywhere for the same
-/// seed.
+/// Smooth noise in space between 0 and 1: a sum of lattices whose spacings halve from `coarsest`.
+/// All have the same amplitude, so there is detail at every distance. Reproducible for a seed.
 struct SolidNoise {
     double coarsest = 1.0; ///< spacing of the coarsest lattice
     int lattices = 8;

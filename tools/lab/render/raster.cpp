@@ -11,7 +11,7 @@ namespace vcarve::render {
 
 namespace {
 
-/// A face in the camera's frame and its plane, normal . place = height.
+/// A face in the camera's frame and its plane, normal . position = height.
 struct FaceInCamera {
     std::array<Eigen::Vector3d, 3> corners;
     Eigen::Vector3d normal;
@@ -50,7 +50,7 @@ double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
     return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// A stretch of pixels, first to last, that may lie between two places along a row or a column.
+/// The range of pixels, first to last, between two positions along a row or column.
 std::pair<int, int> pixels_between(double low, double high, int count)
 {
     const double first = std::clamp(std::floor(low - 0.5), 0.0, static_cast<double>(count));
@@ -118,8 +118,7 @@ class DepthBuffer {
     std::vector<Hit> hits_;
 };
 
-/// A plane before the camera, nearer than anything worth drawing: a millionth of the farthest
-/// vertex.
+/// The depth of the near plane: a millionth of the depth of the farthest vertex.
 double near_plane(const TriMesh& mesh, const Pinhole& view)
 {
     double farthest_sq = 0.0;

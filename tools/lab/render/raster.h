@@ -9,8 +9,8 @@
 
 namespace vcarve::render {
 
-/// A lens without distortion at a place in the mesh's frame. Pixel (x, y) is centred at x + 0.5, y
-/// + 0.5.
+/// A camera without distortion in the mesh's frame. The center of pixel (x, y) is (x + 0.5, y +
+/// 0.5).
 struct Pinhole {
     Eigen::Matrix3d cam_from_world =
         Eigen::Matrix3d::Identity(); ///< rotation; z looks ahead, y down
@@ -20,29 +20,29 @@ struct Pinhole {
     int width_px = 0;
     int height_px = 0;
 
-    /// The direction in the world of the ray through a place in the image; its z in the camera
+    /// The direction in the world of the ray through an image position. Its z in the camera's frame
     /// is 1.
     Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
 };
 
-/// The same image with `factor` times the pixels a side.
+/// The same view with `factor` times as many pixels per side.
 Pinhole enlarged(const Pinhole& view, int factor);
 
-/// What a pixel shows: the nearest face, or kNoFace.
+/// The nearest face at a pixel, or kNoFace.
 struct Hit {
     static constexpr std::uint32_t kNoFace = 0xffffffffU;
     std::uint32_t face = kNoFace;
-    bool front = false; ///< seen from the side its vertices run counter-clockwise on
+    bool front = false; ///< whether the vertices are counterclockwise from the view
     double depth = 0.0; ///< along the camera's z
 };
 
-/// Renders a mesh with a depth buffer: one Hit a pixel, row by row. Exact up to rounding: depth
-/// comes from the face's plane, nothing is left out but what lies behind the camera. Cost: linear
-/// in faces plus pixels covered.
+/// Renders a mesh with a depth buffer: one Hit per pixel, row by row. Exact up to rounding: depth
+/// is that of the face's plane, and only parts behind the camera are clipped. Cost: linear in faces
+/// plus covered pixels.
 std::vector<Hit> rasterize(const TriMesh& mesh, const Pinhole& view);
 
-/// Unit normal of a face on the side its vertices run counter-clockwise on; zero for a face without
-/// area.
+/// The unit normal of a face, towards the side from which its vertices are counterclockwise; zero
+/// for a face without area.
 Eigen::Vector3d face_normal(const TriMesh& mesh, std::uint32_t face);
 
 struct Lens {
@@ -51,11 +51,11 @@ struct Lens {
     double focal_px = 760.0;
 };
 
-/// A level camera at a place that looks at another, z upwards.
+/// A level camera at `center` that looks at `target`; z is up.
 Pinhole looking_at(const Lens& lens, const Eigen::Vector3d& center, const Eigen::Vector3d& target);
 
-/// Cameras on an arc of a level circle around a target, evenly spaced, all looking at it. Turn 0
-/// stands at -y of the target, 90 at +x.
+/// Evenly spaced cameras on an arc of a horizontal circle around a target, all looking at it. Turn
+/// 0 is at -y of the target, 90 at +x.
 struct Arc {
     Eigen::Vector3d target;
     double radius;

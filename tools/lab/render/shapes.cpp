@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-/// Joins rows of a ball's vertices, from one pole to the other, the rows counter-clockwise seen
-/// from the last pole.
+/// Joins the rows of vertices of a ball, from pole to pole. Rows are counterclockwise from the last
+/// pole.
 struct BallRows {
     std::uint32_t bottom;
     std::uint32_t first;
     std::uint32_t top;
-    int rings; ///< rows of vertices and one
-    int steps; ///< vertices a row
+    int rings; ///< number of rows of vertices + 1
+    int steps; ///< vertices per row
 };
 
 void join_ball(PartBuilder& builder, const BallRows& ball)
@@ -34,7 +34,8 @@ void join_ball(PartBuilder& builder, const BallRows& ball)
     }
 }
 
-/// A ball of the given rings and steps with every vertex where `place` puts its unit direction.
+/// Adds a ball with these rings and steps. `place` maps the unit direction of a vertex to its
+/// position.
 template <typename Place>
 void add_ball(PartBuilder& builder, int rings, int steps, const Place& place)
 {
@@ -64,7 +65,7 @@ void join_torus(PartBuilder& builder, std::uint32_t first, int around, int acros
     }
 }
 
-/// Adds the quads of a board; every one has corners of its own.
+/// Adds the quads of a board, which share no vertices.
 class BoardFaces {
   public:
     BoardFaces(PartBuilder& builder, const Board& board) : builder_(builder), board_(board) {}
@@ -81,7 +82,7 @@ class BoardFaces {
   private:
     using Corners = std::array<Eigen::Vector3d, 4>;
 
-    /// Outside the grid everything is hole.
+    /// The front of a cell; cells outside of the grid are holes.
     double front(std::size_t i, std::size_t k) const
     {
         if (i >= board_.x.size() - 1 || k >= board_.z.size() - 1) return board_.back;
@@ -97,7 +98,7 @@ class BoardFaces {
         builder_.quad(v);
     }
 
-    /// Front, back, and towards each neighbour with a deeper front the side between both.
+    /// Adds the front, the back, and the sides towards neighbors with a deeper front.
     void add_cell(std::size_t i, std::size_t k)
     {
         const double y = front(i, k);
@@ -110,7 +111,7 @@ class BoardFaces {
             add({{{x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1}}});
             add({{{x0, back, z0}, {x0, back, z1}, {x1, back, z1}, {x1, back, z0}}});
         }
-        // Indices below 0 wrap to outside the grid.
+        // Indices below 0 wrap around and are outside of the grid.
         if (const double d = front(i - 1, k); d > y) {
             add({{{x0, y, z0}, {x0, y, z1}, {x0, d, z1}, {x0, d, z0}}});
         }

@@ -7,40 +7,46 @@
 #include <bit>
 #include <utility>
 
-// A one-sided relative of excesses incremental breadth-first search: Goldberg, Hed, Kaplan, Kohli,
-// Tarjan, Werneck, "Faster and more dynamic maximum flow by incremental breadth-first search"
-// (ESA 2015), after "Maximum flows by incremental breadth-first search" (ESA 2011).
+// The minimum cut by EIBFS, excesses incremental breadth-first search, in a sink-side-only variant:
+// Goldberg, Hed, Kaplan, Kohli, Tarjan, Werneck, "Faster and more dynamic maximum flow by
+// incremental breadth-first search" (ESA 2015), after "Maximum flows by incremental breadth-first
+// search" (ESA 2011).
 //
-// A forest of shortest paths grows level by level from the cells with a deficit, against the arcs
-// with residual capacity. Where it meets excess it pulls what the arc carries and pushes it from
-// parent to parent down to the roots. An arc that saturates, or a root that is filled, leaves
-// orphans. Those that find no other parent on their level are detached with all below them, then
-// reattached by breadth-first search from what still stands, or left out of the forest. What cannot
-// reach a root is left as excess outside the forest. When the forest grows no more it holds exactly
-// the cells that reach a deficit, and no arc with residual capacity enters it: the minimum cut.
+// Network (FlowNetwork, model/visibility_energy.h). Nodes are cells; an arc leads through each
+// facet in each direction. A cell's excess is the residual capacity from the source, its deficit
+// (negative excess) that to the sink. The sink side of the cut is inside, the source side outside.
+// RayCaster (4_visibility/trace.cpp) adds the terms of rays. cut_network()
+// (5_labels/label_cells.cpp) adds the costs of facets, and merges infinite cells and cells of views
+// with the source.
 //
-// Departures from the papers: only the sink side grows, since our excess sits next to the deficits;
-// detached cells are reattached in one search instead of relabelled one by one; and blocks of
-// consecutive cells, which lie close together in space and fit a cache, are first solved alone,
-// side by side, then merged. Whatever they push, the labels come out the same.
+// Algorithm. A forest of shortest paths grows level by level from roots, the cells with a deficit,
+// against arcs with residual capacity. If it meets excess, it pulls as much as the arc carries and
+// pushes it from parent to parent to the root. Saturated arcs and filled roots leave orphans, which
+// look for another parent on the level above. Orphans without one are detached with their subtrees,
+// then reattached by breadth-first search from the rest of the forest, or left out. Excess that
+// cannot reach a root stays outside the forest. In the end the forest contains exactly the cells
+// that reach a deficit, and no arc with residual capacity enters it: it is the sink side.
 //
-// Blocks are merged by growing through their forests again, but only from cells that can lower a
-// level: first those with a neighbour in another block, then those whose own level was lowered. The
-// levels of all others stay right. Up to depth_ the forest is what it would be had it grown from
-// nothing; below hang parts of the old ones, whose cells hold no excess, whose levels may be too
-// high, and whose parents then are higher up than the level above.
+// Differences from EIBFS. Only the sink side grows, because the excess of rays is next to deficits.
+// One search reattaches all detached cells, instead of relabeling one by one. Blocks of consecutive
+// cells, which are close in space and fit a cache, are solved separately, in parallel, then merged.
+// The labels do not depend on the blocks.
 //
-// Loops over the facets of a cell first gather in bits, without branches, which ones are meant:
-// what holds for a facet is too irregular to be predicted.
+// Merging. A merge grows through the forests of its blocks again, but only from cells that can
+// lower a level: cells with a neighbor in another block, then cells with a lowered level. All other
+// levels stay correct. Down to depth_ the forest is as if grown from scratch. Deeper parts are old:
+// cells there have no excess, levels may be too high, and parents several levels above.
 //
-// Cost: while a forest grows, a cell's level only rises, each rise costs a constant, and between
-// rises of cells with excess an augmentation pushes once a cell: O(cells^3) at worst, nearly linear
-// on networks of sights. A merge lowers levels of the forests it merges first.
+// Loops over the facets of a cell first select facets as bits, without unpredictable branches.
+//
+// Cost: while a forest grows, levels only rise, and each rise costs a constant. Between rises of
+// cells with excess, an augmentation pushes once per cell. This is O(cells^3) at worst, and nearly
+// linear for networks of rays. A merge first lowers levels of its forests.
 
 namespace vcarve {
 namespace {
 
-constexpr std::int32_t kElsewhere = -1; ///< level of cells not in the block
+constexpr std::int32_t kElsewhere = -1; ///< level of cells outside the block
 constexpr std::size_t kFetchAhead = 8;
 /// Enough to share augmentations, few enough to stay in the cache.
 constexpr int kScansPerAugmentation = 256;
@@ -54,7 +60,7 @@ std::int32_t FlowForest::level(Index cell) const
     return here ? found : kElsewhere;
 }
 
-/// The cell, or the other one if it is not in the block.
+/// `cell`, or `other` if `cell` is outside the block.
 Index FlowForest::if_here(Index cell, Index other) const
 {
     return cell - first_ < count_ ? cell : other;
@@ -80,7 +86,7 @@ void FlowForest::list_to_augment(Index cell)
 
 // ---- orphans ------------------------------------------------------------------------------------
 
-/// Adopts an orphan: gives it another parent that keeps it on its level, if there is one.
+/// Gives an orphan another parent on the level above. Returns false if there is none.
 bool FlowForest::adopt(Index cell)
 {
     const std::int32_t above = nodes_[cell].level - 1;
@@ -93,7 +99,7 @@ bool FlowForest::adopt(Index cell)
     }
     for (; parents != 0; parents &= parents - 1) {
         const int slot = std::countr_zero(parents);
-        // Roots that have been filled are orphans themselves.
+        // Filled roots are orphans themselves.
         if (above == 1 && nodes_[graph_.neighbor(cell, slot)].excess >= 0) continue;
         nodes_[cell].parent = static_cast<std::uint8_t>(slot);
         return true;
@@ -120,7 +126,7 @@ void FlowForest::adopt_or_detach(Index cell)
     }
 }
 
-/// Lists a detached cell under the level it gets from what still stands of the forest.
+/// Lists a detached cell by the level below its best parent in the rest of the forest.
 void FlowForest::seek_parent(Index cell)
 {
     std::int32_t best = depth_;
@@ -135,7 +141,7 @@ void FlowForest::seek_parent(Index cell)
     if (best < depth_) orphans_.add(cell, best + 1);
 }
 
-/// Hangs on a reattached cell the detached ones around it.
+/// Makes the neighbors of a reattached cell that are outside the forest its children.
 void FlowForest::reach_from(Index cell)
 {
     const std::int32_t below = nodes_[cell].level + 1;
@@ -155,7 +161,7 @@ void FlowForest::reach_from(Index cell)
     }
 }
 
-/// Breadth-first search of the detached cells, from where they touch the forest.
+/// Reattaches detached cells by breadth-first search from the rest of the forest.
 void FlowForest::reattach()
 {
     for (std::int32_t level = orphans_.lowest(); level <= depth_; ++level) {
@@ -173,7 +179,7 @@ void FlowForest::reattach()
     }
 }
 
-/// Mends the forest after augmenting. Orphans come by rising level: above them all is settled.
+/// Repairs the forest after augmentations. Handles orphans by rising level: lower ones are final.
 void FlowForest::repair()
 {
     for (std::int32_t level = orphans_.lowest(); level != kMost; level = orphans_.lowest())
@@ -193,7 +199,7 @@ void FlowForest::repair()
 
 // ---- augmenting ---------------------------------------------------------------------------------
 
-/// Pushes the excess of a cell on, by as many parents on the level above as that takes.
+/// Pushes the excess of a cell through its parent, then through others on the level above.
 void FlowForest::augment(Index cell)
 {
     FlowNode& node = nodes_[cell];
@@ -222,8 +228,8 @@ void FlowForest::augment(Index cell)
     }
 }
 
-/// Augments from the deepest level up, so that excess gathers on the way; then mends the forest,
-/// and again for what was reattached with excess. Leaves no excess in the forest.
+/// Augments from the deepest level up, so that excess accumulates, then repairs the forest. Repeats
+/// this for cells that were reattached with excess. Leaves no excess in the forest.
 void FlowForest::augment_all()
 {
     do {
@@ -242,8 +248,8 @@ void FlowForest::augment_all()
 
 // ---- growing ------------------------------------------------------------------------------------
 
-/// Pulls the excess around a cell and makes the cells that have none left its children. Stops and
-/// returns true when the cell has no room.
+/// Pulls the excess of neighbors, and makes neighbors without excess children of the cell. Stops
+/// and returns true if the cell has no room.
 bool FlowForest::activate(Index cell)
 {
     unsigned gains = 0;
@@ -282,8 +288,8 @@ void FlowForest::grow_from(Index cell)
     }
 }
 
-/// Asks early for the memory that the next cells of growing_ need: half of the time of a large
-/// front is waiting for it.
+/// Prefetches the memory of the next cells of growing_. Waiting for it would be half of the time of
+/// a large front.
 void FlowForest::fetch_ahead(std::size_t at) const
 {
     if (at + 2 * kFetchAhead >= growing_.size()) return;
@@ -333,7 +339,7 @@ FilledBlock FlowForest::fill()
 
 // ---- merging ------------------------------------------------------------------------------------
 
-/// Whether a cell has a neighbour that is not in the block.
+/// Whether a cell has a neighbor outside the block.
 bool FlowForest::leaves(Index cell) const
 {
     const std::array<Index, 4>& neighbors = graph_.cells[cell].neighbors;
@@ -341,7 +347,7 @@ bool FlowForest::leaves(Index cell) const
                        [&](Index beyond) { return beyond - first_ >= count_; });
 }
 
-/// Whether a cell gives a neighbour a lower level than it has.
+/// Whether a cell can lower the level of a neighbor.
 bool FlowForest::lowers(Index cell) const
 {
     const std::int32_t own = nodes_[cell].level;
@@ -354,11 +360,11 @@ bool FlowForest::lowers(Index cell) const
     return false;
 }
 
-/// Lists the cells of old forests that may be the way back of a cell that got detached.
+/// Lists the neighbors in old forests through which a detached cell may return.
 void FlowForest::list_to_visit_around(Index cell)
 {
     for (const Index beyond : graph_.cells[cell].neighbors) {
-        // Those that wait will be visited anyway.
+        // Waiting cells are visited anyway.
         if (level(beyond) < depth_ || nodes_[beyond].waits) continue;
         visits_[static_cast<std::size_t>(nodes_[beyond].level)].push_back(beyond);
     }

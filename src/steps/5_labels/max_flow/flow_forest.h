@@ -8,17 +8,16 @@
 
 namespace vcarve {
 
-/// The cells [first, last) once all excess has been pushed to the deficits that it can reach within
-/// them.
+/// The cells [first, last) after all excess was pushed to the deficits that it can reach in them.
 struct FilledBlock {
     Index first;
     Index last;
-    std::int32_t deepest;      ///< no cell has a higher level
-    std::vector<Index> border; ///< cells with a neighbour elsewhere
+    std::int32_t deepest;      ///< upper bound of the levels
+    std::vector<Index> border; ///< cells with a neighbor in another block
 };
 
-/// The forest of shortest paths to the deficits in the cells [first, last), see flow_forest.cpp. It
-/// neither reads nor writes nodes or arcs elsewhere.
+/// The forest of shortest paths to the deficits in the block of cells [first, last);
+/// flow_forest.cpp explains it. It neither reads nor writes nodes or arcs outside the block.
 class FlowForest {
   public:
     FlowForest(FlowGraph& graph, Index first, Index last)
@@ -26,10 +25,10 @@ class FlowForest {
     {
     }
 
-    /// Pushes all excess to the deficits it can reach within the block. No cell has a level before.
+    /// Pushes all excess to the deficits it can reach in the block. Precondition: all levels are 0.
     FilledBlock fill();
 
-    /// The same for a block made of filled ones, in their order, at the cost of what changes.
+    /// The same for the concatenation of filled blocks, at a cost that depends on the changes.
     FilledBlock merge(std::span<const FilledBlock> parts);
 
   private:
@@ -61,17 +60,17 @@ class FlowForest {
     FlowNode* nodes_;
     Index first_;
     Index count_;
-    /// Deepest level grown so far; while blocks are merged, parts of their forests lie deeper.
+    /// Deepest level grown so far. While blocks are merged, parts of their forests are deeper.
     std::int32_t depth_ = 1;
-    std::vector<Index> front_;     ///< all cells that joined on that level, and some that were
-    std::vector<Index> growing_;   ///< the front of the level above, and the cells to visit there
-    LevelBuckets orphans_{nodes_}; ///< by their level; of detached cells, by the one they may get
+    std::vector<Index> front_;     ///< all cells that joined at that level; some have left it
+    std::vector<Index> growing_;   ///< the front of the level above, and its visits
+    LevelBuckets orphans_{nodes_}; ///< by level; detached cells by their new level
     LevelBuckets active_{nodes_};  ///< cells of the forest with excess
-    std::vector<Index> late_;      ///< cells whose parent had no room left for all their excess
+    std::vector<Index> late_;      ///< cells whose parent had no room for all their excess
     std::vector<Index> detached_;
-    std::vector<Index> wave_; ///< cells reattached on one level, and on the next
+    std::vector<Index> wave_; ///< cells reattached at one level, and at the next
     std::vector<Index> next_wave_;
-    /// While blocks are merged: by level, cells that may give a lower level to their neighbours.
+    /// While blocks are merged: by level, cells that may lower the level of a neighbor.
     std::vector<std::vector<Index>> visits_;
 };
 

@@ -17,29 +17,29 @@ namespace vcarve {
 inline constexpr std::uint8_t kNoParent = 4; ///< of roots and orphans
 inline constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
 
-/// What the solver keeps of a cell besides the residual capacities of its arcs.
+/// The solver's state of a cell, beside the residual capacities of its arcs.
 struct FlowNode {
-    std::int32_t level; ///< 1 for roots, 0 for cells outside the forest
-    std::int32_t excess;
-    Index next; ///< in a bucket
+    std::int32_t level;  ///< 1 for roots, 0 for cells outside the forest
+    std::int32_t excess; ///< negative: a deficit
+    Index next;          ///< in a bucket
     std::uint8_t mirrors;
     std::uint8_t parent; ///< slot towards the parent
     bool waits;          ///< is in the front
     bool is_active;      ///< is in the bucket of cells to augment
 };
 static_assert(sizeof(FlowNode) == 16);
-static_assert(std::is_trivially_default_constructible_v<FlowNode>); // made without being touched
+static_assert(std::is_trivially_default_constructible_v<FlowNode>); // allocation touches no page
 
 /// A flow network while it is solved.
 struct FlowGraph {
     const UnsetArray<Cell>& cells;
-    ArcCapacities arc_capacities; ///< what the flow leaves of them
+    ArcCapacities arc_capacities; ///< residual
     UnsetArray<FlowNode> nodes;
 
     Index neighbor(Index cell, int slot) const { return cells[cell].neighbors[slot]; }
     int mirror(Index cell, int slot) const { return (nodes[cell].mirrors >> (2 * slot)) & 3; }
 
-    /// Of the arc that leaves `cell` by `slot`. Below 2^32: it and its reverse begin below 2^31.
+    /// Of the arc that leaves `cell` by `slot`. Below 2^32: it and its reverse start below 2^31.
     std::uint32_t capacity_out(Index cell, int slot) const
     {
         return static_cast<std::uint32_t>(arc_capacities[cell][slot]);
@@ -51,7 +51,7 @@ struct FlowGraph {
         return capacity_out(neighbor(cell, slot), mirror(cell, slot));
     }
 
-    /// What a cell of the forest may take: a root its deficit, others as much as excess can count.
+    /// The excess that a cell of the forest can receive: a root its deficit, others up to kMost.
     std::uint32_t room(Index cell) const
     {
         const auto excess = static_cast<std::uint32_t>(nodes[cell].excess);
@@ -71,7 +71,7 @@ struct FlowGraph {
     }
 };
 
-/// Cells listed by level. A cell can be in one bucket at a time.
+/// Buckets of cells by level. A cell can be in one bucket at a time.
 class LevelBuckets {
   public:
     explicit LevelBuckets(FlowNode* nodes) : nodes_(nodes) {}

@@ -21,7 +21,7 @@ void check_sizes(const TetMesh& cells, const FlowNetwork& network)
         throw std::invalid_argument("minimum_cut: cells, mirrors and network differ in size");
 }
 
-/// Makes the node of a cell; `graph` has its arcs.
+/// Initializes the node of a cell; `graph` has its arcs.
 void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph& graph)
 {
     graph.nodes[cell] = {.level = 0,
@@ -34,12 +34,12 @@ void make_node(const TetMesh& cells, Index cell, std::int32_t excess, FlowGraph&
     for (int slot = 0; slot < 4; ++slot) {
         std::int32_t& capacity = graph.arc_capacities[cell][slot];
         if (capacity < 0) throw std::invalid_argument("minimum_cut: an arc capacity is negative");
-        // An arc back to its own cell is in no cut.
+        // An arc from a cell to itself is in no cut.
         if (graph.neighbor(cell, slot) == cell) capacity = 0;
     }
 }
 
-/// Makes all nodes of the graph and fills blocks of so many alone.
+/// Initializes all nodes of the graph and fills blocks of `block_size` cells separately.
 std::vector<FilledBlock> fill_blocks(const TetMesh& cells,
                                      UnsetArray<std::int32_t> terminal_capacities, FlowGraph& graph,
                                      std::size_t block_size, const Progress& progress)
@@ -57,7 +57,7 @@ std::vector<FilledBlock> fill_blocks(const TetMesh& cells,
     return blocks;
 }
 
-/// Merges so many blocks at a time.
+/// Merges groups of `at_a_time` consecutive blocks.
 std::vector<FilledBlock> merge_blocks(std::span<const FilledBlock> blocks, FlowGraph& graph,
                                       std::size_t at_a_time, const Progress& progress)
 {
@@ -84,7 +84,7 @@ Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& 
     std::vector<FilledBlock> filled = fill_blocks(cells, std::move(network.terminal_capacities),
                                                   graph, blocks.cells, progress.part(0.0, 0.7));
     {
-        // Merging asks for few cells of many runs of them.
+        // Merging accesses few cells, scattered over all memory pages.
         const ScatteredUse few_of_many;
         while (filled.size() > blocks.merged)
             filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));

@@ -28,7 +28,7 @@ struct Problem {
 
 // ---- problems -----------------------------------------------------------------------------------
 
-/// Cells without an arc that could carry anything: every cell is its own neighbour.
+/// Cells without usable arcs: every cell is its own neighbor.
 Problem isolated_cells(UnsetArray<std::int32_t> terminal_capacities)
 {
     Problem problem;
@@ -55,7 +55,7 @@ void connect(TetMesh& cells, std::pair<Index, int> a, std::pair<Index, int> b)
     set_mirror(cells, b.first, b.second, a.second);
 }
 
-/// Cells in a row, each leading to the next by slot 1 and back by slot 0.
+/// Cells in a row, each with an arc to the next by slot 1 and one back by slot 0.
 Problem chain(UnsetArray<std::int32_t> terminal_capacities,
               const std::vector<std::int32_t>& forward, const std::vector<std::int32_t>& backward)
 {
@@ -65,7 +65,7 @@ Problem chain(UnsetArray<std::int32_t> terminal_capacities,
         problem.network.arc_capacities[cell][1] = forward[cell];
         problem.network.arc_capacities[cell + 1][0] = backward[cell];
     }
-    // The two ends have a slot left that would break the pairing: join them, with no capacity.
+    // The unpaired slots of the first and last cell are joined, without capacity.
     connect(problem.cells, {static_cast<Index>(problem.cells.cells.size() - 1), 1}, {0, 0});
     return problem;
 }
@@ -74,11 +74,11 @@ struct Kind {
     Index cells;
     std::int32_t max_arc_capacity;
     std::int32_t max_excess;
-    double arcs;  ///< share of arcs that are not zero
-    double roots; ///< share of cells with an excess or a deficit
+    double arcs;  ///< fraction of nonzero arcs
+    double roots; ///< fraction of cells with an excess or a deficit
 };
 
-/// Facets paired at random: several between the same two cells, or one cell with itself, happen.
+/// Pairs facets at random, sometimes several between two cells, or two of one cell.
 Problem random_problem(const Kind& kind, std::mt19937& random)
 {
     UnsetArray<std::int32_t> terminal_capacities(kind.cells, 0);
@@ -102,7 +102,7 @@ Problem random_problem(const Kind& kind, std::mt19937& random)
     return problem;
 }
 
-/// Arcs and terminal_capacities at random on the cells of a Delaunay triangulation.
+/// Random arc and terminal capacities on the cells of a Delaunay triangulation.
 Problem triangulated_problem(std::size_t points, const Kind& kind, std::mt19937& random)
 {
     TetMesh cells = triangulate(testing::random_points(points, 11));
@@ -113,7 +113,7 @@ Problem triangulated_problem(std::size_t points, const Kind& kind, std::mt19937&
     return problem;
 }
 
-/// A long row of cells, two neighbours apart joined as well: deep forests, few places to go.
+/// A long row of cells, also joined over two steps: deep forests with few alternative parents.
 Problem random_ladder(const Kind& kind, std::mt19937& random)
 {
     Problem problem = random_problem(kind, random);
@@ -143,8 +143,8 @@ std::int64_t cut_value(const Problem& problem, const Labels& labels)
     return value;
 }
 
-/// Of all cuts the cheapest, and of those the one with the fewest cells inside. The inside sets of
-/// minimum cuts are closed under intersection, so it lies within all others.
+/// The minimum cut with the fewest inside cells, among all cuts. The inside sets of minimum cuts
+/// are closed under intersection, so this set is a subset of all others.
 Labels cheapest_of_all_cuts(const Problem& problem)
 {
     const std::size_t count = problem.cells.cells.size();
@@ -204,7 +204,7 @@ Graph to_boost(const Problem& problem)
     return graph;
 }
 
-/// The maximum flow, and the cells from which the sink is reached in the residual graph.
+/// The maximum flow, and the cells from which the sink is reachable in the residual graph.
 std::pair<std::int64_t, Labels> boost_cut(const Problem& problem)
 {
     Graph graph = to_boost(problem);
@@ -236,14 +236,14 @@ Labels cut(const Problem& problem)
     return minimum_cut(problem.cells, problem.network);
 }
 
-// ---- cases by hand ------------------------------------------------------------------------------
+// ---- hand-computed cases ------------------------------------------------------------------------
 
-TEST(MinimumCut, OfNoCellsIsEmpty)
+TEST(MinimumCut, IsEmptyForNoCells)
 {
     EXPECT_EQ(cut(isolated_cells({})), Labels());
 }
 
-TEST(MinimumCut, LeavesInsideOnlyIsolatedCellsWithADeficit)
+TEST(MinimumCut, LabelsOnlyIsolatedCellsWithADeficitInside)
 {
     EXPECT_EQ(cut(isolated_cells({3, -2, 0, -kMost, kMost})), Labels({o, i, o, i, o}));
 }
@@ -262,23 +262,23 @@ TEST(MinimumCut, CutsAChainAtItsNarrowestArc)
     EXPECT_EQ(cut(chain({9, 0, 0, 0, -9}, {7, 5, 3, 2}, {0, 0, 0, 0})), Labels({o, o, o, o, i}));
 }
 
-TEST(MinimumCut, TakesOfEqualCutsTheOneNearestTheSink)
+TEST(MinimumCut, ChoosesTheMinimumCutNearestTheSink)
 {
     EXPECT_EQ(cut(chain({9, 0, 0, 0, -9}, {3, 3, 3, 3}, {8, 8, 8, 8})), Labels({o, o, o, o, i}));
     EXPECT_EQ(cut(chain({3, 0, 0, 0, -3}, {3, 3, 3, 3}, {8, 8, 8, 8})), Labels({o, o, o, o, o}));
     EXPECT_EQ(cut(chain({2, 0, 0, 0, -3}, {3, 3, 3, 3}, {8, 8, 8, 8})), Labels({i, i, i, i, i}));
 }
 
-TEST(MinimumCut, LeavesOutsideWhatReachesNoDeficit)
+TEST(MinimumCut, LabelsCellsThatReachNoDeficitOutside)
 {
     EXPECT_EQ(cut(chain({0, 0, 5, 0, 0}, {1, 1, 1, 1}, {1, 1, 1, 1})), Labels(5, o));
     EXPECT_EQ(cut(chain({0, 0, -5, 0, 0}, {1, 1, 1, 1}, {1, 1, 1, 0})), Labels({i, i, i, i, o}));
     EXPECT_EQ(cut(chain({0, 0, 0, 0, 0}, {1, 1, 1, 1}, {1, 1, 1, 1})), Labels(5, o));
 }
 
-TEST(MinimumCut, SendsFlowBackWhereALaterPathNeedsTheArc)
+TEST(MinimumCut, ReturnsFlowIfALaterPathNeedsTheArc)
 {
-    // The short way 1 -> 2 is taken first; the cut is only right once part of it has been undone.
+    // The short path 1 -> 2 is used first. The cut is correct only if part of its flow returns.
     Problem problem = isolated_cells({0, 4, 0, 0, -4, 0});
     connect(problem.cells, {1, 0}, {2, 0});
     connect(problem.cells, {2, 1}, {4, 0});
@@ -299,7 +299,7 @@ TEST(MinimumCut, SendsFlowBackWhereALaterPathNeedsTheArc)
     EXPECT_EQ(cut(problem), Labels({i, i, i, i, i, i}));
 }
 
-TEST(MinimumCut, SurvivesTheLargestNumbers)
+TEST(MinimumCut, HandlesTheLargestCapacities)
 {
     const std::vector<std::int32_t> most(4, kMost);
     EXPECT_EQ(cut(chain({kMost - 1, 0, 0, 0, -kMost - 1}, most, most)), Labels(5, i));
@@ -310,21 +310,21 @@ TEST(MinimumCut, SurvivesTheLargestNumbers)
     EXPECT_EQ(cut(chain({1, -kMost, -kMost, -kMost, -kMost}, most, most)), Labels(5, i));
 }
 
-TEST(MinimumCut, RefusesANegativeArcCapacity)
+TEST(MinimumCut, RejectsANegativeArcCapacity)
 {
     Problem problem = isolated_cells({0, 0});
     problem.network.arc_capacities[1][2] = -1;
     EXPECT_THROW(cut(problem), std::invalid_argument);
 }
 
-TEST(MinimumCut, RefusesANetworkOfAnotherSize)
+TEST(MinimumCut, RejectsANetworkOfDifferentSize)
 {
     Problem problem = isolated_cells({0, 0});
     problem.network.terminal_capacities.push_back(0);
     EXPECT_THROW(cut(problem), std::invalid_argument);
 }
 
-TEST(MinimumCut, RefusesRunsThatWouldNeverMerge)
+TEST(MinimumCut, RejectsBlockSizesThatNeverMerge)
 {
     const Problem problem = isolated_cells({0, 0});
     EXPECT_THROW(minimum_cut(problem.cells, problem.network, {.cells = 0, .merged = 2}),
@@ -373,7 +373,7 @@ TEST(MinimumCut, AgreesWithBoykovKolmogorovOnATriangulation)
     const std::vector<Kind> kinds = {{0, 100, 300, 1.0, 0.9}, {0, 300, 900, 0.9, 0.05}};
     for (const Kind& kind : kinds) {
         const Problem problem = triangulated_problem(8000, kind, random);
-        ASSERT_GT(problem.cells.cells.size(), 3 * 16384U) << "several blocks, to be merged";
+        ASSERT_GT(problem.cells.cells.size(), 3 * 16384U) << "several blocks must be merged";
         const auto [flow, expected] = boost_cut(problem);
         const Labels labels = cut(problem);
         EXPECT_EQ(cut_value(problem, labels), flow);
@@ -381,7 +381,7 @@ TEST(MinimumCut, AgreesWithBoykovKolmogorovOnATriangulation)
     }
 }
 
-TEST(MinimumCut, IsTheSameHoweverRunsAreMerged)
+TEST(MinimumCut, DoesNotDependOnBlockSizes)
 {
     std::mt19937 random(12);
     const std::vector<Kind> kinds = {{300, 1, 1, 1.0, 0.1},        {300, 3, 40, 0.6, 0.1},
@@ -399,7 +399,7 @@ TEST(MinimumCut, IsTheSameHoweverRunsAreMerged)
     }
 }
 
-TEST(MinimumCut, IsTheSameHoweverBlocksOfATriangulationAreMerged)
+TEST(MinimumCut, DoesNotDependOnBlockSizesOnATriangulation)
 {
     std::mt19937 random(13);
     const std::vector<Kind> kinds = {{0, 100, 300, 1.0, 0.9}, {0, 300, 900, 0.9, 0.05}};
@@ -414,7 +414,7 @@ TEST(MinimumCut, IsTheSameHoweverBlocksOfATriangulationAreMerged)
     }
 }
 
-TEST(MinimumCut, IsTheSameForOneAndForTwoThreads)
+TEST(MinimumCut, DoesNotDependOnTheThreadCount)
 {
     std::mt19937 random(8);
     const Problem problem = triangulated_problem(8000, {0, 100, 300, 1.0, 0.9}, random);
@@ -445,9 +445,9 @@ TEST(MinimumCut, SolvesALongChain)
     EXPECT_EQ(cut(chain(std::move(terminal_capacities), forward, backward)), expected);
 }
 
-// ---- relations ----------------------------------------------------------------------------------
+// ---- invariances --------------------------------------------------------------------------------
 
-TEST(MinimumCut, FollowsAPermutationOfTheCellsAndSlots)
+TEST(MinimumCut, IsInvariantToPermutationsOfCellsAndSlots)
 {
     std::mt19937 random(4);
     const Problem problem = random_problem({2000, 20, 60, 0.9, 0.4}, random);
@@ -474,7 +474,7 @@ TEST(MinimumCut, FollowsAPermutationOfTheCellsAndSlots)
         ASSERT_EQ(permuted_labels[order[cell]], labels[cell]) << "cell " << cell;
 }
 
-TEST(MinimumCut, StaysWhenAllCapacitiesAreDoubled)
+TEST(MinimumCut, DoesNotChangeIfAllCapacitiesAreDoubled)
 {
     std::mt19937 random(5);
     Problem problem = random_problem({2000, 20, 60, 0.9, 0.4}, random);

@@ -16,8 +16,8 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 struct House {
     Eigen::Vector2d place;
     double turn_deg;
-    Eigen::Vector3d size; ///< of its walls
-    double gable = 0.0;   ///< of the ridge over the walls, which is along x; 0 for a flat roof
+    Eigen::Vector3d size; ///< of the walls
+    double gable = 0.0;   ///< height of the ridge, along x, above the walls; 0 for a flat roof
     double wall_contrast = 0.0;
 };
 
@@ -40,13 +40,13 @@ const std::array kHouses{
     House{{2.60, 2.10}, -12.0, {0.60, 0.75, 0.55}, 0.24},
 };
 
-/// Places and radii.
+/// Positions and radii.
 const std::vector<Eigen::Vector3d> kTrees{
     {-0.75, 0.45, 0.28}, {-0.30, 0.95, 0.22},  {-1.00, 1.05, 0.25}, {-0.45, 0.30, 0.18},
     {1.55, -1.50, 0.20}, {-1.55, -1.60, 0.24}, {1.55, 0.10, 0.17},  {-1.60, 1.55, 0.20},
     {3.00, -1.40, 0.26}, {-3.05, 0.05, 0.22},  {2.95, 1.50, 0.18}};
 
-/// Places and turns in degrees.
+/// Positions and headings in degrees.
 const std::vector<Eigen::Vector3d> kCars{{-1.55, -0.70, 90.0}, {0.00, -1.50, 2.0},
                                          {0.05, -0.30, 88.0},  {1.55, 1.30, 91.0},
                                          {-0.10, -2.60, 93.0}, {2.30, 1.45, -4.0}};
@@ -58,7 +58,7 @@ Eigen::Isometry3d onto(const House& house)
     return move;
 }
 
-/// The walls with the triangles under the ridge, around the origin.
+/// Adds the walls, including the triangles under the ridge, around the origin.
 void add_gabled_walls(PartBuilder& builder, const House& house, const Paint& paint)
 {
     const Eigen::Vector3d half = 0.5 * house.size;
@@ -82,7 +82,7 @@ void add_gabled_walls(PartBuilder& builder, const House& house, const Paint& pai
     }
 }
 
-/// Two slabs that meet at the ridge and stick out over the walls, and a chimney.
+/// Adds two slabs that meet at the ridge and overhang the walls, and a chimney.
 void add_gabled_roof(PartBuilder& builder, const House& house, const Paint& paint)
 {
     constexpr double kThickness = 0.04;
@@ -104,7 +104,7 @@ void add_gabled_roof(PartBuilder& builder, const House& house, const Paint& pain
     builder.move_part(onto(house));
 }
 
-/// A slab with a low rim and a hut on it.
+/// Adds a slab with a low rim and a hut.
 void add_flat_roof(PartBuilder& builder, const House& house, const Paint& paint)
 {
     constexpr double kRim = 0.05;
@@ -151,7 +151,7 @@ void add_tree(PartBuilder& builder, const Eigen::Vector2d& place, double radius)
     add_blob(builder, {place.x(), place.y(), trunk + 0.8 * radius}, crown, {{0.48F, 0.72F, 0.40F}});
 }
 
-/// Trees, a free-standing wall and cars.
+/// Adds trees, a free-standing wall and cars.
 void add_streets(PartBuilder& builder)
 {
     for (const Eigen::Vector3d& tree : kTrees) {
@@ -166,7 +166,7 @@ void add_streets(PartBuilder& builder)
     }
 }
 
-/// A grid straight down, then a ring that looks in askew.
+/// A grid of nadir views, then a ring of oblique views.
 void add_flight(std::vector<Pinhole>& views)
 {
     const Lens lens{960, 720, 760.0};

@@ -15,14 +15,14 @@ constexpr double kSide = 1.9;      ///< of a cubicle
 constexpr double kAisle = 1.4;     ///< between the two rows
 constexpr double kPartition = 1.3; ///< height
 constexpr double kThin = 0.045;
-const std::array kMiddles{-kSide, 0.0, kSide}; ///< of the cubicles of a row, along x
+const std::array kMiddles{-kSide, 0.0, kSide}; ///< centers of the cubicles of a row, along x
 
 Paint cloth(bool plain, const Eigen::Array3f& tint)
 {
     return {tint, plain ? 0.0 : 0.9};
 }
 
-/// The things of a cubicle around the middle of its floor, its open side towards -y, then moved.
+/// The furniture of a cubicle around the center of its floor, open towards -y, then moved.
 class Cubicle {
   public:
     Cubicle(PartBuilder& builder, const Eigen::Isometry3d& move) : builder_(builder), move_(move) {}
@@ -40,9 +40,9 @@ class Cubicle {
 
     void add_screen(double x, double turn_deg, double contrast)
     {
-        const Paint grey{{0.46F, 0.47F, 0.50F}, 0.5};
-        column({{x, 0.68, 0.735}, 0.12, 0.12, 0.015}, grey);
-        box({{x, 0.69, 0.74}, {0.05, 0.03, 0.22}, turn_deg}, grey);
+        const Paint gray{{0.46F, 0.47F, 0.50F}, 0.5};
+        column({{x, 0.68, 0.735}, 0.12, 0.12, 0.015}, gray);
+        box({{x, 0.69, 0.74}, {0.05, 0.03, 0.22}, turn_deg}, gray);
         box({{x, 0.66, 0.86}, {0.58, 0.03, 0.36}, turn_deg}, {{0.40F, 0.52F, 0.70F}, contrast});
     }
 
@@ -93,7 +93,7 @@ class Cubicle {
     Eigen::Isometry3d move_;
 };
 
-/// Between the cubicles of a row, behind them and, half as wide, before them.
+/// Adds partitions between and behind the cubicles of a row, and half as wide in front of them.
 void add_partitions(PartBuilder& builder, double side)
 {
     const Eigen::Array3f blue(0.62F, 0.72F, 0.84F);
@@ -128,7 +128,7 @@ void add_cubicle(PartBuilder& builder, double x, double side)
     if (x >= 0.0) cubicle.add_shelf();
 }
 
-/// Carpet, two outer walls with windows, and what stands about.
+/// Adds a carpet, two outer walls with windows, and other furniture.
 void add_office(PartBuilder& builder)
 {
     add_box(builder, {{0.0, 0.0, -0.1}, {9.6, 9.2, 0.1}}, {{0.58F, 0.60F, 0.66F}});
@@ -153,7 +153,7 @@ void add_office(PartBuilder& builder)
     add_blob(builder, {-3.3, -0.5, 0.65}, leaves, {{0.44F, 0.68F, 0.40F}});
 }
 
-/// Round the block, over the partitions, and along the aisle into either row.
+/// Views around the block, over the partitions, and from the aisle into both rows.
 void walk(std::vector<Pinhole>& views)
 {
     const Lens lens{960, 720, 620.0};

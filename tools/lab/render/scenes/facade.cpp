@@ -11,7 +11,7 @@ constexpr double kDoorDepth = 0.22;
 const std::vector<double> kColumns{-2.1, -1.7, -1.2, -0.75, -0.25, 0.25, 0.75, 1.2, 1.7, 2.1};
 const std::vector<double> kRows{0.0, 0.1, 0.35, 0.95, 1.25, 1.8, 2.1, 2.6, 2.9};
 
-/// Windows in every other column and row; below the middle ones a door.
+/// Windows in every other column and row, and a door below the middle ones.
 double recess(std::size_t column, std::size_t row)
 {
     if (column == 4 && row >= 1 && row <= 2) return kDoorDepth;
@@ -27,7 +27,7 @@ void add_window_fittings(PartBuilder& builder, std::size_t column, std::size_t r
     const double width = kColumns[column + 1] - kColumns[column];
     const double low = kRows[row];
     const double height = kRows[row + 1] - low;
-    // The cross stands before the pane, the sill sticks out of the wall.
+    // The cross is in front of the pane, and the sill protrudes from the wall.
     add_box(builder, {{x, kWindowDepth - 0.02, low}, {0.04, 0.04, height}}, {white});
     add_box(builder, {{x, kWindowDepth - 0.02, low + 0.6 * height}, {width, 0.04, 0.04}}, {white});
     add_box(builder, {{x, -0.03, low - 0.05}, {width + 0.12, 0.14, 0.05}}, {{0.7F, 0.7F, 0.72F}});

@@ -13,10 +13,10 @@ constexpr double kHalfX = 5.5;
 constexpr double kHalfY = 3.5;
 constexpr double kHeight = 4.2;
 constexpr double kWall = 0.25;
-constexpr double kGallery = 2.0; ///< height of its floor
+constexpr double kGallery = 2.0; ///< height of the floor of the gallery
 const Eigen::Array3f kStone(0.84F, 0.80F, 0.72F);
 
-/// A wall along x before which the hall lies towards -y, with deep niches, turned about the middle.
+/// Adds a wall along x with deep niches, facing -y, turned about the center of the hall.
 void add_wall(PartBuilder& builder, double width, const Eigen::Vector2d& turn_and_reach,
               const Eigen::Array3f& tint)
 {
@@ -34,7 +34,7 @@ void add_wall(PartBuilder& builder, double width, const Eigen::Vector2d& turn_an
     builder.move_part(move);
 }
 
-/// Floor and four walls; no ceiling.
+/// Adds the floor and four walls, without a ceiling.
 void add_shell(PartBuilder& builder)
 {
     const double wide = 2.0 * (kHalfX + kWall);
@@ -47,7 +47,7 @@ void add_shell(PartBuilder& builder)
     add_wall(builder, deep, {3.0 * kQuarter, kHalfX}, {0.78F, 0.80F, 0.70F});
 }
 
-/// Two rows of columns that stand on plinths and end in blocks.
+/// Adds two rows of columns with plinths and capitals.
 void add_columns(PartBuilder& builder)
 {
     for (const double x : {-3.4, -1.2, 1.0, 3.2}) {
@@ -59,7 +59,7 @@ void add_columns(PartBuilder& builder)
     }
 }
 
-/// A floor halfway up along the wall at +x, with a railing, that stairs lead to.
+/// Adds a gallery with a railing, halfway up the wall at +x.
 void add_gallery(PartBuilder& builder)
 {
     constexpr double kEdge = 4.2;
@@ -72,7 +72,7 @@ void add_gallery(PartBuilder& builder)
         add_column(builder, {{kEdge + 0.15, y, 0.0}, 0.08, 0.08, kGallery - 0.1}, {kStone});
     }
     const Paint iron{{0.52F, 0.54F, 0.60F}};
-    constexpr double kRailEnd = 2.3; // the stairs arrive beyond it
+    constexpr double kRailEnd = 2.3; // the stairs end beyond it
     const double x = kEdge + 0.06;
     for (const double z : {0.5, 1.0}) {
         add_bar(builder, {{x, -kHalfY, kGallery + z}, {x, kRailEnd, kGallery + z}, 0.05}, iron);
@@ -82,7 +82,7 @@ void add_gallery(PartBuilder& builder)
     }
 }
 
-/// Up along the wall at +y.
+/// Adds stairs along the wall at +y, up to the gallery.
 void add_stairs(PartBuilder& builder)
 {
     constexpr int kSteps = 9;
@@ -110,7 +110,7 @@ void add_crates(PartBuilder& builder)
     add_box(builder, {{2.3, -2.9, 0.0}, {0.8, 0.7, 1.1}, -20.0}, {{0.70F, 0.76F, 0.52F}});
 }
 
-/// Once around between columns and middle, looking out; once more, looking across; then along the
+/// A path between columns and center: first looking outward, then across. Then a path along the
 /// gallery.
 void walk(std::vector<Pinhole>& views)
 {

@@ -13,34 +13,34 @@ namespace vcarve::render {
 
 namespace {
 
-/// A heap of boxes, columns and balls of many sizes, each turned at random and let down on what
-/// lies below until it touches. Stands on z = 0 around the origin.
+/// A heap of boxes, columns and balls of many sizes on z = 0 around the origin. Each object is
+/// rotated randomly and lowered until it touches another.
 struct Heap {
     int things = 40;
-    double spread = 0.4;   ///< standard deviation of their places along x and y
-    double smallest = 0.1; ///< sizes are spread evenly in their logarithm
+    double spread = 0.4;   ///< standard deviation of positions along x and y
+    double smallest = 0.1; ///< sizes are uniform in the logarithm
     double largest = 0.5;
     std::uint32_t seed = 1;
 };
 
-/// Even numbers from 0 to 1, the same with every library.
+/// Uniform random numbers from 0 to 1, the same with every library.
 class Dice {
   public:
     explicit Dice(std::uint32_t seed) : random_(seed) {}
 
     double share() { return static_cast<double>(random_()) / 4294967296.0; }
     double between(double low, double high) { return low + (high - low) * share(); }
-    /// Nearly normal, of standard deviation 1, never beyond 3.
+    /// Approximately normal with standard deviation 1, never beyond 3.
     double bell() { return 2.0 * (share() + share() + share() - 1.5); }
 
   private:
     std::mt19937 random_;
 };
 
-/// How high the heap is, in square cells.
+/// The height of the heap in a grid of square cells.
 class Heights {
   public:
-    /// Lowest and highest z of a thing over each cell it covers.
+    /// The lowest and highest z of an object in each cell that it covers.
     using Cover = std::map<std::pair<int, int>, std::pair<double, double>>;
 
     static Cover cover(const std::vector<Eigen::Vector3d>& corners)
@@ -53,7 +53,7 @@ class Heights {
         return result;
     }
 
-    /// How far down the thing can go.
+    /// The distance by which an object can be lowered.
     double room_below(const Cover& thing) const
     {
         double room = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ class Heights {
     std::map<std::pair<int, int>, double> heights_;
 };
 
-/// A box, column, frustum or ball about the origin.
+/// Adds a box, column, frustum or ball around the origin.
 void add_thing(PartBuilder& builder, Dice& dice, double size, const Paint& paint)
 {
     const double kind = dice.share();
@@ -113,7 +113,7 @@ void add_thing(PartBuilder& builder, Dice& dice, double size, const Paint& paint
 
 Eigen::Quaterniond any_turn(Dice& dice)
 {
-    // Some things lie flat, others lean as they fell.
+    // Some objects lie flat, others lean.
     const double lean = dice.share() < 0.4 ? 0.0 : dice.between(0.0, std::numbers::pi);
     const double way = dice.between(0.0, 2.0 * std::numbers::pi);
     const Eigen::AngleAxisd leaning(lean, Eigen::Vector3d(std::cos(way), std::sin(way), 0.0));
@@ -131,16 +131,16 @@ Paint any_paint(Dice& dice)
     return paint;
 }
 
-/// Where a thing comes to lie.
+/// The final position of an object.
 struct Rest {
     double top = std::numeric_limits<double>::infinity();
     Eigen::Isometry3d move; ///< from the origin
-    Heights::Cover cover;   ///< before it goes down
+    Heights::Cover cover;   ///< before it is lowered
     double down = 0.0;
 };
 
-/// Lets a thing down at random places, and has it stay where its top comes to lie lowest, as things
-/// do that roll off a heap.
+/// Lowers an object at several random positions, and selects the one with the lowest top, because
+/// objects roll off a heap.
 Rest settled(const std::vector<Eigen::Vector3d>& corners, const Heap& heap, const Heights& heights,
              Dice& dice)
 {
@@ -170,7 +170,7 @@ void add_heap(PartBuilder& builder, const Heap& heap)
     Dice dice(heap.seed);
     Heights heights;
     for (int i = 0; i < heap.things; ++i) {
-        // The large ones first, so that the heap does not stand on its smallest.
+        // Large objects first, so that the heap does not rest on small ones.
         const double share = (i + 0.5) / heap.things;
         const double size = heap.largest * std::pow(heap.smallest / heap.largest, share);
         const Paint paint = any_paint(dice);
@@ -181,7 +181,7 @@ void add_heap(PartBuilder& builder, const Heap& heap)
     }
 }
 
-/// Two rings of views around a table that carries a heap.
+/// Two rings of views around a table with a heap.
 PhotoScene heap_on_table(const Heap& heap)
 {
     PartBuilder builder;

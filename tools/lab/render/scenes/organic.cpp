@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-/// Waves of a unit direction: smooth on the ball, without seams or poles.
+/// The radius of the body in a direction: smooth waves on the sphere, without seams or poles.
 double body_reach(const Eigen::Vector3d& way)
 {
     const double x = way.x();
@@ -25,7 +25,7 @@ double body_reach(const Eigen::Vector3d& way)
     return 0.58 * (1.0 + lobes + bumps);
 }
 
-/// A (2, 3) torus knot about z.
+/// A (2, 3) torus knot around z.
 Eigen::Vector3d knot(double along)
 {
     const double reach = 0.34 + 0.15 * std::cos(3.0 * kTwoPi * along);
@@ -42,7 +42,7 @@ double knot_radius(double along, double across)
 const Eigen::Array3f kSkin(0.90F, 0.74F, 0.60F);
 const Paint kNearlyEven{kSkin, 0.06};
 
-/// A ball stretched along the axes and dented a little.
+/// Adds a ball, stretched along the axes and slightly dented.
 void add_limb(PartBuilder& builder, const Eigen::Vector3d& middle, const Eigen::Vector3d& radii,
               const Paint& paint)
 {
@@ -53,7 +53,7 @@ void add_limb(PartBuilder& builder, const Eigen::Vector3d& middle, const Eigen::
     add_blob(builder, middle, reach, paint);
 }
 
-/// A figure that sits, all of one colour but for a few patches.
+/// Adds a sitting figure of one color with a few patches.
 void add_figure(PartBuilder& builder)
 {
     add_limb(builder, {0.0, 0.0, 0.42}, {0.40, 0.36, 0.44}, kNearlyEven);
@@ -68,7 +68,7 @@ void add_figure(PartBuilder& builder)
         add_sphere(builder, {0.02 + 0.11 * side, -0.30, 1.09}, 0.035, {{0.40F, 0.40F, 0.50F}});
     }
     add_limb(builder, {0.02, -0.425, 0.99}, {0.05, 0.03, 0.04}, {{0.40F, 0.40F, 0.50F}}); // nose
-    // A belly that sticks out of the body by a finger's breadth, a scarf, a patch on the back.
+    // A belly that protrudes by a finger's breadth, and a patch on the back.
     add_limb(builder, {0.0, -0.13, 0.42}, {0.25, 0.25, 0.27}, {{0.94F, 0.84F, 0.62F}});
     add_limb(builder, {-0.08, 0.15, 0.48}, {0.20, 0.23, 0.24}, {{0.56F, 0.66F, 0.84F}});
     const auto around_neck = [](double along) -> Eigen::Vector3d {
@@ -79,7 +79,7 @@ void add_figure(PartBuilder& builder)
     add_tube(builder, {around_neck, [](double, double) { return 0.055; }}, {{0.80F, 0.40F, 0.44F}});
 }
 
-/// As if turned on a wheel, with a band of texture around its middle.
+/// Adds a turned vase with a band of texture around its middle.
 void add_vase(PartBuilder& builder, const Eigen::Vector3d& place)
 {
     const Paint glaze{{0.66F, 0.78F, 0.82F}, 0.05};

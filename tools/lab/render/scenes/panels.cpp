@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// A board that stands on the floor, with columns times rows of windows.
+/// An upright board on the floor, with columns x rows windows.
 struct Panel {
     double x, y;
     double turn_deg;
@@ -20,7 +20,7 @@ struct Panel {
     int rows = 0;
 };
 
-/// Bounds of `count` equal windows between low and high and of the bars between and around them.
+/// The bounds of `count` equal windows between low and high, and of the bars around them.
 std::vector<double> bars(double low, double high, int count)
 {
     constexpr double kBarToWindow = 0.4;

@@ -14,7 +14,7 @@ constexpr double kHalfY = 2.0;
 constexpr double kHeight = 2.4;
 constexpr double kWall = 0.2;
 
-/// Four walls, floor and ceiling; a deep window in one wall, a doorway's recess in another.
+/// Adds four walls, a floor and a ceiling, with a deep window and a recessed doorway.
 void add_shell(PartBuilder& builder)
 {
     const double wide = 2.0 * (kHalfX + kWall);
@@ -47,7 +47,7 @@ void add_table(PartBuilder& builder, const Eigen::Vector3d& place, const Paint& 
     }
 }
 
-/// Open towards -y, with boards every 0.4.
+/// Adds a shelf, open towards -y, with boards every 0.4.
 void add_shelf(PartBuilder& builder, const Eigen::Vector3d& place, const Paint& paint)
 {
     for (const double x : {-0.5, 0.5}) {
@@ -101,7 +101,7 @@ PhotoScene room()
     PhotoScene scene;
     scene.parts = builder.take();
     const Lens wide{1000, 750, 640.0};
-    // Across the room over its middle, up to the ceiling, and outwards from around the middle.
+    // Views across the center of the room, up to the ceiling, and outward from around the center.
     add_arc(scene.views, wide, {{0.0, 0.0, 0.9}, 1.25, 1.4, 0.0, 20.0, 18});
     add_arc(scene.views, wide, {{0.0, 0.0, 2.1}, 1.5, 0.7, 0.0, 36.0, 10});
     constexpr int kOutwards = 16;

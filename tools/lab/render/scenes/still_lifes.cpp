@@ -1,5 +1,5 @@
-// Scenes of a few things before a wall: the fixture, and the one that lacks texture and the one
-// that lacks views.
+// Scenes of a few objects in front of a wall: the fixture, a scene with little texture, and a scene
+// with few views.
 #include "render/raster.h"
 #include "render/scenes/scenes.h"
 #include "render/shapes.h"
@@ -8,13 +8,13 @@ namespace vcarve::render {
 
 namespace {
 
-/// As a wall painted evenly: SIFT finds next to nothing there.
+/// A plain wall, on which SIFT finds almost no features.
 Paint even(const Eigen::Array3f& tint)
 {
     return {tint, 0.04};
 }
 
-/// The scene behind fixtures/scene: things on a floor before a wall.
+/// The scene of fixtures/scene: objects on a floor in front of a wall.
 Parts still_life()
 {
     PartBuilder builder;
@@ -54,10 +54,10 @@ PhotoScene fixture_scene()
 {
     PhotoScene scene;
     scene.parts = still_life();
-    scene.features = 1150; // the fixture is to be small
+    scene.features = 1150; // for a small fixture
     const Eigen::Vector3d target(0.0, 0.35, 0.4);
     add_arc(scene.views, {}, {target, 2.9, 0.9, -72.0, 12.0, 12});
-    add_arc(scene.views, {}, {target, 2.6, 1.9, -66.0, 12.0, 12}); // half a step aside
+    add_arc(scene.views, {}, {target, 2.6, 1.9, -66.0, 12.0, 12}); // shifted by half a step
     return scene;
 }
 

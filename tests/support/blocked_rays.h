@@ -12,30 +12,30 @@ namespace vcarve::testing {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// Whether a segment meets a triangle, its border included; exact. Not for segments in its plane.
+/// Whether a segment meets a triangle or its border; exact. Not for segments in the same plane.
 bool meets(const Triangle& triangle, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The corners of every face.
 std::vector<Triangle> triangles_of(const TriMesh& mesh);
 
-/// Where the sight of a point to a view begins if so much next to the point does not count.
+/// The position on the ray from a point to a view at distance `margin` from the point.
 Eigen::Vector3d trimmed(const Scene& scene, std::uint32_t point, std::uint32_t view, double margin);
 
-/// The sights, as pairs of point and view, that some face meets, found by trying all. What lies
-/// within the margin of its point does not count.
+/// The rays, as pairs of point and view, that a face meets; tries all. The part of a ray within the
+/// margin of its point is ignored.
 std::set<std::pair<std::uint32_t, std::uint32_t>>
-blocked_sights(const Scene& scene, const TriMesh& mesh, const std::vector<double>& margins);
+blocked_rays(const Scene& scene, const TriMesh& mesh, const std::vector<double>& margins);
 
-/// Per vertex the median length of the edges of its faces, each face counting its own.
+/// The median edge length around each vertex; an edge counts once per face.
 std::vector<double> spacings_of(const TriMesh& mesh);
 
-/// Per point the spacing of its vertex in `mesh`, the least if it has several, 0 if it has none.
+/// The spacing of each point's vertex in `mesh`: the least of several, 0 without a vertex.
 std::vector<double> margins_in(const TriMesh& mesh, const Scene& scene);
 
-/// n x n vertices on the unit square, at height 0, each at a point of its own (in that order).
+/// n x n vertices on the unit square at height 0; vertex i belongs to point i.
 TriMesh flat_grid(std::uint32_t n);
 
-/// No views and no points: a guard that guards nothing.
+/// No views and no points, so that no ray restricts a change.
 Scene empty_scene();
 
 } // namespace vcarve::testing

@@ -12,8 +12,8 @@
 
 namespace vcarve {
 
-/// Keeps what it is told, and wants the run stopped from stop() on.
-class ToldLog : public Log {
+/// Records all calls. After stop() it requests cancellation.
+class RecordingLog : public Log {
   public:
     void stage_begins(std::string_view name) override
     {
@@ -38,11 +38,11 @@ class ToldLog : public Log {
         const std::lock_guard lock(mutex_);
         notes_.emplace_back(sentence);
     }
-    bool wants_stop() const override { return stops_; }
+    bool should_stop() const override { return stops_; }
 
     void stop() { stops_ = true; }
 
-    /// The shares of each stage, in the order they were told. A stage that comes twice goes on.
+    /// The shares that each stage reported, in order. If a stage runs twice, they are appended.
     std::map<std::string, std::vector<double>> shares() const
     {
         const std::lock_guard lock(mutex_);
@@ -60,8 +60,8 @@ class ToldLog : public Log {
         return notes_;
     }
 
-    std::function<void(const std::string&)> on_stage; ///< called with the stage that begins
-    std::function<void(const std::string&)> on_share; ///< called with the stage that progresses
+    std::function<void(const std::string&)> on_stage; ///< called when a stage begins
+    std::function<void(const std::string&)> on_share; ///< called when a stage reports progress
 
   private:
     mutable std::mutex mutex_;

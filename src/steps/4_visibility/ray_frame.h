@@ -10,22 +10,22 @@
 
 namespace vcarve {
 
-/// A point as seen along a sight: sheared along it onto the plane across its longest axis.
-struct Sighted {
+/// A point in the frame of a ray: sheared along it onto the plane normal to its longest axis.
+struct Rayed {
     double x = 0.0;
     double y = 0.0;
-    double depth = 0.0; ///< along the longest axis, 0 at the sight's point, 1 at its target
-    double size = 0.0;  ///< largest coordinate difference to the sight's point, for error bounds
+    double depth = 0.0; ///< along the longest axis, 0 at the ray's point, 1 at its target
+    double size = 0.0;  ///< largest coordinate difference to the ray's point, for error bounds
 };
 
-/// The plane across a sight (Woop, Benthin, Wald, "Watertight ray/triangle intersection", JCGT
-/// 2013). Seen in it the sight is the origin, and a triangle that runs counter-clockwise seen from
-/// the sight's point runs counter-clockwise. Which side of the sight an edge passes on is the sign
-/// of a 2x2 determinant; where rounding could turn it, the exact predicate answers instead.
-class SightFrame {
+/// The projection along a ray (Woop, Benthin, Wald, "Watertight ray/triangle intersection", JCGT
+/// 2013). The ray projects to the origin. Triangles that are counter-clockwise seen from the ray's
+/// point stay so. The side on which the ray passes an edge is the sign of a 2x2 determinant. If
+/// rounding could change it, the exact predicate decides.
+class RayFrame {
   public:
-    SightFrame() = default;
-    SightFrame(const Eigen::Vector3d& point, const Eigen::Vector3d& target)
+    RayFrame() = default;
+    RayFrame(const Eigen::Vector3d& point, const Eigen::Vector3d& target)
         : point_(point), target_(target)
     {
         const Eigen::Vector3d along = target - point;
@@ -44,7 +44,7 @@ class SightFrame {
     const Eigen::Vector3d& point() const { return point_; }
     const Eigen::Vector3d& target() const { return target_; }
 
-    Sighted project(const Eigen::Vector3d& p) const
+    Rayed project(const Eigen::Vector3d& p) const
     {
         const double x = p[axis_x_] - near_.x();
         const double y = p[axis_y_] - near_.y();
@@ -53,10 +53,9 @@ class SightFrame {
                 std::max({std::abs(x), std::abs(y), std::abs(along)})};
     }
 
-    /// +1 where the sight's origin lies left of the way from a to b (seen from the sight's point),
-    /// -1 right of it, 0 where the sight's line and the edge lie in one plane. Exact. p and q are
-    /// the projections of a and b.
-    int turn(const Sighted& p, const Sighted& q, const Eigen::Vector3d& a,
+    /// +1 if the ray passes left of the edge from a to b (seen from the ray's point), -1 if right,
+    /// 0 if the ray's line and the edge are coplanar. Exact. p and q are the projected a and b.
+    int turn(const Rayed& p, const Rayed& q, const Eigen::Vector3d& a,
              const Eigen::Vector3d& b) const
     {
         const double determinant = p.x * q.y - p.y * q.x;
@@ -66,10 +65,9 @@ class SightFrame {
         return -orientation(point_, target_, a, b);
     }
 
-    /// turn() from each of three projections to one, where rounding leaves no sign open: bit k is
-    /// set where that of from[k] is +1. Otherwise negative. Without branches on the signs, which no
-    /// processor foresees.
-    int clear_turns(const std::array<Sighted, 3>& from, const Sighted& to) const
+    /// The signs of turn() from three projections to one: bit k is set if from[k] has +1. Negative
+    /// if rounding leaves a sign uncertain. Branchless, because the signs are unpredictable.
+    int clear_turns(const std::array<Rayed, 3>& from, const Rayed& to) const
     {
         int left = 0;
         std::array<double, 3> magnitudes{};
@@ -80,7 +78,7 @@ class SightFrame {
             magnitudes[k] = std::abs(determinant);
             size = std::max(size, from[k].size);
         }
-        // What is not a number is not clear.
+        // NaN is not clear.
         const double bound = kRounding * size * to.size;
         int is_clear = 1;
         for (const double magnitude : magnitudes) {
@@ -90,10 +88,10 @@ class SightFrame {
     }
 
   private:
-    /// Each coordinate is off by at most 6 roundings of `size`, so a determinant by at most 64.
+    /// Coordinates are off by at most 6 roundings of `size`, so determinants by at most 64.
     static constexpr double kRounding = 1e-14;
 
-    static double error_bound(const Sighted& p, const Sighted& q)
+    static double error_bound(const Rayed& p, const Rayed& q)
     {
         return kRounding * p.size * q.size;
     }

@@ -1,5 +1,5 @@
 #include "io/colmap/colmap_model.h"
-#include "io/input/complete_sights.h"
+#include "io/input/complete_rays.h"
 #include "support/ball_model.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace vcarve::complete_sights_test {
+namespace vcarve::complete_rays_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -22,17 +22,17 @@ using ::testing::StartsWith;
 
 namespace {
 
-/// A ball, of whose points the tracks are written as a test wants them.
-class CompleteSights : public ::testing::Test {
+/// A model of a ball with modified tracks.
+class CompleteRays : public ::testing::Test {
   protected:
-    CompleteSights()
+    CompleteRays()
     {
         write_ball_model(folder.path(), kPoints);
         whole = read();
     }
     Scene read() const { return read_colmap_model(folder.path(), ModelFormat::text); }
 
-    /// Leaves of each track what `kept` makes of it.
+    /// Replaces the track of point i by kept(i).
     template <typename Kept>
     void rewrite_tracks(const Kept& kept) const
     {
@@ -49,7 +49,7 @@ class CompleteSights : public ::testing::Test {
         }
         folder.write("points3D.txt", text);
     }
-    /// Writes the sights into the 2D points of the images instead.
+    /// Writes the rays to the 2D points of the images.
     void write_points2d() const
     {
         std::istringstream images(bytes_of(folder / "images.txt"));
@@ -68,16 +68,16 @@ class CompleteSights : public ::testing::Test {
         folder.write("images.txt", text);
     }
 
-    std::vector<std::string> complete(SightsFrom from = SightsFrom::automatic)
+    std::vector<std::string> complete(RaysFrom from = RaysFrom::automatic)
     {
         FoundInput found = {.model = {folder.path(), ModelFormat::text, {}},
                             .dense = {},
                             .scan = {},
                             .notes = {},
-                            .sights = from};
-        DroppedSights dropped;
+                            .rays = from};
+        DroppedRays dropped;
         scene = read_colmap_model(folder.path(), ModelFormat::text, {}, &dropped);
-        return complete_sights(found, dropped, scene);
+        return complete_rays(found, dropped, scene);
     }
 
     static constexpr int kPoints = 700;
@@ -86,49 +86,49 @@ class CompleteSights : public ::testing::Test {
     Scene scene;
 };
 
-TEST_F(CompleteSights, LeavesGoodTracksAlone)
+TEST_F(CompleteRays, KeepsGoodTracks)
 {
     EXPECT_THAT(complete(), IsEmpty());
     EXPECT_EQ(scene.tracks.views, whole.tracks.views);
-    // Fewer than half of them have none.
+    // Fewer than half of the points have no track.
     rewrite_tracks([](std::size_t i) { return i % 5 < 2 ? "" : "1 0 3 0"; });
     EXPECT_THAT(complete(), IsEmpty());
     EXPECT_THAT(scene.tracks[0], IsEmpty());
 }
 
-TEST_F(CompleteSights, TakesWhatThePointsOfImagesTell)
+TEST_F(CompleteRays, UsesThe2dPointsOfImages)
 {
     write_points2d();
     for (const char* const track : {"", "0 0", "-1 -1"}) {
         rewrite_tracks([&](std::size_t /*point*/) { return track; });
         EXPECT_THAT(complete(),
                     ElementsAre(HasSubstr("the 2D points of " + (folder / "images.txt").string() +
-                                          " tell which views saw ")));
+                                          " supply views of ")));
         EXPECT_EQ(scene.tracks.begins, whole.tracks.begins) << track;
         EXPECT_EQ(scene.tracks.views, whole.tracks.views) << track;
     }
 }
 
-TEST_F(CompleteSights, TakesTheNearestViewsWhereNothingTells)
+TEST_F(CompleteRays, UsesTheNearestViewsWithoutOtherSources)
 {
     rewrite_tracks([](std::size_t /*point*/) { return ""; });
     EXPECT_THAT(complete(),
-                ElementsAre(HasSubstr("nothing tells of 700 of 700 points which two views saw")));
-    std::size_t true_sights = 0;
+                ElementsAre(HasSubstr("700 of 700 points have fewer than two views, so they get")));
+    std::size_t true_rays = 0;
     for (std::size_t i = 0; i < whole.num_points(); ++i) {
         for (const std::uint32_t view : scene.tracks[i]) {
-            true_sights += whole.positions[i].dot(whole.views[view].center) > 1.0 ? 1 : 0;
+            true_rays += whole.positions[i].dot(whole.views[view].center) > 1.0 ? 1 : 0;
         }
     }
-    EXPECT_GT(scene.num_sights(), whole.num_sights() * 3 / 4);
-    EXPECT_GT(true_sights, scene.num_sights() * 3 / 4) << "the ball hides its other side";
+    EXPECT_GT(scene.num_rays(), whole.num_rays() * 3 / 4);
+    EXPECT_GT(true_rays, scene.num_rays() * 3 / 4) << "the ball occludes its other side";
 }
 
-TEST_F(CompleteSights, KeepsTheViewsThatAreKnown)
+TEST_F(CompleteRays, KeepsKnownViews)
 {
     rewrite_tracks([](std::size_t i) { return i % 9 == 0 ? "2 0 6 0" : "4 0"; });
-    EXPECT_THAT(complete(), ElementsAre(HasSubstr("nothing tells of 622 of 700 points")));
-    EXPECT_GT(scene.num_sights(), 2 * scene.num_points());
+    EXPECT_THAT(complete(), ElementsAre(HasSubstr("622 of 700 points have fewer")));
+    EXPECT_GT(scene.num_rays(), 2 * scene.num_points());
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
         if (i % 9 == 0) {
             EXPECT_THAT(scene.tracks[i], ElementsAre(1U, 5U));
@@ -138,23 +138,22 @@ TEST_F(CompleteSights, KeepsTheViewsThatAreKnown)
     }
 }
 
-TEST_F(CompleteSights, GoesByWhatTheUserSays)
+TEST_F(CompleteRays, FollowsTheRaysOption)
 {
-    EXPECT_THAT(complete(SightsFrom::nearest), ElementsAre(HasSubstr("the nearest views")));
+    EXPECT_THAT(complete(RaysFrom::nearest), ElementsAre(HasSubstr("the nearest views")));
     EXPECT_NE(scene.tracks.views, whole.tracks.views);
     rewrite_tracks([](std::size_t /*point*/) { return "5 0"; });
-    EXPECT_THAT(complete(SightsFrom::file), IsEmpty());
-    EXPECT_EQ(scene.num_sights(), scene.num_points());
+    EXPECT_THAT(complete(RaysFrom::file), IsEmpty());
+    EXPECT_EQ(scene.num_rays(), scene.num_points());
 }
 
-TEST_F(CompleteSights, TellsOfSightsThatWereDropped)
+TEST_F(CompleteRays, NotesDroppedRays)
 {
     rewrite_tracks([](std::size_t i) { return i == 3 ? "1 0 2 0 11 0" : "1 0 2 0 0 0"; });
-    EXPECT_THAT(complete(), ElementsAre("1 sights are left out, for they are of 1 image that " +
-                                        (folder / "images.txt").string() + " does not have (11)"));
+    EXPECT_THAT(complete(), ElementsAre("dropped 1 ray to 1 image missing in " +
+                                        (folder / "images.txt").string() + " (11)"));
     rewrite_tracks([](std::size_t /*point*/) { return "1 0 12 0 3 0 13 0"; });
-    EXPECT_THAT(complete(), ElementsAre(HasSubstr("1,400 sights are left out, for they are of 2 "
-                                                  "images")));
+    EXPECT_THAT(complete(), ElementsAre(HasSubstr("dropped 1,400 rays to 2 images")));
 }
 
 } // namespace
@@ -170,14 +169,14 @@ Scene three_points()
     return scene;
 }
 
-TEST(ForgetUnknownValues, LeavesWhatTellsSomething)
+TEST(ForgetUnknownValues, KeepsKnownValues)
 {
     Scene scene = three_points();
     EXPECT_THAT(forget_unknown_values(scene), IsEmpty());
     EXPECT_THAT(scene.errors_px, ElementsAre(0.0, 0.3, 0.0));
 }
 
-TEST(ForgetUnknownValues, TakesErrorsThatAreZeroEverywhereForUnknown)
+TEST(ForgetUnknownValues, TreatsAllZeroErrorsAsUnknown)
 {
     Scene scene = three_points();
     scene.errors_px.assign(3, 0.0);
@@ -185,14 +184,14 @@ TEST(ForgetUnknownValues, TakesErrorsThatAreZeroEverywhereForUnknown)
     EXPECT_THAT(scene.errors_px, Each(-1.0));
 }
 
-TEST(ForgetUnknownValues, TellsOfPointsWithoutColors)
+TEST(ForgetUnknownValues, NotesMissingColors)
 {
     Scene scene = three_points();
     scene.colors.assign(3, {0, 0, 0});
-    EXPECT_THAT(forget_unknown_values(scene), ElementsAre(HasSubstr("the points have no colours")));
+    EXPECT_THAT(forget_unknown_values(scene), ElementsAre(HasSubstr("the points have no colors")));
 }
 
-TEST(ForgetUnknownValues, SaysNothingOfNoPoints)
+TEST(ForgetUnknownValues, ReturnsNoNotesWithoutPoints)
 {
     Scene scene;
     EXPECT_THAT(forget_unknown_values(scene), IsEmpty());
@@ -202,8 +201,7 @@ TEST(ForgetUnknownValues, SaysNothingOfNoPoints)
 
 namespace {
 
-/// A ball off the middle, whose views stand around it and are rolled, so that no pose is its own
-/// inverse.
+/// An off-center ball with views around it, which are rolled so that no pose is its own inverse.
 Scene ball_of_views()
 {
     const TemporaryFolder folder;
@@ -216,43 +214,43 @@ Scene ball_of_views()
     return scene;
 }
 
-/// What a reader makes of the inverse of a pose.
+/// Replaces a pose by what a reader gets from its inverse.
 void turn_round(View& view)
 {
     view.center = -(view.cam_from_world * view.center);
     view.cam_from_world = view.cam_from_world.conjugate();
 }
 
-TEST(WarningOfPoses, IsEmptyWhereImagesShowWhatTheySaw)
+TEST(WarningOfPoses, IsEmptyIfPosesAreCorrect)
 {
     Scene scene = ball_of_views();
     EXPECT_THAT(warning_of_poses(scene, "images.txt"), IsEmpty());
-    turn_round(scene.views[2]); // one of six
+    turn_round(scene.views[2]); // one of six views
     EXPECT_THAT(warning_of_poses(scene, "images.txt"), IsEmpty());
 }
 
-TEST(WarningOfPoses, KnowsPosesThatAreInverse)
+TEST(WarningOfPoses, DetectsInversePoses)
 {
     Scene scene = ball_of_views();
     for (View& view : scene.views) {
         turn_round(view);
     }
     EXPECT_THAT(warning_of_poses(scene, "a/images.txt"),
-                HasSubstr("a/images.txt seems to hold camera-to-world"));
+                HasSubstr("a/images.txt seems to contain camera-to-world"));
 }
 
-TEST(WarningOfPoses, KnowsPosesAndPointsOfTwoFrames)
+TEST(WarningOfPoses, DetectsDifferentFrames)
 {
     Scene scene = ball_of_views();
     for (Eigen::Vector3d& position : scene.positions) {
         position += Eigen::Vector3d(40, 30, 20);
     }
     EXPECT_THAT(warning_of_poses(scene, "images.bin"),
-                ::testing::AllOf(StartsWith("100 % of the sights are of points that do not show"),
-                                 HasSubstr("do not seem to belong together")));
+                ::testing::AllOf(StartsWith("100 % of the rays have a point that does not"),
+                                 HasSubstr("do not seem to match")));
 }
 
-TEST(WarningOfPoses, AsksAllImagesWhereThereAreNoSights)
+TEST(WarningOfPoses, TestsAllImagesWithoutRays)
 {
     Scene scene = ball_of_views();
     scene.tracks = {};
@@ -262,12 +260,12 @@ TEST(WarningOfPoses, AsksAllImagesWhereThereAreNoSights)
         turn_round(view);
     }
     EXPECT_THAT(warning_of_poses(scene, "images.txt"),
-                StartsWith("few points show in the images, but do with the inverse poses"));
+                StartsWith("few points project into the images, unless poses are inverted"));
     scene.positions.assign(scene.num_points(), {90, 90, 90});
     EXPECT_THAT(warning_of_poses(scene, "images.txt"), IsEmpty());
 }
 
-TEST(WarningOfPoses, IsEmptyWhereTheLensIsNotKnown)
+TEST(WarningOfPoses, IsEmptyForUnknownLenses)
 {
     Scene scene = ball_of_views();
     for (View& view : scene.views) {
@@ -277,7 +275,7 @@ TEST(WarningOfPoses, IsEmptyWhereTheLensIsNotKnown)
     EXPECT_THAT(warning_of_poses(scene, "images.txt"), IsEmpty());
 }
 
-TEST(WarningOfFrames, IsGivenWhereMostPointsShowInNoImage)
+TEST(WarningOfFrames, IsGivenIfMostPointsProjectIntoNoImage)
 {
     Scene scene = ball_of_views();
     EXPECT_THAT(warning_of_frames(scene, "a.ply", "transforms.json"), IsEmpty());
@@ -285,12 +283,12 @@ TEST(WarningOfFrames, IsGivenWhereMostPointsShowInNoImage)
         if (i % 3 != 0) scene.positions[i] *= 1000.0;
     }
     EXPECT_EQ(warning_of_frames(scene, "a.ply", "transforms.json"),
-              "67 % of the points of a.ply show in no image of transforms.json: they seem to stand "
-              "in another frame than the poses, so the surface will be wrong");
+              "67 % of the points of a.ply project into no image of transforms.json: points and "
+              "poses seem to have different frames, so the mesh will be wrong");
     EXPECT_THAT(warning_of_frames({}, "a.ply", "transforms.json"), IsEmpty());
 }
 
 } // namespace
 
 } // namespace
-} // namespace vcarve::complete_sights_test
+} // namespace vcarve::complete_rays_test

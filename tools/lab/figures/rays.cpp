@@ -20,9 +20,9 @@ Json segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
     return {{from.x(), from.y(), from.z()}, {to.x(), to.y(), to.z()}};
 }
 
-/// Calls visit(vertex, view) for each sight.
+/// Calls visit(vertex, view) for each ray.
 template <typename Visit>
-void for_each_sight(const Scene& scene, const Visit& visit)
+void for_each_ray(const Scene& scene, const Visit& visit)
 {
     for (Index vertex = 0; vertex < scene.num_points(); ++vertex) {
         for (const std::uint32_t view : scene.tracks[vertex]) {
@@ -31,11 +31,11 @@ void for_each_sight(const Scene& scene, const Visit& visit)
     }
 }
 
-/// The cells that a sight passes through, from its point on.
+/// The cells that a ray passes through, beginning at its point.
 std::vector<Index> cells_along(const TetMesh& cells, Index vertex, const Eigen::Vector3d& target)
 {
     std::vector<Index> passed;
-    SightWalk(cells, vertex).to(target, [&](Index cell, int slot) {
+    RayWalk(cells, vertex).to(target, [&](Index cell, int slot) {
         passed.push_back(cell);
         passed.push_back(cells.cells[cell].neighbors[slot]);
     });
@@ -48,7 +48,7 @@ std::vector<Index> cells_along(const TetMesh& cells, Index vertex, const Eigen::
 
 namespace {
 
-/// Facets between two carved cells that no sight crosses.
+/// Facets between two carved cells that no ray crosses.
 std::vector<CellFacet> unmet_facets(const TetMesh& cells, const Crossings& crossings,
                                     const Labels& labels)
 {
@@ -68,17 +68,17 @@ std::vector<CellFacet> unmet_facets(const TetMesh& cells, const Crossings& cross
     return unmet;
 }
 
-/// The sights that pass through a cell.
-Json sights_through(const TetMesh& cells, const Scene& scene, Index cell)
+/// The rays that pass through a cell.
+Json rays_through(const TetMesh& cells, const Scene& scene, Index cell)
 {
-    Json sights = Json::array();
-    for_each_sight(scene, [&](Index vertex, std::uint32_t view) {
+    Json rays = Json::array();
+    for_each_ray(scene, [&](Index vertex, std::uint32_t view) {
         const Eigen::Vector3d& center = scene.views[view].center;
         if (std::ranges::count(cells_along(cells, vertex, center), cell) > 0) {
-            sights.push_back(segment(cells.positions[vertex], center));
+            rays.push_back(segment(cells.positions[vertex], center));
         }
     });
-    return sights;
+    return rays;
 }
 
 } // namespace
@@ -107,15 +107,15 @@ Json unmet_triangles(const PaperCase& paper_case)
     pair.push_back({largest, "unmet"});
     return {{"object", paper_case.name},
             {"views", 2},
-            {"sights", two.num_sights()},
+            {"rays", two.num_rays()},
             {"unmet", unmet.size()},
             {"left", mistakes_of(paper_case, labels).kept},
             {"triangles", panel(cells, drawn)},
             {"tetrahedra", panel(cells, surface)},
             {"pair", panel(cells, pair)},
-            {"pair_sights",
-             {sights_through(cells, two, largest.cell),
-              sights_through(cells, two, cells.other_side(largest).cell)}}};
+            {"pair_rays",
+             {rays_through(cells, two, largest.cell),
+              rays_through(cells, two, cells.other_side(largest).cell)}}};
 }
 
 // ---- artificial viewpoints ----------------------------------------------------------------------
@@ -124,11 +124,11 @@ namespace {
 
 constexpr int kVirtualViews = 20;
 
-/// What two views carve, and what is carved with virtual ones added.
+/// The labels with two views, and with virtual views added.
 struct BeforeAfter {
     Labels before;
     Labels after;
-    VirtualSights sights;
+    VirtualRays rays;
 };
 
 BeforeAfter look_twice(const PaperCase& paper_case, std::uint32_t a, std::uint32_t b)
@@ -139,8 +139,8 @@ BeforeAfter look_twice(const PaperCase& paper_case, std::uint32_t a, std::uint32
     Crossings crossings = crossings_of(cells, two);
     BeforeAfter made;
     made.before = carve(cells, crossings, 1);
-    made.sights = find_virtual_sights(cells, two, made.before, options, {});
-    CrossingCounter(cells).cast(made.sights.source(options.weight), crossings, {});
+    made.rays = find_virtual_rays(cells, two, made.before, options, {});
+    CrossingCounter(cells).cast(made.rays.source(options.weight), crossings, {});
     made.after = carve(cells, crossings, 1);
     return made;
 }
@@ -174,7 +174,7 @@ Json virtual_viewpoints(const PaperCase& paper_case)
             {"wrong", wrong},
             {"mended", mended},
             {"virtual_views", kVirtualViews},
-            {"virtual_sights", shown.sights.tracks.views.size()},
+            {"virtual_rays", shown.rays.tracks.views.size()},
             {"left", left.kept},
             {"left_volume", left.kept_volume},
             {"still_left", mistakes_of(paper_case, shown.after).kept},
@@ -182,11 +182,11 @@ Json virtual_viewpoints(const PaperCase& paper_case)
             {"after", panel(paper_case.cells, judged_boundary(paper_case, shown.after))}};
 }
 
-// ---- a wrong sight ------------------------------------------------------------------------------
+// ---- a wrong ray ------------------------------------------------------------------------------
 
 namespace {
 
-Scene with_sight(const Scene& scene, Index vertex, std::uint32_t view)
+Scene with_ray(const Scene& scene, Index vertex, std::uint32_t view)
 {
     Scene result = scene;
     result.tracks = {};
@@ -235,9 +235,9 @@ Json drilled(const PaperCase& paper_case)
         }
     }
     const auto [vertex, view] = most.second;
-    const Scene wrong = with_sight(scene, vertex, view);
+    const Scene wrong = with_ray(scene, vertex, view);
     return {{"object", paper_case.name},
-            {"sights", scene.num_sights()},
+            {"rays", scene.num_rays()},
             {"truth", panel(cells, judged_boundary(paper_case, paper_case.truth))},
             {"line", segment(cells.positions[vertex], scene.views[view].center)},
             {"strict", drilled_panel(paper_case, carve(cells, crossings_of(cells, wrong), 1))},

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace vcarve::settle_test {
+namespace vcarve::denoise_vertices_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -24,16 +24,16 @@ using testing::half_edges;
 using testing::kUpOfAPixel;
 using testing::rms;
 
-constexpr double kSpacing = 0.02; ///< of the ground's points
+constexpr double kSpacing = 0.02; ///< point spacing of the ground
 
-/// The mean reprojection error of a point of two views whose places are in error by so many pixels:
-/// of the four coordinates three go into the point.
+/// The mean reprojection error of a point of two views with a noise of `noise_px`. Three of the
+/// four coordinates determine the point.
 double mean_error_px(double noise_px)
 {
     return noise_px * std::sqrt(std::numbers::pi / 2.0) * std::sqrt(1.0 / 4.0);
 }
 
-/// Ground of points that were matched in images.
+/// Ground with points that were matched in images.
 Scene matched_ground(double noise_px, const std::function<double(double, double)>& rise = flat)
 {
     Scene scene = ground(noise_px, rise);
@@ -55,7 +55,7 @@ bool is_on_rim(const Scene& ground, std::uint32_t vertex)
     return x == 0 || y == 0 || x == side - 1 || y == side - 1;
 }
 
-/// The surface of the ground: two faces for four points of its grid, seen from above.
+/// The surface of the ground: two faces per square of its grid, facing up.
 TriMesh surface_of(const Scene& ground)
 {
     TriMesh mesh;
@@ -68,13 +68,13 @@ TriMesh surface_of(const Scene& ground)
 
 struct Settled {
     TriMesh mesh;
-    SettleCounts counts;
+    DenoiseVerticesCounts counts;
 };
 
 Settled settled(const TriMesh& mesh, const Scene& scene, double sigmas = 2.0)
 {
     HalfEdgeMesh surface = half_edges(mesh);
-    const SettleCounts counts = settle_vertices(surface, scene, {.denoise = sigmas});
+    const DenoiseVerticesCounts counts = denoise_vertices(surface, scene, {.denoise = sigmas});
     return {tri_mesh(surface), counts};
 }
 
@@ -89,7 +89,7 @@ Vector3d normal_of(const TriMesh& mesh, const Face& face)
     return (mesh.positions[face[1]] - a).cross(mesh.positions[face[2]] - a).normalized();
 }
 
-TEST(SettleVertices, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
+TEST(SettleVertices, FlattensAPlaneAndEstimatesItsNoise)
 {
     const Scene scene = matched_ground(0.05);
     const Settled result = settled(scene);
@@ -103,13 +103,13 @@ TEST(SettleVertices, BringsThePointsOfAPlaneTogetherAndTellsTheirNoise)
         moved += is_moved ? 1 : 0;
     }
     EXPECT_EQ(result.counts.moved, moved);
-    EXPECT_EQ(moved, std::pow(side_of(scene) - 2, 2)) << "all but the rim";
+    EXPECT_EQ(moved, std::pow(side_of(scene) - 2, 2)) << "all except the boundary";
     EXPECT_EQ(result.mesh.faces, surface_of(scene).faces);
 }
 
-TEST(SettleVertices, TellsTheNoiseOfAnyNumberOfViews)
+TEST(SettleVertices, EstimatesNoiseForAnyNumberOfViews)
 {
-    // With four views three of eight coordinates go into the point.
+    // With four views, three of eight coordinates determine the point.
     Scene scene = matched_ground(0.05);
     scene.views.push_back(scene.views[0]);
     scene.views.push_back(scene.views[1]);
@@ -122,9 +122,9 @@ TEST(SettleVertices, TellsTheNoiseOfAnyNumberOfViews)
     EXPECT_NEAR(settled(scene).counts.noise_px, 0.05, 1e-9);
 }
 
-TEST(SettleVertices, TakesNoErrorForNoiseThatHeightsDoNotShow)
+TEST(SettleVertices, LimitsNoiseToThatOfTheHeights)
 {
-    // Cameras that are known badly make reprojection errors large, and the surface no rougher.
+    // Bad cameras increase reprojection errors, but not the roughness of the surface.
     Scene scene = matched_ground(0.05);
     scene.errors_px.assign(scene.num_points(), 5.0);
     EXPECT_NEAR(settled(scene).counts.noise_px, 0.05, 0.015);
@@ -135,7 +135,7 @@ TEST(SettleVertices, TakesNoErrorForNoiseThatHeightsDoNotShow)
     EXPECT_EQ(result.mesh.positions, exact.positions);
 }
 
-TEST(SettleVertices, LeavesPointsWithoutErrorsWhereTheyAre)
+TEST(SettleVertices, KeepsPointsWithZeroErrors)
 {
     Scene scene = matched_ground(0.05);
     scene.errors_px.assign(scene.num_points(), 0.0);
@@ -144,7 +144,7 @@ TEST(SettleVertices, LeavesPointsWithoutErrorsWhereTheyAre)
     EXPECT_EQ(result.mesh.positions, scene.positions);
 }
 
-TEST(SettleVertices, GoesByHeightsWhereNoErrorIsKnown)
+TEST(SettleVertices, EstimatesNoiseFromHeightsIfNoErrorIsKnown)
 {
     Scene scene = matched_ground(0.05);
     const Settled with_errors = settled(scene);
@@ -154,11 +154,11 @@ TEST(SettleVertices, GoesByHeightsWhereNoErrorIsKnown)
     EXPECT_GT(result.counts.moved, with_errors.counts.moved * 9 / 10);
 }
 
-TEST(SettleVertices, LeavesExactPointsWhereTheyAreWhereNoErrorIsKnown)
+TEST(SettleVertices, KeepsExactPointsIfNoErrorIsKnown)
 {
     Scene scene = matched_ground(0.0);
     for (std::size_t i = 0; i < scene.num_points(); i += 31) {
-        scene.positions[i].z() += 0.5 * kSpacing; // the shape, not noise
+        scene.positions[i].z() += 0.5 * kSpacing; // shape, not noise
     }
     scene.errors_px.assign(scene.num_points(), -1.0);
     const Settled result = settled(scene);
@@ -166,7 +166,7 @@ TEST(SettleVertices, LeavesExactPointsWhereTheyAreWhereNoErrorIsKnown)
     EXPECT_EQ(result.mesh.positions, scene.positions);
 }
 
-TEST(SettleVertices, LeavesWhatWasNotMatchedInImages)
+TEST(SettleVertices, KeepsVerticesWithoutKnownErrors)
 {
     Scene scene = matched_ground(0.05);
     TriMesh mesh = surface_of(scene);
@@ -186,7 +186,7 @@ TEST(SettleVertices, LeavesWhatWasNotMatchedInImages)
 
 TEST(SettleVertices, KeepsEdges)
 {
-    // A roof: averaging without regard to normals cuts its ridge off.
+    // Averaging that ignores normals would cut off the ridge of a roof.
     const auto roof = [](double x, double) { return -std::abs(x); };
     const Scene scene = matched_ground(0.03, roof);
     const Settled result = settled(scene);
@@ -202,7 +202,7 @@ TEST(SettleVertices, KeepsEdges)
     EXPECT_LT(lowered / near_ridge, 0.5 * before);
 }
 
-TEST(SettleVertices, MovesAtMostAsFarAsNoiseAndSpacingAllow)
+TEST(SettleVertices, LimitsMovesByNoiseAndSpacing)
 {
     Scene scene = matched_ground(0.05);
     const std::uint32_t outlier = 1234;
@@ -224,9 +224,9 @@ TEST(SettleVertices, MovesAtMostAsFarAsNoiseAndSpacingAllow)
     EXPECT_GT(farthest, 0.2);
 }
 
-TEST(SettleVertices, TurnsNoFaceOver)
+TEST(SettleVertices, FlipsNoFace)
 {
-    // The outer corners of thin faces have no room to move past each other.
+    // The outer corners of thin faces must not move past each other.
     Scene scene = matched_ground(0.2);
     const std::uint32_t side = side_of(scene);
     for (std::uint32_t v = side; v < scene.num_points(); v += 2 * side) {
@@ -243,10 +243,10 @@ TEST(SettleVertices, TurnsNoFaceOver)
     }
 }
 
-TEST(SettleVertices, MovesVerticesAlongWhatIsUncertain)
+TEST(SettleVertices, MovesVerticesInTheDirectionOfUncertainty)
 {
-    // The views are far above the ground, and so it is up and down where a point is uncertain; a
-    // steep slope is left by that way, not across.
+    // The views are far above the ground, so points are uncertain vertically. Even on a steep slope
+    // they move up and down, not across.
     const Scene scene = matched_ground(0.05, [](double x, double) { return 2.0 * x; });
     const Settled result = settled(scene);
     double up = 0.0;
@@ -260,17 +260,17 @@ TEST(SettleVertices, MovesVerticesAlongWhatIsUncertain)
     EXPECT_GT(up, 0.0);
 }
 
-TEST(SettleVertices, GivesNormalsOfTheSettledSurface)
+TEST(SettleVertices, RecomputesNormals)
 {
     const Scene scene = matched_ground(0.05);
     HalfEdgeMesh surface = half_edges(surface_of(scene));
-    settle_vertices(surface, scene, {});
+    denoise_vertices(surface, scene, {});
     for (const auto vertex : surface.vertices()) {
         EXPECT_EQ(surface.normal(vertex), vertex_normal(surface, vertex));
     }
 }
 
-TEST(SettleVertices, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
+TEST(SettleVertices, IsTheSameForAnyThreadCountAndScale)
 {
     const auto wavy = [](double x, double y) { return 0.2 * std::sin(9.0 * x) * y; };
     const Scene scene = matched_ground(0.1, wavy);
@@ -288,15 +288,15 @@ TEST(SettleVertices, IsTheSameForAnyNumberOfThreadsAndAtAnyScale)
     }
 }
 
-TEST(SettleVertices, LeavesAMeshOfOneFaceAndOneOfNone)
+TEST(SettleVertices, KeepsMeshesOfOneFaceOrNone)
 {
     const Scene scene = matched_ground(0.05);
     TriMesh mesh = surface_of(scene);
     mesh.faces.resize(1);
-    EXPECT_EQ(settled(mesh, scene).counts.moved, 0) << "all of its vertices are at its rim";
+    EXPECT_EQ(settled(mesh, scene).counts.moved, 0) << "all vertices are on the boundary";
     mesh.faces.clear();
     EXPECT_EQ(settled(mesh, scene).counts.vertices, 0);
 }
 
 } // namespace
-} // namespace vcarve::settle_test
+} // namespace vcarve::denoise_vertices_test

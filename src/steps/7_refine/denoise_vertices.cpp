@@ -25,7 +25,7 @@ using Eigen::Vector3d;
 using OpenMesh::FaceHandle;
 using OpenMesh::VertexHandle;
 
-using Vectors = std::vector<Vector3d>; ///< one a vertex
+using Vectors = std::vector<Vector3d>; ///< one per vertex
 
 template <typename Value>
 Vectors of_vertices(const HalfEdgeMesh& mesh, const Value& value)
@@ -36,7 +36,7 @@ Vectors of_vertices(const HalfEdgeMesh& mesh, const Value& value)
     return values;
 }
 
-/// The vertices beside a vertex, and those across the edges opposite to it; ascending.
+/// The vertices adjacent to a vertex, and those across its opposite edges; ascending.
 void collect_around(const HalfEdgeMesh& mesh, VertexHandle vertex,
                     std::vector<std::uint32_t>& around)
 {
@@ -91,7 +91,7 @@ bool knows_error(const Scene& scene, std::size_t point)
     return scene.errors_px[point] >= 0.0 && scene.kind_of(point) == PointKind::measured;
 }
 
-/// The standard deviation of the points' places in images that their reprojection errors tell.
+/// The standard deviation of the image positions, in pixels, from the reprojection errors.
 double noise_of_errors_px(const Scene& scene)
 {
     constexpr double kUnknown = -1.0;
@@ -103,14 +103,14 @@ double noise_of_errors_px(const Scene& scene)
     });
 }
 
-/// Whether so many vertices lie in one plane with all around them that the points are without
-/// noise, as those of a model that was made.
+/// Whether the points are free of noise, as in synthetic models: more than one vertex in 20 is
+/// coplanar with its neighbors.
 bool is_exact(const HalfEdgeMesh& mesh)
 {
     constexpr std::size_t kOneIn = 20;
     constexpr double kFlat = 1.0 - 1e-9; // cosine
     const auto is_flat = [&](VertexHandle vertex) {
-        const Vector3d normal = vertex_normal(mesh, vertex); // zero where there are no faces
+        const Vector3d normal = vertex_normal(mesh, vertex); // zero if the vertex has no faces
         for (const FaceHandle face : mesh.vf_range(vertex)) {
             const auto [a, b, c] = mesh.triangle(face);
             if (!(scaled_normal(a, b, c).normalized().dot(normal) > kFlat)) return false;
@@ -125,63 +125,64 @@ bool is_exact(const HalfEdgeMesh& mesh)
     return kOneIn * flat.size() > mesh.n_vertices();
 }
 
-/// What is known of it before heights are.
+/// An upper bound of the noise, before heights above the surface are known.
 double most_noise_px(const HalfEdgeMesh& mesh, const Scene& scene)
 {
     if (knows_errors(scene)) return noise_of_errors_px(scene);
     return is_exact(mesh) ? 0.0 : kUnlimited;
 }
 
-/// Whether a face turns too far if its corners go so far.
-bool is_turned_by(const HalfEdgeMesh& mesh, const Vectors& ways, FaceHandle face)
+/// Whether displacements turn a face too far.
+bool is_turned_by(const HalfEdgeMesh& mesh, const Vectors& displacements, FaceHandle face)
 {
     if (mesh.is_deleted(face)) return false;
     const std::array<Vector3d, 3> before = mesh.triangle(face);
     std::array<Vector3d, 3> after = before;
     std::size_t i = 0;
     for (const VertexHandle corner : mesh.corners(face)) {
-        after[i++] += ways[index(corner)];
+        after[i++] += displacements[index(corner)];
     }
     return after != before && turns_too_far(before, after);
 }
 
 using Faces = std::vector<FaceHandle>;
 
-/// Those of `count` faces that turn too far, in their order.
+/// The faces among `count` that turn too far, in the same order.
 template <typename FaceAt>
-Faces turning(const HalfEdgeMesh& mesh, const Vectors& ways, std::size_t count,
+Faces turning(const HalfEdgeMesh& mesh, const Vectors& displacements, std::size_t count,
               const FaceAt& face_at)
 {
     return parallel_collect<FaceHandle>(count, [&](std::size_t i, Faces& faces) {
-        if (is_turned_by(mesh, ways, face_at(i))) faces.push_back(face_at(i));
+        if (is_turned_by(mesh, displacements, face_at(i))) faces.push_back(face_at(i));
     });
 }
 
-/// Halves ways, or ends them, until no face turns too far. How many vertices that holds.
-std::int64_t hold_back(const HalfEdgeMesh& mesh, Vectors& ways)
+/// Halves or cancels displacements until no face turns too far. Returns how many it limits.
+std::int64_t hold_back(const HalfEdgeMesh& mesh, Vectors& displacements)
 {
     constexpr std::uint8_t kHalvings = 2; // then the vertex stays
-    std::vector<std::uint8_t> halvings(ways.size());
-    Faces turned =
-        turning(mesh, ways, mesh.n_faces(), [](std::size_t i) { return handle_at<FaceHandle>(i); });
+    std::vector<std::uint8_t> halvings(displacements.size());
+    Faces turned = turning(mesh, displacements, mesh.n_faces(),
+                           [](std::size_t i) { return handle_at<FaceHandle>(i); });
     while (!turned.empty()) {
         std::vector<VertexHandle> held;
         for (const FaceHandle face : turned) {
             for (const VertexHandle corner : mesh.corners(face)) {
-                if (!ways[index(corner)].isZero(0.0)) held.push_back(corner);
+                if (!displacements[index(corner)].isZero(0.0)) held.push_back(corner);
             }
         }
         sort_unique(held);
         Faces around;
         for (const VertexHandle vertex : held) {
-            const bool goes_on = halvings[index(vertex)]++ < kHalvings;
-            ways[index(vertex)] *= goes_on ? 0.5 : 0.0;
+            const bool continues = halvings[index(vertex)]++ < kHalvings;
+            displacements[index(vertex)] *= continues ? 0.5 : 0.0;
             for (const auto face : mesh.vf_range(vertex)) {
                 around.push_back(face);
             }
         }
         sort_unique(around);
-        turned = turning(mesh, ways, around.size(), [&](std::size_t i) { return around[i]; });
+        turned =
+            turning(mesh, displacements, around.size(), [&](std::size_t i) { return around[i]; });
     }
     return static_cast<std::int64_t>(halvings.size()) - std::ranges::count(halvings, 0);
 }
@@ -207,7 +208,7 @@ BilateralFilter filter_of(const HalfEdgeMesh& mesh, const Vectors& positions, co
             }};
 }
 
-/// A measured point may; one whose error is not known where that of others is may not.
+/// Whether a vertex is a measured point off the boundary, with a known error if any is known.
 bool may_move(const HalfEdgeMesh& mesh, const Scene& scene, std::size_t v, bool with_errors)
 {
     const auto vertex = handle_at<VertexHandle>(v);
@@ -216,29 +217,29 @@ bool may_move(const HalfEdgeMesh& mesh, const Scene& scene, std::size_t v, bool 
            (with_errors ? knows_error(scene, point) : scene.kind_of(point) == PointKind::measured);
 }
 
-/// From the vertices that may move to where the filter has them.
+/// The displacements of the movable vertices to their filtered positions.
 Vectors ways_to_surface(const HalfEdgeMesh& mesh, const Scene& scene, const BilateralFilter& filter,
                         double gate, const Progress& progress)
 {
     constexpr double kMost = 0.25; // of the spacing
-    Vectors ways(mesh.n_vertices(), Vector3d::Zero());
+    Vectors displacements(mesh.n_vertices(), Vector3d::Zero());
     const std::vector<double> spacings = vertex_spacings(mesh);
     const bool with_errors = knows_errors(scene);
-    parallel_for(ways.size(), progress, [&](std::size_t v) {
+    parallel_for(displacements.size(), progress, [&](std::size_t v) {
         if (!may_move(mesh, scene, v, with_errors)) return;
         const Vector3d way = filter.estimate(v, gate) - mesh.point(handle_at<VertexHandle>(v));
         const double most = kMost * spacings[v];
-        ways[v] = way.norm() > most ? Vector3d(way * (most / way.norm())) : way;
+        displacements[v] = way.norm() > most ? Vector3d(way * (most / way.norm())) : way;
     });
-    return ways;
+    return displacements;
 }
 
 } // namespace
 
-SettleCounts settle_vertices(HalfEdgeMesh& mesh, const Scene& scene, const DenoiseOptions& options,
-                             const Progress& progress)
+DenoiseVerticesCounts denoise_vertices(HalfEdgeMesh& mesh, const Scene& scene,
+                                       const DenoiseOptions& options, const Progress& progress)
 {
-    SettleCounts counts;
+    DenoiseVerticesCounts counts;
     counts.vertices = num_vertices_left(mesh);
     counts.noise_px = most_noise_px(mesh, scene);
     if (!(options.denoise * counts.noise_px > 0.0)) return counts;
@@ -247,10 +248,10 @@ SettleCounts settle_vertices(HalfEdgeMesh& mesh, const Scene& scene, const Denoi
     counts.noise_px = std::min(counts.noise_px, filter.noise_px());
     const double gate = options.denoise * counts.noise_px;
     if (!(gate > 0.0)) return counts;
-    Vectors ways = ways_to_surface(mesh, scene, filter, gate, progress.part(0.6, 0.9));
-    counts.held = hold_back(mesh, ways);
+    Vectors displacements = ways_to_surface(mesh, scene, filter, gate, progress.part(0.6, 0.9));
+    counts.held = hold_back(mesh, displacements);
     for (const VertexHandle vertex : mesh.vertices()) {
-        const Vector3d& way = ways[index(vertex)];
+        const Vector3d& way = displacements[index(vertex)];
         if (way.isZero(0.0)) continue;
         mesh.set_point(vertex, mesh.point(vertex) + way);
         ++counts.moved;

@@ -1,4 +1,4 @@
-#include "io/dense/nearest_sights.h"
+#include "io/dense/nearest_rays.h"
 
 #include "base/parallel.h"
 #include "geometry/point_order.h"
@@ -24,18 +24,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the views that have a point in their image so many are asked, the nearest first, and then so
-/// many more where some of them do not see it.
+/// The number of views tested per point, among those with the point in their image, nearest first.
+/// The second batch is for points that got fewer than kMostNearestViews from the first.
 constexpr std::array<std::size_t, 2> kAsked{kMostNearestViews, 24};
 constexpr std::size_t kMostAtOnce = kAsked.back();
 static_assert(kAsked.front() + kAsked.back() == kMostAsked);
-/// So few views look at all points, instead of at what may hide what they are asked about.
+/// Up to this number of views, each view gets one grid of all points. With more views, each query
+/// makes a grid of the points in its cone.
 constexpr std::size_t kFewViews = 64;
-/// How far points stand apart in an image is told by so many of them, or twice as many.
+/// The point spacing in an image is estimated from this many points, up to twice as many.
 constexpr std::size_t kSampled = 8192;
-constexpr std::uint32_t kNoView = 0xffffffffU; ///< stands in a place that is left
+constexpr std::uint32_t kNoView = 0xffffffffU; ///< marks an empty entry
 
-/// Views, those that are kept first; the rest of the places stay empty.
+/// A list of at most kMost views; the remaining entries are kNoView.
 template <std::size_t kMost>
 struct Row {
     std::array<std::uint32_t, kMost> views;
@@ -47,15 +48,15 @@ struct Row {
 using Asked = Row<kMostAtOnce>;
 using Seen = Row<kMostNearestViews>;
 
-/// A camera whose lens or image is not known shows nothing that could be told.
+/// Whether the image size and the center of a view are known.
 bool can_show(const Scene& scene, std::size_t view)
 {
     const Camera& camera = scene.cameras[scene.views[view].camera];
     return camera.width_px > 0 && camera.height_px > 0 && scene.views[view].center.allFinite();
 }
 
-/// Up to `most` views that have a place in their image, from the nearest on, after the first
-/// `passed` that the tree names, however many of these do; `passed` is raised by those looked at.
+/// Up to `most` views with `place` in their image, nearest first. Skips the nearest `passed` views,
+/// and increases `passed` by the number of views tested.
 Asked next_views(const Scene& scene, const ViewTree& tree, const Vector3d& place, std::size_t most,
                  std::uint32_t& passed)
 {
@@ -72,7 +73,7 @@ Asked next_views(const Scene& scene, const ViewTree& tree, const Vector3d& place
     return row;
 }
 
-/// Points that follow each other in space, and what hides them from views.
+/// Tests which points are hidden from views. The points are in spatial order.
 class Hiding {
   public:
     Hiding(const Scene& scene, const std::vector<Vector3d>& places)
@@ -88,8 +89,8 @@ class Hiding {
         parallel_for(whole_.size(), show_all, 1);
     }
 
-    /// Tells is_seen(i, sees) of each of some points whether a view sees it. Cost: O(points before
-    /// the farthest of them, within the cone around them).
+    /// Calls is_seen(i, sees) for each of `points`: whether view `number` sees it. Cost: O(points
+    /// in the cone around `points`, no farther than the farthest of these).
     template <typename IsSeen>
     void ask(std::size_t number, std::span<const std::size_t> points, const IsSeen& is_seen) const
     {
@@ -101,15 +102,15 @@ class Hiding {
         NearestGrid grid = empty_grid(view);
         const Cone cone = cone_around(view, points, grid.square_angle());
         const auto bound = [&](const Box& box) { return distance_in(cone, box); };
-        tree_.visit_foreign({0, 0}, cone.length, bound,
-                            [&](std::size_t i) { grid.add(places_[i]); });
+        tree_.visit_excluding({0, 0}, cone.length, bound,
+                              [&](std::size_t i) { grid.add(places_[i]); });
         answer(grid, points, is_seen);
     }
 
   private:
     NearestGrid empty_grid(const View& view) const
     {
-        constexpr std::size_t kDenseStride = 16; // these stand evenly
+        constexpr std::size_t kDenseStride = 16; // dense points are spaced evenly
         const std::size_t stride = 1 + places_.size() / (2 * kSampled);
         return {view, scene_, places_, scene_.is_dense ? std::max(stride, kDenseStride) : stride};
     }
@@ -130,10 +131,10 @@ class Hiding {
         double length; ///< along its side
     };
 
-    /// Around points and what lies in one square of an image with them.
+    /// The cone around `points` and everything in their squares of the image.
     Cone cone_around(const View& view, std::span<const std::size_t> points, double square) const
     {
-        constexpr double kMargin = 4.0; // squares at the edge of an image may be wider
+        constexpr double kMargin = 4.0; // squares at the image edge may span larger angles
         Cone cone{view.center, Vector3d::Zero(), 0.0, 0.0};
         for (const std::size_t point : points) {
             const Vector3d way = places_[point] - view.center;
@@ -150,7 +151,7 @@ class Hiding {
         return cone;
     }
 
-    /// How far the tip of a cone is from a box; infinite where no part of it is in the cone.
+    /// The distance from the tip of a cone to a box; infinite if the box is outside the cone.
     static double distance_in(const Cone& cone, const Box& box)
     {
         const Vector3d middle = 0.5 * (box.low + box.high) - cone.tip;
@@ -167,10 +168,10 @@ class Hiding {
     const Scene& scene_;
     const std::vector<Vector3d>& places_;
     PointTree tree_;
-    std::vector<std::optional<NearestGrid>> whole_; ///< a view's, of all points
+    std::vector<std::optional<NearestGrid>> whole_; ///< the grid of all points, per view
 };
 
-/// Finds the sights of points that follow each other in space, a run of them at a time.
+/// Finds the rays of points in spatial order, one run of points per call.
 class NearestViews {
   public:
     NearestViews(const Scene& scene, const std::vector<Vector3d>& places)
@@ -178,12 +179,12 @@ class NearestViews {
     {
     }
 
-    /// Of the points of a run, in their order.
+    /// The views of each point of a run.
     std::vector<Seen> find(const PointRun& run, const Progress& progress) const
     {
         std::vector<Seen> rows(run.size());
         std::vector<std::uint32_t> passed(run.size());
-        std::vector<std::uint32_t> left(run.size()); // of the run, which may get more
+        std::vector<std::uint32_t> left(run.size()); // points of the run that lack views
         std::iota(left.begin(), left.end(), 0U);
         for (const std::size_t most : kAsked) {
             const bool is_first = most == kAsked.front();
@@ -207,7 +208,7 @@ class NearestViews {
                 [&](std::size_t i) { return std::span(asked[i].views).first(asked[i].count); }};
     }
 
-    /// Of each question whether the answer is yes; the points are so many after the first.
+    /// Whether each queried view sees its point. `left` has offsets from the point `first`.
     std::vector<std::uint8_t> ask(std::size_t first, const std::vector<std::uint32_t>& left,
                                   const PlacesOfViews& questions, const Progress& progress) const
     {
@@ -226,7 +227,7 @@ class NearestViews {
         return sees;
     }
 
-    /// Keeps the views that see, and of the points those that may get more.
+    /// Adds the views that see the points, and removes points from `left` that cannot get more.
     static void keep_seen(std::vector<std::uint32_t>& left, const std::vector<Asked>& asked,
                           const std::vector<std::uint8_t>& sees, std::vector<Seen>& rows)
     {
@@ -247,7 +248,7 @@ class NearestViews {
     Hiding hiding_;
 };
 
-/// The finite points along a Hilbert curve.
+/// The finite points, in the order of a Hilbert curve.
 std::vector<std::uint32_t> order_of(const std::vector<Vector3d>& positions)
 {
     std::vector<std::uint32_t> finite;
@@ -259,13 +260,13 @@ std::vector<std::uint32_t> order_of(const std::vector<Vector3d>& positions)
 
 } // namespace
 
-Tracks nearest_sights(const Scene& scene, const Progress& progress)
+Tracks nearest_rays(const Scene& scene, const Progress& progress)
 {
     const std::vector<std::uint32_t> order = order_of(scene.positions);
     const std::vector<Vector3d> places = values_at(order, scene.positions);
     std::vector<Seen> rows(scene.num_points());
     if (!places.empty()) {
-        constexpr std::size_t kAtOnce = std::size_t{1} << 18U; // so that questions take little
+        constexpr std::size_t kAtOnce = std::size_t{1} << 18U; // limits the memory of the queries
         const NearestViews nearest(scene, places);
         const auto share = [&](std::size_t point) {
             return static_cast<double>(point) / static_cast<double>(places.size());
@@ -277,7 +278,7 @@ Tracks nearest_sights(const Scene& scene, const Progress& progress)
             for (std::size_t i = 0; i < run.size(); ++i) {
                 Seen& row = rows[order[run.first + i]];
                 row = found[i];
-                std::ranges::sort(row.views); // the empty places come last
+                std::ranges::sort(row.views); // empty entries sort last
             }
         }
     }

@@ -1,4 +1,4 @@
-#include "steps/7_refine/sight_guard.h"
+#include "steps/7_refine/ray_guard.h"
 
 #include "base/parallel.h"
 #include "geometry/predicates.h"
@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 
 using Triangle = std::array<Vector3d, 3>;
 
-constexpr std::size_t kLeafSights = 8;
-constexpr std::size_t kParallelSights = 1U << 14U;
-/// How much more an extent counts where sights begin, next to the surface: triangles are there.
+constexpr std::size_t kLeafRays = 8;
+constexpr std::size_t kParallelRays = 1U << 14U;
+/// Weight of extents at the start of rays, close to the surface and so to triangles.
 constexpr double kBeginWeight = 2.0;
 
 std::size_t middle_of(std::size_t first, std::size_t last)
@@ -29,17 +29,17 @@ std::size_t middle_of(std::size_t first, std::size_t last)
     return first + (last - first) / 2;
 }
 
-std::size_t num_nodes(std::size_t sights)
+std::size_t num_nodes(std::size_t rays)
 {
     std::size_t nodes = 1;
-    for (; sights > kLeafSights; sights -= sights / 2) {
+    for (; rays > kLeafRays; rays -= rays / 2) {
         nodes = 2 * nodes + 1;
     }
     return nodes;
 }
 
-/// The stretch of t in [0, 1] where what goes evenly from `begin` to `end` is at most 0 is cut out
-/// of `from` .. `to`, which are left as they are where that is so at both ends.
+/// Intersects the interval `from` .. `to` with the t in [0, 1] at which the linear function from
+/// `begin` to `end` is at most 0.
 inline void clip(double begin, double end, double& from, double& to)
 {
     if (begin <= 0.0) {
@@ -49,12 +49,12 @@ inline void clip(double begin, double end, double& from, double& to)
     }
 }
 
-/// The share of the time that building the tree takes.
+/// Share of the time for building the tree.
 constexpr double kTreeShare = 0.3;
-/// How many faces, which lie next to each other for the most part, are asked about at once.
+/// Number of faces per query; consecutive faces are mostly adjacent.
 constexpr std::size_t kNeighbors = 4;
 
-/// Per point, how much of its sights does not count; of two vertices at a point the lesser.
+/// Per point, the ignored length of its rays; the smaller one if two vertices share a point.
 std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& surface)
 {
     const std::vector<double> spacings = vertex_spacings(surface);
@@ -71,13 +71,13 @@ std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& su
 
 } // namespace
 
-/// Some triangles, and what rules most sights out at once. Tolerances only make it look at more.
-struct SightTree::Query {
-    std::vector<Triangle> triangles; ///< that have an area
+/// Triangles, and bounds that exclude most rays quickly. Tolerances only enlarge the bounds.
+struct RayTree::Query {
+    std::vector<Triangle> triangles; ///< without degenerate ones
     const Visitor& visit;
     Box box;
     Vector3d normal = Vector3d::Zero();
-    double low = HUGE_VAL; ///< along `normal`
+    double low = HUGE_VAL; ///< lowest height along `normal`
     double high = -HUGE_VAL;
 
     Query(std::span<const Triangle> all, const Visitor& visitor, double extent) : visit(visitor)
@@ -101,15 +101,14 @@ struct SightTree::Query {
                 high = std::max(high, normal.dot(corner));
             }
         }
-        // The cross products' own rounding, times the lever it acts on.
+        // The rounding error of the cross products, times their lever.
         const double count = static_cast<double>(triangles.size());
         const double tolerance = 4.0 * (normal.lpNorm<1>() + count * longest_sq) * reach;
         low -= tolerance;
         high += tolerance;
     }
 
-    /// Whether, on the way from one box to the other, there is a place that touches the slab and
-    /// the box of the triangles.
+    /// Whether a segment between the boxes may touch both the slab and the box of the triangles.
     bool may_meet(const Box& begins, const Box& ends) const
     {
         double from = 0.0;
@@ -128,7 +127,7 @@ struct SightTree::Query {
         return from <= to;
     }
 
-    /// The lowest and the highest place of a box along `normal`.
+    /// The lowest and the highest coordinate of a box along `normal`.
     std::pair<double, double> heights_of(const Box& b) const
     {
         const double middle = normal.dot(b.center());
@@ -145,7 +144,7 @@ struct SightTree::Query {
     }
 };
 
-SightTree::SightTree(const Scene& scene, const std::vector<double>& margins)
+RayTree::RayTree(const Scene& scene, const std::vector<double>& margins)
 {
     for (const View& view : scene.views) {
         ends_.push_back(view.center);
@@ -156,39 +155,38 @@ SightTree::SightTree(const Scene& scene, const std::vector<double>& margins)
             const Vector3d line = ends_[view] - position;
             const double length = line.norm();
             if (length <= margins[point]) continue;
-            sights_.push_back({position + line * (margins[point] / length), view});
+            rays_.push_back({position + line * (margins[point] / length), view});
         }
     }
-    if (sights_.empty()) return;
-    nodes_.resize(num_nodes(sights_.size()));
-    build(0, 0, sights_.size());
+    if (rays_.empty()) return;
+    nodes_.resize(num_nodes(rays_.size()));
+    build(0, 0, rays_.size());
 }
 
-void SightTree::build(std::size_t node, std::size_t first, std::size_t last)
+void RayTree::build(std::size_t node, std::size_t first, std::size_t last)
 {
     Shaft& shaft = nodes_[node];
     for (std::size_t i = first; i < last; ++i) {
-        shaft.begins.extend(sights_[i].begin);
-        shaft.ends.extend(ends_[sights_[i].view]);
+        shaft.begins.extend(rays_[i].begin);
+        shaft.ends.extend(ends_[rays_[i].view]);
     }
-    if (last - first <= kLeafSights) return;
+    if (last - first <= kLeafRays) return;
 
-    // Split the longer side of the two boxes at the median.
+    // Split the longest side of the two boxes at the median.
     Eigen::Index begin_axis = 0;
     Eigen::Index end_axis = 0;
     const double begin_extent = kBeginWeight * shaft.begins.sizes().maxCoeff(&begin_axis);
     const bool by_begin = begin_extent >= shaft.ends.sizes().maxCoeff(&end_axis);
-    const auto place = [&](const TrimmedSight& sight) {
-        return by_begin ? sight.begin[begin_axis] : ends_[sight.view][end_axis];
+    const auto place = [&](const TrimmedRay& ray) {
+        return by_begin ? ray.begin[begin_axis] : ends_[ray.view][end_axis];
     };
-    const auto at = [&](std::size_t i) { return sights_.begin() + static_cast<std::ptrdiff_t>(i); };
+    const auto at = [&](std::size_t i) { return rays_.begin() + static_cast<std::ptrdiff_t>(i); };
     const std::size_t middle = middle_of(first, last);
-    std::nth_element(
-        at(first), at(middle), at(last),
-        [&](const TrimmedSight& a, const TrimmedSight& b) { return place(a) < place(b); });
+    std::nth_element(at(first), at(middle), at(last),
+                     [&](const TrimmedRay& a, const TrimmedRay& b) { return place(a) < place(b); });
     const auto build_first = [&] { build(2 * node + 1, first, middle); };
     const auto build_rest = [&] { build(2 * node + 2, middle, last); };
-    if (last - first > kParallelSights) {
+    if (last - first > kParallelRays) {
         parallel_invoke(build_first, build_rest);
     } else {
         build_first();
@@ -196,7 +194,7 @@ void SightTree::build(std::size_t node, std::size_t first, std::size_t last)
     }
 }
 
-void SightTree::visit_meeting(std::span<const Triangle> triangles, const Visitor& visit) const
+void RayTree::visit_meeting(std::span<const Triangle> triangles, const Visitor& visit) const
 {
     if (nodes_.empty()) return;
     const Shaft& all = nodes_[0];
@@ -204,29 +202,29 @@ void SightTree::visit_meeting(std::span<const Triangle> triangles, const Visitor
         return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
     };
     const Query query(triangles, visit, std::max(reach(all.begins), reach(all.ends)));
-    if (!query.triangles.empty()) descend(0, 0, sights_.size(), query);
+    if (!query.triangles.empty()) descend(0, 0, rays_.size(), query);
 }
 
-bool SightTree::descend(std::size_t node, std::size_t first, std::size_t last,
-                        const Query& query) const
+bool RayTree::descend(std::size_t node, std::size_t first, std::size_t last,
+                      const Query& query) const
 {
     if (!query.may_meet(nodes_[node].begins, nodes_[node].ends)) return true;
-    if (last - first > kLeafSights) {
+    if (last - first > kLeafRays) {
         const std::size_t middle = middle_of(first, last);
         return descend(2 * node + 1, first, middle, query) &&
                descend(2 * node + 2, middle, last, query);
     }
     for (std::size_t i = first; i < last; ++i) {
-        const bool meets = query.meets(sights_[i].begin, ends_[sights_[i].view]);
+        const bool meets = query.meets(rays_[i].begin, ends_[rays_[i].view]);
         if (meets && !query.visit(i)) return false;
     }
     return true;
 }
 
-SightGuard::SightGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress)
+RayGuard::RayGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress)
     : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)
 {
-    progress.tell(kTreeShare);
+    progress.report(kTreeShare);
     parallel_for_ranges(
         surface.n_faces(), progress.part(kTreeShare, 1.0),
         [&](std::size_t first, std::size_t last) {
@@ -235,25 +233,25 @@ SightGuard::SightGuard(const Scene& scene, const HalfEdgeMesh& surface, const Pr
                 const auto face = handle_at<OpenMesh::FaceHandle>(f);
                 if (!surface.is_deleted(face)) triangles.push_back(surface.triangle(face));
             }
-            tree_.visit_meeting(triangles, [&](std::size_t sight) {
-                std::atomic_ref(blocked_[sight]).store(1, std::memory_order_relaxed);
+            tree_.visit_meeting(triangles, [&](std::size_t ray) {
+                std::atomic_ref(blocked_[ray]).store(1, std::memory_order_relaxed);
                 return true;
             });
         },
         kNeighbors);
 }
 
-bool SightGuard::blocks(std::span<const std::array<Vector3d, 3>> triangles) const
+bool RayGuard::blocks(std::span<const std::array<Vector3d, 3>> triangles) const
 {
     bool found = false;
-    tree_.visit_meeting(triangles, [&](std::size_t sight) {
-        found = blocked_[sight] == 0;
+    tree_.visit_meeting(triangles, [&](std::size_t ray) {
+        found = blocked_[ray] == 0;
         return !found;
     });
     return found;
 }
 
-std::int64_t SightGuard::num_free() const
+std::int64_t RayGuard::num_free() const
 {
     return std::ranges::count(blocked_, 0);
 }

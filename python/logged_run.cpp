@@ -1,4 +1,4 @@
-#include "told_run.h"
+#include "logged_run.h"
 
 #include <atomic>
 #include <chrono>
@@ -17,17 +17,17 @@ namespace py = pybind11;
 
 namespace {
 
-/// Signals are looked for so often.
+/// The interval between checks for signals.
 constexpr std::chrono::milliseconds kPatience(50);
 
-/// One thing that a run tells: "begin", "share", "end" or "note".
+/// A log event of a run: "begin", "share", "end" or "note".
 struct Event {
     const char* kind;
     std::string name;
     std::variant<double, Counts> value;
 };
 
-/// Keeps what is told, by any thread, until the thread that may use Python takes it.
+/// Queues events of any thread for the thread that may use Python.
 class Mailbox final : public Log {
   public:
     void stage_begins(std::string_view name) override
@@ -41,7 +41,7 @@ class Mailbox final : public Log {
         put({"end", std::string(name), counts});
     }
     void note(std::string_view sentence) override { put({"note", std::string(sentence), 0.0}); }
-    bool wants_stop() const override { return stops_.load(std::memory_order_relaxed); }
+    bool should_stop() const override { return stops_.load(std::memory_order_relaxed); }
 
     void stop() { stops_.store(true, std::memory_order_relaxed); }
     void close()
@@ -50,7 +50,7 @@ class Mailbox final : public Log {
         is_closed_ = true;
         arrived_.notify_one();
     }
-    /// Waits for something to arrive, not for long, and takes it; whether more may come.
+    /// Waits for at most kPatience and moves out all events. Returns whether more may follow.
     bool take(std::vector<Event>& events)
     {
         std::unique_lock lock(mutex_);
@@ -70,7 +70,7 @@ class Mailbox final : public Log {
     std::mutex mutex_;
     std::condition_variable arrived_;
     std::vector<Event> events_;
-    std::string stage_; ///< the one that runs
+    std::string stage_; ///< the running stage
     bool is_closed_ = false;
     std::atomic<bool> stops_ = false;
 };
@@ -88,7 +88,7 @@ void tell(const py::object& listener, const Event& event)
     }
 }
 
-/// Tells the listener until the mailbox is closed.
+/// Passes events to the listener until the mailbox is closed.
 void listen(Mailbox& mailbox, const py::object& listener)
 {
     for (bool is_open = true; is_open;) {

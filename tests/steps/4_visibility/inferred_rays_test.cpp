@@ -1,5 +1,5 @@
 #include "steps/1_points/arrange.h"
-#include "steps/4_visibility/inferred_sights.h"
+#include "steps/4_visibility/inferred_rays.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -10,13 +10,13 @@
 #include <cstdint>
 #include <vector>
 
-namespace vcarve::inferred_sights_test {
+namespace vcarve::inferred_rays_test {
 namespace {
 
 using Eigen::Vector3d;
 using Views = std::vector<std::uint32_t>;
 
-/// Six views side by side that look up z from 5 below.
+/// Six views side by side at z = -5 that look along z.
 Scene views_below()
 {
     Scene scene;
@@ -37,8 +37,8 @@ void add(Scene& scene, const Vector3d& position, const Views& views)
     scene.tracks.push_back(views);
 }
 
-/// A wall across z, with points a tenth apart from x = -2 to `end`; of seven points one is seen by
-/// `seldom`, the others by `mostly`.
+/// Adds a wall normal to z, with points a tenth apart from x = -2 to `end`. The views `seldom` see
+/// every seventh point, and the views `mostly` the others.
 void add_wall(Scene& scene, double z, double end, const Views& mostly, const Views& seldom)
 {
     int number = 0;
@@ -51,15 +51,15 @@ void add_wall(Scene& scene, double z, double end, const Views& mostly, const Vie
 
 std::size_t num_inferred(const Scene& scene)
 {
-    return inferred_sights(scene).views.size();
+    return inferred_rays(scene).views.size();
 }
 
-TEST(InferredSights, AreOfViewsThatSawThePointsBeside)
+TEST(InferredRays, AddsViewsThatSawNeighboringPoints)
 {
     Scene scene = views_below();
     add_wall(scene, 0.0, 2.0, {0, 1, 3}, {0});
     scene = spatial_sort(std::move(scene));
-    const Tracks inferred = inferred_sights(scene);
+    const Tracks inferred = inferred_rays(scene);
     ASSERT_EQ(inferred.size(), scene.num_points());
     for (std::size_t i = 0; i < inferred.size(); ++i) {
         const Views row(inferred[i].begin(), inferred[i].end());
@@ -67,7 +67,7 @@ TEST(InferredSights, AreOfViewsThatSawThePointsBeside)
     }
 }
 
-TEST(InferredSights, AreOfPointsThatFewSaw)
+TEST(InferredRays, AddsViewsToPointsWithFewerThanFive)
 {
     Scene scene = views_below();
     add_wall(scene, 0.0, 2.0, {0, 1, 2, 3, 4, 5}, {0, 1, 2, 3, 4});
@@ -77,7 +77,7 @@ TEST(InferredSights, AreOfPointsThatFewSaw)
     EXPECT_GT(num_inferred(spatial_sort(scene)), 100U);
 }
 
-TEST(InferredSights, AreOfViewsBeforeThePoint)
+TEST(InferredRays, RejectsViewsBehindThePoint)
 {
     Scene scene = views_below();
     add_wall(scene, 0.0, 2.0, {0, 1}, {0});
@@ -87,42 +87,42 @@ TEST(InferredSights, AreOfViewsBeforeThePoint)
     EXPECT_GT(num_inferred(spatial_sort(scene)), 100U);
 }
 
-TEST(InferredSights, ArePastNothingThatTheViewSawNearer)
+TEST(InferredRays, RejectsViewsThatSawANearerPoint)
 {
-    // Beyond the end of the wall before it, view 0 saw the one behind
+    // View 0 saw the front wall, and the back wall beyond the end of the front wall.
     Scene scene = views_below();
     add_wall(scene, 0.0, 0.0, {0}, {0});
     const std::size_t front = scene.num_points();
     add_wall(scene, 1.0, 2.0, {1}, {1});
     for (std::size_t i = front; i < scene.num_points(); ++i) {
-        if (scene.positions[i].x() > 0.0) scene.tracks.views[i] = 0; // each track is of one view
+        if (scene.positions[i].x() > 0.0) scene.tracks.views[i] = 0; // each track has one view
     }
     scene = spatial_sort(std::move(scene));
-    const Tracks inferred = inferred_sights(scene);
+    const Tracks inferred = inferred_rays(scene);
     std::size_t beside = 0;
     for (std::size_t i = 0; i < inferred.size(); ++i) {
         if (scene.positions[i].z() == 0.0 || inferred[i].empty() || inferred[i][0] != 0) continue;
-        EXPECT_GT(scene.positions[i].x(), -0.05) << "behind the wall";
+        EXPECT_GT(scene.positions[i].x(), -0.05) << "behind the front wall";
         ++beside;
     }
     EXPECT_LT(beside, 200U);
 }
 
-TEST(InferredSights, AreNoneWhereTheViewSawThingsFartherOff)
+TEST(InferredRays, RejectsViewsThatSawOnlyFartherPoints)
 {
     Scene scene = views_below();
     add_wall(scene, 0.0, 2.0, {0, 1}, {0, 1});
     for (const double x : {-0.5, 0.0, 0.5}) {
-        add(scene, {x, 0.3, -1.0}, {2}); // in the air
+        add(scene, {x, 0.3, -1.0}, {2}); // in front of the wall
     }
     scene = spatial_sort(std::move(scene));
-    const Tracks inferred = inferred_sights(scene);
+    const Tracks inferred = inferred_rays(scene);
     for (std::size_t i = 0; i < inferred.size(); ++i) {
         EXPECT_TRUE(scene.positions[i].z() > -0.5 || inferred[i].empty());
     }
 }
 
-TEST(InferredSights, AreNoneOfScanners)
+TEST(InferredRays, IgnoresScanners)
 {
     Scene scene = views_below();
     add_wall(scene, 0.0, 2.0, {0, 1}, {0});
@@ -130,26 +130,26 @@ TEST(InferredSights, AreNoneOfScanners)
     EXPECT_EQ(num_inferred(spatial_sort(scene)), 0U);
 }
 
-TEST(InferredSights, AreNoneOfCamerasWithoutAnImageAndOfNoPoints)
+TEST(InferredRays, IgnoresCamerasWithoutImagesAndAcceptsEmptyScenes)
 {
     Scene scene = views_below();
-    EXPECT_EQ(inferred_sights(scene).size(), 0U);
+    EXPECT_EQ(inferred_rays(scene).size(), 0U);
     add_wall(scene, 0.0, 2.0, {0, 1}, {0});
     scene.cameras[0].width_px = 0;
     EXPECT_EQ(num_inferred(spatial_sort(scene)), 0U);
 }
 
-TEST(InferredSights, AreTheSameForAnyNumberOfThreads)
+TEST(InferredRays, DoesNotDependOnTheThreadCount)
 {
     Scene scene = views_below();
     add_wall(scene, 0.0, 2.0, {0, 1, 3}, {0});
     scene = spatial_sort(std::move(scene));
-    const Tracks several = inferred_sights(scene);
+    const Tracks several = inferred_rays(scene);
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    const Tracks one = inferred_sights(scene);
+    const Tracks one = inferred_rays(scene);
     EXPECT_EQ(one.begins, several.begins);
     EXPECT_EQ(one.views, several.views);
 }
 
 } // namespace
-} // namespace vcarve::inferred_sights_test
+} // namespace vcarve::inferred_rays_test

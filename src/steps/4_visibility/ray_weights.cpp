@@ -1,4 +1,4 @@
-#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/ray_weights.h"
 
 #include "base/parallel.h"
 #include "base/statistics.h"
@@ -16,9 +16,9 @@ namespace vcarve {
 
 namespace {
 
-using Edge = std::uint64_t; ///< smaller vertex in the upper half, larger in the lower
+using Edge = std::uint64_t; ///< smaller vertex in the upper 32 bits, larger in the lower
 
-/// Spreads edges evenly, so that taking those below a bound takes a fair sample.
+/// A hash of an edge. Edges whose hash is divisible by a number are a fair sample.
 std::uint64_t scattered(Edge edge)
 {
     edge ^= edge >> 31U;
@@ -44,7 +44,7 @@ void add_sampled_edges(const Cell& cell, std::uint64_t one_in, std::vector<Edge>
 
 std::vector<Edge> sampled_edges(const TetMesh& mesh)
 {
-    // The quartile is then known to a few per mille.
+    // Determines the quartile to a few per mille.
     constexpr std::size_t kCellsTakenWhole = 50'000;
     const std::uint64_t one_in = 1 + mesh.cells.size() / kCellsTakenWhole;
     auto edges = parallel_collect<Edge>(mesh.cells.size(), [&](std::size_t cell, auto& found) {
@@ -108,9 +108,9 @@ Scales measure_scales(const TetMesh& cells, const Scene& scene)
             .median_views = median_views(scene.tracks)};
 }
 
-// Full weight is what the median of the points that are seen gets, so that a model of two-view
-// points is not all doubt.
-SightWeights::SightWeights(const Scene& scene, const Scales& scales, const TraceOptions& options)
+// The median point that a view saw has full weight, so that rays in models of two-view points are
+// not weak.
+RayWeights::RayWeights(const Scene& scene, const Scales& scales, const TraceOptions& options)
     : scene_(scene),
       options_(options),
       median_error_px_(scales.median_error_px),
@@ -118,14 +118,14 @@ SightWeights::SightWeights(const Scene& scene, const Scales& scales, const Trace
 {
 }
 
-std::int32_t SightWeights::full_weight(Index point, double weight) const
+std::int32_t RayWeights::full_weight(Index point, double weight) const
 {
     weight *= by_views(scene_.tracks[point]) * by_error(scene_.errors_px[point]);
     return static_cast<std::int32_t>(std::lround(kUnit * weight));
 }
 
-/// A measured range needs no second view that agrees, and so its sight stands for two.
-double SightWeights::by_views(std::span<const std::uint32_t> track) const
+/// A measured range needs no second view to confirm it, so its ray counts twice.
+double RayWeights::by_views(std::span<const std::uint32_t> track) const
 {
     constexpr double kOfARange = 2.0;
     if (has_measured_range(scene_, track)) {
@@ -134,8 +134,8 @@ double SightWeights::by_views(std::span<const std::uint32_t> track) const
     return views_weight(static_cast<double>(track.size()), options_.views_sigma) / full_;
 }
 
-/// Errors up to the median one, and unknown ones, take nothing away.
-double SightWeights::by_error(double error_px) const
+/// Errors up to the median do not reduce the weight. An unknown error of -1 counts as 1 px.
+double RayWeights::by_error(double error_px) const
 {
     if (options_.error_sigma == 0.0 || median_error_px_ == 0.0) {
         return 1.0;

@@ -1,5 +1,5 @@
-#include "steps/7_refine/sight_guard.h"
-#include "support/blocked_sights.h"
+#include "steps/7_refine/ray_guard.h"
+#include "support/blocked_rays.h"
 #include "support/half_edges.h"
 #include "support/scenes.h"
 
@@ -10,7 +10,7 @@
 #include <set>
 #include <span>
 
-namespace vcarve::sight_guard_test {
+namespace vcarve::ray_guard_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,21 +19,21 @@ using testing::half_edges;
 using testing::meets;
 using testing::Triangle;
 
-std::vector<std::size_t> met_by(const SightTree& tree, const Triangle& triangle)
+std::vector<std::size_t> met_by(const RayTree& tree, const Triangle& triangle)
 {
     std::vector<std::size_t> met;
-    tree.visit_meeting(std::span(&triangle, 1), [&](std::size_t sight) {
-        met.push_back(sight);
+    tree.visit_meeting(std::span(&triangle, 1), [&](std::size_t ray) {
+        met.push_back(ray);
         return true;
     });
     return met;
 }
 
-TEST(SightTree, FindsWhatBruteForceFinds)
+TEST(RayTree, MatchesBruteForce)
 {
     const Scene scene = bumpy_sphere(300, 11);
-    const SightTree tree(scene, std::vector<double>(scene.num_points(), 0.01));
-    ASSERT_EQ(tree.size(), scene.num_sights());
+    const RayTree tree(scene, std::vector<double>(scene.num_points(), 0.01));
+    ASSERT_EQ(tree.size(), scene.num_rays());
     std::mt19937 random(5);
     const auto anywhere = [&] {
         const auto number = [&] { return random() / 2147483648.0 - 1.0; };
@@ -55,10 +55,10 @@ TEST(SightTree, FindsWhatBruteForceFinds)
     EXPECT_GT(num_met, 400U);
 }
 
-TEST(SightTree, FindsForSomeTrianglesWhatItFindsForEach)
+TEST(RayTree, FindsTheSameForManyTrianglesAsForEach)
 {
     const Scene scene = bumpy_sphere(300, 11);
-    const SightTree tree(scene, std::vector<double>(scene.num_points(), 0.01));
+    const RayTree tree(scene, std::vector<double>(scene.num_points(), 0.01));
     std::mt19937 random(7);
     const auto anywhere = [&] {
         const auto number = [&] { return random() / 2147483648.0 - 1.0; };
@@ -75,34 +75,34 @@ TEST(SightTree, FindsForSomeTrianglesWhatItFindsForEach)
             expected.insert(met.begin(), met.end());
         }
         std::vector<std::size_t> met;
-        tree.visit_meeting(triangles, [&](std::size_t sight) {
-            met.push_back(sight);
+        tree.visit_meeting(triangles, [&](std::size_t ray) {
+            met.push_back(ray);
             return true;
         });
         ASSERT_EQ(met, std::vector(expected.begin(), expected.end())) << "round " << round;
         num_met += met.size();
     }
     EXPECT_GT(num_met, 200U);
-    tree.visit_meeting({}, [](std::size_t) { return ADD_FAILURE() << "of no triangle", false; });
+    tree.visit_meeting({}, [](std::size_t) { return ADD_FAILURE() << "no triangle", false; });
 }
 
-TEST(SightTree, CutsTheMarginOff)
+TEST(RayTree, CutsTheMarginOff)
 {
     const Scene scene = make_scene({{0, 0, 4}, {0, 4, 0}}, {{{0, 0, 0}, {0, 1}}});
-    const SightTree tree(scene, {1.0});
+    const RayTree tree(scene, {1.0});
     ASSERT_EQ(tree.size(), 2U);
     EXPECT_EQ(tree[0].begin, Vector3d(0, 0, 1));
     EXPECT_EQ(tree[1].begin, Vector3d(0, 1, 0));
     EXPECT_EQ(met_by(tree, {Vector3d(-1, -1, 1), {1, -1, 1}, {0, 1, 1}}).size(), 1U);
     EXPECT_TRUE(met_by(tree, {Vector3d(-1, -1, 0.99), {1, -1, 0.99}, {0, 1, 0.99}}).empty());
-    // Nothing is left of sights no longer than the margin.
-    EXPECT_EQ(SightTree(scene, {4.0}).size(), 0U);
+    // Rays not longer than the margin are dropped.
+    EXPECT_EQ(RayTree(scene, {4.0}).size(), 0U);
 }
 
-TEST(SightTree, StopsWhenTold)
+TEST(RayTree, StopsIfTheVisitorReturnsFalse)
 {
     const Scene scene = bumpy_sphere(100, 3);
-    const SightTree tree(scene, std::vector<double>(scene.num_points(), 0.0));
+    const RayTree tree(scene, std::vector<double>(scene.num_points(), 0.0));
     int calls = 0;
     const Triangle everywhere = {Vector3d(-9, -9, 0.1), {9, -9, 0.1}, {0, 19, 0.1}};
     ASSERT_GT(met_by(tree, everywhere).size(), 3U);
@@ -110,12 +110,12 @@ TEST(SightTree, StopsWhenTold)
     EXPECT_EQ(calls, 3);
 }
 
-TEST(SightTree, FindsNothingOnALineOrAmongNoSights)
+TEST(RayTree, FindsNothingForCollinearTrianglesOrWithoutRays)
 {
     const Scene scene = make_scene({{0, 0, 4}}, {{{0, 0, 0}, {0}}});
-    const SightTree tree(scene, {0.0});
+    const RayTree tree(scene, {0.0});
     EXPECT_TRUE(met_by(tree, {Vector3d(-1, 0, 1), {0, 0, 1}, {1, 0, 1}}).empty());
-    const SightTree none(testing::empty_scene(), {});
+    const RayTree none(testing::empty_scene(), {});
     EXPECT_TRUE(met_by(none, {Vector3d(-1, -1, 1), {1, -1, 1}, {0, 1, 1}}).empty());
 }
 
@@ -129,16 +129,16 @@ Scene grid_seen_from_above()
     return make_scene({{0.5, 0.5, 10}}, points);
 }
 
-/// A triangle over the middle of the square.
+/// A triangle above the center of the square.
 Triangle lid(double height)
 {
     return {Vector3d(0.4, 0.4, height), {0.6, 0.4, height}, {0.5, 0.6, height}};
 }
 
-TEST(SightGuard, GuardsSightsBeyondTheSpacingOfTheirPoint)
+TEST(RayGuard, GuardsRaysBeyondTheSpacingOfTheirPoint)
 {
-    const SightGuard guard(grid_seen_from_above(), half_edges(flat_grid(3)));
-    EXPECT_EQ(guard.num_sights(), 9);
+    const RayGuard guard(grid_seen_from_above(), half_edges(flat_grid(3)));
+    EXPECT_EQ(guard.num_rays(), 9);
     EXPECT_EQ(guard.num_free(), 9);
     EXPECT_TRUE(guard.blocks(lid(0.51)));
     EXPECT_TRUE(guard.blocks(lid(9.9)));
@@ -147,7 +147,7 @@ TEST(SightGuard, GuardsSightsBeyondTheSpacingOfTheirPoint)
     EXPECT_FALSE(guard.blocks({Vector3d(0.6, 0.4, 1), {0.8, 0.4, 1}, {0.7, 0.6, 1}}));
 }
 
-TEST(SightGuard, LeavesToTheirFateSightsThatAreBlockedAlready)
+TEST(RayGuard, IgnoresRaysThatAreAlreadyBlocked)
 {
     TriMesh mesh = flat_grid(3);
     for (const Vector3d& corner : lid(5)) {
@@ -155,28 +155,28 @@ TEST(SightGuard, LeavesToTheirFateSightsThatAreBlockedAlready)
         mesh.points.push_back(kNoPoint);
     }
     mesh.faces.push_back({9, 10, 11});
-    const SightGuard guard(grid_seen_from_above(), half_edges(mesh));
-    // Halfway up, the sights of the neighbours are a quarter of a unit off the middle one.
+    const RayGuard guard(grid_seen_from_above(), half_edges(mesh));
+    // At half height, the rays of the neighbors are a quarter of a unit from the central one.
     EXPECT_EQ(guard.num_free(), 8);
     EXPECT_FALSE(guard.blocks(lid(0.51)));
     EXPECT_TRUE(guard.blocks({Vector3d(0, 0, 1), {1, 0, 1}, {0.5, 1, 1}}));
 }
 
-TEST(SightGuard, GuardsAPointOffTheSurfaceToItsVeryEnd)
+TEST(RayGuard, GuardsTheWholeRayOfAPointThatIsNoVertex)
 {
     Scene scene = make_scene({{0.5, 0.5, 10}}, {{{0.5, 0.5, 0.25}, {0}}});
     TriMesh mesh = flat_grid(3);
     mesh.points.assign(mesh.points.size(), kNoPoint);
-    const SightGuard guard(scene, half_edges(mesh));
+    const RayGuard guard(scene, half_edges(mesh));
     EXPECT_TRUE(guard.blocks(lid(0.26)));
     EXPECT_TRUE(guard.blocks(lid(0.25)));
     EXPECT_FALSE(guard.blocks(lid(0.24)));
 }
 
-TEST(SightGuard, FindsTheFreeSightsThatBruteForceFinds)
+TEST(RayGuard, FindsTheSameFreeRaysAsBruteForce)
 {
     const Scene scene = bumpy_sphere(200, 9);
-    // Any mesh will do: faces between points that have nothing to do with each other.
+    // Any mesh serves, such as faces between random points.
     TriMesh mesh;
     mesh.positions = scene.positions;
     for (std::uint32_t v = 0; v < 200; ++v) {
@@ -186,11 +186,11 @@ TEST(SightGuard, FindsTheFreeSightsThatBruteForceFinds)
     }
     const HalfEdgeMesh surface = half_edges(mesh);
     mesh = tri_mesh(surface); // has copies of vertices
-    const SightGuard guard(scene, surface);
+    const RayGuard guard(scene, surface);
     const auto margins = testing::margins_in(mesh, scene);
-    const auto blocked = testing::blocked_sights(scene, mesh, margins);
+    const auto blocked = testing::blocked_rays(scene, mesh, margins);
     EXPECT_GT(blocked.size(), 20U);
-    EXPECT_EQ(guard.num_sights() - guard.num_free(), static_cast<std::int64_t>(blocked.size()));
+    EXPECT_EQ(guard.num_rays() - guard.num_free(), static_cast<std::int64_t>(blocked.size()));
 }
 
 TEST(VertexSpacings, AreMedianEdgeLengths)
@@ -200,8 +200,8 @@ TEST(VertexSpacings, AreMedianEdgeLengths)
     mesh.faces = {{0, 1, 2}, {0, 2, 3}};
     const std::vector<double> spacings = vertex_spacings(half_edges(mesh));
     EXPECT_EQ(spacings[0], 2.0); // of 1, 2 (twice) and 8
-    EXPECT_EQ(spacings[4], 0.0); // of no face
+    EXPECT_EQ(spacings[4], 0.0); // no face
 }
 
 } // namespace
-} // namespace vcarve::sight_guard_test
+} // namespace vcarve::ray_guard_test

@@ -1,4 +1,4 @@
-#include "support/exact_sight.h"
+#include "support/exact_ray.h"
 
 #include "geometry/predicates.h"
 
@@ -55,8 +55,7 @@ Number volume_6(const ExactTriangle& t, const Vector3d& tip)
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/// Where on the way from one point to another, in shares of it, their line passes a triangle's
-/// plane.
+/// The parameter, 0 at `from` and 1 at `to`, at which their line meets the plane of a triangle.
 Number share_at(const ExactTriangle& t, const Vector3d& from, const Vector3d& to)
 {
     const Number before = volume_6(t, from);
@@ -68,7 +67,7 @@ bool is_at_vertex(const Cell& cell, Index vertex)
     return std::find(cell.vertices.begin(), cell.vertices.end(), vertex) != cell.vertices.end();
 }
 
-/// Whether the sight, crossing nothing, goes straight out of the hull past an infinite cell.
+/// Whether the ray leaves the hull at its vertex through this infinite cell, without a crossing.
 bool leaves_past(const TetMesh& mesh, Index vertex, const Vector3d& target, Index cell)
 {
     return mesh.cells[cell].is_infinite() && is_at_vertex(mesh.cells[cell], vertex) &&
@@ -76,12 +75,12 @@ bool leaves_past(const TetMesh& mesh, Index vertex, const Vector3d& target, Inde
 }
 
 std::string fault_of_last(const TetMesh& mesh, Index vertex, const Vector3d& target,
-                          const std::vector<SightCrossing>& expected, Index last)
+                          const std::vector<RayCrossing>& expected, Index last)
 {
     if (!is_outside_hull(mesh, target)) {
         const bool is_right =
             last != kInfinite && !mesh.cells[last].is_infinite() && holds(mesh, last, target);
-        return is_right ? "" : fmt::format("last cell {} does not hold the target", last);
+        return is_right ? "" : fmt::format("last cell {} does not contain the target", last);
     }
     Index way_out = kInfinite;
     if (!expected.empty()) {
@@ -91,7 +90,7 @@ std::string fault_of_last(const TetMesh& mesh, Index vertex, const Vector3d& tar
     }
     const bool is_right = last == way_out || (expected.empty() && last != kInfinite &&
                                               leaves_past(mesh, vertex, target, last));
-    return is_right ? "" : fmt::format("last cell {}, but the way out is {}", last, way_out);
+    return is_right ? "" : fmt::format("last cell {}, expected {} outside the hull", last, way_out);
 }
 
 } // namespace
@@ -116,8 +115,8 @@ bool is_outside_hull(const TetMesh& mesh, const Vector3d& point)
     return false;
 }
 
-std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index vertex,
-                                                    const Vector3d& target)
+std::vector<RayCrossing> crossings_by_brute_force(const TetMesh& mesh, Index vertex,
+                                                  const Vector3d& target)
 {
     const Vector3d& point = mesh.positions[vertex];
     std::vector<std::pair<Number, CellFacet>> found;
@@ -132,7 +131,7 @@ std::vector<SightCrossing> crossings_by_brute_force(const TetMesh& mesh, Index v
     }
     std::sort(found.begin(), found.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<SightCrossing> crossings;
+    std::vector<RayCrossing> crossings;
     for (const auto& [share, crossed] : found) {
         crossings.push_back({crossed, CGAL::to_double(share)});
     }
@@ -187,16 +186,16 @@ std::string fault_of_walk(const TetMesh& mesh, Index vertex, const Vector3d& tar
 {
     const auto expected = crossings_by_brute_force(mesh, vertex, target);
     const bool same = std::equal(crossed.begin(), crossed.end(), expected.begin(), expected.end(),
-                                 [](const CellFacet& a, const SightCrossing& b) {
+                                 [](const CellFacet& a, const RayCrossing& b) {
                                      return a.cell == b.facet.cell && a.slot == b.facet.slot;
                                  });
     if (!same) {
-        return fmt::format("{} facets crossed, which are not the {} there are, in order",
-                           crossed.size(), expected.size());
+        return fmt::format("{} crossed facets differ from the {} expected ones", crossed.size(),
+                           expected.size());
     }
     const Index first = first_cell_by_brute_force(mesh, vertex, target);
     if (ends.first != first) {
-        return fmt::format("first cell {} is not {}", ends.first, first);
+        return fmt::format("first cell {}, expected {}", ends.first, first);
     }
     return fault_of_last(mesh, vertex, target, expected, ends.last);
 }

@@ -1,5 +1,5 @@
 #include "io/dense/nearest_grid.h"
-#include "io/dense/nearest_sights.h"
+#include "io/dense/nearest_rays.h"
 #include "support/scene_checks.h"
 #include "support/scenes.h"
 
@@ -13,14 +13,14 @@
 #include <random>
 #include <vector>
 
-namespace vcarve::nearest_sights_test {
+namespace vcarve::nearest_rays_test {
 namespace {
 
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// A grid of 41 x 41 points, 4 by 4 wide, at height z.
+/// Adds a grid of 41 x 41 points, 4 x 4 units wide, at height z.
 void add_square(Scene& scene, double z)
 {
     for (int row = 0; row <= 40; ++row) {
@@ -54,10 +54,9 @@ std::vector<std::uint32_t> row(const Tracks& tracks, std::size_t point)
     return {tracks[point].begin(), tracks[point].end()};
 }
 
-/// The same rule, followed by showing every view every point and asking one after the other.
-std::vector<std::uint32_t> sights_by_asking_all(const Scene& scene,
-                                                const std::vector<NearestGrid>& grids,
-                                                const Vector3d& place)
+/// The same rule by brute force: every view has a grid of all points.
+std::vector<std::uint32_t>
+rays_by_asking_all(const Scene& scene, const std::vector<NearestGrid>& grids, const Vector3d& place)
 {
     std::vector<std::uint32_t> order(scene.views.size());
     std::iota(order.begin(), order.end(), 0U);
@@ -86,7 +85,7 @@ std::vector<NearestGrid> grids_of_all_points(const Scene& scene)
     return grids;
 }
 
-/// A ball with points within, and views all around it that look at it or past it.
+/// A bumpy sphere, and views around it that look at it or past it.
 Scene ball_among_views(std::size_t num_views)
 {
     Scene scene = bumpy_sphere(3000, 5);
@@ -103,25 +102,25 @@ Scene ball_among_views(std::size_t num_views)
     return scene;
 }
 
-TEST(NearestSights, AreAsIfEveryViewWereShownEveryPoint)
+TEST(NearestRays, MatchThoseOfBruteForce)
 {
     for (const std::size_t num_views : {5U, 60U, 500U}) {
         const Scene scene = ball_among_views(num_views);
         const std::vector<NearestGrid> grids = grids_of_all_points(scene);
-        const Tracks tracks = nearest_sights(scene);
+        const Tracks tracks = nearest_rays(scene);
         for (std::size_t i = 0; i < scene.num_points(); ++i) {
-            ASSERT_EQ(row(tracks, i), sights_by_asking_all(scene, grids, scene.positions[i]))
+            ASSERT_EQ(row(tracks, i), rays_by_asking_all(scene, grids, scene.positions[i]))
                 << i << " of " << num_views << " views";
         }
     }
 }
 
-TEST(NearestSights, DoNotGoThroughAnotherSurface)
+TEST(NearestRays, DoNotPassThroughAnotherSurface)
 {
     const Scene scene = two_squares();
-    const Tracks tracks = nearest_sights(scene);
+    const Tracks tracks = nearest_rays(scene);
     ASSERT_EQ(tracks.size(), 2U * 41 * 41);
-    // What lies on the rim of the square behind shows beside the one before.
+    // Points near the rim of the rear square are visible beside the front square.
     for (std::size_t i = 0; i < scene.num_points(); ++i) {
         if (scene.positions[i].head<2>().cwiseAbs().maxCoeff() > 1.5) continue;
         if (scene.positions[i].z() == 0.0) {
@@ -132,9 +131,9 @@ TEST(NearestSights, DoNotGoThroughAnotherSurface)
     }
 }
 
-TEST(NearestSights, GoLessThroughGapsOfSparsePoints)
+TEST(NearestRays, PassFewerGapsOfSparsePoints)
 {
-    // Of the upper square, half way to its views, every second row and column is left.
+    // The upper square is half way to its views. It keeps every second row and column.
     Scene scene = two_squares();
     scene.positions.clear();
     add_square(scene, 0.0);
@@ -148,7 +147,7 @@ TEST(NearestSights, GoLessThroughGapsOfSparsePoints)
     scene.positions = left;
     const auto seen_through = [&](bool is_dense) {
         scene.is_dense = is_dense;
-        const Tracks tracks = nearest_sights(scene);
+        const Tracks tracks = nearest_rays(scene);
         int count = 0;
         for (std::size_t i = 0; i < 1681; ++i) {
             count += tracks[i].size() > 1 ? 1 : 0;
@@ -158,7 +157,7 @@ TEST(NearestSights, GoLessThroughGapsOfSparsePoints)
     EXPECT_LT(seen_through(false), seen_through(true) / 2);
 }
 
-TEST(NearestSights, HideNoPointOfASurfaceThatStandsAskew)
+TEST(NearestRays, ReachAllPointsOfAnObliqueSurface)
 {
     Scene scene = two_squares();
     scene.positions.clear();
@@ -167,22 +166,22 @@ TEST(NearestSights, HideNoPointOfASurfaceThatStandsAskew)
     for (Vector3d& position : scene.positions) {
         position = turn * position;
     }
-    const Tracks tracks = nearest_sights(scene);
+    const Tracks tracks = nearest_rays(scene);
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         EXPECT_THAT(row(tracks, i), ElementsAre(0, 1, 2)) << i;
     }
 }
 
-TEST(NearestSights, AreInTheImage)
+TEST(NearestRays, BelongToViewsWithThePointInTheImage)
 {
     Scene scene = two_squares();
     scene.positions = {{0, 0, 0}, {0, 0, 5.5}, {40, 0, 0}, {0, 0, 7}};
-    const Tracks tracks = nearest_sights(scene);
+    const Tracks tracks = nearest_rays(scene);
     EXPECT_THAT(row(tracks, 2), IsEmpty());
-    EXPECT_THAT(row(tracks, 3), ElementsAre(0)); // behind the two that look down
+    EXPECT_THAT(row(tracks, 3), ElementsAre(0)); // behind the two views that look down
 }
 
-TEST(NearestSights, AreThoseOfTheNearestViews)
+TEST(NearestRays, BelongToTheNearestViews)
 {
     Scene scene = two_squares();
     scene.positions = {{0, 0, 0}};
@@ -192,23 +191,23 @@ TEST(NearestSights, AreThoseOfTheNearestViews)
         scene.views.back().id = i + 1;
         scene.views.back().center = {0, 0, i % 2 == 0 ? -5.0 - i : -5.0 + 0.1 * i};
     }
-    // At 5 - 0.1 i for odd i, at 5 + i for even ones: 1 3 5 7 9 11 and 0 2 are the nearest.
-    EXPECT_THAT(row(nearest_sights(scene), 0), ElementsAre(0, 1, 2, 3, 5, 7, 9, 11));
+    // Distances are 5 - 0.1 i for odd i, 5 + i for even i. Views 1 3 5 7 9 11 0 2 are nearest.
+    EXPECT_THAT(row(nearest_rays(scene), 0), ElementsAre(0, 1, 2, 3, 5, 7, 9, 11));
 }
 
-TEST(NearestSights, AreNoneOfPointsThatAreNotFiniteAndOfCamerasWithoutSize)
+TEST(NearestRays, SkipPointsThatAreNotFiniteAndCamerasWithoutSize)
 {
     Scene scene = two_squares();
     scene.positions = {{0, 0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0, 0}};
-    EXPECT_THAT(row(nearest_sights(scene), 1), IsEmpty());
+    EXPECT_THAT(row(nearest_rays(scene), 1), IsEmpty());
     scene.cameras.front().width_px = 0;
-    EXPECT_THAT(nearest_sights(scene).views, IsEmpty());
-    // An image of a size nobody has takes no memory of that size.
+    EXPECT_THAT(nearest_rays(scene).views, IsEmpty());
+    // An absurd image size does not allocate memory of that size.
     scene.cameras.front().width_px = std::uint64_t{1} << 62;
-    EXPECT_EQ(nearest_sights(scene).size(), 2U);
+    EXPECT_EQ(nearest_rays(scene).size(), 2U);
     scene.views.clear();
-    EXPECT_EQ(nearest_sights(scene).size(), 2U);
+    EXPECT_EQ(nearest_rays(scene).size(), 2U);
 }
 
 } // namespace
-} // namespace vcarve::nearest_sights_test
+} // namespace vcarve::nearest_rays_test

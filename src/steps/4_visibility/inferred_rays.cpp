@@ -1,4 +1,4 @@
-#include "steps/4_visibility/inferred_sights.h"
+#include "steps/4_visibility/inferred_rays.h"
 
 #include "base/arrays.h"
 #include "base/parallel.h"
@@ -18,16 +18,16 @@ namespace vcarve {
 
 namespace {
 
-/// Where in its image a view saw points, and how far from it.
+/// The distances of the points that a view saw, by squares of its image.
 class SeenPlaces {
   public:
     SeenPlaces(const Scene& scene, const View& view, double focal_px,
                std::span<const PlacesOfViews::Entry> points)
         : view_(view), camera_(scene.cameras[view.camera])
     {
-        constexpr double kSquareWidth = 2.0; // over how far the points stand apart in the image
-        constexpr double kSteepest = 2.0;    // a surface rises before a view, over its width
-        constexpr double kLeast = 0.01;      // what distances are off by at any rate
+        constexpr double kSquareWidth = 2.0; // over the spacing of the points in the image
+        constexpr double kSteepest = 2.0;    // rise of a surface towards the view, over its width
+        constexpr double kLeast = 0.01;      // least relative tolerance of distances
         squares_ = {camera_, kSquareWidth, 1.0, static_cast<double>(points.size())};
         unlike_ = 1.0 + kLeast + kSteepest * squares_.side_px() / focal_px;
         for (const auto& [point, number] : points) {
@@ -37,8 +37,8 @@ class SeenPlaces {
         std::ranges::sort(seen_);
     }
 
-    /// Whether the view saw a point beside a place, in one of the nine squares around it, about as
-    /// far off, and in its own square none that is clearly nearer.
+    /// Whether the view saw a point at a similar distance in one of the 3 x 3 squares around a
+    /// position, and no clearly nearer point in the square of the position.
     bool shows(const Eigen::Vector3d& position) const
     {
         const auto place = project_into(view_, camera_, position);
@@ -52,7 +52,7 @@ class SeenPlaces {
     }
 
   private:
-    using Seen = std::pair<std::size_t, double>; ///< in which square, and how far
+    using Seen = std::pair<std::size_t, double>; ///< square and distance
 
     bool has_between(std::size_t square, double near, double far) const
     {
@@ -63,7 +63,7 @@ class SeenPlaces {
     const View& view_;
     const Camera& camera_;
     ImageSquares squares_;
-    double unlike_; ///< by what factor distances on one surface differ at most, beside each other
+    double unlike_;          ///< maximum ratio of distances on one surface, in adjacent squares
     std::vector<Seen> seen_; ///< ascending
 };
 
@@ -80,11 +80,12 @@ bool takes_pictures(const Scene& scene, std::uint32_t view)
     return !camera.measures_range && camera.width_px > 0 && camera.height_px > 0;
 }
 
-/// The views before a point that saw points around it, but not it, where few saw it.
+/// The views in front of a point that saw points around it, but not the point. Empty if five or
+/// more views saw the point.
 std::vector<std::uint32_t> views_around(const Scene& scene, std::size_t point)
 {
     constexpr std::size_t kEnough = 5;
-    constexpr std::size_t kAround = 32; // before it and behind
+    constexpr std::size_t kAround = 32; // on either side, in the order of the points
     constexpr std::size_t kStep = 4;
     std::vector<std::uint32_t> views;
     if (scene.tracks[point].size() >= kEnough) return views;
@@ -102,7 +103,7 @@ std::vector<std::uint32_t> views_around(const Scene& scene, std::size_t point)
 
 } // namespace
 
-Tracks inferred_sights(const Scene& scene, const Progress& progress)
+Tracks inferred_rays(const Scene& scene, const Progress& progress)
 {
     std::vector<std::vector<std::uint32_t>> rows(scene.num_points());
     parallel_for(rows.size(), progress.part(0.0, 0.4),

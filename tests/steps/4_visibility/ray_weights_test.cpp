@@ -1,6 +1,6 @@
 #include "steps/1_points/arrange.h"
 #include "steps/3_cells/triangulate.h"
-#include "steps/4_visibility/sight_weights.h"
+#include "steps/4_visibility/ray_weights.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-namespace vcarve::sight_weights_test {
+namespace vcarve::ray_weights_test {
 namespace {
 
 /// The lengths of all finite edges, ascending.
@@ -40,7 +40,7 @@ TEST(ShortEdgeLength, IsTheFirstQuartileOfAllFiniteEdges)
     EXPECT_EQ(short_edge_length(mesh), lengths[lengths.size() / 4]);
 }
 
-TEST(ShortEdgeLength, IsNearThatQuartileWhereAChoiceOfEdgesStandsForAll)
+TEST(ShortEdgeLength, IsNearTheFirstQuartileIfEdgesAreSampled)
 {
     const TetMesh mesh = triangulate(spatial_sort(bumpy_sphere(20000, 22)));
     ASSERT_GT(mesh.cells.size(), 100'000U);
@@ -58,59 +58,58 @@ TEST(ShortEdgeLength, IsTheEdgeOfARegularTetrahedron)
     EXPECT_DOUBLE_EQ(short_edge_length(triangulate(scene)), std::sqrt(8.0));
 }
 
-/// Points of two, three and four views; three is the median.
+/// Points with two, three and four views; the median is three.
 Scene points_of_some_views()
 {
     return make_scene({{0, 0, 9}, {1, 0, 9}, {2, 0, 9}, {3, 0, 9}},
                       {{{0, 0, 0}, {0, 1}}, {{1, 0, 0}, {0, 1, 2}}, {{2, 0, 0}, {0, 1, 2, 3}}});
 }
 
-TEST(SightWeights, CountAMedianPointAsOneAndOthersByTheirViews)
+TEST(RayWeights, WeightsPointsByTheirViewsRelativeToTheMedian)
 {
     const Scene scene = points_of_some_views();
     TraceOptions options;
-    const SightWeights weights(scene, measure_scales({}, scene), options);
+    const RayWeights weights(scene, measure_scales({}, scene), options);
     const auto by_views = [&](double views) {
         return 1.0 - std::exp(-0.5 * views * views / (options.views_sigma * options.views_sigma));
     };
-    EXPECT_EQ(weights.full_weight(1), SightWeights::kUnit);
-    EXPECT_EQ(weights.full_weight(0), std::lround(SightWeights::kUnit * by_views(2) / by_views(3)));
-    EXPECT_EQ(weights.full_weight(2), std::lround(SightWeights::kUnit * by_views(4) / by_views(3)));
-    EXPECT_EQ(weights.full_weight(1, 0.25), SightWeights::kUnit / 4);
+    EXPECT_EQ(weights.full_weight(1), RayWeights::kUnit);
+    EXPECT_EQ(weights.full_weight(0), std::lround(RayWeights::kUnit * by_views(2) / by_views(3)));
+    EXPECT_EQ(weights.full_weight(2), std::lround(RayWeights::kUnit * by_views(4) / by_views(3)));
+    EXPECT_EQ(weights.full_weight(1, 0.25), RayWeights::kUnit / 4);
 }
 
-TEST(SightWeights, CountErrorsBeyondTheMedianOnly)
+TEST(RayWeights, ReducesWeightsOnlyForErrorsAboveTheMedian)
 {
     Scene scene = points_of_some_views();
     scene.errors_px = {0.1, 3.0, 1.0};
     TraceOptions options;
     options.views_sigma = 0.0;
     options.error_sigma = 2.0;
-    const SightWeights weights(scene, measure_scales({}, scene), options);
-    EXPECT_EQ(weights.full_weight(0), SightWeights::kUnit);
-    EXPECT_EQ(weights.full_weight(2), SightWeights::kUnit);
-    EXPECT_EQ(weights.full_weight(1),
-              std::lround(SightWeights::kUnit * std::exp(-0.5 * 8.0 / 4.0)));
+    const RayWeights weights(scene, measure_scales({}, scene), options);
+    EXPECT_EQ(weights.full_weight(0), RayWeights::kUnit);
+    EXPECT_EQ(weights.full_weight(2), RayWeights::kUnit);
+    EXPECT_EQ(weights.full_weight(1), std::lround(RayWeights::kUnit * std::exp(-0.5 * 8.0 / 4.0)));
 }
 
-TEST(SightWeights, CountAMeasuredRangeAsTwoSightsOfAMedianPointWhateverItsViews)
+TEST(RayWeights, WeightsAMeasuredRangeAsTwoRaysForAnyNumberOfViews)
 {
     Scene scene = points_of_some_views();
     scene.cameras.push_back(scene.cameras.front());
     scene.cameras.back().measures_range = true;
     scene.views[3].camera = static_cast<std::uint32_t>(scene.cameras.size() - 1);
     const TraceOptions options;
-    const SightWeights weights(scene, measure_scales({}, scene), options);
-    EXPECT_EQ(weights.full_weight(2), 2 * SightWeights::kUnit); // of four views
-    EXPECT_LT(weights.full_weight(0), SightWeights::kUnit);     // of photographs
+    const RayWeights weights(scene, measure_scales({}, scene), options);
+    EXPECT_EQ(weights.full_weight(2), 2 * RayWeights::kUnit); // four views, one a scanner
+    EXPECT_LT(weights.full_weight(0), RayWeights::kUnit);     // photographs only
 }
 
-TEST(SightWeights, KnowNothingOfAnEmptyScene)
+TEST(RayWeights, AcceptsAnEmptyScene)
 {
     const Scene scene;
     const TraceOptions options;
-    EXPECT_NO_THROW(SightWeights(scene, measure_scales({}, scene), options));
+    EXPECT_NO_THROW(RayWeights(scene, measure_scales({}, scene), options));
 }
 
 } // namespace
-} // namespace vcarve::sight_weights_test
+} // namespace vcarve::ray_weights_test

@@ -1,4 +1,4 @@
-#include "support/blocked_sights.h"
+#include "support/blocked_rays.h"
 
 #include "base/statistics.h"
 #include "geometry/predicates.h"
@@ -36,7 +36,7 @@ Vector3d trimmed(const Scene& scene, std::uint32_t point, std::uint32_t view, do
 }
 
 std::set<std::pair<std::uint32_t, std::uint32_t>>
-blocked_sights(const Scene& scene, const TriMesh& mesh, const std::vector<double>& margins)
+blocked_rays(const Scene& scene, const TriMesh& mesh, const std::vector<double>& margins)
 {
     const std::vector<Triangle> triangles = triangles_of(mesh);
     std::set<std::pair<std::uint32_t, std::uint32_t>> blocked;
