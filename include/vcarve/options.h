@@ -102,11 +102,11 @@ struct FaceRules {
     /// Edge length of a long face, as a fraction of the diameter of the region of interest. Higher
     /// keeps more large faces; 0 keeps all visible faces, and trims none.
     double max_closing = 0.115;
-    /// Length from which visible bent boundary faces drop, in `max_closing`; higher keeps more.
-    double boundary_closing = 2.0;
+    /// Length from which visible bent rim faces drop, in `max_closing`; higher keeps more.
+    double rim_closing = 2.0;
     /// Minimum visible fraction of long faces that bend away; higher drops more; 0 disables.
     double half_seen = 0.5;
-    /// Minimum visible fraction of long faces and boundary faces; higher drops more; 0 disables.
+    /// Minimum visible fraction of long faces and rim faces; higher drops more; 0 disables.
     double hardly_seen = 0.12;
     /// Edge length from which faces are trimmed, in `max_closing`; higher trims less; 0 disables.
     double trim = 0.5;

@@ -134,7 +134,7 @@ def reconstruct(
     virtual_weight: float = 0.5,
     closed: bool = False,
     max_closing: float = 0.115,
-    boundary_closing: float = 2.0,
+    rim_closing: float = 2.0,
     half_seen: float = 0.5,
     hardly_seen: float = 0.12,
     trim: float = 0.5,

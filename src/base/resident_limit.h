@@ -19,10 +19,11 @@ struct ResidentSize {
 std::optional<ResidentSize> resident_size();
 
 /// Limits the resident memory of the process to `most` bytes, with a thread that lives as long as
-/// the object. It checks every 20 ms, or every 3 ms above half the limit, and drops droppable pages
-/// (bytes_to_drop()). Threads that fill memory faster can exceed the limit between two checks.
-/// Memory that is not droppable is not limited. If the process's cgroup is nearly full, the system
-/// also starts to write dropped pages, because it may have to wait for them later.
+/// the object. It checks every 20 ms, or every 3 ms above half the limit, and drops pages that are
+/// registered as DroppablePages (bytes_to_drop()). Threads that fill memory faster can exceed the
+/// limit between two checks. Other memory is not limited. If the process's cgroup is nearly full,
+/// dropped pages are also written back at once, so that reclaiming memory need not wait for the
+/// disk.
 class ResidentLimit {
   public:
     explicit ResidentLimit(std::int64_t most);

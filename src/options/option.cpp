@@ -28,7 +28,7 @@ struct FormerName {
 constexpr FormerName kFormerNames[] = {{"sights", "rays"},
                                        {"bundle-sights", "bundle-rays"},
                                        {"inferred-sights", "inferred-rays"},
-                                       {"closing-vast", "boundary-closing"},
+                                       {"closing-vast", "rim-closing"},
                                        {"closing-seen", "half-seen"}};
 
 namespace fs = std::filesystem;

@@ -83,8 +83,8 @@ struct AddedPoints {
 };
 
 /// Adds points to the planar regions of the surface (planar_regions) where feature detectors find
-/// few. There the Delaunay triangulation cuts corners off or bridges them, and no labeling of its
-/// cells can restore them. Candidates are along creases (crease_candidates), along borders
+/// few. There cells cut corners off or bridge them, and no labeling can restore the corners.
+/// Candidates are along creases (crease_candidates), along borders
 /// (border_candidates) and in textureless areas (textureless_candidates), and accept() tests them.
 /// Lafarge & Alliez (2013) structure point sets in this way, without views; here each point has
 /// rays, which carve like others. Space behind a border is unknown, so rays of border points do not
@@ -93,9 +93,9 @@ struct AddedPoints {
 /// An added point has the mean color of the points beside it and the error of the nearest one.
 /// Dense clouds get no border points, because their points are dense enough. Scans get no points,
 /// because the scanner measured all surfaces. The points must be in the order of spatial_sort(),
-/// before and after. The result does not depend on the thread count nor, up to rounding, on the
-/// position and scale of the scene. Cost: that of these steps and a sort; 90 bytes per point, and
-/// the memory of crossings (border_candidates).
+/// and still are afterwards. The result does not depend on the thread count nor, up to rounding, on
+/// the position and scale of the scene. Cost: that of these steps and a sort; 90 bytes per point,
+/// and the memory of crossings (border_candidates).
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options,
                        const Progress& progress = {});
 

@@ -132,7 +132,7 @@ class Growth {
         begin(seed);
         for (std::size_t done = 0; done < region_.size();) {
             for (const std::size_t ring = region_.size(); done < ring; ++done) {
-                take_in_around(region_[done]);
+                add_around(region_[done]);
             }
             if (region_.size() >= refit_at_) fit();
         }
@@ -140,7 +140,7 @@ class Growth {
         if (region_.size() < kAround) return grown;
         std::ranges::sort(region_);
         fit();
-        if (goes_on_beside()) return grown;
+        if (has_points_beside()) return grown;
         std::vector<double> spacings = values_at(region_, surroundings_.spacings);
         return {region_, plane_, median_in_place(spacings)};
     }
@@ -182,7 +182,7 @@ class Growth {
         plane_ = plane;
     }
 
-    void take_in_around(std::uint32_t point)
+    void add_around(std::uint32_t point)
     {
         for (const std::uint32_t other : surroundings_.around[point]) {
             if (!is_own(other) && !is_taken(other) && is_within(other, surroundings_.thickness))
@@ -200,7 +200,7 @@ class Growth {
     }
 
     /// Whether many points are right beside the slab.
-    bool goes_on_beside() const
+    bool has_points_beside() const
     {
         constexpr double kWider = 3.0;
         constexpr std::size_t kOneIn = 5;

@@ -52,7 +52,7 @@ FaceEvidence::FaceEvidence(const Boundary& boundary, const FaceFlags& keep)
 {
 }
 
-bool FaceEvidence::is_at_boundary(std::uint32_t face) const
+bool FaceEvidence::is_at_rim(std::uint32_t face) const
 {
     return boundary_.visibility.is_on_hull(boundary_.facets[face]) ||
            std::ranges::any_of(kCorners, [&](int corner) {

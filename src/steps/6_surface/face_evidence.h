@@ -26,11 +26,11 @@ struct Boundary {
 bool is_seen(const Boundary& boundary, const FaceFlags& keep, const CellFacet& facet,
              const Eigen::Vector3d& place, double cosine);
 
-/// Observations about each boundary face that the rules need (face_rules.h): its size and dihedral
-/// angle relative to the surface around, the views that see it, and what is behind it. `keep` flags
-/// the present faces. It may change between calls, which changes visibility and boundaries. Edge
-/// lengths and normals are those of the faces that were kept initially. Keeps references.
-/// Thread-safe unless `keep` changes.
+/// Observations about each face of the boundary that the rules need (face_rules.h): its size and
+/// dihedral angle relative to the surface around, the views that see it, and what is behind it.
+/// `keep` flags the present faces. It may change between calls, which changes visibility and
+/// boundaries. Edge lengths and normals are those of the faces that were kept initially. Keeps
+/// references. Thread-safe unless `keep` changes.
 class FaceEvidence {
   public:
     FaceEvidence(const Boundary& boundary, const FaceFlags& keep);
@@ -53,8 +53,8 @@ class FaceEvidence {
                vcarve::continues_surface(face, normals_);
     }
 
-    /// Whether it is a boundary face: on the convex hull, or beside a dropped face.
-    bool is_at_boundary(std::uint32_t face) const;
+    /// Whether it is a rim face: on the convex hull, or beside a dropped face.
+    bool is_at_rim(std::uint32_t face) const;
     /// Whether it shares an edge with a kept face.
     bool is_beside_kept(std::uint32_t face) const;
 

@@ -14,7 +14,7 @@ namespace {
 
 using FaceNumbers = std::vector<std::uint32_t>; ///< ascending
 
-FaceNumbers numbers_with(std::uint8_t flag, const FaceFlags& flags)
+FaceNumbers faces_with(std::uint8_t flag, const FaceFlags& flags)
 {
     return parallel_collect<std::uint32_t>(flags.size(), [&](std::size_t face, auto& found) {
         if (flags[face] == flag) found.push_back(static_cast<std::uint32_t>(face));
@@ -23,7 +23,7 @@ FaceNumbers numbers_with(std::uint8_t flag, const FaceFlags& flags)
 
 /// The faces for which ask(face) is true.
 template <typename Ask>
-FaceNumbers those_that(const FaceNumbers& faces, const Ask& ask)
+FaceNumbers filter_faces(const FaceNumbers& faces, const Ask& ask)
 {
     return parallel_collect<std::uint32_t>(
         faces.size(),
@@ -38,12 +38,12 @@ bool is_unsupported(std::uint32_t face, const FaceEvidence& evidence, double clo
                     const FaceRules& rules)
 {
     const double length = evidence.length(face);
-    const bool ends_here = evidence.is_at_boundary(face);
-    if (length < closing && !ends_here) return false;
+    const bool is_at_rim = evidence.is_at_rim(face);
+    if (length < closing && !is_at_rim) return false;
     if (evidence.is_seen_less_than(rules.hardly_seen, face)) return true;
     if (length < closing || evidence.continues_surface(face)) return false;
     return evidence.is_seen_less_than(rules.half_seen, face) ||
-           (ends_here && length >= rules.boundary_closing * closing);
+           (is_at_rim && length >= rules.rim_closing * closing);
 }
 
 /// drop_unsupported() with given evidence.
@@ -52,11 +52,10 @@ std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, con
 {
     const auto& faces = boundary.surface.faces;
     const double closing = closing_length(boundary.visibility.scene(), rules);
-    const FaceNumbers large = those_that(numbers_with(1, keep), [&](std::uint32_t face) {
-        return evidence.length(face) >= closing;
-    });
+    const FaceNumbers large = filter_faces(
+        faces_with(1, keep), [&](std::uint32_t face) { return evidence.length(face) >= closing; });
     std::int64_t count = 0;
-    FaceNumbers dropped = numbers_with(0, keep);
+    FaceNumbers dropped = faces_with(0, keep);
     do {
         FaceNumbers asked = large;
         for (const std::uint32_t face : dropped) {
@@ -65,7 +64,7 @@ std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, con
             }
         }
         sort_unique(asked);
-        dropped = those_that(asked, [&](std::uint32_t face) {
+        dropped = filter_faces(asked, [&](std::uint32_t face) {
             return keep[face] != 0 && is_unsupported(face, evidence, closing, rules) &&
                    !evidence.hides_back(face);
         });
@@ -82,7 +81,7 @@ FaceNumbers small_faces_beside(const FaceFlags& keep, const FaceFlags& may_retur
                                const FaceEvidence& evidence, const FaceRules& rules)
 {
     const double most = rules.beside_length * evidence.usual_length();
-    return those_that(numbers_with(1, may_return), [&](std::uint32_t face) {
+    return filter_faces(faces_with(1, may_return), [&](std::uint32_t face) {
         return keep[face] == 0 && evidence.length(face) <= most &&
                evidence.relative_size(face) <= rules.beside_edge && evidence.is_beside_kept(face);
     });

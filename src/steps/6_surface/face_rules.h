@@ -22,14 +22,15 @@ namespace vcarve {
 //
 //  | term          | meaning for a face                                                        |
 //  |---------------|---------------------------------------------------------------------------|
-//  | seen          | views of its points see each corner from the front, or any view a sample  |
+//  | seen          | each corner is seen from the front by a view of its point, or some view   |
+//  |               | sees a sample                                                             |
 //  | long          | its longest edge is at least closing_length() [max_closing]               |
 //  | small         | its longest edge is at most [beside_edge] median edges of the faces       |
-//  |               | around, and [beside_length] times that of the median kept face            |
+//  |               | around, and [beside_length] times the median of kept faces                |
 //  | hardly seen   | views see less than the fraction [hardly_seen] of its samples             |
 //  | half seen     | views see at least the fraction [half_seen] of its samples                |
 //  | bends away    | its dihedral angle to the surface is above 26 degrees at each corner      |
-//  | boundary face | it is on the convex hull, or shares an edge with a dropped face           |
+//  | rim face      | it is on the convex hull, or shares an edge with a dropped face           |
 //
 // Thresholds in brackets are in FaceRules (options.h). The first row that applies decides:
 //
@@ -38,23 +39,25 @@ namespace vcarve {
 //  |  1  | a corner is outside the region                                            | dropped |
 //  |  2  | not seen (exception: small, and shares an edge with a kept face)          | dropped |
 //  |  3  | removing it would expose the back of a kept face                          | kept    |
-//  |  4  | boundary face, hardly seen                                                | dropped |
+//  |  4  | rim face, hardly seen                                                     | dropped |
 //  |  5  | long, hardly seen                                                         | dropped |
 //  |  6  | long, bends away, not half seen                                           | dropped |
-//  |  7  | boundary face, bends away, at least [boundary_closing] closing_length()   | dropped |
+//  |  7  | rim face, bends away, longest edge at least [rim_closing] times long      | dropped |
 //  |  8  | all others                                                                | kept    |
 //
 // clang-format on
 //
 // Rows 3 to 7 run in rounds over long faces and the faces around dropped ones. Each dropped face
-// makes new boundary faces and opens views, so unsupported faces vanish from the boundary inwards.
-// The exception of row 2 comes last and is one layer deep. So a surface that bends out of view ends
-// behind the bend, and gaps of one or two faces close. Row 3 precedes others because views must not
-// see the inside of an object. Large kept faces are trimmed afterwards (trim.h).
+// makes its neighbors rim faces and unblocks views, so unsupported faces vanish from the rim
+// inwards. The exception of row 2 comes last and is one layer deep. So a surface that bends out of
+// view continues one face beyond the bend, and gaps of one or two faces close. Row 3 precedes
+// others because views must not see the inside of an object. Large kept faces are trimmed
+// afterwards (trim.h).
 //
-// A face has 7 samples, a thin one 10. Walks to views, blocked by kept faces only, find the visible
-// ones. By default, hardly seen means none of 7, or at most one of 10. A face whose images do not
-// even show the corners that their views saw counts as half seen. FaceEvidence has the tests.
+// A face has 7 samples, a thin one 10. A sample is visible if the line to some view meets no kept
+// face. By default, hardly seen means none of 7, or at most one of 10. If no image of a corner's
+// views shows the corner, lens or poses are wrong, and the face counts as half seen. FaceEvidence
+// has the tests.
 
 /// Returns the seen faces (row 2). Either each corner was seen from the front by some view of its
 /// point, or some view sees a sample of the face, not at a grazing angle, through outside cells. So

@@ -13,42 +13,48 @@
 // search" (ESA 2011).
 //
 // Network (FlowNetwork, model/visibility_energy.h). Nodes are cells; an arc leads through each
-// facet in each direction. A cell's excess is the residual capacity from the source, its deficit
-// (negative excess) that to the sink. The sink side of the cut is inside, the source side outside.
-// RayCaster (4_visibility/trace.cpp) adds the terms of rays. cut_network()
-// (5_labels/label_cells.cpp) adds the costs of facets, and merges infinite cells and cells of views
-// with the source.
+// facet in each direction. The source side of the cut is outside, the sink side inside. A cut pays
+// the arc u -> v if u is outside and v inside, the source capacity of each inside cell, and the
+// sink capacity of each outside cell. A ray adds to the arcs through the facets that it crosses,
+// from the view to its point, and to the sink capacity of the cell behind the point. RayCaster
+// (4_visibility/trace.cpp) does so, and pushes the flow of each ray: capacities are residual from
+// the start. A positive excess of a cell is the capacity left from the source, a negative one, its
+// deficit, the capacity left to the sink. cut_network() (5_labels/label_cells.cpp) adds the cost of
+// each facet to both arcs, and merges infinite cells and cells of views with the source.
 //
-// Algorithm. A forest of shortest paths grows level by level from roots, the cells with a deficit,
-// against arcs with residual capacity. If it meets excess, it pulls as much as the arc carries and
-// pushes it from parent to parent to the root. Saturated arcs and filled roots leave orphans, which
-// look for another parent on the level above. Orphans without one are detached with their subtrees,
-// then reattached by breadth-first search from the rest of the forest, or left out. Excess that
-// cannot reach a root stays outside the forest. In the end the forest contains exactly the cells
-// that reach a deficit, and no arc with residual capacity enters it: it is the sink side.
+// Algorithm. A forest of shortest paths grows level by level from its roots, the cells with a
+// deficit. A cell joins if an arc with residual capacity leads from it into the forest. Excess of a
+// neighbor is pulled in, as far as the arc carries it, and pushed from parent to parent to the
+// root. Levels count from the root: a cell whose level rises moves away from it. Saturated arcs and
+// filled roots leave orphans, which look for another parent one level closer to the root. Orphans
+// without one are detached with their subtrees, then reattached by breadth-first search from the
+// rest of the forest, or left out. Excess that cannot reach a root stays outside the forest. In the
+// end the forest contains exactly the cells that reach a deficit, and no arc with residual capacity
+// enters it: it is the sink side. Cells that reach neither side are outside.
 //
-// Differences from EIBFS. Only the sink side grows, because the excess of rays is next to deficits.
-// One search reattaches all detached cells, instead of relabeling one by one. Blocks of consecutive
-// cells, which are close in space and fit a cache, are solved separately, in parallel, then merged.
-// The labels do not depend on the blocks.
+// Differences from EIBFS. Only the sink side grows, because the excess of a ray is a few cells from
+// the deficit behind its point. One search reattaches all detached cells, instead of relabeling one
+// by one. Blocks of consecutive cells, which are close in space and fit a cache, are solved
+// separately, in parallel, then merged. The labels do not depend on the blocks.
 //
-// Merging. A merge grows through the forests of its blocks again, but only from cells that can
-// lower a level: cells with a neighbor in another block, then cells with a lowered level. All other
-// levels stay correct. Down to depth_ the forest is as if grown from scratch. Deeper parts are old:
-// cells there have no excess, levels may be too high, and parents several levels above.
+// Merging. A merge grows the joint forest level by level again. It visits only cells that can lower
+// the level of a neighbor: cells with a neighbor in another block, then cells with a lowered level.
+// Up to level depth_ the forest is as if grown from scratch. Deeper parts are those of the blocks:
+// no cell has excess, but levels may be too large, and parents more than one level away.
 //
 // Loops over the facets of a cell first select facets as bits, without unpredictable branches.
 //
-// Cost: while a forest grows, levels only rise, and each rise costs a constant. Between rises of
-// cells with excess, an augmentation pushes once per cell. This is O(cells^3) at worst, and nearly
-// linear for networks of rays. A merge first lowers levels of its forests.
+// Cost: while a forest grows, levels only rise, and each rise costs a constant. An
+// augmentation pushes from each cell once, unless a cell with excess is reattached. This is
+// O(cells^3) at worst, and nearly linear for networks of rays. A merge first lowers levels of its
+// forests.
 
 namespace vcarve {
 namespace {
 
 constexpr std::int32_t kElsewhere = -1; ///< level of cells outside the block
 constexpr std::size_t kFetchAhead = 8;
-/// Enough to share augmentations, few enough to stay in the cache.
+/// Scanned cells between augmentations: enough for paths to share pushes, and to fit the cache.
 constexpr int kScansPerAugmentation = 256;
 
 } // namespace
@@ -126,7 +132,8 @@ void FlowForest::adopt_or_detach(Index cell)
     }
 }
 
-/// Lists a detached cell by the level below its best parent in the rest of the forest.
+/// Finds the best parent of a detached cell in the rest of the forest; lists the cell at its level
+/// + 1.
 void FlowForest::seek_parent(Index cell)
 {
     std::int32_t best = depth_;
@@ -141,7 +148,7 @@ void FlowForest::seek_parent(Index cell)
     if (best < depth_) orphans_.add(cell, best + 1);
 }
 
-/// Makes the neighbors of a reattached cell that are outside the forest its children.
+/// Adds neighbors outside the forest as children of a reattached cell.
 void FlowForest::reach_from(Index cell)
 {
     const std::int32_t below = nodes_[cell].level + 1;
@@ -179,7 +186,8 @@ void FlowForest::reattach()
     }
 }
 
-/// Repairs the forest after augmentations. Handles orphans by rising level: lower ones are final.
+/// Repairs the forest after augmentations. Handles orphans by increasing level, so possible parents
+/// are final.
 void FlowForest::repair()
 {
     for (std::int32_t level = orphans_.lowest(); level != kMost; level = orphans_.lowest())
@@ -248,7 +256,7 @@ void FlowForest::augment_all()
 
 // ---- growing ------------------------------------------------------------------------------------
 
-/// Pulls the excess of neighbors, and makes neighbors without excess children of the cell. Stops
+/// Pulls excess from neighbors outside the forest; those left without excess become children. Stops
 /// and returns true if the cell has no room.
 bool FlowForest::activate(Index cell)
 {
