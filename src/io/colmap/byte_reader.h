@@ -11,8 +11,8 @@
 namespace vcarve {
 
 /// A cursor over a little-endian binary file that never reads past its end. Errors throw InputError
-/// with the file and the byte offset. `what` names the expected data in the message, with its
-/// article: "the pose of an image".
+/// with the file and the byte offset. The argument `what` names the expected data in messages, with
+/// its article: "the pose of an image".
 class ByteReader {
   public:
     /// `bytes` must outlive the reader. `name` is the file name in messages.

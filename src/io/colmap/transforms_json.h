@@ -12,9 +12,9 @@ namespace vcarve {
 std::filesystem::path points_of_transforms(const std::filesystem::path& file);
 
 /// Reads nerfstudio's dataparser_transforms.json: x' = scale * transform * x maps the frame of the
-/// COLMAP model to the frame of training. `poses` is a transforms.json, or empty. If given, the
-/// result maps from its frame: its `applied_transform` is undone first. Throws InputError if a file
-/// has another format.
+/// COLMAP model to the frame of training. If `poses`, a transforms.json, is given, the result
+/// maps from the frame of that file, whose `applied_transform` is undone first. Throws InputError
+/// if a file has another format.
 Similarity read_nerfstudio_transform(const std::filesystem::path& file,
                                      const std::filesystem::path& poses);
 

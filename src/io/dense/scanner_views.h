@@ -24,13 +24,14 @@ inline constexpr std::size_t kMostStations = 1024;
 /// a new position for every point. So if there are more than kMostStations, positions are grouped
 /// by cubes with a side of 1/50 of the median range. The side doubles until at most kMostStations
 /// cubes remain. The view of a cube is its first position, which is certainly in free space. Rays
-/// start exactly at their points; if no side was doubled, they are off by at most about a degree.
+/// start exactly at their points. Their directions are off by typically a degree if no side was
+/// doubled.
 ///
 /// A view is an equirectangular panorama that measures ranges (Camera::measures_range). Its pixels
-/// are a quarter of the angular point spacing: the median over 200 points, each computed from the
-/// distance to the 8th nearest point of any station. The solid angle per point would be a worse
-/// measure: most beams of a scanner in front of an object hit nothing, and those of a profile
-/// scanner lie in a plane. Cost: O(points); the 200 searches run in parallel.
+/// are a quarter of the angular point spacing. That is the median of the spacings at 200 points,
+/// which follow from the distance to the 8th nearest point of any station. The solid angle per
+/// point would be a worse measure: most beams of a scanner in front of an object hit nothing, and
+/// those of a profile scanner lie in a plane. Cost: O(points); the 200 searches run in parallel.
 void add_scanner_views(const std::vector<Eigen::Vector3d>& scanners, Scene& scene);
 
 /// The file of a laser scan, and its scanner position.

@@ -83,7 +83,7 @@ struct AddedPoints {
 };
 
 /// Adds points to the planar regions of the surface (planar_regions) where feature detectors find
-/// few. There cells cut corners off or bridge them, and no labeling can restore the corners.
+/// few. There cells cut off or bridge corners, and no labeling can restore these.
 /// Candidates are along creases (crease_candidates), along borders
 /// (border_candidates) and in textureless areas (textureless_candidates), and accept() tests them.
 /// Lafarge & Alliez (2013) structure point sets in this way, without views; here each point has

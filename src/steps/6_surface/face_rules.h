@@ -22,11 +22,13 @@ namespace vcarve {
 //
 //  | term          | meaning for a face                                                        |
 //  |---------------|---------------------------------------------------------------------------|
+//  | sample        | one of 7 positions on the face, 10 on a thin one. It is visible if the    |
+//  |               | line to some view meets no kept face                                      |
 //  | seen          | each corner is seen from the front by a view of its point, or some view   |
 //  |               | sees a sample                                                             |
 //  | long          | its longest edge is at least closing_length() [max_closing]               |
-//  | small         | its longest edge is at most [beside_edge] median edges of the faces       |
-//  |               | around, and [beside_length] times the median of kept faces                |
+//  | small         | its longest edge is at most [beside_edge] times the median edge around,   |
+//  |               | and [beside_length] times the median longest edge of kept faces           |
 //  | hardly seen   | views see less than the fraction [hardly_seen] of its samples             |
 //  | half seen     | views see at least the fraction [half_seen] of its samples                |
 //  | bends away    | its dihedral angle to the surface is above 26 degrees at each corner      |
@@ -42,7 +44,7 @@ namespace vcarve {
 //  |  4  | rim face, hardly seen                                                     | dropped |
 //  |  5  | long, hardly seen                                                         | dropped |
 //  |  6  | long, bends away, not half seen                                           | dropped |
-//  |  7  | rim face, bends away, longest edge at least [rim_closing] times long      | dropped |
+//  |  7  | rim face, bends away, longest edge >= [rim_closing] closing_length()      | dropped |
 //  |  8  | all others                                                                | kept    |
 //
 // clang-format on
@@ -54,24 +56,23 @@ namespace vcarve {
 // others because views must not see the inside of an object. Large kept faces are trimmed
 // afterwards (trim.h).
 //
-// A face has 7 samples, a thin one 10. A sample is visible if the line to some view meets no kept
-// face. By default, hardly seen means none of 7, or at most one of 10. If no image of a corner's
-// views shows the corner, lens or poses are wrong, and the face counts as half seen. FaceEvidence
-// has the tests.
+// By default, hardly seen means none of 7 samples, or at most one of 10. If a corner projects into
+// the image of none of the views that saw it, lens or poses are wrong. Then the face counts as half
+// seen. FaceEvidence has the tests.
 
 /// Returns the seen faces (row 2). Either each corner was seen from the front by some view of its
 /// point, or some view sees a sample of the face, not at a grazing angle, through outside cells. So
-/// a plain wall without points inside is seen. Cost: O(faces + rays), and walks
-/// (FaceVisibility::is_seen) for faces with unseen corners; in parallel.
+/// a plain wall with points only along its outline is seen. Cost: O(faces + rays), and walks
+/// through the cells (FaceVisibility::is_seen) for faces with unseen corners; in parallel.
 FaceFlags seen_faces(const Boundary& boundary);
 
-/// Returns the longest edge that makes a face long: `max_closing` times the diameter of the region
-/// of interest. Cost: see region_of_interest().
+/// Returns the length from which the longest edge makes a face long: `max_closing` times the
+/// diameter of the region of interest. Cost: see region_of_interest().
 double closing_length(const Scene& scene, const FaceRules& rules);
 
 /// Clears the flags of unsupported faces by rows 3 to 7, and returns their number. Does nothing if
-/// `max_closing` is 0. Cost: O(faces), and some walks per view for each long face and boundary
-/// face; mostly in parallel.
+/// `max_closing` is 0. Cost: O(faces), and some walks per view for each long face and each
+/// face around dropped ones; mostly in parallel.
 std::int64_t drop_unsupported(const Boundary& boundary, const FaceRules& rules, FaceFlags& keep);
 
 /// The kept faces before trimming, and the numbers of dropped ones.

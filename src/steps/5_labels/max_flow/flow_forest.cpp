@@ -14,12 +14,12 @@
 //
 // Network (FlowNetwork, model/visibility_energy.h). Nodes are cells; an arc leads through each
 // facet in each direction. The source side of the cut is outside, the sink side inside. A cut pays
-// the arc u -> v if u is outside and v inside, the source capacity of each inside cell, and the
-// sink capacity of each outside cell. A ray adds to the arcs through the facets that it crosses,
-// from the view to its point, and to the sink capacity of the cell behind the point. RayCaster
+// the source capacity of each inside cell, the sink capacity of each outside cell, and each arc
+// from an outside to an inside cell. A ray adds to the sink capacity of the cell behind its point.
+// At each facet that it crosses, it adds to the arc that leads towards the point. RayCaster
 // (4_visibility/trace.cpp) does so, and pushes the flow of each ray: capacities are residual from
-// the start. A positive excess of a cell is the capacity left from the source, a negative one, its
-// deficit, the capacity left to the sink. cut_network() (5_labels/label_cells.cpp) adds the cost of
+// the start. A positive excess of a cell is the capacity left from the source. A negative one is a
+// deficit: the capacity left to the sink. cut_network() (5_labels/label_cells.cpp) adds the cost of
 // each facet to both arcs, and merges infinite cells and cells of views with the source.
 //
 // Algorithm. A forest of shortest paths grows level by level from its roots, the cells with a
@@ -30,7 +30,7 @@
 // without one are detached with their subtrees, then reattached by breadth-first search from the
 // rest of the forest, or left out. Excess that cannot reach a root stays outside the forest. In the
 // end the forest contains exactly the cells that reach a deficit, and no arc with residual capacity
-// enters it: it is the sink side. Cells that reach neither side are outside.
+// enters it: it is the sink side. All other cells are outside.
 //
 // Differences from EIBFS. Only the sink side grows, because the excess of a ray is a few cells from
 // the deficit behind its point. One search reattaches all detached cells, instead of relabeling one
@@ -45,16 +45,16 @@
 // Loops over the facets of a cell first select facets as bits, without unpredictable branches.
 //
 // Cost: while a forest grows, levels only rise, and each rise costs a constant. An
-// augmentation pushes from each cell once, unless a cell with excess is reattached. This is
-// O(cells^3) at worst, and nearly linear for networks of rays. A merge first lowers levels of its
-// forests.
+// augmentation pushes from a cell at most once, unless a cell with excess is reattached. This is
+// O(cells^3) at worst, and nearly linear for networks of rays. Only merges lower levels,
+// those of the forests of their blocks.
 
 namespace vcarve {
 namespace {
 
 constexpr std::int32_t kElsewhere = -1; ///< level of cells outside the block
 constexpr std::size_t kFetchAhead = 8;
-/// Scanned cells between augmentations: enough for paths to share pushes, and to fit the cache.
+/// Scanned cells between augmentations: for paths to share pushes, and fit the cache.
 constexpr int kScansPerAugmentation = 256;
 
 } // namespace
@@ -92,7 +92,7 @@ void FlowForest::list_to_augment(Index cell)
 
 // ---- orphans ------------------------------------------------------------------------------------
 
-/// Gives an orphan another parent on the level above. Returns false if there is none.
+/// Gives an orphan another parent one level closer to the root. Returns false if there is none.
 bool FlowForest::adopt(Index cell)
 {
     const std::int32_t above = nodes_[cell].level - 1;
@@ -132,8 +132,8 @@ void FlowForest::adopt_or_detach(Index cell)
     }
 }
 
-/// Finds the best parent of a detached cell in the rest of the forest; lists the cell at its level
-/// + 1.
+/// Finds the best parent of a detached cell in the rest of the forest; lists the cell one level
+/// farther from the root than that parent.
 void FlowForest::seek_parent(Index cell)
 {
     std::int32_t best = depth_;
@@ -207,7 +207,8 @@ void FlowForest::repair()
 
 // ---- augmenting ---------------------------------------------------------------------------------
 
-/// Pushes the excess of a cell through its parent, then through others on the level above.
+/// Pushes the excess of a cell through its parent, then through others one level closer to the
+/// root.
 void FlowForest::augment(Index cell)
 {
     FlowNode& node = nodes_[cell];
@@ -296,8 +297,8 @@ void FlowForest::grow_from(Index cell)
     }
 }
 
-/// Prefetches the memory of the next cells of growing_. Waiting for it would be half of the time of
-/// a large front.
+/// Prefetches the memory of the next cells of growing_. Without this, waiting is half of the time
+/// of a large front.
 void FlowForest::fetch_ahead(std::size_t at) const
 {
     if (at + 2 * kFetchAhead >= growing_.size()) return;
