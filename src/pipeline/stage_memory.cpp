@@ -121,12 +121,13 @@ double filtering(const Needs& needs)
     return n.scene() + (36 + 16) * n.points;
 }
 
-/// A k-d tree, the neighbors, spacing and flatness of each point, and the points of regions.
+/// A k-d tree, the neighbors, direction, spacing and flatness of each point, and the points of
+/// regions.
 double finding_planes(const Needs& needs)
 {
     const Sizes& n = needs.left;
     constexpr double kTree = 40 + 13;
-    constexpr double kAround = 12 * 4 + 3 * 8;
+    constexpr double kAround = 12 * 4 + 6 * 8;
     constexpr double kOfRegion = 2 * 4 + 2 * 24 + 13;
     constexpr double kCandidates = 300; ///< candidates near a point, and surfaces
     return n.scene() + n.points * (kTree + kAround + kOfRegion + kCandidates);

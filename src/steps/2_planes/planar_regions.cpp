@@ -56,15 +56,21 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, std::span<const st
 /// The neighbors of every point, and the surface that they define.
 struct Surroundings {
     std::vector<Around> around;
+    std::vector<Vector3d> towards; ///< towards_views() of each point
     std::vector<double> spacings;
     std::vector<double> bends;    ///< root mean square distance to a plane, in spacings, rounded
     double thickness = 1.0 / 7.0; ///< maximum distance to the plane of a region, in spacings
 
     Surroundings(const Scene& scene, const NearestNeighbors& tree, const Progress& progress)
-        : around(scene.num_points()), spacings(scene.num_points()), bends(scene.num_points())
+        : around(scene.num_points()),
+          towards(scene.num_points()),
+          spacings(scene.num_points()),
+          bends(scene.num_points())
     {
-        parallel_for(around.size(), progress,
-                     [&](std::size_t i) { look_around(scene.positions, tree, i); });
+        parallel_for(around.size(), progress, [&](std::size_t i) {
+            towards[i] = towards_views(scene, i);
+            look_around(scene.positions, tree, i);
+        });
         if (scene.is_dense) thickness = std::max(thickness, kOfNoise * median_bend());
     }
 
@@ -163,7 +169,7 @@ class Growth {
         constexpr double kSparser = 2.0; // times the spacing at the seed
         ++current_;
         take_in(seed);
-        plane_.normal = towards_views(scene_, seed);
+        plane_.normal = surroundings_.towards[seed];
         set_plane(fit_plane(scene_.positions, surroundings_.around[seed]).plane);
         plane_.center = scene_.positions[seed];
         most_spacing_ = kSparser * surroundings_.spacings[seed];
@@ -196,7 +202,7 @@ class Growth {
     {
         const double spacing = std::min(surroundings_.spacings[point], most_spacing_);
         return std::abs(plane_.height_of(scene_.positions[point])) <= spacings * spacing &&
-               towards_views(scene_, point).dot(plane_.normal) > 0.0;
+               surroundings_.towards[point].dot(plane_.normal) > 0.0;
     }
 
     /// Whether many points are right beside the slab.
