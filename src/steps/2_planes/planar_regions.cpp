@@ -67,10 +67,7 @@ struct Surroundings {
           spacings(scene.num_points()),
           bends(scene.num_points())
     {
-        parallel_for(around.size(), progress, [&](std::size_t i) {
-            towards[i] = towards_views(scene, i);
-            look_around(scene.positions, tree, i);
-        });
+        parallel_for(around.size(), progress, [&](std::size_t i) { look_around(scene, tree, i); });
         if (scene.is_dense) thickness = std::max(thickness, kOfNoise * median_bend());
     }
 
@@ -96,19 +93,19 @@ struct Surroundings {
         return median_in_place(all);
     }
 
-    void look_around(const std::vector<Vector3d>& positions, const NearestNeighbors& tree,
-                     std::size_t i)
+    void look_around(const Scene& scene, const NearestNeighbors& tree, std::size_t i)
     {
         thread_local std::vector<NearestNeighbors::Neighbor> nearest;
-        tree.find(positions[i], kAround + 1, nearest); // includes the point
+        tree.find(scene.positions[i], kAround + 1, nearest); // includes the point
         std::array<std::uint32_t, kAround + 1> all{};
         std::ranges::transform(nearest, all.begin(), &NearestNeighbors::Neighbor::point);
         std::ranges::copy(std::span(all).subspan<1>(), around[i].begin());
+        towards[i] = towards_views(scene, i);
         // On a flat surface these points share the disc up to the farthest.
         spacings[i] = std::sqrt(nearest.back().distance_sq * std::numbers::pi / kAround);
         // Rounded, since points without noise differ only in the last digits.
         constexpr double kExact = 1e-3;
-        const double bend = fit_plane(positions, all).deviation / spacings[i];
+        const double bend = fit_plane(scene.positions, all).deviation / spacings[i];
         bends[i] = kExact * std::round(bend / kExact);
     }
 };

@@ -110,8 +110,8 @@ struct PlanarRegions {
 /// points, and four in five of the points around them in a slab three times as thick.
 ///
 /// The result does not depend on the thread count nor, up to rounding, on the position and scale of
-/// the scene. Cost: O(points log points + rays), in parallel, and 114 bytes per point plus 4
-/// for each of at most 16 threads.
+/// the scene. Cost: O(points log points + rays), in parallel, and 114 bytes per point plus 4 for
+/// each of at most 16 threads.
 PlanarRegions planar_regions(const Scene& scene, const Progress& progress);
 
 } // namespace vcarve
