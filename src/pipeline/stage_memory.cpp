@@ -133,9 +133,8 @@ double finding_planes(const Needs& needs)
     return n.scene() + n.points * (kTree + kAround + kOfRegion + kCandidates);
 }
 
-/// First CGAL's triangulation of the current blocks with the points around them, two copies of
-/// their cells for numbering, and the cells of the other blocks. Then two copies of all cells while
-/// blocks are joined.
+/// First CGAL's triangulation of the current blocks with the points around them, and the cells of
+/// all blocks. Then two copies of all cells while blocks are numbered and joined.
 double triangulating(const Needs& needs)
 {
     const Sizes& n = needs.left;
@@ -146,7 +145,7 @@ double triangulating(const Needs& needs)
     const double cells = sizeof(Cell) * n.cells();
     if (blocks == 1.0) return n.scene() + cgal(n) + cells;
     const double at_work = std::min(needs.threads / blocks, 1.0);
-    const double triangulated = at_work * kTakenIn * cgal(n) + (1.0 + at_work) * cells;
+    const double triangulated = at_work * kTakenIn * cgal(n) + cells;
     return n.scene() + std::max(triangulated, 2.0 * cells);
 }
 

@@ -1,6 +1,7 @@
 #include "steps/3_cells/block_cells.h"
 
 #include "base/arrays.h"
+#include "base/free_memory.h"
 #include "geometry/predicates.h"
 #include "steps/3_cells/delaunay.h"
 #include "steps/3_cells/limits.h"
@@ -61,6 +62,7 @@ class Block {
     VertexHandle last_inserted() const { return last_; }
 
     const Triangulation& cells() const { return triangulation_; }
+    void clear() { triangulation_.clear(); }
 
     bool is_own(VertexHandle vertex) const { return own_.contains(vertex->info()); }
 
@@ -239,6 +241,15 @@ void insert_foreign(Block& block, BlockProgress& progress)
     }
 }
 
+/// The cells as a flat array, instead of CGAL's.
+UnsetArray<Cell> flattened(Block& block)
+{
+    UnsetArray<Cell> cells = unordered_cells(block.cells());
+    block.clear();
+    return_freed_memory();
+    return cells;
+}
+
 std::vector<OpenFacet> open_facets(const UnsetArray<Cell>& cells)
 {
     std::vector<OpenFacet> facets;
@@ -294,12 +305,12 @@ BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, c
     Block block(tree, own, count);
     insert_own(block, first, own, progress);
     insert_foreign(block, progress);
+    const std::size_t num_made = block.cells().number_of_cells();
     BlockCells result;
-    result.cells = in_canonical_order(unordered_cells(block.cells()), static_cast<Index>(own.first),
-                                      own.size());
-    result.open_facets = open_facets(result.cells);
-    count.end(block.cells().number_of_cells(), result.cells.size());
     result.taken_in = block.cells().number_of_vertices() - own.size();
+    result.cells = in_canonical_order(flattened(block), static_cast<Index>(own.first), own.size());
+    result.open_facets = open_facets(result.cells);
+    count.end(num_made, result.cells.size());
     return result;
 }
 

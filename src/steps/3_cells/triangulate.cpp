@@ -22,6 +22,9 @@ namespace {
 /// Smaller blocks are slower than no blocks (measured), because they need many points of others.
 constexpr std::size_t kLeastBlock = 10'000;
 
+/// Larger blocks need fewer points of others, but more memory.
+constexpr std::size_t kUsualBlock = 250'000;
+
 /// Copies the cells of a triangulation to flat arrays. Clears the triangulation meanwhile, so that
 /// it coexists with only one copy.
 TetMesh flatten(Triangulation& triangulation, const Scene& scene, const Progress& progress)
@@ -51,7 +54,7 @@ std::size_t usual_blocks(std::size_t points, std::size_t threads)
 {
     const std::size_t most = points / kLeastBlock;
     if (threads == 1 || most <= 1) return 1;
-    return most >= 2 * threads ? 2 * threads : std::min(most, threads);
+    return std::min(std::clamp(points / kUsualBlock, threads, 2 * threads), most);
 }
 
 TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const CellLimit& limit)

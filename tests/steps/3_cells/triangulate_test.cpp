@@ -306,11 +306,12 @@ TEST(Triangulate, ReturnsTheSameArraysForOneAndTwoThreads)
     expect_equal(with_threads(2, points), one);
 }
 
-TEST(Triangulate, UsesTwoBlocksPerThreadUnlessTheyAreSmall)
+TEST(Triangulate, UsesOneOrTwoBlocksPerThreadUnlessTheyAreSmall)
 {
     EXPECT_EQ(usual_blocks(10'000'000, 1), 1U);
     EXPECT_EQ(usual_blocks(10'000'000, 2), 4U);
     EXPECT_EQ(usual_blocks(10'000'000, 16), 32U);
+    EXPECT_EQ(usual_blocks(400'000, 2), 2U);
     EXPECT_EQ(usual_blocks(200'000, 16), 16U);
     EXPECT_EQ(usual_blocks(50'000, 16), 5U);
     EXPECT_EQ(usual_blocks(4, 2), 1U);
