@@ -173,12 +173,14 @@ std::vector<std::uint32_t> rays_through(const Scene& scene,
 {
     std::vector<std::uint32_t> counts(triangles.size());
     if (triangles.empty()) return counts;
+    const std::uint32_t one_in = scene.is_dense ? 5 : 1;
     const TriangleTree tree(triangles);
     const auto count = [&](std::size_t triangle) {
-        std::atomic_ref(counts[triangle]).fetch_add(1, std::memory_order_relaxed);
+        std::atomic_ref(counts[triangle]).fetch_add(one_in, std::memory_order_relaxed);
     };
     parallel_for(scene.num_points(), progress, [&](std::size_t point) {
         for (const std::uint32_t view : scene.tracks[point]) {
+            if ((point + view) % one_in != 0) continue;
             visit_ray(
                 scene, point, view, margins[point],
                 [&](const Vector3d& from, const Vector3d& to) { tree.visit_met(from, to, count); });
@@ -187,13 +189,14 @@ std::vector<std::uint32_t> rays_through(const Scene& scene,
     return counts;
 }
 
-AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress)
+AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress,
+                       const Neighborhoods* known)
 {
     AddedPoints report;
     if (!options.add_any() || has_scanners(scene)) return report;
     std::vector<AcceptedPoint> points;
     {
-        const PlanarRegions planes = planar_regions(scene, progress.part(0.0, 0.4));
+        const PlanarRegions planes = planar_regions(scene, progress.part(0.0, 0.4), known);
         report.regions = std::ssize(planes.regions);
         points =
             accept(scene, planes, candidates_of(scene, planes, options, progress.part(0.4, 0.7)),

@@ -68,9 +68,9 @@ void visit_ray(const Scene& scene, std::size_t point, std::uint32_t view, double
 }
 
 /// Returns the number of rays that pass through each triangle, without the margins at their points
-/// (visit_ray()). It builds a tree of the few triangles; RayTree is a tree of all rays, for many
-/// queries. Cost: O(triangles log triangles + rays log triangles), in parallel, and about 200 bytes
-/// per triangle.
+/// (visit_ray()). In a dense cloud one ray in five is traced, and counts as five. It builds a tree
+/// of the few triangles; RayTree is a tree of all rays, for many queries. Cost: O(triangles log
+/// triangles + rays log triangles), in parallel, and about 200 bytes per triangle.
 std::vector<std::uint32_t> rays_through(const Scene& scene,
                                         std::span<const std::array<Eigen::Vector3d, 3>> triangles,
                                         const std::vector<double>& margins,
@@ -94,9 +94,9 @@ struct AddedPoints {
 /// Dense clouds get no border points, because their points are dense enough. Scans get no points,
 /// because the scanner measured all surfaces. The points must be in the order of spatial_sort(),
 /// and still are afterwards. The result does not depend on the thread count nor, up to rounding, on
-/// the position and scale of the scene. Cost: that of these steps and a sort; 90 bytes per point,
-/// and the memory of crossings (border_candidates).
+/// the position and scale of the scene. `known` is as for planar_regions(). Cost: that of these
+/// steps and a sort; 90 bytes per point, and the memory of crossings (border_candidates).
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options,
-                       const Progress& progress = {});
+                       const Progress& progress = {}, const Neighborhoods* known = nullptr);
 
 } // namespace vcarve

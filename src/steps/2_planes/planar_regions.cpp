@@ -28,7 +28,6 @@ using Eigen::Vector3d;
 /// The number of neighbors that define the surface around a point, and the minimum size of a
 /// region.
 constexpr std::size_t kAround = 12;
-using Around = std::array<std::uint32_t, kAround>;
 
 /// The least-squares plane of points, and their root mean square distance to it.
 struct FittedPlane {
@@ -55,20 +54,26 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, std::span<const st
 
 /// The neighbors of every point, and the surface that they define.
 struct Surroundings {
-    std::vector<Around> around;
+    const Neighborhoods& neighborhoods;
     std::vector<Vector3d> towards; ///< towards_views() of each point
     std::vector<double> spacings;
     std::vector<double> bends;    ///< root mean square distance to a plane, in spacings, rounded
     double thickness = 1.0 / 7.0; ///< maximum distance to the plane of a region, in spacings
 
-    Surroundings(const Scene& scene, const NearestNeighbors& tree, const Progress& progress)
-        : around(scene.num_points()),
+    Surroundings(const Scene& scene, const Neighborhoods& nearest, const Progress& progress)
+        : neighborhoods(nearest),
           towards(scene.num_points()),
           spacings(scene.num_points()),
           bends(scene.num_points())
     {
-        parallel_for(around.size(), progress, [&](std::size_t i) { look_around(scene, tree, i); });
+        parallel_for(bends.size(), progress, [&](std::size_t i) { look_around(scene, i); });
         if (scene.is_dense) thickness = std::max(thickness, kOfNoise * median_bend());
+    }
+
+    /// The nearest points.
+    std::span<const std::uint32_t> around(std::size_t point) const
+    {
+        return neighborhoods.around(point).first(kAround);
     }
 
     /// The flat points, the flattest first.
@@ -93,16 +98,16 @@ struct Surroundings {
         return median_in_place(all);
     }
 
-    void look_around(const Scene& scene, const NearestNeighbors& tree, std::size_t i)
+    void look_around(const Scene& scene, std::size_t i)
     {
-        thread_local std::vector<NearestNeighbors::Neighbor> nearest;
-        tree.find(scene.positions[i], kAround + 1, nearest); // includes the point
-        std::array<std::uint32_t, kAround + 1> all{};
-        std::ranges::transform(nearest, all.begin(), &NearestNeighbors::Neighbor::point);
-        std::ranges::copy(std::span(all).subspan<1>(), around[i].begin());
+        const auto nearest = around(i);
+        std::array<std::uint32_t, kAround + 1> all{static_cast<std::uint32_t>(i)};
+        std::ranges::copy(nearest, all.begin() + 1);
         towards[i] = towards_views(scene, i);
         // On a flat surface these points share the disc up to the farthest.
-        spacings[i] = std::sqrt(nearest.back().distance_sq * std::numbers::pi / kAround);
+        const double reach_sq =
+            (scene.positions[nearest.back()] - scene.positions[i]).squaredNorm();
+        spacings[i] = std::sqrt(reach_sq * std::numbers::pi / kAround);
         // Rounded, since points without noise differ only in the last digits.
         constexpr double kExact = 1e-3;
         const double bend = fit_plane(scene.positions, all).deviation / spacings[i];
@@ -167,7 +172,7 @@ class Growth {
         ++current_;
         take_in(seed);
         plane_.normal = surroundings_.towards[seed];
-        set_plane(fit_plane(scene_.positions, surroundings_.around[seed]).plane);
+        set_plane(fit_plane(scene_.positions, surroundings_.around(seed)).plane);
         plane_.center = scene_.positions[seed];
         most_spacing_ = kSparser * surroundings_.spacings[seed];
         refit_at_ = 2 * kAround;
@@ -187,7 +192,7 @@ class Growth {
 
     void add_around(std::uint32_t point)
     {
-        for (const std::uint32_t other : surroundings_.around[point]) {
+        for (const std::uint32_t other : surroundings_.around(point)) {
             if (!is_own(other) && !is_taken(other) && is_within(other, surroundings_.thickness))
                 take_in(other);
         }
@@ -210,7 +215,7 @@ class Growth {
         std::size_t all = 0;
         std::size_t beside = 0;
         for (const std::uint32_t point : region_) {
-            for (const std::uint32_t other : surroundings_.around[point]) {
+            for (const std::uint32_t other : surroundings_.around(point)) {
                 if (!is_own(other) && !is_within(other, kWider * surroundings_.thickness)) continue;
                 ++all;
                 beside += is_own(other) ? 0 : 1;
@@ -292,7 +297,7 @@ class GrowthInTurn {
             return region != PlanarRegions::kNone && region >= regions;
         };
         return std::ranges::any_of(grown.points, [&](std::uint32_t point) {
-            return is_new(point) || std::ranges::any_of(surroundings_.around[point], is_new);
+            return is_new(point) || std::ranges::any_of(surroundings_.around(point), is_new);
         });
     }
 
@@ -374,11 +379,17 @@ PlanarRegions::PlanarRegions(const Scene& scene)
 {
 }
 
-PlanarRegions planar_regions(const Scene& scene, const Progress& progress)
+PlanarRegions planar_regions(const Scene& scene, const Progress& progress,
+                             const Neighborhoods* known)
 {
     PlanarRegions found(scene);
     if (scene.num_points() <= kAround) return found;
-    const Surroundings surroundings(scene, found.tree, progress.part(0.0, 0.6));
+    std::optional<Neighborhoods> nearest;
+    if (known == nullptr) {
+        known = &nearest.emplace(
+            nearest_neighborhoods(scene.positions, kAround, progress.part(0.0, 0.4)));
+    }
+    const Surroundings surroundings(scene, *known, progress.part(0.4, 0.6));
     GrowthInTurn(scene, surroundings, found)
         .grow(surroundings.flat_points(), progress.part(0.6, 1.0));
     found.spacings = surroundings.spacings;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,7 +35,9 @@ class SeenPlaces {
             if (const auto place = project_into(view_, camera_, scene.positions[point]))
                 seen_.emplace_back(squares_.of(place->place_px), place->distance);
         }
-        std::ranges::sort(seen_);
+        in_square_ = gather_rows(seen_.size(), squares_.count(), [&](std::size_t i, auto visit) {
+            visit(static_cast<std::uint32_t>(seen_[i].first), static_cast<std::uint32_t>(i));
+        });
     }
 
     /// Whether the view saw a point at a similar distance in one of the 3 x 3 squares around a
@@ -56,15 +59,17 @@ class SeenPlaces {
 
     bool has_between(std::size_t square, double near, double far) const
     {
-        const auto nearest = std::ranges::lower_bound(seen_, Seen(square, near));
-        return nearest != seen_.end() && *nearest < Seen(square, far);
+        return std::ranges::any_of(in_square_[square], [&](std::uint32_t i) {
+            return near <= seen_[i].second && seen_[i].second < far;
+        });
     }
 
     const View& view_;
     const Camera& camera_;
     ImageSquares squares_;
-    double unlike_;          ///< maximum ratio of distances on one surface, in adjacent squares
-    std::vector<Seen> seen_; ///< ascending
+    double unlike_; ///< maximum ratio of distances on one surface, in adjacent squares
+    std::vector<Seen> seen_;
+    RowTable in_square_; ///< indices in `seen_`, per square
 };
 
 bool is_before(const Scene& scene, std::size_t view, std::size_t point)
@@ -80,34 +85,48 @@ bool takes_pictures(const Scene& scene, std::uint32_t view)
     return !camera.measures_range && camera.width_px > 0 && camera.height_px > 0;
 }
 
-/// The views in front of a point that saw points around it, but not the point. Empty if five or
-/// more views saw the point.
-std::vector<std::uint32_t> views_around(const Scene& scene, std::size_t point)
+/// The views that take pictures and saw points near a run of points.
+std::vector<std::uint32_t> views_around(const Scene& scene, std::size_t first, std::size_t last)
 {
-    constexpr std::size_t kEnough = 5;
     constexpr std::size_t kAround = 32; // on either side, in the order of the points
     constexpr std::size_t kStep = 4;
     std::vector<std::uint32_t> views;
-    if (scene.tracks[point].size() >= kEnough) return views;
-    const std::size_t last = std::min(point + kAround + 1, scene.num_points());
-    for (std::size_t i = point - std::min(point, kAround); i < last; i += kStep) {
+    last = std::min(last + kAround, scene.num_points());
+    for (std::size_t i = first - std::min(first, kAround); i < last; i += kStep) {
         views.insert(views.end(), scene.tracks[i].begin(), scene.tracks[i].end());
     }
     sort_unique(views);
-    std::erase_if(views, [&](std::uint32_t view) {
-        return std::ranges::binary_search(scene.tracks[point], view) ||
-               !takes_pictures(scene, view) || !is_before(scene, view, point);
-    });
+    std::erase_if(views, [&](std::uint32_t view) { return !takes_pictures(scene, view); });
     return views;
+}
+
+/// The views in front of each point that saw points around it, but not the point. None if five or
+/// more views saw the point.
+std::vector<std::vector<std::uint32_t>> likely_views(const Scene& scene, const Progress& progress)
+{
+    constexpr std::size_t kEnough = 5;
+    constexpr std::size_t kRun = 8; // points that are searched together
+    std::vector<std::vector<std::uint32_t>> rows(scene.num_points());
+    parallel_for((rows.size() + kRun - 1) / kRun, progress, [&](std::size_t run) {
+        const std::size_t last = std::min(rows.size(), (run + 1) * kRun);
+        const std::vector<std::uint32_t> around = views_around(scene, run * kRun, last);
+        for (std::size_t point = run * kRun; point < last; ++point) {
+            const auto track = scene.tracks[point];
+            if (track.size() >= kEnough) continue;
+            std::ranges::copy_if(around, std::back_inserter(rows[point]), [&](std::uint32_t view) {
+                return !std::ranges::binary_search(track, view) && is_before(scene, view, point);
+            });
+        }
+    });
+    return rows;
 }
 
 } // namespace
 
 Tracks inferred_rays(const Scene& scene, const Progress& progress)
 {
-    std::vector<std::vector<std::uint32_t>> rows(scene.num_points());
-    parallel_for(rows.size(), progress.part(0.0, 0.4),
-                 [&](std::size_t point) { rows[point] = views_around(scene, point); });
+    const std::vector<std::vector<std::uint32_t>> rows =
+        likely_views(scene, progress.part(0.0, 0.4));
     const Tracks likely =
         make_tracks(rows.size(), [&](std::size_t i) { return std::span(rows[i]); });
     const auto places_in = [&](const Tracks& tracks) {
