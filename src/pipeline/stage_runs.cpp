@@ -311,7 +311,7 @@ Counts denoise_vertices(RunState& run, const Progress& progress)
 Counts decimate(RunState& run, const Progress& /*progress*/)
 {
     constexpr double kMostMoved = 0.25; // in vertex spacings
-    constexpr double kSmall = 8.0;      // squared spacings per face of min_component
+    constexpr double kSmall = 4.0;      // squared spacings per face of min_component
     std::vector<double> spacings = vertex_spacings(*run.mesh);
     std::erase(spacings, 0.0);
     const double spacing = median_in_place(spacings);
