@@ -328,10 +328,10 @@ Counts decimate(RunState& run, const Progress& /*progress*/)
     return {{"faces", cleaned.counts.faces}, {"of", before}, {"components dropped", dropped}};
 }
 
-Counts guard_rays(RunState& run, const Progress& progress)
+Counts guard_rays(RunState& run, const Progress& /*progress*/)
 {
-    run.guard.emplace(run.points.scene, *run.mesh, progress);
-    return {{"free rays", run.guard->num_free()}, {"of", run.guard->num_rays()}};
+    run.guard.emplace(run.points.scene, *run.mesh);
+    return {{"rays", run.guard->num_rays()}};
 }
 
 Counts smooth(RunState& run, const Progress& progress)

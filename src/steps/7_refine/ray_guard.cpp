@@ -6,7 +6,6 @@
 #include "mesh/half_edge_mesh.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <utility>
@@ -49,10 +48,15 @@ inline void clip(double begin, double end, double& from, double& to)
     }
 }
 
-/// Share of the time for building the tree.
-constexpr double kTreeShare = 0.3;
-/// Number of faces per query; consecutive faces are mostly adjacent.
-constexpr std::size_t kNeighbors = 4;
+bool is_flat(const Triangle& t)
+{
+    return collinear(t[0], t[1], t[2]);
+}
+
+bool meets(const Triangle& triangle, const Vector3d& begin, const Vector3d& end)
+{
+    return !is_flat(triangle) && meets_triangle(begin, end, triangle);
+}
 
 /// Per point, the ignored length of its rays; the smaller one if two vertices share a point.
 std::vector<double> margins_of_points(const Scene& scene, const HalfEdgeMesh& surface)
@@ -83,8 +87,7 @@ struct RayTree::Query {
     Query(std::span<const Triangle> all, const Visitor& visitor, double extent) : visit(visitor)
     {
         constexpr double kRounding = 1e-12;
-        std::ranges::copy_if(all, std::back_inserter(triangles),
-                             [](const Triangle& t) { return !collinear(t[0], t[1], t[2]); });
+        std::ranges::remove_copy_if(all, std::back_inserter(triangles), is_flat);
         double longest_sq = 0.0;
         for (const auto& [a, b, c] : triangles) {
             box.extend(a).extend(b).extend(c);
@@ -221,39 +224,23 @@ bool RayTree::descend(std::size_t node, std::size_t first, std::size_t last,
     return true;
 }
 
-RayGuard::RayGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress)
-    : tree_(scene, margins_of_points(scene, surface)), blocked_(tree_.size(), 0)
+RayGuard::RayGuard(const Scene& scene, const HalfEdgeMesh& surface)
+    : rays_(scene, margins_of_points(scene, surface)), faces_(tri_mesh(surface))
 {
-    progress.report(kTreeShare);
-    parallel_for_ranges(
-        surface.n_faces(), progress.part(kTreeShare, 1.0),
-        [&](std::size_t first, std::size_t last) {
-            std::vector<std::array<Vector3d, 3>> triangles;
-            for (std::size_t f = first; f < last; ++f) {
-                const auto face = handle_at<OpenMesh::FaceHandle>(f);
-                if (!surface.is_deleted(face)) triangles.push_back(surface.triangle(face));
-            }
-            tree_.visit_meeting(triangles, [&](std::size_t ray) {
-                std::atomic_ref(blocked_[ray]).store(1, std::memory_order_relaxed);
-                return true;
-            });
-        },
-        kNeighbors);
 }
 
-bool RayGuard::blocks(std::span<const std::array<Vector3d, 3>> triangles) const
+bool RayGuard::blocks(std::span<const Triangle> before, std::span<const Triangle> after) const
 {
     bool found = false;
-    tree_.visit_meeting(triangles, [&](std::size_t ray) {
-        found = blocked_[ray] == 0;
+    rays_.visit_meeting(after, [&](std::size_t ray) {
+        const auto is_met = [&](const Triangle& triangle) {
+            return meets(triangle, rays_[ray].begin, rays_.end_of(ray));
+        };
+        found = std::ranges::none_of(before, is_met) &&
+                !faces_.is_met(rays_[ray].begin, rays_.end_of(ray));
         return !found;
     });
     return found;
-}
-
-std::int64_t RayGuard::num_free() const
-{
-    return std::ranges::count(blocked_, 0);
 }
 
 } // namespace vcarve

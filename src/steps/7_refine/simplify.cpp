@@ -166,7 +166,7 @@ class Collapser {
         std::vector<std::uint8_t> hides(chosen.size());
         parallel_for(
             chosen.size(), progress,
-            [&](std::size_t i) { hides[i] = guard_.blocks(fan(chosen[i].half_edge)) ? 1 : 0; }, 16);
+            [&](std::size_t i) { hides[i] = blocks_rays(chosen[i].half_edge) ? 1 : 0; }, 16);
         for (std::size_t i = 0; i < chosen.size() && faces_ > wanted; ++i) {
             if (hides[i] != 0) {
                 refuse(chosen[i].half_edge);
@@ -246,15 +246,18 @@ class Collapser {
         return chosen;
     }
 
-    /// The changed faces around the end of a collapsed half-edge.
-    std::vector<Triangle> fan(HalfedgeHandle half_edge) const
+    /// Whether collapsing a half-edge would block a free ray.
+    bool blocks_rays(HalfedgeHandle half_edge) const
     {
-        std::vector<Triangle> triangles;
-        all_changed_faces(mesh_, half_edge, [&](const Triangle& /*before*/, const Triangle& after) {
-            triangles.push_back(after);
+        std::vector<Triangle> before;
+        std::vector<Triangle> after;
+        for (const auto face : mesh_.vf_range(mesh_.from_vertex_handle(half_edge)))
+            before.push_back(mesh_.triangle(face));
+        all_changed_faces(mesh_, half_edge, [&](const Triangle& /*before*/, const Triangle& is) {
+            after.push_back(is);
             return true;
         });
-        return triangles;
+        return guard_.blocks(before, after);
     }
 
     void refuse(HalfedgeHandle half_edge)

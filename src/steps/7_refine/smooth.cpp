@@ -201,22 +201,22 @@ class RayGuardedSmoother : public OpenMesh::Smoother::SmootherT<HalfEdgeMesh> {
 
     bool may_be_at(VertexHandle vertex, const Vector3d& place)
     {
+        std::vector<Triangle> before;
+        std::vector<Triangle> after;
         for (const auto face : mesh_.vf_range(vertex)) {
-            Triangle before;
-            Triangle after;
+            Triangle& was = before.emplace_back();
+            Triangle& is = after.emplace_back();
             std::size_t i = 0;
             for (const auto corner : mesh_.fv_range(face)) {
-                before[i] = positions_[index(corner)];
-                after[i] = corner == vertex ? place : before[i];
+                was[i] = positions_[index(corner)];
+                is[i] = corner == vertex ? place : was[i];
                 ++i;
             }
-            if (turns_too_far(before, after)) return false;
-            if (guard_.blocks(after)) {
-                held_[index(vertex)] = 1;
-                return false;
-            }
+            if (turns_too_far(was, is)) return false;
         }
-        return true;
+        if (!guard_.blocks(before, after)) return true;
+        held_[index(vertex)] = 1;
+        return false;
     }
 
     const RayGuard& guard_;

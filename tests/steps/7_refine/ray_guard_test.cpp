@@ -5,10 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
 #include <span>
+#include <vector>
 
 namespace vcarve::ray_guard_test {
 namespace {
@@ -135,16 +138,20 @@ Triangle lid(double height)
     return {Vector3d(0.4, 0.4, height), {0.6, 0.4, height}, {0.5, 0.6, height}};
 }
 
+bool blocks(const RayGuard& guard, const Triangle& triangle)
+{
+    return guard.blocks({}, std::span(&triangle, 1));
+}
+
 TEST(RayGuard, GuardsRaysBeyondTheSpacingOfTheirPoint)
 {
     const RayGuard guard(grid_seen_from_above(), half_edges(flat_grid(3)));
     EXPECT_EQ(guard.num_rays(), 9);
-    EXPECT_EQ(guard.num_free(), 9);
-    EXPECT_TRUE(guard.blocks(lid(0.51)));
-    EXPECT_TRUE(guard.blocks(lid(9.9)));
-    EXPECT_FALSE(guard.blocks(lid(0.49)));
-    EXPECT_FALSE(guard.blocks(lid(-0.1)));
-    EXPECT_FALSE(guard.blocks({Vector3d(0.6, 0.4, 1), {0.8, 0.4, 1}, {0.7, 0.6, 1}}));
+    EXPECT_TRUE(blocks(guard, lid(0.51)));
+    EXPECT_TRUE(blocks(guard, lid(9.9)));
+    EXPECT_FALSE(blocks(guard, lid(0.49)));
+    EXPECT_FALSE(blocks(guard, lid(-0.1)));
+    EXPECT_FALSE(blocks(guard, {Vector3d(0.6, 0.4, 1), {0.8, 0.4, 1}, {0.7, 0.6, 1}}));
 }
 
 TEST(RayGuard, IgnoresRaysThatAreAlreadyBlocked)
@@ -157,9 +164,18 @@ TEST(RayGuard, IgnoresRaysThatAreAlreadyBlocked)
     mesh.faces.push_back({9, 10, 11});
     const RayGuard guard(grid_seen_from_above(), half_edges(mesh));
     // At half height, the rays of the neighbors are a quarter of a unit from the central one.
-    EXPECT_EQ(guard.num_free(), 8);
-    EXPECT_FALSE(guard.blocks(lid(0.51)));
-    EXPECT_TRUE(guard.blocks({Vector3d(0, 0, 1), {1, 0, 1}, {0.5, 1, 1}}));
+    EXPECT_FALSE(blocks(guard, lid(0.51)));
+    EXPECT_TRUE(blocks(guard, {Vector3d(0, 0, 1), {1, 0, 1}, {0.5, 1, 1}}));
+}
+
+TEST(RayGuard, IgnoresRaysThatTheReplacedFacesBlock)
+{
+    const RayGuard guard(grid_seen_from_above(), half_edges(flat_grid(3)));
+    const std::vector<Triangle> before = {lid(5)};
+    // At half height, the rays of the neighbors are a quarter of a unit from the central one.
+    EXPECT_FALSE(guard.blocks(before, std::vector{lid(0.51)}));
+    EXPECT_TRUE(
+        guard.blocks(before, std::vector<Triangle>{{Vector3d(0, 0, 1), {1, 0, 1}, {0.5, 1, 1}}}));
 }
 
 TEST(RayGuard, GuardsTheWholeRayOfAPointThatIsNoVertex)
@@ -168,29 +184,56 @@ TEST(RayGuard, GuardsTheWholeRayOfAPointThatIsNoVertex)
     TriMesh mesh = flat_grid(3);
     mesh.points.assign(mesh.points.size(), kNoPoint);
     const RayGuard guard(scene, half_edges(mesh));
-    EXPECT_TRUE(guard.blocks(lid(0.26)));
-    EXPECT_TRUE(guard.blocks(lid(0.25)));
-    EXPECT_FALSE(guard.blocks(lid(0.24)));
+    EXPECT_TRUE(blocks(guard, lid(0.26)));
+    EXPECT_TRUE(blocks(guard, lid(0.25)));
+    EXPECT_FALSE(blocks(guard, lid(0.24)));
 }
 
-TEST(RayGuard, FindsTheSameFreeRaysAsBruteForce)
+TEST(RayGuard, DecidesLikeATestOfAllRays)
 {
     const Scene scene = bumpy_sphere(200, 9);
-    // Any mesh serves, such as faces between random points.
     TriMesh mesh;
     mesh.positions = scene.positions;
-    for (std::uint32_t v = 0; v < 200; ++v) {
-        mesh.positions[v] *= 1.5;
-        mesh.points.push_back(v % 2 == 0 ? v : kNoPoint);
-        mesh.faces.push_back({v, (v * 7 + 1) % 200, (v * 13 + 5) % 200});
+    mesh.points.assign(scene.num_points(), kNoPoint);
+    for (std::uint32_t v = 0; v < 190; v += 10) {
+        mesh.faces.push_back({v, v + 1, v + 2});
     }
-    const HalfEdgeMesh surface = half_edges(mesh);
-    mesh = tri_mesh(surface); // has copies of vertices
-    const RayGuard guard(scene, surface);
-    const auto margins = testing::margins_in(mesh, scene);
-    const auto blocked = testing::blocked_rays(scene, mesh, margins);
-    EXPECT_GT(blocked.size(), 20U);
-    EXPECT_EQ(guard.num_rays() - guard.num_free(), static_cast<std::int64_t>(blocked.size()));
+    const RayGuard guard(scene, half_edges(mesh));
+    std::vector<Triangle> surface;
+    for (const auto& [a, b, c] : mesh.faces) {
+        surface.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
+    }
+    std::mt19937 random(5);
+    const auto anywhere = [&] {
+        const auto number = [&] { return random() / 2147483648.0 - 1.0; };
+        return Vector3d{number(), number(), number()};
+    };
+    std::array<int, 2> counts{};
+    for (int round = 0; round < 400; ++round) {
+        const Vector3d place = 1.2 * anywhere();
+        std::vector<Triangle> before(3);
+        std::vector<Triangle> after(2);
+        for (auto* triangles : {&before, &after}) {
+            for (Triangle& t : *triangles) {
+                t = {place, place + 0.5 * anywhere(), place + 0.5 * anywhere()};
+            }
+        }
+        bool expected = false;
+        for (std::size_t point = 0; point < scene.num_points(); ++point) {
+            for (const std::uint32_t view : scene.tracks[point]) {
+                const auto is_met = [&](const Triangle& t) {
+                    return meets(t, scene.positions[point], scene.views[view].center);
+                };
+                expected = expected || (std::ranges::any_of(after, is_met) &&
+                                        std::ranges::none_of(before, is_met) &&
+                                        std::ranges::none_of(surface, is_met));
+            }
+        }
+        EXPECT_EQ(guard.blocks(before, after), expected) << "round " << round;
+        ++counts[expected ? 1 : 0];
+    }
+    EXPECT_GT(counts[0], 40);
+    EXPECT_GT(counts[1], 40);
 }
 
 TEST(VertexSpacings, AreMedianEdgeLengths)
