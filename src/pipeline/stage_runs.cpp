@@ -328,9 +328,9 @@ Counts decimate(RunState& run, const Progress& /*progress*/)
     return {{"faces", cleaned.counts.faces}, {"of", before}, {"components dropped", dropped}};
 }
 
-Counts guard_rays(RunState& run, const Progress& /*progress*/)
+Counts guard_rays(RunState& run, const Progress& progress)
 {
-    run.guard.emplace(run.points.scene, *run.mesh);
+    run.guard.emplace(run.points.scene, *run.mesh, progress);
     return {{"rays", run.guard->num_rays()}};
 }
 

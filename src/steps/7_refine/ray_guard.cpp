@@ -224,9 +224,13 @@ bool RayTree::descend(std::size_t node, std::size_t first, std::size_t last,
     return true;
 }
 
-RayGuard::RayGuard(const Scene& scene, const HalfEdgeMesh& surface)
-    : rays_(scene, margins_of_points(scene, surface)), faces_(tri_mesh(surface))
+RayGuard::RayGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress)
+    : rays_(scene, margins_of_points(scene, surface))
 {
+    progress.report(0.5);
+    const TriMesh mesh = tri_mesh(surface);
+    progress.report(0.6);
+    faces_.emplace(mesh);
 }
 
 bool RayGuard::blocks(std::span<const Triangle> before, std::span<const Triangle> after) const
@@ -237,7 +241,7 @@ bool RayGuard::blocks(std::span<const Triangle> before, std::span<const Triangle
             return meets(triangle, rays_[ray].begin, rays_.end_of(ray));
         };
         found = std::ranges::none_of(before, is_met) &&
-                !faces_.is_met(rays_[ray].begin, rays_.end_of(ray));
+                !faces_->is_met(rays_[ray].begin, rays_.end_of(ray));
         return !found;
     });
     return found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/progress.h"
 #include "geometry/triangle_tree.h"
 #include "vcarve/scene.h"
 
@@ -8,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,7 +68,7 @@ class HalfEdgeMesh;
 class RayGuard {
   public:
     /// Cost: O(rays log rays + faces log faces), in parallel; 60 to 80 bytes per ray, 400 per face.
-    RayGuard(const Scene& scene, const HalfEdgeMesh& surface);
+    RayGuard(const Scene& scene, const HalfEdgeMesh& surface, const Progress& progress = {});
 
     /// Whether one of the triangles `after` meets a free ray that no triangle `before` meets. Exact
     /// for the given doubles. Thread-safe.
@@ -77,7 +79,7 @@ class RayGuard {
 
   private:
     RayTree rays_;
-    TriangleTree faces_; ///< of the surface at first
+    std::optional<TriangleTree> faces_; ///< of the surface at first
 };
 
 } // namespace vcarve

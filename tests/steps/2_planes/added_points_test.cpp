@@ -269,6 +269,13 @@ TEST(RaysThrough, OmitTheMarginAtTheirPoints)
     EXPECT_EQ(count(upward(3), triangles, 100.0), Counts({0, 0, 0, 3}));
 }
 
+TEST(RaysThrough, AreCountedFromOneInFiveInADenseCloud)
+{
+    Scene scene = upward(7);
+    scene.is_dense = true;
+    EXPECT_EQ(count(scene, {across(5.0)}, 0.0), Counts({10})) << "rays of the points 0 and 5";
+}
+
 TEST(RaysThrough, DoNotIncludeAPointAtItsView)
 {
     const Scene scene = make_scene({{0.0, 0.0, 0.0}}, {{{0.0, 0.0, 0.0}, {0}}});
