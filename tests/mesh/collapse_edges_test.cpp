@@ -1,28 +1,30 @@
 #include "mesh/collapse_edges.h"
 
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstdint>
 
 namespace vcarve::collapse_edges_test {
 namespace {
 
-/// A flat grid of 20 x 20 unit squares with two faces each, whose vertices have points.
-TriMesh flat()
+/// A flat grid of unit squares with two faces each, whose vertices have points.
+TriMesh flat(std::uint32_t squares = 20)
 {
     TriMesh mesh;
-    constexpr std::uint32_t kSide = 21;
-    for (std::uint32_t y = 0; y < kSide; ++y) {
-        for (std::uint32_t x = 0; x < kSide; ++x) {
+    const std::uint32_t side = squares + 1;
+    for (std::uint32_t y = 0; y < side; ++y) {
+        for (std::uint32_t x = 0; x < side; ++x) {
             mesh.positions.emplace_back(x, y, 0.0);
-            mesh.points.push_back(1000 + kSide * y + x);
+            mesh.points.push_back(1000 + side * y + x);
         }
     }
-    for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
-        for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
-            const std::uint32_t a = kSide * y + x;
-            mesh.faces.push_back({a, a + 1, a + kSide});
-            mesh.faces.push_back({a + 1, a + kSide + 1, a + kSide});
+    for (std::uint32_t y = 0; y + 1 < side; ++y) {
+        for (std::uint32_t x = 0; x + 1 < side; ++x) {
+            const std::uint32_t a = side * y + x;
+            mesh.faces.push_back({a, a + 1, a + side});
+            mesh.faces.push_back({a + 1, a + side + 1, a + side});
         }
     }
     return mesh;
@@ -37,6 +39,21 @@ TEST(CollapseEdges, SimplifiesFlatMeshAndKeepsItsPoints)
     for (std::size_t i = 0; i < coarse.points.size(); ++i) {
         EXPECT_EQ(coarse.positions[i], mesh.positions[coarse.points[i] - 1000]);
     }
+}
+
+TEST(CollapseEdges, SimplifiesTheBoundariesBetweenPartsOfALargeMesh)
+{
+    const TriMesh mesh = flat(350);
+    const auto on_threads = [&](int threads) {
+        TriMesh coarse;
+        tbb::task_arena arena(threads);
+        arena.execute([&] { coarse = collapse_edges(mesh, {.max_distance = 0.01}); });
+        return coarse;
+    };
+    const TriMesh coarse = on_threads(2);
+    EXPECT_LE(coarse.faces.size(), 40U);
+    EXPECT_EQ(coarse.faces, on_threads(1).faces);
+    EXPECT_EQ(coarse.positions, on_threads(1).positions);
 }
 
 TEST(CollapseEdges, KeepsBumpsAboveMaxDistance)
