@@ -197,15 +197,11 @@ Reference make_reference(const Scene& model, const NamedMesh* truth, const Compa
 
 std::vector<double> point_spacings(const std::vector<Eigen::Vector3d>& points)
 {
-    const NearestNeighbors tree(points);
+    const Neighborhoods nearest = nearest_neighborhoods(points, kNeighbor);
     std::vector<double> spacings(points.size());
-    parallel_for_ranges(points.size(), [&](std::size_t first, std::size_t last) {
-        std::vector<NearestNeighbors::Neighbor> nearest;
-        for (std::size_t i = first; i < last; ++i) {
-            tree.find(points[i], kNeighbor + 1, nearest); // the nearest is the point itself
-            spacings[i] = std::sqrt(nearest.back().distance_sq);
-        }
-    });
+    for (std::size_t i = 0; i < spacings.size(); ++i) {
+        spacings[i] = std::sqrt(nearest.reach_sq(i));
+    }
     const double least = kLeastShareOfMedian * median(spacings);
     for (double& spacing : spacings) {
         spacing = std::max(spacing, least);

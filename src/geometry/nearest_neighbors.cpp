@@ -29,35 +29,6 @@ using BuildTag = CGAL::Parallel_if_available_tag;
 
 } // namespace
 
-struct NearestNeighbors::Search {
-    Nearest::Tree tree;
-};
-
-NearestNeighbors::NearestNeighbors(const std::vector<Eigen::Vector3d>& points)
-    : search_(std::make_unique<Search>())
-{
-    if (points.empty()) return; // CGAL cannot build an empty tree
-    search_->tree.reserve(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        search_->tree.insert({to_cartesian(points[i]), i});
-    }
-    search_->tree.build<BuildTag>();
-}
-
-NearestNeighbors::~NearestNeighbors() = default;
-NearestNeighbors::NearestNeighbors(NearestNeighbors&&) noexcept = default;
-
-void NearestNeighbors::find(const Eigen::Vector3d& place, std::size_t count,
-                            std::vector<Neighbor>& nearest) const
-{
-    nearest.clear();
-    if (search_->tree.empty()) return;
-    for (const auto& [numbered, distance_sq] :
-         Nearest(search_->tree, to_cartesian(place), static_cast<unsigned>(count))) {
-        nearest.push_back({numbered.second, distance_sq});
-    }
-}
-
 void Neighborhoods::set(std::size_t point, std::span<const std::uint32_t> around, double reach_sq)
 {
     std::ranges::copy(around, points_.begin() + static_cast<std::ptrdiff_t>(most_ * point));
@@ -69,22 +40,25 @@ Neighborhoods nearest_neighborhoods(const std::vector<Eigen::Vector3d>& position
                                     std::size_t count, const Progress& progress)
 {
     const std::size_t kept = std::min(count, positions.size() - 1);
-    const NearestNeighbors tree(positions);
+    Nearest::Tree tree;
+    tree.reserve(positions.size());
+    for (std::uint32_t i = 0; i < positions.size(); ++i)
+        tree.insert({to_cartesian(positions[i]), i});
+    tree.build<BuildTag>();
     progress.report(0.4);
     Neighborhoods neighborhoods(positions.size(), kept);
-    parallel_for_ranges(positions.size(), progress.part(0.4, 1.0),
-                        [&](std::size_t first, std::size_t last) {
-                            std::vector<NearestNeighbors::Neighbor> nearest;
-                            std::vector<std::uint32_t> around;
-                            for (std::size_t i = first; i < last; ++i) {
-                                tree.find(positions[i], kept + 1, nearest);
-                                around.clear();
-                                for (const auto& neighbor : nearest) {
-                                    if (neighbor.point != i) around.push_back(neighbor.point);
-                                }
-                                neighborhoods.set(i, around, nearest.back().distance_sq);
-                            }
-                        });
+    const auto find = [&](std::size_t i) {
+        thread_local std::vector<std::uint32_t> around;
+        around.clear();
+        const Nearest nearest(tree, to_cartesian(positions[i]), static_cast<unsigned>(kept + 1));
+        double reach_sq = 0.0;
+        for (const auto& [neighbor, distance_sq] : nearest) {
+            reach_sq = distance_sq;
+            if (neighbor.second != i && around.size() < kept) around.push_back(neighbor.second);
+        }
+        neighborhoods.set(i, around, reach_sq);
+    };
+    parallel_for(positions.size(), progress.part(0.4, 1.0), find);
     return neighborhoods;
 }
 

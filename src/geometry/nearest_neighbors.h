@@ -6,37 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <numbers>
 #include <span>
 #include <vector>
 
 namespace vcarve {
-
-/// Finds the points nearest to a position, with CGAL's k-d tree.
-class NearestNeighbors {
-  public:
-    /// Cost: O(points log points), in parallel.
-    explicit NearestNeighbors(const std::vector<Eigen::Vector3d>& points);
-    ~NearestNeighbors();
-    NearestNeighbors(NearestNeighbors&&) noexcept;
-    NearestNeighbors& operator=(NearestNeighbors&&) = delete;
-
-    struct Neighbor {
-        std::uint32_t point;
-        double distance_sq;
-    };
-
-    /// Fills `nearest` with the `count` points nearest to `place`, or all if there are fewer, in
-    /// ascending distance. Ties are broken in a way that depends only on the points. Thread-safe.
-    /// Cost: O(log points + count).
-    void find(const Eigen::Vector3d& place, std::size_t count,
-              std::vector<Neighbor>& nearest) const;
-
-  private:
-    struct Search;
-    std::unique_ptr<Search> search_;
-};
 
 /// For each point a list of neighbors of limited length, and the radius that contains them.
 /// Memory: 4 bytes per possible neighbor, and 12 bytes per point.
@@ -73,8 +47,9 @@ class Neighborhoods {
 };
 
 /// Finds the `count` nearest neighbors of each point, or all other points if there are fewer. The
-/// radius is the distance to the farthest. Needs at least two points, and distinct positions.
-/// Cost: O(points x (log points + count)), in parallel.
+/// radius is the distance to the farthest. Ties are broken in a way that depends only on the
+/// points. Needs at least two points. Uses CGAL's k-d tree. Cost: O(points x (log points + count)),
+/// in parallel.
 Neighborhoods nearest_neighborhoods(const std::vector<Eigen::Vector3d>& positions,
                                     std::size_t count, const Progress& progress = {});
 

@@ -1,4 +1,3 @@
-#include "base/numbers.h"
 #include "geometry/nearest_neighbors.h"
 
 #include <gmock/gmock.h>
@@ -14,55 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 using ::testing::ElementsAre;
-
-std::vector<Vector3d> random_points(std::uint64_t count)
-{
-    std::vector<Vector3d> points;
-    for (std::uint64_t i = 0; i < count; ++i) {
-        points.emplace_back(random_number(3, 3 * i), random_number(3, 3 * i + 1),
-                            0.1 * random_number(3, 3 * i + 2));
-    }
-    return points;
-}
-
-/// All points with their squared distances to `place`, sorted by distance.
-std::vector<std::pair<double, std::uint32_t>> sorted_from(const Vector3d& place,
-                                                          const std::vector<Vector3d>& points)
-{
-    std::vector<std::pair<double, std::uint32_t>> sorted;
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        sorted.emplace_back((points[i] - place).squaredNorm(), i);
-    }
-    std::ranges::sort(sorted);
-    return sorted;
-}
-
-TEST(NearestNeighbors, MatchSortingByDistance)
-{
-    const std::vector<Vector3d> points = random_points(500);
-    const NearestNeighbors tree(points);
-    std::vector<NearestNeighbors::Neighbor> nearest;
-    for (const Vector3d& place : random_points(50)) {
-        const auto sorted = sorted_from(place, points);
-        tree.find(place, 7, nearest);
-        ASSERT_EQ(nearest.size(), 7U);
-        for (std::size_t k = 0; k < nearest.size(); ++k) {
-            EXPECT_EQ(nearest[k].point, sorted[k].second);
-            EXPECT_DOUBLE_EQ(nearest[k].distance_sq, sorted[k].first);
-        }
-    }
-}
-
-TEST(NearestNeighbors, IncludeAllPointsIfThereAreFewer)
-{
-    std::vector<NearestNeighbors::Neighbor> nearest(3);
-    NearestNeighbors({}).find(Vector3d::Zero(), 4, nearest);
-    EXPECT_TRUE(nearest.empty());
-    NearestNeighbors({{2, 0, 0}, {1, 0, 0}}).find(Vector3d::Zero(), 4, nearest);
-    ASSERT_EQ(nearest.size(), 2U);
-    EXPECT_EQ(nearest[0].point, 1U);
-    EXPECT_EQ(nearest[1].point, 0U);
-}
 
 TEST(Neighborhoods, ContainNearestOtherPoints)
 {
@@ -81,6 +31,15 @@ TEST(Neighborhoods, ContainAllOthersIfThereAreFewer)
     const Neighborhoods near = nearest_neighborhoods({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}}, 10);
     EXPECT_THAT(near.around(2), ElementsAre(1, 0));
     EXPECT_EQ(near.reach_sq(2), 9.0);
+}
+
+TEST(Neighborhoods, ContainNoMoreThanWantedIfPointsCoincide)
+{
+    const Neighborhoods near = nearest_neighborhoods(std::vector<Vector3d>(9, {1, 2, 3}), 2);
+    for (std::uint32_t point = 0; point < 9; ++point) {
+        EXPECT_EQ(near.around(point).size(), 2U);
+        EXPECT_EQ(near.reach_sq(point), 0.0);
+    }
 }
 
 TEST(Neighborhoods, MatchBruteForce)

@@ -38,14 +38,13 @@ bool has_place(const Candidate& candidate, const PlanarRegions& planes)
 {
     constexpr std::size_t kLook = 8;
     constexpr std::ptrdiff_t kMost = 5;
-    thread_local std::vector<NearestNeighbors::Neighbor> nearest;
-    planes.tree.find(candidate.position, kLook, nearest);
-    const auto is_own = [&](const NearestNeighbors::Neighbor& near) {
+    thread_local std::vector<PointTree::Near> nearest;
+    planes.tree.find_nearest(candidate.position, kLook, nearest);
+    const auto is_own = [&](const PointTree::Near& near) {
         const std::uint32_t region = planes.region_of[near.point];
         return region == candidate.regions[0] || region == candidate.regions[1];
     };
-    const double clear = clearance(candidate.kind) * candidate.step;
-    return nearest.front().distance_sq >= clear * clear &&
+    return nearest.front().distance >= clearance(candidate.kind) * candidate.step &&
            std::ranges::count_if(nearest, is_own) >= kMost;
 }
 

@@ -86,7 +86,7 @@ struct PlanarRegion {
 struct PlanarRegions {
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
-    NearestNeighbors tree;                ///< of all points
+    PointTree tree;                       ///< of all points
     std::deque<PlanarRegion> regions;     ///< in descending order of flatness
     std::vector<std::uint32_t> region_of; ///< per point; kNone without a region
     std::vector<double> spacings;         ///< per point: local distance between points
