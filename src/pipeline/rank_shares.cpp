@@ -75,10 +75,9 @@ VisibilityEnergy walk_by_ranks(RunState& run, const Progress& progress)
     const RayCaster caster(run.cells, run.points.scene, scales, run.options().labels.trace);
     const RaySource source = photographs(run.points.scene);
     VisibilityEnergy energy;
-    VisibilityEnergy said;
     const Rank own = {0, work.num_ranks()};
     const bool is_shared = work.share(kRaysTask, scales, kNeededForRays, [&] {
-        said = caster.energy_of(source, share_of(*source.rays, own), progress.part(0.0, kWalks));
+        energy = caster.energy_of(source, share_of(*source.rays, own), progress.part(0.0, kWalks));
     });
     if (!is_shared) {
         caster.cast(source, energy, progress);
@@ -88,9 +87,9 @@ VisibilityEnergy walk_by_ranks(RunState& run, const Progress& progress)
         caster.add(work.shared_piece(
                        share_name(rank),
                        [&] { return caster.share(source, share_of(*source.rays, rank), {}); }),
-                   said);
+                   energy);
     }
-    caster.finish(source, std::move(said), energy);
+    caster.finish(source, energy);
     return energy;
 }
 

@@ -127,7 +127,7 @@ double finding_planes(const Needs& needs)
 {
     const Sizes& n = needs.left;
     constexpr double kTree = 40 + 13;
-    constexpr double kAround = 12 * 4 + 6 * 8;
+    constexpr double kAround = 24 * 4 + 12 + 6 * 8;
     constexpr double kOfRegion = 2 * 4 + 2 * 24 + 13;
     constexpr double kCandidates = 300; ///< candidates near a point, and surfaces
     return n.scene() + n.points * (kTree + kAround + kOfRegion + kCandidates);
@@ -157,8 +157,8 @@ double tracing(const Needs& needs)
     const double edges = 6 * std::min(n.cells(), 5e4);
     const double walked = std::min(n.rays, needs.threads * 512 * n.rays / std::max(n.points, 1.0));
     constexpr double kRay = 96;
-    constexpr double kInferred = 20; // per ray of a cloud: about one inferred ray, and its votes
-    const double inferred = needs.is_dense ? kInferred * n.rays + kNetworkCell * n.cells() : 0.0;
+    constexpr double kInferred = 20; // per ray of a cloud: about one inferred ray
+    const double inferred = needs.is_dense ? kInferred * n.rays : 0.0;
     return n.after_triangulation() +
            std::max(24 * edges, n.cells() * kNetworkCell + kRay * walked + inferred);
 }

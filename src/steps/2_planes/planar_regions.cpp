@@ -366,12 +366,9 @@ std::vector<Vector3d> PlanarRegion::hull() const
 
 bool PlanarRegion::has_point_near(const Vector3d& place, double distance) const
 {
-    constexpr double kDone = -1.0; // stops the search: no box is as near
-    double most = distance;
-    tree.visit_near(place, {0, 0}, most, [&](std::size_t i) {
-        if ((positions[i] - place).norm() <= distance) most = kDone;
-    });
-    return most == kDone;
+    std::vector<PointTree::Near> near;
+    tree.find_nearest(place, 1, near);
+    return near.front().distance <= distance;
 }
 
 PlanarRegions::PlanarRegions(const Scene& scene)

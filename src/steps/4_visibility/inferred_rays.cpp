@@ -125,10 +125,9 @@ std::vector<std::vector<std::uint32_t>> likely_views(const Scene& scene, const P
 
 Tracks inferred_rays(const Scene& scene, const Progress& progress)
 {
-    const std::vector<std::vector<std::uint32_t>> rows =
-        likely_views(scene, progress.part(0.0, 0.4));
-    const Tracks likely =
-        make_tracks(rows.size(), [&](std::size_t i) { return std::span(rows[i]); });
+    std::vector<std::vector<std::uint32_t>> rows = likely_views(scene, progress.part(0.0, 0.4));
+    const auto row_of = [&](std::size_t i) { return std::span(rows[i]); };
+    const Tracks likely = make_tracks(rows.size(), row_of);
     const auto places_in = [&](const Tracks& tracks) {
         return PlacesOfViews(tracks.size(), scene.views.size(),
                              [&](std::size_t i) { return tracks[i]; });
@@ -146,14 +145,10 @@ Tracks inferred_rays(const Scene& scene, const Progress& progress)
         }
     };
     parallel_for(scene.views.size(), progress.part(0.4, 1.0), ask, 1);
-    Tracks kept;
-    for (std::size_t point = 0; point < likely.size(); ++point) {
-        for (std::uint64_t i = likely.begins[point]; i < likely.begins[point + 1]; ++i) {
-            if (is_kept[i] != 0) kept.views.push_back(likely.views[i]);
-        }
-        kept.begins.push_back(kept.views.size());
-    }
-    return kept;
+    std::size_t next = 0;
+    for (std::vector<std::uint32_t>& row : rows)
+        std::erase_if(row, [&](std::uint32_t) { return is_kept[next++] == 0; });
+    return make_tracks(rows.size(), row_of);
 }
 
 } // namespace vcarve

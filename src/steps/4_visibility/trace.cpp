@@ -246,11 +246,12 @@ void require_exact(bool is_exact, const Scene& scene)
 } // namespace
 
 VisibilityEnergy RayCaster::energy_of(const RaySource& source, const VertexRun& points,
-                                      const Progress& progress) const
+                                      const Progress& progress, VisibilityEnergy energy) const
 {
-    VisibilityEnergy energy;
-    energy.unit = RayWeights::kUnit;
-    energy.network = empty_network(cells_);
+    if (energy.network.arc_capacities.empty()) {
+        energy.unit = RayWeights::kUnit;
+        energy.network = empty_network(cells_);
+    }
     if (source.is_measured) energy.cell_of_view.resize(source.origins.size(), kInfinite);
     std::vector<Index>& cell_of_origin = energy.cell_of_view;
     EnergySums sums(energy.network);
@@ -299,30 +300,16 @@ void RayCaster::add(const Share& share, VisibilityEnergy& energy) const
     }
 }
 
-void RayCaster::finish(const RaySource& source, VisibilityEnergy energy,
-                       VisibilityEnergy& all) const
+void RayCaster::finish(const RaySource& source, VisibilityEnergy& energy) const
 {
     if (source.is_measured) locate_other_origins(cells_, source.origins, energy.cell_of_view);
-    if (all.network.arc_capacities.empty()) {
-        all = std::move(energy);
-        return;
-    }
-    all.cell_of_view.insert(all.cell_of_view.end(), energy.cell_of_view.begin(),
-                            energy.cell_of_view.end());
-    EnergySums sums(all.network);
-    parallel_for(cells_.cells.size(), [&](std::size_t cell) {
-        EnergySums::add_full_arcs(all.network.arc_capacities[cell],
-                                  energy.network.arc_capacities[cell]);
-        sums.add_terminal(all.network.terminal_capacities[cell],
-                          energy.network.terminal_capacities[cell]);
-    });
-    require_exact(!sums.is_exceeded(), scene_);
 }
 
 void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
                      const Progress& progress) const
 {
-    finish(source, energy_of(source, all_vertices(cells_), progress), energy);
+    energy = energy_of(source, all_vertices(cells_), progress, std::move(energy));
+    finish(source, energy);
 }
 
 } // namespace vcarve

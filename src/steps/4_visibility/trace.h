@@ -91,22 +91,21 @@ class RayCaster {
 
     using Share = EnergyShare;
 
-    /// Adds the terms of all rays of a source. An empty energy starts at zero. Appends the cells of
-    /// the origins of measured rays to VisibilityEnergy::cell_of_view. Throws InputError if the sum
-    /// of a cell is too large for 32 bits. Cost: one walk per ray, in parallel; 20 bytes per cell,
-    /// and 20 more if the energy is not empty.
+    /// Adds the terms of all rays of a source. An empty energy starts at zero. Sets
+    /// VisibilityEnergy::cell_of_view for a measured source. Throws InputError if the sum of a cell
+    /// is too large for 32 bits. Cost: one walk per ray, in parallel; 20 bytes per cell.
     void cast(const RaySource& source, VisibilityEnergy& energy, const Progress& progress) const;
 
     // The steps of cast(), for runs that share the work among processes.
 
-    /// The terms of the rays to a run of points.
+    /// `energy` and the terms of the rays to a run of points.
     VisibilityEnergy energy_of(const RaySource& source, const VertexRun& points,
-                               const Progress& progress) const;
+                               const Progress& progress, VisibilityEnergy energy = {}) const;
     Share share(const RaySource& source, const VertexRun& points, const Progress& progress) const;
     /// Adds the terms of rays of the same source to other points, from their share().
-    void add(const Share& share, VisibilityEnergy& said) const;
-    /// Adds the terms of all rays of a source to an energy, as cast() does.
-    void finish(const RaySource& source, VisibilityEnergy said, VisibilityEnergy& energy) const;
+    void add(const Share& share, VisibilityEnergy& energy) const;
+    /// Locates the origins without rays of a measured source.
+    void finish(const RaySource& source, VisibilityEnergy& energy) const;
 
   private:
     const TetMesh& cells_;

@@ -306,11 +306,10 @@ TEST(TraceRays, SumsSharesToTheWholeEnergy)
     RayCaster(mesh, twice, scales, kFullWeight).cast(two, whole, {});
 
     const RayCaster caster(mesh, scene, scales, kFullWeight);
-    VisibilityEnergy said = caster.energy_of(one, all_vertices(mesh), {});
-    EXPECT_EQ(said.network.arc_capacities[0][3], 384'000'000);
-    caster.add(caster.share(one, all_vertices(mesh), {}), said);
-    VisibilityEnergy sum;
-    caster.finish(one, std::move(said), sum);
+    VisibilityEnergy sum = caster.energy_of(one, all_vertices(mesh), {});
+    EXPECT_EQ(sum.network.arc_capacities[0][3], 384'000'000);
+    caster.add(caster.share(one, all_vertices(mesh), {}), sum);
+    caster.finish(one, sum);
     EXPECT_EQ(sum.network.arc_capacities, whole.network.arc_capacities);
     EXPECT_EQ(sum.network.arc_capacities[0][3], 1 << 29);
     EXPECT_EQ(sum.network.terminal_capacities, whole.network.terminal_capacities);
@@ -329,10 +328,10 @@ TEST(TraceRays, FindsTheCellOfAViewInAShare)
     const TetMesh mesh = triangulate(scene);
     const RaySource source = photographs(scene);
     const RayCaster caster(mesh, scene, measure_scales(mesh, scene), kFullWeight);
-    VisibilityEnergy said = caster.energy_of(source, {0, 4}, {}); // no view saw these
-    EXPECT_EQ(said.cell_of_view, std::vector<Index>{kInfinite});
-    caster.add(caster.share(source, {4, 5}, {}), said);
-    EXPECT_EQ(said.cell_of_view, std::vector<Index>{0});
+    VisibilityEnergy energy = caster.energy_of(source, {0, 4}, {}); // no view saw these
+    EXPECT_EQ(energy.cell_of_view, std::vector<Index>{kInfinite});
+    caster.add(caster.share(source, {4, 5}, {}), energy);
+    EXPECT_EQ(energy.cell_of_view, std::vector<Index>{0});
 }
 
 TEST(TraceRays, AddsNothingWithoutRays)
