@@ -1,6 +1,5 @@
 #include "mesh/collapse_edges.h"
 
-#include "base/arrays.h"
 #include "base/parallel.h"
 #include "mesh/vertices.h"
 #include "model/scene_points.h"
@@ -25,20 +24,20 @@ using Eigen::Vector3f;
 std::vector<Face> collapsed(std::span<const Face> faces, const std::vector<Vector3f>& positions,
                             const CollapseLimits& limits)
 {
+    constexpr std::uint32_t kNone = 0xffffffffU;
+    std::vector<std::uint32_t> numbers(positions.size(), kNone); // of the vertices of the faces
     std::vector<std::uint32_t> used;
-    for (const Face& face : faces)
-        used.insert(used.end(), face.begin(), face.end());
-    sort_unique(used);
+    std::vector<Face> local(faces.begin(), faces.end());
+    for (Face& face : local) {
+        for (std::uint32_t& v : face) {
+            if (numbers[v] == kNone) {
+                numbers[v] = static_cast<std::uint32_t>(used.size());
+                used.push_back(v);
+            }
+            v = numbers[v];
+        }
+    }
     const std::vector<Vector3f> places = values_at(used, positions);
-    const auto renumbered = [](std::span<const Face> old, const auto& number_of) {
-        std::vector<Face> result(old.begin(), old.end());
-        for (Face& face : result)
-            std::ranges::transform(face, face.begin(), number_of);
-        return result;
-    };
-    const std::vector<Face> local = renumbered(faces, [&](std::uint32_t v) {
-        return static_cast<std::uint32_t>(std::ranges::lower_bound(used, v) - used.begin());
-    });
     const float* const coordinates = places[0].data();
     const float extent = meshopt_simplifyScale(coordinates, places.size(), sizeof(Vector3f));
     const auto max_error =
@@ -48,8 +47,12 @@ std::vector<Face> collapsed(std::span<const Face> faces, const std::vector<Vecto
         left[0].data(), local[0].data(), 3 * local.size(), coordinates, places.size(),
         sizeof(Vector3f), 3 * limits.min_faces, max_error,
         limits.locks_boundary ? static_cast<unsigned>(meshopt_SimplifyLockBorder) : 0U, nullptr);
-    return renumbered(std::span(left).first(num_corners / 3),
-                      [&](std::uint32_t v) { return used[v]; });
+    left.resize(num_corners / 3);
+    for (Face& face : left) {
+        for (std::uint32_t& v : face)
+            v = used[v];
+    }
+    return left;
 }
 
 /// The faces after collapses within runs of faces, in parallel, to half of the distance. Faces of a
