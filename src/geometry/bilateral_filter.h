@@ -71,9 +71,6 @@ class BilateralFilter {
     /// The median standard deviation of heights, in units of the local spacing of points.
     double noise_in_spacings() const;
 
-    /// The neighbors; ends the use of the filter.
-    Neighborhoods take_neighborhoods() { return std::move(neighborhoods_); }
-
   private:
     std::span<const Eigen::Vector3d> positions_;
     std::vector<Eigen::Vector3d> normals_;

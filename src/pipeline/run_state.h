@@ -1,6 +1,5 @@
 #pragma once
 
-#include "geometry/nearest_neighbors.h"
 #include "mesh/half_edge_mesh.h"
 #include "model/extent.h"
 #include "model/tet_mesh.h"
@@ -41,8 +40,7 @@ struct RunState {
     bool wants_removed = false;
 
     CarvingPoints points{};
-    std::optional<Neighborhoods> neighborhoods{}; ///< of a cloud, until planes are found
-    std::unique_ptr<Region> region{};             ///< region to reconstruct; null for all of space
+    std::unique_ptr<Region> region{}; ///< region to reconstruct; null for all of space
     TetMesh cells{};
     RayEvidence evidence{};
     Labels labels{};

@@ -127,7 +127,7 @@ double finding_planes(const Needs& needs)
 {
     const Sizes& n = needs.left;
     constexpr double kTree = 40 + 13;
-    constexpr double kAround = 24 * 4 + 12 + 6 * 8;
+    constexpr double kAround = 12 * 4 + 12 + 6 * 8;
     constexpr double kOfRegion = 2 * 4 + 2 * 24 + 13;
     constexpr double kCandidates = 300; ///< candidates near a point, and surfaces
     return n.scene() + n.points * (kTree + kAround + kOfRegion + kCandidates);

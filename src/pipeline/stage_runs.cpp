@@ -146,9 +146,8 @@ Counts filter(RunState& run, const Progress& progress)
 
 Counts add_points(RunState& run, const Progress& progress)
 {
-    const std::optional<Neighborhoods> known = std::exchange(run.neighborhoods, {});
-    const AddedPoints report = vcarve::add_points(run.points.scene, run.options().added_points,
-                                                  progress, known ? &*known : nullptr);
+    const AddedPoints report =
+        vcarve::add_points(run.points.scene, run.options().added_points, progress);
     return {{"points added", report.added}, {"planar regions", report.regions}};
 }
 
@@ -170,8 +169,7 @@ Counts crop(RunState& run, const Progress& progress)
 Counts denoise(RunState& run, const Progress& progress)
 {
     Scene& scene = run.points.scene;
-    DenoiseReport report = denoise_points(scene, run.options().denoise, progress);
-    run.neighborhoods = std::move(report.neighborhoods);
+    const DenoiseReport report = denoise_points(scene, run.options().denoise, progress);
     return {{"points moved", report.moved},
             {"of", size_of(scene.num_points())},
             {"thousandths of a pixel of noise", thousandths(report.noise_px)}};

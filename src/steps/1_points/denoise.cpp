@@ -118,16 +118,14 @@ DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const 
     constexpr std::size_t kLeastPoints = 4; // a point and three neighbors
     DenoiseReport report;
     if (scene.num_points() < kLeastPoints) return report;
-    BilateralFilter filter = filter_of(scene, progress.part(0.0, 0.7));
+    const BilateralFilter filter = filter_of(scene, progress.part(0.0, 0.7));
     progress.report(0.8);
     report.noise_px = filter.noise_px();
     const double gate = options.denoise * report.noise_px;
-    const bool moves = gate > 0.0 && !is_exact_scan(scene, filter);
-    Vectors estimates(moves ? scene.num_points() : 0);
+    if (!(gate > 0.0) || is_exact_scan(scene, filter)) return report;
+    Vectors estimates(scene.num_points());
     parallel_for(estimates.size(), progress.part(0.85, 1.0),
                  [&](std::size_t i) { estimates[i] = filter.estimate(i, gate); });
-    report.neighborhoods = filter.take_neighborhoods();
-    if (!moves) return report;
     keep_apart(estimates, scene.positions);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (estimates[i] != scene.positions[i]) ++report.moved;

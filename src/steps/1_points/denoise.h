@@ -1,23 +1,20 @@
 #pragma once
 
 #include "base/progress.h"
-#include "geometry/nearest_neighbors.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace vcarve {
 
-/// The measured noise, the number of moved points, and the neighbors that were found.
+/// The measured noise and the number of moved points.
 struct DenoiseReport {
     std::int64_t moved = 0; ///< points
     double noise_px = 0.0;  ///< standard deviation of the points' image positions, in pixels
-    std::optional<Neighborhoods> neighborhoods; ///< before points moved; none of three points
 };
 
 /// Moves points, within their uncertainty, to the surface that their neighbors agree on. The

@@ -94,9 +94,9 @@ struct AddedPoints {
 /// Dense clouds get no border points, because their points are dense enough. Scans get no points,
 /// because the scanner measured all surfaces. The points must be in the order of spatial_sort(),
 /// and still are afterwards. The result does not depend on the thread count nor, up to rounding, on
-/// the position and scale of the scene. `known` is as for planar_regions(). Cost: that of these
-/// steps and a sort; 90 bytes per point, and the memory of crossings (border_candidates).
+/// the position and scale of the scene. Cost: that of these steps and a sort; 90 bytes per point,
+/// and the memory of crossings (border_candidates).
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options,
-                       const Progress& progress = {}, const Neighborhoods* known = nullptr);
+                       const Progress& progress = {});
 
 } // namespace vcarve

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -54,26 +53,26 @@ FittedPlane fit_plane(const std::vector<Vector3d>& positions, std::span<const st
 
 /// The neighbors of every point, and the surface that they define.
 struct Surroundings {
-    const Neighborhoods& neighborhoods;
+    Neighborhoods neighborhoods;
     std::vector<Vector3d> towards; ///< towards_views() of each point
     std::vector<double> spacings;
     std::vector<double> bends;    ///< root mean square distance to a plane, in spacings, rounded
     double thickness = 1.0 / 7.0; ///< maximum distance to the plane of a region, in spacings
 
-    Surroundings(const Scene& scene, const Neighborhoods& nearest, const Progress& progress)
-        : neighborhoods(nearest),
+    Surroundings(const Scene& scene, const Progress& progress)
+        : neighborhoods(nearest_neighborhoods(scene.positions, kAround, progress.part(0.0, 0.8))),
           towards(scene.num_points()),
           spacings(scene.num_points()),
           bends(scene.num_points())
     {
-        parallel_for(bends.size(), progress, [&](std::size_t i) { look_around(scene, i); });
+        parallel_for(bends.size(), progress.part(0.8, 1.0),
+                     [&](std::size_t i) { look_around(scene, i); });
         if (scene.is_dense) thickness = std::max(thickness, kOfNoise * median_bend());
     }
 
-    /// The nearest points.
     std::span<const std::uint32_t> around(std::size_t point) const
     {
-        return neighborhoods.around(point).first(kAround);
+        return neighborhoods.around(point);
     }
 
     /// The flat points, the flattest first.
@@ -100,14 +99,11 @@ struct Surroundings {
 
     void look_around(const Scene& scene, std::size_t i)
     {
-        const auto nearest = around(i);
         std::array<std::uint32_t, kAround + 1> all{static_cast<std::uint32_t>(i)};
-        std::ranges::copy(nearest, all.begin() + 1);
+        std::ranges::copy(around(i), all.begin() + 1);
         towards[i] = towards_views(scene, i);
         // On a flat surface these points share the disc up to the farthest.
-        const double reach_sq =
-            (scene.positions[nearest.back()] - scene.positions[i]).squaredNorm();
-        spacings[i] = std::sqrt(reach_sq * std::numbers::pi / kAround);
+        spacings[i] = std::sqrt(neighborhoods.spacing_sq(i));
         // Rounded, since points without noise differ only in the last digits.
         constexpr double kExact = 1e-3;
         const double bend = fit_plane(scene.positions, all).deviation / spacings[i];
@@ -376,17 +372,11 @@ PlanarRegions::PlanarRegions(const Scene& scene)
 {
 }
 
-PlanarRegions planar_regions(const Scene& scene, const Progress& progress,
-                             const Neighborhoods* known)
+PlanarRegions planar_regions(const Scene& scene, const Progress& progress)
 {
     PlanarRegions found(scene);
     if (scene.num_points() <= kAround) return found;
-    std::optional<Neighborhoods> nearest;
-    if (known == nullptr) {
-        known = &nearest.emplace(
-            nearest_neighborhoods(scene.positions, kAround, progress.part(0.0, 0.4)));
-    }
-    const Surroundings surroundings(scene, *known, progress.part(0.4, 0.6));
+    const Surroundings surroundings(scene, progress.part(0.0, 0.6));
     GrowthInTurn(scene, surroundings, found)
         .grow(surroundings.flat_points(), progress.part(0.6, 1.0));
     found.spacings = surroundings.spacings;

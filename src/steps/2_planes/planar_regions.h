@@ -112,10 +112,6 @@ struct PlanarRegions {
 /// The result does not depend on the thread count nor, up to rounding, on the position and scale of
 /// the scene. Cost: O(points log points + rays), in parallel, and 114 bytes per point plus 4 for
 /// each of at most 16 threads.
-///
-/// `known`, if given, are at least 12 near neighbors of each point, the nearest first. They may be
-/// those before points were denoised.
-PlanarRegions planar_regions(const Scene& scene, const Progress& progress,
-                             const Neighborhoods* known = nullptr);
+PlanarRegions planar_regions(const Scene& scene, const Progress& progress);
 
 } // namespace vcarve

@@ -67,16 +67,6 @@ TEST(PlanarRegions, ContainAllPointsOfAWall)
     ASSERT_EQ(found.spacings.size(), scene.num_points());
 }
 
-TEST(PlanarRegions, UseTheFirstTwelveOfTheGivenNeighbors)
-{
-    const Scene scene = sorted(wall(0.5, 0.1, kBefore, 0.01));
-    const PlanarRegions expected = regions_of(scene);
-    const Neighborhoods many = nearest_neighborhoods(scene.positions, 24);
-    const PlanarRegions found = planar_regions(scene, {}, &many);
-    EXPECT_EQ(found.region_of, expected.region_of);
-    EXPECT_EQ(found.spacings, expected.spacings);
-}
-
 TEST(PlanarRegions, ContainPointsSeenFromOneSide)
 {
     // A thin board, whose sides are closer than its points
