@@ -172,7 +172,7 @@ std::vector<std::uint32_t> rays_through(const Scene& scene,
 {
     std::vector<std::uint32_t> counts(triangles.size());
     if (triangles.empty()) return counts;
-    const std::uint32_t one_in = scene.is_dense ? 5 : 1;
+    const std::uint32_t one_in = scene.is_dense ? 3 : 1;
     const TriangleTree tree(triangles);
     const auto count = [&](std::size_t triangle) {
         std::atomic_ref(counts[triangle]).fetch_add(one_in, std::memory_order_relaxed);

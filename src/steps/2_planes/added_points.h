@@ -68,9 +68,9 @@ void visit_ray(const Scene& scene, std::size_t point, std::uint32_t view, double
 }
 
 /// Returns the number of rays that pass through each triangle, without the margins at their points
-/// (visit_ray()). In a dense cloud one ray in five is traced, and counts as five. It builds a tree
-/// of the few triangles; RayTree is a tree of all rays, for many queries. Cost: O(triangles log
-/// triangles + rays log triangles), in parallel, and about 200 bytes per triangle.
+/// (visit_ray()). In a dense cloud one ray in three is traced, and counts as three. It builds a
+/// tree of the few triangles; RayTree is a tree of all rays, for many queries. Cost: O(triangles
+/// log triangles + rays log triangles), in parallel, and about 200 bytes per triangle.
 std::vector<std::uint32_t> rays_through(const Scene& scene,
                                         std::span<const std::array<Eigen::Vector3d, 3>> triangles,
                                         const std::vector<double>& margins,
