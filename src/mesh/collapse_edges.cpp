@@ -24,22 +24,9 @@ using Eigen::Vector3f;
 std::vector<Face> collapsed(std::span<const Face> faces, const std::vector<Vector3f>& positions,
                             const CollapseLimits& limits)
 {
-    std::vector<std::uint32_t> numbers(positions.size()); // of the vertices of the faces; first 1
-    std::vector<std::uint32_t> used;
-    for (const Face& face : faces) {
-        for (const std::uint32_t v : face)
-            numbers[v] = 1;
-    }
-    for (std::uint32_t v = 0; v < numbers.size(); ++v) {
-        if (numbers[v] == 0) continue;
-        numbers[v] = static_cast<std::uint32_t>(used.size());
-        used.push_back(v);
-    }
     std::vector<Face> local(faces.begin(), faces.end());
-    for (Face& face : local) {
-        for (std::uint32_t& v : face)
-            v = numbers[v];
-    }
+    const std::vector<std::uint32_t> used = used_vertices(local, positions.size());
+    renumber(local, used, positions.size());
     const std::vector<Vector3f> places = values_at(used, positions);
     const float* const coordinates = places[0].data();
     const float extent = meshopt_simplifyScale(coordinates, places.size(), sizeof(Vector3f));

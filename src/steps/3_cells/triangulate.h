@@ -9,8 +9,8 @@
 
 namespace vcarve {
 
-/// Returns the number of blocks for triangulate(). It is two per thread, to balance the work and to
-/// hold only half of CGAL's structure at a time.
+/// Returns the number of blocks for triangulate(). It is one per thread, and up to two for large
+/// models, to hold only half of CGAL's structure at a time.
 std::size_t usual_blocks(std::size_t points, std::size_t threads);
 
 /// Returns the Delaunay triangulation of the points of a scene. CGAL's symbolic perturbation breaks
