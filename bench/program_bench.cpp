@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kInMemory = "0";
+constexpr const char* kTile = "100000"; // points
 
 /// A run of a program. Its surface must be byte-identical to that of run `like`.
 struct Run {
@@ -138,11 +139,11 @@ ProgramReport compare_ranks(const std::string& title, const std::vector<RankMode
     std::vector<Run> runs; // two per model: one process, and ranks
     for (const RankModel& model : models) {
         runs.push_back(
-            {{programs.program, "--quiet", "--threads", "1", "--blocks", kInMemory, model.folder},
+            {{programs.program, "--quiet", "--threads", "1", "--tile-points", kTile, model.folder},
              runs.size()});
         runs.push_back({{"mpirun", "-q", "--oversubscribe", "--bind-to", "none", "-n",
                          std::to_string(model.ranks), programs.rank_program, "--quiet", "--threads",
-                         "1", "--work", work_of(programs), model.folder},
+                         "1", "--tile-points", kTile, "--work", work_of(programs), model.folder},
                         runs.size() - 1});
     }
     measure(runs, programs);

@@ -58,9 +58,10 @@ struct Tracks {
 /// The origin of a point: measured, or added in a planar region (section 2 of algorithm.md).
 enum class PointKind : std::uint8_t {
     measured,
-    crease,     ///< added where two regions meet
-    border,     ///< added at the border of a region; the space behind it is unknown
-    textureless ///< added inside a region, where images have no features
+    crease,      ///< added where two regions meet
+    border,      ///< added at the border of a region; the space behind it is unknown
+    textureless, ///< added inside a region, where images have no features
+    witness      ///< outside of a tile of a large model: its rays carve for those of several points
 };
 
 /// COLMAP's reconstruction: views, points, and the rays between them. The arrays positions, colors,

@@ -225,11 +225,6 @@ ScratchMemory::ScratchMemory(const fs::path& folder, std::int64_t most_resident)
     limit_.emplace(most_resident);
 }
 
-ScratchMemory::ScratchMemory()
-{
-    open_blocks({});
-}
-
 ScratchMemory::~ScratchMemory()
 {
     const std::lock_guard lock(blocks().mutex);
@@ -279,35 +274,6 @@ bool free_scratch(void* memory) noexcept
     }
     block.mapped().pages = DroppablePages(); // unregister before unmapping
     ::munmap(memory, block.mapped().bytes);
-    return true;
-}
-
-bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place)
-{
-    Blocks& all = blocks();
-    {
-        const std::lock_guard lock(all.mutex);
-        const auto known = all.by_begin.find(memory);
-        if (known == all.by_begin.end() || bytes > known->second.bytes) return false;
-    }
-    // Maps to another address first, so that nothing is lost if that fails.
-    void* const mapped = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED, place.file, place.begin);
-    if (mapped == MAP_FAILED) return false;
-    if (::mremap(mapped, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, memory) == MAP_FAILED) {
-        ::munmap(mapped, bytes);
-        return false;
-    }
-    // Unregisters and closes the old file, then registers the new pages as droppable.
-    const auto exchange = [&](DroppablePages pages, File file) {
-        const std::lock_guard lock(all.mutex);
-        Block& block = all.by_begin.find(memory)->second;
-        std::swap(block.pages, pages);
-        std::swap(block.file, file);
-        return std::pair(std::move(pages), std::move(file));
-    };
-    exchange({}, File(DroppablePages::kNoFile));
-    const std::size_t whole_pages = (bytes + kPage - 1) / kPage * kPage;
-    exchange(DroppablePages(memory, whole_pages), File(DroppablePages::kNoFile));
     return true;
 }
 

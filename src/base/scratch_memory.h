@@ -43,9 +43,6 @@ class ScratchMemory {
     /// The folder must exist. Throws ScratchError if no file can be created in it, and
     /// std::logic_error if another ScratchMemory exists.
     ScratchMemory(const std::filesystem::path& folder, std::int64_t most_resident);
-    /// Keeps arrays in memory, but map_over_scratch() can replace them by files. Throws
-    /// std::logic_error if another ScratchMemory exists.
-    ScratchMemory();
     ScratchMemory(const ScratchMemory&) = delete;
     ScratchMemory& operator=(const ScratchMemory&) = delete;
     ~ScratchMemory();
@@ -66,18 +63,6 @@ void* allocate_scratch(std::size_t bytes, std::size_t alignment);
 /// Frees memory of allocate_scratch() and returns true. Returns false for other memory, usually
 /// after a single test of the address. Thread-safe; also works without a ScratchMemory.
 bool free_scratch(void* memory) noexcept;
-
-/// A position in an open file.
-struct FilePlace {
-    int file = -1;          ///< descriptor, used only during the call
-    std::int64_t begin = 0; ///< offset in bytes, a multiple of the page size
-};
-
-/// Replaces memory of allocate_scratch() by a read-only mapping of a file. Pages are loaded on
-/// access. The previous content and its space are freed. The file must keep its length. Returns
-/// false and changes nothing if the memory is not from allocate_scratch(), is shorter than `bytes`,
-/// or the file cannot be mapped.
-bool map_over_scratch(void* memory, std::size_t bytes, const FilePlace& place);
 
 /// The free bytes of the folder's file system for users other than root; nothing if unknown.
 std::optional<std::int64_t> free_space(const std::filesystem::path& folder);

@@ -77,6 +77,15 @@ OptionList work_options(MeshArguments& arguments)
           .help = "Keep the checkpoints of --work at the end.",
           .level = OptionLevel::advanced},
          &arguments.keeps_work},
+        {kRunStage,
+         {.name = "tile-points",
+          .unit = "points",
+          .help =
+              "Divide the model into tiles of about N points, and join their surfaces. Needs the "
+              "memory of a tile and of the mesh. 0: mesh the model in one piece. "
+              "colmap-vcarve-mpi always makes tiles, by default of 250000 points.",
+          .level = OptionLevel::advanced},
+         &arguments.tile_points},
     };
 }
 
@@ -225,6 +234,28 @@ std::vector<Output> outputs_of(const MeshArguments& arguments)
     return outputs;
 }
 
+void refuse_in_tiles(const MeshArguments& arguments)
+{
+    const Options& options = arguments.options;
+    const std::pair<bool, const char*> whole[] = {
+        {options.crop.region.kind != RegionChoice::Kind::everything, "--crop"},
+        {options.labels.virtual_views.count > 0, "--virtual-views"},
+        {options.surface.closed, "--closed"},
+        {options.refine.smooth.iterations > 0, "--smooth"},
+        {options.refine.simplify.faces > 0, "--simplify"},
+        {arguments.texture.reads_images(), "--texture"},
+        {!arguments.texture.masks.empty(), "--masks"},
+        {arguments.output.attributes, "--attributes"},
+        {!arguments.report.empty(), "--report"}};
+    for (const auto& [is_given, name] : whole) {
+        if (is_given) {
+            throw UsageError(fmt::format("{} needs the model in one piece, not in tiles; leave out "
+                                         "one of the options",
+                                         name));
+        }
+    }
+}
+
 MeshArguments read_mesh_arguments(const ParsedArguments& given)
 {
     MeshArguments arguments;
@@ -263,6 +294,8 @@ std::vector<std::string> record_comments(const MeshArguments& arguments, const D
         if (value_text(options[i]) == value_text(defaults[i])) continue;
         comments.push_back("option " + recorded(options[i]));
     }
+    if (arguments.tile_points > 0)
+        comments.push_back(fmt::format("option tile-points={}", arguments.tile_points));
     return comments;
 }
 

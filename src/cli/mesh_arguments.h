@@ -37,6 +37,7 @@ struct MeshArguments {
     std::filesystem::path report; ///< empty if not written
     std::filesystem::path work;   ///< empty if no checkpoints are kept
     bool keeps_work = false;      ///< keeps the checkpoints at the end
+    int tile_points = 0;          ///< maximum number of points of a tile; 0 makes no tiles
     bool checks = false;          ///< checks the mesh, also without --stats and --report
     std::string command;          ///< as typed
     OutputOptions output;
@@ -52,6 +53,9 @@ OptionList options_of(OutputOptions& output);
 /// Throws UsageError for missing or superfluous operands, an unknown file extension, or two outputs
 /// with the same file.
 MeshArguments read_mesh_arguments(const ParsedArguments& given);
+
+/// Throws UsageError if an option is given that a model in tiles does not support.
+void refuse_in_tiles(const MeshArguments& arguments);
 
 /// The comments of the mesh file: the program, the digest of the scene, and options that affect the
 /// mesh and differ from the defaults. No paths, no threads: equal runs write equal files.

@@ -22,6 +22,7 @@
 #include "run/work_folder.h"
 #include "steps/1_points/thin.h"
 #include "steps/6_surface/provenance.h"
+#include "tiles/reconstruct_tiles.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 #include "vcarve/reconstruct.h"
@@ -137,6 +138,8 @@ struct Run {
     RunMemory& memory;
     WorkFolder* work; ///< null without --work
     RunRanks* ranks;  ///< null if this process works alone
+    bool is_tiled;    ///< then `work` is not null
+    bool is_work_temporary = false;
 };
 
 /// Plans the memory; called again when the size is known better. Errors name the model.
@@ -167,6 +170,8 @@ Job job_of(const MeshArguments& arguments, Log& log)
     stage.end({{"files", size_of(input.size())}});
     const Job options = option_facts(arguments.options);
     job.insert(job.end(), options.begin(), options.end());
+    if (arguments.tile_points > 0)
+        job.push_back({"--tile-points", std::to_string(arguments.tile_points)});
     if (arguments.dense.dense) {
         job.push_back({"--dense-size", std::to_string(arguments.dense.size_px)});
         for (const fs::path& folder : {photograph_folder(arguments), arguments.texture.masks}) {
@@ -229,9 +234,9 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
     checkpoints.keep("depth", dense, [&] {
         const Reconstruction sparse =
             reconstruct_thinned(std::move(input.scene), input.read, options, checkpoints.log());
-        dense = measure_dense_points({arguments.dense, photographs,
-                                      allowed_memory(arguments.options.memory, 1), checkpoints},
-                                     sparse);
+        dense = measure_dense_points(
+            {arguments.dense, photographs, allowed_memory(arguments.options.memory), checkpoints},
+            sparse);
     });
     if (!arguments.dense.keep_points.empty()) {
         const FoundInput found = find_input(arguments.model.path, arguments.model.all_points());
@@ -248,6 +253,16 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
     return std::move(dense.picture);
 }
 
+/// Makes the surface in tiles, which ranks share.
+TriMesh surface_in_tiles(Scene scene, const Run& run)
+{
+    const Options options = options_of_tiles(run.arguments.options);
+    TiledRun tiles(*run.work, options, run.log);
+    tiles.plan(std::move(scene), static_cast<std::size_t>(run.arguments.tile_points));
+    if (run.ranks != nullptr) run.ranks->begin({run.work->job(), digest_of_options(options)});
+    return tiles.make(run.ranks);
+}
+
 /// Makes the surface of a scene. Errors name the model.
 Surface surface_of(ModelInput input, const Run& run)
 {
@@ -258,12 +273,12 @@ Surface surface_of(ModelInput input, const Run& run)
         if (arguments.dense.dense) surface.depth = make_dense(input, *images.photographs, run);
         Options options = arguments.options;
         options.memory = run.memory.options();
-        if (run.ranks != nullptr && run.work != nullptr) {
-            run.ranks->begin({run.work->job(), digest_of_options(options), run.memory.in_files()});
+        if (run.is_tiled) {
+            surface.mesh = surface_in_tiles(std::move(input.scene), run);
+            return surface;
         }
         const RunExtras extras = {.removed = arguments.report.empty() ? nullptr : &surface.removed,
-                                  .work = run.work,
-                                  .ranks = run.ranks};
+                                  .work = run.work};
         Reconstruction made =
             reconstruct_thinned(std::move(input.scene), input.read, options, run.log, extras);
         if (images.masks) made.mesh = unmasked(made.mesh, made.scene, *images.masks, run.log);
@@ -382,19 +397,22 @@ Made make_or_clear(const Run& run, Json& record)
     } catch (const InputError&) {
         if (run.work != nullptr && !run.work->is_resumed()) run.work->clear();
         throw;
+    } catch (...) {
+        if (run.is_work_temporary) run.work->clear();
+        throw;
     }
 }
 
-void require_work_folder(const MeshArguments& arguments, const Processes& processes)
+void require_work_folder(const MeshArguments& arguments, std::size_t ranks)
 {
-    if (processes.all == 1 || !arguments.work.empty()) return;
+    if (ranks == 1 || !arguments.work.empty()) return;
     throw UsageError(fmt::format("{} ranks need --work FOLDER, on a file system that all ranks "
                                  "share{}",
-                                 processes.all, kSeeHelp));
+                                 ranks, kSeeHelp));
 }
 
 /// The record at the start of the run.
-Json begun_record(MeshArguments& arguments, int threads, const Processes& processes)
+Json begun_record(MeshArguments& arguments, int threads, std::size_t ranks)
 {
     return {{"schema", kStatsSchema},
             {"program", program_json()},
@@ -407,14 +425,16 @@ Json begun_record(MeshArguments& arguments, int threads, const Processes& proces
             {"options",
              options_json(joined({options_of(arguments.options), options_of(arguments.output)}))},
             {"threads_used", threads},
-            {"ranks", processes.all}};
+            {"ranks", ranks}};
 }
 
 void run(const ParsedArguments& given, RunRanks* ranks)
 {
     MeshArguments arguments = read_mesh_arguments(given);
-    const Processes processes = ranks == nullptr ? Processes() : ranks->processes();
-    require_work_folder(arguments, processes);
+    constexpr int kUsualTile = 250'000; // points, for any number of ranks: the mesh is the same
+    if (ranks != nullptr && arguments.tile_points == 0) arguments.tile_points = kUsualTile;
+    const std::size_t num_ranks = ranks == nullptr ? 1 : ranks->count();
+    require_work_folder(arguments, num_ranks);
     const std::array<Output, 2> others = {{{"the region", arguments.options.crop.region.file},
                                            {"the transformation", arguments.output.transform}}};
     keep_inputs(outputs_of(arguments), arguments.model, others);
@@ -436,11 +456,17 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     std::optional<StageRecorder> recorder;
     if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(shown);
     Log& log = recorder ? static_cast<Log&>(*recorder) : shown;
-    Json record = begun_record(arguments, threads, processes);
+    Json record = begun_record(arguments, threads, num_ranks);
 
+    const bool is_tiled = arguments.tile_points > 0;
+    if (is_tiled) refuse_in_tiles(arguments);
+    const bool is_work_temporary = is_tiled && arguments.work.empty();
+    if (is_work_temporary) arguments.work = scratch.path();
     const std::unique_ptr<WorkFolder> work = work_folder(arguments, log);
-    RunMemory memory(arguments.options.memory, threads, scratch, processes);
-    const Made made = make_or_clear({arguments, shown, log, memory, work.get(), ranks}, record);
+    const MemoryOptions in_one_piece = {.limit = 0, .blocks = 0}; // before tiles are made
+    RunMemory memory(is_tiled ? in_one_piece : arguments.options.memory, threads, scratch);
+    const Made made = make_or_clear(
+        {arguments, shown, log, memory, work.get(), ranks, is_tiled, is_work_temporary}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());

@@ -179,14 +179,16 @@ RunOutcome outcome_of(const CountsOfStages& counts)
 {
     RunOutcome outcome;
     outcome.faces = count_of(counts, "write", "faces");
-    outcome.boundary_edges = count_of(counts, "orient", "boundary edges");
+    outcome.boundary_edges =
+        count_of(counts, "orient", "boundary edges") + count_of(counts, "join", "boundary edges");
     const auto rays = static_cast<double>(count_of(counts, "open", "of"));
     if (rays > 0.0) {
         outcome.open = static_cast<double>(count_of(counts, "open", "rays of the views")) / rays;
         outcome.past = static_cast<double>(count_of(counts, "open", "past")) / rays;
     }
-    outcome.points = count_of(counts, "filter", "points");
-    outcome.points_before = count_of(counts, "filter", "of");
+    const std::int64_t in_tiles = count_of(counts, "plan", "points"); // losses are unknown
+    outcome.points = count_of(counts, "filter", "points") + in_tiles;
+    outcome.points_before = count_of(counts, "filter", "of") + in_tiles;
     outcome.few_views = count_of(counts, "filter", "few views");
     outcome.high_error = count_of(counts, "filter", "high error");
     outcome.low_angle = count_of(counts, "filter", "low angle");

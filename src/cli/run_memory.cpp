@@ -35,17 +35,16 @@ fs::path folder_beside(const fs::path& out)
     throw UsageError(fmt::format("cannot use the work folder {}: {}", folder.string(), reason));
 }
 
-std::string note_of(const BlockPlan& plan, std::size_t ranks, const fs::path& folder)
+std::string note_of(const BlockPlan& plan, const fs::path& folder)
 {
     const std::string allowed =
         plan.limit == 0 ? "no limit" : byte_size_text(plan.limit) + " allowed";
-    const std::string who = ranks == 1 ? "" : fmt::format(" for {} ranks", ranks);
     const std::string where = plan.in_files()
                                   ? fmt::format("scratch of about {} in {}",
                                                 byte_size_text(plan.scratch), folder.string())
                                   : std::string("in memory");
-    return fmt::format("about {} needed, {}: {} blocks{}, {}", byte_size_text(plan.needed), allowed,
-                       plan.blocks, who, where);
+    return fmt::format("about {} needed, {}: {} blocks, {}", byte_size_text(plan.needed), allowed,
+                       plan.blocks, where);
 }
 
 } // namespace
@@ -77,59 +76,38 @@ void ArrayFolder::prepare(std::int64_t bytes) const
     }
 }
 
-std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted, std::size_t processes)
+std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted)
 {
     if (wanted.limit == 0) return std::nullopt;
     if (wanted.limit != MemoryOptions::kAutoMemory) return wanted.limit;
     const std::optional<std::int64_t> free = free_memory();
     if (!free) return std::nullopt;
-    return *free / static_cast<std::int64_t>(processes) / 5 * 4;
+    return *free / 5 * 4;
 }
 
-RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
-                     const Processes& processes)
-    : wanted_(wanted),
-      threads_(threads),
-      folder_(folder),
-      processes_(processes),
-      free_(free_memory())
+Options options_of_tiles(const Options& given)
 {
-    if (free_) *free_ /= static_cast<std::int64_t>(processes_.here);
+    Options options = given;
+    options.memory = {.limit = allowed_memory(given.memory).value_or(0), .blocks = 0};
+    return options;
+}
+
+RunMemory::RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder)
+    : wanted_(wanted), threads_(threads), folder_(folder), free_(free_memory())
+{
     if (!folder.is_temporary()) folder.prepare(0);
-}
-
-BlockPlan RunMemory::plan_of(const RunSize& size) const
-{
-    const BlockPlan plan = plan_blocks(size, threads_, wanted_, free_);
-    if (processes_.all == 1 || wanted_.blocks == 0) return plan;
-    // Each thread of each rank gets a block, and each other rank stores the sums of its rays.
-    const auto ranks = static_cast<int>(processes_.all);
-    MemoryOptions shared = wanted_;
-    if (wanted_.blocks == MemoryOptions::kAutoBlocks) {
-        shared.blocks = std::max(plan.blocks, ranks * threads_);
-    }
-    BlockPlan in_blocks = plan_blocks(size, threads_, shared, free_);
-    if (!plan.in_files()) {
-        in_blocks.scratch = 0;
-        return in_blocks;
-    }
-    in_blocks.scratch += (ranks - 1) * predicted_share(size);
-    return in_blocks;
 }
 
 void RunMemory::fit(const RunSize& size, Log& log)
 {
-    const BlockPlan before = std::exchange(plan_, plan_of(size));
+    const BlockPlan before = std::exchange(plan_, plan_blocks(size, threads_, wanted_, free_));
     // Arrays in files stay there, even if the thinned cloud would fit into memory.
     if (before.in_files() && !plan_.in_files()) plan_ = before;
     if (!plan_.in_blocks()) return;
-    if (before.blocks != plan_.blocks) log.note(note_of(plan_, processes_.all, folder_.path()));
+    if (before.blocks != plan_.blocks) log.note(note_of(plan_, folder_.path()));
     if (scratch_ && before.in_files() == plan_.in_files()) return;
     scratch_.reset();
-    if (!plan_.in_files()) {
-        scratch_.emplace();
-        return;
-    }
+    if (!plan_.in_files()) return;
     folder_.prepare(plan_.scratch);
     constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
     scratch_.emplace(folder_.path(), plan_.limit == 0 ? kNoLimit : plan_.limit);

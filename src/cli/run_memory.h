@@ -13,25 +13,15 @@
 
 namespace vcarve::cli {
 
-/// The number of processes of a run.
-struct Processes {
-    std::size_t all = 1;
-    std::size_t here = 1; ///< on this machine
-};
-
 /// The properties of a run that must be the same on all ranks.
 struct JobOfRanks {
-    Digest job{};          ///< of the work folder
-    Digest options{};      ///< see digest_of_options()
-    bool in_files = false; ///< whether large arrays are in the work folder
+    Digest job{};     ///< of the work folder
+    Digest options{}; ///< see digest_of_options()
 };
 
 /// The ranks of a run, as its command uses them.
 class RunRanks : public Ranks {
   public:
-    virtual Processes processes() const = 0;
-    std::size_t count() const override { return processes().all; }
-
     /// Sends the job to the other ranks. Call it before work is shared.
     virtual void begin(const JobOfRanks& job) = 0;
 };
@@ -61,18 +51,17 @@ class ArrayFolder {
     std::filesystem::path path_;
 };
 
-/// The memory limit in bytes of one of several processes on this machine: as given, or 80 % of its
-/// share of the free memory. Nothing if unlimited.
-std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted, std::size_t processes);
+/// The memory limit in bytes: as given, or 80 % of the free memory. Nothing if unlimited.
+std::optional<std::int64_t> allowed_memory(const MemoryOptions& wanted);
+
+/// The options of a run in tiles: the memory limit applies to each of them.
+Options options_of_tiles(const Options& given);
 
 /// Decides whether a run works in memory or in blocks. In blocks, large arrays are in the work
 /// folder while the object lives.
 class RunMemory {
   public:
-    /// Processes on a machine share its free memory and the blocks of the model. Arrays stay in
-    /// memory if each process could hold the whole run.
-    RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder,
-              const Processes& processes = {});
+    RunMemory(const MemoryOptions& wanted, int threads, const ArrayFolder& folder);
 
     /// Plans for a size; called again when the size is known better. Later arrays are placed
     /// accordingly, and a note gives the number of blocks. Throws InputError if the memory is
@@ -88,13 +77,10 @@ class RunMemory {
     Json record() const;
 
   private:
-    BlockPlan plan_of(const RunSize& size) const;
-
     MemoryOptions wanted_;
     int threads_;
     const ArrayFolder& folder_;
-    Processes processes_;
-    std::optional<std::int64_t> free_; ///< memory per process before the run allocates, in bytes
+    std::optional<std::int64_t> free_; ///< memory before the run allocates, in bytes
     BlockPlan plan_;
     std::optional<ScratchMemory> scratch_;
 };

@@ -120,7 +120,7 @@ void run_texture(const ParsedArguments& given)
     prepare_outputs(command.outputs());
     PreviewOutput preview(command.preview);
     preview.set_scene(model.scene);
-    const std::int64_t most = allowed_memory(MemoryOptions(), 1).value_or(0);
+    const std::int64_t most = allowed_memory(MemoryOptions()).value_or(0);
     const TexturedMesh made =
         textured(std::move(mesh), model.scene, photographs, {command.texture, most}, log);
     {

@@ -1,11 +1,10 @@
 #include "mpi/follower.h"
 
-#include "base/scratch_memory.h"
 #include "base/threads.h"
 #include "cli/exit_code.h"
 #include "cli/run_memory.h"
-#include "pipeline/rank_shares.h"
 #include "run/work_folder.h"
+#include "tiles/reconstruct_tiles.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -13,8 +12,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <limits>
-#include <memory>
 #include <optional>
 #include <thread>
 
@@ -34,47 +31,23 @@ class QuietLog final : public Log {
     std::atomic<bool> wants_stop_ = false;
 };
 
-/// The state of a run on a rank.
-class JoinedRun {
-  public:
-    JoinedRun(const cli::MeshArguments& arguments, const Order& begun, const Session& session,
-              const cli::Processes& processes)
-        : in_files_(begun.in_files != 0),
-          allowed_(cli::allowed_memory(arguments.options.memory, processes.here)),
-          folder_(arguments.work, begun.job),
-          shares_(folder_, arguments.options, session.rank())
-    {
-        if (begun.options != cli::digest_of_options(arguments.options)) {
-            throw UsageError("it was started with other options or another program than "
-                             "rank 0");
-        }
+/// Does a share of a run on a rank.
+void work(const cli::MeshArguments& arguments, const Order& begun, const char* task, Log& log)
+{
+    if (begun.options != cli::digest_of_options(arguments.options)) {
+        throw UsageError("it was started with other options or another program than rank 0");
     }
-
-    void work(const char* task, Log& log)
+    WorkFolder folder(arguments.work, begun.job);
     {
-        {
-            Stage stage(log, "wait");
-            folder_.wait_for(task, stage);
-        }
-        constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
-        if (!scratch_ && in_files_) {
-            scratch_.emplace(folder_.path(), allowed_.value_or(kNoLimit));
-        } else if (!scratch_) {
-            scratch_.emplace();
-        }
-        shares_.work(task, log);
+        Stage stage(log, "wait");
+        folder.wait_for(TiledRun::kPlan, stage);
     }
-
-  private:
-    bool in_files_;
-    std::optional<std::int64_t> allowed_;  ///< memory limit in bytes
-    std::optional<ScratchMemory> scratch_; ///< destroyed last
-    WorkFolder folder_;
-    RankShares shares_;
-};
+    const Options options = cli::options_of_tiles(arguments.options);
+    TiledRun(folder, options, log).work(task);
+}
 
 /// Does a share on another thread, so that this thread can receive orders to stop.
-Reply done(const Session& session, const std::function<void(Log&)>& work)
+Reply done(const Session& session, const std::function<void(Log&)>& share)
 {
     QuietLog log;
     cli::Ending ending;
@@ -83,11 +56,9 @@ Reply done(const Session& session, const std::function<void(Log&)>& work)
     std::thread worker([&] {
         ending = cli::ending_of([&] {
             try {
-                work(log);
+                share(log);
             } catch (const Cancelled&) {
                 was_stopped = true;
-            } catch (const ScratchError& error) {
-                throw UsageError(error.what());
             }
         });
         is_done = true;
@@ -109,7 +80,7 @@ Reply done(const Session& session, const std::function<void(Log&)>& work)
 
 } // namespace
 
-void follow(const Session& session, const cli::Processes& processes, const ReadArguments& read)
+void follow(const Session& session, const ReadArguments& read)
 {
     cli::MeshArguments arguments;
     const cli::Ending reading = cli::ending_of([&] { arguments = read(); });
@@ -117,7 +88,6 @@ void follow(const Session& session, const cli::Processes& processes, const ReadA
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     Order begun;
-    std::unique_ptr<JoinedRun> run;
     for (;;) {
         const std::optional<Order> order = session.order();
         if (!order) {
@@ -129,8 +99,7 @@ void follow(const Session& session, const cli::Processes& processes, const ReadA
         if (order->kind != Order::Kind::work) continue;
         session.send(done(session, [&](Log& log) {
             if (reading.exit_code != 0) throw RankError(reading.exit_code, reading.sentence);
-            if (!run) run = std::make_unique<JoinedRun>(arguments, begun, session, processes);
-            run->work(order->task.data(), log);
+            work(arguments, begun, order->task.data(), log);
         }));
     }
 }

@@ -20,17 +20,14 @@ Leader::~Leader()
 
 void Leader::report_all(const Order& order) const
 {
-    for (std::size_t rank = 1; rank < processes_.all; ++rank) {
+    for (std::size_t rank = 1; rank < count(); ++rank) {
         session_.send(order, rank);
     }
 }
 
 void Leader::begin(const cli::JobOfRanks& job)
 {
-    report_all({.kind = Order::Kind::begin,
-                .in_files = job.in_files ? 1 : 0,
-                .job = job.job,
-                .options = job.options});
+    report_all({.kind = Order::Kind::begin, .job = job.job, .options = job.options});
 }
 
 /// Waits until all other ranks are done, and returns the first failure. A failure, or setting
@@ -39,7 +36,7 @@ std::optional<RankError> Leader::gather(const std::atomic<bool>& stops)
 {
     std::optional<RankError> failure;
     bool are_stopped = false;
-    for (std::size_t left = processes_.all - 1; left > 0;) {
+    for (std::size_t left = count() - 1; left > 0;) {
         if ((stops || failure) && !std::exchange(are_stopped, true)) {
             report_all({.kind = Order::Kind::stop});
         }

@@ -14,17 +14,14 @@ namespace vcarve::mpi {
 /// times per second and sleeps in between.
 class Leader final : public cli::RunRanks {
   public:
-    /// `session` must outlive it. `processes` is Session::processes(), which all ranks must call.
-    Leader(const Session& session, const cli::Processes& processes)
-        : session_(session), processes_(processes)
-    {
-    }
+    /// `session` must outlive it.
+    explicit Leader(const Session& session) : session_(session) {}
     Leader(const Leader&) = delete;
     Leader& operator=(const Leader&) = delete;
     /// Orders the other ranks to end.
     ~Leader() override;
 
-    cli::Processes processes() const override { return processes_; }
+    std::size_t count() const override { return session_.rank().of; }
     void begin(const cli::JobOfRanks& job) override;
     void share(const std::string& task, const std::function<void()>& own) override;
     bool has_failed() const override { return has_failed_; }
@@ -34,7 +31,6 @@ class Leader final : public cli::RunRanks {
     std::optional<RankError> gather(const std::atomic<bool>& stops);
 
     const Session& session_;
-    cli::Processes processes_;
     std::atomic<bool> has_failed_ = false; ///< whether another rank failed
 };
 

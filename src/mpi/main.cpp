@@ -30,10 +30,9 @@ cli::Manual manual()
     return manual;
 }
 
-void lead(const std::vector<std::string>& arguments, const mpi::Session& session,
-          const cli::Processes& processes)
+void lead(const std::vector<std::string>& arguments, const mpi::Session& session)
 {
-    mpi::Leader others(session, processes);
+    mpi::Leader others(session);
     const cli::Command command = {
         "", manual, [&](const cli::ParsedArguments& given) { cli::run_mesh(given, &others); }};
     cli::run_command_line(arguments, {&command, 1});
@@ -45,11 +44,10 @@ int main(int count, char** words)
 {
     const mpi::Session session(&count, &words);
     const std::vector<std::string> arguments(words + (count > 0 ? 1 : 0), words + count);
-    const cli::Processes processes = session.processes();
     if (session.rank().number == 0) {
-        return cli::report(cli::ending_of([&] { lead(arguments, session, processes); }));
+        return cli::report(cli::ending_of([&] { lead(arguments, session); }));
     }
-    mpi::follow(session, processes, [&] {
+    mpi::follow(session, [&] {
         return cli::read_mesh_arguments(cli::parse_arguments(arguments, manual().options));
     });
     return 0;

@@ -19,8 +19,7 @@ struct Order {
         end,   ///< end the program
     };
     Kind kind = Kind::end;
-    std::int32_t in_files = 0;   ///< begin: whether large arrays are in files
-    std::array<char, 64> task{}; ///< work: the name of the task's file
+    std::array<char, 64> task{}; ///< work: the name of the task
     Digest job{};
     Digest options{};
 };

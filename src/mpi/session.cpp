@@ -79,15 +79,6 @@ Rank Session::rank() const
     return {static_cast<std::size_t>(rank_in(MPI_COMM_WORLD)), size_of(MPI_COMM_WORLD)};
 }
 
-cli::Processes Session::processes() const
-{
-    MPI_Comm here = MPI_COMM_NULL;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
-    const cli::Processes processes = {size_of(MPI_COMM_WORLD), size_of(here)};
-    MPI_Comm_free(&here);
-    return processes;
-}
-
 std::string Session::name() const
 {
     std::array<char, MPI_MAX_PROCESSOR_NAME> host{};

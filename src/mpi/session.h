@@ -19,7 +19,6 @@ class Session {
     ~Session();
 
     Rank rank() const;
-    cli::Processes processes() const;
     /// "rank 3 on host".
     std::string name() const;
 

@@ -124,12 +124,6 @@ std::int64_t predicted_scratch(const RunSize& size)
                                               extracting(n), cleaning(n)}));
 }
 
-std::int64_t predicted_share(const RunSize& size)
-{
-    // The sums of all cells, and a copy of the nonzero sums.
-    return rounded(2 * sums_of_rays(sizes_of(size.thinned)));
-}
-
 std::int64_t least_memory(const RunSize& size, int threads)
 {
     const double point = kHeapPoint + kHeapAddedPoint;

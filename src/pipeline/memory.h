@@ -70,7 +70,4 @@ std::int64_t least_memory(const RunSize& size, int threads);
 /// The peak size of arrays in the work folder, in bytes.
 std::int64_t predicted_scratch(const RunSize& size);
 
-/// The peak size there of another rank's arrays, in bytes: the sums of the rays that it follows.
-std::int64_t predicted_share(const RunSize& size);
-
 } // namespace vcarve

@@ -18,28 +18,13 @@ namespace vcarve {
 
 namespace {
 
-/// Runs the stages of a part, and logs each.
-void take(Part part, RunState& run)
-{
-    Log& log = run.checkpoints.log();
-    const Needs needs = needs_of(run.size, tbb::this_task_arena::max_concurrency());
-    for (const RunStage& stage : all_stages()) {
-        if (stage.part != part || stage.run == nullptr || !stage.applies(needs)) continue;
-        Stage told(log, stage.name);
-        told.end(stage.run(run, told));
-        for (const std::string& note : std::exchange(run.notes, {})) {
-            log.note(note);
-        }
-    }
-}
-
 /// Makes the points and the region.
 void make_points(RunState& run)
 {
     run.points.scene = center_points(std::move(run.points.scene));
     return_freed_memory();
-    take(Part::plan, run);
-    run.checkpoints.keep("points", run.points, [&] { take(Part::points, run); });
+    run_stages(Part::plan, run);
+    run.checkpoints.keep("points", run.points, [&] { run_stages(Part::points, run); });
     if (!run.region) { // the points came from a checkpoint
         run.region =
             make_region(run.options().crop.region, run.points.scene.offset, run.points.of_interest);
@@ -50,9 +35,9 @@ void make_points(RunState& run)
 /// Carves the visible faces, and frees the cells.
 void carve(RunState& run)
 {
-    run.checkpoints.keep("cells", run.cells, [&] { take(Part::cells, run); });
-    run.checkpoints.keep("rays", run.evidence, [&] { take(Part::rays, run); });
-    take(Part::surface, run);
+    run.checkpoints.keep("cells", run.cells, [&] { run_stages(Part::cells, run); });
+    run.checkpoints.keep("rays", run.evidence, [&] { run_stages(Part::rays, run); });
+    run_stages(Part::surface, run);
     run.cells = {};
     run.virtual_rays = {};
 }
@@ -64,7 +49,7 @@ Reconstruction run_parts(RunState run, RemovedFaces* removed)
     run.checkpoints.keep(run.wants_removed ? "surface-and-removed" : "surface", run.carved,
                          [&] { carve(run); });
     return_freed_memory();
-    take(Part::refinement, run);
+    run_stages(Part::refinement, run);
     if (removed != nullptr) *removed = std::move(run.carved.removed);
     return {std::move(run.points.scene), std::move(run.surface)};
 }
@@ -77,7 +62,7 @@ Reconstruction thin_and_run(Scene scene, const Options& options, Log& log)
                     .points = {std::move(scene), {}}};
     run.size.in_parts = false;
     require_memory_of(run.size, tbb::this_task_arena::max_concurrency());
-    take(Part::input, run);
+    run_stages(Part::input, run);
     run.size.thinned = size_of(run.points.scene);
     return run_parts(std::move(run), nullptr);
 }
@@ -105,7 +90,7 @@ Reconstruction reconstruct_thinned(Scene thinned, const SceneSize& read, const O
                                    Log& log, const RunExtras& extras)
 {
     return with_threads(options, [&] {
-        Checkpoints checkpoints(extras.work, log, extras.ranks);
+        Checkpoints checkpoints(extras.work, log);
         RunState run = {.size = size_before_thinning(read, options),
                         .checkpoints = checkpoints,
                         .wants_removed = extras.removed != nullptr,

@@ -3,6 +3,7 @@
 #include "mesh/half_edge_mesh.h"
 #include "model/extent.h"
 #include "model/tet_mesh.h"
+#include "model/usual_values.h"
 #include "model/visibility_energy.h"
 #include "pipeline/stage_memory.h"
 #include "region/region.h"
@@ -38,6 +39,8 @@ struct RunState {
     RunSize size;
     Checkpoints& checkpoints;
     bool wants_removed = false;
+
+    UsualValues usual{}; ///< measured by the stages, unless known before
 
     CarvingPoints points{};
     std::unique_ptr<Region> region{}; ///< region to reconstruct; null for all of space

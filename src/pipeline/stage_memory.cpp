@@ -85,7 +85,8 @@ Needs needs_of(const RunSize& size, int threads)
             .left = sizes_of(size.thinned),
             .threads = static_cast<double>(threads),
             .is_dense = size.read.is_dense,
-            .in_parts = size.in_parts};
+            .in_parts = size.in_parts,
+            .is_tile = size.is_tile};
 }
 
 /// At most 24 neighbors of each point, normals, variances, and positions before and after.
@@ -203,11 +204,6 @@ double adjusting(const Needs& needs)
     constexpr double kFace = 80;
     constexpr double kVertex = 250;
     return n.scene() + n.faces() * kFace + n.points * kVertex;
-}
-
-double sums_of_rays(const Sizes& n)
-{
-    return kNetworkCell * n.cells();
 }
 
 } // namespace vcarve

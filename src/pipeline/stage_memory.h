@@ -11,6 +11,7 @@ struct RunSize {
     SceneSize thinned;
     bool in_parts = false; ///< points are merged while they are read, so memory never holds all
     Options options = {};
+    bool is_tile = false; ///< the scene is a part of a large model (tiles/)
 };
 
 /// Counts of a model. They are doubles, so that products do not overflow.
@@ -39,6 +40,7 @@ struct Needs {
     double threads;
     bool is_dense;
     bool in_parts;
+    bool is_tile;
 };
 
 /// `size` must outlive the result.
@@ -61,8 +63,5 @@ double adjusting(const Needs& n);
 
 /// CGAL's triangulation of all points.
 double cgal(const Sizes& n);
-
-/// The votes of the rays that one rank follows.
-double sums_of_rays(const Sizes& n);
 
 } // namespace vcarve

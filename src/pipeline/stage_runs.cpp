@@ -3,7 +3,6 @@
 #include "mesh/collapse_edges.h"
 #include "model/scene_check.h"
 #include "pipeline/memory.h"
-#include "pipeline/rank_shares.h"
 #include "pipeline/run_state.h"
 #include "pipeline/stages.h"
 #include "steps/1_points/arrange.h"
@@ -15,6 +14,7 @@
 #include "steps/2_planes/added_points.h"
 #include "steps/3_cells/limits.h"
 #include "steps/3_cells/triangulate.h"
+#include "steps/3_cells/triangulate_blocks.h"
 #include "steps/4_visibility/count_crossings.h"
 #include "steps/4_visibility/inferred_rays.h"
 #include "steps/4_visibility/trace.h"
@@ -57,7 +57,7 @@ Counts cut_by(VisibilityEnergy energy, RunState& run, const Progress& progress)
 void cast(const RaySource& source, RunState& run, const Progress& progress)
 {
     const Scene& scene = run.points.scene;
-    const Scales scales = measure_scales(run.cells, scene);
+    const Scales scales = measure_scales(run.cells, scene, &run.usual);
     RayCaster(run.cells, scene, scales, run.options().labels.trace)
         .cast(source, run.evidence.energy, progress);
 }
@@ -120,7 +120,7 @@ Counts filter(RunState& run, const Progress& progress)
     FilteredPoints filtered = filter_points(std::move(scene), options, progress.part(0.0, 0.6));
     progress.report(0.6);
     scene = spatial_sort(std::move(filtered.scene), progress.part(0.6, 0.9));
-    const std::int64_t stray = drop_stray_points(scene, options);
+    const std::int64_t stray = drop_stray_points(scene, options, &run.usual);
     const FilterReport& dropped = filtered.report;
     if (dropped.non_finite > 0) {
         run.notes.push_back(fmt::format("{} of {} are dropped: a coordinate is not finite, or "
@@ -147,7 +147,7 @@ Counts filter(RunState& run, const Progress& progress)
 Counts add_points(RunState& run, const Progress& progress)
 {
     const AddedPoints report =
-        vcarve::add_points(run.points.scene, run.options().added_points, progress);
+        vcarve::add_points(run.points.scene, run.options().added_points, progress, &run.usual);
     return {{"points added", report.added}, {"planar regions", report.regions}};
 }
 
@@ -169,7 +169,7 @@ Counts crop(RunState& run, const Progress& progress)
 Counts denoise(RunState& run, const Progress& progress)
 {
     Scene& scene = run.points.scene;
-    const DenoiseReport report = denoise_points(scene, run.options().denoise, progress);
+    const DenoiseReport report = denoise_points(scene, run.options().denoise, progress, &run.usual);
     return {{"points moved", report.moved},
             {"of", size_of(scene.num_points())},
             {"thousandths of a pixel of noise", thousandths(report.noise_px)}};
@@ -182,7 +182,8 @@ Counts triangulate(RunState& run, const Progress& progress)
     const CellLimit limit = limit_of_cells(run.size, tbb::this_task_arena::max_concurrency());
     if (blocks == 0) {
         run.cells = vcarve::triangulate(scene, progress, limit);
-    } else if (auto cells = triangulate_by_ranks({blocks, limit}, run, progress)) {
+    } else if (auto cells =
+                   triangulate_in_blocks(scene, {.count = blocks, .limit = limit}, progress)) {
         run.cells = std::move(*cells);
     } else {
         run.notes.emplace_back("many points lie on or near common spheres or planes; "
@@ -201,7 +202,7 @@ Counts walk_rays(RunState& run, const Progress& progress)
     } else {
         const double weight = run.options().labels.trace.inferred_rays;
         const bool infers = scene.is_dense && weight > 0.0;
-        run.evidence.energy = walk_by_ranks(run, progress.part(0.0, infers ? 0.5 : 1.0));
+        cast(photographs(scene), run, progress.part(0.0, infers ? 0.5 : 1.0));
         if (infers) inferred = walk_inferred(run, weight, progress.part(0.5, 1.0));
     }
     return {{"rays", size_of(scene.num_rays())}, {"inferred", inferred}};
@@ -256,7 +257,8 @@ Counts carve(RunState& run, const Progress& progress)
 Counts surface(RunState& run, const Progress& progress)
 {
     run.carved = carve_surface(std::move(run.labels),
-                               {run.cells, run.points.scene, run.region.get(), run.wants_removed},
+                               {run.cells, run.points.scene, run.region.get(), run.wants_removed,
+                                &run.usual, !run.size.is_tile},
                                run.options().surface, progress);
     const CarvedCounts& left_out = run.carved.counts;
     Counts counts = {{"faces", size_of(run.carved.faces.faces.size())},
@@ -298,7 +300,7 @@ Counts count_open(RunState& run, const Progress& /*progress*/)
 Counts denoise_vertices(RunState& run, const Progress& progress)
 {
     const DenoiseVerticesCounts counts =
-        denoise_vertices(*run.mesh, run.points.scene, run.options().denoise, progress);
+        denoise_vertices(*run.mesh, run.points.scene, run.options().denoise, progress, &run.usual);
     return {{"vertices moved", counts.moved},
             {"of", counts.vertices},
             {"held back", counts.held},
@@ -310,9 +312,11 @@ Counts decimate(RunState& run, const Progress& /*progress*/)
 {
     constexpr double kMostMoved = 0.25; // in vertex spacings
     constexpr double kSmall = 4.0;      // squared spacings per face of min_component
-    std::vector<double> spacings = vertex_spacings(*run.mesh);
-    std::erase(spacings, 0.0);
-    const double spacing = median_in_place(spacings);
+    const double spacing = usual_value(&run.usual, &UsualValues::vertex_spacing, [&] {
+        std::vector<double> spacings = vertex_spacings(*run.mesh);
+        std::erase(spacings, 0.0);
+        return median_in_place(spacings);
+    });
     const double small = kSmall * spacing * spacing * run.options().surface.cleanup.min_component;
     TriMesh mesh = tri_mesh(*run.mesh);
     const std::int64_t before = size_of(mesh.faces.size());

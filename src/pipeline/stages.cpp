@@ -1,5 +1,12 @@
 #include "pipeline/stages.h"
 
+#include "pipeline/run_state.h"
+
+#include <tbb/task_arena.h>
+
+#include <string>
+#include <utility>
+
 namespace vcarve {
 
 namespace {
@@ -76,7 +83,7 @@ bool denoises_vertices(const Needs& n)
 /// Holes are not counted with a region, because its boundary is no hole.
 bool may_be_open(const Needs& n)
 {
-    return !n.options.surface.closed && !is_cropped(n);
+    return !n.options.surface.closed && !is_cropped(n) && !n.is_tile;
 }
 
 bool smooths(const Needs& n)
@@ -138,6 +145,20 @@ constexpr RunStage kStages[] = {
 std::span<const RunStage> all_stages()
 {
     return kStages;
+}
+
+void run_stages(Part part, RunState& run)
+{
+    Log& log = run.checkpoints.log();
+    const Needs needs = needs_of(run.size, tbb::this_task_arena::max_concurrency());
+    for (const RunStage& stage : all_stages()) {
+        if (stage.part != part || stage.run == nullptr || !stage.applies(needs)) continue;
+        Stage told(log, stage.name);
+        told.end(stage.run(run, told));
+        for (const std::string& note : std::exchange(run.notes, {})) {
+            log.note(note);
+        }
+    }
 }
 
 } // namespace vcarve

@@ -26,6 +26,9 @@ struct RunStage {
 /// The stages of every run, in order. They also determine what is resumed and predict memory.
 std::span<const RunStage> all_stages();
 
+/// Runs the stages of a part, and logs each. Throws the exceptions of the stages.
+void run_stages(Part part, RunState& run);
+
 /// The functions of the stages. Each calls a step of the method, and returns counts.
 namespace stage_runs {
 

@@ -2,7 +2,6 @@
 
 #include "io/input/read_model.h"
 #include "model/scene_check.h"
-#include "run/ranks.h"
 #include "run/work_folder.h"
 #include "steps/6_surface/carve_surface.h"
 #include "vcarve/options.h"
@@ -21,8 +20,6 @@ struct RunExtras {
     /// The folder of checkpoints, or null for none. Its begin() was called with the job of the
     /// scene and the options.
     WorkFolder* work = nullptr;
-    /// The other processes of the run; null if there are none.
-    Ranks* ranks = nullptr;
 };
 
 /// Reconstructs a scene. The points of a cloud must have been merged by thin_while_reading().

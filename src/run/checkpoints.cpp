@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 namespace vcarve {
 
@@ -55,24 +54,6 @@ void Checkpoints::note_not_saved(std::string_view name, const UsageError& error)
 void Checkpoints::note_made_again(std::string_view sentence)
 {
     shown_.note(fmt::format("{}; it is computed again", sentence));
-}
-
-/// A name that no other task has, not even of another process. Ranks may still see the files of old
-/// tasks: on a network file system, or after a job was killed.
-std::string Checkpoints::name_of_task(std::string_view name)
-{
-    return fmt::format("{}-{}-{}", name, ::getpid(), ++num_tasks_);
-}
-
-void Checkpoints::share_file(const std::string& task, const std::function<void()>& own)
-{
-    try {
-        ranks_->share(task, own);
-    } catch (...) {
-        folder_->drop(task);
-        throw;
-    }
-    folder_->drop(task);
 }
 
 void Checkpoints::report_unusable_pieces()

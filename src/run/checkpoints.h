@@ -1,15 +1,11 @@
 #pragma once
 
 #include "base/progress.h"
-#include "run/ranks.h"
 #include "run/work_folder.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <mutex>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,19 +26,13 @@ inline constexpr int kNumFields<LogEvent> = 3;
 /// Forwards all messages to another log, and records ends of stages and notes.
 class RememberingLog final : public Log {
   public:
-    /// Also requests a stop if one of `ranks` failed, unless `ranks` is null.
-    explicit RememberingLog(Log& shown, const Ranks* ranks = nullptr) : shown_(shown), ranks_(ranks)
-    {
-    }
+    explicit RememberingLog(Log& shown) : shown_(shown) {}
 
     void stage_begins(std::string_view name) override { shown_.stage_begins(name); }
     void stage_progresses(double share) override { shown_.stage_progresses(share); }
     void stage_ends(std::string_view name, const Counts& counts) override;
     void note(std::string_view sentence) override;
-    bool should_stop() const override
-    {
-        return shown_.should_stop() || (ranks_ != nullptr && ranks_->has_failed());
-    }
+    bool should_stop() const override { return shown_.should_stop(); }
 
     const std::vector<LogEvent>& events() const { return events_; }
     /// Forwards and records these messages.
@@ -50,30 +40,16 @@ class RememberingLog final : public Log {
 
   private:
     Log& shown_;
-    const Ranks* ranks_;
     std::vector<LogEvent> events_;
 };
-
-/// Maps a checkpoint that another rank saved, or that was loaded before. Large arrays are
-/// read-only. Throws the exceptions of WorkFolder::map().
-template <typename Made>
-void map_kept(const WorkFolder& folder, std::string_view name, Made& made)
-{
-    std::vector<LogEvent> told;
-    folder.map(name, told, made);
-}
 
 /// Saves results of a run to a work folder, and loads them from it. Without a folder, computes
 /// everything and saves nothing.
 class Checkpoints {
   public:
     /// The stages of the run must use log() instead of `log`, so that their messages are recorded.
-    /// If `folder` is not null, its begin() was called. If `ranks` is not null, all ranks share the
-    /// folder. All arguments must outlive the object.
-    Checkpoints(WorkFolder* folder, Log& log, Ranks* ranks = nullptr)
-        : folder_(folder), ranks_(ranks), shown_(log), remembering_(log, ranks)
-    {
-    }
+    /// If `folder` is not null, its begin() was called. All arguments must outlive the object.
+    Checkpoints(WorkFolder* folder, Log& log) : folder_(folder), shown_(log), remembering_(log) {}
 
     Log& log() { return folder_ == nullptr ? shown_ : remembering_; }
 
@@ -89,50 +65,19 @@ class Checkpoints {
     /// makes. Thread-safe. keep() logs notes about unusable parts when make() ends, and removes all
     /// parts. Throws UsageError if a part cannot be written, because its caller relies on it.
     template <typename Make>
-    auto piece(const StagePiece& piece, const Make& make) -> decltype(make())
-    {
-        return piece_taken_by(
-            [&](const std::string& name, auto& kept) { folder_->load(name, {}, kept); }, piece,
-            make);
-    }
-    /// The same for a part that a rank of this run made or checked in share(). Its content is not
-    /// checked, and large arrays in scratch memory are mapped read-only.
-    template <typename Make>
-    auto shared_piece(const StagePiece& piece, const Make& make) -> decltype(make())
-    {
-        return piece_taken_by(
-            [&](const std::string& name, auto& kept) { folder_->map(name, kept); }, piece, make);
-    }
-
-    /// The number of processes of the run.
-    std::size_t num_ranks() const { return ranks_ == nullptr ? 1 : ranks_->count(); }
-
-    /// Lets the other ranks do their shares of a task, and calls own() for the share of this rank.
-    /// The name of the task's file begins with `name`. Returns false and does nothing if no other
-    /// ranks exist, or if a stage in `needed`, the ranks' input, could not be saved. Throws what
-    /// Ranks::share() throws, and UsageError if the task cannot be written.
-    template <typename Task, typename Own>
-    bool share(std::string_view name, const Task& task, std::span<const std::string_view> needed,
-               const Own& own);
+    auto piece(const StagePiece& piece, const Make& make) -> decltype(make());
 
   private:
-    template <typename Make, typename Take>
-    auto piece_taken_by(const Take& take, const StagePiece& piece, const Make& make)
-        -> decltype(make());
     template <typename Made>
     bool is_taken(std::string_view name, Made& made);
     void report_resumed(std::string_view name, const std::vector<LogEvent>& told);
     void note_made_again(std::string_view sentence);
     void note_not_saved(std::string_view name, const UsageError& error);
     void report_unusable_pieces();
-    std::string name_of_task(std::string_view name);
-    void share_file(const std::string& task, const std::function<void()>& own);
 
     WorkFolder* folder_;
-    Ranks* ranks_;
     Log& shown_;
     RememberingLog remembering_;
-    int num_tasks_ = 0;
     std::mutex mutex_;                  ///< guards unusable_
     std::vector<std::string> unusable_; ///< errors of parts
 };
@@ -170,7 +115,7 @@ bool Checkpoints::is_taken(std::string_view name, Made& made)
         stage.end(size_counts(name, folder_->load(name, stage, told, kept)));
     } catch (const InputError& error) {
         note_made_again(error.what());
-        folder_->drop(name); // other ranks must not find it
+        folder_->drop(name);
         return false;
     }
     made = std::move(kept);
@@ -178,17 +123,15 @@ bool Checkpoints::is_taken(std::string_view name, Made& made)
     return true;
 }
 
-/// Calls take(name, kept) if the part exists.
-template <typename Make, typename Take>
-auto Checkpoints::piece_taken_by(const Take& take, const StagePiece& piece, const Make& make)
-    -> decltype(make())
+template <typename Make>
+auto Checkpoints::piece(const StagePiece& piece, const Make& make) -> decltype(make())
 {
     if (folder_ == nullptr) return make();
     const std::string name = piece_name(piece);
     try {
         decltype(make()) kept;
         if (folder_->has(name)) {
-            take(name, kept);
+            folder_->load(name, {}, kept);
             return kept;
         }
     } catch (const InputError& error) {
@@ -198,20 +141,6 @@ auto Checkpoints::piece_taken_by(const Take& take, const StagePiece& piece, cons
     auto made = make();
     folder_->save(name, {}, made);
     return made;
-}
-
-template <typename Task, typename Own>
-bool Checkpoints::share(std::string_view name, const Task& task,
-                        std::span<const std::string_view> needed, const Own& own)
-{
-    const auto is_there = [&](std::string_view stage) { return folder_->has(stage); };
-    if (num_ranks() == 1 || folder_ == nullptr || !std::ranges::all_of(needed, is_there)) {
-        return false;
-    }
-    const std::string file = name_of_task(name);
-    folder_->save(file, {}, task);
-    share_file(file, own);
-    return true;
 }
 
 } // namespace vcarve

@@ -1,6 +1,5 @@
 #include "run/stage_file.h"
 
-#include "base/scratch_memory.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -19,7 +18,7 @@ namespace {
 
 constexpr std::array<char, 16> kMagic = {'v', 'c', 'a', 'r', 'v',  'e',  ' ', 's',
                                          't', 'a', 'g', 'e', '\r', '\n', 0,   1};
-constexpr std::uint64_t kVersion = 4;
+constexpr std::uint64_t kVersion = 5;
 /// Content is written, read and digested in pieces of this size.
 constexpr std::size_t kPieceBytes = 16 << 20;
 
@@ -31,8 +30,6 @@ struct Header {
     Digest job{};
     std::array<char, StageLabel::kLongestName + 1> name{};
 };
-
-static_assert(sizeof(Header) + sizeof(Digest) == kContentBegin);
 
 std::span<const char> bytes_of(const Header& header)
 {
@@ -78,13 +75,6 @@ void StageWriter::put_bytes(const void* data, std::size_t count)
     }
 }
 
-void StageWriter::put_array(const void* data, std::size_t bytes)
-{
-    const std::vector<char> zeros(stage_padding(done_, bytes));
-    put_bytes(zeros.data(), zeros.size());
-    put_bytes(data, bytes);
-}
-
 void StageWriter::commit()
 {
     write_digest(file_->stream(), digest_.value());
@@ -92,10 +82,9 @@ void StageWriter::commit()
 }
 
 StageReader::StageReader(std::filesystem::path path, const StageLabel& label,
-                         const Progress& progress, Content content)
+                         const Progress& progress)
     : path_(std::move(path)),
       file_(std::fopen(path_.c_str(), "rbe"), &std::fclose),
-      content_(content),
       progress_(progress)
 {
     if (!file_) refuse(fmt::format("it cannot be opened: {}", std::strerror(errno)));
@@ -149,33 +138,13 @@ void StageReader::get_bytes(void* data, std::size_t count)
     for (std::span<char> left(static_cast<char*>(data), count); !left.empty();) {
         const auto piece = left.first(std::min(left.size(), kPieceBytes));
         read(piece.data(), piece.size());
-        if (content_ == Content::checked) digest_.add(piece);
+        digest_.add(piece);
         done_ += piece.size();
         left = left.subspan(piece.size());
         if (piece.size() >= kPieceBytes / 16) {
             progress_.report(static_cast<double>(done_), static_cast<double>(bytes_));
         }
     }
-}
-
-void StageReader::get_array(void* data, std::size_t bytes)
-{
-    std::vector<char> padding(stage_padding(done_, bytes));
-    get_bytes(padding.data(), padding.size());
-    if (!map_array(data, bytes)) get_bytes(data, bytes);
-}
-
-/// Returns false if the array must be read instead.
-bool StageReader::map_array(void* data, std::size_t bytes)
-{
-    if (content_ != Content::mapped || bytes > bytes_ - done_) return false;
-    const auto place = static_cast<off_t>(kContentBegin + done_);
-    if (!map_over_scratch(data, bytes, {::fileno(file_.get()), place})) return false;
-    if (::fseeko(file_.get(), static_cast<off_t>(bytes), SEEK_CUR) != 0) {
-        refuse(fmt::format("it cannot be read: {}", std::strerror(errno)));
-    }
-    done_ += bytes;
-    return true;
 }
 
 std::size_t StageReader::get_count(std::size_t item_bytes)
@@ -194,10 +163,6 @@ void StageReader::finish()
 {
     Digest expected{};
     read(expected.data(), sizeof(expected));
-    if (content_ == Content::mapped) {
-        if (done_ != bytes_) refuse("its content is damaged: it is too long");
-        return;
-    }
     const Digest found = digest_.value();
     if (done_ != bytes_ || found != expected) {
         refuse(fmt::format("its content is damaged: {} of {} bytes have the digest {}, "

@@ -28,7 +28,7 @@
 // A stage file has the result of a stage. The header has a magic number, the layout's version, the
 // size of the content, the job's digest, the stage's name, and a digest of these. The content and
 // its digest follow. Arrays have their memory layout, so no copy is needed, and numbers are in the
-// format of the machine that wrote them. Large arrays begin at a page of the file, for mapping.
+// format of the machine that wrote them.
 namespace vcarve {
 
 /// The number of fields of a struct in a stage file. All fields are saved, in order. A wrong number
@@ -113,18 +113,6 @@ struct StageLabel {
     static constexpr std::size_t kLongestName = 63;
 };
 
-/// The offset of the content in a stage file.
-inline constexpr std::uint64_t kContentBegin = 128;
-
-/// The number of padding bytes before an array, so that large arrays begin at a page.
-constexpr std::uint64_t stage_padding(std::uint64_t content_before, std::uint64_t array_bytes)
-{
-    constexpr std::uint64_t kPage = 4096;
-    constexpr std::uint64_t kLarge = std::uint64_t{1} << 20;
-    if (array_bytes < kLarge) return 0;
-    return (kPage - (kContentBegin + content_before) % kPage) % kPage;
-}
-
 /// Writes a stage file. The file appears only when commit() returns.
 class StageWriter {
   public:
@@ -143,7 +131,6 @@ class StageWriter {
 
   private:
     void put_bytes(const void* data, std::size_t count);
-    void put_array(const void* data, std::size_t bytes);
 
     std::optional<OutputFile> file_; ///< nullopt if it only counts
     std::uint64_t bytes_ = 0;
@@ -158,14 +145,7 @@ class StageWriter {
 /// the file has.
 class StageReader {
   public:
-    /// How the content is read.
-    enum class Content {
-        checked, ///< read, and compared with its digest
-        mapped,  ///< not checked; large arrays in scratch memory are mapped read-only
-    };
-
-    StageReader(std::filesystem::path path, const StageLabel& label, const Progress& progress,
-                Content content = Content::checked);
+    StageReader(std::filesystem::path path, const StageLabel& label, const Progress& progress);
 
     template <typename T>
     void get(T& value);
@@ -177,15 +157,12 @@ class StageReader {
     void read_header(const StageLabel& label);
     void read(void* data, std::size_t count);
     void get_bytes(void* data, std::size_t count);
-    void get_array(void* data, std::size_t bytes);
-    bool map_array(void* data, std::size_t bytes);
     /// Reads the number of items, each of at least `item_bytes` bytes.
     std::size_t get_count(std::size_t item_bytes);
     [[noreturn]] void refuse(std::string_view what) const;
 
     std::filesystem::path path_;
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-    Content content_;
     std::uint64_t bytes_ = 0;
     std::uint64_t done_ = 0;
     RunningDigest digest_;
@@ -203,7 +180,7 @@ void StageWriter::put(const T& value)
     } else if constexpr (kIsArray<T>) {
         put(std::uint64_t{value.size()});
         if constexpr (kIsPlain<typename T::value_type>) {
-            put_array(value.data(), value.size() * sizeof(typename T::value_type));
+            put_bytes(value.data(), value.size() * sizeof(typename T::value_type));
         } else {
             for (const auto& item : value)
                 put(item);
@@ -233,7 +210,7 @@ void StageReader::get(T& value)
         value.clear();
         if constexpr (kIsPlain<Item>) {
             value.resize(get_count(sizeof(Item)));
-            get_array(value.data(), value.size() * sizeof(Item));
+            get_bytes(value.data(), value.size() * sizeof(Item));
         } else {
             // One by one, so that a wrong count fails at the end of the file.
             for (std::size_t left = get_count(1); left > 0; --left)

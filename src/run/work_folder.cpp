@@ -29,6 +29,7 @@ namespace {
 constexpr const char* kLockName = "lock";
 constexpr const char* kJobName = "job";
 constexpr const char* kStageEnd = ".stage";
+constexpr const char* kClaimEnd = ".claim";
 /// The first line of the job's file. kJobEnd begins its last line.
 constexpr std::string_view kJobTitle = "work folder of colmap-vcarve, layout 1\n";
 /// Content of the lock file, which is removed last, if the folder must be removed, too.
@@ -43,17 +44,18 @@ bool is_part(const std::string& name)
     return name.find(".part-") != std::string::npos;
 }
 
-/// Whether a file name is that of a task for ranks, which ends with its job.
-bool is_task(const std::string& name)
+/// Whether a file name is that of a claim, which ends with its run.
+bool is_claim(const std::string& name)
 {
-    return name.starts_with("task-");
+    return name.ends_with(kClaimEnd);
 }
 
 /// Whether this program writes files with that name.
 bool is_ours(const std::string& name)
 {
     const std::string whole = name.substr(0, name.find(".part-"));
-    return whole == kLockName || whole == kJobName || whole.ends_with(kStageEnd);
+    return whole == kLockName || whole == kJobName || whole.ends_with(kStageEnd) ||
+           whole.ends_with(kClaimEnd);
 }
 
 std::vector<fs::path> files_in(const fs::path& folder)
@@ -217,7 +219,7 @@ WorkFolder::WorkFolder(fs::path folder)
     }
     for (const fs::path& file : files_in(folder_)) {
         const std::string name = file.filename();
-        if (is_ours(name) && (is_part(name) || is_task(name))) remove_quietly(file);
+        if (is_ours(name) && (is_part(name) || is_claim(name))) remove_quietly(file);
     }
 }
 
@@ -266,6 +268,18 @@ bool WorkFolder::has(std::string_view stage) const
 {
     std::error_code error;
     return fs::exists(file_of(stage), error);
+}
+
+bool WorkFolder::claim(std::string_view stage) const
+{
+    const fs::path path = folder_ / fmt::format("{}{}", stage, kClaimEnd);
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0) ::close(file);
+    if (file < 0 && errno != EEXIST) {
+        throw UsageError(fmt::format("cannot write to the work folder {}: {}", folder_.string(),
+                                     std::strerror(errno)));
+    }
+    return file >= 0;
 }
 
 void WorkFolder::wait_for(std::string_view stage, const Progress& progress) const

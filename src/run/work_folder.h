@@ -47,6 +47,9 @@ class WorkFolder {
     /// Whether the folder had stages of an earlier run when the job began.
     bool is_resumed() const { return is_resumed_; }
     bool has(std::string_view stage) const;
+    /// Marks a stage as being made by the caller. Returns false if another process of the run did
+    /// so before. Marks of earlier runs do not count.
+    bool claim(std::string_view stage) const;
     /// Waits for a stage that another process has written, because network file systems show new
     /// files to other machines late. Throws UsageError if the stage is missing after a minute, or
     /// the folder after 5 seconds, and Cancelled.
@@ -62,11 +65,6 @@ class WorkFolder {
     /// InputError if the file is not as save() wrote it; parts may then be incomplete. Thread-safe.
     template <typename... Parts>
     std::uint64_t load(std::string_view stage, const Progress& progress, Parts&... parts) const;
-
-    /// The same without a check of the content, for stages that this run wrote or loaded. Large
-    /// arrays in scratch memory are mapped from the file, read-only.
-    template <typename... Parts>
-    void map(std::string_view stage, Parts&... parts) const;
 
     /// Removes a stage if it exists.
     void drop(std::string_view stage) const;
@@ -112,15 +110,6 @@ std::uint64_t WorkFolder::load(std::string_view stage, const Progress& progress,
     (reader.get(parts), ...);
     reader.finish();
     return reader.bytes();
-}
-
-template <typename... Parts>
-void WorkFolder::map(std::string_view stage, Parts&... parts) const
-{
-    StageReader reader(file_of(stage), {std::string(stage), job_}, {},
-                       StageReader::Content::mapped);
-    (reader.get(parts), ...);
-    reader.finish();
 }
 
 } // namespace vcarve

@@ -162,43 +162,6 @@ TEST(ScratchMemory, ReportsMissingSpaceIfTheDiskIsFull)
     free_scratch(memory);
 }
 
-TEST(ScratchMemory, IsReplacedByAMappedFile)
-{
-    const TemporaryFolder folder;
-    const ScratchMemory scratch(folder.path(), kNoLimit);
-    const std::string page(4096, 'a');
-    const auto path = folder.write("file", page + std::string(kLeast - 1, 'b'));
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    void* const memory = allocate_scratch(kLeast, 16);
-    ASSERT_TRUE(map_over_scratch(memory, kLeast - 1, {file, 4096}));
-    ::close(file);
-    const auto* const letters = static_cast<const char*>(memory);
-    EXPECT_EQ(letters[0], 'b');
-    EXPECT_EQ(letters[kLeast - 2], 'b');
-    EXPECT_GT(drop_next_pages(kLeast, false), 0U);
-    EXPECT_EQ(letters[kLeast - 2], 'b') << "read back after the drop";
-    EXPECT_EQ(num_maps_in(folder.path()), 1) << "the old file is unmapped";
-    EXPECT_TRUE(free_scratch(memory));
-    EXPECT_EQ(num_maps_in(folder.path()), 0);
-}
-
-TEST(ScratchMemory, DoesNotMapAFileOverOtherMemory)
-{
-    const TemporaryFolder folder;
-    const ScratchMemory scratch(folder.path(), kNoLimit);
-    const auto path = folder.write("file", std::string(2 * kLeast, 'b'));
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    std::vector<char> ours(2 * kLeast, 'a');
-    EXPECT_FALSE(map_over_scratch(ours.data(), kLeast, {file, 0}));
-    void* const memory = allocate_scratch(kLeast, 16);
-    EXPECT_FALSE(map_over_scratch(memory, kLeast + 1, {file, 0})) << "longer than the array";
-    EXPECT_FALSE(map_over_scratch(memory, kLeast, {file, 1})) << "the offset is not at a page";
-    EXPECT_EQ(static_cast<const char*>(memory)[0], '\0');
-    EXPECT_EQ(ours[0], 'a');
-    ::close(file);
-    EXPECT_TRUE(free_scratch(memory));
-}
-
 TEST(ScratchMemory, LeavesFileDescriptorsForOtherFiles)
 {
     rlimit limit = {};
@@ -233,34 +196,6 @@ TEST(ScratchMemory, IsNotMappedInForkedChildren)
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     EXPECT_EQ(status, 0);
     free_scratch(memory);
-}
-
-TEST(ScratchMemory, MapsAFileOverMemoryWithoutAFolder)
-{
-    const TemporaryFolder folder;
-    const std::string content(kLeast, 'x');
-    const int file = ::open(folder.write("file", content).c_str(), O_RDONLY | O_CLOEXEC);
-    ASSERT_GE(file, 0);
-    const std::int64_t before = ScratchMemory::peak_bytes();
-    const ScratchMemory scratch;
-    constexpr std::size_t kBytes = kLeast + 8192;
-    void* const memory = allocate_scratch(kBytes, 16);
-    ASSERT_NE(memory, nullptr);
-    const auto numbers = numbers_at(memory, kBytes);
-    EXPECT_THAT(numbers, ::testing::Each(0U));
-    std::ranges::fill(numbers, 5U);
-    drop_next_pages(kAllPages, false);
-    EXPECT_EQ(numbers.front(), 5U) << "memory without a file is not dropped";
-    EXPECT_EQ(num_maps_in(folder.path()), 0);
-    EXPECT_TRUE(map_over_scratch(memory, kLeast, {file, 0}));
-    ::close(file);
-    EXPECT_EQ(num_maps_in(folder.path()), 1);
-    drop_next_pages(kAllPages, false);
-    EXPECT_EQ(static_cast<const char*>(memory)[kLeast - 1], 'x');
-    EXPECT_EQ(numbers.back(), 5U) << "memory beyond the file is unchanged";
-    EXPECT_EQ(ScratchMemory::peak_bytes(), before);
-    EXPECT_TRUE(free_scratch(memory));
-    EXPECT_EQ(num_maps_in(folder.path()), 0);
 }
 
 TEST(ScratchMemory, IsThreadSafeWhilePagesAreDropped)

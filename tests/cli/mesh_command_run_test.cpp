@@ -251,6 +251,30 @@ TEST_F(ProgramOnBall, RespectsMaxMemoryIfPointsHaveManyCells)
 #endif
         EXPECT_FALSE(std::filesystem::exists(out));
     }
+    EXPECT_THAT(
+        sentence_of(3, {"--quiet", ball, out, "--max-memory", "80M", "--tile-points", "2000"}),
+        HasSubstr("cells, all that --max-memory allows"));
+}
+
+TEST_F(ProgramOnBall, MakesTheSurfaceInTilesWithoutLeavingTheirFiles)
+{
+    const Outcome outcome = run_program({ball, out, "--tile-points", "120", "--check"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("4 of 4 tiles"));
+    EXPECT_THAT(outcome.err, HasSubstr("wrote " + out));
+    EXPECT_THAT(bytes_of(out), HasSubstr("comment option tile-points=120\n"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2)
+        << "the model and the mesh";
+}
+
+TEST_F(ProgramOnBall, RejectsOptionsThatNeedTheModelInOnePiece)
+{
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--closed"}, {"--crop", "auto"}, {"--smooth", "1"}}) {
+        std::vector<std::string> all = {ball, out, "--tile-points", "120"};
+        all.insert(all.end(), words.begin(), words.end());
+        EXPECT_THAT(sentence_of(2, all), HasSubstr(words[0] + " needs the model in one piece"));
+    }
 }
 
 TEST_F(ProgramOnBall, RejectsABinaryModelThatNeedsTooMuchMemoryBeforeReadingIt)

@@ -210,23 +210,6 @@ class PiecesOfCheckpoints : public CheckpointsOfRuns {
     std::atomic<int> made = 0;
 };
 
-TEST_F(PiecesOfCheckpoints, AreNotCheckedIfARankOfThisRunMadeThem)
-{
-    const auto numbers = [](Checkpoints& keeper) {
-        return keeper.piece({"numbers", 0, 1}, [] { return Numbers(50, 7); });
-    };
-    const auto shared = [](Checkpoints& keeper) {
-        return keeper.shared_piece({"numbers", 0, 1}, [] { return Numbers(50, 8); });
-    };
-    EXPECT_EQ(run(shared), Numbers(50, 8)) << "a missing part is computed";
-    EXPECT_EQ(run(numbers), Numbers(50, 8));
-    damage("numbers-0-of-1.stage");
-    const Numbers believed = run(shared);
-    EXPECT_EQ(believed.size(), 50U);
-    EXPECT_NE(believed, Numbers(50, 8));
-    EXPECT_EQ(run(numbers), Numbers(50, 7)) << "other parts are checked";
-}
-
 TEST_F(PiecesOfCheckpoints, AreNotRecomputed)
 {
     EXPECT_EQ(refusal<InputError>([&] { squares(20, 15); }), "killed");

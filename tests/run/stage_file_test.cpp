@@ -1,4 +1,3 @@
-#include "base/scratch_memory.h"
 #include "pipeline/run_state.h"
 #include "run/stage_file.h"
 #include "steps/3_cells/triangulate.h"
@@ -12,8 +11,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
-#include <new>
 #include <random>
 
 namespace vcarve::stage_file_test {
@@ -62,21 +59,6 @@ class StageFile : public ::testing::Test {
     Scene scene = bumpy_sphere(50, 1);
 };
 
-template <typename T>
-struct ScratchAllocator {
-    using value_type = T;
-
-    T* allocate(std::size_t count)
-    {
-        void* const memory = allocate_scratch(count * sizeof(T), alignof(T));
-        if (memory == nullptr) throw std::bad_alloc();
-        return static_cast<T*>(memory);
-    }
-    void deallocate(T* memory, std::size_t /*count*/) { free_scratch(memory); }
-    bool operator==(const ScratchAllocator&) const = default;
-};
-using ScratchNumbers = std::vector<std::uint64_t, ScratchAllocator<std::uint64_t>>;
-
 std::string replaced(std::string bytes, std::size_t at, char mask)
 {
     bytes[at] = static_cast<char>(bytes[at] ^ mask);
@@ -84,61 +66,6 @@ std::string replaced(std::string bytes, std::size_t at, char mask)
 }
 
 } // namespace
-
-TEST_F(StageFile, AlignsLargeArraysToPages)
-{
-    EXPECT_EQ(stage_padding(0, 100), 0) << "a small array";
-    EXPECT_EQ(stage_padding(3, 1 << 20), 4096 - kContentBegin - 3);
-    EXPECT_EQ(stage_padding(4096 - kContentBegin, 1 << 20), 0);
-    std::vector<std::uint64_t> numbers(1 << 18);
-    numbers.front() = 0x1122334455667788;
-    const std::vector<std::vector<std::uint64_t>> all = {{7}, numbers, numbers};
-    EXPECT_EQ(through_file(all), all);
-    const std::string bytes = bytes_of(path);
-    std::vector<std::size_t> places;
-    for (std::size_t at = bytes.find("\x88\x77\x66"); at != std::string::npos;
-         at = bytes.find("\x88\x77\x66", at + 1)) {
-        places.push_back(at);
-    }
-    EXPECT_THAT(places, ::testing::ElementsAre(4096, 4096 + (2 << 20) + 4096));
-}
-
-TEST_F(StageFile, IsMappedIfArraysAreInScratchMemory)
-{
-    // This program's operator new does not allocate scratch memory, so an allocator does.
-    const std::vector<std::uint64_t> numbers(2 << 20, 5);
-    const std::uint64_t last = 7;
-    StageWriter counter;
-    counter.put(numbers);
-    counter.put(last);
-    StageWriter writer(path, label, counter.bytes(), {});
-    writer.put(numbers);
-    writer.put(last);
-    writer.commit();
-    const ScratchMemory scratch(folder.path(), std::numeric_limits<std::int64_t>::max());
-    const auto mapped = [&] {
-        ScratchNumbers found;
-        std::uint64_t end = 0;
-        StageReader reader(path, label, {}, StageReader::Content::mapped);
-        reader.get(found);
-        reader.get(end);
-        reader.finish();
-        EXPECT_EQ(end, last);
-        return found;
-    };
-    EXPECT_TRUE(std::ranges::equal(mapped(), numbers));
-
-    // Damage is detected in arrays that are read, but not in mapped arrays.
-    std::string bytes = bytes_of(path);
-    bytes[bytes.size() - 100] ^= 1;
-    folder.write("some.stage", bytes);
-    EXPECT_THAT(refusal<InputError>([&] { read<std::vector<std::uint64_t>>(); }),
-                HasSubstr("its content is damaged"));
-    EXPECT_FALSE(std::ranges::equal(mapped(), numbers));
-    // A truncated file is always rejected.
-    folder.write("some.stage", bytes.substr(0, bytes.size() - 4096));
-    EXPECT_THAT(refusal<InputError>(mapped), HasSubstr("but its header records"));
-}
 
 TEST_F(StageFile, PreservesAScene)
 {

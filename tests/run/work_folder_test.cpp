@@ -284,6 +284,23 @@ TEST_F(Work, ReportsAFullDiskAndLosesNothing)
     EXPECT_EQ(std::distance(fs::directory_iterator(path), {}), 4); // lock, job, numbers, few
 }
 
+TEST_F(Work, IsClaimedByOneProcessForEachStage)
+{
+    {
+        WorkFolder work(path);
+        work.begin(kJob);
+        const WorkFolder joined(path, work.job());
+        EXPECT_TRUE(work.claim("one"));
+        EXPECT_FALSE(joined.claim("one"));
+        EXPECT_TRUE(joined.claim("two"));
+        work.save("two", {}, Numbers{1});
+    }
+    WorkFolder later(path);
+    later.begin(kJob);
+    EXPECT_TRUE(later.claim("one")) << "claims end with their run";
+    EXPECT_TRUE(later.has("two"));
+}
+
 TEST_F(Work, SavesPartsUnderDistinctNames)
 {
     EXPECT_EQ(piece_name({"cells", 3, 8}), "cells-3-of-8");

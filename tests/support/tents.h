@@ -140,7 +140,7 @@ struct Tents {
         kept_before = keep;
         ChosenFaces chosen{.keep = keep, .seen = seen};
         const std::int64_t count =
-            trim_faces(boundary, made.facets, made.visibility, rules, chosen);
+            trim_faces(boundary, {boundary, made.facets, made.visibility}, rules, chosen);
         keep = chosen.keep;
         return count;
     }

@@ -77,22 +77,41 @@ BilateralFilter filter_of(const Scene& scene, std::size_t num_around, const Prog
             [&](std::size_t point) { return covariance_of_a_pixel(scene, point, focals_px); }};
 }
 
+/// A filter, and the noise of the model.
+struct NoiseFilter {
+    BilateralFilter filter;
+    UsualValues* usual;
+    std::optional<double> UsualValues::*px;
+    std::optional<double> UsualValues::*in_spacings;
+
+    double noise_px() const
+    {
+        return usual_value(usual, px, [&] { return filter.noise_px(); });
+    }
+    double noise_in_spacings() const
+    {
+        return usual_value(usual, in_spacings, [&] { return filter.noise_in_spacings(); });
+    }
+};
+
 /// Whether a scan is so exact that its noise is negligible beside the point spacing. The measured
 /// noise is then real surface detail.
-bool is_exact_scan(const Scene& scene, const BilateralFilter& filter)
+bool is_exact_scan(const Scene& scene, const NoiseFilter& filter)
 {
     constexpr double kExact = 0.083;
     return has_scanners(scene) && filter.noise_in_spacings() < kExact;
 }
 
-BilateralFilter filter_of(const Scene& scene, const Progress& progress)
+NoiseFilter filter_of(const Scene& scene, UsualValues* usual, const Progress& progress)
 {
     constexpr double kNoisy = 0.4;
     if (knows_all_normals(scene)) {
-        BilateralFilter filter = filter_of(scene, kFewAround, progress.part(0.0, 0.6));
-        if (filter.noise_in_spacings() < kNoisy) return filter;
+        NoiseFilter few = {filter_of(scene, kFewAround, progress.part(0.0, 0.6)), usual,
+                           &UsualValues::noise_px, &UsualValues::noise_spacings};
+        if (few.noise_in_spacings() < kNoisy) return few;
     }
-    return filter_of(scene, kManyAround, progress.part(0.6, 1.0));
+    return {filter_of(scene, kManyAround, progress.part(0.6, 1.0)), usual,
+            &UsualValues::wide_noise_px, &UsualValues::wide_noise_spacings};
 }
 
 } // namespace
@@ -113,19 +132,20 @@ void keep_apart(std::vector<Vector3d>& positions, const std::vector<Vector3d>& b
     }
 }
 
-DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const Progress& progress)
+DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options, const Progress& progress,
+                             UsualValues* usual)
 {
     constexpr std::size_t kLeastPoints = 4; // a point and three neighbors
     DenoiseReport report;
     if (scene.num_points() < kLeastPoints) return report;
-    const BilateralFilter filter = filter_of(scene, progress.part(0.0, 0.7));
+    const NoiseFilter filter = filter_of(scene, usual, progress.part(0.0, 0.7));
     progress.report(0.8);
     report.noise_px = filter.noise_px();
     const double gate = options.denoise * report.noise_px;
     if (!(gate > 0.0) || is_exact_scan(scene, filter)) return report;
     Vectors estimates(scene.num_points());
     parallel_for(estimates.size(), progress.part(0.85, 1.0),
-                 [&](std::size_t i) { estimates[i] = filter.estimate(i, gate); });
+                 [&](std::size_t i) { estimates[i] = filter.filter.estimate(i, gate); });
     keep_apart(estimates, scene.positions);
     for (std::size_t i = 0; i < estimates.size(); ++i) {
         if (estimates[i] != scene.positions[i]) ++report.moved;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "model/usual_values.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
@@ -38,7 +39,7 @@ struct DenoiseReport {
 /// before and after. The result is the same for any thread count and scale. Cost: O(points log
 /// points + rays), in parallel; 200 bytes per point, 250 without normals.
 DenoiseReport denoise_points(Scene& scene, const DenoiseOptions& options,
-                             const Progress& progress = {});
+                             const Progress& progress = {}, UsualValues* usual = nullptr);
 
 /// Moves coincident points back to their previous positions, until all are distinct. Cost: a
 /// parallel sort per iteration.

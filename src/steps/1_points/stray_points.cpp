@@ -153,16 +153,20 @@ void drop_points(Scene& scene, const std::vector<std::uint32_t>& dropped)
 
 } // namespace
 
-std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options)
+std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options, UsualValues* values)
 {
     if (options.stray_spacing == 0.0 || scene.num_points() <= kCrowd) return 0;
     const std::vector<std::uint32_t> candidates = seldom_seen_points(scene);
     if (candidates.empty()) return 0;
     const Solitude solitude(scene);
     const std::vector<std::uint32_t> usual = spread_sample(scene);
-    const double most = options.stray_spacing * solitude.median(usual);
+    const double median =
+        usual_value(values, &UsualValues::isolation, [&] { return solitude.median(usual); });
+    const double most = options.stray_spacing * median;
     if (!(most > 0.0)) return 0; // no view saw half of them
-    const UsualErrors errors = usual_errors(scene, usual);
+    UsualErrors errors = usual_errors(scene, usual);
+    errors.median = usual_value(values, &UsualValues::error_px, [&] { return errors.median; });
+    errors.large = usual_value(values, &UsualValues::large_error_px, [&] { return errors.large; });
     const auto is_stray = [&](std::uint32_t point) {
         return solitude.is_at_least(tolerance(scene.errors_px[point], errors) * most, point);
     };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/usual_values.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
@@ -18,6 +19,7 @@ namespace vcarve {
 /// thousand evenly spread points. Points of scanners stay. The points must be in the order of
 /// spatial_sort(), which is kept. Returns the number of dropped points. Cost: O(points log points),
 /// in parallel, and 4 bytes per point.
-std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options);
+std::int64_t drop_stray_points(Scene& scene, const FilterOptions& options,
+                               UsualValues* usual = nullptr);
 
 } // namespace vcarve

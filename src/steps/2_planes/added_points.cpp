@@ -188,13 +188,14 @@ std::vector<std::uint32_t> rays_through(const Scene& scene,
     return counts;
 }
 
-AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress)
+AddedPoints add_points(Scene& scene, const AddedPointOptions& options, const Progress& progress,
+                       UsualValues* usual)
 {
     AddedPoints report;
     if (!options.add_any() || has_scanners(scene)) return report;
     std::vector<AcceptedPoint> points;
     {
-        const PlanarRegions planes = planar_regions(scene, progress.part(0.0, 0.4));
+        const PlanarRegions planes = planar_regions(scene, progress.part(0.0, 0.4), usual);
         report.regions = std::ssize(planes.regions);
         points =
             accept(scene, planes, candidates_of(scene, planes, options, progress.part(0.4, 0.7)),

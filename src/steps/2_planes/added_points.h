@@ -97,6 +97,6 @@ struct AddedPoints {
 /// the position and scale of the scene. Cost: that of these steps and a sort; 90 bytes per point,
 /// and the memory of crossings (border_candidates).
 AddedPoints add_points(Scene& scene, const AddedPointOptions& options,
-                       const Progress& progress = {});
+                       const Progress& progress = {}, UsualValues* usual = nullptr);
 
 } // namespace vcarve

@@ -59,7 +59,7 @@ struct Surroundings {
     std::vector<double> bends;    ///< root mean square distance to a plane, in spacings, rounded
     double thickness = 1.0 / 7.0; ///< maximum distance to the plane of a region, in spacings
 
-    Surroundings(const Scene& scene, const Progress& progress)
+    Surroundings(const Scene& scene, UsualValues* usual, const Progress& progress)
         : neighborhoods(nearest_neighborhoods(scene.positions, kAround, progress.part(0.0, 0.8))),
           towards(scene.num_points()),
           spacings(scene.num_points()),
@@ -67,7 +67,9 @@ struct Surroundings {
     {
         parallel_for(bends.size(), progress.part(0.8, 1.0),
                      [&](std::size_t i) { look_around(scene, i); });
-        if (scene.is_dense) thickness = std::max(thickness, kOfNoise * median_bend());
+        if (!scene.is_dense) return;
+        const double bend = usual_value(usual, &UsualValues::bend, [&] { return median_bend(); });
+        thickness = std::max(thickness, kOfNoise * bend);
     }
 
     std::span<const std::uint32_t> around(std::size_t point) const
@@ -372,11 +374,11 @@ PlanarRegions::PlanarRegions(const Scene& scene)
 {
 }
 
-PlanarRegions planar_regions(const Scene& scene, const Progress& progress)
+PlanarRegions planar_regions(const Scene& scene, const Progress& progress, UsualValues* usual)
 {
     PlanarRegions found(scene);
     if (scene.num_points() <= kAround) return found;
-    const Surroundings surroundings(scene, progress.part(0.0, 0.6));
+    const Surroundings surroundings(scene, usual, progress.part(0.0, 0.6));
     GrowthInTurn(scene, surroundings, found)
         .grow(surroundings.flat_points(), progress.part(0.6, 1.0));
     found.spacings = surroundings.spacings;

@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "geometry/nearest_neighbors.h"
 #include "geometry/point_tree.h"
+#include "model/usual_values.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
@@ -112,6 +113,7 @@ struct PlanarRegions {
 /// The result does not depend on the thread count nor, up to rounding, on the position and scale of
 /// the scene. Cost: O(points log points + rays), in parallel, and 114 bytes per point plus 4 for
 /// each of at most 16 threads.
-PlanarRegions planar_regions(const Scene& scene, const Progress& progress);
+PlanarRegions planar_regions(const Scene& scene, const Progress& progress,
+                             UsualValues* usual = nullptr);
 
 } // namespace vcarve

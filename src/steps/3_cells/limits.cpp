@@ -7,16 +7,16 @@ namespace vcarve {
 void require_four_points(std::size_t num_points, std::string_view losses)
 {
     if (num_points >= 4) return;
-    throw InputError(fmt::format("{} point{} passed the filter; a surface needs at least four "
-                                 "that do not lie in one plane{}",
-                                 num_points, num_points == 1 ? "" : "s", losses));
+    throw NoSurface(fmt::format("{} point{} passed the filter; a surface needs at least four "
+                                "that do not lie in one plane{}",
+                                num_points, num_points == 1 ? "" : "s", losses));
 }
 
-InputError all_in_one_plane(std::size_t num_points)
+NoSurface all_in_one_plane(std::size_t num_points)
 {
-    return InputError(fmt::format("the {} points that passed the filter all lie in one plane; a "
-                                  "surface needs at least four that do not",
-                                  num_points));
+    return NoSurface(fmt::format("the {} points that passed the filter all lie in one plane; a "
+                                 "surface needs at least four that do not",
+                                 num_points));
 }
 
 InputError too_many_cells(std::size_t most)

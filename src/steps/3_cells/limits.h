@@ -10,12 +10,19 @@
 
 namespace vcarve {
 
-/// Throws InputError if fewer than four points are left, which have no tetrahedron. The message
+/// The error for points that have no surface, such as few points. A tile of a large model (tiles/)
+/// may have none.
+class NoSurface final : public InputError {
+  public:
+    using InputError::InputError;
+};
+
+/// Throws NoSurface if fewer than four points are left, which have no tetrahedron. The message
 /// ends with `losses`, the reason for dropped points.
 void require_four_points(std::size_t num_points, std::string_view losses = {});
 
 /// The error for coplanar points.
-InputError all_in_one_plane(std::size_t num_points);
+NoSurface all_in_one_plane(std::size_t num_points);
 
 /// The error for more cells than fit in the allowed memory.
 InputError too_many_cells(std::size_t most);

@@ -47,34 +47,19 @@ std::size_t num_blocks(const Blocks& wanted, const Scene& scene)
     return std::clamp<std::size_t>(wanted.count, 1, scene.num_points());
 }
 
-/// Calls use(block, cells) for the blocks of a share from many threads.
-template <typename Use>
-void for_each_block_of(const Blocks& share, const Scene& scene, const std::vector<Index>& first,
-                       const Use& use, const Progress& progress)
-{
-    const std::size_t all = num_blocks(share, scene);
-    if (share.first >= all) return;
-    const std::size_t count = (all - share.first + share.step - 1) / share.step;
-    const PointTree tree(scene.positions);
-    ProgressCount done(progress, count * scene.num_points() / all);
-    CellCount cells(share.limit);
-    for_each_block(count, [&](std::size_t k) {
-        const std::size_t block = share.first + k * share.step;
-        const PointRun own = run_of(block, all, scene.num_points());
-        BlockProgress told(done, own.size());
-        use(block, share.keep(block, [&] { return block_cells(tree, first, own, cells, told); }));
-        told.report(1.0);
-    });
-}
-
 std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>& first,
                                    const Blocks& blocks, const Progress& progress)
 {
     std::vector<BlockCells> made(num_blocks(blocks, scene));
-    const auto collect = [&](std::size_t block, BlockCells cells) {
-        made[block] = std::move(cells);
-    };
-    for_each_block_of(blocks, scene, first, collect, progress);
+    const PointTree tree(scene.positions);
+    ProgressCount done(progress, scene.num_points());
+    CellCount cells(blocks.limit);
+    for_each_block(made.size(), [&](std::size_t block) {
+        const PointRun own = run_of(block, made.size(), scene.num_points());
+        BlockProgress told(done, own.size());
+        made[block] = block_cells(tree, first, own, cells, told);
+        told.report(1.0);
+    });
     return made;
 }
 
@@ -151,19 +136,6 @@ TetMesh joined(std::vector<BlockCells>& blocks)
 }
 
 } // namespace
-
-void triangulate_share(const Scene& scene, const Blocks& share, const Progress& progress)
-{
-    if (scene.num_points() < 4) return; // triangulate_in_blocks() rejects these points
-    const std::vector<Index> first = first_points(scene.positions);
-    if (first.size() < 4) return;
-    try {
-        for_each_block_of(
-            share, scene, first, [](std::size_t, const BlockCells&) {}, progress);
-    } catch (const TooManyTies&) {
-        return;
-    }
-}
 
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& wanted,
                                              const Progress& progress)

@@ -2,26 +2,17 @@
 
 #include "base/progress.h"
 #include "model/tet_mesh.h"
-#include "steps/3_cells/block_cells.h"
+#include "steps/3_cells/limits.h"
 #include "vcarve/scene.h"
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 
 namespace vcarve {
 
-/// Returns the cells of a block: the result of make(), in this or an earlier run. Called from many
-/// threads.
-using KeepBlock =
-    std::function<BlockCells(std::size_t block, const std::function<BlockCells()>& make)>;
-
 /// The division of a triangulation into blocks.
 struct Blocks {
     std::size_t count = 1;
-    KeepBlock keep = [](std::size_t, const auto& make) { return make(); };
-    std::size_t first = 0; ///< the first block of a share
-    std::size_t step = 1;  ///< the share has every `step`-th block from `first`
     CellLimit limit{};
 };
 
@@ -35,9 +26,5 @@ struct Blocks {
 /// number of cells exceeds the limit.
 std::optional<TetMesh> triangulate_in_blocks(const Scene& scene, const Blocks& blocks,
                                              const Progress& progress = {});
-
-/// Makes only the blocks of a share and passes them to `keep`, which must store them; its result is
-/// ignored. If a block gives up (see above), all are left to triangulate_in_blocks().
-void triangulate_share(const Scene& scene, const Blocks& share, const Progress& progress = {});
 
 } // namespace vcarve

@@ -35,7 +35,7 @@ std::vector<Ray> rays_to(Index first, Index last, const RaySource& source)
 Crossings count(const TetMesh& cells, const RaySource& source, const Progress& progress)
 {
     Crossings crossings(cells.cells.size(), {0, 0, 0, 0});
-    for_each_run_of_vertices(all_vertices(cells), progress, [&](Index first, Index last) {
+    for_each_run_of_vertices(cells, progress, [&](Index first, Index last) {
         const std::vector<Ray> rays = rays_to(first, last, source);
         RayWalk(cells).along_each(
             rays.size(), [&](std::size_t k) { return rays[k]; },

@@ -101,11 +101,16 @@ double short_edge_length(const TetMesh& mesh)
     return *quarter;
 }
 
-Scales measure_scales(const TetMesh& cells, const Scene& scene)
+Scales measure_scales(const TetMesh& cells, const Scene& scene, UsualValues* usual)
 {
-    return {.short_edge = short_edge_length(cells),
-            .median_error_px = median(known_errors_px(scene)),
-            .median_views = median_views(scene.tracks)};
+    return {.short_edge = usual_value(usual, &UsualValues::short_edge,
+                                      [&] { return short_edge_length(cells); }),
+            .median_error_px = usual_value(usual, &UsualValues::median_error_px,
+                                           [&] { return median(known_errors_px(scene)); }),
+            .median_views = usual_value(usual, &UsualValues::median_views,
+                                        [&] { return median_views(scene.tracks); }),
+            .points_of_witness =
+                usual_value(usual, &UsualValues::points_of_witness, [] { return 1.0; })};
 }
 
 // The median point that a view saw has full weight, so that rays in models of two-view points are

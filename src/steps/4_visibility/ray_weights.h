@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model/tet_mesh.h"
+#include "model/usual_values.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
@@ -17,13 +18,14 @@ double short_edge_length(const TetMesh& mesh);
 /// The references of ray weights. They are measured once over the whole model, so that passes that
 /// use them are local.
 struct Scales {
-    double short_edge = 0.0;      ///< see short_edge_length(), in scene units
-    double median_error_px = 0.0; ///< of the known reprojection errors; 0 if none is known
-    double median_views = 1.0;    ///< of the points that any view saw; 1 if there are none
+    double short_edge = 0.0;        ///< see short_edge_length(), in scene units
+    double median_error_px = 0.0;   ///< of the known reprojection errors; 0 if none is known
+    double median_views = 1.0;      ///< of the points that any view saw; 1 if there are none
+    double points_of_witness = 1.0; ///< points that a PointKind::witness represents
 };
 
 /// Cost: O(cells + points).
-Scales measure_scales(const TetMesh& cells, const Scene& scene);
+Scales measure_scales(const TetMesh& cells, const Scene& scene, UsualValues* usual = nullptr);
 
 /// Weights rays by their points. More views increase the weight; a larger reprojection error
 /// decreases it. A ray to a point that a scanner measured weighs twice as much as one to a point

@@ -245,8 +245,8 @@ void require_exact(bool is_exact, const Scene& scene)
 
 } // namespace
 
-VisibilityEnergy RayCaster::energy_of(const RaySource& source, const VertexRun& points,
-                                      const Progress& progress, VisibilityEnergy energy) const
+void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
+                     const Progress& progress) const
 {
     if (energy.network.arc_capacities.empty()) {
         energy.unit = RayWeights::kUnit;
@@ -258,16 +258,20 @@ VisibilityEnergy RayCaster::energy_of(const RaySource& source, const VertexRun& 
     const RayTerms terms(cells_, sums, options_.distance_sigma * scales_.short_edge);
     const RayWeights weights(scene_, scales_, options_);
 
-    for_each_run_of_vertices(points, progress, [&](Index first, Index last) {
+    for_each_run_of_vertices(cells_, progress, [&](Index first, Index last) {
         RayWalk walk(cells_);
         std::vector<OutwardRay> rays;
         for (Index vertex = first; vertex < last; ++vertex) {
-            const std::int32_t full = weights.full_weight(vertex, source.weight);
-            const std::int32_t bundle = scene_.is_dense ? options_.bundle_rays : 1;
-            if (source.is_measured && scene_.kind_of(vertex) != PointKind::border)
+            const PointKind kind = scene_.kind_of(vertex);
+            const bool is_witness = kind == PointKind::witness;
+            const double rays_of_one = is_witness ? scales_.points_of_witness : 1.0;
+            const std::int32_t full = weights.full_weight(vertex, source.weight * rays_of_one);
+            const bool bundles = scene_.is_dense && !is_witness;
+            if (source.is_measured && kind != PointKind::border)
                 terms.add_inside_terms(walk, vertex, source, full, options_.sink_depth);
             for (const std::uint32_t view : (*source.rays)[vertex]) {
-                rays.push_back(terms.outward(vertex, view, source.origins[view], full, bundle));
+                rays.push_back(terms.outward(vertex, view, source.origins[view], full,
+                                             bundles ? options_.bundle_rays : 1));
             }
         }
         terms.add_outside_terms(walk, rays, [&](std::uint32_t view, Index cell) {
@@ -277,39 +281,7 @@ VisibilityEnergy RayCaster::energy_of(const RaySource& source, const VertexRun& 
     });
     sums.limit_full_arcs();
     require_exact(!sums.is_exceeded(), scene_);
-    return energy;
-}
-
-RayCaster::Share RayCaster::share(const RaySource& source, const VertexRun& points,
-                                  const Progress& progress) const
-{
-    VisibilityEnergy energy = energy_of(source, points, progress);
-    return {sparse_sums(energy.network.arc_capacities),
-            sparse_sums(energy.network.terminal_capacities), std::move(energy.cell_of_view)};
-}
-
-void RayCaster::add(const Share& share, VisibilityEnergy& energy) const
-{
-    EnergySums sums(energy.network);
-    add_sparse(share.arc_capacities, energy.network.arc_capacities, EnergySums::add_full_arcs);
-    add_sparse(share.terminal_capacities, energy.network.terminal_capacities,
-               [&](std::int32_t& sum, std::int32_t value) { sums.add_terminal(sum, value); });
-    require_exact(!sums.is_exceeded(), scene_);
-    for (std::size_t view = 0; view < share.cell_of_view.size(); ++view) {
-        atomic_min(energy.cell_of_view[view], share.cell_of_view[view]);
-    }
-}
-
-void RayCaster::finish(const RaySource& source, VisibilityEnergy& energy) const
-{
-    if (source.is_measured) locate_other_origins(cells_, source.origins, energy.cell_of_view);
-}
-
-void RayCaster::cast(const RaySource& source, VisibilityEnergy& energy,
-                     const Progress& progress) const
-{
-    energy = energy_of(source, all_vertices(cells_), progress, std::move(energy));
-    finish(source, energy);
+    if (source.is_measured) locate_other_origins(cells_, source.origins, cell_of_origin);
 }
 
 } // namespace vcarve

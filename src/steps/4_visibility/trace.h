@@ -17,28 +17,17 @@
 
 namespace vcarve {
 
-/// The vertices [first, last).
-struct VertexRun {
-    Index first = 0;
-    Index last = 0;
-};
-
-inline VertexRun all_vertices(const TetMesh& cells)
-{
-    return {0, static_cast<Index>(cells.positions.size())};
-}
-
-/// Calls body(first, last) in parallel for short runs of vertices [first, last), which partition
-/// `all`, and reports progress.
+/// Calls body(first, last) in parallel for short runs of vertices [first, last), which are all
+/// together, and reports progress.
 template <typename Body>
-void for_each_run_of_vertices(const VertexRun& all, const Progress& progress, const Body& body)
+void for_each_run_of_vertices(const TetMesh& cells, const Progress& progress, const Body& body)
 {
     constexpr std::size_t kRun = 512;
-    const std::size_t count = all.last - all.first;
+    const std::size_t count = cells.positions.size();
     parallel_for((count + kRun - 1) / kRun, progress,
                  [&](std::size_t run) {
-                     body(all.first + static_cast<Index>(run * kRun),
-                          all.first + static_cast<Index>(std::min(count, (run + 1) * kRun)));
+                     body(static_cast<Index>(run * kRun),
+                          static_cast<Index>(std::min(count, (run + 1) * kRun)));
                  },
                  1);
 }
@@ -47,19 +36,12 @@ void for_each_run_of_vertices(const VertexRun& all, const Progress& progress, co
 template <typename Body>
 void for_each_vertex(const TetMesh& cells, const Progress& progress, const Body& body)
 {
-    for_each_run_of_vertices(all_vertices(cells), progress, [&](Index first, Index last) {
+    for_each_run_of_vertices(cells, progress, [&](Index first, Index last) {
         for (Index vertex = first; vertex < last; ++vertex) {
             body(vertex);
         }
     });
 }
-
-/// The terms of the rays to some of the points, without cells that have none.
-struct EnergyShare {
-    SparseSums<std::array<std::int32_t, 4>> arc_capacities;
-    SparseSums<std::int32_t> terminal_capacities;
-    std::vector<Index> cell_of_view; ///< per origin of a measured source
-};
 
 /// The numbers of facets after which rays to points of a dense cloud become bundles, and bundles
 /// become bundles of bundles.
@@ -71,7 +53,9 @@ inline constexpr std::array<int, 2> kBundledAfter = {16, 40};
 /// Each ray votes for the cells in front of its point to be outside and, if it was measured, for
 /// the cell behind the point to be inside (Labatut, Pons, Keriven 2009). Votes are weaker near the
 /// point. Points on a border (PointKind::border) do not vote for inside, because the space behind
-/// them is often free. Terms are integers, so their sums do not depend on the thread count.
+/// them is often free. Neither do witnesses, whose rays count for all points that they represent
+/// and continue without bundles. Terms are integers, so their sums do not depend on the thread
+/// count.
 ///
 /// The flow of a ray is pushed along its walk at once, which does not change the minimum cut
 /// (docs/algorithm.md). If a ray meets an edge or a vertex, no facet passes its flow on. Each
@@ -89,23 +73,10 @@ class RayCaster {
     {
     }
 
-    using Share = EnergyShare;
-
     /// Adds the terms of all rays of a source. An empty energy starts at zero. Sets
     /// VisibilityEnergy::cell_of_view for a measured source. Throws InputError if the sum of a cell
     /// is too large for 32 bits. Cost: one walk per ray, in parallel; 20 bytes per cell.
     void cast(const RaySource& source, VisibilityEnergy& energy, const Progress& progress) const;
-
-    // The steps of cast(), for runs that share the work among processes.
-
-    /// `energy` and the terms of the rays to a run of points.
-    VisibilityEnergy energy_of(const RaySource& source, const VertexRun& points,
-                               const Progress& progress, VisibilityEnergy energy = {}) const;
-    Share share(const RaySource& source, const VertexRun& points, const Progress& progress) const;
-    /// Adds the terms of rays of the same source to other points, from their share().
-    void add(const Share& share, VisibilityEnergy& energy) const;
-    /// Locates the origins without rays of a measured source.
-    void finish(const RaySource& source, VisibilityEnergy& energy) const;
 
   private:
     const TetMesh& cells_;

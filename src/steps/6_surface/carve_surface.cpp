@@ -5,11 +5,11 @@
 #include "mesh/vertices.h"
 #include "model/colors.h"
 #include "model/scene_points.h"
+#include "steps/3_cells/limits.h"
 #include "steps/4_visibility/face_visibility.h"
 #include "steps/5_labels/boundary.h"
 #include "steps/6_surface/face_rules.h"
 #include "steps/6_surface/trim.h"
-#include "vcarve/error.h"
 
 #include <utility>
 #include <vector>
@@ -22,10 +22,10 @@ void require_faces(const CarvedSurface& made)
 {
     if (!made.faces.faces.empty()) return;
     if (made.counts.out_of_region > 0) {
-        throw InputError("the region of --crop contains no face of the surface; enlarge it");
+        throw NoSurface("the region of --crop contains no face of the surface; enlarge it");
     }
-    throw InputError("no surface found: too few rays pass behind the points; add images, or dense "
-                     "points");
+    throw NoSurface("no surface found: too few rays pass behind the points; add images, or dense "
+                    "points");
 }
 
 } // namespace
@@ -95,7 +95,7 @@ TriMesh extract_surface(const TetMesh& cells, const std::vector<CellFacet>& face
 CarvedSurface carve_surface(Labels labels, const SurfaceInput& input, const SurfaceOptions& options,
                             const Progress& progress)
 {
-    const auto& [cells, scene, region, wants_removed] = input;
+    const auto& [cells, scene, region, wants_removed, usual, measures_openness] = input;
     CarvedSurface made;
     Removals removals(wants_removed ? &made.removed : nullptr);
     if (options.closed) close_hull(cells, labels);
@@ -104,16 +104,17 @@ CarvedSurface carve_surface(Labels labels, const SurfaceInput& input, const Surf
     progress.report(0.2);
     const FaceVisibility visibility(cells, labels, scene);
     progress.report(0.4);
-    ChosenFaces chosen = choose_faces({surface, facets, visibility}, region, options, removals);
+    const Boundary boundary{surface, facets, visibility, usual};
+    ChosenFaces chosen = choose_faces(boundary, region, options, removals);
     progress.report(0.7);
     made.counts = {
         .unseen = chosen.unseen, .closing = chosen.closing, .out_of_region = chosen.out_of_region};
     // Neither faces outside a region nor trimmed pieces, which no view sees, count as open.
-    if (!options.closed && region == nullptr) {
+    if (!options.closed && region == nullptr && measures_openness) {
         made.openness = measure_openness(cells, labels, facets, chosen.keep, scene);
     }
     if (!options.closed) {
-        made.counts.trimmed = trim_faces(surface, facets, visibility, options.rules, chosen);
+        made.counts.trimmed = trim_faces(surface, boundary, options.rules, chosen);
         removals.note(chosen.keep, Removal::trimmed);
     }
     removals.add_noted(surface);

@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "mesh/vertices.h"
 #include "model/tet_mesh.h"
+#include "model/usual_values.h"
 #include "region/region.h"
 #include "steps/6_surface/openness.h"
 #include "vcarve/options.h"
@@ -70,6 +71,8 @@ struct SurfaceInput {
     const Scene& scene;
     const Region* region = nullptr; ///< the region to reconstruct; null for all of space
     bool wants_removed = false;     ///< whether CarvedSurface::removed is filled
+    UsualValues* usual = nullptr;   ///< measured, unless known
+    bool measures_openness = true;  ///< of a surface that is not closed, without a region
 };
 
 /// The number of dropped boundary faces, by reason.

@@ -48,7 +48,8 @@ FaceEvidence::FaceEvidence(const Boundary& boundary, const FaceFlags& keep)
       faces_at_(boundary.surface.faces, boundary.surface.positions.size()),
       edges_(boundary.surface.positions, boundary.surface.faces, keep),
       normals_(boundary.surface.positions, boundary.surface.faces, edges_),
-      usual_length_(median_length(edges_, keep))
+      usual_length_(usual_value(boundary.usual, &UsualValues::face_length,
+                                [&] { return median_length(edges_, keep); }))
 {
 }
 

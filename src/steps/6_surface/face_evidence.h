@@ -3,6 +3,7 @@
 #include "mesh/local_shape.h"
 #include "mesh/vertices.h"
 #include "model/tet_mesh.h"
+#include "model/usual_values.h"
 #include "steps/4_visibility/face_visibility.h"
 #include "vcarve/tri_mesh.h"
 
@@ -18,6 +19,7 @@ struct Boundary {
     const TriMesh& surface;
     const std::vector<CellFacet>& facets;
     const FaceVisibility& visibility;
+    UsualValues* usual = nullptr;
 };
 
 /// Whether some view sees a position on a facet, if only kept faces block it. The cosine of the

@@ -51,7 +51,7 @@ std::int64_t drop_by(const FaceEvidence& evidence, const Boundary& boundary, con
                      FaceFlags& keep)
 {
     const auto& faces = boundary.surface.faces;
-    const double closing = closing_length(boundary.visibility.scene(), rules);
+    const double closing = closing_length(boundary.visibility.scene(), rules, boundary.usual);
     const FaceNumbers large = filter_faces(
         faces_with(1, keep), [&](std::uint32_t face) { return evidence.length(face) >= closing; });
     std::int64_t count = 0;
@@ -117,9 +117,11 @@ FaceFlags seen_faces(const Boundary& boundary)
     return seen;
 }
 
-double closing_length(const Scene& scene, const FaceRules& rules)
+double closing_length(const Scene& scene, const FaceRules& rules, UsualValues* usual)
 {
-    return rules.max_closing * 2.0 * region_of_interest(scene).radius;
+    return rules.max_closing * 2.0 * usual_value(usual, &UsualValues::radius, [&] {
+               return region_of_interest(scene).radius;
+           });
 }
 
 std::int64_t drop_unsupported(const Boundary& boundary, const FaceRules& rules, FaceFlags& keep)

@@ -68,7 +68,7 @@ FaceFlags seen_faces(const Boundary& boundary);
 
 /// Returns the length from which the longest edge makes a face long: `max_closing` times the
 /// diameter of the region of interest. Cost: see region_of_interest().
-double closing_length(const Scene& scene, const FaceRules& rules);
+double closing_length(const Scene& scene, const FaceRules& rules, UsualValues* usual = nullptr);
 
 /// Clears the flags of unsupported faces by rows 3 to 7, and returns their number. Does nothing if
 /// `max_closing` is 0. Cost: O(faces), and some walks per view for each long face and each

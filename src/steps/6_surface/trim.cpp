@@ -153,21 +153,21 @@ std::int64_t Trimming::trim(std::vector<std::uint32_t> faces)
 
 } // namespace
 
-std::int64_t trim_faces(TriMesh& surface, const std::vector<CellFacet>& facets,
-                        const FaceVisibility& visibility, const FaceRules& rules,
+std::int64_t trim_faces(TriMesh& surface, const Boundary& boundary, const FaceRules& rules,
                         ChosenFaces& chosen)
 {
-    const double long_edge = rules.trim * closing_length(visibility.scene(), rules);
+    const FaceVisibility& visibility = boundary.visibility;
+    const double long_edge = rules.trim * closing_length(visibility.scene(), rules, boundary.usual);
     if (!(long_edge > 0.0)) return 0;
     FaceFlags& keep = chosen.keep;
     auto large = parallel_collect<std::uint32_t>(keep.size(), [&](std::size_t face, auto& found) {
         if (keep[face] == 0 || chosen.seen[face] == 0) return;
         if (longest_edge(surface.positions, surface.faces[face]) < long_edge) return;
-        if (!visibility.has_reliable_visibility(facets[face])) return;
+        if (!visibility.has_reliable_visibility(boundary.facets[face])) return;
         found.push_back(static_cast<std::uint32_t>(face));
     });
     if (large.empty()) return 0;
-    return Trimming(surface, facets, visibility, long_edge, keep).trim(std::move(large));
+    return Trimming(surface, boundary.facets, visibility, long_edge, keep).trim(std::move(large));
 }
 
 } // namespace vcarve

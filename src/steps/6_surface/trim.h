@@ -19,11 +19,10 @@ namespace vcarve {
 /// some. Two halves are merged again if both are kept or both dropped. Faces with unreliable images
 /// (has_reliable_visibility) stay.
 ///
-/// Face i of `surface` is facet i, and facets ascend. New pieces are appended to the faces and to
+/// `surface` is that of the boundary. New pieces are appended to the faces and to
 /// `chosen.keep`. New vertices are no points of the scene. Returns the number of faces that lost a
 /// piece. Cost: O(faces), and walks from samples of each piece to the views, in parallel.
-std::int64_t trim_faces(TriMesh& surface, const std::vector<CellFacet>& facets,
-                        const FaceVisibility& visibility, const FaceRules& rules,
+std::int64_t trim_faces(TriMesh& surface, const Boundary& boundary, const FaceRules& rules,
                         ChosenFaces& chosen);
 
 } // namespace vcarve

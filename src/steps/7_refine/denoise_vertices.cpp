@@ -237,7 +237,8 @@ Vectors ways_to_surface(const HalfEdgeMesh& mesh, const Scene& scene, const Bila
 } // namespace
 
 DenoiseVerticesCounts denoise_vertices(HalfEdgeMesh& mesh, const Scene& scene,
-                                       const DenoiseOptions& options, const Progress& progress)
+                                       const DenoiseOptions& options, const Progress& progress,
+                                       UsualValues* usual)
 {
     DenoiseVerticesCounts counts;
     counts.vertices = num_vertices_left(mesh);
@@ -245,7 +246,8 @@ DenoiseVerticesCounts denoise_vertices(HalfEdgeMesh& mesh, const Scene& scene,
     if (!(options.denoise * counts.noise_px > 0.0)) return counts;
     const Vectors positions = of_vertices(mesh, [&](VertexHandle v) { return mesh.point(v); });
     const BilateralFilter filter = filter_of(mesh, positions, scene, progress.part(0.0, 0.5));
-    counts.noise_px = std::min(counts.noise_px, filter.noise_px());
+    counts.noise_px = usual_value(usual, &UsualValues::vertex_noise_px,
+                                  [&] { return std::min(counts.noise_px, filter.noise_px()); });
     const double gate = options.denoise * counts.noise_px;
     if (!(gate > 0.0)) return counts;
     Vectors displacements = ways_to_surface(mesh, scene, filter, gate, progress.part(0.6, 0.9));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "model/usual_values.h"
 #include "steps/7_refine/ray_guard.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
@@ -36,8 +37,8 @@ struct DenoiseVerticesCounts {
 /// known. Recomputes normals. The result is the same for any thread count. Cost: O(vertices), in
 /// parallel; 250 bytes per vertex.
 DenoiseVerticesCounts denoise_vertices(HalfEdgeMesh& mesh, const Scene& scene,
-                                       const DenoiseOptions& options,
-                                       const Progress& progress = {});
+                                       const DenoiseOptions& options, const Progress& progress = {},
+                                       UsualValues* usual = nullptr);
 
 struct SimplifyCounts {
     std::int64_t faces_before = 0;

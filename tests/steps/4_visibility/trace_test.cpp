@@ -292,46 +292,25 @@ TEST(TraceRays, ClampsFullArcsAndRejectsFullCells)
               "points or views");
 }
 
-TEST(TraceRays, SumsSharesToTheWholeEnergy)
+TEST(TraceRays, CountWitnessesForThePointsThatTheyStandFor)
 {
-    // One ray does not fill an arc; two rays do.
-    const Scene scene = star({kBeyondCell0});
-    const Scene twice = star({kBeyondCell0, kBeyondCell0});
+    Scene scene = star({kBeyondCell0});
     const TetMesh mesh = triangulate(scene);
-    RaySource one = photographs(scene);
-    RaySource two = photographs(twice);
-    one.weight = two.weight = 1.5e6;
-    const Scales scales = measure_scales(mesh, scene);
-    VisibilityEnergy whole;
-    RayCaster(mesh, twice, scales, kFullWeight).cast(two, whole, {});
-
-    const RayCaster caster(mesh, scene, scales, kFullWeight);
-    VisibilityEnergy sum = caster.energy_of(one, all_vertices(mesh), {});
-    EXPECT_EQ(sum.network.arc_capacities[0][3], 384'000'000);
-    caster.add(caster.share(one, all_vertices(mesh), {}), sum);
-    caster.finish(one, sum);
-    EXPECT_EQ(sum.network.arc_capacities, whole.network.arc_capacities);
-    EXPECT_EQ(sum.network.arc_capacities[0][3], 1 << 29);
-    EXPECT_EQ(sum.network.terminal_capacities, whole.network.terminal_capacities);
-    EXPECT_EQ(sum.network.terminal_capacities[0], 768'000'000);
-    EXPECT_EQ(refusal<InputError>([&] {
-                  caster.add(caster.share(one, all_vertices(mesh), {}), sum);
-                  caster.add(caster.share(one, all_vertices(mesh), {}), sum);
-              }),
-              "the weights of the 1 rays of the model exceed 32 bits in one cell; use fewer "
-              "points or views");
-}
-
-TEST(TraceRays, FindsTheCellOfAViewInAShare)
-{
-    const Scene scene = star({kInCell0});
-    const TetMesh mesh = triangulate(scene);
-    const RaySource source = photographs(scene);
-    const RayCaster caster(mesh, scene, measure_scales(mesh, scene), kFullWeight);
-    VisibilityEnergy energy = caster.energy_of(source, {0, 4}, {}); // no view saw these
-    EXPECT_EQ(energy.cell_of_view, std::vector<Index>{kInfinite});
-    caster.add(caster.share(source, {4, 5}, {}), energy);
-    EXPECT_EQ(energy.cell_of_view, std::vector<Index>{0});
+    const auto cast = [&](double points) {
+        VisibilityEnergy energy;
+        Scales scales = measure_scales(mesh, scene);
+        scales.points_of_witness = points;
+        RayCaster(mesh, scene, scales, kFullWeight).cast(photographs(scene), energy, {});
+        return energy.network;
+    };
+    const FlowNetwork measured = cast(3.0);
+    scene.kinds.assign(scene.num_points(), PointKind::witness);
+    const FlowNetwork once = cast(1.0);
+    EXPECT_EQ(once.arc_capacities, measured.arc_capacities);
+    const FlowNetwork thrice = cast(3.0);
+    EXPECT_GT(once.arc_capacities[0][3], 0);
+    EXPECT_EQ(thrice.arc_capacities[0][3], 3 * once.arc_capacities[0][3]);
+    EXPECT_EQ(thrice.terminal_capacities[0], 3 * once.terminal_capacities[0]);
 }
 
 TEST(TraceRays, AddsNothingWithoutRays)

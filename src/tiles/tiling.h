@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace vcarve {
+
+/// An inner node of the tree of a Tiling: positions below `cut` along `axis` are in the first
+/// child. A child is another node, or a tile if its number has the highest bit.
+struct TilingNode {
+    double cut = 0.0;
+    std::uint32_t axis = 0;
+    std::array<std::uint32_t, 2> children{};
+};
+
+/// A division of space into boxes, the tiles, each with about as many points (a k-d tree).
+struct Tiling {
+    std::vector<TilingNode> nodes;    ///< the root first; none for a single tile
+    std::vector<Eigen::Vector3d> low; ///< per tile, the corners of its box; may be infinite
+    std::vector<Eigen::Vector3d> high;
+    std::vector<double> margins; ///< width of the margin of a tile, in scene units
+
+    std::size_t size() const { return low.size(); }
+    /// The tile that contains a position. Cost: O(log tiles).
+    std::size_t tile_of(const Eigen::Vector3d& position) const;
+    /// The box of a tile with its margin. Points in it take part in the tile's triangulation.
+    Eigen::AlignedBox3d region(std::size_t tile) const;
+    /// Whether the region of a tile meets the box of another.
+    bool are_near(std::size_t tile, std::size_t other) const;
+};
+
+/// Divides points into tiles of at most `most` points, at medians across the longest side. Ignores
+/// invalid positions. More points can be in a tile if their positions are equal, and slightly more
+/// if there are more than 200,000 points, of which an even sample is used. The margin of a tile is
+/// 40 spacings of its points, as if these were on a square surface. Cost: O(points).
+Tiling divide(const std::vector<Eigen::Vector3d>& positions, std::size_t most);
+
+/// Whether a segment meets a box, up to rounding.
+bool meets(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+} // namespace vcarve
