@@ -10,15 +10,14 @@ namespace {
 
 constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15U; ///< 2^64 / golden ratio
 
-/// The mixing step of SplitMix64 (Steele, Lea, Flood 2014).
+} // namespace
+
 std::uint64_t mix(std::uint64_t z)
 {
     z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
     return z ^ (z >> 31U);
 }
-
-} // namespace
 
 void require_indexable(std::uint64_t count, std::uint64_t most, const char* what)
 {

@@ -31,4 +31,8 @@ inline std::int32_t round_half_up(double number)
 /// random choices do not depend on the thread count.
 double random_number(std::uint64_t seed, std::uint64_t index);
 
+/// Mixes the bits of a number (SplitMix64; Steele, Lea, Flood 2014), so that remainders of
+/// consecutive numbers look random.
+std::uint64_t mix(std::uint64_t z);
+
 } // namespace vcarve

@@ -49,13 +49,12 @@ class File {
     int descriptor_;
 };
 
-/// A mapped file, or memory without a file. The order of the members matters: the pages must be
-/// unregistered before the file is closed.
+/// A mapped file. The order of the members matters: the pages must be unregistered before the file
+/// is closed.
 struct Block {
     File file;
     std::size_t bytes;
     DroppablePages pages;
-    std::int64_t in_folder; ///< bytes in the work folder
 };
 
 /// All blocks, and the folder of new ones. Lives as long as the process, because arrays are freed
@@ -167,8 +166,7 @@ std::map<void*, Block> new_block(std::size_t bytes, const fs::path& folder)
     try {
         file = kept_open(std::move(file));
         DroppablePages pages(begin, bytes, file.descriptor());
-        block.emplace(begin, Block{std::move(file), bytes, std::move(pages),
-                                   static_cast<std::int64_t>(bytes)});
+        block.emplace(begin, Block{std::move(file), bytes, std::move(pages)});
     } catch (...) {
         ::munmap(begin, bytes);
         throw;
@@ -176,23 +174,7 @@ std::map<void*, Block> new_block(std::size_t bytes, const fs::path& folder)
     return block;
 }
 
-/// The same in memory, without a file.
-std::map<void*, Block> new_block_in_memory(std::size_t bytes)
-{
-    void* const begin =
-        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (begin == MAP_FAILED) throw std::bad_alloc();
-    std::map<void*, Block> block;
-    try {
-        block.emplace(begin, Block{File(DroppablePages::kNoFile), bytes, DroppablePages(), 0});
-    } catch (...) {
-        ::munmap(begin, bytes);
-        throw;
-    }
-    return block;
-}
-
-/// The folder of new blocks; empty for memory; nothing if no ScratchMemory exists.
+/// The folder of new blocks; nothing if no ScratchMemory exists.
 std::optional<fs::path> present_folder()
 {
     const std::lock_guard lock(blocks().mutex);
@@ -245,15 +227,13 @@ void* allocate_scratch(std::size_t bytes, std::size_t alignment)
     if (!folder) return nullptr;
     if (bytes > kNever / 4) throw std::bad_alloc();
     const std::size_t whole_pages = (bytes + kPage - 1) / kPage * kPage;
-    std::map<void*, Block> block =
-        folder->empty() ? new_block_in_memory(whole_pages) : new_block(whole_pages, *folder);
+    std::map<void*, Block> block = new_block(whole_pages, *folder);
     void* const begin = block.begin()->first;
-    const std::int64_t in_folder = block.begin()->second.in_folder;
     Blocks& all = blocks();
     const std::lock_guard lock(all.mutex);
     all.by_begin.merge(block);
     all.count = all.by_begin.size();
-    all.bytes += in_folder;
+    all.bytes += static_cast<std::int64_t>(whole_pages);
     all.peak_bytes = std::max(all.peak_bytes, all.bytes);
     return begin;
 }
@@ -270,7 +250,7 @@ bool free_scratch(void* memory) noexcept
         block = all.by_begin.extract(memory);
         if (block.empty()) return false;
         all.count = all.by_begin.size();
-        all.bytes -= block.mapped().in_folder;
+        all.bytes -= static_cast<std::int64_t>(block.mapped().bytes);
     }
     block.mapped().pages = DroppablePages(); // unregister before unmapping
     ::munmap(memory, block.mapped().bytes);

@@ -136,10 +136,9 @@ struct Run {
     ConsoleLog& shown;
     Log& log; ///< forwards to `shown`
     RunMemory& memory;
-    WorkFolder* work; ///< null without --work
-    RunRanks* ranks;  ///< null if this process works alone
-    bool is_tiled;    ///< then `work` is not null
-    bool is_work_temporary = false;
+    WorkFolder* work;       ///< null without --work
+    RunRanks* ranks;        ///< null if this process works alone
+    bool is_work_temporary; ///< whether `work` is for the tiles of this run only
 };
 
 /// Plans the memory; called again when the size is known better. Errors name the model.
@@ -273,7 +272,7 @@ Surface surface_of(ModelInput input, const Run& run)
         if (arguments.dense.dense) surface.depth = make_dense(input, *images.photographs, run);
         Options options = arguments.options;
         options.memory = run.memory.options();
-        if (run.is_tiled) {
+        if (arguments.tile_points > 0) {
             surface.mesh = surface_in_tiles(std::move(input.scene), run);
             return surface;
         }
@@ -466,7 +465,7 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     const MemoryOptions in_one_piece = {.limit = 0, .blocks = 0}; // before tiles are made
     RunMemory memory(is_tiled ? in_one_piece : arguments.options.memory, threads, scratch);
     const Made made = make_or_clear(
-        {arguments, shown, log, memory, work.get(), ranks, is_tiled, is_work_temporary}, record);
+        {arguments, shown, log, memory, work.get(), ranks, is_work_temporary}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());

@@ -39,12 +39,9 @@ std::string note_of(const BlockPlan& plan, const fs::path& folder)
 {
     const std::string allowed =
         plan.limit == 0 ? "no limit" : byte_size_text(plan.limit) + " allowed";
-    const std::string where = plan.in_files()
-                                  ? fmt::format("scratch of about {} in {}",
-                                                byte_size_text(plan.scratch), folder.string())
-                                  : std::string("in memory");
-    return fmt::format("about {} needed, {}: {} blocks, {}", byte_size_text(plan.needed), allowed,
-                       plan.blocks, where);
+    return fmt::format("about {} needed, {}: {} blocks, scratch of about {} in {}",
+                       byte_size_text(plan.needed), allowed, plan.blocks,
+                       byte_size_text(plan.scratch), folder.string());
 }
 
 } // namespace
@@ -102,12 +99,10 @@ void RunMemory::fit(const RunSize& size, Log& log)
 {
     const BlockPlan before = std::exchange(plan_, plan_blocks(size, threads_, wanted_, free_));
     // Arrays in files stay there, even if the thinned cloud would fit into memory.
-    if (before.in_files() && !plan_.in_files()) plan_ = before;
+    if (before.in_blocks() && !plan_.in_blocks()) plan_ = before;
     if (!plan_.in_blocks()) return;
     if (before.blocks != plan_.blocks) log.note(note_of(plan_, folder_.path()));
-    if (scratch_ && before.in_files() == plan_.in_files()) return;
-    scratch_.reset();
-    if (!plan_.in_files()) return;
+    if (scratch_) return;
     folder_.prepare(plan_.scratch);
     constexpr std::int64_t kNoLimit = std::numeric_limits<std::int64_t>::max();
     scratch_.emplace(folder_.path(), plan_.limit == 0 ? kNoLimit : plan_.limit);

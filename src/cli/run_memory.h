@@ -70,8 +70,6 @@ class RunMemory {
 
     /// The options for reconstruct().
     MemoryOptions options() const;
-    /// Whether large arrays are in the work folder.
-    bool in_files() const { return plan_.in_files(); }
     /// {"blocks", "needed_bytes", "allowed_bytes", "expected_scratch_bytes", "scratch_bytes"}; the
     /// last is the peak.
     Json record() const;

@@ -51,9 +51,8 @@ struct BlockPlan {
     std::int64_t limit = 0;   ///< allowed bytes; 0 disables the limit
     std::int64_t scratch = 0; ///< maximum bytes of arrays in the work folder; 0 in memory
 
+    /// Whether the run is in blocks, with large arrays in the work folder.
     bool in_blocks() const { return blocks > 0; }
-    /// Whether large arrays are in the work folder.
-    bool in_files() const { return scratch > 0; }
 };
 
 /// Plans a run in memory if the options demand it or the run fits; otherwise in blocks. Blocks are

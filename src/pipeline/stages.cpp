@@ -153,8 +153,8 @@ void run_stages(Part part, RunState& run)
     const Needs needs = needs_of(run.size, tbb::this_task_arena::max_concurrency());
     for (const RunStage& stage : all_stages()) {
         if (stage.part != part || stage.run == nullptr || !stage.applies(needs)) continue;
-        Stage told(log, stage.name);
-        told.end(stage.run(run, told));
+        Stage logged(log, stage.name);
+        logged.end(stage.run(run, logged));
         for (const std::string& note : std::exchange(run.notes, {})) {
             log.note(note);
         }

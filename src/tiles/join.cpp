@@ -3,6 +3,7 @@
 #include "mesh/edge_table.h"
 #include "mesh/half_edge_mesh.h"
 #include "mesh/vertices.h"
+#include "model/scene_points.h"
 #include "steps/6_surface/fill_holes.h"
 #include "steps/6_surface/split_nonmanifold.h"
 
@@ -107,10 +108,8 @@ class Joiner {
         }
         const std::vector<std::uint32_t> whole = used_vertices(patch.faces, mesh_.positions.size());
         renumber(patch.faces, whole, mesh_.positions.size());
-        for (const std::uint32_t vertex : whole) {
-            patch.positions.push_back(mesh_.positions[vertex]);
-            if (!mesh_.colors.empty()) patch.colors.push_back(mesh_.colors[vertex]);
-        }
+        patch.positions = values_at(whole, mesh_.positions);
+        patch.colors = values_at(whole, mesh_.colors);
         patch.points = whole;
         ManifoldSurface manifold = split_nonmanifold(std::move(patch));
         std::vector<std::uint32_t> origins = manifold.mesh.points;

@@ -11,8 +11,8 @@ namespace vcarve {
 
 /// What was found at the seams of tiles.
 struct SeamCounts {
-    std::int64_t edges = 0;    ///< between faces of two tiles, both of which have it
-    std::int64_t open = 0;     ///< that only one tile has, because the tiles disagree
+    std::int64_t edges = 0;    ///< between faces of two tiles that agree
+    std::int64_t open = 0;     ///< in one tile only, because the tiles disagree
     std::int64_t filled = 0;   ///< holes
     std::int64_t vertices = 0; ///< split
 };

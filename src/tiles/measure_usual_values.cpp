@@ -8,8 +8,8 @@
 #include "tiles/tile_state.h"
 #include "tiles/tiling.h"
 
-#include <algorithm>
-#include <iterator>
+#include <utility>
+#include <vector>
 
 namespace vcarve {
 
@@ -41,11 +41,10 @@ std::vector<std::vector<std::uint32_t>> windows_of(const Scene& scene)
     constexpr std::size_t kMost = 8;
     const Tiling tiling = divide(scene.positions, kWindow);
     const std::size_t step = 1 + (tiling.size() - 1) / kMost;
-    std::vector<std::vector<std::uint32_t>> windows(1 + (tiling.size() - 1) / step);
-    for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
-        if (!is_valid_position(scene.positions[point])) continue;
-        const std::size_t window = tiling.tile_of(scene.positions[point]);
-        if (window % step == 0) windows[window / step].push_back(point);
+    std::vector<std::vector<std::uint32_t>> all = points_by_tile(tiling, scene.positions);
+    std::vector<std::vector<std::uint32_t>> windows;
+    for (std::size_t window = 0; window < all.size(); window += step) {
+        windows.push_back(std::move(all[window]));
     }
     return windows;
 }

@@ -1,11 +1,11 @@
 #include "tiles/reconstruct_tiles.h"
 
 #include "base/free_memory.h"
-#include "model/scene_check.h"
 #include "model/scene_points.h"
 #include "steps/1_points/arrange.h"
 #include "tiles/measure_usual_values.h"
 #include "tiles/tile_runs.h"
+#include "tiles/tile_state.h"
 #include "vcarve/error.h"
 
 #include <fmt/format.h>
@@ -23,12 +23,14 @@ inline constexpr int kNumFields<Tiling> = 4;
 
 namespace {
 
-/// Appends the points of another scene with the same views.
-void append(const Scene& more, const std::vector<std::uint32_t>& points, Scene& scene)
+/// Appends the points of another scene with the same views for which keeps(point) is true.
+template <typename Keeps>
+void append_if(const Scene& more, Scene& scene, const Keeps& keeps)
 {
     const bool has_kinds = !scene.kinds.empty() || !more.kinds.empty();
     if (has_kinds) scene.kinds.resize(scene.num_points(), PointKind::measured);
-    for (const std::uint32_t point : points) {
+    for (std::size_t point = 0; point < more.num_points(); ++point) {
+        if (!keeps(point)) continue;
         scene.positions.push_back(more.positions[point]);
         if (!more.colors.empty()) scene.colors.push_back(more.colors[point]);
         scene.errors_px.push_back(more.errors_px[point]);
@@ -37,16 +39,6 @@ void append(const Scene& more, const std::vector<std::uint32_t>& points, Scene& 
         if (has_kinds) scene.kinds.push_back(more.kind_of(point));
         scene.tracks.push_back(more.tracks[point]);
     }
-}
-
-template <typename Keeps>
-void append_if(const Scene& more, Scene& scene, const Keeps& keeps)
-{
-    std::vector<std::uint32_t> points;
-    for (std::uint32_t point = 0; point < more.num_points(); ++point) {
-        if (keeps(point)) points.push_back(point);
-    }
-    append(more, points, scene);
 }
 
 /// Refuses a file that only a new run can make again.
@@ -81,14 +73,9 @@ void TiledRun::plan(Scene scene, std::size_t most)
     usual.points_of_witness = static_cast<double>(points_of_witness);
     stage.progress(0.5);
     const Tiling tiling = divide(scene.positions, most);
-    std::vector<std::vector<std::uint32_t>> points(tiling.size());
-    for (std::uint32_t point = 0; point < scene.num_points(); ++point) {
-        if (is_valid_position(scene.positions[point]))
-            points[tiling.tile_of(scene.positions[point])].push_back(point);
-    }
+    const std::vector<std::vector<std::uint32_t>> points = points_by_tile(tiling, scene.positions);
     for (std::size_t tile = 0; tile < tiling.size(); ++tile) {
-        const auto track_of = [&](std::size_t i) { return scene.tracks[points[tile][i]]; };
-        folder_.save(name_of(tile, File::read), {}, select_points(scene, points[tile], track_of));
+        folder_.save(name_of(tile, File::read), {}, selected(scene, points[tile]));
         stage.progress(0.5 + 0.5 * static_cast<double>(tile) / static_cast<double>(tiling.size()));
     }
     folder_.save(kPlan, {}, without_points(scene), tiling, usual,
@@ -135,17 +122,22 @@ void TiledRun::make(std::size_t tile, File file)
     return_freed_memory();
 }
 
+void TiledRun::add_margin(std::size_t tile, File file, Scene& around)
+{
+    const Eigen::AlignedBox3d region = tiling_.region(tile);
+    for (std::size_t other = 0; other < tiling_.size(); ++other) {
+        if (other == tile || !tiling_.are_near(tile, other)) continue;
+        const auto near = load<Scene>(other, file);
+        append_if(near, around,
+                  [&](std::size_t point) { return region.contains(near.positions[point]); });
+    }
+}
+
 void TiledRun::make_points(std::size_t tile)
 {
     Scene around = load<Scene>(tile, File::read);
     const std::size_t own = around.num_points();
-    const Eigen::AlignedBox3d region = tiling_.region(tile);
-    for (std::size_t other = 0; other < tiling_.size(); ++other) {
-        if (other == tile || !tiling_.are_near(tile, other)) continue;
-        const auto near = load<Scene>(other, File::read);
-        append_if(near, around,
-                  [&](std::uint32_t point) { return region.contains(near.positions[point]); });
-    }
+    add_margin(tile, File::read, around);
     const Scene points =
         tile_points(tile, std::move(around), own, {tiling_, options_, usual_, log_});
     folder_.save(name_of(tile, File::witnesses), {},
@@ -157,15 +149,11 @@ void TiledRun::make_surface(std::size_t tile)
 {
     const Eigen::AlignedBox3d region = tiling_.region(tile);
     Scene around = load<Scene>(tile, File::points);
+    add_margin(tile, File::points, around);
     for (std::size_t other = 0; other < tiling_.size(); ++other) {
         if (other == tile) continue;
-        if (tiling_.are_near(tile, other)) {
-            const auto near = load<Scene>(other, File::points);
-            append_if(near, around,
-                      [&](std::uint32_t point) { return region.contains(near.positions[point]); });
-        }
         const auto far = load<Scene>(other, File::witnesses);
-        append_if(far, around, [&](std::uint32_t point) {
+        append_if(far, around, [&](std::size_t point) {
             const Eigen::Vector3d& position = far.positions[point];
             return !region.contains(position) &&
                    std::ranges::any_of(far.tracks[point], [&](std::uint32_t view) {

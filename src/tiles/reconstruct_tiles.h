@@ -49,6 +49,8 @@ class TiledRun {
     enum class File : std::uint8_t { read, points, witnesses, surface };
 
     static std::string name_of(std::size_t tile, File file);
+    /// Adds the points of other tiles that are in the margin of a tile.
+    void add_margin(std::size_t tile, File file, Scene& around);
     void make_points(std::size_t tile);
     void make_surface(std::size_t tile);
     void make(std::size_t tile, File file);

@@ -1,5 +1,6 @@
 #include "tiles/tile_runs.h"
 
+#include "base/numbers.h"
 #include "pipeline/stages.h"
 #include "steps/1_points/arrange.h"
 #include "steps/3_cells/limits.h"
@@ -13,14 +14,6 @@
 namespace vcarve {
 
 namespace {
-
-/// A mixed number, so that neighbors are selected independently.
-std::uint64_t mixed(std::uint64_t number)
-{
-    number = (number ^ (number >> 30U)) * 0xbf58476d1ce4e5b9ULL;
-    number = (number ^ (number >> 27U)) * 0x94d049bb133111ebULL;
-    return number ^ (number >> 31U);
-}
 
 /// Sorts points, and drops those at the position of another: neighboring tiles may have moved
 /// points to the same position.
@@ -62,7 +55,7 @@ Scene tile_points(std::size_t tile, Scene around, std::size_t own, const TileRun
 Scene witnesses_of(const Scene& points, std::size_t one_in)
 {
     Scene witnesses = selected(points, points_with(points, [&](std::size_t i) {
-                                   return mixed(points.point_ids[i]) % one_in == 0;
+                                   return mix(points.point_ids[i]) % one_in == 0;
                                }));
     witnesses.kinds.assign(witnesses.num_points(), PointKind::witness);
     return witnesses;

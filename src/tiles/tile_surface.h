@@ -12,7 +12,7 @@
 
 namespace vcarve {
 
-/// The name of a vertex, by which the tiles around it agree on it: the number of its point
+/// The name of a vertex, which is the same in all tiles around it: the number of its point
 /// (tile_point()), or the bits of its position if it is no point; and the number of the copy if it
 /// was split.
 struct VertexName {

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kTile = 0x80000000U;
 
-/// The width of the margin of a tile with these points, each of which represents `one_in`.
+/// The width of the margin of a tile. Each of these points represents `one_in` points of the tile.
 double margin_of(const std::vector<Vector3d>& points, std::size_t one_in)
 {
     constexpr double kTail = 0.02;
@@ -131,6 +131,17 @@ Tiling divide(const std::vector<Vector3d>& positions, std::size_t most)
         if (is_valid_position(positions[point])) sample.push_back(positions[point]);
     }
     return Divider(sample, most, one_in).divide();
+}
+
+std::vector<std::vector<std::uint32_t>> points_by_tile(const Tiling& tiling,
+                                                       const std::vector<Vector3d>& positions)
+{
+    std::vector<std::vector<std::uint32_t>> points(tiling.size());
+    for (std::uint32_t point = 0; point < positions.size(); ++point) {
+        if (is_valid_position(positions[point]))
+            points[tiling.tile_of(positions[point])].push_back(point);
+    }
+    return points;
 }
 
 bool meets(const AlignedBox3d& box, const Vector3d& from, const Vector3d& to)

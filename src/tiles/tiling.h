@@ -36,9 +36,13 @@ struct Tiling {
 
 /// Divides points into tiles of at most `most` points, at medians across the longest side. Ignores
 /// invalid positions. More points can be in a tile if their positions are equal, and slightly more
-/// if there are more than 200,000 points, of which an even sample is used. The margin of a tile is
-/// 40 spacings of its points, as if these were on a square surface. Cost: O(points).
+/// if there are more than 200,000 points, because then only every n-th counts. The margin of a tile
+/// is 40 spacings of its points, as if these were on a square surface. Cost: O(points).
 Tiling divide(const std::vector<Eigen::Vector3d>& positions, std::size_t most);
+
+/// The indices of the valid positions in each tile, ascending. Cost: O(positions log tiles).
+std::vector<std::vector<std::uint32_t>>
+points_by_tile(const Tiling& tiling, const std::vector<Eigen::Vector3d>& positions);
 
 /// Whether a segment meets a box, up to rounding.
 bool meets(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& to);

@@ -63,13 +63,13 @@ TEST(JoinTiles, FillsTheHoleWhereTilesDisagree)
     TileSurface left = row_of_squares(0, 3);
     TileSurface middle = row_of_squares(3, 4);
     TileSurface right = row_of_squares(4, 6);
-    // A third tile should have made the square between 3 and 4, of which one face is missing.
+    // The tile in the middle lacks one of its two faces.
     left.seam_edges = {{6, 7}};
     right.seam_edges = {{1, 0}};
     middle.mesh.faces.pop_back();
     middle.seam_edges = {{1, 0}, {2, 1}};
     const JoinedSurface open = joined({left, middle, right});
-    EXPECT_EQ(open.seams.open, 2) << "edges of the missing face, one of which nobody else has";
+    EXPECT_EQ(open.seams.open, 2) << "the edges of the missing face that another face has";
     EXPECT_EQ(open.seams.filled, 0) << "the hole is at the border";
     EXPECT_TRUE(check_mesh(open.mesh).is_manifold());
 }
