@@ -39,7 +39,7 @@ std::set<std::array<std::array<double, 3>, 3>> faces_of(const TriMesh& mesh)
             const Eigen::Vector3d at = mesh.positions[face[i]] + mesh.offset;
             corners[i] = {at.x(), at.y(), at.z()};
         }
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         faces.insert(corners);
     }
     return faces;
