@@ -117,26 +117,22 @@ void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
 
 ModelInput read_model_input(const ModelArguments& model, Log& log, const Reading& reading)
 {
-    ReadModel read = read_found_model(model.path, model.all_points(), log, reading);
-    const FoundModel& found = read.found.model;
+    ModelInput input = {read_found_model(model.path, model.all_points(), log, reading), {}};
+    const FoundModel& found = input.found.model;
     constexpr std::array kFormats = {"binary", "text", "transforms"};
-    ModelInput input;
     input.record = {{"model", model.path.string()},
                     {"folder", found.folder.string()},
                     {"format", kFormats.at(static_cast<std::size_t>(found.format))},
                     {"cloud", nullptr},
-                    {"points", read.read.points},
-                    {"views", read.read.views},
-                    {"rays", read.read.rays}};
-    if (read.found.scan) input.record["cloud"] = read.found.scan->cloud.string();
-    if (read.found.scan && found.folder.empty()) {
+                    {"points", input.read.points},
+                    {"views", input.read.views},
+                    {"rays", input.read.rays}};
+    if (input.found.scan) input.record["cloud"] = input.found.scan->cloud.string();
+    if (input.found.scan && found.folder.empty()) {
         input.record["folder"] = nullptr;
         input.record["format"] = nullptr;
     }
-    if (read.found.dense) input.record["cloud"] = read.found.dense->cloud.string();
-    input.scene = std::move(read.scene);
-    input.read = read.read;
-    input.takes_nearest_views = read.found.takes_nearest_views();
+    if (input.found.dense) input.record["cloud"] = input.found.dense->cloud.string();
     return input;
 }
 

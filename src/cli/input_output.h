@@ -53,10 +53,7 @@ void keep_inputs(std::span<const Output> outputs, const ModelArguments& model,
 void prepare_outputs(std::span<const Output> outputs, const std::filesystem::path& scratch = {});
 
 /// A model and its record.
-struct ModelInput {
-    Scene scene;
-    SceneSize read;                   ///< before points were merged
-    bool takes_nearest_views = false; ///< see FoundInput
+struct ModelInput : ReadModel {
     Json record; ///< "model", "folder", "format", "cloud", "points", "views", "rays"
 };
 

@@ -252,12 +252,30 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
     return std::move(dense.picture);
 }
 
+/// Divides a model, all of which or a sample is in memory.
+void plan_tiles(ModelInput input, std::size_t most, TiledRun& tiles)
+{
+    ModelPoints points = {.number = input.scene.num_points(), .one_in = input.one_in, .read = {}};
+    points.read = [&](std::size_t part, const TakePoints& take, const Progress& progress) {
+        read_points(input, part, take, progress);
+    };
+    if (input.one_in > 1) {
+        points.number = input.read.points;
+        tiles.plan(input.scene, points, most);
+        return;
+    }
+    PointSample sample = {without_points(input.scene)};
+    sample.add(input.scene);
+    points.one_in = sample.one_in;
+    tiles.plan(sample.scene, points, most);
+}
+
 /// Makes the surface in tiles, which ranks share.
-TriMesh surface_in_tiles(Scene scene, const Run& run)
+TriMesh surface_in_tiles(ModelInput input, const Run& run)
 {
     const Options options = options_of_tiles(run.arguments.options);
     TiledRun tiles(*run.work, options, run.log);
-    tiles.plan(std::move(scene), static_cast<std::size_t>(run.arguments.tile_points));
+    plan_tiles(std::move(input), static_cast<std::size_t>(run.arguments.tile_points), tiles);
     if (run.ranks != nullptr) run.ranks->begin({run.work->job(), digest_of_options(options)});
     return tiles.make(run.ranks);
 }
@@ -273,7 +291,7 @@ Surface surface_of(ModelInput input, const Run& run)
         Options options = arguments.options;
         options.memory = run.memory.options();
         if (arguments.tile_points > 0) {
-            surface.mesh = surface_in_tiles(std::move(input.scene), run);
+            surface.mesh = surface_in_tiles(std::move(input), run);
             return surface;
         }
         const RunExtras extras = {.removed = arguments.report.empty() ? nullptr : &surface.removed,
@@ -314,7 +332,11 @@ ModelInput read_input(const Run& run)
     };
     ModelInput input =
         read_model_input(arguments.model, run.log,
-                         {.check = check, .gather = thin_while_reading(arguments.options.thin)});
+                         {.check = check,
+                          .gather = thin_while_reading(arguments.options.thin),
+                          .wants_sample = [&](const std::optional<SceneSize>& /*size*/) {
+                              return arguments.tile_points > 0 && !arguments.dense.dense;
+                          }});
     RunSize size = size_before_thinning(input.read, arguments.options);
     size.thinned = size_of(input.scene);
     fit_memory(run, size);
@@ -350,7 +372,7 @@ Made make_surface(const Run& run, Json& record)
     if (place.transform) record["transform"] = sim3_text(*place.transform);
     Made made;
     made.is_dense = input.read.is_dense;
-    made.takes_nearest_views = input.takes_nearest_views;
+    made.takes_nearest_views = input.found.takes_nearest_views();
     Surface surface = surface_of(std::move(input), run);
     MeshArguments told = arguments;
     if (place.offset.isZero(0.0)) told.output.offset = {}; // has no effect

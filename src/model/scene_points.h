@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -115,6 +116,39 @@ Tracks united_tracks(const Tracks& tracks, const Groups& groups)
         return std::span(views).subspan(begins[i], lengths[i]);
     });
 }
+
+/// Appends the points of another scene with the same views for which keeps(point) is true.
+template <typename Keeps>
+void append_points(const Scene& more, Scene& scene, const Keeps& keeps)
+{
+    const bool has_kinds = !scene.kinds.empty() || !more.kinds.empty();
+    if (has_kinds) scene.kinds.resize(scene.num_points(), PointKind::measured);
+    for (std::size_t point = 0; point < more.num_points(); ++point) {
+        if (!keeps(point)) continue;
+        scene.positions.push_back(more.positions[point]);
+        if (!more.colors.empty()) scene.colors.push_back(more.colors[point]);
+        scene.errors_px.push_back(more.errors_px[point]);
+        scene.point_ids.push_back(more.point_ids[point]);
+        if (!more.normals.empty()) scene.normals.push_back(more.normals[point]);
+        if (has_kinds) scene.kinds.push_back(more.kind_of(point));
+        scene.tracks.push_back(more.tracks[point]);
+    }
+}
+
+/// Receives points in parts; these may lack cameras and views.
+using TakePoints = std::function<void(const Scene& part)>;
+
+/// One of every few points of a scene that comes in parts: the first, the (n+1)-th and so on.
+class PointSample {
+  public:
+    /// Adds the next part. Cost: O(points of the part).
+    void add(const Scene& part);
+
+    Scene scene;            ///< 200,000 to 400,000 points, or all if there are fewer
+    std::size_t one_in = 1; ///< n, a power of two
+    std::size_t points = 0; ///< so far
+    std::uint64_t rays = 0;
+};
 
 /// A scene that provides its points in parts, in their order. So they need not all be in memory at
 /// the same time.

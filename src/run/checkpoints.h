@@ -98,7 +98,7 @@ void Checkpoints::keep(std::string_view name, Made& made, const Make& make)
         const std::vector<LogEvent> told(remembering_.events().begin() + first_told,
                                          remembering_.events().end());
         stage.end(size_counts(name, folder_->save(name, stage, told, std::as_const(made))));
-        folder_->drop_pieces(name);
+        folder_->drop_all(fmt::format("{}-", name));
     } catch (const UsageError& error) {
         note_not_saved(name, error);
     }

@@ -310,13 +310,11 @@ void WorkFolder::drop(std::string_view stage) const
     remove_quietly(file_of(stage));
 }
 
-void WorkFolder::drop_pieces(std::string_view stage) const
+void WorkFolder::drop_all(std::string_view begin) const
 {
     for (const fs::path& file : files_in(folder_)) {
         const std::string name = file.filename();
-        const bool is_piece = name.starts_with(fmt::format("{}-", stage)) &&
-                              name.find("-of-") != std::string::npos && is_ours(name);
-        if (is_piece) remove_quietly(file);
+        if (name.starts_with(begin) && is_ours(name)) remove_quietly(file);
     }
 }
 

@@ -68,8 +68,8 @@ class WorkFolder {
 
     /// Removes a stage if it exists.
     void drop(std::string_view stage) const;
-    /// Removes all parts of a stage, for any number of parts.
-    void drop_pieces(std::string_view stage) const;
+    /// Removes all stages whose names begin so.
+    void drop_all(std::string_view begin) const;
 
     /// Removes all files of the run, and the folder if WorkFolder created it and it is then empty.
     /// Does nothing in a joined folder. Call it last.

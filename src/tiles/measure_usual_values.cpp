@@ -2,12 +2,12 @@
 
 #include "base/statistics.h"
 #include "mesh/half_edge_mesh.h"
-#include "model/extent.h"
 #include "pipeline/stages.h"
 #include "steps/3_cells/limits.h"
 #include "tiles/tile_state.h"
 #include "tiles/tiling.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -34,28 +34,34 @@ UsualValues measured_in(Scene window, const Options& options, const Log& log)
     return state.usual;
 }
 
-/// The points of every few windows of neighboring points.
-std::vector<std::vector<std::uint32_t>> windows_of(const Scene& scene)
+/// At most `most` windows of neighboring points of a scene, evenly chosen.
+std::vector<std::vector<std::uint32_t>> windows_of(const Scene& scene, std::size_t most)
 {
     constexpr std::size_t kWindow = 8'000;
-    constexpr std::size_t kMost = 8;
     const Tiling tiling = divide(scene.positions, kWindow);
-    const std::size_t step = 1 + (tiling.size() - 1) / kMost;
     std::vector<std::vector<std::uint32_t>> all = points_by_tile(tiling, scene.positions);
+    const std::size_t count = std::min(all.size(), most);
     std::vector<std::vector<std::uint32_t>> windows;
-    for (std::size_t window = 0; window < all.size(); window += step) {
-        windows.push_back(std::move(all[window]));
+    for (std::size_t i = 0; i < count; ++i) {
+        windows.push_back(std::move(all[i * all.size() / count]));
     }
     return windows;
 }
 
 } // namespace
 
-UsualValues measure_usual_values(const Scene& scene, const Options& options, const Log& log)
+UsualValues measure_usual_values(std::size_t tiles,
+                                 const std::function<Scene(std::size_t tile)>& points_of,
+                                 const Options& options, const Log& log)
 {
+    constexpr std::size_t kWindows = 8;
+    const std::size_t count = std::min(tiles, kWindows);
     std::vector<UsualValues> measured;
-    for (const std::vector<std::uint32_t>& window : windows_of(scene)) {
-        measured.push_back(measured_in(selected(scene, window), options, log));
+    for (std::size_t i = 0; i < count; ++i) {
+        const Scene scene = points_of(i * tiles / count);
+        for (const auto& window : windows_of(scene, (kWindows + count - 1) / count)) {
+            measured.push_back(measured_in(selected(scene, window), options, log));
+        }
     }
     UsualValues usual;
     for (const auto which : kUsualValues) {
@@ -65,7 +71,6 @@ UsualValues measure_usual_values(const Scene& scene, const Options& options, con
         }
         if (!values.empty()) usual.*which = median_in_place(values);
     }
-    usual.radius = region_of_interest(scene).radius;
     return usual;
 }
 

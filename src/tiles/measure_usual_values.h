@@ -5,11 +5,16 @@
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 
+#include <cstddef>
+#include <functional>
+
 namespace vcarve {
 
-/// Measures the usual values of a model in at most eight windows of about 8,000 neighboring points,
-/// and returns the median of each value. `log` is only asked whether to stop. Cost: that of a run
-/// with 64,000 points, and O(points).
-UsualValues measure_usual_values(const Scene& scene, const Options& options, const Log& log);
+/// Measures the usual values of a model in about eight windows of at most 8,000 neighboring points,
+/// which are in at most eight of its tiles, and returns the median of each value. `log` is only
+/// asked whether to stop. Cost: that of a run with 64,000 points, and reading eight tiles.
+UsualValues measure_usual_values(std::size_t tiles,
+                                 const std::function<Scene(std::size_t tile)>& points_of,
+                                 const Options& options, const Log& log);
 
 } // namespace vcarve

@@ -1,6 +1,7 @@
 #include "tiles/reconstruct_tiles.h"
 
 #include "base/free_memory.h"
+#include "model/extent.h"
 #include "model/scene_points.h"
 #include "steps/1_points/arrange.h"
 #include "tiles/measure_usual_values.h"
@@ -23,39 +24,34 @@ inline constexpr int kNumFields<Tiling> = 4;
 
 namespace {
 
-/// Appends the points of another scene with the same views for which keeps(point) is true.
-template <typename Keeps>
-void append_if(const Scene& more, Scene& scene, const Keeps& keeps)
-{
-    const bool has_kinds = !scene.kinds.empty() || !more.kinds.empty();
-    if (has_kinds) scene.kinds.resize(scene.num_points(), PointKind::measured);
-    for (std::size_t point = 0; point < more.num_points(); ++point) {
-        if (!keeps(point)) continue;
-        scene.positions.push_back(more.positions[point]);
-        if (!more.colors.empty()) scene.colors.push_back(more.colors[point]);
-        scene.errors_px.push_back(more.errors_px[point]);
-        scene.point_ids.push_back(more.point_ids[point]);
-        if (!more.normals.empty()) scene.normals.push_back(more.normals[point]);
-        if (has_kinds) scene.kinds.push_back(more.kind_of(point));
-        scene.tracks.push_back(more.tracks[point]);
-    }
-}
-
 /// Refuses a file that only a new run can make again.
 [[noreturn]] void refuse(const InputError& damage)
 {
     throw InputError(fmt::format("{}; remove the work folder to start over", damage.what()));
 }
 
+/// Removes cameras and views, which the plan has.
+Scene bare(Scene scene)
+{
+    scene.cameras.clear();
+    scene.views.clear();
+    return scene;
+}
+
+std::string read_name(std::size_t tile, std::size_t part)
+{
+    return fmt::format("tile-{}-read-{}", tile, part);
+}
+
 } // namespace
 
 std::string TiledRun::name_of(std::size_t tile, File file)
 {
-    constexpr std::array<const char*, 4> kNames = {"read", "points", "witnesses", "surface"};
+    constexpr std::array<const char*, 3> kNames = {"points", "witnesses", "surface"};
     return fmt::format("tile-{}-{}", tile, kNames[static_cast<std::size_t>(file)]);
 }
 
-void TiledRun::plan(Scene scene, std::size_t most)
+void TiledRun::plan(const Scene& sample, const ModelPoints& points, std::size_t most)
 {
     // Enough to prove free space in far tiles, and few enough to be read by each tile.
     constexpr std::size_t kWitnesses = 50'000;
@@ -63,31 +59,77 @@ void TiledRun::plan(Scene scene, std::size_t most)
     Stage stage(log_, "plan");
     if (folder_.has(kPlan)) {
         load_plan();
-        stage.end({{"tiles", size_of(tiling_.size())}, {"points", size_of(num_points_)}});
-        return;
+    } else {
+        folder_.drop_all("tile-"); // of a plan that was not finished
+        const Scene centered = center_points(sample);
+        frame_ = without_points(centered);
+        tiling_ = divide(centered.positions, most, points.one_in);
+        divide_points(points, most, Progress(stage).part(0.0, 0.7));
+        usual_ = measure_usual_values(
+            tiling_.size(), [&](std::size_t tile) { return read_points(tile); }, options_, log_);
+        usual_.radius = region_of_interest(centered).radius;
+        usual_.points_of_witness = static_cast<double>(
+            std::clamp<std::size_t>(points.number / kWitnesses, 1, kMostPoints));
+        folder_.save(kPlan, {}, frame_, tiling_, usual_, num_read_, num_parts_);
     }
-    scene = center_points(std::move(scene));
-    UsualValues usual = measure_usual_values(scene, options_, log_);
-    const std::size_t points_of_witness =
-        std::clamp<std::size_t>(scene.num_points() / kWitnesses, 1, kMostPoints);
-    usual.points_of_witness = static_cast<double>(points_of_witness);
-    stage.progress(0.5);
-    const Tiling tiling = divide(scene.positions, most);
-    const std::vector<std::vector<std::uint32_t>> points = points_by_tile(tiling, scene.positions);
-    for (std::size_t tile = 0; tile < tiling.size(); ++tile) {
-        folder_.save(name_of(tile, File::read), {}, selected(scene, points[tile]));
-        stage.progress(0.5 + 0.5 * static_cast<double>(tile) / static_cast<double>(tiling.size()));
+    stage.end({{"tiles", size_of(tiling_.size())}, {"points", size_of(points.number)}});
+}
+
+/// Writes the points of each tile.
+void TiledRun::divide_points(const ModelPoints& points, std::size_t most, const Progress& progress)
+{
+    constexpr std::size_t kLeast = 500'000; // points of a part
+    num_read_.assign(tiling_.size(), 0);
+    const auto write = [&](const Scene& part) {
+        Scene placed = bare(part);
+        move_origin(placed, frame_.offset - placed.offset);
+        const auto by_tile = points_by_tile(tiling_, placed.positions);
+        for (std::size_t tile = 0; tile < by_tile.size(); ++tile) {
+            if (by_tile[tile].empty()) continue;
+            folder_.save(read_name(tile, num_parts_), {}, selected(placed, by_tile[tile]));
+            num_read_[tile] += by_tile[tile].size();
+        }
+        ++num_parts_;
+    };
+    points.read(std::max(4 * most, kLeast), write, progress);
+}
+
+/// Reads the points of a tile.
+Scene TiledRun::read_points(std::size_t tile) const
+{
+    Scene points;
+    try {
+        for (std::size_t part = 0; part < num_parts_; ++part) {
+            const std::string name = read_name(tile, part);
+            if (!folder_.has(name)) continue; // no points
+            Scene more;
+            folder_.load(name, {}, more);
+            append_points(more, points, [](std::size_t) { return true; });
+        }
+        if (points.num_points() == num_read_[tile]) return in_frame(std::move(points));
+        throw InputError(fmt::format("{}: found {} points of tile {}, expected {}",
+                                     folder_.path().string(), points.num_points(), tile + 1,
+                                     num_read_[tile]));
+    } catch (const InputError& error) {
+        refuse(error);
     }
-    folder_.save(kPlan, {}, without_points(scene), tiling, usual,
-                 std::uint64_t{scene.num_points()});
-    stage.end({{"tiles", size_of(tiling.size())}, {"points", size_of(scene.num_points())}});
+}
+
+/// Adds cameras and views to points of a file.
+Scene TiledRun::in_frame(Scene points) const
+{
+    points.cameras = frame_.cameras;
+    points.views = frame_.views;
+    points.is_dense = frame_.is_dense;
+    points.offset = frame_.offset;
+    return points;
 }
 
 void TiledRun::load_plan()
 {
     if (tiling_.size() > 0) return;
     try {
-        folder_.load(kPlan, {}, frame_, tiling_, usual_, num_points_);
+        folder_.load(kPlan, {}, frame_, tiling_, usual_, num_read_, num_parts_);
     } catch (const InputError& error) {
         refuse(error);
     }
@@ -103,7 +145,6 @@ Made TiledRun::load(std::size_t tile, File file)
         folder_.load(name, {}, made);
         return made;
     } catch (const InputError& error) {
-        if (file == File::read) refuse(error);
         log_.note(fmt::format("{}; it is computed again", error.what()));
     }
     make(tile, file);
@@ -122,24 +163,27 @@ void TiledRun::make(std::size_t tile, File file)
     return_freed_memory();
 }
 
-void TiledRun::add_margin(std::size_t tile, File file, Scene& around)
+/// Adds the points of other tiles that are in the margin of a tile.
+template <typename PointsOf>
+void TiledRun::add_margin(std::size_t tile, const PointsOf& points_of, Scene& around) const
 {
     const Eigen::AlignedBox3d region = tiling_.region(tile);
     for (std::size_t other = 0; other < tiling_.size(); ++other) {
         if (other == tile || !tiling_.are_near(tile, other)) continue;
-        const auto near = load<Scene>(other, file);
-        append_if(near, around,
-                  [&](std::size_t point) { return region.contains(near.positions[point]); });
+        const Scene near = points_of(other);
+        append_points(near, around,
+                      [&](std::size_t point) { return region.contains(near.positions[point]); });
     }
 }
 
 void TiledRun::make_points(std::size_t tile)
 {
-    Scene around = load<Scene>(tile, File::read);
+    const auto points_of = [&](std::size_t which) { return read_points(which); };
+    Scene around = points_of(tile);
     const std::size_t own = around.num_points();
-    add_margin(tile, File::read, around);
+    add_margin(tile, points_of, around);
     const Scene points =
-        tile_points(tile, std::move(around), own, {tiling_, options_, usual_, log_});
+        bare(tile_points(tile, std::move(around), own, {tiling_, options_, usual_, log_}));
     folder_.save(name_of(tile, File::witnesses), {},
                  witnesses_of(points, static_cast<std::size_t>(*usual_.points_of_witness)));
     folder_.save(name_of(tile, File::points), {}, points);
@@ -148,16 +192,17 @@ void TiledRun::make_points(std::size_t tile)
 void TiledRun::make_surface(std::size_t tile)
 {
     const Eigen::AlignedBox3d region = tiling_.region(tile);
-    Scene around = load<Scene>(tile, File::points);
-    add_margin(tile, File::points, around);
+    const auto points_of = [&](std::size_t which) { return load<Scene>(which, File::points); };
+    Scene around = in_frame(points_of(tile));
+    add_margin(tile, points_of, around);
     for (std::size_t other = 0; other < tiling_.size(); ++other) {
         if (other == tile) continue;
         const auto far = load<Scene>(other, File::witnesses);
-        append_if(far, around, [&](std::size_t point) {
+        append_points(far, around, [&](std::size_t point) {
             const Eigen::Vector3d& position = far.positions[point];
             return !region.contains(position) &&
                    std::ranges::any_of(far.tracks[point], [&](std::uint32_t view) {
-                       return meets(region, position, far.views[view].center);
+                       return meets(region, position, frame_.views[view].center);
                    });
         });
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/scene_points.h"
 #include "model/usual_values.h"
 #include "run/ranks.h"
 #include "run/work_folder.h"
@@ -10,9 +11,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace vcarve {
+
+/// The points of a model, which are read in parts of at most `most` (see PointSample).
+struct ModelPoints {
+    std::size_t number = 0;
+    std::size_t one_in = 1; ///< of the sample
+    std::function<void(std::size_t most, const TakePoints& take, const Progress& progress)> read;
+};
 
 /// Reconstructs a model in tiles (tiling.h), so that time and memory divide by their number:
 ///   - plan: usual values of the whole model, the tiling, and the points of each tile in a file,
@@ -31,8 +41,9 @@ class TiledRun {
     {
     }
 
-    /// Divides a scene into tiles of at most `most` points, unless the folder has them already.
-    void plan(Scene scene, std::size_t most);
+    /// Divides a model into tiles of at most `most` points, unless the folder has them already.
+    /// `sample` has one of every few of its points, as PointSample takes them, and all views.
+    void plan(const Scene& sample, const ModelPoints& points, std::size_t most);
     /// Does the tasks, which `ranks` share unless it is null, and joins their results.
     TriMesh make(Ranks* ranks);
 
@@ -46,11 +57,14 @@ class TiledRun {
 
   private:
     /// The files of a tile.
-    enum class File : std::uint8_t { read, points, witnesses, surface };
+    enum class File : std::uint8_t { points, witnesses, surface };
 
     static std::string name_of(std::size_t tile, File file);
-    /// Adds the points of other tiles that are in the margin of a tile.
-    void add_margin(std::size_t tile, File file, Scene& around);
+    void divide_points(const ModelPoints& points, std::size_t most, const Progress& progress);
+    Scene read_points(std::size_t tile) const;
+    Scene in_frame(Scene points) const;
+    template <typename PointsOf>
+    void add_margin(std::size_t tile, const PointsOf& points_of, Scene& around) const;
     void make_points(std::size_t tile);
     void make_surface(std::size_t tile);
     void make(std::size_t tile, File file);
@@ -64,7 +78,8 @@ class TiledRun {
     Scene frame_; ///< cameras and views
     Tiling tiling_;
     UsualValues usual_;
-    std::uint64_t num_points_ = 0; ///< of the model
+    std::vector<std::uint64_t> num_read_; ///< points of each tile
+    std::uint64_t num_parts_ = 0;         ///< files that a tile may have of its points
     const Ranks* ranks_ = nullptr; ///< others, while they work
 };
 

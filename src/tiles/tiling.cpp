@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -122,15 +123,11 @@ bool Tiling::are_near(std::size_t tile, std::size_t other) const
     return region(tile).intersects(AlignedBox3d(low[other], high[other]));
 }
 
-Tiling divide(const std::vector<Vector3d>& positions, std::size_t most)
+Tiling divide(const std::vector<Vector3d>& positions, std::size_t most, std::size_t one_in)
 {
-    constexpr std::size_t kEnough = 200'000;
-    const std::size_t one_in = 1 + positions.size() / kEnough;
-    std::vector<Vector3d> sample;
-    for (std::size_t point = 0; point < positions.size(); point += one_in) {
-        if (is_valid_position(positions[point])) sample.push_back(positions[point]);
-    }
-    return Divider(sample, most, one_in).divide();
+    std::vector<Vector3d> valid;
+    std::ranges::copy_if(positions, std::back_inserter(valid), is_valid_position);
+    return Divider(valid, most, one_in).divide();
 }
 
 std::vector<std::vector<std::uint32_t>> points_by_tile(const Tiling& tiling,

@@ -34,11 +34,12 @@ struct Tiling {
     bool are_near(std::size_t tile, std::size_t other) const;
 };
 
-/// Divides points into tiles of at most `most` points, at medians across the longest side. Ignores
-/// invalid positions. More points can be in a tile if their positions are equal, and slightly more
-/// if there are more than 200,000 points, because then only every n-th counts. The margin of a tile
-/// is 40 spacings of its points, as if these were on a square surface. Cost: O(points).
-Tiling divide(const std::vector<Eigen::Vector3d>& positions, std::size_t most);
+/// Divides points into tiles of at most `most` points, at medians across the longest side. Each
+/// position represents `one_in` points, so tiles of a sample can have slightly more. More points
+/// can also be in a tile if their positions are equal. Ignores invalid positions. The margin of a
+/// tile is 40 spacings of its points, as if these were on a square surface. Cost: O(positions).
+Tiling divide(const std::vector<Eigen::Vector3d>& positions, std::size_t most,
+              std::size_t one_in = 1);
 
 /// The indices of the valid positions in each tile, ascending. Cost: O(positions log tiles).
 std::vector<std::vector<std::uint32_t>>

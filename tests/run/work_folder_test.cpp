@@ -309,7 +309,7 @@ TEST_F(Work, SavesPartsUnderDistinctNames)
     for (const char* const name : {"cells-3-of-8", "cells-0-of-2", "cells", "cellsites-0-of-2"}) {
         work.save(name, {}, Numbers{1});
     }
-    work.drop_pieces("cells");
+    work.drop_all("cells-");
     EXPECT_FALSE(work.has("cells-3-of-8"));
     EXPECT_FALSE(work.has("cells-0-of-2"));
     EXPECT_TRUE(work.has("cells"));

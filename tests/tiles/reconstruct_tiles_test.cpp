@@ -55,7 +55,16 @@ class ModelInTiles : public ::testing::Test {
         RanksInTurn ranks(work, options, count);
         if (meddle) ranks.after_share = meddle;
         TiledRun run(work, options, log);
-        run.plan(scene, most);
+        const ModelPoints points = {
+            .number = scene.num_points(),
+            .read = [&](std::size_t part, const TakePoints& take, const Progress& /*progress*/) {
+                PartsOfScene parts(scene);
+                for (Scene next = parts.next(part, {}); next.num_points() > 0;
+                     next = parts.next(part, {})) {
+                    take(next);
+                }
+            }};
+        run.plan(scene, points, most);
         TriMesh mesh = run.make(&ranks);
         tasks = ranks.tasks;
         work.clear();
@@ -157,13 +166,13 @@ TEST_F(ModelInTiles, MakesDamagedTilesAgain)
 TEST_F(ModelInTiles, NamesAFileThatOnlyANewRunCanMake)
 {
     const auto damage = [&](const std::string& /*task*/) {
-        for (const char* const name : {"tile-0-points", "tile-0-read"}) {
+        for (const char* const name : {"tile-0-points", "tile-0-read-0"}) {
             std::filesystem::resize_file(file_of(name), 100);
         }
     };
     EXPECT_THAT(
         refusal<InputError>([&] { made_in_tiles(1500, 1, damage); }),
-        MatchesRegex("tile 1 of [0-9]+: .*tile 1 of .*tile-0-read.stage: it is truncated.*; "
+        MatchesRegex("tile 1 of [0-9]+: .*tile 1 of .*tile-0-read-0.stage: it is truncated.*; "
                      "remove the work folder to start over"));
 }
 

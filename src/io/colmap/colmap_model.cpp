@@ -74,11 +74,18 @@ std::optional<std::uint64_t> first_count(const std::filesystem::path& path)
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
                         const Progress& progress, DroppedRays* dropped)
 {
+    return read_colmap_parts(folder, format, SIZE_MAX, nullptr, progress, dropped);
+}
+
+Scene read_colmap_parts(const std::filesystem::path& folder, ModelFormat format, std::size_t most,
+                        const TakePoints& take, const Progress& progress, DroppedRays* dropped)
+{
     const std::filesystem::path points_file = model_path(folder, "points3D", format);
     const double images = size_of_file(model_path(folder, "images", format));
     const double points = size_of_file(points_file);
     const double middle = images / (images + points + 1.0); // progress is proportional to bytes
     SceneBuilder builder = read_views(folder, format, progress.part(0.0, middle));
+    builder.pass_on(most, take);
     reader_of(format).read_points(points_file, builder, progress.part(middle, 1.0));
     if (dropped != nullptr) *dropped = builder.dropped();
     return builder.finish();

@@ -2,6 +2,7 @@
 
 #include "base/progress.h"
 #include "model/scene_check.h"
+#include "model/scene_points.h"
 #include "vcarve/scene.h"
 
 #include <cstdint>
@@ -43,6 +44,13 @@ struct DroppedRays {
 /// mapped. Allocations are at most a small multiple of the file sizes.
 Scene read_colmap_model(const std::filesystem::path& folder, ModelFormat format,
                         const Progress& progress = {}, DroppedRays* dropped = nullptr);
+
+/// Like read_colmap_model(), but passes the points on in parts of at most `most`, without cameras
+/// and views, and returns the scene without points. Cost: beside a part, 8 bytes per point, for ids
+/// that may repeat.
+Scene read_colmap_parts(const std::filesystem::path& folder, ModelFormat format, std::size_t most,
+                        const TakePoints& take, const Progress& progress = {},
+                        DroppedRays* dropped = nullptr);
 
 /// The tracks of the points of that scene, from the 2D points of its images, where COLMAP stores
 /// them a second time. Cost: linear in the size of the file, plus sorting the rays.

@@ -95,8 +95,20 @@ void SceneBuilder::close_images()
     }
 }
 
+void SceneBuilder::pass_on(std::size_t most, TakePoints take)
+{
+    most_ = most;
+    take_ = std::move(take);
+}
+
 void SceneBuilder::reserve_points(std::size_t count, std::size_t rays)
 {
+    if (count > most_) {
+        passed_ids_.reserve(count);
+        rays = static_cast<std::size_t>(static_cast<double>(rays) * static_cast<double>(most_) /
+                                        static_cast<double>(count));
+        count = most_;
+    }
     scene_.positions.reserve(count);
     scene_.colors.reserve(count);
     scene_.errors_px.reserve(count);
@@ -131,19 +143,32 @@ void SceneBuilder::add_point(const PointRecord& point, std::span<const std::uint
     }
     sort_unique(row_);
 
-    const std::vector<std::uint64_t>& ids = scene_.point_ids;
+    const std::vector<std::uint64_t>& ids =
+        scene_.point_ids.empty() ? passed_ids_ : scene_.point_ids;
     point_ids_ascend_ = point_ids_ascend_ && (ids.empty() || ids.back() < point.id);
     scene_.positions.push_back(position_or_nan(point.position));
     scene_.colors.push_back(point.color);
     scene_.errors_px.push_back(std::isnan(point.error_px) ? -1.0 : point.error_px);
     scene_.point_ids.push_back(point.id);
     scene_.tracks.push_back(row_);
+    if (scene_.num_points() == most_) pass_points_on();
 }
 
-void SceneBuilder::refuse_point_ids_twice() const
+void SceneBuilder::pass_points_on()
+{
+    Scene part;
+    std::swap(part, scene_);
+    scene_.cameras = std::move(part.cameras);
+    scene_.views = std::move(part.views);
+    take_(part);
+    passed_ids_.insert(passed_ids_.end(), part.point_ids.begin(), part.point_ids.end());
+}
+
+void SceneBuilder::refuse_point_ids_twice()
 {
     if (point_ids_ascend_) return;
-    std::vector<std::uint64_t> ids = scene_.point_ids;
+    std::vector<std::uint64_t> ids = std::move(passed_ids_);
+    ids.insert(ids.end(), scene_.point_ids.begin(), scene_.point_ids.end());
     parallel_sort(ids);
     const auto twice = std::adjacent_find(ids.begin(), ids.end());
     if (twice == ids.end()) return;
@@ -153,6 +178,7 @@ void SceneBuilder::refuse_point_ids_twice() const
 
 Scene SceneBuilder::finish()
 {
+    if (take_) pass_points_on();
     refuse_point_ids_twice();
     return std::move(scene_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/colmap/colmap_model.h"
+#include "model/scene_points.h"
 #include "vcarve/scene.h"
 
 #include <Eigen/Core>
@@ -48,6 +49,9 @@ class SceneBuilder {
     /// Call it between the last image and the first point.
     void close_images();
 
+    /// Passes points on in parts of at most `most`, without cameras and views, instead of keeping
+    /// them. Call it before the first point.
+    void pass_on(std::size_t most, TakePoints take);
     /// Reserves memory for this number of points and rays, or slightly fewer.
     void reserve_points(std::size_t count, std::size_t rays);
     /// `image_ids` may be in any order and may repeat.
@@ -55,7 +59,8 @@ class SceneBuilder {
 
     /// The rays dropped so far.
     const DroppedRays& dropped() const { return dropped_; }
-    /// The scene, with cameras and views sorted by COLMAP's ids. Empties the builder.
+    /// The scene, with cameras and views sorted by COLMAP's ids, and without points that were passed
+    /// on. Empties the builder.
     Scene finish();
     /// Cameras and views only. Empties the builder.
     ColmapViews finish_views();
@@ -63,7 +68,8 @@ class SceneBuilder {
   private:
     /// kNoView if no image has that id.
     std::uint32_t view_index(std::uint32_t image_id) const;
-    void refuse_point_ids_twice() const;
+    void refuse_point_ids_twice();
+    void pass_points_on();
 
     std::filesystem::path folder_;
     ModelFormat format_;
@@ -73,6 +79,9 @@ class SceneBuilder {
     std::vector<std::uint32_t> row_;       ///< view indices of the point being added
     DroppedRays dropped_;
     bool point_ids_ascend_ = true; ///< of the points so far; then none repeats
+    std::size_t most_ = SIZE_MAX;  ///< points of a part
+    TakePoints take_;
+    std::vector<std::uint64_t> passed_ids_; ///< of points that were passed on
 };
 
 } // namespace vcarve

@@ -102,6 +102,12 @@ Shown count_shown(const Scene& scene)
 
 } // namespace
 
+bool lacks_rays(const FoundInput& found, const Scene& scene)
+{
+    if (found.rays != RaysFrom::automatic) return found.rays == RaysFrom::nearest;
+    return 2 * count_with_few(scene.tracks) > scene.num_points();
+}
+
 std::vector<std::string> complete_rays(FoundInput& found, const DroppedRays& dropped, Scene& scene,
                                        const Progress& progress)
 {
@@ -115,10 +121,8 @@ std::vector<std::string> complete_rays(FoundInput& found, const DroppedRays& dro
                            "them");
         return notes;
     }
-    if (found.rays == RaysFrom::file) return notes;
-    const auto are_most = [&](std::size_t points) { return 2 * points > scene.num_points(); };
+    if (!lacks_rays(found, scene)) return notes;
     const std::size_t few = count_with_few(scene.tracks);
-    if (!are_most(few)) return notes;
     scene.tracks =
         joined_where_few(scene.tracks, read_tracks_of_images(model.folder, model.format, scene,
                                                              progress.part(0.0, 0.3)));
@@ -129,7 +133,7 @@ std::vector<std::string> complete_rays(FoundInput& found, const DroppedRays& dro
                                     counted(size_of(few), "points"), images,
                                     grouped_digits(size_of(few - still_few))));
     }
-    if (!are_most(still_few)) return notes;
+    if (!lacks_rays(found, scene)) return notes;
     scene.tracks = joined_where_few(scene.tracks, nearest_rays(scene, progress.part(0.3, 1.0)));
     found.rays = RaysFrom::nearest;
     notes.push_back(fmt::format("{} of {} have fewer than two views, so they get the "

@@ -11,6 +11,10 @@
 
 namespace vcarve {
 
+/// Whether complete_rays() changes rays: if the user demands the nearest views, or most points have
+/// fewer than two rays. Cost: O(points).
+bool lacks_rays(const FoundInput& found, const Scene& scene);
+
 /// Completes the rays of a model if most points have fewer than two, as with SLAM, networks without
 /// matches, and many converters. The 2D points of the images supply them, as in COLMAP's mesher. If
 /// most points still have fewer than two, these points also get the nearest views (see

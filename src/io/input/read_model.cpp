@@ -83,20 +83,56 @@ void require_points_and_views(const FoundInput& found, const SceneSize& read)
                                  file_of(found, "points3D")));
 }
 
-/// Reads the points of the model. Adds notes about the source of their rays.
-Scene sparse_scene(FoundInput& found, const Progress& progress)
+/// Reads a sample of the points of the model.
+PointSample sample_of(const FoundModel& model, const Progress& progress, DroppedRays& dropped)
 {
-    DroppedRays dropped;
-    Scene scene = read_colmap_model(found.model.folder, found.model.format, progress.part(0.0, 0.9),
-                                    &dropped);
+    constexpr std::size_t kPart = 100'000;
+    PointSample sample;
+    Scene frame = read_colmap_parts(
+        model.folder, model.format, kPart, [&](const Scene& part) { sample.add(part); }, progress,
+        &dropped);
+    sample.scene.cameras = std::move(frame.cameras);
+    sample.scene.views = std::move(frame.views);
+    return sample;
+}
+
+/// Adds notes about the poses, and about the source of the rays.
+void complete(FoundInput& found, const DroppedRays& dropped, Scene& scene, const Progress& progress)
+{
     const std::string warning = warning_of_poses(scene, file_of(found, "images"));
     // Points may project beyond the edges of cropped images.
     if (!warning.empty() && !points2d_agree(found.model.folder, found.model.format, scene)) {
         found.notes.push_back(warning);
     }
-    std::ranges::move(complete_rays(found, dropped, scene, progress.part(0.9, 1.0)),
+    std::ranges::move(complete_rays(found, dropped, scene, progress),
                       std::back_inserter(found.notes));
-    return scene;
+}
+
+/// Reads the points of the model, or a sample.
+ReadModel sparse_model(FoundInput found, bool wants_sample, const Progress& progress)
+{
+    const Progress reading = progress.part(0.0, 0.9);
+    ReadModel read;
+    DroppedRays dropped;
+    if (wants_sample) {
+        PointSample sample = sample_of(found.model, reading, dropped);
+        if (!lacks_rays(found, sample.scene)) {
+            read.one_in = sample.one_in;
+            read.scene = std::move(sample.scene);
+            read.read = size_of(read.scene);
+            read.read.points = sample.points;
+            read.read.rays = sample.rays;
+            complete(found, dropped, read.scene, progress.part(0.9, 1.0));
+            read.found = std::move(found);
+            return read;
+        }
+        dropped = {};
+    }
+    read.scene = read_colmap_model(found.model.folder, found.model.format, reading, &dropped);
+    complete(found, dropped, read.scene, progress.part(0.9, 1.0));
+    read.read = size_of(read.scene);
+    read.found = std::move(found);
+    return read;
 }
 
 /// Reads the points of a cloud. Adds notes about dropped points and possible errors.
@@ -110,23 +146,17 @@ Scene dense_scene(FoundInput& found, const Progress& progress)
     return scene;
 }
 
-Scene whole_scene(FoundInput& found, const Progress& progress)
-{
-    if (found.scan) return read_scan_scene(*found.scan, progress);
-    if (found.dense) return dense_scene(found, progress);
-    return sparse_scene(found, progress);
-}
-
-SceneOf scene_of(FoundInput& found, const Gather& gather, const Progress& progress)
+SceneOf cloud_of(FoundInput& found, const Gather& gather, const Progress& progress)
 {
     if (gather && found.dense && !found.dense->visibility.empty()) {
         DenseSceneReader reader(*found.dense, progress.part(0.0, 0.1));
         return gathered(reader, gather, progress.part(0.1, 1.0));
     }
     // Otherwise the views of a point are known only after all points are read.
-    const bool is_cloud = found.scan || found.dense;
-    Scene scene = whole_scene(found, gather && is_cloud ? progress.part(0.0, 0.6) : progress);
-    if (gather && scene.is_dense) {
+    const Progress reading = gather ? progress.part(0.0, 0.6) : progress;
+    Scene scene =
+        found.scan ? read_scan_scene(*found.scan, reading) : dense_scene(found, reading);
+    if (gather) {
         PartsOfScene parts(scene);
         return gathered(parts, gather, progress.part(0.6, 1.0));
     }
@@ -134,11 +164,24 @@ SceneOf scene_of(FoundInput& found, const Gather& gather, const Progress& progre
     return {std::move(scene), size};
 }
 
-void end_stage(Stage& stage, const Scene& scene, const SceneSize& read)
+ReadModel read_found(FoundInput found, const std::optional<SceneSize>& size, const Reading& reading,
+                     const Progress& progress)
 {
-    Counts counts = {{"points", size_of(scene.num_points())}};
-    if (read.points != scene.num_points()) counts.emplace_back("of", size_of(read.points));
-    counts.emplace_back("views", size_of(scene.views.size()));
+    if (!found.scan && !found.dense) {
+        const bool wants_sample = reading.wants_sample && reading.wants_sample(size);
+        return sparse_model(std::move(found), wants_sample, progress);
+    }
+    auto [scene, read] = cloud_of(found, reading.gather, progress);
+    return {std::move(scene), read, std::move(found)};
+}
+
+void end_stage(Stage& stage, const ReadModel& model)
+{
+    const SceneSize& read = model.read;
+    const std::size_t points = model.one_in > 1 ? read.points : model.scene.num_points();
+    Counts counts = {{"points", size_of(points)}};
+    if (read.points != points) counts.emplace_back("of", size_of(read.points));
+    counts.emplace_back("views", size_of(model.scene.views.size()));
     counts.emplace_back("rays", size_of(read.rays));
     stage.end(counts);
 }
@@ -150,20 +193,34 @@ ReadModel read_found_model(const std::filesystem::path& input, const PointsOptio
 {
     Stage stage(log, "read");
     FoundInput found = find_input(input, options);
-    const auto report = [&](std::size_t first) {
-        std::for_each(found.notes.begin() + static_cast<std::ptrdiff_t>(first), found.notes.end(),
+    const auto report = [&](const std::vector<std::string>& notes, std::size_t first) {
+        std::for_each(notes.begin() + static_cast<std::ptrdiff_t>(first), notes.end(),
                       [&](const std::string& note) { log.note(note); });
     };
-    report(0);
+    report(found.notes, 0);
     const std::size_t told = found.notes.size();
     const auto size = expected_size(found);
     if (reading.check && size) reading.check(*size);
-    auto [scene, read] = scene_of(found, reading.gather, stage);
-    require_points_and_views(found, read);
-    std::ranges::move(forget_unknown_values(scene), std::back_inserter(found.notes));
-    end_stage(stage, scene, read);
-    report(told);
-    return {std::move(scene), read, std::move(found)};
+    ReadModel model = read_found(std::move(found), size, reading, stage);
+    require_points_and_views(model.found, model.read);
+    std::ranges::move(forget_unknown_values(model.scene), std::back_inserter(model.found.notes));
+    end_stage(stage, model);
+    report(model.found.notes, told);
+    return model;
+}
+
+void read_points(const ReadModel& model, std::size_t most, const TakePoints& take,
+                 const Progress& progress)
+{
+    if (model.one_in == 1) return take(model.scene);
+    const bool knows_errors =
+        std::ranges::any_of(model.scene.errors_px, [](double error) { return error >= 0.0; });
+    const auto take_part = [&](Scene part) {
+        if (!knows_errors) part.errors_px.assign(part.num_points(), -1.0);
+        take(part);
+    };
+    const FoundModel& found = model.found.model;
+    read_colmap_parts(found.folder, found.format, most, take_part, progress);
 }
 
 Scene read_model(const std::filesystem::path& input, const PointsOptions& options, Log& log)
