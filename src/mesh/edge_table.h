@@ -65,6 +65,21 @@ struct EdgeTable {
 /// per vertex)) time; 24 bytes per face and 4 per vertex.
 EdgeTable gather_edges(std::span<const Face> faces, std::size_t num_vertices);
 
+/// The number of edges with one face for which counts(tail, head) is true. Cost: as gather_edges().
+template <typename Counts>
+std::int64_t count_boundary_edges(std::span<const Face> faces, std::size_t num_vertices,
+                                  const Counts& counts)
+{
+    const EdgeTable edges = gather_edges(faces, num_vertices);
+    std::int64_t count = 0;
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        const std::span<const HalfEdge> all = edges[edge];
+        const bool is_one = all.size() == 1 && counts(tail(faces, all[0]), head(faces, all[0]));
+        count += is_one ? 1 : 0;
+    }
+    return count;
+}
+
 // Corners of a vertex that are connected by twins form a fan, or a disk if they close. `twins` has
 // the twin of each half-edge, or kNoHalfEdge on the boundary. Twins connect the same two vertices
 // in opposite directions.

@@ -136,7 +136,7 @@ void append_points(const Scene& more, Scene& scene, const Keeps& keeps)
 }
 
 /// Receives points in parts; these may lack cameras and views.
-using TakePoints = std::function<void(const Scene& part)>;
+using TakePoints = std::function<void(Scene part)>;
 
 /// One of every few points of a scene that comes in parts: the first, the (n+1)-th and so on.
 class PointSample {

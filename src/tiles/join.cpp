@@ -20,12 +20,24 @@ namespace {
 
 using Edge = std::array<std::uint32_t, 2>;
 
+constexpr auto kEveryEdge = [](std::uint32_t /*tail*/, std::uint32_t /*head*/) { return true; };
+
 /// Adds the surfaces of tiles, one after the other.
 class Joiner {
   public:
+    /// Reserves the memory of a closed surface through so many points. What is not used costs none.
+    explicit Joiner(std::size_t points)
+    {
+        mesh_.positions.reserve(points);
+        mesh_.normals.reserve(points);
+        mesh_.colors.reserve(points);
+        mesh_.faces.reserve(2 * points);
+    }
+
     void add(TileSurface tile)
     {
         TriMesh& from = tile.mesh;
+        boundary_edges_ += tile.boundary_edges;
         mesh_.offset = from.offset;
         std::vector<std::uint32_t> number(from.positions.size(), kNoPoint);
         std::vector<std::uint8_t> is_shared(from.positions.size());
@@ -72,18 +84,19 @@ class Joiner {
         seams.edges = (seams.edges - seams.open) / 2;
         // Tiles may have faces in the same place, and edges between the same vertices.
         std::ranges::sort(shared_edges_);
+        for (const Edge& edge : shared_edges_) {
+            const auto has = [&](const Edge& other) {
+                return std::ranges::equal_range(shared_edges_, other).size();
+            };
+            boundary_edges_ += has(edge) == 1 && has({edge[1], edge[0]}) == 0 ? 1 : 0;
+        }
         for (auto same = shared_edges_.begin();;) {
             same = std::adjacent_find(same, shared_edges_.end());
             if (same == shared_edges_.end()) break;
             doubt(*same++);
         }
         if (!doubtful_.empty()) repair(max_hole, seams);
-        const EdgeTable edges = gather_edges(mesh_.faces, mesh_.positions.size());
-        std::int64_t boundary_edges = 0;
-        for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-            boundary_edges += edges[edge].size() == 1 ? 1 : 0;
-        }
-        return {std::move(mesh_), seams, boundary_edges};
+        return {std::move(mesh_), seams, boundary_edges_};
     }
 
   private:
@@ -108,6 +121,7 @@ class Joiner {
         }
         const std::vector<std::uint32_t> whole = used_vertices(patch.faces, mesh_.positions.size());
         renumber(patch.faces, whole, mesh_.positions.size());
+        boundary_edges_ -= count_boundary_edges(patch.faces, whole.size(), kEveryEdge);
         patch.positions = values_at(whole, mesh_.positions);
         patch.colors = values_at(whole, mesh_.colors);
         patch.points = whole;
@@ -119,6 +133,8 @@ class Joiner {
         }
         HalfEdgeMesh repaired(manifold.mesh, manifold.twins);
         seams.filled = fill_holes(repaired, max_hole);
+        boundary_edges_ += std::ranges::count_if(
+            repaired.edges(), [](const auto& edge) { return edge.is_boundary(); });
         set_vertex_normals(repaired);
         // Faces beyond the patch keep the other vertices together.
         std::vector<std::uint32_t> number(repaired.n_vertices(), kNoPoint);
@@ -149,17 +165,18 @@ class Joiner {
     TriMesh mesh_;
     std::map<VertexName, std::uint32_t> by_name_;
     std::vector<Edge> seam_edges_;
-    std::vector<Edge> shared_edges_;   ///< between vertices that several tiles share
+    std::vector<Edge> shared_edges_; ///< between vertices that several tiles share
+    std::int64_t boundary_edges_ = 0;
     std::set<std::uint32_t> doubtful_; ///< vertices at which tiles disagree
 };
 
 } // namespace
 
-JoinedSurface join_tiles(std::size_t tiles,
+JoinedSurface join_tiles(std::size_t tiles, std::size_t points,
                          const std::function<TileSurface(std::size_t tile)>& surface_of,
                          int max_hole)
 {
-    Joiner joiner;
+    Joiner joiner(points);
     for (std::size_t tile = 0; tile < tiles; ++tile) {
         joiner.add(surface_of(tile));
     }

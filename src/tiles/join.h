@@ -25,9 +25,10 @@ struct JoinedSurface {
 
 /// Joins the surfaces of tiles at the vertices with equal names. Where two tiles disagree, holes of
 /// at most `max_hole` edges are filled, and vertices are split, so that the result is as manifold
-/// as the surfaces are. `surface_of` is called once per tile, in order. Cost: O(faces) time and
-/// memory for the mesh, and O(faces at seams) more.
-JoinedSurface join_tiles(std::size_t tiles,
+/// as the surfaces are. `surface_of` is called once per tile, in order. `points` is about the
+/// number of points of the model. Cost: O(faces) time and memory for the mesh, and O(faces at
+/// seams) more.
+JoinedSurface join_tiles(std::size_t tiles, std::size_t points,
                          const std::function<TileSurface(std::size_t tile)>& surface_of,
                          int max_hole);
 

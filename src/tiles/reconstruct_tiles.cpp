@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -78,20 +79,20 @@ void TiledRun::plan(const Scene& sample, const ModelPoints& points, std::size_t 
 /// Writes the points of each tile.
 void TiledRun::divide_points(const ModelPoints& points, std::size_t most, const Progress& progress)
 {
-    constexpr std::size_t kLeast = 500'000; // points of a part
+    constexpr std::size_t kLeast = 250'000; // points of a part
     num_read_.assign(tiling_.size(), 0);
-    const auto write = [&](const Scene& part) {
-        Scene placed = bare(part);
-        move_origin(placed, frame_.offset - placed.offset);
-        const auto by_tile = points_by_tile(tiling_, placed.positions);
+    const auto write = [&](Scene part) {
+        part = bare(std::move(part));
+        move_origin(part, frame_.offset - part.offset);
+        const auto by_tile = points_by_tile(tiling_, part.positions);
         for (std::size_t tile = 0; tile < by_tile.size(); ++tile) {
             if (by_tile[tile].empty()) continue;
-            folder_.save(read_name(tile, num_parts_), {}, selected(placed, by_tile[tile]));
+            folder_.save(read_name(tile, num_parts_), {}, selected(part, by_tile[tile]));
             num_read_[tile] += by_tile[tile].size();
         }
         ++num_parts_;
     };
-    points.read(std::max(4 * most, kLeast), write, progress);
+    points.read(std::max(most, kLeast), write, progress);
 }
 
 /// Reads the points of a tile.
@@ -249,7 +250,8 @@ TriMesh TiledRun::make(Ranks* ranks)
         return load<TileSurface>(tile, File::surface);
     };
     JoinedSurface joined =
-        join_tiles(tiling_.size(), surface_of, options_.surface.cleanup.max_hole);
+        join_tiles(tiling_.size(), std::reduce(num_read_.begin(), num_read_.end()), surface_of,
+                   options_.surface.cleanup.max_hole);
     if (joined.mesh.faces.empty()) {
         throw InputError("no surface found: too few rays pass behind the points; add images, or "
                          "dense points");

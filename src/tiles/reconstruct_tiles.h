@@ -80,7 +80,7 @@ class TiledRun {
     UsualValues usual_;
     std::vector<std::uint64_t> num_read_; ///< points of each tile
     std::uint64_t num_parts_ = 0;         ///< files that a tile may have of its points
-    const Ranks* ranks_ = nullptr; ///< others, while they work
+    const Ranks* ranks_ = nullptr;        ///< others, while they work
 };
 
 } // namespace vcarve

@@ -2,6 +2,7 @@
 
 #include "geometry/triangle.h"
 #include "mesh/collapse_edges.h"
+#include "mesh/edge_table.h"
 #include "mesh/half_edge_mesh.h"
 #include "mesh/vertices.h"
 #include "model/scene_points.h"
@@ -199,6 +200,14 @@ TileSurface owned_faces(std::size_t tile, const Tiling& tiling, TriMesh mesh,
     for (const auto& [a, b] : ownership.seam_edges()) {
         made.seam_edges.push_back({now.at(a), now.at(b)});
     }
+    std::vector<std::uint8_t> is_shared(before.size());
+    for (const std::uint32_t vertex : made.shared) {
+        is_shared[vertex] = 1;
+    }
+    made.boundary_edges =
+        count_boundary_edges(made.mesh.faces, before.size(), [&](std::uint32_t a, std::uint32_t b) {
+            return is_shared[a] == 0 || is_shared[b] == 0;
+        });
     return made;
 }
 

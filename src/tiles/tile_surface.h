@@ -31,10 +31,11 @@ struct TileSurface {
     std::vector<std::uint32_t> shared;                    ///< vertices of faces of other tiles, too
     std::vector<VertexName> names;                        ///< of these
     std::vector<std::array<std::uint32_t, 2>> seam_edges; ///< whose other face another tile owns
+    std::int64_t boundary_edges = 0;                      ///< not between shared vertices
 };
 
 template <>
-inline constexpr int kNumFields<TileSurface> = 4;
+inline constexpr int kNumFields<TileSurface> = 5;
 
 /// The number of a point of a tile among all tiles.
 constexpr std::uint64_t tile_point(std::size_t tile, std::size_t point)

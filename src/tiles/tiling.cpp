@@ -56,7 +56,8 @@ class Divider {
             places.push_back(positions_[point]);
         }
         const std::size_t node = tiling_.nodes.size();
-        const TilingNode made = node_of(places);
+        const std::size_t tiles = (places.size() + most_ - 1) / most_; // about as many points each
+        const TilingNode made = node_of(places, tiles);
         const auto first = [&](std::uint32_t point) {
             return positions_[point][made.axis] < made.cut;
         };
@@ -79,7 +80,8 @@ class Divider {
         return static_cast<std::uint32_t>(node);
     }
 
-    static TilingNode node_of(const std::vector<Vector3d>& places)
+    /// A cut between the lower half of the tiles and the upper one.
+    static TilingNode node_of(const std::vector<Vector3d>& places, std::size_t tiles)
     {
         constexpr double kTail = 0.02; // a few far points do not count
         TilingNode node;
@@ -88,7 +90,8 @@ class Divider {
         middle_box(places, kTail).sizes().maxCoeff(&axis);
         std::vector<double> along(places.size());
         std::ranges::transform(places, along.begin(), [&](const auto& p) { return p[axis]; });
-        const auto middle = along.begin() + std::ssize(along) / 2;
+        const std::size_t below = tiles < 2 ? 0 : along.size() * (tiles / 2) / tiles;
+        const auto middle = along.begin() + static_cast<std::ptrdiff_t>(below);
         std::nth_element(along.begin(), middle, along.end());
         node.axis = static_cast<std::uint32_t>(axis);
         node.cut = *middle;

@@ -34,10 +34,11 @@ struct Tiling {
     bool are_near(std::size_t tile, std::size_t other) const;
 };
 
-/// Divides points into tiles of at most `most` points, at medians across the longest side. Each
-/// position represents `one_in` points, so tiles of a sample can have slightly more. More points
-/// can also be in a tile if their positions are equal. Ignores invalid positions. The margin of a
-/// tile is 40 spacings of its points, as if these were on a square surface. Cost: O(positions).
+/// Divides points into tiles of about as many points each, at most `most`, by cuts across the
+/// longest side. Each position represents `one_in` points, so tiles of a sample can have slightly
+/// more. More points can also be in a tile if their positions are equal. Ignores invalid positions.
+/// The margin of a tile is 40 spacings of its points, as if these were on a square surface. Cost:
+/// O(positions).
 Tiling divide(const std::vector<Eigen::Vector3d>& positions, std::size_t most,
               std::size_t one_in = 1);
 

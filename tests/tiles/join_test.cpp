@@ -1,4 +1,5 @@
 #include "mesh/check.h"
+#include "mesh/edge_table.h"
 #include "tiles/join.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +39,18 @@ TileSurface row_of_squares(int first, int last)
 
 JoinedSurface joined(std::vector<TileSurface> tiles, int max_hole = 12)
 {
-    return join_tiles(
-        tiles.size(), [&](std::size_t tile) { return tiles[tile]; }, max_hole);
+    for (TileSurface& tile : tiles) {
+        const auto is_inner = [&](std::uint32_t vertex) {
+            return std::ranges::count(tile.shared, vertex) == 0;
+        };
+        tile.boundary_edges = count_boundary_edges(
+            tile.mesh.faces, tile.mesh.positions.size(),
+            [&](std::uint32_t a, std::uint32_t b) { return is_inner(a) || is_inner(b); });
+    }
+    JoinedSurface made = join_tiles(
+        tiles.size(), 10, [&](std::size_t tile) { return tiles[tile]; }, max_hole);
+    EXPECT_EQ(made.boundary_edges, check_mesh(made.mesh).boundary_edges);
+    return made;
 }
 
 TEST(JoinTiles, MeetsAtVerticesWithEqualNames)

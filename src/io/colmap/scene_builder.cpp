@@ -160,8 +160,8 @@ void SceneBuilder::pass_points_on()
     std::swap(part, scene_);
     scene_.cameras = std::move(part.cameras);
     scene_.views = std::move(part.views);
-    take_(part);
     passed_ids_.insert(passed_ids_.end(), part.point_ids.begin(), part.point_ids.end());
+    take_(std::move(part));
 }
 
 void SceneBuilder::refuse_point_ids_twice()

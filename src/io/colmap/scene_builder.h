@@ -59,8 +59,8 @@ class SceneBuilder {
 
     /// The rays dropped so far.
     const DroppedRays& dropped() const { return dropped_; }
-    /// The scene, with cameras and views sorted by COLMAP's ids, and without points that were passed
-    /// on. Empties the builder.
+    /// The scene, with cameras and views sorted by COLMAP's ids, and without points that were
+    /// passed on. Empties the builder.
     Scene finish();
     /// Cameras and views only. Empties the builder.
     ColmapViews finish_views();

@@ -154,8 +154,7 @@ SceneOf cloud_of(FoundInput& found, const Gather& gather, const Progress& progre
     }
     // Otherwise the views of a point are known only after all points are read.
     const Progress reading = gather ? progress.part(0.0, 0.6) : progress;
-    Scene scene =
-        found.scan ? read_scan_scene(*found.scan, reading) : dense_scene(found, reading);
+    Scene scene = found.scan ? read_scan_scene(*found.scan, reading) : dense_scene(found, reading);
     if (gather) {
         PartsOfScene parts(scene);
         return gathered(parts, gather, progress.part(0.6, 1.0));
@@ -212,12 +211,18 @@ ReadModel read_found_model(const std::filesystem::path& input, const PointsOptio
 void read_points(const ReadModel& model, std::size_t most, const TakePoints& take,
                  const Progress& progress)
 {
-    if (model.one_in == 1) return take(model.scene);
+    if (model.one_in == 1) {
+        PartsOfScene parts(model.scene);
+        for (std::size_t left = model.scene.num_points(); left > 0; left -= std::min(left, most)) {
+            take(parts.next(most, progress));
+        }
+        return;
+    }
     const bool knows_errors =
         std::ranges::any_of(model.scene.errors_px, [](double error) { return error >= 0.0; });
     const auto take_part = [&](Scene part) {
         if (!knows_errors) part.errors_px.assign(part.num_points(), -1.0);
-        take(part);
+        take(std::move(part));
     };
     const FoundModel& found = model.found.model;
     read_colmap_parts(found.folder, found.format, most, take_part, progress);
