@@ -1,10 +1,8 @@
 // Measures whole runs, from files to files, against CGAL's triangulation of the same points:
-// seconds, CPU seconds and peak memory per stage. Also compares runs in blocks with runs in memory,
-// and runs on ranks with one process. See tools/bench.
+// seconds, CPU seconds and peak memory per stage. See tools/bench.
 
 #include "measurements.h"
 #include "processes.h"
-#include "program_bench.h"
 #include "run_report.h"
 
 #include <CLI/App.hpp>
@@ -39,12 +37,7 @@ struct Arguments {
     std::filesystem::path peer; ///< empty disables it
     std::vector<int> threads = {1, 2};
     std::size_t rounds = 3;
-    std::vector<std::string> blocks; ///< empty: do not measure runs in blocks
-    std::filesystem::path program;   ///< the program for runs in blocks and on one process
-    bool no_memory_run = false;
-    std::vector<std::size_t> ranks;     ///< empty: do not measure runs on ranks
-    std::filesystem::path rank_program; ///< the program for ranks
-    std::filesystem::path json;         ///< empty: write no file
+    std::filesystem::path json; ///< empty: write no file
 };
 
 using Rounds = std::map<int, std::vector<Json>>; ///< measurements by thread count
@@ -176,66 +169,6 @@ void write_json(const std::filesystem::path& path, const Json& record)
     if (!path.empty()) std::ofstream(path) << record.dump(2) << '\n';
 }
 
-Programs programs(const Arguments& arguments)
-{
-    return {.program = arguments.program,
-            .rank_program = arguments.rank_program,
-            .folder = arguments.folder,
-            .rounds = arguments.rounds};
-}
-
-/// Prints each report when it is ready. Returns false if surfaces are not byte-identical.
-template <typename Reports>
-bool print_reports(const Arguments& arguments, const Reports& make)
-{
-    Json record = Json::array();
-    bool is_same = true;
-    make([&](const ProgramReport& report) {
-        fmt::print("{}\n", report.table);
-        std::fflush(stdout);
-        record.push_back(report.figures);
-        is_same = is_same && report.is_same;
-    });
-    write_json(arguments.json, record);
-    return is_same;
-}
-
-bool run_in_blocks(const Arguments& arguments)
-{
-    std::vector<std::string> blocks = arguments.blocks;
-    if (!arguments.no_memory_run) blocks.insert(blocks.begin(), "0");
-    return print_reports(arguments, [&](const auto& print) {
-        for (const Sample& sample : samples(arguments)) {
-            print(compare_blocks(sample.model, blocks, arguments.threads, programs(arguments)));
-        }
-    });
-}
-
-/// One model per number of ranks, with the same number of points per rank.
-std::vector<RankModel> rank_models(const Arguments& arguments, const SampleKind& kind,
-                                   std::uint64_t points)
-{
-    std::vector<RankModel> models;
-    for (const std::size_t ranks : arguments.ranks) {
-        const Sample sample = made_sample(arguments, kind, ranks * points);
-        models.push_back({.folder = sample.model, .points = ranks * points, .ranks = ranks});
-    }
-    return models;
-}
-
-bool run_on_ranks(const Arguments& arguments)
-{
-    fmt::print("{}\n\n", rank_line());
-    return print_reports(arguments, [&](const auto& print) {
-        for (const SampleKind& kind : kinds(arguments)) {
-            for (const std::uint64_t points : sizes(arguments)) {
-                print(compare_ranks(fmt::format("{}: {} points per rank", name_of(kind), points),
-                                    rank_models(arguments, kind, points), programs(arguments)));
-            }
-        }
-    });
-}
-
 void run(const Arguments& arguments)
 {
     fmt::print("{}\n\n", machine_line());
@@ -280,36 +213,6 @@ void add_sample_options(CLI::App& app, Arguments& arguments)
             std::map<std::string, std::uint64_t>{{"k", 1'000}, {"M", 1'000'000}}));
 }
 
-void add_block_options(CLI::App& app, Arguments& arguments)
-{
-    CLI::Option* program =
-        app.add_option("--program", arguments.program, "the program to run with --blocks")
-            ->check(CLI::ExistingFile);
-    CLI::Option* blocks =
-        app.add_option("--blocks", arguments.blocks, "compare these --blocks with --blocks 0: 8,64")
-            ->delimiter(',')
-            ->needs(program);
-    app.add_flag("--no-memory-run", arguments.no_memory_run,
-                 "skip --blocks 0, if memory is too small")
-        ->needs(blocks);
-}
-
-void add_rank_options(CLI::App& app, Arguments& arguments)
-{
-    CLI::Option* program =
-        app.add_option("--rank-program", arguments.rank_program, "the program to run on ranks")
-            ->check(CLI::ExistingFile);
-    app.add_option("--ranks", arguments.ranks,
-                   "compare runs on ranks, each with --points points, with one "
-                   "process: 1,2,4")
-        ->delimiter(',')
-        ->check(CLI::PositiveNumber)
-        ->needs(program)
-        ->needs("--program")
-        ->excludes("--model")
-        ->excludes("--blocks");
-}
-
 } // namespace
 
 } // namespace vcarve::bench
@@ -322,8 +225,6 @@ int main(int count, char** words)
         app.add_option("--folder", arguments.folder, "the folder of models; missing ones are made")
             ->required();
         vcarve::bench::add_sample_options(app, arguments);
-        vcarve::bench::add_block_options(app, arguments);
-        vcarve::bench::add_rank_options(app, arguments);
         app.add_option("--peer", arguments.peer,
                        "run another program in turn, as PROGRAM MODEL OUT.ply")
             ->check(CLI::ExistingFile);
@@ -332,8 +233,6 @@ int main(int count, char** words)
             ->check(CLI::PositiveNumber);
         app.add_option("--json", arguments.json, "write all figures to this file");
         CLI11_PARSE(app, count, words);
-        if (!arguments.blocks.empty()) return vcarve::bench::run_in_blocks(arguments) ? 0 : 1;
-        if (!arguments.ranks.empty()) return vcarve::bench::run_on_ranks(arguments) ? 0 : 1;
         vcarve::bench::run(arguments);
         return 0;
     } catch (const std::exception& error) {

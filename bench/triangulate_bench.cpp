@@ -38,7 +38,7 @@ void triangulate_in_blocks(benchmark::State& state)
     const std::size_t size = scene.num_points() / num_blocks;
     const std::size_t first = num_blocks / 2 * size;
     ProgressCount silent({}, size);
-    CellCount count({});
+    CellCount count(kAnyCells);
     BlockProgress progress(silent, size);
     const BlockCells block =
         block_cells(tree, first_points(scene.positions), {first, first + size}, count, progress);

@@ -35,10 +35,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vcarve.pc DESTINATION ${CMAKE_INSTALL_
 # Targets that were not built are skipped: `tools/build vcarve` builds the library, tools/run the program.
 if(VCARVE_PROGRAM)
   # The program finds a shared library in its prefix without the system's configuration.
-  set(programs colmap-vcarve)
-  if(TARGET colmap-vcarve-mpi)
-    list(APPEND programs colmap-vcarve-mpi)
-  endif()
+  set(programs colmap-vcarve colmap-vcarve-mpi)
   set_target_properties(${programs} PROPERTIES
     INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} OPTIONAL)

@@ -151,12 +151,9 @@ struct RefineOptions {
 
 /// Memory limits.
 struct MemoryOptions {
-    static constexpr int kAutoBlocks = -1;          ///< number of blocks that `limit` requires
     static constexpr std::int64_t kAutoMemory = -1; ///< 80 % of the free memory
 
     std::int64_t limit = kAutoMemory; ///< maximum memory in bytes; 0 disables
-    /// Number of blocks, with arrays in files; higher needs less memory; 0 disables.
-    int blocks = kAutoBlocks;
 };
 
 /// All options of a run, one struct per step.

@@ -21,14 +21,13 @@ struct Reconstruction {
 ///
 /// Throws UsageError before any work if an option is out of range (with its name, the found and the
 /// accepted values), or if the sizes of the scene's arrays disagree. Throws InputError before any
-/// work if a run in memory would exceed `options.memory.limit`. Throws InputError later if the
+/// work if the run would exceed `options.memory.limit`. Throws InputError later if the
 /// scene has too little data for a surface, or the file of a region is wrong. Throws Cancelled
 /// within a fraction of a second after Log::should_stop() returns true. Uses no globals, so runs
 /// may be concurrent.
 ///
-/// The caller's operator new allocates all arrays. So kAutoMemory and kAutoBlocks mean no limit and
-/// no blocks here. Only the program measures free memory and keeps arrays in files. A number of
-/// blocks limits the memory of the triangulation.
+/// kAutoMemory means no limit here. Only the program measures free memory, and divides larger
+/// models into tiles.
 Reconstruction reconstruct(Scene input, const Options& options, Log& log);
 
 /// Reads a model with read_model() and reconstructs it; the surface is the same. Points of a dense

@@ -25,7 +25,7 @@ class Vcarve < Formula
   def install
     system "cmake", "-S", ".", "-B", "build", "-G", "Ninja", *std_cmake_args,
            "-DBUILD_SHARED_LIBS=ON", "-DVCARVE_PROGRAM=OFF", "-DVCARVE_TESTS=OFF",
-           "-DVCARVE_BENCHMARKS=OFF", "-DVCARVE_LAB=OFF", "-DVCARVE_PYTHON=OFF", "-DVCARVE_MPI=OFF"
+           "-DVCARVE_BENCHMARKS=OFF", "-DVCARVE_LAB=OFF", "-DVCARVE_PYTHON=OFF"
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"
   end

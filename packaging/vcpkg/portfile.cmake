@@ -3,7 +3,7 @@ get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../.." ABSOLUTE)
 vcpkg_cmake_configure(
   SOURCE_PATH "${SOURCE_PATH}"
   OPTIONS -DVCARVE_PROGRAM=OFF -DVCARVE_TESTS=OFF -DVCARVE_BENCHMARKS=OFF -DVCARVE_LAB=OFF
-          -DVCARVE_PYTHON=OFF -DVCARVE_MPI=OFF)
+          -DVCARVE_PYTHON=OFF)
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(PACKAGE_NAME vcarve CONFIG_PATH lib/cmake/vcarve)
 vcpkg_fixup_pkgconfig()

@@ -146,7 +146,6 @@ def reconstruct(
     simplify: int | Literal["auto"] = "auto",
     threads: int = 0,
     max_memory: int | str | Literal["auto"] = "auto",
-    blocks: int | Literal["auto"] = "auto",
 ) -> Mesh: ...
 
 

@@ -218,17 +218,6 @@ ScratchFolder::~ScratchFolder()
     fs::remove_all(path_, ignored);
 }
 
-std::vector<fs::path> ScratchFolder::contents() const
-{
-    std::vector<fs::path> paths;
-    for (const char* name : {kColmap, kOurs}) {
-        paths.push_back(mesh_path(path_, name));
-        paths.push_back(printed_path(path_, name));
-    }
-    paths.push_back(path_);
-    return paths;
-}
-
 std::vector<BaselineMesh> run_baselines(const BaselineRun& run, const ScratchFolder& scratch,
                                         Log& log)
 {

@@ -33,8 +33,6 @@ class ScratchFolder {
     ~ScratchFolder();
 
     const std::filesystem::path& path() const { return path_; }
-    /// The files that may be in it, then the folder: the paths to remove if a signal ends the run.
-    std::vector<std::filesystem::path> contents() const;
 
   private:
     std::filesystem::path path_;

@@ -62,7 +62,7 @@ std::vector<std::string> words_meant(std::span<const std::string> arguments)
 
 std::vector<Command> commands()
 {
-    return {{"", mesh_manual, [](const ParsedArguments& given) { run_mesh(given); }},
+    return {{"", mesh_manual, run_mesh},
             {"compare", compare_manual, run_compare},
             {"texture", texture_manual, run_texture}};
 }

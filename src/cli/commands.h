@@ -9,8 +9,6 @@
 
 namespace vcarve::cli {
 
-class RunRanks;
-
 /// A command of a program.
 struct Command {
     std::string name; ///< first word of the command line; empty for the bare form
@@ -26,9 +24,8 @@ std::vector<Command> commands();
 /// Throws UsageError and InputError.
 void run_command_line(std::span<const std::string> arguments, std::span<const Command> commands);
 
-/// `colmap-vcarve MODEL OUT.ply`. Ranks, if any, share the work. Throws UsageError, also if a
-/// scratch file cannot be written, and InputError.
-void run_mesh(const ParsedArguments& given, RunRanks* ranks = nullptr);
+/// `colmap-vcarve MODEL OUT.ply`. Throws UsageError and InputError.
+void run_mesh(const ParsedArguments& given);
 
 /// `colmap-vcarve compare MODEL A.ply ...`: prints a table of figures with one column per mesh, and
 /// writes the files of --json, --preview and --report. Throws UsageError and InputError.

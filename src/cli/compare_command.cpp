@@ -121,7 +121,7 @@ void check_files(const CompareArguments& arguments)
 void remove_on_signals(const CompareArguments& arguments, const ScratchFolder* scratch)
 {
     std::vector<fs::path> unfinished;
-    if (scratch != nullptr) unfinished = scratch->contents();
+    if (scratch != nullptr) unfinished.push_back(scratch->path());
     for (const fs::path& output : arguments.outputs.paths()) {
         unfinished.push_back(part_path(output));
     }

@@ -130,6 +130,24 @@ Job photograph_facts(const fs::path& folder, const Progress& progress)
     return facts;
 }
 
+/// Returns make(), or its result of an earlier run if the folder has it intact.
+DepthMap kept_depth(const WorkFolder* work, const std::string& name,
+                    const std::function<DepthMap()>& make)
+{
+    if (work == nullptr) return make();
+    try {
+        DepthMap kept;
+        if (work->has(name)) {
+            work->load(name, {}, kept);
+            return kept;
+        }
+    } catch (const InputError&) { // damaged; make() computes the same bytes again
+    }
+    DepthMap made = make();
+    work->save(name, {}, made);
+    return made;
+}
+
 DensePoints measure_dense_points(const DenseRun& run, const Reconstruction& sparse)
 {
     std::vector<CalibratedPhoto> photos =
@@ -143,9 +161,9 @@ DensePoints measure_dense_points(const DenseRun& run, const Reconstruction& spar
     }
     require_stereo_memory(run, photos);
     const auto keep = [&](std::size_t photo, const std::function<DepthMap()>& make) {
-        return run.checkpoints.piece({"depth", photo, photos.size()}, make);
+        return kept_depth(run.work, fmt::format("depth-{}-of-{}", photo, photos.size()), make);
     };
-    return dense_points(sparse, photos, {run.arguments.size_px}, keep, run.checkpoints.log());
+    return dense_points(sparse, photos, {run.arguments.size_px}, keep, run.log);
 }
 
 } // namespace vcarve::cli

@@ -5,9 +5,9 @@
 #include "io/images/find_photographs.h"
 #include "io/input/find_input.h"
 #include "options/option.h"
-#include "run/checkpoints.h"
 #include "run/job.h"
 #include "run/stage_file.h"
+#include "run/work_folder.h"
 #include "stereo/dense_points.h"
 #include "vcarve/reconstruct.h"
 #include "vcarve/scene.h"
@@ -18,17 +18,11 @@
 
 namespace vcarve {
 
-// For checkpoints. Planes are written as in memory.
+// Depth maps are kept in files. Planes are written as in memory.
 template <>
 inline constexpr bool kIsPlain<PixelPlane> = true;
 template <>
 inline constexpr int kNumFields<DepthMap> = 4;
-template <>
-inline constexpr int kNumFields<Photograph> = 4;
-template <>
-inline constexpr int kNumFields<DepthPicture> = 3;
-template <>
-inline constexpr int kNumFields<DensePoints> = 2;
 
 } // namespace vcarve
 
@@ -66,7 +60,8 @@ struct DenseRun {
     const DenseArguments& arguments;
     const Photographs& photographs;
     std::optional<std::int64_t> limit; ///< memory limit in bytes; nothing if unlimited
-    Checkpoints& checkpoints;          ///< keep depth maps as pieces of the stage "depth"
+    const WorkFolder* work;            ///< keeps depth maps; null keeps none
+    Log& log;
 };
 
 /// Measures dense points from the photographs, starting from the sparse surface. Throws InputError

@@ -1,12 +1,13 @@
 #include "cli/exit_code.h"
 
 #include "base/text.h"
-#include "run/ranks.h"
 #include "vcarve/error.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -52,6 +53,26 @@ std::atomic_flag is_reporting;
 void say(std::string_view text)
 {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+/// Removes a folder and its files. opendir() is not async-signal-safe.
+void remove_folder(const char* path)
+{
+    for (int tries = 0; tries < 3 && ::rmdir(path) != 0; ++tries) { // threads may still add files
+        const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder < 0) return;
+        alignas(dirent64) std::array<char, 4096> entries;
+        for (;;) {
+            const ssize_t bytes = ::getdents64(folder, entries.data(), entries.size());
+            if (bytes <= 0) break;
+            for (ssize_t at = 0; at < bytes;) {
+                const auto* entry = reinterpret_cast<const dirent64*>(entries.data() + at);
+                ::unlinkat(folder, entry->d_name, 0); // fails for . and ..
+                at += entry->d_reclen;
+            }
+        }
+        ::close(folder);
+    }
 }
 
 extern "C" void remove_and_exit(int signal, siginfo_t*, void*)
@@ -106,8 +127,6 @@ Ending ending_of(const std::function<void()>& main)
         return {2, error.what()};
     } catch (const InputError& error) {
         return {3, error.what()};
-    } catch (const RankError& error) {
-        return {error.exit_code(), error.what()};
     } catch (const std::bad_alloc&) {
         return {1, ""}; // without text, which could need memory
     } catch (const std::exception& error) {
@@ -151,7 +170,7 @@ void end_cleanly_on_signals(const std::vector<std::filesystem::path>& unfinished
 void remove_unfinished()
 {
     for (const std::string& file : files_to_remove) {
-        if (::unlink(file.c_str()) != 0) ::rmdir(file.c_str());
+        if (::unlink(file.c_str()) != 0) remove_folder(file.c_str());
     }
 }
 

@@ -21,7 +21,7 @@ Ending ending_of(const std::function<void()>& main);
 int report(const Ending& ending);
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the program with exit code 128 + signal, after removing the
-/// files and empty folders in `unfinished`, in this order, if they exist. A second call replaces
+/// files in `unfinished`, and the folders with their files, if they exist. A second call replaces
 /// the list. A crash prints one sentence and exits with 1, or with 3 if a mapped input was
 /// truncated. Ignores SIGPIPE and SIGXFSZ: a closed stderr does not end a run, and a file at the
 /// size limit fails as on a full disk.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <system_error>
 
@@ -68,22 +69,20 @@ OptionList work_options(MeshArguments& arguments)
          {.name = "work",
           .unit = "folder",
           .help =
-              "Keep checkpoints in FOLDER to resume a run. The same command, run again after it "
-              "was killed or the disk was full, resumes after the last finished stage. The "
-              "folder also holds arrays that exceed --max-memory."},
+              "Keep finished tiles and depth maps in FOLDER. The same command, run again after it "
+              "was killed or the disk was full, resumes after these. With --tile-points, several "
+              "processes with the same command share the tiles, on one or more machines."},
          &arguments.work},
         {kRunStage,
          {.name = "keep-work",
-          .help = "Keep the checkpoints of --work at the end.",
+          .help = "Keep the files of --work at the end.",
           .level = OptionLevel::advanced},
          &arguments.keeps_work},
         {kRunStage,
          {.name = "tile-points",
           .unit = "points",
-          .help =
-              "Divide the model into tiles of about N points, and join their surfaces. Needs the "
-              "memory of a tile and of the mesh. 0: mesh the model in one piece. "
-              "colmap-vcarve-mpi always makes tiles, by default of 250000 points.",
+          .help = "Divide the model into tiles of at most N points, and join their surfaces. Needs "
+                  "the memory of a tile and of the mesh. 0: only if --max-memory requires tiles.",
           .level = OptionLevel::advanced},
          &arguments.tile_points},
     };
@@ -234,7 +233,7 @@ std::vector<Output> outputs_of(const MeshArguments& arguments)
     return outputs;
 }
 
-void refuse_in_tiles(const MeshArguments& arguments)
+const char* option_of_one_piece(const MeshArguments& arguments)
 {
     const Options& options = arguments.options;
     const std::pair<bool, const char*> whole[] = {
@@ -247,13 +246,8 @@ void refuse_in_tiles(const MeshArguments& arguments)
         {!arguments.texture.masks.empty(), "--masks"},
         {arguments.output.attributes, "--attributes"},
         {!arguments.report.empty(), "--report"}};
-    for (const auto& [is_given, name] : whole) {
-        if (is_given) {
-            throw UsageError(fmt::format("{} needs the model in one piece, not in tiles; leave out "
-                                         "one of the options",
-                                         name));
-        }
-    }
+    const auto given = std::ranges::find_if(whole, [](const auto& each) { return each.first; });
+    return given == std::end(whole) ? nullptr : given->second;
 }
 
 MeshArguments read_mesh_arguments(const ParsedArguments& given)
@@ -273,6 +267,12 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     }
     check_texture(arguments.texture, arguments.out, given);
     check_preview(arguments.preview, given);
+    if (const char* const name = option_of_one_piece(arguments);
+        name != nullptr && arguments.tile_points > 0) {
+        throw UsageError(fmt::format("{} needs the model in one piece, not in tiles; leave out "
+                                     "one of the options",
+                                     name));
+    }
     if (!arguments.report.empty()) require_page_name(arguments.report);
     if (arguments.keeps_work && arguments.work.empty()) {
         throw UsageError("--keep-work needs --work FOLDER");
@@ -282,7 +282,8 @@ MeshArguments read_mesh_arguments(const ParsedArguments& given)
     return arguments;
 }
 
-std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene)
+std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene,
+                                         std::size_t tile_points)
 {
     std::vector<std::string> comments = {"made by colmap-vcarve " + versions().program,
                                          "input " + digest_text(scene)};
@@ -294,8 +295,7 @@ std::vector<std::string> record_comments(const MeshArguments& arguments, const D
         if (value_text(options[i]) == value_text(defaults[i])) continue;
         comments.push_back("option " + recorded(options[i]));
     }
-    if (arguments.tile_points > 0)
-        comments.push_back(fmt::format("option tile-points={}", arguments.tile_points));
+    if (tile_points > 0) comments.push_back(fmt::format("option tile-points={}", tile_points));
     return comments;
 }
 

@@ -35,9 +35,9 @@ struct MeshArguments {
     PreviewArguments preview;
     std::filesystem::path stats;  ///< empty if not written
     std::filesystem::path report; ///< empty if not written
-    std::filesystem::path work;   ///< empty if no checkpoints are kept
-    bool keeps_work = false;      ///< keeps the checkpoints at the end
-    int tile_points = 0;          ///< maximum number of points of a tile; 0 makes no tiles
+    std::filesystem::path work;   ///< empty if no files are kept
+    bool keeps_work = false;      ///< keeps the files at the end
+    int tile_points = 0;          ///< maximum number of points of a tile; 0 if memory decides
     bool checks = false;          ///< checks the mesh, also without --stats and --report
     std::string command;          ///< as typed
     OutputOptions output;
@@ -54,12 +54,14 @@ OptionList options_of(OutputOptions& output);
 /// with the same file.
 MeshArguments read_mesh_arguments(const ParsedArguments& given);
 
-/// Throws UsageError if an option is given that a model in tiles does not support.
-void refuse_in_tiles(const MeshArguments& arguments);
+/// The first given option that a model in tiles does not support; null if there is none.
+const char* option_of_one_piece(const MeshArguments& arguments);
 
 /// The comments of the mesh file: the program, the digest of the scene, and options that affect the
-/// mesh and differ from the defaults. No paths, no threads: equal runs write equal files.
-std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene);
+/// mesh and differ from the defaults, such as tiles. No paths, no threads: equal runs write equal
+/// files.
+std::vector<std::string> record_comments(const MeshArguments& arguments, const Digest& scene,
+                                         std::size_t tile_points = 0);
 
 /// The help of `colmap-vcarve MODEL OUT.ply`.
 Manual mesh_manual();

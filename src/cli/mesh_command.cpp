@@ -18,7 +18,6 @@
 #include "pipeline/memory.h"
 #include "pipeline/thinned_scene.h"
 #include "region/region.h"
-#include "run/checkpoints.h"
 #include "run/work_folder.h"
 #include "steps/1_points/thin.h"
 #include "steps/6_surface/provenance.h"
@@ -136,9 +135,8 @@ struct Run {
     ConsoleLog& shown;
     Log& log; ///< forwards to `shown`
     RunMemory& memory;
-    WorkFolder* work;       ///< null without --work
-    RunRanks* ranks;        ///< null if this process works alone
-    bool is_work_temporary; ///< whether `work` is for the tiles of this run only
+    const fs::path& temporary;         ///< the folder of tiles without --work
+    std::unique_ptr<WorkFolder>& work; ///< null until there are files to keep
 };
 
 /// Plans the memory; called again when the size is known better. Errors name the model.
@@ -225,18 +223,14 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
 {
     const MeshArguments& arguments = run.arguments;
     Options options = arguments.options;
-    options.memory = run.memory.options();
     options.refine = {};
     options.surface = {}; // depth maps always start from the visible surface
-    Checkpoints checkpoints(run.work, run.log);
-    DensePoints dense;
-    checkpoints.keep("depth", dense, [&] {
-        const Reconstruction sparse =
-            reconstruct_thinned(std::move(input.scene), input.read, options, checkpoints.log());
-        dense = measure_dense_points(
-            {arguments.dense, photographs, allowed_memory(arguments.options.memory), checkpoints},
-            sparse);
-    });
+    const Reconstruction sparse =
+        reconstruct_thinned(std::move(input.scene), input.read, options, run.log);
+    DensePoints dense =
+        measure_dense_points({arguments.dense, photographs,
+                              allowed_memory(arguments.options.memory), run.work.get(), run.log},
+                             sparse);
     if (!arguments.dense.keep_points.empty()) {
         const FoundInput found = find_input(arguments.model.path, arguments.model.all_points());
         write_points(arguments.dense.keep_points, dense.scene, found.model);
@@ -270,14 +264,24 @@ void plan_tiles(ModelInput input, std::size_t most, TiledRun& tiles)
     tiles.plan(sample.scene, points, most);
 }
 
-/// Makes the surface in tiles, which ranks share.
+/// The options of a run in tiles: the memory limit applies to each of them.
+Options options_of_tiles(const MeshArguments& arguments)
+{
+    Options options = arguments.options;
+    options.memory.limit = allowed_memory(options.memory).value_or(0);
+    return options;
+}
+
 TriMesh surface_in_tiles(ModelInput input, const Run& run)
 {
-    const Options options = options_of_tiles(run.arguments.options);
+    if (!run.work) {
+        run.work = std::make_unique<WorkFolder>(run.temporary);
+        run.work->begin({program_fact()});
+    }
+    const Options options = options_of_tiles(run.arguments);
     TiledRun tiles(*run.work, options, run.log);
-    plan_tiles(std::move(input), static_cast<std::size_t>(run.arguments.tile_points), tiles);
-    if (run.ranks != nullptr) run.ranks->begin({run.work->job(), digest_of_options(options)});
-    return tiles.make(run.ranks);
+    plan_tiles(std::move(input), run.memory.tile_points(), tiles);
+    return tiles.make();
 }
 
 /// Makes the surface of a scene. Errors name the model.
@@ -288,16 +292,13 @@ Surface surface_of(ModelInput input, const Run& run)
     try {
         Surface surface;
         if (arguments.dense.dense) surface.depth = make_dense(input, *images.photographs, run);
-        Options options = arguments.options;
-        options.memory = run.memory.options();
-        if (arguments.tile_points > 0) {
+        if (run.memory.tile_points() > 0) {
             surface.mesh = surface_in_tiles(std::move(input), run);
             return surface;
         }
-        const RunExtras extras = {.removed = arguments.report.empty() ? nullptr : &surface.removed,
-                                  .work = run.work};
         Reconstruction made =
-            reconstruct_thinned(std::move(input.scene), input.read, options, run.log, extras);
+            reconstruct_thinned(std::move(input.scene), input.read, arguments.options, run.log,
+                                arguments.report.empty() ? nullptr : &surface.removed);
         if (images.masks) made.mesh = unmasked(made.mesh, made.scene, *images.masks, run.log);
         if (images.photographs) {
             TexturedMesh covered = textured(std::move(made.mesh), made.scene, *images.photographs,
@@ -335,7 +336,7 @@ ModelInput read_input(const Run& run)
                          {.check = check,
                           .gather = thin_while_reading(arguments.options.thin),
                           .wants_sample = [&](const std::optional<SceneSize>& /*size*/) {
-                              return arguments.tile_points > 0 && !arguments.dense.dense;
+                              return run.memory.tile_points() > 0 && !arguments.dense.dense;
                           }});
     RunSize size = size_before_thinning(input.read, arguments.options);
     size.thinned = size_of(input.scene);
@@ -376,7 +377,7 @@ Made make_surface(const Run& run, Json& record)
     Surface surface = surface_of(std::move(input), run);
     MeshArguments told = arguments;
     if (place.offset.isZero(0.0)) told.output.offset = {}; // has no effect
-    surface.comments = record_comments(told, digest);
+    surface.comments = record_comments(told, digest, run.memory.tile_points());
     check_surface(run, surface.mesh, record);
     write_surface(arguments, surface, place, run.log);
     preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, run.log);
@@ -410,30 +411,35 @@ void write_records(const MeshArguments& arguments, const std::optional<ReportPar
     if (report.has_value()) write_report(arguments.report, record, *report);
 }
 
-/// Makes the mesh. If the input is wrong, removes the checkpoints unless the run was resumed.
+/// Makes the mesh. If it fails, removes files that no later run can use.
 Made make_or_clear(const Run& run, Json& record)
 {
     try {
         return make_surface(run, record);
     } catch (const InputError&) {
-        if (run.work != nullptr && !run.work->is_resumed()) run.work->clear();
+        if (run.work && !run.work->is_resumed()) run.work->clear();
         throw;
     } catch (...) {
-        if (run.is_work_temporary) run.work->clear();
+        if (run.work && run.arguments.work.empty()) run.work->clear();
         throw;
     }
 }
 
-void require_work_folder(const MeshArguments& arguments, std::size_t ranks)
+/// Shares the tiles of another process with the same command. Returns whether that made the mesh.
+bool has_helped(const MeshArguments& arguments, WorkFolder& work, Log& log)
 {
-    if (ranks == 1 || !arguments.work.empty()) return;
-    throw UsageError(fmt::format("{} ranks need --work FOLDER, on a file system that all ranks "
-                                 "share{}",
-                                 ranks, kSeeHelp));
+    if (work.leads()) return false;
+    if (arguments.tile_points == 0) {
+        throw InputError(fmt::format("another run uses the work folder {}; wait until it ends, or "
+                                     "choose another folder with --work",
+                                     work.path().string()));
+    }
+    const Options options = options_of_tiles(arguments);
+    return TiledRun(work, options, log).help();
 }
 
 /// The record at the start of the run.
-Json begun_record(MeshArguments& arguments, int threads, std::size_t ranks)
+Json begun_record(MeshArguments& arguments, int threads)
 {
     return {{"schema", kStatsSchema},
             {"program", program_json()},
@@ -445,22 +451,19 @@ Json begun_record(MeshArguments& arguments, int threads, std::size_t ranks)
             {"preview", nullptr},
             {"options",
              options_json(joined({options_of(arguments.options), options_of(arguments.output)}))},
-            {"threads_used", threads},
-            {"ranks", ranks}};
+            {"threads_used", threads}};
 }
 
-void run(const ParsedArguments& given, RunRanks* ranks)
+} // namespace
+
+void run_mesh(const ParsedArguments& given)
 {
     MeshArguments arguments = read_mesh_arguments(given);
-    constexpr int kUsualTile = 250'000; // points, for any number of ranks: the mesh is the same
-    if (ranks != nullptr && arguments.tile_points == 0) arguments.tile_points = kUsualTile;
-    const std::size_t num_ranks = ranks == nullptr ? 1 : ranks->count();
-    require_work_folder(arguments, num_ranks);
     const std::array<Output, 2> others = {{{"the region", arguments.options.crop.region.file},
                                            {"the transformation", arguments.output.transform}}};
     keep_inputs(outputs_of(arguments), arguments.model, others);
-    const ArrayFolder scratch(arguments.work, arguments.out);
-    prepare_outputs(outputs_of(arguments), scratch.is_temporary() ? scratch.path() : fs::path());
+    const fs::path temporary = folder_beside(arguments.out);
+    prepare_outputs(outputs_of(arguments), arguments.work.empty() ? temporary : fs::path());
     // Errors in these files are reported before the work starts.
     arguments.transform = transform_of(arguments.output.transform, arguments.model);
     if (arguments.options.crop.region.kind == RegionChoice::Kind::file) {
@@ -477,17 +480,16 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     std::optional<StageRecorder> recorder;
     if (!arguments.stats.empty() || !arguments.report.empty()) recorder.emplace(shown);
     Log& log = recorder ? static_cast<Log&>(*recorder) : shown;
-    Json record = begun_record(arguments, threads, num_ranks);
+    Json record = begun_record(arguments, threads);
 
-    const bool is_tiled = arguments.tile_points > 0;
-    if (is_tiled) refuse_in_tiles(arguments);
-    const bool is_work_temporary = is_tiled && arguments.work.empty();
-    if (is_work_temporary) arguments.work = scratch.path();
-    const std::unique_ptr<WorkFolder> work = work_folder(arguments, log);
-    const MemoryOptions in_one_piece = {.limit = 0, .blocks = 0}; // before tiles are made
-    RunMemory memory(is_tiled ? in_one_piece : arguments.options.memory, threads, scratch);
-    const Made made = make_or_clear(
-        {arguments, shown, log, memory, work.get(), ranks, is_work_temporary}, record);
+    std::unique_ptr<WorkFolder> work = work_folder(arguments, log);
+    if (work && has_helped(arguments, *work, log)) {
+        return shown.conclude(fmt::format("another process wrote {}; this one made some of its "
+                                          "tiles",
+                                          arguments.out.string()));
+    }
+    RunMemory memory(arguments, threads);
+    const Made made = make_or_clear({arguments, shown, log, memory, temporary, work}, record);
     record["memory"] = memory.record();
     if (recorder) {
         record.update(recorder->json());
@@ -495,17 +497,6 @@ void run(const ParsedArguments& given, RunRanks* ranks)
     }
     if (work && !arguments.keeps_work) work->clear();
     shown.conclude(closing_line(arguments, made, shown.counts()));
-}
-
-} // namespace
-
-void run_mesh(const ParsedArguments& given, RunRanks* ranks)
-{
-    try {
-        run(given, ranks);
-    } catch (const ScratchError& error) {
-        throw UsageError(error.what());
-    }
 }
 
 } // namespace vcarve::cli

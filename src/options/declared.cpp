@@ -272,23 +272,12 @@ OptionList run_options(Options& options)
          &options.threads},
         {kRunStage,
          {.name = "max-memory",
-          .help = "Limit the memory, such as to 8G. A larger model is meshed in blocks, with files "
-                  "in --work; the mesh is the same. auto: 80 % of the free memory of the machine "
-                  "or its control group; 0 disables.",
+          .help = "Limit the memory, such as to 8G. A larger model is divided into tiles, with "
+                  "files in --work or beside the output. auto: 80 % of the free memory of the "
+                  "machine or its control group; 0 disables.",
           .words = {"auto"},
           .word_value = static_cast<double>(MemoryOptions::kAutoMemory)},
          &options.memory.limit},
-        {kRunStage,
-         {.name = "blocks",
-          .unit = "blocks",
-          .help = "Divide the model into N blocks, with arrays in files of --work. auto: the "
-                  "number that --max-memory requires. 0: work in memory, and reject a model that "
-                  "needs more.",
-          .max = 65536.0,
-          .words = {"auto"},
-          .word_value = static_cast<double>(MemoryOptions::kAutoBlocks),
-          .level = advanced},
-         &options.memory.blocks},
     };
 }
 

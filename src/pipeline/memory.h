@@ -37,36 +37,7 @@ inline constexpr double kMostPredicted = 1.4;
 /// Throws InputError with both sizes if the prediction exceeds `most` bytes; <= 0 disables it.
 void require_memory(const RunSize& size, int threads, std::int64_t most);
 
-/// The same with the limit of the run's options. Does nothing for a run in blocks.
-void require_memory_of(const RunSize& size, int threads);
-
-/// The maximum number of cells for the run's memory limit: of all cells in memory, or of the cells
-/// of the current blocks. Never less than points usually have.
-CellLimit limit_of_cells(const RunSize& size, int threads);
-
-/// How a run stays within its memory limit.
-struct BlockPlan {
-    int blocks = 0;           ///< number of blocks; 0 runs in memory
-    std::int64_t needed = 0;  ///< predicted bytes of a run in memory
-    std::int64_t limit = 0;   ///< allowed bytes; 0 disables the limit
-    std::int64_t scratch = 0; ///< maximum bytes of arrays in the work folder; 0 in memory
-
-    /// Whether the run is in blocks, with large arrays in the work folder.
-    bool in_blocks() const { return blocks > 0; }
-};
-
-/// Plans a run in memory if the options demand it or the run fits; otherwise in blocks. Blocks are
-/// triangulated at the same time, one per thread, and get half of the memory. `free` is the
-/// system's free memory, or nullopt if unknown; without a limit in the options, 4/5 of it is
-/// allowed. Throws InputError if a run in memory would exceed the options' limit, or if the memory
-/// that each point needs even in blocks exceeds the allowed memory.
-BlockPlan plan_blocks(const RunSize& size, int threads, const MemoryOptions& wanted,
-                      std::optional<std::int64_t> free);
-
-/// The least memory that a run in blocks needs, in bytes.
-std::int64_t least_memory(const RunSize& size, int threads);
-
-/// The peak size of arrays in the work folder, in bytes.
-std::int64_t predicted_scratch(const RunSize& size);
+/// The maximum number of cells for the run's memory limit, never less than points usually have.
+std::size_t most_cells(const RunSize& size, int threads);
 
 } // namespace vcarve

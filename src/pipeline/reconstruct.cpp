@@ -18,36 +18,17 @@ namespace vcarve {
 
 namespace {
 
-/// Makes the points and the region.
-void make_points(RunState& run)
-{
-    run.points.scene = center_points(std::move(run.points.scene));
-    return_freed_memory();
-    run_stages(Part::plan, run);
-    run.checkpoints.keep("points", run.points, [&] { run_stages(Part::points, run); });
-    if (!run.region) { // the points came from a checkpoint
-        run.region =
-            make_region(run.options().crop.region, run.points.scene.offset, run.points.of_interest);
-    }
-    return_freed_memory();
-}
-
-/// Carves the visible faces, and frees the cells.
-void carve(RunState& run)
-{
-    run.checkpoints.keep("cells", run.cells, [&] { run_stages(Part::cells, run); });
-    run.checkpoints.keep("rays", run.evidence, [&] { run_stages(Part::rays, run); });
-    run_stages(Part::surface, run);
-    run.cells = {};
-    run.virtual_rays = {};
-}
-
 /// Runs all stages after thinning.
 Reconstruction run_parts(RunState run, RemovedFaces* removed)
 {
-    make_points(run);
-    run.checkpoints.keep(run.wants_removed ? "surface-and-removed" : "surface", run.carved,
-                         [&] { carve(run); });
+    run.points.scene = center_points(std::move(run.points.scene));
+    return_freed_memory();
+    for (const Part part : {Part::plan, Part::points, Part::cells, Part::rays, Part::surface}) {
+        run_stages(part, run);
+        return_freed_memory();
+    }
+    run.cells = {};
+    run.virtual_rays = {};
     return_freed_memory();
     run_stages(Part::refinement, run);
     if (removed != nullptr) *removed = std::move(run.carved.removed);
@@ -56,12 +37,11 @@ Reconstruction run_parts(RunState run, RemovedFaces* removed)
 
 Reconstruction thin_and_run(Scene scene, const Options& options, Log& log)
 {
-    Checkpoints nowhere(nullptr, log);
     RunState run = {.size = size_before_thinning(size_of(scene), options),
-                    .checkpoints = nowhere,
+                    .log = log,
                     .points = {std::move(scene), {}}};
     run.size.in_parts = false;
-    require_memory_of(run.size, tbb::this_task_arena::max_concurrency());
+    require_memory(run.size, tbb::this_task_arena::max_concurrency(), options.memory.limit);
     run_stages(Part::input, run);
     run.size.thinned = size_of(run.points.scene);
     return run_parts(std::move(run), nullptr);
@@ -87,16 +67,15 @@ Gather thin_while_reading(const ThinOptions& options)
 }
 
 Reconstruction reconstruct_thinned(Scene thinned, const SceneSize& read, const Options& options,
-                                   Log& log, const RunExtras& extras)
+                                   Log& log, RemovedFaces* removed)
 {
     return with_threads(options, [&] {
-        Checkpoints checkpoints(extras.work, log);
         RunState run = {.size = size_before_thinning(read, options),
-                        .checkpoints = checkpoints,
-                        .wants_removed = extras.removed != nullptr,
+                        .log = log,
+                        .wants_removed = removed != nullptr,
                         .points = {std::move(thinned), {}}};
         run.size.thinned = size_of(run.points.scene);
-        return run_parts(std::move(run), extras.removed);
+        return run_parts(std::move(run), removed);
     });
 }
 
@@ -112,8 +91,8 @@ Reconstruction reconstruct(const std::filesystem::path& input, const PointsOptio
 {
     return with_threads(options, [&] {
         const auto check = [&](const SceneSize& read) {
-            require_memory_of(size_before_thinning(read, options),
-                              tbb::this_task_arena::max_concurrency());
+            require_memory(size_before_thinning(read, options),
+                           tbb::this_task_arena::max_concurrency(), options.memory.limit);
         };
         ReadModel model =
             read_found_model(input, points, log, {check, thin_while_reading(options.thin)});

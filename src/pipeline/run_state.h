@@ -7,9 +7,9 @@
 #include "model/visibility_energy.h"
 #include "pipeline/stage_memory.h"
 #include "region/region.h"
-#include "run/checkpoints.h"
 #include "steps/6_surface/carve_surface.h"
 #include "steps/7_refine/ray_guard.h"
+#include "vcarve/log.h"
 #include "vcarve/options.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
@@ -37,7 +37,7 @@ struct RayEvidence {
 /// The data that the stages of a run (stages.h) pass on.
 struct RunState {
     RunSize size;
-    Checkpoints& checkpoints;
+    Log& log;
     bool wants_removed = false;
 
     UsualValues usual{}; ///< measured by the stages, unless known before
@@ -57,20 +57,5 @@ struct RunState {
 
     const Options& options() const { return size.options; }
 };
-
-template <>
-inline constexpr int kNumFields<Ball> = 2;
-template <>
-inline constexpr int kNumFields<CarvingPoints> = 2;
-template <>
-inline constexpr int kNumFields<RayEvidence> = 2;
-template <>
-inline constexpr int kNumFields<ViewLine> = 2;
-template <>
-inline constexpr int kNumFields<Openness> = 3;
-template <>
-inline constexpr int kNumFields<RemovedFaces> = 2;
-template <>
-inline constexpr int kNumFields<CarvedSurface> = 4;
 
 } // namespace vcarve

@@ -53,12 +53,13 @@ double merging_parts(const Needs& needs)
                     kLeftOfParts * merging(needs.left) + needs.left.scene());
 }
 
-} // namespace
-
+/// CGAL's triangulation of all points.
 double cgal(const Sizes& n)
 {
     return n.cells() * kCgalCell + n.points * kCgalVertex;
 }
+
+} // namespace
 
 double Sizes::scene() const
 {

@@ -61,7 +61,4 @@ double extracting(const Needs& n);
 double cleaning(const Needs& n);
 double adjusting(const Needs& n);
 
-/// CGAL's triangulation of all points.
-double cgal(const Sizes& n);
-
 } // namespace vcarve

@@ -14,7 +14,6 @@
 #include "steps/2_planes/added_points.h"
 #include "steps/3_cells/limits.h"
 #include "steps/3_cells/triangulate.h"
-#include "steps/3_cells/triangulate_blocks.h"
 #include "steps/4_visibility/count_crossings.h"
 #include "steps/4_visibility/inferred_rays.h"
 #include "steps/4_visibility/trace.h"
@@ -100,7 +99,7 @@ std::string largest_loss(const FilterReport& dropped, std::int64_t stray, std::i
 Counts predict_memory(RunState& run, const Progress& /*progress*/)
 {
     const int threads = tbb::this_task_arena::max_concurrency();
-    require_memory_of(run.size, threads);
+    require_memory(run.size, threads, run.options().memory.limit);
     return {{"MiB expected", (predicted_peak(run.size, threads) >> 20) + 1}};
 }
 
@@ -178,18 +177,8 @@ Counts denoise(RunState& run, const Progress& progress)
 Counts triangulate(RunState& run, const Progress& progress)
 {
     const Scene& scene = run.points.scene;
-    const auto blocks = static_cast<std::size_t>(std::max(run.options().memory.blocks, 0));
-    const CellLimit limit = limit_of_cells(run.size, tbb::this_task_arena::max_concurrency());
-    if (blocks == 0) {
-        run.cells = vcarve::triangulate(scene, progress, limit);
-    } else if (auto cells =
-                   triangulate_in_blocks(scene, {.count = blocks, .limit = limit}, progress)) {
-        run.cells = std::move(*cells);
-    } else {
-        run.notes.emplace_back("many points lie on or near common spheres or planes; "
-                               "triangulating them without blocks, which needs more memory");
-        run.cells = triangulate_at_once(scene, progress, limit);
-    }
+    const int threads = tbb::this_task_arena::max_concurrency();
+    run.cells = vcarve::triangulate(scene, progress, most_cells(run.size, threads));
     return {{"cells", size_of(run.cells.cells.size())}};
 }
 

@@ -149,14 +149,13 @@ std::span<const RunStage> all_stages()
 
 void run_stages(Part part, RunState& run)
 {
-    Log& log = run.checkpoints.log();
     const Needs needs = needs_of(run.size, tbb::this_task_arena::max_concurrency());
     for (const RunStage& stage : all_stages()) {
         if (stage.part != part || stage.run == nullptr || !stage.applies(needs)) continue;
-        Stage logged(log, stage.name);
+        Stage logged(run.log, stage.name);
         logged.end(stage.run(run, logged));
         for (const std::string& note : std::exchange(run.notes, {})) {
-            log.note(note);
+            run.log.note(note);
         }
     }
 }

@@ -10,7 +10,7 @@ namespace vcarve {
 
 struct RunState;
 
-/// The parts of a run. The results of `points` to `surface` can be checkpoints (reconstruct.cpp).
+/// The parts of a run.
 enum class Part { input, plan, points, cells, rays, surface, refinement, output };
 
 /// The description of a stage of a run.
@@ -23,7 +23,7 @@ struct RunStage {
     double (*bytes)(const Needs&) = nullptr; ///< size of its arrays; null if small
 };
 
-/// The stages of every run, in order. They also determine what is resumed and predict memory.
+/// The stages of every run, in order. They also predict memory.
 std::span<const RunStage> all_stages();
 
 /// Runs the stages of a part, and logs each. Throws the exceptions of the stages.

@@ -2,8 +2,6 @@
 
 #include "base/progress.h"
 #include "io/files/output_file.h"
-#include "model/tet_mesh.h"
-#include "model/visibility_energy.h"
 #include "run/digest.h"
 #include "vcarve/scene.h"
 #include "vcarve/tri_mesh.h"
@@ -44,12 +42,6 @@ template <>
 inline constexpr int kNumFields<Tracks> = 2;
 template <>
 inline constexpr int kNumFields<Scene> = 11;
-template <>
-inline constexpr int kNumFields<TetMesh> = 4;
-template <>
-inline constexpr int kNumFields<FlowNetwork> = 2;
-template <>
-inline constexpr int kNumFields<VisibilityEnergy> = 3;
 template <>
 inline constexpr int kNumFields<TriMesh> = 6;
 template <typename First, typename Second>

@@ -28,6 +28,8 @@ namespace {
 
 constexpr const char* kLockName = "lock";
 constexpr const char* kJobName = "job";
+/// The name of the job's file while the folder is cleared.
+constexpr const char* kEndedName = "job.part-ended";
 constexpr const char* kStageEnd = ".stage";
 constexpr const char* kClaimEnd = ".claim";
 /// The first line of the job's file. kJobEnd begins its last line.
@@ -37,18 +39,6 @@ constexpr std::string_view kMadeHere = "the folder was made by the run\n";
 constexpr std::string_view kJobEnd = "digest of the lines above\t";
 constexpr const char* kAnother = "choose another folder with --work, or remove this one to start "
                                  "over";
-
-/// Whether a file name is that of an incomplete file, see part_path().
-bool is_part(const std::string& name)
-{
-    return name.find(".part-") != std::string::npos;
-}
-
-/// Whether a file name is that of a claim, which ends with its run.
-bool is_claim(const std::string& name)
-{
-    return name.ends_with(kClaimEnd);
-}
 
 /// Whether this program writes files with that name.
 bool is_ours(const std::string& name)
@@ -88,10 +78,10 @@ bool make_folder(const fs::path& folder)
 void require_ours(const fs::path& folder)
 {
     std::error_code error; // without access to the folder, writing fails later
-    if (fs::exists(folder / kJobName, error)) return;
+    if (fs::exists(folder / kJobName, error) || fs::exists(folder / kEndedName, error)) return;
     for (const fs::path& file : files_in(folder)) {
         const std::string name = file.filename();
-        if (name == kLockName || (is_ours(name) && is_part(name))) continue;
+        if (is_ours(name) && !name.ends_with(kStageEnd)) continue;
         throw UsageError(fmt::format("{} is not a work folder: it contains {}; --work needs a "
                                      "new or empty folder, or the work folder of an earlier "
                                      "run",
@@ -108,30 +98,24 @@ bool is_same_file(int descriptor, const fs::path& path)
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Locks the folder and returns the descriptor of the lock file. A run that ends removes this file,
-/// so a file that was opened just before may no longer be in the folder.
-int lock(const fs::path& folder)
+/// Opens and locks a file, which it creates if it is missing. Returns nothing if another process
+/// has the lock.
+FileLock lock(const fs::path& path)
 {
-    const fs::path path = folder / kLockName;
+    const auto refuse = [&](const char* what, int error) {
+        throw UsageError(fmt::format("{} the work folder {}: {}", what, path.parent_path().string(),
+                                     std::strerror(error)));
+    };
     for (;;) {
         const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (file < 0) {
-            throw UsageError(fmt::format("cannot write to the work folder {}: {}", folder.string(),
-                                         std::strerror(errno)));
-        }
+        if (file < 0) refuse("cannot write to", errno);
+        FileLock held(file);
         if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
-            const int error = errno;
-            ::close(file);
-            if (error == EWOULDBLOCK) {
-                throw InputError(fmt::format("another run uses the work folder {}; wait until it "
-                                             "ends, or choose another folder with --work",
-                                             folder.string()));
-            }
-            throw UsageError(fmt::format("cannot lock the work folder {}: {}", folder.string(),
-                                         std::strerror(error)));
+            if (errno == EWOULDBLOCK) return {};
+            refuse("cannot lock", errno);
         }
-        if (is_same_file(file, path)) return file;
-        ::close(file);
+        // A run that ends removes this file, which may have been opened just before.
+        if (is_same_file(file, path)) return held;
     }
 }
 
@@ -199,17 +183,22 @@ std::string difference(const Job& before, const Job& now)
 
 } // namespace
 
+FileLock::~FileLock()
+{
+    if (file_ >= 0) ::close(file_);
+}
+
 WorkFolder::WorkFolder(fs::path folder)
     : folder_(std::move(folder)), was_made_(make_folder(folder_))
 {
     std::error_code error;
     const bool had_lock = fs::exists(folder_ / kLockName, error);
-    lock_ = lock(folder_); // first, because nobody else changes a locked folder
+    lock_ = lock(folder_ / kLockName); // first, because nobody else changes a locked folder
+    if (!lock_) return;
     try {
         require_ours(folder_);
     } catch (...) {
         if (!had_lock) remove_quietly(folder_ / kLockName);
-        ::close(lock_);
         throw;
     }
     if (was_made_) {
@@ -217,32 +206,38 @@ WorkFolder::WorkFolder(fs::path folder)
     } else {
         was_made_ = text_of(folder_ / kLockName) == kMadeHere;
     }
-    for (const fs::path& file : files_in(folder_)) {
-        const std::string name = file.filename();
-        if (is_ours(name) && (is_part(name) || is_claim(name))) remove_quietly(file);
-    }
-}
-
-WorkFolder::WorkFolder(fs::path folder, const Digest& job) : folder_(std::move(folder)), job_(job)
-{
+    if (fs::exists(folder_ / kEndedName, error)) remove_stages(); // of a run killed in clear()
 }
 
 WorkFolder::~WorkFolder()
 {
-    if (lock_ < 0) return;
-    if (!holds_stages()) {
-        clear();
-    } else {
-        ::close(lock_);
-    }
+    if (lock_ && !holds_stages()) clear();
+}
+
+bool WorkFolder::try_lead()
+{
+    std::error_code error;
+    if (leads() || !fs::exists(folder_ / kLockName, error)) return leads();
+    lock_ = lock(folder_ / kLockName);
+    was_made_ = text_of(folder_ / kLockName) == kMadeHere;
+    return leads();
+}
+
+bool WorkFolder::is_over() const
+{
+    std::error_code error;
+    return !fs::exists(folder_ / kJobName, error);
 }
 
 void WorkFolder::begin(const Job& job)
 {
     const fs::path path = folder_ / kJobName;
     job_ = digest_of(job);
-    is_resumed_ = holds_stages();
-    if (!is_resumed_) { // nothing to resume or to lose
+    while (!leads() && is_over() && !try_lead()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    is_resumed_ = leads() && holds_stages();
+    if (leads() && !is_resumed_) { // nothing to resume or to lose
         write_job(job);
         return;
     }
@@ -270,44 +265,15 @@ bool WorkFolder::has(std::string_view stage) const
     return fs::exists(file_of(stage), error);
 }
 
-bool WorkFolder::claim(std::string_view stage) const
+FileLock WorkFolder::claim(std::string_view stage) const
 {
-    const fs::path path = folder_ / fmt::format("{}{}", stage, kClaimEnd);
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file >= 0) ::close(file);
-    if (file < 0 && errno != EEXIST) {
-        throw UsageError(fmt::format("cannot write to the work folder {}: {}", folder_.string(),
-                                     std::strerror(errno)));
-    }
-    return file >= 0;
-}
-
-void WorkFolder::wait_for(std::string_view stage, const Progress& progress) const
-{
-    // Network file systems may report a new file as missing for half a minute.
-    const auto begin = std::chrono::steady_clock::now();
-    while (!has(stage)) {
-        std::error_code error;
-        const std::chrono::seconds most(fs::exists(folder_, error) ? 60 : 5);
-        progress.report(0.0);
-        if (std::chrono::steady_clock::now() > begin + most) {
-            throw UsageError(fmt::format("{} is missing; --work needs a folder on a file system "
-                                         "that all ranks see",
-                                         file_of(stage).string()));
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
+    return lock(folder_ / fmt::format("{}{}", stage, kClaimEnd));
 }
 
 bool WorkFolder::holds_stages() const
 {
     return std::ranges::any_of(files_in(folder_),
                                [](const fs::path& file) { return file.extension() == kStageEnd; });
-}
-
-void WorkFolder::drop(std::string_view stage) const
-{
-    remove_quietly(file_of(stage));
 }
 
 void WorkFolder::drop_all(std::string_view begin) const
@@ -320,21 +286,24 @@ void WorkFolder::drop_all(std::string_view begin) const
 
 void WorkFolder::clear()
 {
-    if (lock_ < 0) return;
-    // The job is removed after its stages, so that a run killed in between leaves a work folder.
-    for (const fs::path& file : files_in(folder_)) {
-        const std::string name = file.filename();
-        if (is_ours(name) && name != kJobName && name != kLockName) remove_quietly(file);
-    }
-    remove_quietly(folder_ / kJobName);
+    if (!leads()) return;
+    std::error_code error;
+    fs::rename(folder_ / kJobName, folder_ / kEndedName, error); // first, for is_over()
+    remove_stages();
+    remove_stages(); // also what another process added before it saw the end
+    remove_quietly(folder_ / kEndedName);
     remove_quietly(folder_ / kLockName);
     if (was_made_) remove_quietly(folder_); // unless it has other files
-    ::close(std::exchange(lock_, -1));      // last, because freeing a removed file takes time
+    lock_ = {};                             // last, because freeing a removed file takes time
 }
 
-std::string piece_name(const StagePiece& piece)
+/// Removes all files of the run but those of the lock and the job.
+void WorkFolder::remove_stages() const
 {
-    return fmt::format("{}-{}-of-{}", piece.stage, piece.number, piece.of);
+    for (const fs::path& file : files_in(folder_)) {
+        const std::string name = file.filename();
+        if (is_ours(name) && !name.starts_with(kJobName) && name != kLockName) remove_quietly(file);
+    }
 }
 
 } // namespace vcarve

@@ -6,6 +6,7 @@
 #include "steps/1_points/arrange.h"
 #include "tiles/measure_usual_values.h"
 #include "tiles/tile_runs.h"
+#include "tiles/tile_size.h"
 #include "tiles/tile_state.h"
 #include "vcarve/error.h"
 
@@ -14,7 +15,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <numeric>
+#include <stdexcept>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -54,9 +58,6 @@ std::string TiledRun::name_of(std::size_t tile, File file)
 
 void TiledRun::plan(const Scene& sample, const ModelPoints& points, std::size_t most)
 {
-    // Enough to prove free space in far tiles, and few enough to be read by each tile.
-    constexpr std::size_t kWitnesses = 50'000;
-    constexpr std::size_t kMostPoints = 16; // of one witness
     Stage stage(log_, "plan");
     if (folder_.has(kPlan)) {
         load_plan();
@@ -69,8 +70,7 @@ void TiledRun::plan(const Scene& sample, const ModelPoints& points, std::size_t 
         usual_ = measure_usual_values(
             tiling_.size(), [&](std::size_t tile) { return read_points(tile); }, options_, log_);
         usual_.radius = region_of_interest(centered).radius;
-        usual_.points_of_witness = static_cast<double>(
-            std::clamp<std::size_t>(points.number / kWitnesses, 1, kMostPoints));
+        usual_.points_of_witness = static_cast<double>(points_of_witness(points.number));
         folder_.save(kPlan, {}, frame_, tiling_, usual_, num_read_, num_parts_);
     }
     stage.end({{"tiles", size_of(tiling_.size())}, {"points", size_of(points.number)}});
@@ -211,39 +211,72 @@ void TiledRun::make_surface(std::size_t tile)
                  tile_surface(tile, std::move(around), {tiling_, options_, usual_, log_}));
 }
 
-void TiledRun::work(const std::string& task, std::size_t most)
+/// Pauses while other processes work. Returns false if the process that led has ended.
+bool TiledRun::waits(Stage& stage)
 {
-    const bool is_points = task == kPointsTask;
-    if (!is_points && task != kSurfacesTask) throw std::logic_error("unknown task for a rank");
-    load_plan();
+    stage.progress(0.0); // may throw Cancelled
+    if (!folder_.leads() && (folder_.is_over() || folder_.try_lead())) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return true;
+}
+
+/// Makes a file of each tile, unless another process does. Returns whether all are made.
+bool TiledRun::work(const char* stage_name, File file)
+{
     tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic : options_.threads);
-    arena.execute([&] {
-        Stage stage(log_, is_points ? "points" : "surfaces");
+    return arena.execute([&] {
+        Stage stage(log_, stage_name);
         std::size_t made = 0;
-        for (std::size_t tile = 0; tile < tiling_.size() && made < most; ++tile) {
-            if (ranks_ != nullptr && ranks_->has_failed()) break; // their error is reported
-            const File file = is_points ? File::points : File::surface;
-            stage.progress(static_cast<double>(tile) / static_cast<double>(tiling_.size()));
-            const std::string name = name_of(tile, file);
-            if (folder_.has(name) || !folder_.claim(name)) continue;
-            make(tile, file);
-            ++made;
+        for (std::size_t missing = tiling_.size(); missing > 0;) {
+            missing = 0;
+            const std::size_t before = made;
+            for (std::size_t tile = 0; tile < tiling_.size(); ++tile) {
+                const std::string name = name_of(tile, file);
+                if (folder_.has(name)) continue;
+                stage.progress(static_cast<double>(tile) / static_cast<double>(tiling_.size()));
+                const FileLock claim = folder_.claim(name);
+                if (!claim) ++missing;
+                if (!claim || folder_.has(name)) continue;
+                if (folder_.is_over()) return false; // its files are being removed
+                make(tile, file);
+                ++made;
+            }
+            if (missing > 0 && made == before && !waits(stage)) return false;
         }
         stage.end({{"tiles", size_of(made)}, {"of", size_of(tiling_.size())}});
+        return true;
     });
 }
 
-TriMesh TiledRun::make(Ranks* ranks)
+bool TiledRun::help()
 {
-    ranks_ = ranks;
-    for (const char* task : {kPointsTask, kSurfacesTask}) {
-        if (ranks == nullptr) {
-            work(task);
-        } else {
-            ranks->share(task, [&] { work(task); });
+    try {
+        Stage stage(log_, "wait");
+        while (!folder_.has(kPlan)) {
+            if (!waits(stage)) return !folder_.leads();
         }
+        load_plan();
+        stage.end({{"tiles", size_of(tiling_.size())}});
+        if (!work("points", File::points) || !work("surfaces", File::surface))
+            return !folder_.leads();
+        Stage joining(log_, "wait");
+        while (waits(joining)) {
+        }
+        if (!folder_.leads()) joining.end({});
+        return !folder_.leads();
+    } catch (const Error&) {
+        // Files vanish when the process that leads is done.
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+        if (!folder_.is_over()) throw;
+        return true;
     }
+}
+
+TriMesh TiledRun::make()
+{
     load_plan();
+    work("points", File::points);
+    work("surfaces", File::surface);
     Stage stage(log_, "join");
     const auto surface_of = [&](std::size_t tile) {
         stage.progress(static_cast<double>(tile) / static_cast<double>(tiling_.size()));

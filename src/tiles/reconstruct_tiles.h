@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/progress.h"
 #include "model/scene_points.h"
 #include "model/usual_values.h"
-#include "run/ranks.h"
 #include "run/work_folder.h"
 #include "tiles/join.h"
 #include "vcarve/log.h"
@@ -31,11 +31,12 @@ struct ModelPoints {
 ///     witnesses: a sample of farther points, whose rays carve,
 ///   - join: tiles meet at vertices with equal names.
 /// All results are files of the work folder, so a run that was stopped resumes after the last
-/// finished tile, and ranks take tiles one by one. The result does not depend on the number of
-/// threads and ranks; it differs from that of reconstruct() mainly near the borders of tiles.
+/// finished tile, and several processes take tiles one by one. The result does not depend on the
+/// number of threads and processes; it differs from that of reconstruct() mainly near the borders
+/// of tiles.
 class TiledRun {
   public:
-    /// `folder` was begun or joined. All arguments must outlive the object.
+    /// `folder` was begun. All arguments must outlive the object.
     TiledRun(WorkFolder& folder, const Options& options, Log& log)
         : folder_(folder), options_(options), log_(log)
     {
@@ -44,21 +45,20 @@ class TiledRun {
     /// Divides a model into tiles of at most `most` points, unless the folder has them already.
     /// `sample` has one of every few of its points, as PointSample takes them, and all views.
     void plan(const Scene& sample, const ModelPoints& points, std::size_t most);
-    /// Does the tasks, which `ranks` share unless it is null, and joins their results.
-    TriMesh make(Ranks* ranks);
+    /// Makes what the tiles still lack, and joins their surfaces.
+    TriMesh make();
+    /// Shares the work of the process that leads the folder, until that is done. Returns true then,
+    /// or false if the process ended before, and this one leads now.
+    bool help();
 
-    /// Makes tiles of a task, `kPointsTask` or `kSurfacesTask`, until none is left or `most` are
-    /// made.
-    void work(const std::string& task, std::size_t most = SIZE_MAX);
-
-    static constexpr const char* kPlan = "tiles"; ///< the stage that tasks need
-    static constexpr const char* kPointsTask = "task-points";
-    static constexpr const char* kSurfacesTask = "task-surfaces";
+    static constexpr const char* kPlan = "tiles"; ///< the stage that all processes need
 
   private:
     /// The files of a tile.
     enum class File : std::uint8_t { points, witnesses, surface };
 
+    bool waits(Stage& stage);
+    bool work(const char* stage_name, File file);
     static std::string name_of(std::size_t tile, File file);
     void divide_points(const ModelPoints& points, std::size_t most, const Progress& progress);
     Scene read_points(std::size_t tile) const;
@@ -80,7 +80,6 @@ class TiledRun {
     UsualValues usual_;
     std::vector<std::uint64_t> num_read_; ///< points of each tile
     std::uint64_t num_parts_ = 0;         ///< files that a tile may have of its points
-    const Ranks* ranks_ = nullptr;        ///< others, while they work
 };
 
 } // namespace vcarve

@@ -3,7 +3,6 @@
 #include "model/scene_check.h"
 #include "model/scene_points.h"
 #include "pipeline/run_state.h"
-#include "run/checkpoints.h"
 #include "vcarve/log.h"
 #include "vcarve/options.h"
 
@@ -35,16 +34,14 @@ inline RunSize size_of_tile(const Scene& scene, const Options& options)
 struct TileState {
     TileState(Scene scene, const Options& options, const UsualValues& usual, const Log& log)
         : quiet(log),
-          checkpoints(nullptr, quiet),
           state{.size = size_of_tile(scene, options),
-                .checkpoints = checkpoints,
+                .log = quiet,
                 .usual = usual,
                 .points = {std::move(scene), {}}}
     {
     }
 
     QuietLog quiet;
-    Checkpoints checkpoints;
     RunState state;
 };
 

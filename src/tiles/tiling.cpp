@@ -23,10 +23,10 @@ constexpr std::uint32_t kTile = 0x80000000U;
 double margin_of(const std::vector<Vector3d>& points, std::size_t one_in)
 {
     constexpr double kTail = 0.02;
-    constexpr double kSpacings = 40.0;
     Vector3d sides = middle_box(points, kTail).sizes();
     std::ranges::sort(sides);
-    return kSpacings * std::sqrt(sides[2] * sides[1] / static_cast<double>(one_in * points.size()));
+    return kMarginSpacings *
+           std::sqrt(sides[2] * sides[1] / static_cast<double>(one_in * points.size()));
 }
 
 class Divider {

@@ -10,6 +10,9 @@
 
 namespace vcarve {
 
+/// The width of a tile's margin in spacings of its points, as if these were on a square surface.
+inline constexpr double kMarginSpacings = 40.0;
+
 /// An inner node of the tree of a Tiling: positions below `cut` along `axis` are in the first
 /// child. A child is another node, or a tile if its number has the highest bit.
 struct TilingNode {
@@ -37,8 +40,7 @@ struct Tiling {
 /// Divides points into tiles of about as many points each, at most `most`, by cuts across the
 /// longest side. Each position represents `one_in` points, so tiles of a sample can have slightly
 /// more. More points can also be in a tile if their positions are equal. Ignores invalid positions.
-/// The margin of a tile is 40 spacings of its points, as if these were on a square surface. Cost:
-/// O(positions).
+/// Cost: O(positions).
 Tiling divide(const std::vector<Eigen::Vector3d>& positions, std::size_t most,
               std::size_t one_in = 1);
 

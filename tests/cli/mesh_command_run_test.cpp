@@ -213,11 +213,11 @@ TEST_F(ProgramOnBall, RecordsTheRun)
 
 TEST_F(ProgramOnBall, RejectsAModelThatNeedsTooMuchMemory)
 {
-    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M", "--blocks", "0"}),
+    EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M", "--closed"}),
                 MatchesRegex("colmap-vcarve: .*ball: 400 points with [0-9]+ rays need about "
                              "[0-9.]+M of memory, and --max-memory allows 1M\n"));
     EXPECT_THAT(sentence_of(3, {"--quiet", ball, out, "--max-memory", "1M"}),
-                HasSubstr("M of memory even in blocks, and --max-memory allows 1M\n"));
+                HasSubstr("M of memory even in tiles, and --max-memory allows 1M\n"));
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -238,19 +238,17 @@ TEST_F(ProgramOnBall, RespectsMaxMemoryIfPointsHaveManyCells)
     }
     folder.write("ball/points3D.txt", points);
     [[maybe_unused]] constexpr double kMost = 70 << 20; // 80M less 10M for the program itself
-    for (const char* const blocks : {"auto", "0", "3"}) {
-        const Outcome outcome = run_program(
-            {"--quiet", ball, out, "--max-memory", "80M", "--blocks", blocks, "--threads", "4"});
-        EXPECT_EQ(outcome.exit_code, 3) << blocks;
-        EXPECT_THAT(outcome.err,
-                    MatchesRegex("colmap-vcarve: .*ball: the points have more than [0-9]+ cells, "
-                                 "all that --max-memory allows, because many lie on few lines or "
-                                 "curves; raise --max-memory\n"));
+    const Outcome outcome =
+        run_program({"--quiet", ball, out, "--max-memory", "80M", "--threads", "4"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err,
+                MatchesRegex("colmap-vcarve: .*ball: the points have more than [0-9]+ cells, "
+                             "all that --max-memory allows, because many lie on few lines or "
+                             "curves; raise --max-memory\n"));
 #ifndef VCARVE_SANITIZED // sanitizers need additional memory
-        EXPECT_LT(outcome.peak_memory_bytes - program, kMost) << blocks;
+    EXPECT_LT(outcome.peak_memory_bytes - program, kMost);
 #endif
-        EXPECT_FALSE(std::filesystem::exists(out));
-    }
+    EXPECT_FALSE(std::filesystem::exists(out));
     EXPECT_THAT(
         sentence_of(3, {"--quiet", ball, out, "--max-memory", "80M", "--tile-points", "2000"}),
         HasSubstr("cells, all that --max-memory allows"));

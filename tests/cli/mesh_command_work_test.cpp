@@ -6,11 +6,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <chrono>
-#include <map>
-#include <string_view>
 #include <thread>
 
 namespace vcarve::mesh_command_work_test {
@@ -25,7 +22,7 @@ class WorkOfProgram : public ::testing::Test {
   protected:
     std::vector<std::string> words(const std::vector<std::string>& more) const
     {
-        std::vector<std::string> all = {scene, out, "--work", work};
+        std::vector<std::string> all = {scene, out, "--tile-points", "2000", "--work", work};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -41,12 +38,12 @@ class WorkOfProgram : public ::testing::Test {
 
 TEST_F(WorkOfProgram, DoesNotChangeTheMeshAndIsRemoved)
 {
-    ASSERT_EQ(run_program({scene, out, "--quiet"}).exit_code, 0);
+    ASSERT_EQ(run_program({scene, out, "--tile-points", "2000", "--quiet"}).exit_code, 0);
     const std::string expected = bytes_of(out);
     const Outcome outcome = run({});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, ContainsRegex("digest +3 input files"));
-    EXPECT_THAT(outcome.err, ContainsRegex("keep +[0-9]+ MiB of cells"));
+    EXPECT_THAT(outcome.err, ContainsRegex("surfaces +[0-9]+ of [0-9]+ tiles"));
     EXPECT_TRUE(bytes_of(out) == expected);
     EXPECT_FALSE(fs::exists(work));
 }
@@ -63,71 +60,25 @@ TEST_F(WorkOfProgram, IsEmptyAfterAnInputError)
     }
     folder.write("plane/points3D.txt", points);
     fs::create_directory(work);
-    const Outcome outcome = run_program({folder / "plane", out, "--work", work});
+    const Outcome outcome =
+        run_program({folder / "plane", out, "--tile-points", "9", "--work", work});
     EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("all lie in one plane"));
-    EXPECT_THAT(outcome.err, HasSubstr("keep "));
+    EXPECT_THAT(outcome.err, HasSubstr("no surface found"));
     EXPECT_TRUE(fs::is_empty(work));
 }
 
 TEST_F(WorkOfProgram, IsKeptAndResumedOnRequest)
 {
     ASSERT_EQ(run({"--quiet", "--keep-work"}).exit_code, 0);
-    EXPECT_TRUE(fs::exists(work + "/surface.stage"));
+    EXPECT_TRUE(fs::exists(work + "/tile-1-surface.stage"));
     const std::string expected = bytes_of(out);
-    const std::string stats = folder / "stats.json";
-    const Outcome outcome = run({"--threads=1", "--ascii", "--stats", stats});
+    fs::remove(work + "/tile-1-surface.stage");
+    const Outcome outcome = run({"--threads=1"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("note: checkpoint surface in the folder " + work +
-                                       " replaces the stages triangulate, rays, "
-                                       "cut, surface"));
-    EXPECT_THAT(outcome.err, ContainsRegex("resume +[0-9]+ MiB of surface"));
+    EXPECT_THAT(outcome.err, ContainsRegex("points +0 of [0-9]+ tiles"));
+    EXPECT_THAT(outcome.err, ContainsRegex("surfaces +1 of [0-9]+ tiles"));
     EXPECT_FALSE(fs::exists(work));
-    const auto record = nlohmann::json::parse(bytes_of(stats));
-    std::vector<std::string> stages;
-    for (const auto& stage : record["stages"]) {
-        stages.push_back(stage["name"]);
-    }
-    EXPECT_THAT(stages, testing::IsSupersetOf({"resume", "triangulate", "cut", "surface"}));
-    ASSERT_EQ(run({"--quiet"}).exit_code, 0);
     EXPECT_TRUE(bytes_of(out) == expected);
-}
-
-TEST_F(WorkOfProgram, GivesTheSameFiguresFromEveryCheckpoint)
-{
-    const auto figures = [&](const std::vector<std::string>& words) {
-        const std::string stats = folder / "stats.json";
-        std::vector<std::string> all = words;
-        all.insert(all.end(), {"--quiet", "--stats", stats});
-        EXPECT_EQ(run_program(all).exit_code, 0);
-        std::map<std::string, nlohmann::json> counts;
-        const auto record = nlohmann::json::parse(bytes_of(stats));
-        for (const auto& stage : record["stages"]) {
-            counts[stage["name"]] = stage["counts"];
-        }
-        std::erase_if(counts, [](const auto& stage) {
-            return stage.first == "digest" || stage.first == "keep" || stage.first == "resume";
-        });
-        return counts;
-    };
-    // These options fill holes that views look through. Whether views look through a hole follows
-    // from data of an earlier stage.
-    const std::vector<std::string> torn = {"--hardly-seen=0.9", "--max-hole=60"};
-    const auto alone = figures({scene, out, torn[0], torn[1]});
-    const auto unfilled = figures({scene, out, torn[0], "--max-hole=0"});
-    ASSERT_LT(alone.at("open").at("rays of the views"),
-              unfilled.at("open").at("rays of the views"));
-    const std::vector<std::string> kept_on = words({torn[0], torn[1], "--keep-work"});
-    EXPECT_EQ(figures(kept_on), alone);
-    for (const char* const kept : {"surface", "rays", "cells", "points"}) {
-        EXPECT_EQ(figures(kept_on), alone) << "after " << kept;
-        // The next run resumes from the checkpoint before this one.
-        for (const char* const later : {"surface", "rays", "cells", "points"}) {
-            EXPECT_TRUE(fs::remove(work + "/" + later + ".stage"));
-            if (std::string_view(later) == kept) break;
-        }
-    }
-    EXPECT_EQ(figures(words(torn)), alone) << "without checkpoints";
 }
 
 TEST_F(WorkOfProgram, IsRejectedForOtherOptionsOrInput)
@@ -143,22 +94,36 @@ TEST_F(WorkOfProgram, IsRejectedForOtherOptionsOrInput)
     EXPECT_EQ(outcome.exit_code, 3);
     EXPECT_THAT(outcome.err, HasSubstr(" belongs to another run: "));
     EXPECT_THAT(outcome.err, EndsWith("to start over\n"));
-    EXPECT_TRUE(fs::exists(work + "/surface.stage"));
+    EXPECT_TRUE(fs::exists(work + "/tiles.stage"));
 }
 
-TEST_F(WorkOfProgram, IsUsedByOneRunAtATime)
+TEST_F(WorkOfProgram, IsSharedByProcessesWithTheSameCommand)
 {
-    // Many virtual viewpoints make the run slow.
-    Subprocess first(program_with(words({"--virtual-views=300"})));
+    ASSERT_EQ(run_program({scene, out, "--tile-points", "500", "--quiet"}).exit_code, 0);
+    const std::string expected = bytes_of(out);
+    const std::vector<std::string> command =
+        program_with({scene, out, "--tile-points", "500", "--work", work});
+    Subprocess first(command);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!fs::exists(work + "/points.stage") && std::chrono::steady_clock::now() < end) {
+    while (!fs::exists(work + "/job") && std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    const Outcome second = run({"--quiet"});
-    EXPECT_EQ(second.exit_code, 3);
-    EXPECT_EQ(second.err, "colmap-vcarve: another run uses the work folder " + work +
-                              "; wait until it ends, or choose another folder with --work\n");
+    Subprocess second(command);
+    EXPECT_EQ(second.wait().exit_code, 0);
     EXPECT_EQ(first.wait().exit_code, 0);
+    EXPECT_TRUE(bytes_of(out) == expected);
+    EXPECT_FALSE(fs::exists(work));
+}
+
+TEST_F(WorkOfProgram, IsRemovedWithTheFilesOfTilesBySignals)
+{
+    Subprocess program(program_with({scene, out, "--tile-points", "100"}));
+    while (program.err_so_far().find("points ") == std::string::npos && program.is_running()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    program.send(SIGTERM);
+    EXPECT_EQ(program.wait().exit_code, 128 + SIGTERM);
+    EXPECT_EQ(folder.num_entries(), 0U);
 }
 
 TEST_F(WorkOfProgram, MustBeASeparateFolder)

@@ -5,8 +5,8 @@
 #include "io/images/read_photograph.h"
 #include "pipeline/run_state.h"
 #include "region/region.h"
-#include "run/checkpoints.h"
 #include "run/stage_file.h"
+#include "tiles/tile_surface.h"
 #include "vcarve/error.h"
 #include "vcarve/io.h"
 #include "vcarve/reconstruct.h"
@@ -127,10 +127,8 @@ void read_image(std::string_view input)
 template <typename Noun>
 void read_stage_as(const fs::path& path)
 {
-    std::vector<LogEvent> told;
     Noun noun{};
     StageReader reader(path, {"cells", {}}, {});
-    reader.get(told);
     reader.get(noun);
     reader.finish();
 }
@@ -153,16 +151,8 @@ void read_stage(std::string_view input)
         }
         writer.commit();
     }
-    switch (first / 2 % 4) {
-    case 0:
-        return read_stage_as<TetMesh>(path);
-    case 1:
-        return read_stage_as<CarvingPoints>(path);
-    case 2:
-        return read_stage_as<RayEvidence>(path);
-    default:
-        return read_stage_as<CarvedSurface>(path);
-    }
+    if (first / 2 % 2 == 0) return read_stage_as<Scene>(path);
+    return read_stage_as<TileSurface>(path);
 }
 
 void run(std::string_view input)

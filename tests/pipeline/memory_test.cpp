@@ -226,59 +226,6 @@ TEST(PredictedMemory, HoldsOnlyMergedPointsAndAPartOfACloud)
 }
 #endif
 
-constexpr std::int64_t kGiB = std::int64_t{1} << 30;
-
-TEST(PlanBlocks, RunsInMemoryIfItFits)
-{
-    const RunSize million = size_of_run(kMillion);
-    const std::int64_t peak = predicted_peak(million, 2);
-    const BlockPlan plan = plan_blocks(million, 2, {.limit = peak}, std::nullopt);
-    EXPECT_FALSE(plan.in_blocks());
-    EXPECT_EQ(plan.needed, peak);
-    EXPECT_EQ(plan.scratch, 0);
-    EXPECT_TRUE(plan_blocks(million, 2, {.limit = peak - 1}, std::nullopt).in_blocks());
-    EXPECT_FALSE(plan_blocks(million, 2, {.limit = 0}, std::nullopt).in_blocks()) << "no limit";
-}
-
-TEST(PlanBlocks, AllowsFourFifthsOfFreeMemoryByDefault)
-{
-    const RunSize million = size_of_run(kMillion);
-    const std::int64_t peak = predicted_peak(million, 1);
-    EXPECT_FALSE(plan_blocks(million, 1, {}, peak / 4 * 5 + 5).in_blocks());
-    const BlockPlan plan = plan_blocks(million, 1, {}, peak);
-    EXPECT_TRUE(plan.in_blocks());
-    EXPECT_EQ(plan.limit, peak / 5 * 4);
-    EXPECT_FALSE(plan_blocks(million, 1, {}, std::nullopt).in_blocks()) << "free memory is unknown";
-    EXPECT_FALSE(plan_blocks(million, 1, {.blocks = 0}, peak).in_blocks()) << "blocks are disabled";
-}
-
-TEST(PlanBlocks, LimitsConcurrentBlocksToHalfOfTheMemory)
-{
-    // As in docs/performance.md: 20 million points in 4 GiB.
-    const SceneSize twenty = {.points = 20'000'000, .rays = 74'000'000, .views = 4'000};
-    const RunSize run = size_of_run(twenty);
-    const BlockPlan plan = plan_blocks(run, 2, {.limit = 4 * kGiB}, std::nullopt);
-    const double left = static_cast<double>(4 * kGiB - least_memory(run, 2));
-    EXPECT_LE(2 * 600.0 * 20e6 / plan.blocks, left / 2);
-    EXPECT_GT(2 * 600.0 * 20e6 / (plan.blocks - 1), left / 2);
-    EXPECT_EQ(plan_blocks(run, 2, {.limit = 12 * kGiB}, std::nullopt).blocks, 5);
-    EXPECT_EQ(plan_blocks(run, 1, {.limit = 12 * kGiB}, std::nullopt).blocks, 3);
-    EXPECT_EQ(plan_blocks(run, 2, {.limit = 4 * kGiB, .blocks = 7}, std::nullopt).blocks, 7);
-}
-
-TEST(PlanBlocks, RejectsModelsTooLargeEvenForBlocks)
-{
-    const RunSize run = size_of_run(kMillion);
-    const std::int64_t least = least_memory(run, 1);
-    EXPECT_THAT(refusal<InputError>([&] { plan_blocks(run, 1, {.limit = least}, std::nullopt); }),
-                ::testing::MatchesRegex("1000000 points with 3700000 rays need about [0-9.]+M of "
-                                        "memory even in blocks, and --max-memory allows [0-9.]+M"));
-    EXPECT_NO_THROW(plan_blocks(run, 1, {.limit = least + (1 << 20)}, std::nullopt));
-    EXPECT_THAT(refusal<InputError>(
-                    [&] { plan_blocks(run, 1, {.limit = least, .blocks = 0}, std::nullopt); }),
-                ::testing::Not(HasSubstr("in blocks")));
-}
-
 TEST(RequireMemory, AcceptsThePredictedPeakAndRejectsAByteLess)
 {
     const std::int64_t peak = predicted_peak(size_of_run(kMillion), 1);
@@ -290,30 +237,16 @@ TEST(RequireMemory, AcceptsThePredictedPeakAndRejectsAByteLess)
                                         "memory, and --max-memory allows 4M"));
 }
 
-TEST(LimitOfCells, IsTheNumberThatFitsIntoMemory)
+TEST(MostCells, AreTheNumberThatFitsIntoMemory)
 {
     RunSize run = size_of_run(kMillion);
-    run.options.memory = {.limit = 0, .blocks = 0};
-    EXPECT_EQ(limit_of_cells(run, 1).limit, CellLimit().limit);
+    run.options.memory.limit = 0;
+    EXPECT_EQ(most_cells(run, 1), kAnyCells);
     run.options.memory.limit = 2 * predicted_peak(run, 1);
-    const auto in_memory = static_cast<double>(limit_of_cells(run, 1).limit);
-    EXPECT_GT(in_memory, 2 * 6.8e6);
-    EXPECT_LT(in_memory, 3 * 6.8e6);
-    EXPECT_TRUE(limit_of_cells(run, 1).counts_made);
-    run.options.memory = {.limit = 2 * kGiB, .blocks = 100};
-    const CellLimit in_blocks = limit_of_cells(run, 1);
-    EXPECT_LT(73.0 * static_cast<double>(in_blocks.limit), 1.9 * kGiB);
-    EXPECT_GT(73.0 * static_cast<double>(in_blocks.limit), 1.6 * kGiB);
-    EXPECT_FALSE(in_blocks.counts_made);
-}
-
-TEST(LimitOfCells, IsAtLeastTheUsualNumber)
-{
-    RunSize run = size_of_run(kMillion);
-    for (const int blocks : {0, 100}) {
-        run.options.memory = {.limit = predicted_peak(run, 1) / 2, .blocks = blocks};
-        EXPECT_GE(limit_of_cells(run, 1).limit, 8'000'000U) << blocks;
-    }
+    EXPECT_GT(most_cells(run, 1), 2 * 6'800'000U);
+    EXPECT_LT(most_cells(run, 1), 3 * 6'800'000U);
+    run.options.memory.limit = predicted_peak(run, 1) / 2;
+    EXPECT_GE(most_cells(run, 1), 8'000'000U) << "at least the usual number";
 }
 
 TEST(Reconstruct, RejectsAModelThatNeedsTooMuchMemoryBeforeAnyWork)

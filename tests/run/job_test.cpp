@@ -69,7 +69,7 @@ TEST(Job, DependsOnEveryOptionExceptThoseOfTheRun)
         change(option);
         if (option_facts(options) == usual) without.push_back(option.info.name);
     }
-    EXPECT_THAT(without, ElementsAre("threads", "max-memory", "blocks"));
+    EXPECT_THAT(without, ElementsAre("threads", "max-memory"));
 }
 
 TEST(Job, DistinguishesNumbersToTheLastBit)

@@ -1,6 +1,4 @@
-#include "pipeline/run_state.h"
 #include "run/stage_file.h"
-#include "steps/3_cells/triangulate.h"
 #include "support/read_back.h"
 #include "support/scene_checks.h"
 #include "support/scenes.h"
@@ -77,62 +75,6 @@ TEST_F(StageFile, PreservesAScene)
     expect_equal_scenes(through_file(scene), scene);
     EXPECT_TRUE(through_file(scene).cameras[0].measures_range);
     expect_equal_scenes(through_file(Scene()), Scene());
-}
-
-TEST_F(StageFile, PreservesCells)
-{
-    const TetMesh cells = triangulate(scene);
-    const TetMesh same = through_file(cells);
-    EXPECT_EQ(same.positions, cells.positions);
-    EXPECT_EQ(same.mirrors, cells.mirrors);
-    EXPECT_EQ(same.cell_of_vertex, cells.cell_of_vertex);
-    ASSERT_EQ(same.cells.size(), cells.cells.size());
-    for (std::size_t i = 0; i < cells.cells.size(); ++i) {
-        EXPECT_EQ(same.cells[i].vertices, cells.cells[i].vertices);
-        EXPECT_EQ(same.cells[i].neighbors, cells.cells[i].neighbors);
-    }
-}
-
-TEST_F(StageFile, PreservesAnEnergy)
-{
-    VisibilityEnergy energy;
-    energy.network.arc_capacities = {{1, 2, 3, 4}, {5, 6, 7, 8}};
-    energy.network.terminal_capacities = {-7, 9};
-    energy.cell_of_view = {3, kInfinite};
-    energy.unit = 4096;
-    const VisibilityEnergy same = through_file(energy);
-    EXPECT_EQ(same.network.arc_capacities, energy.network.arc_capacities);
-    EXPECT_EQ(same.network.terminal_capacities, energy.network.terminal_capacities);
-    EXPECT_EQ(same.cell_of_view, energy.cell_of_view);
-    EXPECT_EQ(same.unit, energy.unit);
-}
-
-TEST_F(StageFile, PreservesASurfaceAndItsRemovedFaces)
-{
-    CarvedSurface carved;
-    carved.faces = sample_sheet();
-    carved.faces.points = {3, 2, kNoPoint};
-    carved.faces.offset = Eigen::Vector3d(1.0, 2.0, 3.0);
-    carved.openness = Openness{12, 5, {{Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)}}};
-    carved.removed.mesh.positions = {Eigen::Vector3d(7, 8, 9)};
-    carved.removed.reasons = {Removal::closing, Removal::unseen};
-    const CarvedSurface same = through_file(carved);
-    EXPECT_EQ(same.faces.positions, carved.faces.positions);
-    EXPECT_EQ(same.faces.faces, carved.faces.faces);
-    EXPECT_EQ(same.faces.colors, carved.faces.colors);
-    EXPECT_EQ(same.faces.normals, carved.faces.normals);
-    EXPECT_EQ(same.faces.points, carved.faces.points);
-    EXPECT_EQ(same.faces.offset, carved.faces.offset);
-    ASSERT_TRUE(same.openness.has_value());
-    EXPECT_EQ(same.openness->rays, 12);
-    EXPECT_EQ(same.openness->past, 5);
-    ASSERT_EQ(same.openness->open.size(), 1U);
-    EXPECT_EQ(same.openness->open[0].eye, Eigen::Vector3d(1, 2, 3));
-    EXPECT_EQ(same.openness->open[0].end, Eigen::Vector3d(4, 5, 6));
-    EXPECT_EQ(same.removed.mesh.positions, carved.removed.mesh.positions);
-    EXPECT_EQ(same.removed.reasons, carved.removed.reasons);
-    carved.openness.reset();
-    EXPECT_FALSE(through_file(carved).openness.has_value());
 }
 
 TEST_F(StageFile, IsRejectedIfAnyByteIsChanged)

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <optional>
 #include <vector>
 
 namespace vcarve::work_folder_test {
@@ -17,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 const Job kJob = {{"points3D.bin", "12 bytes"}, {"--quality", "1"}};
 
@@ -74,23 +74,30 @@ class LimitedFiles {
 
 } // namespace
 
-TEST_F(Work, CanBeJoinedByProcessesThatNeitherLockNorRemoveIt)
+TEST_F(Work, IsLedByOneProcessAndSharedByOthers)
 {
-    WorkFolder work(path);
-    work.begin(kJob);
-    {
-        const WorkFolder joined(path, work.job());
-        joined.save("part-1-of-2", {}, Numbers{4});
-        WorkFolder another(path, work.job());
-        another.clear(); // does nothing
-    }
-    Numbers numbers;
-    work.load("part-1-of-2", {}, numbers);
-    EXPECT_EQ(numbers, Numbers{4});
-    EXPECT_NO_THROW(work.wait_for("part-1-of-2"));
-    work.drop("part-1-of-2");
-    work.drop("part-1-of-2");
-    EXPECT_FALSE(work.has("part-1-of-2"));
+    std::optional<WorkFolder> work(path);
+    work->begin(kJob);
+    WorkFolder shared(path);
+    shared.begin(kJob);
+    EXPECT_TRUE(work->leads());
+    EXPECT_FALSE(shared.leads() || shared.try_lead());
+    shared.save("one", {}, Numbers{4});
+    shared.clear(); // does nothing
+    EXPECT_TRUE(work->has("one"));
+    WorkFolder other(path);
+    EXPECT_THAT(refusal<InputError>([&] {
+                    other.begin({{"--quality", "2"}});
+                }),
+                HasSubstr("belongs to another run"));
+    work.reset(); // as if the process had died
+    EXPECT_FALSE(shared.is_over());
+    EXPECT_TRUE(shared.try_lead());
+    EXPECT_TRUE(shared.has("one"));
+    shared.clear();
+    EXPECT_TRUE(other.is_over());
+    EXPECT_FALSE(other.try_lead());
+    EXPECT_FALSE(fs::exists(path));
 }
 
 TEST_F(Work, IsReusedByTheNextRunOfTheSameJob)
@@ -145,25 +152,6 @@ TEST_F(Work, AcceptsAnyJobIfItHasNoStagesAndIsRemoved)
     EXPECT_TRUE(fs::is_empty(path));
 }
 
-TEST_F(Work, IsUsedByOneRunAtATime)
-{
-    WorkFolder work(path);
-    EXPECT_EQ(refusal<InputError>([&] { WorkFolder other(path); }),
-              "another run uses the work folder " + path.string() +
-                  "; wait until it ends, or choose another folder with --work");
-    work.begin(kJob); // the first run is unaffected
-    work.save("numbers", {}, Numbers{1});
-    EXPECT_TRUE(work.has("numbers"));
-}
-
-TEST_F(Work, IsLockedBeforeItIsChecked)
-{
-    const WorkFolder work(path);
-    folder.write("work/notes.txt", "mine"); // would be rejected in an unlocked folder
-    EXPECT_THAT(refusal<InputError>([&] { WorkFolder other(path); }),
-                StartsWith("another run uses the work folder"));
-}
-
 TEST_F(Work, KeepsLockFilesOfOtherPrograms)
 {
     folder.write("work/lock", "mine");
@@ -191,8 +179,7 @@ TEST_F(Work, IsUnlockedWhenItsProcessIsKilled)
     }
     char letter = 0;
     ASSERT_EQ(::read(ready[0], &letter, 1), 1);
-    EXPECT_THAT(refusal<InputError>([&] { WorkFolder other(path); }),
-                StartsWith("another run uses the work folder"));
+    EXPECT_FALSE(WorkFolder(path).leads());
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     ::close(ready[0]);
@@ -257,16 +244,30 @@ TEST_F(Work, IsRemovedIfItsCreatorWasKilledBeforeItBegan)
     EXPECT_FALSE(fs::exists(path));
 }
 
-TEST_F(Work, RemovesIncompleteFilesOfAKilledRun)
+TEST_F(Work, RemovesIncompleteFilesOfAKilledRunWhenCleared)
 {
     leave_a_stage();
     folder.write("work/others.stage.part-123", "half");
     folder.write("work/job.part-123", "half");
     folder.write("work/my.part-123", "mine");
     EXPECT_EQ(numbers(), (Numbers{1, 2, 3}));
+    WorkFolder work(path);
+    work.begin(kJob);
+    work.clear();
     EXPECT_FALSE(fs::exists(path / "others.stage.part-123"));
-    EXPECT_FALSE(fs::exists(path / "job.part-123"));
     EXPECT_TRUE(fs::exists(path / "my.part-123"));
+}
+
+TEST_F(Work, IsClearedFurtherIfThatWasInterrupted)
+{
+    leave_a_stage();
+    fs::rename(path / "job", path / "job.part-ended");
+    {
+        WorkFolder work(path);
+        work.begin(kJob);
+        EXPECT_FALSE(work.is_resumed() || work.has("numbers"));
+    }
+    EXPECT_FALSE(fs::exists(path));
 }
 
 TEST_F(Work, ReportsAFullDiskAndLosesNothing)
@@ -286,34 +287,29 @@ TEST_F(Work, ReportsAFullDiskAndLosesNothing)
 
 TEST_F(Work, IsClaimedByOneProcessForEachStage)
 {
-    {
-        WorkFolder work(path);
-        work.begin(kJob);
-        const WorkFolder joined(path, work.job());
-        EXPECT_TRUE(work.claim("one"));
-        EXPECT_FALSE(joined.claim("one"));
-        EXPECT_TRUE(joined.claim("two"));
-        work.save("two", {}, Numbers{1});
-    }
-    WorkFolder later(path);
-    later.begin(kJob);
-    EXPECT_TRUE(later.claim("one")) << "claims end with their run";
-    EXPECT_TRUE(later.has("two"));
-}
-
-TEST_F(Work, SavesPartsUnderDistinctNames)
-{
-    EXPECT_EQ(piece_name({"cells", 3, 8}), "cells-3-of-8");
     WorkFolder work(path);
     work.begin(kJob);
-    for (const char* const name : {"cells-3-of-8", "cells-0-of-2", "cells", "cellsites-0-of-2"}) {
+    WorkFolder shared(path);
+    shared.begin(kJob);
+    {
+        const FileLock one = work.claim("one");
+        EXPECT_TRUE(one);
+        EXPECT_FALSE(shared.claim("one"));
+        EXPECT_TRUE(shared.claim("two"));
+    }
+    EXPECT_TRUE(shared.claim("one")) << "the claim has ended";
+}
+
+TEST_F(Work, RemovesStagesByTheirFirstLetters)
+{
+    WorkFolder work(path);
+    work.begin(kJob);
+    for (const char* const name : {"tile-0-points", "tile-1-points", "tiles"}) {
         work.save(name, {}, Numbers{1});
     }
-    work.drop_all("cells-");
-    EXPECT_FALSE(work.has("cells-3-of-8"));
-    EXPECT_FALSE(work.has("cells-0-of-2"));
-    EXPECT_TRUE(work.has("cells"));
-    EXPECT_TRUE(work.has("cellsites-0-of-2"));
+    work.drop_all("tile-");
+    EXPECT_FALSE(work.has("tile-0-points") || work.has("tile-1-points"));
+    EXPECT_TRUE(work.has("tiles"));
 }
 
 } // namespace vcarve::work_folder_test

@@ -1,8 +1,8 @@
-// Models in tiles: the surface, several ranks, and runs that were stopped.
+// Models in tiles: the surface, several processes, and runs that were stopped.
 #include "mesh/check.h"
-#include "support/ranks_in_turn.h"
 #include "support/scene_checks.h"
 #include "support/scenes.h"
+#include "support/temporary_folder.h"
 #include "tiles/reconstruct_tiles.h"
 #include "vcarve/error.h"
 #include "vcarve/reconstruct.h"
@@ -12,22 +12,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <set>
+#include <stdexcept>
+#include <thread>
 
 namespace vcarve::reconstruct_tiles_test {
 namespace {
 
 using ::testing::Contains;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 
 const Job kJob = {{"points3D.bin", "12 bytes"}};
-
-struct NotingLog final : Log {
-    void note(std::string_view sentence) override { notes.emplace_back(sentence); }
-    std::vector<std::string> notes;
-};
 
 /// The faces of a mesh by the positions of their corners.
 std::set<std::array<std::array<double, 3>, 3>> faces_of(const TriMesh& mesh)
@@ -47,14 +45,19 @@ std::set<std::array<std::array<double, 3>, 3>> faces_of(const TriMesh& mesh)
 
 class ModelInTiles : public ::testing::Test {
   protected:
-    TriMesh made_in_tiles(std::size_t most, std::size_t count = 1,
-                          const std::function<void(const std::string&)>& meddle = {})
+    /// The stages of a run in tiles.
+    struct NotingStages final : Log {
+        void stage_begins(std::string_view name) override
+        {
+            if (before_stage) before_stage(std::string(name));
+        }
+        void note(std::string_view sentence) override { notes.emplace_back(sentence); }
+        std::function<void(const std::string&)> before_stage;
+        std::vector<std::string> notes;
+    };
+
+    void plan(TiledRun& run, std::size_t most)
     {
-        WorkFolder work(folder / "work");
-        work.begin(kJob);
-        RanksInTurn ranks(work, options, count);
-        if (meddle) ranks.after_share = meddle;
-        TiledRun run(work, options, log);
         const ModelPoints points = {
             .number = scene.num_points(),
             .read = [&](std::size_t part, const TakePoints& take, const Progress& /*progress*/) {
@@ -65,9 +68,31 @@ class ModelInTiles : public ::testing::Test {
                 }
             }};
         run.plan(scene, points, most);
-        TriMesh mesh = run.make(&ranks);
-        tasks = ranks.tasks;
+    }
+
+    /// The surface made by one process, and by `helpers` more.
+    TriMesh made_in_tiles(std::size_t most, int helpers = 0,
+                          const std::function<void(const std::string&)>& before_stage = {})
+    {
+        WorkFolder work(folder / "work");
+        work.begin(kJob);
+        log.before_stage = before_stage;
+        TiledRun run(work, options, log);
+        std::vector<std::thread> others;
+        for (int i = 0; i < helpers; ++i) {
+            others.emplace_back([&] {
+                WorkFolder shared(folder / "work");
+                shared.begin(kJob);
+                Log silent;
+                EXPECT_TRUE(TiledRun(shared, options, silent).help());
+            });
+        }
+        plan(run, most);
+        TriMesh mesh = run.make();
         work.clear();
+        for (std::thread& other : others) {
+            other.join();
+        }
         return mesh;
     }
 
@@ -85,8 +110,7 @@ class ModelInTiles : public ::testing::Test {
     TemporaryFolder folder;
     Scene scene = bumpy_sphere(6000, 3);
     Options options;
-    NotingLog log;
-    std::vector<std::string> tasks;
+    NotingStages log;
 };
 
 TEST_F(ModelInTiles, HasTheFacesOfTheWholeButForAFew)
@@ -108,18 +132,37 @@ TEST_F(ModelInTiles, HasTheFacesOfTheWholeButForAFew)
     EXPECT_EQ(mesh.colors.size(), mesh.positions.size());
 }
 
-TEST_F(ModelInTiles, IsTheSameForAnyNumberOfRanksAndThreads)
+TEST_F(ModelInTiles, IsTheSameForAnyNumberOfProcessesAndThreads)
 {
     const TriMesh alone = made_in_tiles(800);
-    EXPECT_THAT(tasks, ElementsAre("task-points", "task-surfaces"));
     options.threads = 1;
-    for (const std::size_t count : {2U, 5U}) {
-        const TriMesh mesh = made_in_tiles(800, count);
-        EXPECT_TRUE(mesh.positions == alone.positions) << count;
-        EXPECT_TRUE(mesh.faces == alone.faces) << count;
-        EXPECT_TRUE(mesh.colors == alone.colors) << count;
-        EXPECT_TRUE(mesh.normals == alone.normals) << count;
+    for (const int helpers : {0, 1, 3}) {
+        const TriMesh mesh = made_in_tiles(800, helpers);
+        EXPECT_TRUE(mesh.positions == alone.positions) << helpers;
+        EXPECT_TRUE(mesh.faces == alone.faces) << helpers;
+        EXPECT_TRUE(mesh.colors == alone.colors) << helpers;
+        EXPECT_TRUE(mesh.normals == alone.normals) << helpers;
     }
+}
+
+TEST_F(ModelInTiles, IsMadeByAnotherProcessIfTheFirstDies)
+{
+    const TriMesh expected = made_in_tiles(800);
+    std::optional<WorkFolder> first(folder / "work");
+    first->begin(kJob);
+    {
+        TiledRun run(*first, options, log);
+        plan(run, 800);
+    }
+    WorkFolder second(folder / "work");
+    second.begin(kJob);
+    first.reset();
+    TiledRun run(second, options, log);
+    EXPECT_FALSE(run.help()) << "it leads now";
+    plan(run, 800);
+    const TriMesh mesh = run.make();
+    EXPECT_TRUE(mesh.positions == expected.positions);
+    EXPECT_TRUE(mesh.faces == expected.faces);
 }
 
 TEST_F(ModelInTiles, IsManifoldIfItIsADenseCloudWhoseTilesAreSimplified)
@@ -133,15 +176,15 @@ TEST_F(ModelInTiles, IsManifoldIfItIsADenseCloudWhoseTilesAreSimplified)
 TEST_F(ModelInTiles, ResumesAfterTheLastFinishedTile)
 {
     const TriMesh expected = made_in_tiles(1500);
-    const auto die = [](const std::string& task) {
-        if (task == TiledRun::kSurfacesTask) throw std::runtime_error("killed");
+    const auto die = [](const std::string& stage) {
+        if (stage == "join") throw std::runtime_error("killed");
     };
-    EXPECT_THROW(made_in_tiles(1500, 1, die), std::runtime_error);
+    EXPECT_THROW(made_in_tiles(1500, 0, die), std::runtime_error);
     const auto written = std::filesystem::last_write_time(file_of("tile-2-surface"));
     std::filesystem::remove(file_of("tile-1-surface"));
     std::filesystem::file_time_type found;
-    const TriMesh mesh = made_in_tiles(1500, 1, [&](const std::string& /*task*/) {
-        found = std::filesystem::last_write_time(file_of("tile-2-surface"));
+    const TriMesh mesh = made_in_tiles(1500, 0, [&](const std::string& stage) {
+        if (stage == "join") found = std::filesystem::last_write_time(file_of("tile-2-surface"));
     });
     EXPECT_EQ(found, written) << "it was not made again";
     EXPECT_TRUE(mesh.positions == expected.positions);
@@ -152,9 +195,9 @@ TEST_F(ModelInTiles, ResumesAfterTheLastFinishedTile)
 TEST_F(ModelInTiles, MakesDamagedTilesAgain)
 {
     const TriMesh expected = made_in_tiles(1500);
-    const TriMesh mesh = made_in_tiles(1500, 1, [&](const std::string& task) {
-        const auto file =
-            file_of(task == TiledRun::kPointsTask ? "tile-0-points" : "tile-1-surface");
+    const TriMesh mesh = made_in_tiles(1500, 0, [&](const std::string& stage) {
+        if (stage != "surfaces" && stage != "join") return;
+        const auto file = file_of(stage == "surfaces" ? "tile-0-points" : "tile-1-surface");
         std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
     });
     EXPECT_TRUE(mesh.positions == expected.positions);
@@ -165,13 +208,14 @@ TEST_F(ModelInTiles, MakesDamagedTilesAgain)
 
 TEST_F(ModelInTiles, NamesAFileThatOnlyANewRunCanMake)
 {
-    const auto damage = [&](const std::string& /*task*/) {
+    const auto damage = [&](const std::string& stage) {
+        if (stage != "surfaces") return;
         for (const char* const name : {"tile-0-points", "tile-0-read-0"}) {
             std::filesystem::resize_file(file_of(name), 100);
         }
     };
     EXPECT_THAT(
-        refusal<InputError>([&] { made_in_tiles(1500, 1, damage); }),
+        refusal<InputError>([&] { made_in_tiles(1500, 0, damage); }),
         MatchesRegex("tile 1 of [0-9]+: .*tile 1 of .*tile-0-read-0.stage: it is truncated.*; "
                      "remove the work folder to start over"));
 }

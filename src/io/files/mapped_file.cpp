@@ -53,8 +53,7 @@ MappedFile::Mapping MappedFile::map(const std::filesystem::path& path)
     return Mapping(static_cast<char*>(begin), {static_cast<std::size_t>(status.st_size)});
 }
 
-MappedFile::MappedFile(const std::filesystem::path& path)
-    : mapping_(map(path)), pages_(mapping_.get(), bytes().size())
+MappedFile::MappedFile(const std::filesystem::path& path) : mapping_(map(path))
 {
     refuse_foreign_file(path, bytes());
 }

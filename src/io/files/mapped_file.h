@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/droppable_pages.h"
-
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -38,7 +36,7 @@ class MappedFile {
     /// Throws InputError if `path` is not a readable file, or if refuse_foreign_file() throws.
     explicit MappedFile(const std::filesystem::path& path);
     MappedFile(MappedFile&&) = default;
-    MappedFile& operator=(MappedFile&&) = delete; // pages_ must be released before mapping_
+    MappedFile& operator=(MappedFile&&) = default;
     ~MappedFile() = default;
 
     std::span<const char> bytes() const { return {mapping_.get(), mapping_.get_deleter().size}; }
@@ -56,7 +54,6 @@ class MappedFile {
     static Mapping map(const std::filesystem::path& path);
 
     Mapping mapping_;
-    DroppablePages pages_;
 };
 
 /// Releases the memory of a file while it is read from start to end, so that a large file is not in

@@ -310,7 +310,7 @@ BlockCells block_cells(const PointTree& tree, const std::vector<Index>& first, c
     result.taken_in = block.cells().number_of_vertices() - own.size();
     result.cells = in_canonical_order(flattened(block), static_cast<Index>(own.first), own.size());
     result.open_facets = open_facets(result.cells);
-    count.end(num_made, result.cells.size());
+    count.change(num_made, result.cells.size());
     return result;
 }
 

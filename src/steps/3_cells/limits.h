@@ -30,31 +30,26 @@ InputError too_many_cells(std::size_t most);
 /// The error for coincident points, which callers must prevent.
 std::logic_error duplicate_position_error();
 
-/// The maximum number of cells during a triangulation. There are usually about seven per point.
-/// Points on two skew lines have as many cells as pairs of points.
-struct CellLimit {
-    std::size_t limit = std::numeric_limits<std::size_t>::max();
-    bool counts_made = true; ///< count cells of finished blocks, which are in memory
-};
+/// No maximum number of cells. There are usually about seven per point; points on two skew lines
+/// have as many cells as pairs of points.
+inline constexpr std::size_t kAnyCells = std::numeric_limits<std::size_t>::max();
 
-/// Counts the cells of all triangulations in progress. Thread-safe.
+/// Counts the cells of finished blocks and of all triangulations in progress. Thread-safe.
 class CellCount {
   public:
-    explicit CellCount(const CellLimit& limit) : limit_(limit) {}
+    explicit CellCount(std::size_t most) : most_(most) {}
 
-    /// Replaces `before` cells by `now`. Throws InputError above the limit.
+    /// Replaces `before` cells by `now`. Throws InputError above the maximum.
     void change(std::size_t before, std::size_t now)
     {
         const std::size_t more = now - before; // modulo 2^64 if the number decreases
-        if (count_.fetch_add(more, std::memory_order_relaxed) + more > limit_.limit) {
-            throw too_many_cells(limit_.limit);
+        if (count_.fetch_add(more, std::memory_order_relaxed) + more > most_) {
+            throw too_many_cells(most_);
         }
     }
-    /// Records that a block of `cells` cells is finished and keeps `kept` of them.
-    void end(std::size_t cells, std::size_t kept) { change(cells, limit_.counts_made ? kept : 0); }
 
   private:
-    CellLimit limit_;
+    std::size_t most_;
     std::atomic<std::size_t> count_ = 0;
 };
 

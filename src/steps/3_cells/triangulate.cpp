@@ -57,7 +57,7 @@ std::size_t usual_blocks(std::size_t points, std::size_t threads)
     return std::min(std::clamp(points / kUsualBlock, threads, 2 * threads), most);
 }
 
-TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const CellLimit& limit)
+TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, std::size_t most_cells)
 {
     // CGAL's insertion of many points at once does the same, but reports no progress.
     require_four_points(scene.num_points());
@@ -66,7 +66,7 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const 
     {
         const UnsetArray<std::uint32_t> order = insertion_order(scene.num_points());
         Triangulation::Vertex_handle hint;
-        CellCount count(limit);
+        CellCount count(most_cells);
         std::size_t cells = 0;
         for (std::size_t i = 0; i < order.size(); ++i) {
             hint = triangulation.insert(to_cgal(scene.positions[order[i]]), hint);
@@ -79,16 +79,16 @@ TetMesh triangulate_at_once(const Scene& scene, const Progress& progress, const 
     return flatten(triangulation, scene, progress.part(0.8, 1.0));
 }
 
-TetMesh triangulate(const Scene& scene, const Progress& progress, const CellLimit& limit)
+TetMesh triangulate(const Scene& scene, const Progress& progress, std::size_t most_cells)
 {
     const int threads = tbb::this_task_arena::max_concurrency();
     const std::size_t blocks = usual_blocks(scene.num_points(), static_cast<std::size_t>(threads));
     if (blocks > 1) {
         std::optional<TetMesh> mesh =
-            triangulate_in_blocks(scene, {.count = blocks, .limit = limit}, progress);
+            triangulate_in_blocks(scene, {.count = blocks, .most_cells = most_cells}, progress);
         if (mesh) return std::move(*mesh);
     }
-    return triangulate_at_once(scene, progress, limit);
+    return triangulate_at_once(scene, progress, most_cells);
 }
 
 } // namespace vcarve

@@ -20,10 +20,11 @@ std::size_t usual_blocks(std::size_t points, std::size_t threads);
 /// exceeded. Cost: O(points log points) for points on surfaces in the order of spatial_sort().
 /// Memory: the cells, and CGAL's structure of about 500 bytes per point of the blocks in progress.
 /// With one thread, or if triangulate_in_blocks() gives up, this is needed for all points.
-TetMesh triangulate(const Scene& scene, const Progress& progress = {}, const CellLimit& limit = {});
+TetMesh triangulate(const Scene& scene, const Progress& progress = {},
+                    std::size_t most_cells = kAnyCells);
 
 /// The same on one thread and without blocks, for points that triangulate_in_blocks() gave up.
 TetMesh triangulate_at_once(const Scene& scene, const Progress& progress = {},
-                            const CellLimit& limit = {});
+                            std::size_t most_cells = kAnyCells);
 
 } // namespace vcarve

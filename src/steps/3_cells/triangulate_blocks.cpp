@@ -53,7 +53,7 @@ std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>&
     std::vector<BlockCells> made(num_blocks(blocks, scene));
     const PointTree tree(scene.positions);
     ProgressCount done(progress, scene.num_points());
-    CellCount cells(blocks.limit);
+    CellCount cells(blocks.most_cells);
     for_each_block(made.size(), [&](std::size_t block) {
         const PointRun own = run_of(block, made.size(), scene.num_points());
         BlockProgress told(done, own.size());

@@ -13,7 +13,7 @@ namespace vcarve {
 /// The division of a triangulation into blocks.
 struct Blocks {
     std::size_t count = 1;
-    CellLimit limit{};
+    std::size_t most_cells = kAnyCells;
 };
 
 /// Returns the result of triangulate(), byte-identical, made in blocks. A block is a run of

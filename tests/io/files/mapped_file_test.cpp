@@ -1,4 +1,3 @@
-#include "base/droppable_pages.h"
 #include "io/files/mapped_file.h"
 #include "support/temporary_folder.h"
 #include "vcarve/error.h"
@@ -61,15 +60,6 @@ TEST(MappedFile, RefusesPathsThatAreNotFiles)
     std::filesystem::create_symlink("loop", folder / "loop");
     EXPECT_EQ(refusal<InputError>([&] { MappedFile{folder.path() / "loop"}; }),
               path + "/loop: the file cannot be read (Too many levels of symbolic links)");
-}
-
-TEST(MappedFile, RereadsDroppedPages)
-{
-    const TemporaryFolder folder;
-    const MappedFile file(folder.write("file", std::string(100'000, 'a')));
-    EXPECT_EQ(file.bytes().back(), 'a');
-    EXPECT_EQ(drop_next_pages(1 << 20, false), 100'000U);
-    EXPECT_EQ(file.bytes().back(), 'a');
 }
 
 } // namespace

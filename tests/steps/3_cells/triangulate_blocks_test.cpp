@@ -140,7 +140,7 @@ TEST(TriangulateBlocks, NeedsFewPointsOfOtherBlocks)
     const std::vector<Index> first = first_points(scene.positions);
     const PointRun own{5000, 7500};
     ProgressCount silent({}, own.size());
-    CellCount count({});
+    CellCount count(kAnyCells);
     BlockProgress progress(silent, own.size());
     const BlockCells block = block_cells(tree, first, own, count, progress);
     EXPECT_LT(block.taken_in, own.size());
@@ -153,20 +153,18 @@ TEST(TriangulateBlocks, CountsTheCellsOfAllGrowingBlocks)
     const std::size_t all = triangulate(scene).cells.size();
     EXPECT_GT(all, 99U * 99U);
     tbb::task_arena alone(1);
-    const auto in_four = [&](const CellLimit& limit) {
+    const auto in_four = [&](std::size_t most_cells) {
         return alone.execute([&] {
-            return triangulate_in_blocks(scene, {.count = 4, .limit = limit})->cells.size();
+            return triangulate_in_blocks(scene, {.count = 4, .most_cells = most_cells})
+                ->cells.size();
         });
     };
     // Every block needs almost all points here.
-    EXPECT_EQ(in_four({.limit = 2 * all}), all);
-    EXPECT_THROW(in_four({.limit = 3 * all / 2}), InputError);
-    EXPECT_EQ(refusal<InputError>([&] { in_four({.limit = 5000}); }),
+    EXPECT_EQ(in_four(2 * all), all);
+    EXPECT_THROW(in_four(3 * all / 2), InputError);
+    EXPECT_EQ(refusal<InputError>([&] { in_four(5000); }),
               "the points have more than 5000 cells, all that --max-memory allows, because many "
               "lie on few lines or curves; raise --max-memory");
-    // Finished blocks do not count if they are in files.
-    EXPECT_EQ(in_four({.limit = 3 * all / 2, .counts_made = false}), all);
-    EXPECT_THROW(in_four({.limit = 5000, .counts_made = false}), InputError);
 }
 
 TEST(TriangulateBlocks, RejectsTheSamePointsAsTheWhole)

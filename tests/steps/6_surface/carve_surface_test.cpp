@@ -225,8 +225,7 @@ TEST(RemovedFaces, MatchTheCountsOfTheStages)
     }
     StageCounts log;
     RemovedFaces removed;
-    const TriMesh mesh =
-        reconstruct_thinned(scene, size_of(scene), options, log, {.removed = &removed}).mesh;
+    const TriMesh mesh = reconstruct_thinned(scene, size_of(scene), options, log, &removed).mesh;
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);
     EXPECT_EQ(count(removed, Removal::closing), log.all["surface unsupported"]);
     EXPECT_EQ(count(removed, Removal::outside_region), log.all["surface outside the region"]);
@@ -249,7 +248,7 @@ TEST(RemovedFaces, DistinguishUnsupportedFromUnseenFaces)
     RemovedFaces removed;
     const Scene scene = read_model(fixtures_folder() / "room", log);
     const SceneSize size = size_of(scene);
-    reconstruct_thinned(scene, size, {}, log, {.removed = &removed});
+    reconstruct_thinned(scene, size, {}, log, &removed);
     EXPECT_GT(count(removed, Removal::closing), 0);
     EXPECT_EQ(count(removed, Removal::closing), log.all["surface unsupported"]);
     EXPECT_EQ(count(removed, Removal::unseen), log.all["surface unseen"]);

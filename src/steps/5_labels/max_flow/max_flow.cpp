@@ -1,6 +1,5 @@
 #include "steps/5_labels/max_flow/max_flow.h"
 
-#include "base/droppable_pages.h"
 #include "base/parallel.h"
 #include "steps/5_labels/max_flow/flow_forest.h"
 
@@ -83,13 +82,9 @@ Labels minimum_cut(const TetMesh& cells, FlowNetwork network, const FlowBlocks& 
     FlowGraph graph{cells.cells, std::move(network.arc_capacities), UnsetArray<FlowNode>(count)};
     std::vector<FilledBlock> filled = fill_blocks(cells, std::move(network.terminal_capacities),
                                                   graph, blocks.cells, progress.part(0.0, 0.7));
-    {
-        // Merging accesses few cells, scattered over all memory pages.
-        const ScatteredUse few_of_many;
-        while (filled.size() > blocks.merged)
-            filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));
-        FlowForest(graph, 0, count).merge(filled);
-    }
+    while (filled.size() > blocks.merged)
+        filled = merge_blocks(filled, graph, blocks.merged, progress.part(0.7, 0.9));
+    FlowForest(graph, 0, count).merge(filled);
     Labels labels(count);
     parallel_for(labels.size(), [&](std::size_t cell) {
         labels[cell] = graph.nodes[cell].level > 0 ? Label::inside : Label::outside;
