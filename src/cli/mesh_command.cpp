@@ -184,6 +184,11 @@ std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log
 {
     if (arguments.work.empty()) return nullptr;
     auto folder = std::make_unique<WorkFolder>(arguments.work);
+    if (!folder->leads() && arguments.tile_points == 0) { // only tiles can be shared
+        throw InputError(fmt::format("another run uses the work folder {}; wait until it ends, or "
+                                     "choose another folder with --work",
+                                     folder->path().string()));
+    }
     folder->begin(job_of(arguments, log));
     return folder;
 }
@@ -429,11 +434,6 @@ Made make_or_clear(const Run& run, Json& record)
 bool has_helped(const MeshArguments& arguments, WorkFolder& work, Log& log)
 {
     if (work.leads()) return false;
-    if (arguments.tile_points == 0) {
-        throw InputError(fmt::format("another run uses the work folder {}; wait until it ends, or "
-                                     "choose another folder with --work",
-                                     work.path().string()));
-    }
     const Options options = options_of_tiles(arguments);
     return TiledRun(work, options, log).help();
 }

@@ -98,16 +98,17 @@ bool is_same_file(int descriptor, const fs::path& path)
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// Opens and locks a file, which it creates if it is missing. Returns nothing if another process
-/// has the lock.
-FileLock lock(const fs::path& path)
+/// Opens and locks a file. Returns nothing if another process has the lock, or if the file is
+/// missing and not to be made.
+FileLock lock(const fs::path& path, bool makes)
 {
     const auto refuse = [&](const char* what, int error) {
         throw UsageError(fmt::format("{} the work folder {}: {}", what, path.parent_path().string(),
                                      std::strerror(error)));
     };
     for (;;) {
-        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | (makes ? O_CREAT : 0), 0666);
+        if (file < 0 && errno == ENOENT && !makes) return {};
         if (file < 0) refuse("cannot write to", errno);
         FileLock held(file);
         if (::flock(file, LOCK_EX | LOCK_NB) != 0) {
@@ -123,6 +124,15 @@ void remove_quietly(const fs::path& path)
 {
     std::error_code error; // a file that cannot be removed stays
     fs::remove(path, error);
+}
+
+/// Removes all files of a run but those of the lock and the job.
+void remove_stages(const fs::path& folder)
+{
+    for (const fs::path& file : files_in(folder)) {
+        const std::string name = file.filename();
+        if (is_ours(name) && !name.starts_with(kJobName) && name != kLockName) remove_quietly(file);
+    }
 }
 
 std::string whole_text(const std::string& lines)
@@ -188,12 +198,13 @@ FileLock::~FileLock()
     if (file_ >= 0) ::close(file_);
 }
 
-WorkFolder::WorkFolder(fs::path folder)
-    : folder_(std::move(folder)), was_made_(make_folder(folder_))
+WorkFolder::WorkFolder(fs::path folder) : folder_(std::move(folder))
 {
+    const bool is_made = make_folder(folder_);
     std::error_code error;
     const bool had_lock = fs::exists(folder_ / kLockName, error);
-    lock_ = lock(folder_ / kLockName); // first, because nobody else changes a locked folder
+    lock_ = lock(folder_ / kLockName, true); // first, because nobody else changes a locked folder
+    if (is_made) std::ofstream(folder_ / kLockName) << kMadeHere; // another process may lead
     if (!lock_) return;
     try {
         require_ours(folder_);
@@ -201,25 +212,21 @@ WorkFolder::WorkFolder(fs::path folder)
         if (!had_lock) remove_quietly(folder_ / kLockName);
         throw;
     }
-    if (was_made_) {
-        std::ofstream(folder_ / kLockName) << kMadeHere;
-    } else {
-        was_made_ = text_of(folder_ / kLockName) == kMadeHere;
-    }
-    if (fs::exists(folder_ / kEndedName, error)) remove_stages(); // of a run killed in clear()
+    if (fs::exists(folder_ / kEndedName, error))
+        remove_stages(folder_); // of a run killed in clear()
 }
 
 WorkFolder::~WorkFolder()
 {
-    if (lock_ && !holds_stages()) clear();
+    const bool has_ended = job_ != Digest{} && is_over();
+    if (has_ended) try_lead(); // the process that led may have been killed in clear()
+    if (leads() && (has_ended || !holds_stages())) clear();
+    if (has_ended) remove_stages(folder_); // what this process added after the end
 }
 
 bool WorkFolder::try_lead()
 {
-    std::error_code error;
-    if (leads() || !fs::exists(folder_ / kLockName, error)) return leads();
-    lock_ = lock(folder_ / kLockName);
-    was_made_ = text_of(folder_ / kLockName) == kMadeHere;
+    if (!leads()) lock_ = lock(folder_ / kLockName, false);
     return leads();
 }
 
@@ -267,7 +274,7 @@ bool WorkFolder::has(std::string_view stage) const
 
 FileLock WorkFolder::claim(std::string_view stage) const
 {
-    return lock(folder_ / fmt::format("{}{}", stage, kClaimEnd));
+    return lock(folder_ / fmt::format("{}{}", stage, kClaimEnd), true);
 }
 
 bool WorkFolder::holds_stages() const
@@ -288,22 +295,21 @@ void WorkFolder::clear()
 {
     if (!leads()) return;
     std::error_code error;
-    fs::rename(folder_ / kJobName, folder_ / kEndedName, error); // first, for is_over()
-    remove_stages();
-    remove_stages(); // also what another process added before it saw the end
-    remove_quietly(folder_ / kEndedName);
-    remove_quietly(folder_ / kLockName);
-    if (was_made_) remove_quietly(folder_); // unless it has other files
-    lock_ = {};                             // last, because freeing a removed file takes time
-}
-
-/// Removes all files of the run but those of the lock and the job.
-void WorkFolder::remove_stages() const
-{
-    for (const fs::path& file : files_in(folder_)) {
-        const std::string name = file.filename();
-        if (is_ours(name) && !name.starts_with(kJobName) && name != kLockName) remove_quietly(file);
+    const bool was_made = text_of(folder_ / kLockName) == kMadeHere;
+    const bool is_all_ours = std::ranges::all_of(
+        files_in(folder_), [](const fs::path& file) { return is_ours(file.filename()); });
+    fs::path folder = folder_;
+    if (was_made && is_all_ours) { // ends for other processes at once
+        folder += fmt::format(".ended-{}", ::getpid());
+        fs::rename(folder_, folder, error);
+        if (error) folder = folder_;
     }
+    fs::rename(folder / kJobName, folder / kEndedName, error); // first, for is_over()
+    remove_stages(folder);
+    remove_quietly(folder / kEndedName);
+    remove_quietly(folder / kLockName);
+    if (was_made) remove_quietly(folder); // unless it has other files
+    lock_ = {};                           // last, because freeing a removed file takes time
 }
 
 } // namespace vcarve

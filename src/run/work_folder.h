@@ -86,14 +86,12 @@ class WorkFolder {
   private:
     std::filesystem::path file_of(std::string_view stage) const;
     bool holds_stages() const;
-    void remove_stages() const;
     void write_job(const Job& job);
 
     std::filesystem::path folder_;
     bool is_resumed_ = false;
-    bool was_made_ = false; ///< whether this object or a killed run created the folder
-    FileLock lock_;         ///< held if this process leads
-    Digest job_{};          ///< set by begin()
+    FileLock lock_; ///< held if this process leads
+    Digest job_{};  ///< set by begin()
 };
 
 template <typename... Parts>
