@@ -17,7 +17,6 @@
 #include <exception>
 #include <fstream>
 #include <map>
-#include <thread>
 
 namespace vcarve::bench {
 
@@ -92,16 +91,6 @@ std::string machine_line()
     return load_line() + " Peaks are above the memory at the start of the measurement. \"predicted "
                          "/ measured\" is for the whole process. \"x sequential\" and \"x "
                          "parallel\" are relative to CGAL's triangulation alone.";
-}
-
-std::string rank_line()
-{
-    return fmt::format(
-        "{} The machine has {} cores; more ranks than cores are slower. CPU seconds are those of "
-        "all ranks and of mpirun, and depend less on other load. A single rank shares no work, but "
-        "writes checkpoints to the work folder like several ranks. The run on one process writes "
-        "no checkpoints.",
-        load_line(), std::thread::hardware_concurrency());
 }
 
 /// All combinations of shapes, noise and shares of outliers.

@@ -263,7 +263,7 @@ void plan_tiles(ModelInput input, std::size_t most, TiledRun& tiles)
         tiles.plan(input.scene, points, most);
         return;
     }
-    PointSample sample = {without_points(input.scene)};
+    PointSample sample = {.scene = without_points(input.scene)};
     sample.add(input.scene);
     points.one_in = sample.one_in;
     tiles.plan(sample.scene, points, most);

@@ -7,12 +7,11 @@ namespace vcarve {
 
 void PointSample::add(const Scene& part)
 {
-    constexpr std::size_t kMost = 400'000;
     std::size_t number = points;
     append_points(part, scene, [&](std::size_t) { return number++ % one_in == 0; });
     points += part.num_points();
     rays += part.num_rays();
-    while (scene.num_points() > kMost) {
+    while (scene.num_points() > most) {
         one_in *= 2;
         std::vector<std::size_t> even((scene.num_points() + 1) / 2);
         std::ranges::generate(even, [at = std::size_t{0}]() mutable { return 2 * at++; });

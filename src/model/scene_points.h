@@ -144,9 +144,10 @@ class PointSample {
     /// Adds the next part. Cost: O(points of the part).
     void add(const Scene& part);
 
-    Scene scene;            ///< 200,000 to 400,000 points, or all if there are fewer
-    std::size_t one_in = 1; ///< n, a power of two
-    std::size_t points = 0; ///< so far
+    Scene scene;                ///< half of `most` to `most` points, or all if there are fewer
+    std::size_t most = 400'000; ///< points of the sample
+    std::size_t one_in = 1;     ///< n, a power of two
+    std::size_t points = 0;     ///< of the parts so far
     std::uint64_t rays = 0;
 };
 

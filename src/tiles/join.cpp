@@ -25,7 +25,7 @@ constexpr auto kEveryEdge = [](std::uint32_t /*tail*/, std::uint32_t /*head*/) {
 /// Adds the surfaces of tiles, one after the other.
 class Joiner {
   public:
-    /// Reserves the memory of a closed surface through so many points. What is not used costs none.
+    /// Reserves memory for a closed surface through `points` points. What is not used costs none.
     explicit Joiner(std::size_t points)
     {
         mesh_.positions.reserve(points);

@@ -91,6 +91,26 @@ TEST(ColmapModel, IsTheSameInEitherFormat)
     expect_equal_scenes(binary, read_fixture("formats/rich_txt_by_hand"));
 }
 
+TEST(ColmapModel, IsTheSameInPartsOfAnySize)
+{
+    for (const char* const name : {"scene", "formats/rich_bin"}) {
+        const FoundModel found = find_model(kFixtures / name);
+        const Scene whole = read_colmap_model(found.folder, found.format);
+        for (const std::size_t most : {std::size_t{1}, std::size_t{7}, whole.num_points()}) {
+            Scene joined;
+            const auto take = [&](const Scene& part) {
+                EXPECT_LE(part.num_points(), most);
+                append_points(part, joined, [](std::size_t) { return true; });
+            };
+            const Scene frame = read_colmap_parts(found.folder, found.format, most, take);
+            EXPECT_EQ(frame.num_points(), 0U);
+            joined.cameras = frame.cameras;
+            joined.views = frame.views;
+            expect_equal_scenes(joined, whole);
+        }
+    }
+}
+
 TEST(ColmapModel, ReadsEveryCameraModelOfColmap)
 {
     const std::vector<std::size_t> num_params{3, 4,  4,  5, 8, 8, 12, 5, 4,
