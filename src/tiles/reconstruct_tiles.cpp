@@ -220,30 +220,40 @@ bool TiledRun::waits(Stage& stage)
     return true;
 }
 
+/// Makes the missing files of tiles that no other process makes. Returns their number, and the
+/// number of files that others make.
+std::pair<std::size_t, std::size_t> TiledRun::make_missing(File file, Stage& stage)
+{
+    std::size_t made = 0;
+    std::size_t others = 0;
+    for (std::size_t tile = 0; tile < tiling_.size(); ++tile) {
+        const std::string name = name_of(tile, file);
+        if (folder_.has(name)) continue;
+        stage.progress(static_cast<double>(tile) / static_cast<double>(tiling_.size()));
+        const FileLock claim = folder_.claim(name);
+        if (!claim) ++others;
+        if (!claim || folder_.has(name)) continue;
+        if (folder_.is_over()) return {made, 1}; // its files are being removed
+        make(tile, file);
+        ++made;
+    }
+    return {made, others};
+}
+
 /// Makes a file of each tile, unless another process does. Returns whether all are made.
 bool TiledRun::work(const char* stage_name, File file)
 {
     tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic : options_.threads);
     return arena.execute([&] {
         Stage stage(log_, stage_name);
-        std::size_t made = 0;
-        for (std::size_t missing = tiling_.size(); missing > 0;) {
-            missing = 0;
-            const std::size_t before = made;
-            for (std::size_t tile = 0; tile < tiling_.size(); ++tile) {
-                const std::string name = name_of(tile, file);
-                if (folder_.has(name)) continue;
-                stage.progress(static_cast<double>(tile) / static_cast<double>(tiling_.size()));
-                const FileLock claim = folder_.claim(name);
-                if (!claim) ++missing;
-                if (!claim || folder_.has(name)) continue;
-                if (folder_.is_over()) return false; // its files are being removed
-                make(tile, file);
-                ++made;
-            }
-            if (missing > 0 && made == before && !waits(stage)) return false;
+        std::size_t all_made = 0;
+        for (;;) {
+            const auto [made, others] = make_missing(file, stage);
+            all_made += made;
+            if (others == 0) break;
+            if (made == 0 && !waits(stage)) return false;
         }
-        stage.end({{"tiles", size_of(made)}, {"of", size_of(tiling_.size())}});
+        stage.end({{"tiles", size_of(all_made)}, {"of", size_of(tiling_.size())}});
         return true;
     });
 }

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace vcarve {
@@ -58,6 +59,7 @@ class TiledRun {
     enum class File : std::uint8_t { points, witnesses, surface };
 
     bool waits(Stage& stage);
+    std::pair<std::size_t, std::size_t> make_missing(File file, Stage& stage);
     bool work(const char* stage_name, File file);
     static std::string name_of(std::size_t tile, File file);
     void divide_points(const ModelPoints& points, std::size_t most, const Progress& progress);
