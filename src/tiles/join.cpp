@@ -86,7 +86,9 @@ class Joiner {
         std::ranges::sort(shared_edges_);
         for (const Edge& edge : shared_edges_) {
             const auto has = [&](const Edge& other) {
-                return std::ranges::equal_range(shared_edges_, other).size();
+                const auto found =
+                    std::equal_range(shared_edges_.begin(), shared_edges_.end(), other);
+                return found.second - found.first;
             };
             boundary_edges_ += has(edge) == 1 && has({edge[1], edge[0]}) == 0 ? 1 : 0;
         }
