@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,10 +12,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <fstream>
-#include <map>
 #include <stdexcept>
-#include <thread>
 
 namespace vcarve::bench {
 
@@ -74,41 +70,6 @@ pid_t start(const std::vector<std::string>& words)
     return child;
 }
 
-/// The disk space of the files in a folder. Files may appear and disappear meanwhile.
-std::int64_t bytes_on_disk(const fs::path& folder)
-{
-    constexpr std::int64_t kBlock = 512; // of stat, on every file system
-    std::int64_t bytes = 0;
-    std::error_code gone;
-    for (fs::recursive_directory_iterator at(folder, gone), end; !gone && at != end;
-         at.increment(gone)) {
-        struct stat status = {};
-        if (::lstat(at->path().c_str(), &status) == 0) bytes += kBlock * status.st_blocks;
-    }
-    return bytes;
-}
-
-/// Whether a child has ended. Its resource usage stays available.
-bool has_ended(pid_t child)
-{
-    siginfo_t state = {};
-    ::waitid(P_PID, static_cast<id_t>(child), &state, WEXITED | WNOHANG | WNOWAIT);
-    return state.si_pid == child;
-}
-
-/// The bytes that a process read and wrote, from /proc. Call it before waiting for the process.
-std::map<std::string, std::int64_t> traffic_of(pid_t process)
-{
-    std::map<std::string, std::int64_t> traffic;
-    std::ifstream file(fmt::format("/proc/{}/io", process));
-    std::string name;
-    std::int64_t bytes = 0;
-    while (file >> name >> bytes) {
-        traffic[name] = bytes;
-    }
-    return traffic;
-}
-
 double seconds_of(const timeval& time)
 {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
@@ -154,33 +115,15 @@ Json in_own_process(const std::function<Json()>& work)
     return result["answer"];
 }
 
-Json measure_program(const std::vector<std::string>& words, const std::filesystem::path& scratch)
+Json measure_program(const std::vector<std::string>& words)
 {
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds kBetweenLooks(20);
     const auto began = Clock::now();
-    const pid_t child = start(words);
-    std::int64_t scratch_bytes = 0;
-    while (!has_ended(child)) {
-        scratch_bytes = std::max(scratch_bytes, bytes_on_disk(scratch));
-        std::this_thread::sleep_for(kBetweenLooks);
-    }
+    const rusage usage = wait_for(start(words), words);
     const std::chrono::duration<double> took = Clock::now() - began;
-    const auto traffic = traffic_of(child);
-    const auto moved = [&](const char* asked, const char* disk) {
-        const auto bytes = [&](const char* name) {
-            const auto found = traffic.find(name);
-            return found != traffic.end() ? found->second : 0;
-        };
-        return std::max(bytes(asked), bytes(disk));
-    };
-    const rusage usage = wait_for(child, words);
     return {{"seconds", took.count()},
             {"cpu_seconds", seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime)},
-            {"peak_bytes", std::int64_t{1024} * usage.ru_maxrss},
-            {"scratch_bytes", scratch_bytes},
-            {"written_bytes", moved("wchar:", "write_bytes:")},
-            {"read_bytes", moved("rchar:", "read_bytes:")}};
+            {"peak_bytes", std::int64_t{1024} * usage.ru_maxrss}};
 }
 
 } // namespace vcarve::bench

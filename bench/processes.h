@@ -17,12 +17,8 @@ using Json = nlohmann::ordered_json;
 Json in_own_process(const std::function<Json()>& work);
 
 /// Runs the program `words[0]` to its end and returns its costs: {"seconds", "cpu_seconds",
-/// "peak_bytes", "scratch_bytes", "written_bytes", "read_bytes"}. They include processes that the
-/// program starts and waits for; the peak is that of the largest process. "scratch_bytes" is the
-/// peak disk space of a folder, sampled 50 times per second; the folder may be missing. Bytes
-/// written and read are the larger of two numbers: bytes passed to system calls, and bytes moved to
-/// or from the disk. Only the latter include mapped files. Throws std::runtime_error if the exit
-/// code is not 0.
-Json measure_program(const std::vector<std::string>& words, const std::filesystem::path& scratch);
+/// "peak_bytes"}. They include processes that the program starts and waits for; the peak is that of
+/// the largest process. Throws std::runtime_error if the exit code is not 0.
+Json measure_program(const std::vector<std::string>& words);
 
 } // namespace vcarve::bench

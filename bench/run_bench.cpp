@@ -69,8 +69,8 @@ SampleResult measure(const Sample& sample, const Arguments& arguments)
             in_own_process([&] { return measure_sequential_triangulation(sample); }));
         std::ranges::for_each(arguments.threads, measure_all);
         if (arguments.peer.empty()) continue;
-        peer.push_back(measure_program({arguments.peer, sample.model, sample.scratch / "peer.ply"},
-                                       sample.scratch / "none"));
+        peer.push_back(
+            measure_program({arguments.peer, sample.model, sample.scratch / "peer.ply"}));
     }
     return {.sizes = {},
             .sequential = median_of(sequential),

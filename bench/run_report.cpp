@@ -13,8 +13,7 @@ namespace vcarve::bench {
 
 namespace {
 
-constexpr const char* kFigures[] = {"seconds",       "cpu_seconds",   "peak_bytes",
-                                    "scratch_bytes", "written_bytes", "read_bytes"};
+constexpr const char* kFigures[] = {"seconds", "cpu_seconds", "peak_bytes"};
 
 double seconds_of(const Json& measured)
 {

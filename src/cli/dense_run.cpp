@@ -138,13 +138,13 @@ DepthMap kept_depth(const WorkFolder* work, const std::string& name,
     try {
         DepthMap kept;
         if (work->has(name)) {
-            work->load(name, {}, kept);
+            work->load(name, kept);
             return kept;
         }
     } catch (const InputError&) { // damaged; make() computes the same bytes again
     }
     DepthMap made = make();
-    work->save(name, {}, made);
+    work->save(name, made);
     return made;
 }
 

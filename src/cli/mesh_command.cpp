@@ -9,6 +9,7 @@
 #include "cli/picture_output.h"
 #include "cli/run_memory.h"
 #include "cli/run_record.h"
+#include "cli/shared_work.h"
 #include "io/colmap/sim3_text.h"
 #include "io/files/output_file.h"
 #include "io/formats/mesh_file.h"
@@ -149,50 +150,6 @@ void fit_memory(const Run& run, const RunSize& size)
     }
 }
 
-/// The folder of the photographs.
-fs::path photograph_folder(const MeshArguments& arguments)
-{
-    if (!arguments.texture.images.empty()) return arguments.texture.images;
-    return photographs_beside(arguments.model.path).value_or("");
-}
-
-/// Everything that the stages depend on. Options such as --offset take effect later.
-Job job_of(const MeshArguments& arguments, Log& log)
-{
-    Stage stage(log, "digest");
-    Job job = {program_fact()};
-    const Job input =
-        input_facts(find_input(arguments.model.path, arguments.model.all_points()), stage);
-    job.insert(job.end(), input.begin(), input.end());
-    stage.end({{"files", size_of(input.size())}});
-    const Job options = option_facts(arguments.options);
-    job.insert(job.end(), options.begin(), options.end());
-    if (arguments.tile_points > 0)
-        job.push_back({"--tile-points", std::to_string(arguments.tile_points)});
-    if (arguments.dense.dense) {
-        job.push_back({"--dense-size", std::to_string(arguments.dense.size_px)});
-        for (const fs::path& folder : {photograph_folder(arguments), arguments.texture.masks}) {
-            const Job facts = photograph_facts(folder, stage);
-            job.insert(job.end(), facts.begin(), facts.end());
-        }
-    }
-    return job;
-}
-
-/// Opens the folder of --work and begins its job. Returns null without --work.
-std::unique_ptr<WorkFolder> work_folder(const MeshArguments& arguments, Log& log)
-{
-    if (arguments.work.empty()) return nullptr;
-    auto folder = std::make_unique<WorkFolder>(arguments.work);
-    if (!folder->leads() && arguments.tile_points == 0) { // only tiles can be shared
-        throw InputError(fmt::format("another run uses the work folder {}; wait until it ends, or "
-                                     "choose another folder with --work",
-                                     folder->path().string()));
-    }
-    folder->begin(job_of(arguments, log));
-    return folder;
-}
-
 /// --max-memory in bytes; 0 if it is `auto`.
 std::int64_t memory_limit(const MeshArguments& arguments)
 {
@@ -251,30 +208,19 @@ DepthPicture make_dense(ModelInput& input, const Photographs& photographs, const
     return std::move(dense.picture);
 }
 
-/// Divides a model, all of which or a sample is in memory.
+/// Divides a model of which memory has all points or a sample.
 void plan_tiles(ModelInput input, std::size_t most, TiledRun& tiles)
 {
-    ModelPoints points = {.number = input.scene.num_points(), .one_in = input.one_in, .read = {}};
-    points.read = [&](std::size_t part, const TakePoints& take, const Progress& progress) {
+    PointSample sample = {.scene = without_points(input.scene)};
+    if (input.one_in > 1) {
+        sample = {.scene = input.scene, .one_in = input.one_in, .points = input.read.points};
+    } else {
+        sample.add(input.scene);
+    }
+    const auto read = [&](std::size_t part, const TakePoints& take, const Progress& progress) {
         read_points(input, part, take, progress);
     };
-    if (input.one_in > 1) {
-        points.number = input.read.points;
-        tiles.plan(input.scene, points, most);
-        return;
-    }
-    PointSample sample = {.scene = without_points(input.scene)};
-    sample.add(input.scene);
-    points.one_in = sample.one_in;
-    tiles.plan(sample.scene, points, most);
-}
-
-/// The options of a run in tiles: the memory limit applies to each of them.
-Options options_of_tiles(const MeshArguments& arguments)
-{
-    Options options = arguments.options;
-    options.memory.limit = allowed_memory(options.memory).value_or(0);
-    return options;
+    tiles.plan(sample, read, most);
 }
 
 TriMesh surface_in_tiles(ModelInput input, const Run& run)
@@ -380,9 +326,9 @@ Made make_surface(const Run& run, Json& record)
     made.is_dense = input.read.is_dense;
     made.takes_nearest_views = input.found.takes_nearest_views();
     Surface surface = surface_of(std::move(input), run);
-    MeshArguments told = arguments;
-    if (place.offset.isZero(0.0)) told.output.offset = {}; // has no effect
-    surface.comments = record_comments(told, digest, run.memory.tile_points());
+    MeshArguments recorded = arguments;
+    if (place.offset.isZero(0.0)) recorded.output.offset = {}; // has no effect
+    surface.comments = record_comments(recorded, digest, run.memory.tile_points());
     check_surface(run, surface.mesh, record);
     write_surface(arguments, surface, place, run.log);
     preview.add(arguments.out.filename().string(), surface.mesh, surface.texture, run.log);
@@ -430,14 +376,6 @@ Made make_or_clear(const Run& run, Json& record)
     }
 }
 
-/// Shares the tiles of another process with the same command. Returns whether that made the mesh.
-bool has_helped(const MeshArguments& arguments, WorkFolder& work, Log& log)
-{
-    if (work.leads()) return false;
-    const Options options = options_of_tiles(arguments);
-    return TiledRun(work, options, log).help();
-}
-
 /// The record at the start of the run.
 Json begun_record(MeshArguments& arguments, int threads)
 {
@@ -482,7 +420,7 @@ void run_mesh(const ParsedArguments& given)
     Log& log = recorder ? static_cast<Log&>(*recorder) : shown;
     Json record = begun_record(arguments, threads);
 
-    std::unique_ptr<WorkFolder> work = work_folder(arguments, log);
+    std::unique_ptr<WorkFolder> work = open_work(arguments, log);
     if (work && has_helped(arguments, *work, log)) {
         return shown.conclude(fmt::format("another process wrote {}; this one made some of its "
                                           "tiles",

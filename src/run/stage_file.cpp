@@ -44,8 +44,8 @@ void write_digest(std::ostream& out, const Digest& digest)
 } // namespace
 
 StageWriter::StageWriter(const std::filesystem::path& path, const StageLabel& label,
-                         std::uint64_t bytes, const Progress& progress)
-    : file_(std::in_place, path), bytes_(bytes), progress_(progress)
+                         std::uint64_t bytes)
+    : file_(std::in_place, path)
 {
     Header header;
     header.bytes = bytes;
@@ -69,9 +69,6 @@ void StageWriter::put_bytes(const void* data, std::size_t count)
         left = left.subspan(piece.size());
         // Report a full disk at once.
         if (!file_->stream()) file_->commit();
-        if (piece.size() >= kPieceBytes / 16) {
-            progress_.report(static_cast<double>(done_), static_cast<double>(bytes_));
-        }
     }
 }
 
@@ -81,11 +78,8 @@ void StageWriter::commit()
     file_->commit();
 }
 
-StageReader::StageReader(std::filesystem::path path, const StageLabel& label,
-                         const Progress& progress)
-    : path_(std::move(path)),
-      file_(std::fopen(path_.c_str(), "rbe"), &std::fclose),
-      progress_(progress)
+StageReader::StageReader(std::filesystem::path path, const StageLabel& label)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "rbe"), &std::fclose)
 {
     if (!file_) refuse(fmt::format("it cannot be opened: {}", std::strerror(errno)));
     read_header(label);
@@ -141,9 +135,6 @@ void StageReader::get_bytes(void* data, std::size_t count)
         digest_.add(piece);
         done_ += piece.size();
         left = left.subspan(piece.size());
-        if (piece.size() >= kPieceBytes / 16) {
-            progress_.report(static_cast<double>(done_), static_cast<double>(bytes_));
-        }
     }
 }
 

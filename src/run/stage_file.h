@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/progress.h"
 #include "io/files/output_file.h"
 #include "run/digest.h"
 #include "vcarve/scene.h"
@@ -44,8 +43,6 @@ template <>
 inline constexpr int kNumFields<Scene> = 11;
 template <>
 inline constexpr int kNumFields<TriMesh> = 6;
-template <typename First, typename Second>
-inline constexpr int kNumFields<std::pair<First, Second>> = 2;
 
 /// Calls field() with each field of a struct.
 template <typename Noun, typename Field>
@@ -56,9 +53,6 @@ void for_each_field(Noun& noun, const Field& field)
     if constexpr (kCount == 2) {
         auto& [a, b] = noun;
         all(a, b);
-    } else if constexpr (kCount == 3) {
-        auto& [a, b, c] = noun;
-        all(a, b, c);
     } else if constexpr (kCount == 4) {
         auto& [a, b, c, d] = noun;
         all(a, b, c, d);
@@ -86,11 +80,6 @@ template <typename T, std::size_t kSize>
 inline constexpr bool kIsPlain<std::array<T, kSize>> = kIsPlain<T>;
 
 template <typename T>
-inline constexpr bool kIsOptional = false;
-template <typename T>
-inline constexpr bool kIsOptional<std::optional<T>> = true;
-
-template <typename T>
 inline constexpr bool kIsArray = false;
 template <typename T, typename Allocator>
 inline constexpr bool kIsArray<std::vector<T, Allocator>> = true;
@@ -111,9 +100,8 @@ class StageWriter {
     /// Writes nothing, but counts the bytes.
     StageWriter() = default;
     /// `bytes` is the count of a counting writer for the same values. This and all other functions
-    /// throw UsageError if the file cannot be written, and Cancelled if the progress does.
-    StageWriter(const std::filesystem::path& path, const StageLabel& label, std::uint64_t bytes,
-                const Progress& progress);
+    /// throw UsageError if the file cannot be written.
+    StageWriter(const std::filesystem::path& path, const StageLabel& label, std::uint64_t bytes);
 
     template <typename T>
     void put(const T& value);
@@ -125,10 +113,8 @@ class StageWriter {
     void put_bytes(const void* data, std::size_t count);
 
     std::optional<OutputFile> file_; ///< nullopt if it only counts
-    std::uint64_t bytes_ = 0;
     std::uint64_t done_ = 0;
     RunningDigest digest_;
-    Progress progress_;
 };
 
 /// Reads a stage file. Values are valid only after finish() has returned. Every function throws
@@ -137,7 +123,7 @@ class StageWriter {
 /// the file has.
 class StageReader {
   public:
-    StageReader(std::filesystem::path path, const StageLabel& label, const Progress& progress);
+    StageReader(std::filesystem::path path, const StageLabel& label);
 
     template <typename T>
     void get(T& value);
@@ -158,7 +144,6 @@ class StageReader {
     std::uint64_t bytes_ = 0;
     std::uint64_t done_ = 0;
     RunningDigest digest_;
-    Progress progress_;
 };
 
 template <typename T>
@@ -166,9 +151,6 @@ void StageWriter::put(const T& value)
 {
     if constexpr (kIsPlain<T>) {
         put_bytes(&value, sizeof(T));
-    } else if constexpr (kIsOptional<T>) {
-        put(value.has_value());
-        if (value) put(*value);
     } else if constexpr (kIsArray<T>) {
         put(std::uint64_t{value.size()});
         if constexpr (kIsPlain<typename T::value_type>) {
@@ -192,11 +174,6 @@ void StageReader::get(T& value)
         value = byte != 0;
     } else if constexpr (kIsPlain<T>) {
         get_bytes(&value, sizeof(T));
-    } else if constexpr (kIsOptional<T>) {
-        bool has_value = false;
-        get(has_value);
-        value.reset();
-        if (has_value) get(value.emplace());
     } else if constexpr (kIsArray<T>) {
         using Item = typename T::value_type;
         value.clear();

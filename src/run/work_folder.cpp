@@ -126,13 +126,22 @@ void remove_quietly(const fs::path& path)
     fs::remove(path, error);
 }
 
-/// Removes all files of a run but those of the lock and the job.
-void remove_stages(const fs::path& folder)
+/// Removes the files of a run for which is_one(name) is true.
+template <typename IsOne>
+void remove_ours(const fs::path& folder, const IsOne& is_one)
 {
     for (const fs::path& file : files_in(folder)) {
         const std::string name = file.filename();
-        if (is_ours(name) && !name.starts_with(kJobName) && name != kLockName) remove_quietly(file);
+        if (is_ours(name) && is_one(name)) remove_quietly(file);
     }
+}
+
+/// Removes all files of a run but those of the lock and the job.
+void remove_stages(const fs::path& folder)
+{
+    remove_ours(folder, [](const std::string& name) {
+        return !name.starts_with(kJobName) && name != kLockName;
+    });
 }
 
 std::string whole_text(const std::string& lines)
@@ -285,10 +294,7 @@ bool WorkFolder::holds_stages() const
 
 void WorkFolder::drop_all(std::string_view begin) const
 {
-    for (const fs::path& file : files_in(folder_)) {
-        const std::string name = file.filename();
-        if (name.starts_with(begin) && is_ours(name)) remove_quietly(file);
-    }
+    remove_ours(folder_, [&](const std::string& name) { return name.starts_with(begin); });
 }
 
 void WorkFolder::clear()

@@ -65,16 +65,14 @@ class WorkFolder {
     /// The right to make a stage, as long as the result lives; nothing if another process has it.
     FileLock claim(std::string_view stage) const;
 
-    /// Writes the result of a stage, and returns its size in bytes. Throws UsageError if it cannot
-    /// be written, and Cancelled; the file is complete or missing. Thread-safe for different
-    /// stages.
+    /// Writes the result of a stage. Throws UsageError if it cannot be written; the file is
+    /// complete or missing. Thread-safe for different stages.
     template <typename... Parts>
-    std::uint64_t save(std::string_view stage, const Progress& progress,
-                       const Parts&... parts) const;
-    /// Reads the result of a stage in the order of save(), and returns its size in bytes. Throws
-    /// InputError if the file is not as save() wrote it; parts may then be incomplete. Thread-safe.
+    void save(std::string_view stage, const Parts&... parts) const;
+    /// Reads the result of a stage in the order of save(). Throws InputError if the file is not as
+    /// save() wrote it; parts may then be incomplete. Thread-safe.
     template <typename... Parts>
-    std::uint64_t load(std::string_view stage, const Progress& progress, Parts&... parts) const;
+    void load(std::string_view stage, Parts&... parts) const;
 
     /// Removes all stages whose names begin so.
     void drop_all(std::string_view begin) const;
@@ -95,25 +93,21 @@ class WorkFolder {
 };
 
 template <typename... Parts>
-std::uint64_t WorkFolder::save(std::string_view stage, const Progress& progress,
-                               const Parts&... parts) const
+void WorkFolder::save(std::string_view stage, const Parts&... parts) const
 {
     StageWriter counter;
     (counter.put(parts), ...);
-    StageWriter writer(file_of(stage), {std::string(stage), job_}, counter.bytes(), progress);
+    StageWriter writer(file_of(stage), {std::string(stage), job_}, counter.bytes());
     (writer.put(parts), ...);
     writer.commit();
-    return writer.bytes();
 }
 
 template <typename... Parts>
-std::uint64_t WorkFolder::load(std::string_view stage, const Progress& progress,
-                               Parts&... parts) const
+void WorkFolder::load(std::string_view stage, Parts&... parts) const
 {
-    StageReader reader(file_of(stage), {std::string(stage), job_}, progress);
+    StageReader reader(file_of(stage), {std::string(stage), job_});
     (reader.get(parts), ...);
     reader.finish();
-    return reader.bytes();
 }
 
 } // namespace vcarve

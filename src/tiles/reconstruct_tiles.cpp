@@ -56,28 +56,28 @@ std::string TiledRun::name_of(std::size_t tile, File file)
     return fmt::format("tile-{}-{}", tile, kNames[static_cast<std::size_t>(file)]);
 }
 
-void TiledRun::plan(const Scene& sample, const ModelPoints& points, std::size_t most)
+void TiledRun::plan(const PointSample& sample, const ReadPoints& read, std::size_t most)
 {
     Stage stage(log_, "plan");
     if (folder_.has(kPlan)) {
         load_plan();
     } else {
         folder_.drop_all("tile-"); // of a plan that was not finished
-        const Scene centered = center_points(sample);
+        const Scene centered = center_points(sample.scene);
         frame_ = without_points(centered);
-        tiling_ = divide(centered.positions, most, points.one_in);
-        divide_points(points, most, Progress(stage).part(0.0, 0.7));
+        tiling_ = divide(centered.positions, most, sample.one_in);
+        divide_points(read, most, Progress(stage).part(0.0, 0.7));
         usual_ = measure_usual_values(
             tiling_.size(), [&](std::size_t tile) { return read_points(tile); }, options_, log_);
         usual_.radius = region_of_interest(centered).radius;
-        usual_.points_of_witness = static_cast<double>(points_of_witness(points.number));
-        folder_.save(kPlan, {}, frame_, tiling_, usual_, num_read_, num_parts_);
+        usual_.points_of_witness = static_cast<double>(points_of_witness(sample.points));
+        folder_.save(kPlan, frame_, tiling_, usual_, num_read_, num_parts_);
     }
-    stage.end({{"tiles", size_of(tiling_.size())}, {"points", size_of(points.number)}});
+    stage.end({{"tiles", size_of(tiling_.size())}, {"points", size_of(sample.points)}});
 }
 
 /// Writes the points of each tile.
-void TiledRun::divide_points(const ModelPoints& points, std::size_t most, const Progress& progress)
+void TiledRun::divide_points(const ReadPoints& read, std::size_t most, const Progress& progress)
 {
     constexpr std::size_t kLeast = 250'000; // points of a part
     num_read_.assign(tiling_.size(), 0);
@@ -87,12 +87,12 @@ void TiledRun::divide_points(const ModelPoints& points, std::size_t most, const 
         const auto by_tile = points_by_tile(tiling_, part.positions);
         for (std::size_t tile = 0; tile < by_tile.size(); ++tile) {
             if (by_tile[tile].empty()) continue;
-            folder_.save(read_name(tile, num_parts_), {}, selected(part, by_tile[tile]));
+            folder_.save(read_name(tile, num_parts_), selected(part, by_tile[tile]));
             num_read_[tile] += by_tile[tile].size();
         }
         ++num_parts_;
     };
-    points.read(std::max(most, kLeast), write, progress);
+    read(std::max(most, kLeast), write, progress);
 }
 
 /// Reads the points of a tile.
@@ -104,7 +104,7 @@ Scene TiledRun::read_points(std::size_t tile) const
             const std::string name = read_name(tile, part);
             if (!folder_.has(name)) continue; // no points
             Scene more;
-            folder_.load(name, {}, more);
+            folder_.load(name, more);
             append_points(more, points, [](std::size_t) { return true; });
         }
         if (points.num_points() == num_read_[tile]) return in_frame(std::move(points));
@@ -130,7 +130,7 @@ void TiledRun::load_plan()
 {
     if (tiling_.size() > 0) return;
     try {
-        folder_.load(kPlan, {}, frame_, tiling_, usual_, num_read_, num_parts_);
+        folder_.load(kPlan, frame_, tiling_, usual_, num_read_, num_parts_);
     } catch (const InputError& error) {
         refuse(error);
     }
@@ -143,14 +143,14 @@ Made TiledRun::load(std::size_t tile, File file)
     const std::string name = name_of(tile, file);
     Made made;
     try {
-        folder_.load(name, {}, made);
+        folder_.load(name, made);
         return made;
     } catch (const InputError& error) {
         log_.note(fmt::format("{}; it is computed again", error.what()));
     }
     make(tile, file);
     Made again;
-    folder_.load(name, {}, again);
+    folder_.load(name, again);
     return again;
 }
 
@@ -185,9 +185,9 @@ void TiledRun::make_points(std::size_t tile)
     add_margin(tile, points_of, around);
     const Scene points =
         bare(tile_points(tile, std::move(around), own, {tiling_, options_, usual_, log_}));
-    folder_.save(name_of(tile, File::witnesses), {},
+    folder_.save(name_of(tile, File::witnesses),
                  witnesses_of(points, static_cast<std::size_t>(*usual_.points_of_witness)));
-    folder_.save(name_of(tile, File::points), {}, points);
+    folder_.save(name_of(tile, File::points), points);
 }
 
 void TiledRun::make_surface(std::size_t tile)
@@ -207,7 +207,7 @@ void TiledRun::make_surface(std::size_t tile)
                    });
         });
     }
-    folder_.save(name_of(tile, File::surface), {},
+    folder_.save(name_of(tile, File::surface),
                  tile_surface(tile, std::move(around), {tiling_, options_, usual_, log_}));
 }
 
@@ -233,7 +233,7 @@ std::pair<std::size_t, std::size_t> TiledRun::make_missing(File file, Stage& sta
         const FileLock claim = folder_.claim(name);
         if (!claim) ++others;
         if (!claim || folder_.has(name)) continue;
-        if (folder_.is_over()) return {made, 1}; // its files are being removed
+        if (!folder_.leads() && folder_.is_over()) return {made, 1}; // files are being removed
         make(tile, file);
         ++made;
     }

@@ -18,12 +18,9 @@
 
 namespace vcarve {
 
-/// The points of a model, which are read in parts of at most `most` (see PointSample).
-struct ModelPoints {
-    std::size_t number = 0;
-    std::size_t one_in = 1; ///< of the sample
-    std::function<void(std::size_t most, const TakePoints& take, const Progress& progress)> read;
-};
+/// Reads the points of a model in parts of at most `most`.
+using ReadPoints =
+    std::function<void(std::size_t most, const TakePoints& take, const Progress& progress)>;
 
 /// Reconstructs a model in tiles (tiling.h), so that time and memory divide by their number:
 ///   - plan: usual values of the whole model, the tiling, and the points of each tile in a file,
@@ -44,8 +41,8 @@ class TiledRun {
     }
 
     /// Divides a model into tiles of at most `most` points, unless the folder has them already.
-    /// `sample` has one of every few of its points, as PointSample takes them, and all views.
-    void plan(const Scene& sample, const ModelPoints& points, std::size_t most);
+    /// `sample` has all views.
+    void plan(const PointSample& sample, const ReadPoints& read, std::size_t most);
     /// Makes what the tiles still lack, and joins their surfaces.
     TriMesh make();
     /// Shares the work of the process that leads the folder, until that is done. Returns true then,
@@ -62,7 +59,7 @@ class TiledRun {
     std::pair<std::size_t, std::size_t> make_missing(File file, Stage& stage);
     bool work(const char* stage_name, File file);
     static std::string name_of(std::size_t tile, File file);
-    void divide_points(const ModelPoints& points, std::size_t most, const Progress& progress);
+    void divide_points(const ReadPoints& read, std::size_t most, const Progress& progress);
     Scene read_points(std::size_t tile) const;
     Scene in_frame(Scene points) const;
     template <typename PointsOf>

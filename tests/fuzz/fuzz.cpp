@@ -128,7 +128,7 @@ template <typename Noun>
 void read_stage_as(const fs::path& path)
 {
     Noun noun{};
-    StageReader reader(path, {"cells", {}}, {});
+    StageReader reader(path, {"cells", {}});
     reader.get(noun);
     reader.finish();
 }
@@ -145,7 +145,7 @@ void read_stage(std::string_view input)
     if (first % 2 == 1) {
         std::ofstream(path, std::ios::binary) << input;
     } else {
-        StageWriter writer(path, {"cells", {}}, input.size(), {});
+        StageWriter writer(path, {"cells", {}}, input.size());
         for (const char byte : input) {
             writer.put(byte);
         }

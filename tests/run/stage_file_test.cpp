@@ -25,7 +25,7 @@ class StageFile : public ::testing::Test {
     {
         StageWriter counter;
         counter.put(value);
-        StageWriter writer(path, label, counter.bytes(), {});
+        StageWriter writer(path, label, counter.bytes());
         writer.put(value);
         writer.commit();
     }
@@ -33,7 +33,7 @@ class StageFile : public ::testing::Test {
     T read() const
     {
         T value;
-        StageReader reader(path, label, {});
+        StageReader reader(path, label);
         reader.get(value);
         reader.finish();
         return value;
@@ -145,7 +145,7 @@ TEST_F(StageFile, DoesNotExistBeforeItIsCommitted)
     StageWriter counter;
     counter.put(scene);
     {
-        StageWriter writer(path, label, counter.bytes(), {});
+        StageWriter writer(path, label, counter.bytes());
         writer.put(scene);
     }
     EXPECT_EQ(folder.num_entries(), 0U);
@@ -156,7 +156,7 @@ TEST_F(StageFile, HasTheCountedSize)
     write(scene);
     StageWriter counter;
     counter.put(scene);
-    StageReader reader(path, label, {});
+    StageReader reader(path, label);
     EXPECT_EQ(reader.bytes(), counter.bytes());
 }
 

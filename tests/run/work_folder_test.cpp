@@ -30,7 +30,7 @@ class Work : public ::testing::Test {
     {
         WorkFolder work(path);
         work.begin(kJob);
-        work.save("numbers", {}, Numbers{1, 2, 3});
+        work.save("numbers", Numbers{1, 2, 3});
     }
     std::string refusal_to_begin(const Job& job) const
     {
@@ -41,7 +41,7 @@ class Work : public ::testing::Test {
         WorkFolder work(path);
         work.begin(kJob);
         Numbers numbers;
-        work.load("numbers", {}, numbers);
+        work.load("numbers", numbers);
         return numbers;
     }
 
@@ -82,7 +82,7 @@ TEST_F(Work, IsLedByOneProcessAndSharedByOthers)
     shared.begin(kJob);
     EXPECT_TRUE(work->leads());
     EXPECT_FALSE(shared.leads() || shared.try_lead());
-    shared.save("one", {}, Numbers{4});
+    shared.save("one", Numbers{4});
     shared.clear(); // does nothing
     EXPECT_TRUE(work->has("one"));
     WorkFolder other(path);
@@ -172,7 +172,7 @@ TEST_F(Work, IsUnlockedWhenItsProcessIsKilled)
         take_signals_as_usual();
         WorkFolder work(path);
         work.begin(kJob);
-        work.save("numbers", {}, Numbers{1, 2, 3});
+        work.save("numbers", Numbers{1, 2, 3});
         if (::write(ready[1], "x", 1) != 1) ::_exit(1);
         ::pause();
         ::_exit(0);
@@ -277,10 +277,10 @@ TEST_F(Work, ReportsAFullDiskAndLosesNothing)
     work.begin(kJob);
     {
         const LimitedFiles limit(100'000);
-        EXPECT_EQ(refusal<UsageError>([&] { work.save("many", {}, Numbers(1'000'000)); }),
+        EXPECT_EQ(refusal<UsageError>([&] { work.save("many", Numbers(1'000'000)); }),
                   "cannot write " + (path / "many.stage").string() + ": File too large");
         EXPECT_FALSE(work.has("many"));
-        work.save("few", {}, Numbers{4});
+        work.save("few", Numbers{4});
     }
     EXPECT_EQ(std::distance(fs::directory_iterator(path), {}), 4); // lock, job, numbers, few
 }
@@ -305,7 +305,7 @@ TEST_F(Work, RemovesStagesByTheirFirstLetters)
     WorkFolder work(path);
     work.begin(kJob);
     for (const char* const name : {"tile-0-points", "tile-1-points", "tiles"}) {
-        work.save(name, {}, Numbers{1});
+        work.save(name, Numbers{1});
     }
     work.drop_all("tile-");
     EXPECT_FALSE(work.has("tile-0-points") || work.has("tile-1-points"));

@@ -129,11 +129,6 @@ int fsync(int file)
     if (fails("fsync", EIO)) return -1;
     return static_cast<int>(::syscall(SYS_fsync, file));
 }
-int fallocate(int file, int mode, off_t offset, off_t size)
-{
-    if (fails("fallocate", ENOSPC)) return -1;
-    return static_cast<int>(::syscall(SYS_fallocate, file, mode, offset, size));
-}
 void* mmap(void* place, std::size_t size, int protection, int flags, int file,
            off_t offset) noexcept
 {
@@ -157,7 +152,6 @@ std::FILE* fopen(const char* path, const char* mode)
 }
 
 void* mmap64(void*, std::size_t, int, int, int, off_t) noexcept __attribute__((alias("mmap")));
-int fallocate64(int, int, off_t, off_t) __attribute__((alias("fallocate")));
 int open64(const char*, int, ...) __attribute__((alias("open")));
 std::FILE* fopen64(const char*, const char*) __attribute__((alias("fopen")));
 

@@ -58,16 +58,14 @@ class ModelInTiles : public ::testing::Test {
 
     void plan(TiledRun& run, std::size_t most)
     {
-        const ModelPoints points = {
-            .number = scene.num_points(),
-            .read = [&](std::size_t part, const TakePoints& take, const Progress& /*progress*/) {
-                PartsOfScene parts(scene);
-                for (Scene next = parts.next(part, {}); next.num_points() > 0;
-                     next = parts.next(part, {})) {
-                    take(next);
-                }
-            }};
-        run.plan(scene, points, most);
+        const auto read = [&](std::size_t part, const TakePoints& take, const Progress&) {
+            PartsOfScene parts(scene);
+            for (Scene next = parts.next(part, {}); next.num_points() > 0;
+                 next = parts.next(part, {})) {
+                take(next);
+            }
+        };
+        run.plan({.scene = scene, .points = scene.num_points()}, read, most);
     }
 
     /// The surface made by one process, and by `helpers` more.
@@ -171,6 +169,15 @@ TEST_F(ModelInTiles, IsManifoldIfItIsADenseCloudWhoseTilesAreSimplified)
     const TriMesh mesh = made_in_tiles(1500);
     EXPECT_LT(mesh.faces.size(), faces_of(whole_surface()).size() * 2);
     EXPECT_TRUE(check_mesh(mesh).is_manifold());
+}
+
+TEST_F(ModelInTiles, IsFinishedEvenIfItsJobIsDeleted)
+{
+    const auto expected = made_in_tiles(1500).faces;
+    const TriMesh mesh = made_in_tiles(1500, 0, [&](const std::string& stage) {
+        if (stage == "points") std::filesystem::remove(folder / "work/job");
+    });
+    EXPECT_TRUE(mesh.faces == expected);
 }
 
 TEST_F(ModelInTiles, ResumesAfterTheLastFinishedTile)

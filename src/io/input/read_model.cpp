@@ -197,14 +197,14 @@ ReadModel read_found_model(const std::filesystem::path& input, const PointsOptio
                       [&](const std::string& note) { log.note(note); });
     };
     report(found.notes, 0);
-    const std::size_t told = found.notes.size();
+    const std::size_t reported = found.notes.size();
     const auto size = expected_size(found);
     if (reading.check && size) reading.check(*size);
     ReadModel model = read_found(std::move(found), size, reading, stage);
     require_points_and_views(model.found, model.read);
     std::ranges::move(forget_unknown_values(model.scene), std::back_inserter(model.found.notes));
     end_stage(stage, model);
-    report(model.found.notes, told);
+    report(model.found.notes, reported);
     return model;
 }
 

@@ -56,9 +56,9 @@ std::vector<BlockCells> all_blocks(const Scene& scene, const std::vector<Index>&
     CellCount cells(blocks.most_cells);
     for_each_block(made.size(), [&](std::size_t block) {
         const PointRun own = run_of(block, made.size(), scene.num_points());
-        BlockProgress told(done, own.size());
-        made[block] = block_cells(tree, first, own, cells, told);
-        told.report(1.0);
+        BlockProgress reported(done, own.size());
+        made[block] = block_cells(tree, first, own, cells, reported);
+        reported.report(1.0);
     });
     return made;
 }
